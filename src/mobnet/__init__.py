@@ -1,0 +1,1 @@
+"""MOB-Net: limb-modularized uncertainty torque learning for sensorless external torque estimation."""

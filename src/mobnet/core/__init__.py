@@ -1,0 +1,1 @@
+"""What every other package shares: joint names, recordings, result files, configuration, errors."""

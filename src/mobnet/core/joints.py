@@ -1,0 +1,91 @@
+"""Joint names, limb groups and where they stand in the generalized velocity (Figure 4, section 4.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.errors import ConfigError, not_accepted
+
+N_VIRTUAL = 6  # degrees of freedom of a floating base
+NQ_BASE = 7  # position (3) and unit quaternion (4) of a floating base
+VIRTUAL_UNITS = ("N", "N", "N", "N m", "N m", "N m")
+
+
+@dataclass(frozen=True)
+class JointLayout:
+    """Order of the generalized velocity: virtual joints V1..V6, then the actuated joints.
+
+    Attributes:
+        virtual: names of the six virtual joints; 1..3 linear [m/s, N] in world axes, 4..6 angular [rad/s, N m] in
+            base axes.
+        actuated: names of the actuated joints, in motor order, (nu,).
+        groups: limb name -> joint names; section 4.1 uses V, LL, RL, W, LA, RA.
+    """
+
+    virtual: tuple[str, ...]
+    actuated: tuple[str, ...]
+    groups: Mapping[str, tuple[str, ...]]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of all generalized velocities, (nv,)."""
+        return self.virtual + self.actuated
+
+    @property
+    def nv(self) -> int:
+        """Number of generalized velocities."""
+        return len(self.virtual) + len(self.actuated)
+
+    @property
+    def nu(self) -> int:
+        """Number of actuators."""
+        return len(self.actuated)
+
+    @property
+    def nq(self) -> int:
+        """Number of generalized positions, the base orientation being a quaternion."""
+        return NQ_BASE + self.nu
+
+    def limb(self, name: str) -> tuple[str, ...]:
+        """Return the joint names of a limb.
+
+        Raises:
+            ConfigError: the limb is unknown.
+        """
+        if name not in self.groups:
+            raise ConfigError(not_accepted("limb", name, self.groups))
+        return self.groups[name]
+
+    def columns(self, names: Sequence[str]) -> NDArray[np.intp]:
+        """Return the columns of joints in a generalized velocity or torque, (len(names),).
+
+        Raises:
+            ConfigError: a joint is unknown.
+        """
+        where = {name: i for i, name in enumerate(self.names)}
+        unknown = [name for name in names if name not in where]
+        if unknown:
+            raise ConfigError(not_accepted("joint", unknown[0], where))
+        return np.array([where[name] for name in names], dtype=np.intp)
+
+    def unit(self, name: str) -> str:
+        """Return the unit of a joint's torque: N for V1..V3, N m otherwise."""
+        return VIRTUAL_UNITS[self.virtual.index(name)] if name in self.virtual else "N m"
+
+
+def layout_of(order: Mapping[str, Sequence[str]], groups: Mapping[str, Sequence[str]]) -> JointLayout:
+    """Build the layout from a robot table's `order` (virtual, actuated) and `groups`.
+
+    Raises:
+        ConfigError: a group names a joint that the order does not have.
+    """
+    layout = JointLayout(
+        tuple(order["virtual"]), tuple(order["actuated"]), {limb: tuple(joints) for limb, joints in groups.items()}
+    )
+    for joints in layout.groups.values():
+        layout.columns(joints)
+    return layout

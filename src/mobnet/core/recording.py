@@ -1,0 +1,118 @@
+"""What a robot senses and what only a simulator knows, sample by sample."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.joints import JointLayout
+
+FEET = ("left_foot", "right_foot")
+Column = tuple[str, str, str]  # name, unit, frame
+
+
+@dataclass(frozen=True)
+class Sensed:
+    """Proprioception of a robot; all that an estimator may see. Time is the first axis, one row a sample.
+
+    Attributes:
+        q: generalized position (T, nq): base position [m] in world, base quaternion w x y z, joints [rad].
+        v: generalized velocity (T, nv): base linear [m/s] in world, base angular [rad/s] in base, joints [rad/s].
+        acc_base_in_base: specific force of the IMU (T, 3) [m/s^2], gravity included, base axes.
+        tau_des: desired torque before the motor limits (T, nu) [N m], mean over the control ticks of the sample.
+        tau_motor: torque the motors gave, after their limits (T, nu) [N m], mean over the control ticks.
+        swing: 1 where the walking plan has the left, right foot in the air (T, 2).
+    """
+
+    q: NDArray[Any]
+    v: NDArray[Any]
+    acc_base_in_base: NDArray[Any]
+    tau_des: NDArray[Any]
+    tau_motor: NDArray[Any]
+    swing: NDArray[Any]
+
+    def __len__(self) -> int:
+        """Return the number of samples."""
+        return len(self.q)
+
+    def __getitem__(self, rows: int | slice) -> Sensed:
+        """Return one sample (1-D arrays) or a span of samples."""
+        return Sensed(*(getattr(self, f.name)[rows] for f in fields(self)))
+
+
+@dataclass(frozen=True)
+class Truth:
+    """What the plant knows and a robot does not; foot wrenches also serve as training labels (section 4.2.3).
+
+    Attributes:
+        tau_ext: external torque (T, nv) [N, N m], mean over the control ticks of the sample; J^T F of (2).
+        wrench_left_foot: wrench the ground and pushes exert on the left foot (T, 6) [N, N m], as the foot's
+            sensor reads it: foot axes, about the sensor.
+        wrench_right_foot: the same of the right foot (T, 6).
+        contact: 1 where the left, right foot touches the ground (T, 2).
+    """
+
+    tau_ext: NDArray[Any]
+    wrench_left_foot: NDArray[Any]
+    wrench_right_foot: NDArray[Any]
+    contact: NDArray[Any]
+
+    def __getitem__(self, rows: int | slice) -> Truth:
+        """Return one sample (1-D arrays) or a span of samples."""
+        return Truth(*(getattr(self, f.name)[rows] for f in fields(self)))
+
+
+@dataclass(frozen=True)
+class Recording:
+    """One stored run: samples at a fixed rate, cut into segments that are contiguous in time.
+
+    Attributes:
+        sensed: what a robot has.
+        truth: what only the plant knows.
+        segments: start and end row of each contiguous stretch; a fall ends one and the next starts anew.
+        rate_hz: samples per second [Hz].
+        meta: scenario, level, seed, provenance and what else the writer noted.
+    """
+
+    sensed: Sensed
+    truth: Truth
+    segments: tuple[tuple[int, int], ...]
+    rate_hz: float
+    meta: Mapping[str, Any]
+
+    def spans(self) -> list[slice]:
+        """Return the segments as slices."""
+        return [slice(start, end) for start, end in self.segments]
+
+
+def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:
+    """Return field -> columns (name, unit, frame) of a stored recording, in file order."""
+    actuated, xyz, wxyz = layout.actuated, "xyz", "wxyz"
+    wrench = [("force", "N"), ("moment", "N m")]
+    base_v = [(f"v.base_{a}", "m/s", "world") for a in xyz] + [(f"v.omega_{a}", "rad/s", "base") for a in xyz]
+    base_q = [(f"q.base_{a}", "m", "world") for a in xyz] + [(f"q.quat_{a}", "-", "world") for a in wxyz]
+    return {
+        "q": base_q + [(f"q.{j}", "rad", "joint") for j in actuated],
+        "v": base_v + [(f"v.{j}", "rad/s", "joint") for j in actuated],
+        "acc_base_in_base": [(f"acc.{a}", "m/s^2", "base") for a in xyz],
+        "tau_des": [(f"tau_des.{j}", "N m", "joint") for j in actuated],
+        "tau_motor": [(f"tau_motor.{j}", "N m", "joint") for j in actuated],
+        "swing": [(f"swing.{foot}", "-", "plan") for foot in FEET],
+        "tau_ext": [
+            (f"tau_ext.{j}", layout.unit(j), "world" if i < len(xyz) else "joint") for i, j in enumerate(layout.names)
+        ],
+        **{
+            f"wrench_{foot}": [(f"wrench_{foot}.{kind}_{a}", unit, foot) for kind, unit in wrench for a in xyz]
+            for foot in FEET
+        },
+        "contact": [(f"contact.{foot}", "-", "ground") for foot in FEET],
+    }
+
+
+def recording_width(layout: JointLayout) -> int:
+    """Return the number of columns of a stored recording."""
+    return sum(map(len, recording_columns(layout).values()))
