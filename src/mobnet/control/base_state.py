@@ -1,0 +1,61 @@
+"""Base position and velocity from proprioception: IMU acceleration corrected by the feet that carry load."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.control.compiled import compiled
+from mobnet.control.geometry import cross, rotate
+from mobnet.control.kinematics import Pose
+
+Array = NDArray[np.float64]
+
+
+@compiled
+def update_base(
+    pose: Pose,
+    feet: NDArray[np.int64],
+    sole: Array,
+    loads: Array,
+    acc_base_in_base: Array,
+    gravity_m_s2: float,
+    time_constant_s: float,
+    dt: float,
+    q: Array,
+    v: Array,
+) -> None:
+    """Advance the complementary filter one tick; q[0:3] [m] and v[0:3] [m/s] are its state, world axes.
+
+    The IMU carries the velocity on; the loaded feet, whose soles do not move, pull it back with `time_constant_s`.
+    Taken at the sole's centre: at the ankle the rolling foot makes an error three times larger.
+
+    Args:
+        pose: kinematics of the sensed state before this tick.
+        feet: bodies of the left, right foot (2,).
+        sole: sole centre in the foot (3,) [m].
+        loads: vertical force on the left, right foot (2,) [N].
+        acc_base_in_base: specific force of the IMU (3,) [m/s^2].
+        gravity_m_s2: gravity [m/s^2].
+        time_constant_s: of the correction [s].
+        dt: tick [s].
+        q: generalized position, updated in place (nq,).
+        v: generalized velocity, updated in place (nv,).
+    """
+    acceleration, arm, swept, slip = np.empty(3), np.empty(3), np.empty(3), np.zeros(3)
+    rotate(pose.rotation[0], acc_base_in_base, acceleration)
+    acceleration[2] -= gravity_m_s2
+    weights = 0.0
+    for k in range(2):
+        load = max(loads[k], 0.0)
+        foot = feet[k]
+        rotate(pose.rotation[foot], sole, arm)
+        cross(pose.omega[foot], arm, swept)
+        for i in range(3):
+            slip[i] += load * load * (pose.velocity[foot, i] + swept[i])
+        weights += load * load
+    for i in range(3):
+        v[i] += dt * acceleration[i]
+        if weights > 1.0:  # N^2: some foot carries load
+            v[i] -= dt / time_constant_s * slip[i] / weights
+        q[i] += dt * v[i]

@@ -1,0 +1,70 @@
+"""Footsteps ahead and the divergent component of motion (DCM) that goes with them.
+
+xi = c + cdot / w obeys xidot = w (xi - z): given where the zero moment point z will be, the DCM that ends every step
+follows by going backwards from a distant, soon forgotten end. World axes, metres; E(x) = exp(-w max(x, 0)).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.control.compiled import compiled
+from mobnet.control.geometry import clip
+from mobnet.control.parameters import STEP_X, STEP_Y, TURN, WalkingParameters
+
+Array = NDArray[np.float64]
+
+
+@compiled
+def decay(omega: float, time: float) -> float:
+    """Return E(time) = exp(-omega max(time, 0)) [-], omega [1/s], time [s]."""
+    return np.exp(-omega * max(time, 0.0))
+
+
+@compiled
+def plan_steps(par: WalkingParameters, s: object, ankle: Array) -> None:
+    """Lay the next four footholds from the stance ankle (3,) [m] and fill next_ankle, next_yaw, plan and dcm_end."""
+    x, y, yaw, side = ankle[0], ankle[1], s.stance_yaw, s.side
+    for k in range(5):
+        c, n = np.cos(yaw), np.sin(yaw)
+        s.plan[k, 0], s.plan[k, 1] = x + c * par.zmp_offset_x_m, y + n * par.zmp_offset_x_m
+        sideways = s.command[STEP_Y] if s.command[STEP_Y] * side < 0.0 else 0.0
+        forward, left = s.command[STEP_X], -side * par.foot_spacing_m + sideways
+        turn = s.command[TURN]
+        if turn * side > 0.0:  # the swing foot turns inwards
+            turn = clip(turn, -par.toe_in_max_rad, par.toe_in_max_rad)
+        x, y = x + c * forward - n * left, y + n * forward + c * left
+        yaw += turn
+        side = -side
+        if k == 0:
+            s.next_ankle[0], s.next_ankle[1], s.next_yaw = x, y, yaw
+    factor = decay(s.omega, s.commanded)
+    for i in range(2):
+        dcm = 0.5 * (s.plan[4, i] + s.plan[3, i])
+        for k in range(3, 0, -1):
+            dcm = s.plan[k, i] + (dcm - s.plan[k, i]) * factor
+        s.dcm_end[i] = dcm
+
+
+@compiled
+def reference(s: object, double_support: float) -> None:
+    """Fill zmp_nominal and dcm_reference at time s.t; the ZMP ramps from the old to the new foot in double support.
+
+    The middle of the next double support, at total + double_support / 2 [s], is where the DCM reaches dcm_end.
+    """
+    middle = 0.5 * double_support
+    share = clip(s.t / double_support, 0.0, 1.0)
+    after = decay(s.omega, s.total - max(s.t, double_support) + middle)
+    waited = decay(s.omega, -s.t)
+    remaining = decay(s.omega, double_support - max(s.t, 0.0))
+    for i in range(2):
+        first, old = s.plan[0, i], s.zmp_old[i]
+        s.zmp_nominal[i] = old + share * (first - old)
+        offset = (s.dcm_end[i] - first) * after
+        if s.t >= double_support:
+            s.dcm_reference[i] = first + offset
+            continue
+        ramp = (first - old) / (s.omega * double_support)
+        dcm = s.zmp_nominal[i] + ramp + (offset - ramp) * remaining
+        s.dcm_reference[i] = dcm if s.t >= 0.0 else old + (dcm - old) * waited

@@ -1,0 +1,184 @@
+"""Forward kinematics and centroidal quantities of the nominal model, compiled; one pass over the body tree."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.control.compiled import compiled
+from mobnet.control.geometry import axis_angle_to_matrix, cross, multiply, quaternion_to_matrix, rotate
+from mobnet.robot.description import RobotDescription
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+
+class Tree(NamedTuple):
+    """Bodies, parents first; body 0 is the base.
+
+    Attributes:
+        parent: index of the parent body (nb,).
+        joint: index of the actuator that moves the body, -1 for a fixed one (nb,).
+        offset: position in the parent (nb, 3) [m].
+        turn: fixed orientation in the parent (nb, 3, 3).
+        axis: joint axis in the body (nb, 3).
+        mass: nominal mass (nb,) [kg].
+        com: centre of mass in the body (nb, 3) [m].
+        inertia: mean principal moment of inertia (nb,) [kg m^2], enough for the angular momentum in balance.
+        body_of_joint: body moved by each actuator (nu,).
+    """
+
+    parent: Indices
+    joint: Indices
+    offset: Array
+    turn: Array
+    axis: Array
+    mass: Array
+    com: Array
+    inertia: Array
+    body_of_joint: Indices
+
+
+class Pose(NamedTuple):
+    """Result of `update`, world axes; buffers are reused.
+
+    Attributes:
+        rotation: orientation of bodies (nb, 3, 3).
+        position: origin of bodies (nb, 3) [m].
+        velocity: velocity of the origins (nb, 3) [m/s].
+        omega: angular velocity of bodies (nb, 3) [rad/s].
+        axis: joint axes (nu, 3).
+        moment: mass times centre of mass of each subtree (nb, 3) [kg m].
+        weight: mass of each subtree (nb,) [kg].
+        com: centre of mass of the robot (3,) [m].
+        com_velocity: its velocity (3,) [m/s].
+        spin: angular momentum about it (3,) [N m s].
+        gravity: torque that holds each subtree against gravity (nu,) [N m].
+    """
+
+    rotation: Array
+    position: Array
+    velocity: Array
+    omega: Array
+    axis: Array
+    moment: Array
+    weight: Array
+    com: Array
+    com_velocity: Array
+    spin: Array
+    gravity: Array
+
+
+def tree_of(robot: RobotDescription, mass_ratio: float) -> Tree:
+    """Build the tree of a robot with all masses and inertias times mass_ratio [-]."""
+    index = {body.name: i for i, body in enumerate(robot.bodies)}
+    actuator = {joint.body: i for i, joint in enumerate(robot.joints)}
+    turn = np.zeros((len(robot.bodies), 3, 3))
+    for i, body in enumerate(robot.bodies):
+        quaternion_to_matrix(np.asarray(body.quat) / np.linalg.norm(body.quat), turn[i])
+    return Tree(
+        parent=np.array([index.get(body.parent, -1) for body in robot.bodies], dtype=np.int64),
+        joint=np.array([actuator.get(body.name, -1) for body in robot.bodies], dtype=np.int64),
+        offset=np.array([body.pos for body in robot.bodies], dtype=float),
+        turn=turn,
+        axis=np.array(
+            [robot.joints[actuator[b.name]].axis if b.name in actuator else np.zeros(3) for b in robot.bodies], float
+        ),
+        mass=mass_ratio * np.array([body.mass for body in robot.bodies]),
+        com=np.array([body.com for body in robot.bodies], dtype=float),
+        inertia=mass_ratio * np.array([np.mean(body.inertia[:3]) for body in robot.bodies]),
+        body_of_joint=np.array([index[joint.body] for joint in robot.joints], dtype=np.int64),
+    )
+
+
+def empty_pose(tree: Tree) -> Pose:
+    """Return buffers for a tree."""
+    nb, nu = len(tree.parent), len(tree.body_of_joint)
+    vectors = [np.zeros((nb, 3)) for _ in range(4)]
+    return Pose(
+        np.zeros((nb, 3, 3)), vectors[0], vectors[1], vectors[2], np.zeros((nu, 3)), vectors[3], np.zeros(nb),
+        np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(nu),
+    )  # fmt: skip
+
+
+@compiled
+def update(tree: Tree, q: Array, v: Array, gravity_m_s2: float, pose: Pose) -> None:
+    """Fill the pose from a generalized position q (nq,) [m, -, rad] and velocity v (nv,) [m/s, rad/s]."""
+    quaternion_to_matrix(q[3:7], pose.rotation[0])
+    for i in range(3):
+        pose.position[0, i] = q[i]
+        pose.velocity[0, i] = v[i]
+    rotate(pose.rotation[0], v[3:6], pose.omega[0])
+    _chain(tree, q, v, pose)
+    _centroid(tree, pose)
+    _subtrees(tree, gravity_m_s2, pose)
+
+
+@compiled
+def _chain(tree: Tree, q: Array, v: Array, pose: Pose) -> None:
+    """Place and move every body from its parent's pose."""
+    fixed, turned, arm, swept = np.empty((3, 3)), np.empty((3, 3)), np.empty(3), np.empty(3)
+    for b in range(1, len(tree.parent)):
+        parent, joint = tree.parent[b], tree.joint[b]
+        rotate(pose.rotation[parent], tree.offset[b], arm)
+        cross(pose.omega[parent], arm, swept)
+        multiply(pose.rotation[parent], tree.turn[b], fixed)
+        for i in range(3):
+            pose.position[b, i] = pose.position[parent, i] + arm[i]
+            pose.velocity[b, i] = pose.velocity[parent, i] + swept[i]
+            pose.omega[b, i] = pose.omega[parent, i]
+        if joint < 0:
+            pose.rotation[b] = fixed
+            continue
+        rotate(fixed, tree.axis[b], pose.axis[joint])
+        axis_angle_to_matrix(tree.axis[b], q[7 + joint], turned)
+        multiply(fixed, turned, pose.rotation[b])
+        for i in range(3):
+            pose.omega[b, i] += pose.axis[joint, i] * v[6 + joint]
+
+
+@compiled
+def _centroid(tree: Tree, pose: Pose) -> None:
+    """Fill centre of mass, its velocity and the angular momentum about it; start the subtree sums."""
+    arm, swept = np.empty(3), np.empty(3)
+    total = 0.0
+    pose.com[:] = 0.0
+    pose.com_velocity[:] = 0.0
+    pose.spin[:] = 0.0
+    for b in range(len(tree.parent)):
+        m = tree.mass[b]
+        total += m
+        pose.weight[b] = m
+        rotate(pose.rotation[b], tree.com[b], arm)
+        cross(pose.omega[b], arm, swept)
+        for i in range(3):
+            place, speed = pose.position[b, i] + arm[i], pose.velocity[b, i] + swept[i]
+            arm[i], swept[i] = place, speed
+            pose.moment[b, i] = m * place
+            pose.com[i] += m * place
+            pose.com_velocity[i] += m * speed
+        for i in range(3):
+            j, k = (i + 1) % 3, (i + 2) % 3
+            pose.spin[i] += m * (arm[j] * swept[k] - arm[k] * swept[j]) + tree.inertia[b] * pose.omega[b, i]
+    for i in range(3):
+        pose.com[i] /= total
+        pose.com_velocity[i] /= total
+    for i in range(3):  # from about the origin to about the centre of mass
+        j, k = (i + 1) % 3, (i + 2) % 3
+        pose.spin[i] -= total * (pose.com[j] * pose.com_velocity[k] - pose.com[k] * pose.com_velocity[j])
+
+
+@compiled
+def _subtrees(tree: Tree, gravity_m_s2: float, pose: Pose) -> None:
+    """Sum subtrees from the leaves and fill the gravity torque of every joint."""
+    for b in range(len(tree.parent) - 1, 0, -1):
+        parent, joint = tree.parent[b], tree.joint[b]
+        pose.weight[parent] += pose.weight[b]
+        for i in range(3):
+            pose.moment[parent, i] += pose.moment[b, i]
+        if joint >= 0:
+            mx = pose.moment[b, 0] - pose.weight[b] * pose.position[b, 0]
+            my = pose.moment[b, 1] - pose.weight[b] * pose.position[b, 1]
+            pose.gravity[joint] = gravity_m_s2 * (pose.axis[joint, 0] * my - pose.axis[joint, 1] * mx)

@@ -1,0 +1,73 @@
+"""Leg kinematics in closed form: hip yaw, roll, pitch intersect, knee pitch, ankle pitch and roll intersect."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.control.compiled import compiled
+
+Array = NDArray[np.float64]
+
+
+class LegGeometry(NamedTuple):
+    """Sizes of a leg: hip position in the base (3,) of the left leg [m], thigh = shank length [m]."""
+
+    hip: Array
+    length: float
+
+
+@compiled
+def leg_ik(leg: LegGeometry, side: float, r_base: Array, p_base: Array, r_foot: Array, p_ankle: Array, q: Array) -> None:
+    """Write the six joint angles [rad] that put the ankle at a pose into q (6,).
+
+    With R_foot = R_base Rz(q1) Rx(q2) Ry(q3 + q4 + q5) Rx(q6) and r the hip seen from the ankle in foot axes:
+    the knee follows from |r|, ankle roll and pitch from the direction of r, the hip from what rotation is left.
+    A pose out of reach is met with the leg at its limit of 4 deg short of straight.
+
+    Args:
+        leg: sizes of the left leg.
+        side: +1 left, -1 right.
+        r_base: orientation of the base in the world (3, 3).
+        p_base: position of the base in the world (3,) [m].
+        r_foot: orientation of the foot in the world (3, 3).
+        p_ankle: position of the ankle in the world (3,) [m].
+        q: result (6,).
+    """
+    b = leg.length
+    hip = np.empty(3)
+    for i in range(3):
+        hip[i] = (
+            p_base[i]
+            + r_base[i, 0] * leg.hip[0]
+            + r_base[i, 1] * side * leg.hip[1]
+            + r_base[i, 2] * leg.hip[2]
+            - p_ankle[i]
+        )
+    x = r_foot[0, 0] * hip[0] + r_foot[1, 0] * hip[1] + r_foot[2, 0] * hip[2]
+    y = r_foot[0, 1] * hip[0] + r_foot[1, 1] * hip[1] + r_foot[2, 1] * hip[2]
+    z = r_foot[0, 2] * hip[0] + r_foot[1, 2] * hip[1] + r_foot[2, 2] * hip[2]
+    cosine = (x * x + y * y + z * z - 2.0 * b * b) / (2.0 * b * b)
+    knee = np.arccos(min(max(cosine, -0.5), 0.9975))
+    ankle_roll = np.arctan2(y, z)
+    ankle_pitch = np.arctan2(-b * np.sin(knee), b + b * np.cos(knee)) - np.arctan2(x, np.hypot(y, z))
+    q[3], q[4], q[5] = knee, ankle_pitch, ankle_roll
+    _hip_angles(r_base, r_foot, knee + ankle_pitch, ankle_roll, q)
+
+
+@compiled
+def _hip_angles(r_base: Array, r_foot: Array, pitch: float, roll: float, q: Array) -> None:
+    """Write hip yaw, roll and pitch [rad] into q[0:3] from C = R_base^T R_foot Rx(-roll) Ry(-pitch)."""
+    cr, sr, cp, sp = np.cos(roll), np.sin(roll), np.cos(pitch), np.sin(pitch)
+    c = np.empty((3, 3))
+    for i in range(3):
+        a0 = r_base[0, i] * r_foot[0, 0] + r_base[1, i] * r_foot[1, 0] + r_base[2, i] * r_foot[2, 0]
+        a1 = r_base[0, i] * r_foot[0, 1] + r_base[1, i] * r_foot[1, 1] + r_base[2, i] * r_foot[2, 1]
+        a2 = r_base[0, i] * r_foot[0, 2] + r_base[1, i] * r_foot[1, 2] + r_base[2, i] * r_foot[2, 2]
+        b1, b2 = cr * a1 - sr * a2, sr * a1 + cr * a2
+        c[i, 0], c[i, 1], c[i, 2] = cp * a0 + sp * b2, b1, -sp * a0 + cp * b2
+    q[0] = np.arctan2(-c[0, 1], c[1, 1])
+    q[1] = np.arcsin(min(max(c[2, 1], -1.0), 1.0))
+    q[2] = np.arctan2(-c[2, 0], c[2, 2])

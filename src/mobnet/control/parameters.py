@@ -1,0 +1,113 @@
+"""Parameters, command and state of the walking controller as compiled code sees them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.errors import ConfigError, not_accepted
+
+Array = NDArray[np.float64]
+
+STEP_X, STEP_Y, TURN, DURATION, FOOT_HEIGHT = range(5)  # columns of a command
+SIDES = (1.0, -1.0)  # of the left, right leg: +y is left
+
+
+class WalkingParameters(NamedTuple):
+    """Numbers of the walking controller; units stand in configs/config.yaml, `walking`."""
+
+    foot_spacing_m: float
+    zmp_offset_x_m: float
+    toe_in_max_rad: float
+    double_support_share: float
+    velocity_filter: float
+    dcm_gain: float
+    vertical_damping_hz: float
+    sole_x_m: Array
+    sole_y_m: float
+    double_support_shift_m: Array
+    pelvis_height_m: float
+    pelvis_height_rate_hz: float
+    pelvis_height_speed_m_s: float
+    foothold_band_m: Array
+    foothold_change_max_m: Array
+    foothold_x_max_m: float
+    foothold_y_m: Array
+    foothold_gain: float
+    foothold_speed_m_s: float
+    foothold_freeze_s: float
+    timing_band_m: float
+    timing_ankle_m: float
+    timing_rate: float
+    timing_freeze_s: float
+    step_min_s: float
+    step_shorter_max_s: float
+    step_longer_max_s: float
+    swing_speed_max_m_s: float
+    touch_force_n: float
+    late_max_s: float
+    early_max_s: float
+    swing_apex: float
+    swing_xy_share: float
+    swing_level_share: float
+    descent_speed_m_s: float
+    descent_acceleration_m_s2: float
+    descent_depth_m: float
+    joint_speed_max_rad_s: float
+    ankle_damping_nms: float
+    ankle_integral_hz: float
+    ankle_leak_hz: float
+    ankle_tilt_leak_hz: float
+    ankle_tilt: float
+    ankle_integral_max_nm: float
+    guard_stiffness_nm: float
+    guard_edge_nm: float
+    guard_damping_nms: float
+    guard_band: Array
+    stand_load_min: float
+    stand_shift_m: Array
+    base_time_constant_s: float
+    leg_stiffness_nm_rad: Array
+    leg_damping_nms_rad: Array
+    posture_rad: Array
+    posture_stiffness_nm_rad: Array
+    posture_damping_nms_rad: Array
+
+
+STATE = np.dtype(
+    [
+        ("side", "f8"), ("t", "f8"), ("total", "f8"), ("commanded", "f8"), ("standing", "i8"), ("steps", "i8"),
+        ("command", "f8", 5), ("old_ankle", "f8", 3), ("old_yaw", "f8"), ("swinging", "i8"),
+        ("yaw", "f8"), ("yaw_start", "f8"), ("yaw_rate", "f8"), ("height", "f8"), ("height_rate", "f8"),
+        ("velocity", "f8", 2), ("target", "f8", 2), ("target_velocity", "f8", 2),
+        ("lift", "f8", 3), ("lift_yaw", "f8"), ("lift_roll", "f8"), ("lift_pitch", "f8"),
+        ("integral", "f8", (2, 2)), ("load", "f8", 2), ("stance_yaw", "f8"), ("next_yaw", "f8"), ("omega", "f8"),
+        ("sole_height", "f8"), ("plan", "f8", (5, 2)), ("next_ankle", "f8", 2), ("dcm_end", "f8", 2),
+        ("zmp_old", "f8", 2), ("zmp_nominal", "f8", 2), ("dcm_reference", "f8", 2), ("dcm", "f8", 2),
+        ("error", "f8", 2), ("zmp", "f8", 2), ("force", "f8", 3), ("foot", "f8", 3), ("foot_velocity", "f8", 3),
+        ("foot_rotation", "f8", (3, 3)), ("foot_yaw_rate", "f8"), ("q_reference", "f8", (2, 6)),
+        ("v_reference", "f8", (2, 6)), ("jacobian", "f8", (6, 6)), ("step_log", "f8", 8),
+    ]
+)  # fmt: skip
+
+
+def walking_parameters(settings: Mapping[str, Any]) -> WalkingParameters:
+    """Build the parameters from the `walking` section of the configuration.
+
+    Raises:
+        ConfigError: a key is unknown or missing.
+    """
+    names = WalkingParameters._fields
+    for key in set(settings) ^ set(names):
+        raise ConfigError(not_accepted("walking: key", key, names))
+    return WalkingParameters(
+        **{k: np.array(settings[k], dtype=float) if isinstance(settings[k], list) else float(settings[k]) for k in names}
+    )
+
+
+def empty_state() -> Any:
+    """Return a zeroed controller state, one record."""
+    return np.recarray(1, dtype=STATE, buf=np.zeros(1, dtype=STATE))[0]

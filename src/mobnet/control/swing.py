@@ -1,0 +1,54 @@
+"""Where the swing foot should be: a quintic over the ground, up and down again, and further down when it is late."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.control.compiled import compiled
+from mobnet.control.geometry import rise, rise_slope, wrap, yaw_roll_pitch_matrix
+from mobnet.control.parameters import FOOT_HEIGHT, WalkingParameters
+
+Array = NDArray[np.float64]
+
+
+@compiled
+def swing_height(par: WalkingParameters, s: object, ground: float, span: float, u: float) -> tuple[float, float]:
+    """Return ankle height [m] and its rate [m/s] at phase u of a swing of span [s] that ends at height ground [m]."""
+    top = max(s.lift[2], ground) + s.command[FOOT_HEIGHT]
+    if u < par.swing_apex:
+        x = u / par.swing_apex
+        return s.lift[2] + (top - s.lift[2]) * rise(x), (top - s.lift[2]) * rise_slope(x) / (par.swing_apex * span)
+    if u < 1.0:
+        down = (1.0 - par.swing_apex) * span
+        x = (u - par.swing_apex) / (1.0 - par.swing_apex)
+        slope = -par.descent_speed_m_s * down
+        drop = top - ground
+        height = ground + drop * (1.0 + x * x * (2.0 * x - 3.0)) + slope * x * x * (x - 1.0)
+        rate = (drop * 6.0 * x * (x - 1.0) + slope * x * (3.0 * x - 2.0)) / down
+        return height, rate
+    late = (u - 1.0) * span
+    fall = par.descent_speed_m_s * late + 0.5 * par.descent_acceleration_m_s2 * late * late
+    if fall >= par.descent_depth_m:
+        return ground - par.descent_depth_m, 0.0
+    return ground - fall, -par.descent_speed_m_s - par.descent_acceleration_m_s2 * late
+
+
+@compiled
+def swing_foot(par: WalkingParameters, s: object, double_support: float, ground: float) -> None:
+    """Fill foot (3,) [m], foot_velocity (3,) [m/s], foot_rotation (3, 3) and foot_yaw_rate [rad/s] of the swing foot."""
+    span = s.total - double_support
+    u = (s.t - double_support) / span
+    x = u / par.swing_xy_share
+    share, slope = rise(x), rise_slope(x) / (par.swing_xy_share * span)
+    for i in range(2):
+        s.foot[i] = s.lift[i] + (s.target[i] - s.lift[i]) * share
+        s.foot_velocity[i] = (s.target[i] - s.lift[i]) * slope + share * s.target_velocity[i]
+    s.foot[2], s.foot_velocity[2] = swing_height(par, s, ground, span, u)
+    x = u / par.swing_level_share
+    turn = wrap(s.next_yaw - s.lift_yaw)
+    level = 1.0 - rise(x)
+    yaw_roll_pitch_matrix(
+        s.lift_yaw + turn * rise(x), s.lift_roll * level, s.lift_pitch * level, s.foot_rotation
+    )
+    s.foot_yaw_rate = turn * rise_slope(x) / (par.swing_level_share * span)

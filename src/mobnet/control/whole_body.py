@@ -1,0 +1,143 @@
+"""From ground force and foot targets to joint torques [N m]: stance legs push, swing leg and upper body follow."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.control.compiled import compiled
+from mobnet.control.geometry import clip, cross, dead, solve, triple, yaw_roll_pitch_matrix
+from mobnet.control.kinematics import Pose, Tree
+from mobnet.control.leg_ik import LegGeometry, leg_ik
+from mobnet.control.parameters import SIDES, WalkingParameters
+
+Array = NDArray[np.float64]
+LEFT_SIDE, RIGHT_SIDE = SIDES
+LEG_JOINTS = 6
+ANKLE_PITCH, ANKLE_ROLL = 4, 5  # joints of a leg
+
+
+
+
+@compiled
+def leg_jacobian(tree: Tree, pose: Pose, first: int, foot: int, out: Array) -> None:
+    """Write the ankle's Jacobian (6, 6) against the base, linear over angular rows, world axes, into out."""
+    arm, column = np.empty(3), np.empty(3)
+    for j in range(LEG_JOINTS):
+        body = tree.body_of_joint[first + j]
+        for i in range(3):
+            arm[i] = pose.position[foot, i] - pose.position[body, i]
+        cross(pose.axis[first + j], arm, column)
+        for i in range(3):
+            out[i, j] = column[i]
+            out[3 + i, j] = pose.axis[first + j, i]
+
+
+@compiled
+def leg_reference(
+    par: WalkingParameters, leg: LegGeometry, tree: Tree, pose: Pose, s: object, k: int, first: int, foot: int, swings: bool
+) -> None:
+    """Fill q_reference[k] [rad] and v_reference[k] [rad/s] of leg k (0 left, 1 right).
+
+    A swing leg takes its foot to the target from where the pelvis is; a stance leg takes the pelvis, level, to its
+    height and yaw from where the foot is.
+    """
+    side = LEFT_SIDE if k == 0 else RIGHT_SIDE
+    rates, arm, swept = s.v_reference[k], np.empty(3), np.empty(3)
+    if swings:
+        leg_ik(leg, side, pose.rotation[0], pose.position[0], s.foot_rotation, s.foot, s.q_reference[k])
+        for i in range(3):
+            arm[i] = pose.position[foot, i] - pose.position[0, i]
+        cross(pose.omega[0], arm, swept)
+        for i in range(3):
+            rates[i] = s.foot_velocity[i] - pose.velocity[0, i] - swept[i]
+            rates[3 + i] = -pose.omega[0, i]
+        rates[5] += s.foot_yaw_rate
+    else:
+        level, base = np.empty((3, 3)), np.empty(3)
+        yaw_roll_pitch_matrix(s.yaw, 0.0, 0.0, level)
+        base[0], base[1], base[2] = pose.position[0, 0], pose.position[0, 1], s.height
+        leg_ik(leg, side, level, base, pose.rotation[foot], pose.position[foot], s.q_reference[k])
+        rates[0], rates[1], rates[2] = -pose.velocity[0, 0], -pose.velocity[0, 1], -s.height_rate
+        rates[3:] = 0.0
+    leg_jacobian(tree, pose, first, foot, s.jacobian)
+    if not solve(s.jacobian, rates):
+        rates[:] = 0.0
+    for j in range(LEG_JOINTS):
+        rates[j] = clip(rates[j], -par.joint_speed_max_rad_s, par.joint_speed_max_rad_s)
+
+
+@compiled
+def stance_torque(
+    par: WalkingParameters, tree: Tree, pose: Pose, s: object, k: int, first: int, foot: int,
+    q: Array, v: Array, wrench: Array, point: Array, dt: float, tau: Array,
+) -> None:  # fmt: skip
+    """Add the torques [N m] of a leg that carries the share load[k] of the ground force at `point` (3,) [m]."""
+    load = s.load[k]
+    arm = np.empty(3)
+    for j in range(LEG_JOINTS):
+        joint = first + j
+        body = tree.body_of_joint[joint]
+        for i in range(3):
+            arm[i] = point[i] - pose.position[body, i]
+        push = load * triple(pose.axis[joint], arm, s.force)
+        error, rate = s.q_reference[k, j] - q[7 + joint], s.v_reference[k, j] - v[6 + joint]
+        if j < ANKLE_PITCH:
+            pull = par.leg_stiffness_nm_rad[j] * error + par.leg_damping_nms_rad[j] * rate
+            tau[joint] += 0.5 * (1.0 + load) * pull - push
+        else:
+            tau[joint] += par.ankle_damping_nms * rate - push
+            tau[joint] += _ankle_correction(par, pose, s, k, j - ANKLE_PITCH, foot, push, wrench, dt)
+
+
+@compiled
+def _ankle_correction(
+    par: WalkingParameters, pose: Pose, s: object, k: int, which: int, foot: int, push: float, wrench: Array, dt: float
+) -> float:
+    """Return the torque [N m] that makes the measured ankle moment the wanted one and keeps the foot from tipping.
+
+    Args:
+        which: 0 pitch, 1 roll.
+        push: wanted moment of the ground about the ankle axis [N m].
+        wrench: of the ground, foot axes, about the ankle (6,) [N, N m].
+    """
+    rotation = pose.rotation[foot]
+    sin_roll, sin_pitch = rotation[2, 1], -rotation[2, 0]
+    column = 1 if which == 0 else 0
+    omega = 0.0
+    for i in range(3):
+        omega += rotation[i, column] * pose.omega[foot, i]
+    tilt = sin_pitch if which == 0 else sin_roll
+    measured = wrench[4] if which == 0 else wrench[3]
+    leak = par.ankle_leak_hz
+    if abs(sin_roll) + abs(sin_pitch) > par.ankle_tilt:
+        rate = -(leak + par.ankle_tilt_leak_hz) * s.integral[k, which]
+    else:
+        rate = -par.ankle_integral_hz * s.load[k] * (push - measured) - leak * s.integral[k, which]
+    bound = par.ankle_integral_max_nm
+    s.integral[k, which] = clip(s.integral[k, which] + dt * rate, -bound, bound)
+    guard = (
+        par.guard_stiffness_nm * tilt + par.guard_edge_nm * dead(tilt, par.guard_band[1 - which])
+        + par.guard_damping_nms * omega
+    )  # fmt: skip
+    return s.load[k] * s.integral[k, which] - guard
+
+
+@compiled
+def swing_torque(par: WalkingParameters, s: object, k: int, first: int, q: Array, v: Array, tau: Array) -> None:
+    """Add the torques [N m] that make a swing leg follow its reference."""
+    for j in range(LEG_JOINTS):
+        joint = first + j
+        tau[joint] += par.leg_stiffness_nm_rad[j] * (s.q_reference[k, j] - q[7 + joint])
+        tau[joint] += par.leg_damping_nms_rad[j] * (s.v_reference[k, j] - v[6 + joint])
+    s.integral[k, 0] = 0.0
+    s.integral[k, 1] = 0.0
+
+
+@compiled
+def posture_torque(par: WalkingParameters, first: int, q: Array, v: Array, target: Array, tau: Array) -> None:
+    """Add the torques [N m] that hold the joints from `first` on at the target posture (n,) [rad]."""
+    for j in range(len(target)):
+        joint = first + j
+        tau[joint] += par.posture_stiffness_nm_rad[j] * (target[j] - q[7 + joint])
+        tau[joint] -= par.posture_damping_nms_rad[j] * v[6 + joint]
