@@ -1,0 +1,59 @@
+"""Tables as TeX and Markdown text. Only booktabs is needed in TeX."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+TEX_SPECIAL = {
+    "\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "$": r"\$", "#": r"\#", "_": r"\_", "{": r"\{", "}": r"\}",
+    "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "<": r"\textless{}", ">": r"\textgreater{}", "|": r"\textbar{}",
+}  # fmt: skip
+RULE = r"\midrule"
+
+Line = Sequence[str] | str  # cells of a row, or a rule between rows
+
+
+def tex_escape(text: str) -> str:
+    """Return plain text with TeX's special characters escaped."""
+    return "".join(TEX_SPECIAL.get(character, character) for character in text)
+
+
+def tex_table(columns: str, header: Sequence[str], lines: Sequence[Line]) -> str:
+    """Return a tabular environment.
+
+    Args:
+        columns: TeX column specification.
+        header: TeX of the header cells.
+        lines: rows of TeX cells, or `RULE`.
+    """
+    body = [line if isinstance(line, str) else tex_row(line) for line in lines]
+    parts = [rf"\begin{{tabular}}{{{columns}}}", r"\toprule", tex_row(header), RULE, *body, r"\bottomrule"]
+    return "\n".join([*parts, r"\end{tabular}"]) + "\n"
+
+
+def tex_row(cells: Sequence[str]) -> str:
+    """Return a row of TeX cells."""
+    return " & ".join(cells) + r" \\"
+
+
+def markdown_table(header: Sequence[str], lines: Sequence[Line], left: int = 1) -> str:
+    """Return a Markdown table; rules between rows are left out.
+
+    Args:
+        header: header cells.
+        lines: rows of cells, or `RULE`.
+        left: columns set flush left; the others hold numbers and are set flush right.
+    """
+    marks = ["---"] * left + ["---:"] * (len(header) - left)
+    rows = [header, marks, *(line for line in lines if not isinstance(line, str))]
+    return "".join("| " + " | ".join(cell.replace("|", r"\|") for cell in row) + " |\n" for row in rows)
+
+
+def number(value: float | None, digits: int = 2) -> str:
+    """Return a number with fixed digits, or a dash where there is none."""
+    return "-" if value is None else f"{value:.{digits}f}"
+
+
+def span(low: float | None, high: float | None, digits: int = 2) -> str:
+    """Return an interval in brackets, or nothing where there is none."""
+    return "" if low is None or high is None else f"[{low:.{digits}f}, {high:.{digits}f}]"

@@ -1,0 +1,48 @@
+"""What is measured on an estimated torque."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Spans = tuple[tuple[int, int], ...]
+
+
+def rmse(estimate: NDArray[Any], truth: NDArray[Any]) -> NDArray[np.float64]:
+    """Return the root-mean-square error of each joint, the number of Tables 5 to 8.
+
+    Args:
+        estimate: estimated external torque (T, n) [N, N m].
+        truth: true external torque behind the observer's low-pass, tau~_e of (15), (T, n) [N, N m].
+
+    Returns:
+        (n,) [N, N m].
+    """
+    error = np.asarray(estimate, dtype=np.float64) - np.asarray(truth, dtype=np.float64)
+    return np.sqrt(np.mean(error**2, axis=0))
+
+
+def roughness(signal: NDArray[Any], spans: Spans, rate_hz: float) -> NDArray[np.float64]:
+    """Return how jagged each signal is: root mean square of its rate of change (section 5.1 on Figure 5).
+
+    Args:
+        signal: torque (T, n) [N, N m].
+        spans: contiguous stretches (start, end); no difference is taken across their borders.
+        rate_hz: samples per second [Hz].
+
+    Returns:
+        (n,) [N/s, N m/s].
+    """
+    steps = [np.diff(np.asarray(signal[start:end], dtype=np.float64), axis=0) for start, end in spans]
+    return np.sqrt(np.mean(np.concatenate(steps) ** 2, axis=0)) * rate_hz
+
+
+Measure = Callable[[NDArray[Any], NDArray[Any], Spans, float], NDArray[np.float64]]
+
+METRICS: Mapping[str, tuple[Measure, str]] = {  # name -> (estimate, truth, spans, rate -> (n,)), suffix of the unit
+    "rmse": (lambda estimate, truth, spans, rate_hz: rmse(estimate, truth), ""),
+    "roughness": (lambda estimate, truth, spans, rate_hz: roughness(estimate, spans, rate_hz), "/s"),
+}
