@@ -1,0 +1,76 @@
+"""Terms of the equation of motion (1), M vdot + C v + g = tau_v + tau_e, from the nominal model.
+
+Positions are recordings' (quaternion w x y z); torques are [N] for V1..V3 and [N m] otherwise, axes as in `JointLayout`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import NDArray
+
+from mobnet.robot.frames import to_pinocchio
+from mobnet.robot.nominal import NominalModel
+
+Array = NDArray[np.float64]
+
+
+def mass_matrix(nominal: NominalModel, q: NDArray[Any]) -> Array:
+    """Return M(q) of (1), rotor inertia included, (nv, nv) [kg, kg m, kg m^2]."""
+    upper = np.triu(pin.crba(nominal.model, nominal.data, to_pinocchio(q)))
+    return upper + np.triu(upper, 1).T
+
+
+def coriolis(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> Array:
+    """Return C(q, v) of (1) with C + C^T = Mdot, (nv, nv)."""
+    return pin.computeCoriolisMatrix(nominal.model, nominal.data, to_pinocchio(q), _float64(v))
+
+
+def gravity(nominal: NominalModel, q: NDArray[Any]) -> Array:
+    """Return g(q) of (1), (nv,) [N, N m]."""
+    return pin.computeGeneralizedGravity(nominal.model, nominal.data, to_pinocchio(q))
+
+
+def bias(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> Array:
+    """Return C v + g of (1), (nv,) [N, N m]."""
+    return pin.nonLinearEffects(nominal.model, nominal.data, to_pinocchio(q), _float64(v))
+
+
+def inverse_dynamics(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any], a: NDArray[Any]) -> Array:
+    """Return M a + C v + g of (1), a the derivative of v, (nv,) [N, N m]."""
+    return pin.rnea(nominal.model, nominal.data, to_pinocchio(q), _float64(v), _float64(a))
+
+
+def momentum(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> Array:
+    """Return p = M v of (4), (nv,) [kg m/s, kg m^2/s]."""
+    return momentum_and_beta(nominal, q, v)[0]
+
+
+def beta(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> Array:
+    """Return C^T v - g of (6), (nv,) [N, N m]."""
+    return momentum_and_beta(nominal, q, v)[1]
+
+
+def momentum_and_beta(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> tuple[Array, Array]:
+    """Return p = M v of (4) and C^T v - g of (6), each (..., nv), for positions (..., nq) and velocities (..., nv).
+
+    One momentum costs an inverse dynamics without velocity, rnea(q, 0, v) = M v + g, which is cheaper than M.
+    """
+    model, data, nv = nominal.model, nominal.data, nominal.model.nv
+    positions = to_pinocchio(q).reshape(-1, model.nq)
+    velocities = _float64(v).reshape(-1, nv)
+    p, result, still = np.empty_like(velocities), np.empty_like(velocities), np.zeros(nv)
+    rnea, weight, matrix = pin.rnea, pin.computeGeneralizedGravity, pin.computeCoriolisMatrix
+    for k, (position, velocity) in enumerate(zip(positions, velocities, strict=True)):
+        matrix(model, data, position, velocity).T.dot(velocity, out=result[k])
+        load = weight(model, data, position)
+        result[k] -= load
+        np.subtract(rnea(model, data, position, still, velocity), load, out=p[k])
+    return p.reshape(np.shape(v)), result.reshape(np.shape(v))
+
+
+def _float64(array: NDArray[Any]) -> Array:
+    """Return an array in float64, as physics is computed."""
+    return np.asarray(array, dtype=np.float64)

@@ -1,0 +1,51 @@
+"""The only conversion between MuJoCo and Pinocchio: the order of the base quaternion.
+
+Both models carry the base as three translations in world axes and then a ball joint, so that a generalized velocity
+(base linear in world, base angular in base, joints), momentum, mass matrix and torque mean the same in both.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.joints import NQ_BASE
+
+POSITION = slice(0, 3)  # base position in a generalized position
+QUATERNION = slice(3, NQ_BASE)  # base quaternion in a generalized position
+WXYZ_TO_XYZW = (1, 2, 3, 0)
+XYZW_TO_WXYZ = (3, 0, 1, 2)
+
+
+def to_pinocchio(q: NDArray[Any]) -> NDArray[np.float64]:
+    """Return generalized positions (..., nq) of a recording, quaternion w x y z, as Pinocchio's, x y z w.
+
+    Quaternions are brought to unit length: float32 logs and noise leave it.
+    """
+    return _reordered(q, WXYZ_TO_XYZW)
+
+
+def from_pinocchio(q: NDArray[Any]) -> NDArray[np.float64]:
+    """Return Pinocchio's generalized positions (..., nq) with the quaternion as w x y z."""
+    return _reordered(q, XYZW_TO_WXYZ)
+
+
+def _reordered(q: NDArray[Any], order: tuple[int, ...]) -> NDArray[np.float64]:
+    """Return positions (..., nq) in float64 with the base quaternion reordered and of unit length."""
+    result = np.array(q, dtype=np.float64)
+    quat = result[..., QUATERNION][..., list(order)]
+    result[..., QUATERNION] = quat / np.linalg.norm(quat, axis=-1, keepdims=True)
+    return result
+
+
+def rotation(quat: NDArray[Any]) -> NDArray[np.float64]:
+    """Return the rotation matrices (..., 3, 3) of unit quaternions w x y z (..., 4), body to world."""
+    w, x, y, z = np.moveaxis(np.asarray(quat, dtype=np.float64), -1, 0)
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)

@@ -1,0 +1,94 @@
+"""The nominal model: what the observer knows of the robot (section 3.2), in Pinocchio.
+
+The root is two joints, a translation and then a ball. A free-flyer would express the base's linear
+velocity in base axes, and Pinocchio's Coriolis matrix is wrong for one composite root (tests/robot/test_dynamics.py).
+"""
+
+from __future__ import annotations
+
+import pinocchio as pin
+
+from mobnet.core.joints import N_VIRTUAL
+from mobnet.robot.description import SIDES, Body, Joint, RobotDescription
+
+ALIGNED = {(1.0, 0.0, 0.0): pin.JointModelRX, (0.0, 1.0, 0.0): pin.JointModelRY, (0.0, 0.0, 1.0): pin.JointModelRZ}
+
+
+class NominalModel:
+    """The robot as the observer knows it: every mass, inertia and rotor inertia times one ratio.
+
+    Attributes:
+        robot: the table the model was built from.
+        mass_ratio: nominal over true mass and inertia [-]; section 5.1 takes 0.9 under all uncertainty.
+        model: Pinocchio's model; nv generalized velocities in the order of `JointLayout`.
+        data: its work space; one model belongs to one thread.
+        foot_frames: side -> frame of the foot's force/torque sensor.
+    """
+
+    def __init__(self, robot: RobotDescription, mass_ratio: float = 1.0, gravity_m_s2: float | None = None) -> None:
+        """Build the model from the robot's table.
+
+        Args:
+            robot: the robot's table.
+            mass_ratio: nominal over true mass and inertia [-].
+            gravity_m_s2: acceleration of gravity [m/s^2]; Pinocchio's own 9.81 when not given.
+        """
+        self.robot = robot
+        self.mass_ratio = mass_ratio
+        self.model = pin.Model()
+        self.model.name = robot.name
+        if gravity_m_s2 is not None:
+            self.model.gravity.linear = -gravity_m_s2 * pin.ZAxis
+        placements = _add_bodies(self.model, robot, mass_ratio)
+        armature = self.model.armature.copy()
+        armature[N_VIRTUAL:] = mass_ratio * robot.armature
+        self.model.armature = armature
+        self.foot_frames = {
+            side: _add_sensor(self.model, robot, f"{side}_foot", *placements[robot.feet[side].body]) for side in SIDES
+        }
+        self.data = self.model.createData()
+
+
+def _add_bodies(model: pin.Model, robot: RobotDescription, mass_ratio: float) -> dict[str, tuple[int, pin.SE3]]:
+    """Add joints and inertia; return body -> (joint that carries it, its placement in that joint's frame)."""
+    root = model.addJoint(0, pin.JointModelTranslation(), pin.SE3.Identity(), "base_translation")
+    root = model.addJoint(root, pin.JointModelSpherical(), pin.SE3.Identity(), "base_rotation")
+    placements = {robot.base: (root, pin.SE3.Identity())}
+    for body in robot.bodies:
+        joint = robot.joint_of(body.name)
+        if body.name != robot.base:
+            parent, carrier = placements[body.parent]
+            placement = carrier * _placement(body)
+            if joint is None:
+                placements[body.name] = (parent, placement)
+            else:
+                hinge = model.addJoint(parent, _hinge(joint), placement, joint.id)
+                placements[body.name] = (hinge, pin.SE3.Identity())
+        carrier_id, in_carrier = placements[body.name]
+        model.appendBodyToJoint(carrier_id, _inertia(body, mass_ratio), in_carrier)
+    return placements
+
+
+def _placement(body: Body) -> pin.SE3:
+    """Return a body's frame in its parent's."""
+    w, x, y, z = body.quat
+    return pin.SE3(pin.Quaternion(w, x, y, z).matrix(), body.pos)
+
+
+def _hinge(joint: Joint) -> pin.JointModel:
+    """Return the joint model of a hinge, the fast one where the axis is a coordinate axis."""
+    aligned = ALIGNED.get(tuple(joint.axis))
+    return aligned() if aligned else pin.JointModelRevoluteUnaligned(joint.axis)
+
+
+def _inertia(body: Body, mass_ratio: float) -> pin.Inertia:
+    """Return a link's inertia about its centre of mass, scaled."""
+    xx, yy, zz, xy, xz, yz = mass_ratio * body.inertia
+    matrix = pin.Symmetric3(xx, xy, yy, xz, yz, zz)
+    return pin.Inertia(mass_ratio * body.mass, body.com, matrix.matrix())
+
+
+def _add_sensor(model: pin.Model, robot: RobotDescription, name: str, joint: int, foot: pin.SE3) -> int:
+    """Add the frame of a foot's force/torque sensor; return its index."""
+    placement = foot * pin.SE3(pin.SE3.Identity().rotation, robot.sensor_pos)
+    return model.addFrame(pin.Frame(name, joint, placement, pin.FrameType.SENSOR))
