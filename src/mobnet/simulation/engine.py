@@ -1,0 +1,190 @@
+"""The plant's loop, compiled: controller, motors, friction, MuJoCo's step, truth, sensors, log."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import carray
+from numpy.typing import NDArray
+
+from mobnet.control.compiled import compiled
+from mobnet.control.geometry import clip
+from mobnet.control.random_torque import RandomTorque, advance_random_torque
+from mobnet.control.walking import Walker, walk
+from mobnet.simulation.friction import Friction, friction_torque
+from mobnet.simulation.native import Native, addresses_at, call_step, doubles_at, ints_at
+from mobnet.simulation.sensing import Sensors, read_sensors
+from mobnet.simulation.world import World
+
+Array = NDArray[np.float64]
+FIRST_CONTACT_ROW = 5  # mjCNST_CONTACT_FRICTIONLESS; equality, friction loss and limits come before
+CONTACT_FORCE_N = 1.0  # a foot whose sensor feels more touches the ground
+
+
+class Plant(NamedTuple):
+    """Live arrays of MuJoCo's data and what the plant adds to them.
+
+    Attributes:
+        native: addresses.
+        qpos: generalized position (nq,).
+        qvel: generalized velocity (nv,).
+        ctrl: motor torques (nu,) [N m].
+        qfrc_applied: generalized forces from outside MuJoCo (nv,) [N, N m]; here the friction.
+        qfrc_smooth: passive - bias + applied + actuator + mapped xfrc_applied (nv,).
+        qfrc_bias: Coriolis, centrifugal and gravity (nv,).
+        qfrc_passive: passive forces (nv,).
+        qfrc_actuator: motor torques in the generalized velocity (nv,).
+        sensordata: readings of the step just taken.
+        friction: numbers of (23).
+        limits: motor limits (nu,) [N m].
+        period: of the terrain [m].
+        fall_height: pelvis below this is a fall [m].
+        dt: step [s].
+        every: steps a sample.
+    """
+
+    native: Native
+    qpos: Array
+    qvel: Array
+    ctrl: Array
+    qfrc_applied: Array
+    qfrc_smooth: Array
+    qfrc_bias: Array
+    qfrc_passive: Array
+    qfrc_actuator: Array
+    sensordata: Array
+    friction: Friction
+    limits: Array
+    period: float
+    fall_height: float
+    dt: float
+    every: int
+
+
+def make_plant(world: World, native: Native, friction: Friction, limits: Array, fall_height: float, every: int) -> Plant:
+    """Collect the live arrays of a world; the world must outlive the plant. limits (nu,) [N m], fall_height [m]."""
+    data = world.data
+    return Plant(
+        native, data.qpos, data.qvel, data.ctrl, data.qfrc_applied, data.qfrc_smooth, data.qfrc_bias,
+        data.qfrc_passive, data.qfrc_actuator, data.sensordata, friction, np.array(limits, dtype=float),
+        float(world.period), float(fall_height), float(world.model.opt.timestep), int(every),
+    )  # fmt: skip
+
+
+@compiled
+def run(
+    plant: Plant, walker: Walker, sensors: Sensors, s: object, torque: RandomTorque, commands: Array,
+    rng_noise: np.random.Generator, rng_torque: np.random.Generator, log: NDArray[np.float32],
+) -> int:  # fmt: skip
+    """Simulate len(log) samples into log (n, C), columns of `recording_columns`; return how many before a fall."""
+    nv, nu = len(plant.qvel), len(plant.ctrl)
+    tau, tau_des, tau_motor, tau_ext = np.zeros(nu), np.zeros(nu), np.zeros(nu), np.zeros(nv)
+    wrenches = np.zeros((2, 6))
+    for row in range(len(log)):
+        tau_des[:] = 0.0
+        tau_motor[:] = 0.0
+        tau_ext[:] = 0.0
+        wrenches[:] = 0.0
+        for _ in range(plant.every):
+            walk(walker, s, sensors.q, sensors.v, sensors.wrenches, commands, plant.dt, tau)
+            _explore(walker, s, torque, rng_torque, plant.dt, tau)
+            _actuate(plant, tau, tau_des, tau_motor)
+            call_step(plant.native.step, plant.native.model, plant.native.data)
+            _add_external(plant, tau_ext)
+            read_sensors(sensors, walker, plant.qpos, plant.qvel, plant.sensordata, rng_noise, plant.dt)
+            wrenches += sensors.wrenches
+            _wrap(plant, sensors, s)
+        _write(log[row], sensors, s, tau_des, tau_motor, tau_ext, wrenches, plant.every)
+        if not plant.qpos[2] > plant.fall_height:  # a state that is not finite is a fall too
+            return row
+    return len(log)
+
+
+@compiled
+def _explore(walker: Walker, s: object, torque: RandomTorque, rng: np.random.Generator, dt: float, tau: Array) -> None:
+    """Add the random torque to the desired torques tau (nu,) [N m], but not to a leg that carries load."""
+    advance_random_torque(torque, rng, dt)
+    swing = -1 if s.swinging == 0 else (1 if s.side > 0 else 0)
+    for j in range(len(tau)):
+        if j < walker.upper and (swing < 0 or not walker.first[swing] <= j < walker.first[swing] + 6):
+            continue
+        tau[j] += torque.value[j]
+
+
+@compiled
+def _actuate(plant: Plant, tau: Array, tau_des: Array, tau_motor: Array) -> None:
+    """Give the clipped torques to the motors and their friction to the joints; add both torques to their sums."""
+    for j in range(len(tau)):
+        motor = clip(tau[j], -plant.limits[j], plant.limits[j])
+        plant.ctrl[j] = motor
+        plant.qfrc_applied[6 + j] = friction_torque(plant.friction, j, plant.qvel[6 + j], motor)
+        tau_des[j] += tau[j]
+        tau_motor[j] += motor
+
+
+@compiled
+def _add_external(plant: Plant, tau_ext: Array) -> None:
+    """Add the external torque of the step just taken (nv,): J^T F of the solver's contact rows and applied wrenches.
+
+    Only the contact rows: the constraint forces as a whole also hold friction loss and limits.
+    """
+    nv, data = len(tau_ext), plant.native.data
+    for i in range(nv):
+        smooth = plant.qfrc_passive[i] - plant.qfrc_bias[i] + plant.qfrc_applied[i] + plant.qfrc_actuator[i]
+        tau_ext[i] += plant.qfrc_smooth[i] - smooth
+    rows = ints_at(data + plant.native.nefc)[0]
+    if rows == 0:
+        return
+    kinds = carray(ints_at(addresses_at(data + plant.native.efc_type)[0]), (rows,))
+    forces = carray(doubles_at(addresses_at(data + plant.native.efc_force)[0]), (rows,))
+    jacobian = carray(doubles_at(addresses_at(data + plant.native.efc_jacobian)[0]), (rows, nv))
+    for r in range(rows - 1, -1, -1):  # contact rows come last
+        if kinds[r] < FIRST_CONTACT_ROW:
+            break
+        if forces[r] != 0.0:
+            for i in range(nv):
+                tau_ext[i] += jacobian[r, i] * forces[r]
+
+
+@compiled
+def _wrap(plant: Plant, sensors: Sensors, s: object) -> None:
+    """Put a robot that walked a period of the terrain back, and all world positions of the controller with it."""
+    for i in range(2):
+        if abs(plant.qpos[i]) <= plant.period:
+            continue
+        shift = -plant.period if plant.qpos[i] > 0.0 else plant.period
+        plant.qpos[i] += shift
+        sensors.q[i] += shift
+        s.old_ankle[i] += shift
+        s.lift[i] += shift
+        s.foot[i] += shift
+        s.target[i] += shift
+
+
+@compiled
+def _write(
+    row: NDArray[np.float32], sensors: Sensors, s: object, tau_des: Array, tau_motor: Array, tau_ext: Array,
+    wrenches: Array, every: int,
+) -> None:  # fmt: skip
+    """Write one sample in the order of `recording_columns`; sums over the sample's steps become means."""
+    at = _put(row, 0, sensors.q, 1.0)
+    at = _put(row, at, sensors.v, 1.0)
+    at = _put(row, at, sensors.acc_base_in_base, 1.0)
+    at = _put(row, at, tau_des, 1.0 / every)
+    at = _put(row, at, tau_motor, 1.0 / every)
+    row[at] = s.swinging if s.side < 0 else 0
+    row[at + 1] = s.swinging if s.side > 0 else 0
+    at = _put(row, at + 2, tau_ext, 1.0 / every)
+    for k in range(2):
+        at = _put(row, at, wrenches[k], 1.0 / every)
+    for k in range(2):
+        row[at + k] = np.linalg.norm(wrenches[k, :3]) > every * CONTACT_FORCE_N
+
+
+@compiled
+def _put(row: NDArray[np.float32], at: int, values: Array, scale: float) -> int:
+    """Write scaled values from column `at` on; return the next column."""
+    for i in range(len(values)):
+        row[at + i] = values[i] * scale
+    return at + len(values)

@@ -1,0 +1,140 @@
+"""MuJoCo called from compiled code: its step by address, its constraint rows by their place in `mjData`.
+
+Constraint arrays live in an arena and move at every step, so their pointers are read from the C struct itself. The
+struct's layout comes from the description MuJoCo ships (`mujoco.introspect`), and is checked against Python's view.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+from llvmlite import ir
+from mujoco.introspect import ast_nodes, structs
+from numba import types
+from numba.extending import intrinsic
+
+from mobnet.core.errors import SimulationError
+
+C_TYPES: dict[str, Any] = {
+    "int": ctypes.c_int,
+    "float": ctypes.c_float,
+    "mjtNum": ctypes.c_double,
+    "double": ctypes.c_double,
+    "mjtSize": ctypes.c_int64,
+    "size_t": ctypes.c_size_t,
+    "uintptr_t": ctypes.c_void_p,
+    "uint64_t": ctypes.c_uint64,
+    "mjtByte": ctypes.c_ubyte,
+    "mjtBool": ctypes.c_bool,
+}
+
+
+class Native(NamedTuple):
+    """Addresses for compiled code, all integers.
+
+    Attributes:
+        step: of the function mj_step.
+        model: of the mjModel.
+        data: of the mjData.
+        nefc: offset in mjData of the number of constraint rows.
+        efc_type: offset of the pointer to their types (nefc,) int32.
+        efc_jacobian: offset of the pointer to their dense Jacobian (nefc, nv).
+        efc_force: offset of the pointer to their forces (nefc,).
+    """
+
+    step: int
+    model: int
+    data: int
+    nefc: int
+    efc_type: int
+    efc_jacobian: int
+    efc_force: int
+
+
+@functools.cache
+def c_struct(name: str) -> Any:
+    """Return a ctypes structure laid out as MuJoCo's struct of that name."""
+    fields = [(field.name, _c_type(field.type)) for field in structs.STRUCTS[name].fields]
+    return type(name, (ctypes.Structure,), {"_fields_": fields})
+
+
+def _c_type(node: Any) -> Any:
+    """Return the ctypes type of a described C type."""
+    if isinstance(node, ast_nodes.PointerType):
+        return ctypes.c_void_p
+    if isinstance(node, ast_nodes.ArrayType):
+        count = int(np.prod(node.extents))
+        return _c_type(node.inner_type) * count
+    if node.name in C_TYPES:
+        return C_TYPES[node.name]
+    return c_struct(node.name) if node.name in structs.STRUCTS else ctypes.c_int  # enums are ints
+
+
+@functools.cache
+def step_address() -> int:
+    """Return the address of MuJoCo's mj_step in the library Python loaded."""
+    folder = Path(mujoco.__file__).parent
+    names = [path for pattern in ("libmujoco.so*", "libmujoco*.dylib", "mujoco.dll") for path in folder.glob(pattern)]
+    if not names:
+        raise SimulationError(f"{folder}: no MuJoCo library found")
+    library = ctypes.CDLL(str(names[0]))
+    return int(ctypes.cast(library.mj_step, ctypes.c_void_p).value or 0)
+
+
+def bind(model: mujoco.MjModel, data: mujoco.MjData) -> Native:
+    """Return the addresses of a model and its data, checked on the data as it stands.
+
+    Raises:
+        SimulationError: the struct's layout is not what MuJoCo describes.
+    """
+    layout = c_struct("mjData")
+    native = Native(
+        step_address(),
+        model._address,
+        data._address,
+        *(getattr(layout, field).offset for field in ("nefc", "efc_type", "efc_J", "efc_force")),
+    )
+    mujoco.mj_forward(model, data)
+    raw = layout.from_address(data._address)
+    for field in ("qpos", "sensordata", "efc_J", "efc_force"):
+        array = getattr(data, field)
+        if array.size and getattr(raw, field) != array.ctypes.data:
+            raise SimulationError(f"mjData.{field}: at {getattr(raw, field)}, Python says {array.ctypes.data}")
+    if raw.nefc != data.nefc:
+        raise SimulationError(f"mjData.nefc: {raw.nefc}, Python says {data.nefc}")
+    return native
+
+
+@intrinsic
+def call_step(typingctx: Any, step: Any, model: Any, data: Any) -> Any:
+    """Call mj_step(model, data), all three given as addresses."""
+
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        kind = ir.FunctionType(ir.VoidType(), [ir.IntType(64), ir.IntType(64)])
+        builder.call(builder.inttoptr(args[0], kind.as_pointer()), [args[1], args[2]])
+        return context.get_dummy_value()
+
+    return types.void(types.int64, types.int64, types.int64), codegen
+
+
+def _pointer(kind: Any) -> Any:
+    """Return an intrinsic that turns an address into a pointer to `kind`."""
+
+    @intrinsic
+    def as_pointer(typingctx: Any, address: Any) -> Any:
+        def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            return builder.inttoptr(args[0], context.get_value_type(signature.return_type))
+
+        return types.CPointer(kind)(types.int64), codegen
+
+    return as_pointer
+
+
+doubles_at = _pointer(types.float64)
+ints_at = _pointer(types.int32)
+addresses_at = _pointer(types.int64)

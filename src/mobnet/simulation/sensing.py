@@ -1,0 +1,113 @@
+"""What the robot's sensors say of the plant: noise of Table 3, and the base state the robot works out itself."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.control.base_state import update_base
+from mobnet.control.compiled import compiled
+from mobnet.control.walking import Walker, vertical_force
+from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.robot.description import SIDES
+
+Array = NDArray[np.float64]
+BASE_STATES = ("true_state", "sensed")
+
+
+class Sensors(NamedTuple):
+    """Noise, addresses and readings.
+
+    Attributes:
+        q_std: of joint positions [rad].
+        v_std: of joint velocities [rad/s].
+        acc_std: of the base's acceleration [m/s^2].
+        omega_std: of the base's angular velocity [rad/s].
+        sensed_base: 1 if base position and velocity come from proprioception, 0 if they are the plant's.
+        gyro: first entry of the gyroscope in sensordata.
+        acc: first entry of the accelerometer.
+        force: first entries of the left, right foot's force (2,).
+        torque: first entries of their torque (2,).
+        q: generalized position (nq,), as `Sensed.q`.
+        v: generalized velocity (nv,), as `Sensed.v`.
+        acc_base_in_base: specific force (3,) [m/s^2].
+        wrenches: ground's wrench on the feet about their sensors, foot axes (2, 6) [N, N m].
+        loads: vertical force on the feet (2,) [N].
+    """
+
+    q_std: float
+    v_std: float
+    acc_std: float
+    omega_std: float
+    sensed_base: int
+    gyro: int
+    acc: int
+    force: NDArray[np.int64]
+    torque: NDArray[np.int64]
+    q: Array
+    v: Array
+    acc_base_in_base: Array
+    wrenches: Array
+    loads: Array
+
+
+def make_sensors(config: Mapping[str, Any], level: str, model: mujoco.MjModel) -> Sensors:
+    """Build the sensors of a plant at an uncertainty level (section 5.1).
+
+    Raises:
+        ConfigError: the level's base state is unknown.
+    """
+    settings = config["levels"][level]
+    if settings["base_state"] not in BASE_STATES:
+        raise ConfigError(not_accepted(f"levels.{level}.base_state", settings["base_state"], BASE_STATES))
+    noise, scale = config["plant"]["noise_std"], float(settings["noise"])
+    return Sensors(
+        q_std=scale * noise["joint_position_rad"],
+        v_std=scale * noise["joint_velocity_rad_s"],
+        acc_std=scale * noise["base_acceleration_m_s2"],
+        omega_std=scale * noise["base_angular_velocity_rad_s"],
+        sensed_base=int(settings["base_state"] == "sensed"),
+        gyro=int(model.sensor("imu_gyro").adr[0]),
+        acc=int(model.sensor("imu_acc").adr[0]),
+        force=np.array([model.sensor(f"{side}_foot_force").adr[0] for side in SIDES], dtype=np.int64),
+        torque=np.array([model.sensor(f"{side}_foot_torque").adr[0] for side in SIDES], dtype=np.int64),
+        q=np.zeros(model.nq),
+        v=np.zeros(model.nv),
+        acc_base_in_base=np.zeros(3),
+        wrenches=np.zeros((len(SIDES), 6)),
+        loads=np.zeros(len(SIDES)),
+    )
+
+
+@compiled
+def read_sensors(
+    sensors: Sensors, walker: Walker, qpos: Array, qvel: Array, sensordata: Array, rng: np.random.Generator, dt: float
+) -> None:
+    """Fill the readings from the plant after a step of dt [s]: qpos (nq,), qvel (nv,), sensordata of that step."""
+    for k in range(2):
+        for i in range(3):  # MuJoCo gives what the foot does to the sole
+            sensors.wrenches[k, i] = -sensordata[sensors.force[k] + i]
+            sensors.wrenches[k, 3 + i] = -sensordata[sensors.torque[k] + i]
+        sensors.loads[k] = vertical_force(walker, k)
+    for i in range(3):
+        sensors.acc_base_in_base[i] = sensordata[sensors.acc + i] + sensors.acc_std * rng.standard_normal()
+    if sensors.sensed_base == 1:
+        update_base(
+            walker.pose, walker.feet, walker.sole, sensors.loads, sensors.acc_base_in_base, walker.gravity,
+            walker.par.base_time_constant_s, dt, sensors.q, sensors.v,
+        )  # fmt: skip
+    else:
+        sensors.q[:3] = qpos[:3]
+        sensors.v[:3] = qvel[:3]
+    for i in range(3, 7):
+        sensors.q[i] = qpos[i]
+    for i in range(3, 6):
+        sensors.v[i] = qvel[i] + sensors.omega_std * rng.standard_normal()
+    for i in range(7, len(qpos)):
+        sensors.q[i] = qpos[i] + sensors.q_std * rng.standard_normal()
+    for i in range(6, len(qvel)):
+        sensors.v[i] = qvel[i] + sensors.v_std * rng.standard_normal()

@@ -1,0 +1,86 @@
+"""A start in the middle of a step: a still start needs a shift of weight that friction spoils."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.control.geometry import solve
+from mobnet.control.kinematics import update
+from mobnet.control.leg_ik import leg_ik
+from mobnet.control.parameters import DURATION
+from mobnet.control.walking import Walker
+from mobnet.control.whole_body import leg_jacobian
+from mobnet.robot.description import RobotDescription
+
+Array = NDArray[np.float64]
+CLEARANCE_M = 0.001  # soles over the terrain's highest point at the start
+ITERATIONS = 20  # of the feet's place under the centre of mass; converges by a factor 4 each
+SIDES = (1.0, -1.0)
+
+
+def place(walker: Walker, robot: RobotDescription, ground_m: float) -> tuple[Array, Array]:
+    """Return q (nq,) and the ankles (2, 3) [m] of standing, pelvis level, weight over the nominal ZMP."""
+    par = walker.par
+    q, v = np.zeros(robot.layout.nq), np.zeros(robot.layout.nv)
+    q[2], q[3] = ground_m + CLEARANCE_M + par.pelvis_height_m, 1.0
+    q[7 + walker.upper :] = par.posture_rad
+    ankles = np.zeros((2, 3))
+    ankles[:, 2] = ground_m + CLEARANCE_M - robot.sole_height
+    ankles[:, 1] = np.array(SIDES) * par.foot_spacing_m / 2
+    for _ in range(ITERATIONS):
+        for k, side in enumerate(SIDES):
+            first = 7 + walker.first[k]
+            leg_ik(walker.leg, side, np.eye(3), q[:3], np.eye(3), ankles[k], q[first : first + 6])
+        update(walker.tree, q, v, walker.gravity, walker.pose)
+        ankles[:, 0] = walker.pose.com[0] - par.zmp_offset_x_m
+    return q, ankles
+
+
+def start_walking(walker: Walker, robot: RobotDescription, s: np.record, command: Array, ground_m: float) -> tuple[Array, Array]:
+    """Return q (nq,) and v (nv,) amid double support, swaying to the left, and set the controller's state to it.
+
+    The pelvis has the lateral speed of a linear inverted pendulum that steps in place.
+
+    Args:
+        walker: knowledge of the robot.
+        robot: its figures.
+        s: controller state, overwritten.
+        command: first command (5,).
+        ground_m: height of the ground under the feet [m].
+    """
+    par = walker.par
+    q, ankles = place(walker, robot, ground_m)
+    omega = np.sqrt(walker.gravity / (walker.pose.com[2] - ankles[0, 2] - robot.sole_height))
+    sway = omega * par.foot_spacing_m / 2 * np.tanh(omega * command[DURATION] / 2)
+    v = np.zeros(robot.layout.nv)
+    v[1] = sway
+    for k in range(2):
+        jacobian, rates = np.zeros((6, 6)), np.zeros(6)
+        leg_jacobian(walker.tree, walker.pose, walker.first[k], walker.feet[k], jacobian)
+        rates[1] = -sway
+        solve(jacobian, rates)
+        v[6 + walker.first[k] : 12 + walker.first[k]] = rates
+    _set_state(walker, s, command, q, ankles)
+    s.t = par.double_support_share * command[DURATION] / 2
+    s.velocity[1] = sway
+    return q, v
+
+
+def start_standing(walker: Walker, robot: RobotDescription, s: np.record, command: Array, ground_m: float) -> tuple[Array, Array]:
+    """Return q (nq,) and v (nv,) at rest and set the controller to stand; the arguments are `start_walking`'s."""
+    q, ankles = place(walker, robot, ground_m)
+    _set_state(walker, s, command, q, ankles)
+    s.standing = 1
+    return q, np.zeros(robot.layout.nv)
+
+
+def _set_state(walker: Walker, s: np.record, command: Array, q: Array, ankles: Array) -> None:
+    """Set the controller's state to both feet on the ground, the left one about to carry the robot."""
+    for name in s.dtype.names or ():
+        s[name] = 0
+    s.side, s.command = SIDES[0], command
+    s.total = s.commanded = command[DURATION]
+    s.old_ankle = ankles[1]
+    s.height, s.load = q[2], 0.5
+    s.omega = np.sqrt(walker.gravity / walker.par.pelvis_height_m)

@@ -1,0 +1,79 @@
+"""Robot on terrain: the compiled plant at one uncertainty level (section 5.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.plant import robot_spec
+from mobnet.simulation.terrain import add_terrain, top_of
+
+
+@dataclass(frozen=True)
+class World:
+    """A plant ready to step.
+
+    Attributes:
+        model: MuJoCo's model.
+        data: its state.
+        period: length after which the terrain repeats in x and y [m].
+        top: height of the terrain's highest point [m].
+    """
+
+    model: mujoco.MjModel
+    data: mujoco.MjData
+    period: float
+    top: float
+
+
+def make_world(config: Mapping[str, Any], robot: RobotDescription, terrain: str, level: str) -> World:
+    """Compile the robot on a terrain; the level switches friction loss on or off.
+
+    Raises:
+        ConfigError: terrain or level is unknown.
+    """
+    if level not in config["levels"]:
+        raise ConfigError(not_accepted("level", level, config["levels"]))
+    plant = config["plant"]
+    spec = robot_spec(robot)
+    period = add_terrain(spec, terrain, config["terrain"])
+    _set_options(spec, plant, config["rates"]["plant_hz"])
+    spec.visual.global_.offwidth, spec.visual.global_.offheight = OFFSCREEN_SIZE
+    model = spec.compile()
+    if config["levels"][level]["friction"]:
+        legs = leg_mask(robot)
+        loss = np.where(legs, plant["friction"]["loss_legs_nm"], plant["friction"]["loss_others_nm"])
+        model.dof_frictionloss[-robot.layout.nu :] = loss
+    return World(model, mujoco.MjData(model), period, top_of(terrain, config["terrain"]))
+
+
+OFFSCREEN_SIZE = (1280, 960)  # pixels a picture may have
+
+
+def leg_mask(robot: RobotDescription) -> NDArray[np.bool_]:
+    """Return which actuators (nu,) belong to a leg."""
+    legs = {name for foot in robot.feet.values() for name in robot.layout.limb(foot.limb)}
+    return np.array([name in legs for name in robot.layout.actuated])
+
+
+def _set_options(spec: mujoco.MjSpec, plant: Mapping[str, Any], rate_hz: float) -> None:
+    """Set integrator, solver and contact; what the truth's alignment needs (one contact force a step) is Euler's."""
+    option = spec.option
+    option.timestep = 1.0 / rate_hz
+    option.gravity = [0.0, 0.0, -plant["gravity_m_s2"]]
+    option.integrator = mujoco.mjtIntegrator.mjINT_EULER
+    option.solver = mujoco.mjtSolver.mjSOL_NEWTON
+    option.iterations = plant["solver_iterations"]
+    option.tolerance = plant["solver_tolerance"]
+    option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
+    option.cone = mujoco.mjtCone.mjCONE_PYRAMIDAL
+    for geom in spec.geoms:
+        geom.friction[0] = plant["contact_friction"]
+        geom.solref = [plant["contact_time_constant_s"], plant["contact_damping_ratio"]]
