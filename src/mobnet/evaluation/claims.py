@@ -93,7 +93,7 @@ def claims(config: Mapping[str, Any], claims_yaml: Path, scores_csv: Path, out_d
     header = ["Claim", "Printed in", "Paper", "Ours", "", "Holds if", "Verdict"]
     lines = [claim_line(verdict) for verdict in verdicts]
     write_rows(out_dir / "claims.csv", Verdict, verdicts)
-    columns = r"p{.33\linewidth}p{.15\linewidth}rrrll"
+    columns = r">{\raggedright\arraybackslash}p{.33\linewidth}>{\raggedright\arraybackslash}p{.15\linewidth}rrrll"
     write_text(out_dir / "claims.tex", tex_table(columns, header, [list(map(tex_escape, line)) for line in lines]))
     write_text(out_dir / "claims.md", markdown_table(header, lines, left=len(header)))
     for verdict in verdicts:

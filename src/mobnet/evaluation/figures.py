@@ -31,7 +31,7 @@ STYLE: dict[Any, Any] = {
     "savefig.dpi": 200,
 }
 COLUMN_INCH = 3.4  # width of one column of the paper
-PANEL_INCH = 1.25
+PANEL_INCH = 1.1
 
 
 @dataclass(frozen=True)
@@ -81,8 +81,8 @@ def draw_panel(axis: Axes, panel: Panel) -> None:
         panel.time, 0.0, 1.0, where=panel.swing.astype(bool), transform=axis.get_xaxis_transform(),
         color=COLOURS["swing"], alpha=0.15, linewidth=0.0, label="swing",
     )  # fmt: skip
+    axis.plot(panel.time, panel.truth, color=COLOURS["truth"], linestyle=":", linewidth=1.1, label="truth", zorder=3)
     axis.plot(panel.time, panel.estimate, color=COLOURS.get(panel.method, OTHER), label=panel.method)
-    axis.plot(panel.time, panel.truth, color=COLOURS["truth"], linestyle=":", linewidth=1.1, label="truth")
 
 
 def legend(figure: Figure, axes: Sequence[Axes]) -> None:

@@ -1,8 +1,8 @@
 """Intervals over runs: networks and test recordings are drawn again, each on its own.
 
 Runs are a grid, every network seed on every test recording, so they are not independent. Drawing the rows and the
-columns of the grid anew (the crossed or pigeonhole bootstrap, Owen 2007, doi:10.1214/07-AOAS122) respects that; drawing single
-runs would give intervals that are too narrow.
+columns of the grid anew respects that (the crossed or pigeonhole bootstrap, Owen 2007, doi:10.1214/07-AOAS122);
+drawing single runs would give intervals that are too narrow.
 """
 
 from __future__ import annotations

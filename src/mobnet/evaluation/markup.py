@@ -6,16 +6,18 @@ from collections.abc import Sequence
 
 TEX_SPECIAL = {
     "\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "$": r"\$", "#": r"\#", "_": r"\_", "{": r"\{", "}": r"\}",
-    "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "<": r"\textless{}", ">": r"\textgreater{}", "|": r"\textbar{}",
+    "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "<": r"\textless{}", ">": r"\textgreater{}",
+    "|": r"\textbar{}",
 }  # fmt: skip
 RULE = r"\midrule"
+GAP = r"\addlinespace"
 
-Line = Sequence[str] | str  # cells of a row, or a rule between rows
+Line = Sequence[str] | str  # cells of a row, or a rule or a gap between rows
 
 
 def tex_escape(text: str) -> str:
-    """Return plain text with TeX's special characters escaped."""
-    return "".join(TEX_SPECIAL.get(character, character) for character in text)
+    """Return plain text with TeX's special characters escaped and N m kept together."""
+    return "".join(TEX_SPECIAL.get(character, character) for character in text).replace(" N m", r"~N\,m")
 
 
 def tex_table(columns: str, header: Sequence[str], lines: Sequence[Line]) -> str:
@@ -24,7 +26,7 @@ def tex_table(columns: str, header: Sequence[str], lines: Sequence[Line]) -> str
     Args:
         columns: TeX column specification.
         header: TeX of the header cells.
-        lines: rows of TeX cells, or `RULE`.
+        lines: rows of TeX cells, `RULE` or `GAP`.
     """
     body = [line if isinstance(line, str) else tex_row(line) for line in lines]
     parts = [rf"\begin{{tabular}}{{{columns}}}", r"\toprule", tex_row(header), RULE, *body, r"\bottomrule"]
@@ -37,11 +39,11 @@ def tex_row(cells: Sequence[str]) -> str:
 
 
 def markdown_table(header: Sequence[str], lines: Sequence[Line], left: int = 1) -> str:
-    """Return a Markdown table; rules between rows are left out.
+    """Return a Markdown table; rules and gaps between rows are left out.
 
     Args:
         header: header cells.
-        lines: rows of cells, or `RULE`.
+        lines: rows of cells, `RULE` or `GAP`.
         left: columns set flush left; the others hold numbers and are set flush right.
     """
     marks = ["---"] * left + ["---:"] * (len(header) - left)

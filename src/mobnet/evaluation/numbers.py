@@ -21,6 +21,7 @@ LOOKUP = r"""% Written by mobnet.evaluation.numbers; do not edit.
 \newcommand{\size}[1]{\lookup{size@#1}}
 """
 MINUTE_S = 60.0
+MILLION = 1e6
 
 
 def numbers(config: Mapping[str, Any], table_csv: Path, claims_csv: Path, out_tex: Path) -> None:
@@ -56,13 +57,13 @@ def tex_definition(item: tuple[str, str]) -> str:
 
 
 def size_texts(config: Mapping[str, Any]) -> dict[str, str]:
-    """Return the sizes of the chosen scale as texts: training and test minutes [min], epochs, seeds, scale."""
+    """Return the sizes of the chosen scale as texts: minutes [min], million samples, epochs, seeds."""
     sizes = config["sizes"]
     train, test = sizes["train"], sizes["test"]
     return {
         "scale": tex_escape(config["scale"]),
         "train minutes": f"{train['shards'] * train['shard_s'] / MINUTE_S:g}",
-        "train samples": f"{train['shards'] * train['shard_s'] * config['rates']['data_hz']:.3g}",
+        "train samples": f"{train['shards'] * train['shard_s'] * config['rates']['data_hz'] / MILLION:.2g}",
         "test runs": str(test["shards"]),
         "test seconds": f"{test['shard_s']:g}",
         "network runs": str(len(sizes["network_seeds"])),

@@ -88,7 +88,7 @@ def _field(value: Any) -> str:
     """Return a value as a CSV field."""
     if value is None:
         return ""
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+    return f"{value + 0.0:.6g}" if isinstance(value, float) else str(value)  # + 0.0 drops the sign of -0
 
 
 def write_rows(path: Path, kind: type[Row], rows: Iterable[Row]) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 
 from mobnet.core.store import write_text
 from mobnet.evaluation.intervals import summarise
-from mobnet.evaluation.markup import RULE, Line, markdown_table, number, span, tex_escape, tex_table
+from mobnet.evaluation.markup import GAP, RULE, Line, markdown_table, number, span, tex_escape, tex_table
 from mobnet.evaluation.published import published_value, read_published
 from mobnet.evaluation.rows import Cell, Score, read_rows, write_rows
 from mobnet.evaluation.runs import Wanted, run_grid, unit_of
@@ -87,8 +87,8 @@ def _lines(cells: Sequence[Cell], entry: Mapping[str, Any], confidence: float) -
     for level, method in dict.fromkeys((cell.level, cell.method) for cell in cells):
         row = [cell for cell in cells if (cell.level, cell.method) == (level, method)]
         first = level not in seen
-        if first and seen:
-            lines.append(RULE)
+        if seen:
+            lines.append(RULE if first else GAP)
         over = _floor(cells, entry) if entry["floor"]["level"] in seen and level != entry["floor"]["level"] else None
         seen.append(level)
         lines.append([entry["labels"].get(level, level) if first else "", method, "ours", *_values(row, over, "value")])
