@@ -1,6 +1,6 @@
 """Terms of the equation of motion (1), M vdot + C v + g = tau_v + tau_e, from the nominal model.
 
-Positions are recordings' (quaternion w x y z); torques are [N] for V1..V3 and [N m] otherwise, axes as in `JointLayout`.
+Positions have a w x y z quaternion. Torques are [N] for V1..V3 and [N m] for the others, axes as `JointLayout` says.
 """
 
 from __future__ import annotations

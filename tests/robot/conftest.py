@@ -1,0 +1,71 @@
+"""The robot, its two models and random states."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from mobnet.robot.description import RobotDescription, load_robot
+from mobnet.robot.nominal import NominalModel
+from mobnet.robot.plant import SOLE_TYPE, TERRAIN_TYPE, robot_spec
+
+TABLE = Path(__file__).parents[2] / "configs" / "robots" / "tocabi.yaml"
+Array = NDArray[np.float64]
+TIME_STEP_S = 0.0005
+STIFFNESS, DAMPING = 12.0, 0.25  # per N m of torque limit, 1/rad and s/rad
+PUSH = np.array([10.0, 5.0, 3.0])  # on the left sole [N]
+
+
+@pytest.fixture(scope="session")
+def robot() -> RobotDescription:
+    return load_robot(TABLE)
+
+
+@pytest.fixture(scope="session")
+def nominal(robot: RobotDescription) -> NominalModel:
+    return NominalModel(robot)
+
+
+@pytest.fixture(scope="session")
+def plant(robot: RobotDescription) -> mujoco.MjModel:
+    return robot_spec(robot).compile()
+
+
+@pytest.fixture
+def random_state(robot: RobotDescription) -> Callable[[int], tuple[Array, Array]]:
+    """A function seed -> position (nq,), velocity (nv,)."""
+
+    def draw(seed: int) -> tuple[Array, Array]:
+        rng = np.random.default_rng(seed)
+        q = rng.normal(size=robot.layout.nq)
+        q[3:7] /= np.linalg.norm(q[3:7])
+        return q, rng.normal(size=robot.layout.nv)
+
+    return draw
+
+
+@pytest.fixture
+def standing(robot: RobotDescription) -> Callable[[int], Iterator[tuple[mujoco.MjModel, mujoco.MjData, Array]]]:
+    """A function steps -> iterator over model, data and the position (nq,) before the step, of a robot held upright."""
+    spec = robot_spec(robot)
+    plane = mujoco.mjtGeom.mjGEOM_PLANE
+    spec.worldbody.add_geom(type=plane, size=[5, 5, 1], contype=TERRAIN_TYPE, conaffinity=SOLE_TYPE)
+    spec.option.timestep = TIME_STEP_S
+    model = spec.compile()
+
+    def simulate(steps: int) -> Iterator[tuple[mujoco.MjModel, mujoco.MjData, Array]]:
+        data = mujoco.MjData(model)
+        data.qpos[2] = robot.link_length * 2 - robot.hip_pos[2] - robot.sole_height
+        for _ in range(steps):
+            before = data.qpos.copy()
+            data.ctrl[:] = -robot.torque_limits * (STIFFNESS * data.qpos[7:] + DAMPING * data.qvel[6:])
+            data.body("left_sole").xfrc_applied[:3] = PUSH
+            mujoco.mj_step(model, data)
+            yield model, data, before
+
+    return simulate

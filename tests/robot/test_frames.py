@@ -1,0 +1,42 @@
+"""The one conversion: there and back is nothing, and both models put the base the same way round."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import mujoco
+import numpy as np
+import pinocchio as pin
+
+from mobnet.robot.frames import from_pinocchio, rotation, to_pinocchio
+from mobnet.robot.nominal import NominalModel
+
+
+def test_round_trip_is_the_identity_over_a_batch(random_state: Callable) -> None:
+    q = np.stack([random_state(seed)[0] for seed in range(4)])
+    np.testing.assert_allclose(from_pinocchio(to_pinocchio(q)), q, atol=1e-15)
+
+
+def test_conversion_leaves_its_argument_alone_and_normalises(random_state: Callable) -> None:
+    q, _ = random_state(0)
+    longer = q.copy()
+    longer[3:7] *= 1.01
+    before = longer.copy()
+    np.testing.assert_allclose(to_pinocchio(longer), to_pinocchio(q), atol=1e-15)
+    np.testing.assert_array_equal(longer, before)
+
+
+def test_rotation_matches_both_libraries(nominal: NominalModel, random_state: Callable) -> None:
+    q, _ = random_state(1)
+    matrix = np.empty(9)
+    mujoco.mju_quat2Mat(matrix, q[3:7])
+    pin.forwardKinematics(nominal.model, nominal.data, to_pinocchio(q))
+    np.testing.assert_allclose(rotation(q[3:7]), matrix.reshape(3, 3), atol=1e-14)
+    np.testing.assert_allclose(rotation(q[3:7]), nominal.data.oMi[2].rotation, atol=1e-14)
+
+
+def test_rotation_of_a_batch_is_orthonormal(random_state: Callable) -> None:
+    quats = np.stack([random_state(seed)[0][3:7] for seed in range(5)])
+    matrices = rotation(quats)
+    identity = np.broadcast_to(np.eye(3), matrices.shape)
+    np.testing.assert_allclose(matrices @ matrices.transpose(0, 2, 1), identity, atol=1e-14)

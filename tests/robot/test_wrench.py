@@ -1,0 +1,72 @@
+"""J^T F of (2) against MuJoCo, against power, and against the contact solver of a standing robot."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import mujoco
+import numpy as np
+import pytest
+
+from mobnet.core.errors import ConfigError
+from mobnet.robot.description import SIDES
+from mobnet.robot.nominal import NominalModel
+from mobnet.robot.plant import sole_name
+from mobnet.robot.wrench import feet_torque, foot_jacobian, foot_torque
+
+WRENCH = np.array([10.0, -20.0, 300.0, 4.0, -5.0, 6.0])
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_torque_of_a_foot_equals_the_plant_s(
+    nominal: NominalModel, plant: mujoco.MjModel, random_state: Callable, side: str
+) -> None:
+    q, _ = random_state(0)
+    data = mujoco.MjData(plant)
+    data.qpos[:] = q
+    mujoco.mj_forward(plant, data)
+    site = data.site(sole_name(side))
+    axes, expected = site.xmat.reshape(3, 3), np.zeros(plant.nv)
+    body = plant.body(sole_name(side)).id
+    mujoco.mj_applyFT(plant, data, axes @ WRENCH[:3], axes @ WRENCH[3:], site.xpos, body, expected)
+    np.testing.assert_allclose(foot_torque(nominal, q, side, WRENCH), expected, atol=1e-9)
+
+
+def test_power_of_the_wrench_is_power_of_the_torque(nominal: NominalModel, random_state: Callable) -> None:
+    q, v = random_state(1)
+    twist = foot_jacobian(nominal, q, "left") @ v
+    assert foot_torque(nominal, q, "left", WRENCH) @ v == pytest.approx(WRENCH @ twist, rel=1e-12)
+
+
+def test_sum_over_feet_keeps_each_leg_to_itself(nominal: NominalModel, random_state: Callable) -> None:
+    q = np.stack([random_state(seed)[0] for seed in range(3)])
+    wrenches = {side: np.tile(WRENCH, (3, 1)) for side in SIDES}
+    layout = nominal.robot.layout
+    total = feet_torque(nominal, q, wrenches)
+    left = foot_torque(nominal, q, "left", wrenches["left"])
+    np.testing.assert_allclose(total[:, layout.columns(layout.limb("LL"))], left[:, layout.columns(layout.limb("LL"))])
+    assert not left[:, layout.columns(layout.limb("RL"))].any()
+    assert not total[:, layout.columns(layout.limb("W"))].any()
+
+
+def test_unknown_side_is_named(nominal: NominalModel, random_state: Callable) -> None:
+    with pytest.raises(ConfigError, match="'tail' is not accepted"):
+        foot_torque(nominal, random_state(0)[0], "tail", WRENCH)
+
+
+@pytest.mark.sim
+def test_sensor_wrenches_give_the_contact_solver_s_torque_and_the_weight(
+    nominal: NominalModel, standing: Callable
+) -> None:
+    lift = []
+    for _, data, q in standing(600):
+        reading = {
+            side: -np.concatenate([data.sensor(f"{side}_foot_{part}").data for part in ("force", "torque")])
+            for side in SIDES
+        }
+        torque = feet_torque(nominal, q, reading)
+        push = torque - data.qfrc_constraint  # soles on the ground are the only constraints
+        np.testing.assert_allclose(push[:3], data.body("left_sole").xfrc_applied[:3], atol=1e-8)
+        np.testing.assert_allclose(push[12:], 0, atol=1e-8)
+        lift.append(torque[2])
+    assert np.mean(lift[-200:]) == pytest.approx(nominal.robot.mass * 9.81, rel=0.05)
