@@ -1,0 +1,47 @@
+"""The interface between those who estimate an external torque and those who use it, batch or in a closed loop."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from numpy.typing import NDArray
+
+from mobnet.core.recording import Sensed
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """Estimated external torque of an estimator's joints, of one sample (n,) or of a recording (T, n).
+
+    Attributes:
+        tau_ext: mean of the external torque (..., n) [N, N m], tau_e of (15).
+        std: its standard deviation (..., n) [N, N m], sigma_u of (18); None from a method that has none.
+    """
+
+    tau_ext: NDArray[Any]
+    std: NDArray[Any] | None = None
+
+
+class Estimator(Protocol):
+    """A way to estimate the external torque from proprioception alone; its state is explicit.
+
+    `step` from `init` on, sample by sample, gives what `estimate` gives for the whole recording.
+    """
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Names of the estimated joints, (n,)."""
+        ...
+
+    def init(self) -> Any:
+        """Return the state before the first sample."""
+        ...
+
+    def step(self, state: Any, sample: Sensed) -> tuple[Any, Estimate]:
+        """Return the state after a sample (1-D arrays) and its estimate, arrays (n,) [N, N m]."""
+        ...
+
+    def estimate(self, sensed: Sensed) -> Estimate:
+        """Return the estimate of one contiguous recording, arrays (T, n) [N, N m], from a fresh state."""
+        ...

@@ -1,0 +1,38 @@
+"""External torque straight from networks trained on it: FTS-e2e, the end-to-end rival of section 5.1."""
+
+from __future__ import annotations
+
+from mobnet.core.estimator import Estimate
+from mobnet.core.recording import Sensed
+from mobnet.learning.limbs import LimbNetworks, State
+
+
+class DirectEstimator:
+    """tau_e as limb networks predict it, without an observer; inputs and networks of Table 1.
+
+    Attributes:
+        joints: names of the networks' joints, (n,).
+    """
+
+    def __init__(self, networks: LimbNetworks) -> None:
+        """Take networks trained on the external torque.
+
+        Args:
+            networks: one per limb.
+        """
+        self.joints = networks.joints
+        self._networks = networks
+
+    def init(self) -> State:
+        """Return the state before the first sample, (hidden,) of each network."""
+        return self._networks.init()
+
+    def step(self, state: State, sample: Sensed) -> tuple[State, Estimate]:
+        """Take one sample (1-D arrays); return the new state and tau_e, (n,) [N, N m]."""
+        state, prediction = self._networks.step(state, sample)
+        return state, Estimate(prediction.mean, prediction.std)
+
+    def estimate(self, sensed: Sensed) -> Estimate:
+        """Return tau_e of one contiguous recording, (T, n) [N, N m], from a fresh state."""
+        prediction = self._networks.run(sensed)
+        return Estimate(prediction.mean, prediction.std)

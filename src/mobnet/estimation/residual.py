@@ -1,0 +1,78 @@
+"""External torque as what a model of the uncertainty leaves of the residual, eq. (15)."""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.estimator import Estimate
+from mobnet.core.recording import Sensed
+from mobnet.estimation.observer import MomentumObserver, ObserverState
+from mobnet.learning.networks import Prediction
+
+State = tuple[ObserverState, Any]  # of the observer and of the uncertainty model
+
+
+class UncertaintyModel(Protocol):
+    """Predicts the filtered uncertainty torque of some joints: limb networks, a friction regression."""
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Names of its joints, (n,)."""
+        ...
+
+    def init(self) -> Any:
+        """Return the state before the first sample."""
+        ...
+
+    def step(self, state: Any, sample: Sensed) -> tuple[Any, Prediction]:
+        """Take one sample (1-D arrays); return the new state and the prediction (n,) [N, N m]."""
+        ...
+
+    def run(self, sensed: Sensed) -> Prediction:
+        """Run over one contiguous recording from a fresh state; return the prediction (T, n) [N, N m]."""
+        ...
+
+
+class ResidualEstimator:
+    """tau_e = r - tau_u of eq. (15): MOB without an uncertainty model, MOB-Net with limb networks.
+
+    Attributes:
+        joints: names of the estimated joints, (n,): the uncertainty model's, or all of the robot's without one.
+    """
+
+    def __init__(self, observer: MomentumObserver, uncertainty: UncertaintyModel | None = None) -> None:
+        """Join an observer and a model of what it cannot know.
+
+        Args:
+            observer: momentum observer of the nominal model.
+            uncertainty: predicts the uncertainty torque; None for MOB.
+        """
+        layout = observer.nominal.robot.layout
+        self.joints = layout.names if uncertainty is None else uncertainty.joints
+        self._observer, self._uncertainty = observer, uncertainty
+        self._columns = layout.columns(self.joints)
+
+    def init(self) -> State:
+        """Return the state before the first sample."""
+        return self._observer.init(), self._uncertainty.init() if self._uncertainty else None
+
+    def step(self, state: State, sample: Sensed) -> tuple[State, Estimate]:
+        """Take one sample (1-D arrays); return the new state and tau_e, (n,) [N, N m]."""
+        observed, residual = self._observer.step(state[0], sample)
+        if self._uncertainty is None:
+            return (observed, None), self._estimate(residual)
+        modelled, prediction = self._uncertainty.step(state[1], sample)
+        return (observed, modelled), self._estimate(residual, prediction)
+
+    def estimate(self, sensed: Sensed) -> Estimate:
+        """Return tau_e of one contiguous recording, (T, n) [N, N m], from a fresh state."""
+        residual = self._observer.residual(sensed)
+        return self._estimate(residual, self._uncertainty.run(sensed) if self._uncertainty else None)
+
+    def _estimate(self, residual: NDArray[np.float64], prediction: Prediction | None = None) -> Estimate:
+        """Return eq. (15) for the estimated joints, (..., n) [N, N m]."""
+        tau = residual[..., self._columns]
+        return Estimate(tau) if prediction is None else Estimate(tau - prediction.mean, prediction.std)

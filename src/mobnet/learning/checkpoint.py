@@ -1,0 +1,114 @@
+"""What a training is at the end of an epoch, in one file, so that a killed run goes on to the same result.
+
+One safetensors file holds tensors and, as its note, the numbers: a file is either whole or absent. Every random draw
+of an epoch comes from a generator seeded by seed and epoch, so there is no generator state to keep.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import torch
+from safetensors import SafetensorError, safe_open
+from safetensors.torch import save_file
+from torch import Tensor, nn
+
+from mobnet.core.store import atomic_path
+
+CHECKPOINT = "checkpoint.safetensors"
+Row = Mapping[str, float]  # one epoch's line of metrics.csv
+
+log = logging.getLogger(__name__)
+
+
+@dataclass
+class Progress:
+    """How far a training has come.
+
+    Attributes:
+        rows: metrics of the finished epochs.
+        best: weights at the epoch of the smallest validation loss.
+        seconds: time spent so far [s], over all its starts.
+    """
+
+    rows: list[Row] = field(default_factory=list)
+    best: dict[str, Tensor] = field(default_factory=dict)
+    seconds: float = 0.0
+
+    @property
+    def epoch(self) -> int:
+        """Number of finished epochs."""
+        return len(self.rows)
+
+    def best_row(self) -> Row:
+        """Return the metrics of the epoch with the smallest validation loss, the first of equals."""
+        return min(self.rows, key=lambda row: row["validation_loss"])
+
+
+def copy_weights(network: nn.Module) -> dict[str, Tensor]:
+    """Return a copy of a network's weights, on the CPU."""
+    return {name: tensor.detach().cpu().clone() for name, tensor in network.state_dict().items()}
+
+
+def save(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.optim.Optimizer, done: Progress) -> None:
+    """Write a checkpoint atomically.
+
+    Args:
+        path: where to.
+        fingerprint: hash of all that the result depends on.
+        network: weights as they are after the last epoch.
+        optimizer: its state per parameter.
+        done: metrics and best weights so far.
+    """
+    tensors = {f"last.{name}": tensor for name, tensor in copy_weights(network).items()}
+    tensors |= {f"best.{name}": tensor for name, tensor in done.best.items()}
+    for index, state in optimizer.state_dict()["state"].items():
+        tensors |= {f"optimizer.{index}.{key}": value.detach().cpu().clone() for key, value in state.items()}
+    note = {"fingerprint": fingerprint, "rows": [dict(row) for row in done.rows], "seconds": done.seconds}
+    with atomic_path(path) as temporary:
+        save_file(tensors, temporary, {"note": json.dumps(note)})
+
+
+def resume(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.optim.Optimizer) -> Progress:
+    """Load a checkpoint of the same run into network and optimizer; say why if it cannot be used.
+
+    Args:
+        path: checkpoint file; absent means a fresh start.
+        fingerprint: hash of all that the result depends on.
+        network: takes the weights.
+        optimizer: takes its state.
+
+    Returns:
+        How far the training has come; empty for a fresh start.
+    """
+    if not path.exists():
+        return Progress()
+    try:
+        with safe_open(path, framework="pt") as file:
+            note = json.loads((file.metadata() or {}).get("note", "{}"))
+            tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118, not a dict
+    except SafetensorError as error:
+        log.warning("%s: damaged (%s); starting afresh", path, error)
+        return Progress()
+    if note.get("fingerprint") != fingerprint:
+        log.warning("%s: belongs to another configuration, data or code (%s, here %s); starting afresh", path,
+                    note.get("fingerprint"), fingerprint)  # fmt: skip
+        return Progress()
+    network.load_state_dict(_below("last.", tensors))
+    state: dict[int, dict[str, Tensor]] = {}
+    for name, tensor in _below("optimizer.", tensors).items():
+        index, key = name.split(".")
+        state.setdefault(int(index), {})[key] = tensor
+    optimizer.load_state_dict({**optimizer.state_dict(), "state": state})
+    done = Progress(note["rows"], _below("best.", tensors), note["seconds"])
+    log.info("%s: resuming after epoch %d", path, done.epoch)
+    return done
+
+
+def _below(prefix: str, tensors: Mapping[str, Tensor]) -> dict[str, Tensor]:
+    """Return the entries whose names start with a prefix, without it."""
+    return {name.removeprefix(prefix): tensor for name, tensor in tensors.items() if name.startswith(prefix)}

@@ -1,0 +1,142 @@
+"""Training data of one limb: inputs and target of Table 1 from recordings and their residuals, z-scored."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.errors import ConfigError, DataError, not_accepted
+from mobnet.core.joints import JointLayout
+from mobnet.core.store import read_array, read_recording
+from mobnet.learning.features import LimbInputs, limb_inputs
+from mobnet.learning.streams import Span
+
+TARGETS = ("uncertainty", "external")  # r - tau_e of section 4.2.3, and tau_e of the end-to-end rival
+CONSTANT = 1e-9  # [-] an input that moves less than this share of its mean counts as constant
+
+
+@dataclass(frozen=True)
+class Scale:
+    """Mean and standard deviation of each column, (n,), in the columns' units; z = (x - mean) / std."""
+
+    mean: NDArray[np.float32]
+    std: NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class LimbData:
+    """All training samples of a limb, recordings laid end to end.
+
+    Attributes:
+        inputs: x^g of eq. (17), (N, n_in), in physical units.
+        targets: torque to learn (N, n) [N, N m].
+        segments: contiguous stretches (start, end) of rows.
+        input_names: names of the inputs, (n_in,).
+        joints: names of the limb's joints, (n,).
+        rate_hz: samples per second [Hz].
+    """
+
+    inputs: NDArray[np.float32]
+    targets: NDArray[np.float32]
+    segments: tuple[Span, ...]
+    input_names: tuple[str, ...]
+    joints: tuple[str, ...]
+    rate_hz: float
+
+    def digest(self) -> str:
+        """Return a hash of every number of the data."""
+        digest = hashlib.sha256(repr((self.segments, self.input_names, self.joints, self.rate_hz)).encode())
+        for array in (self.inputs, self.targets):
+            digest.update(memoryview(np.ascontiguousarray(array)).cast("B"))
+        return digest.hexdigest()
+
+
+def load_limb_data(
+    layout: JointLayout,
+    row: Mapping[str, Any],
+    limb: str,
+    target: str,
+    recording_stems: Sequence[Path],
+    residual_stems: Sequence[Path],
+) -> LimbData:
+    """Read recordings and residuals of one limb into RAM, inputs (N, n_in) and target torques (N, n) [N, N m].
+
+    Args:
+        layout: the robot's joints.
+        row: the limb's row of Table 1.
+        limb: name of the limb.
+        target: `uncertainty`, r - tau_e of section 4.2.3, or `external`, tau_e, both low-passed alike.
+        recording_stems: recordings.
+        residual_stems: residual file of each recording, in the same order.
+
+    Raises:
+        ConfigError: the limb or the target is not known.
+        DataError: a file is damaged, or a residual does not belong to its recording.
+    """
+    inputs, joints = limb_inputs(layout, row), layout.limb(limb)
+    parts: list[tuple[NDArray[np.float32], NDArray[np.float32]]] = []
+    segments: list[Span] = []
+    rates: set[float] = set()
+    for recording_stem, residual_stem in zip(recording_stems, residual_stems, strict=True):
+        offset = sum(len(x) for x, _ in parts)
+        x, y, spans, rate_hz = _load_one(layout, inputs, joints, target, recording_stem, residual_stem)
+        parts.append((x, y))
+        segments += [(offset + start, offset + end) for start, end in spans]
+        rates.add(rate_hz)
+    if len(rates) != 1:
+        raise DataError(f"recordings at {sorted(rates)} Hz cannot be mixed; accepted: one or more at a single rate")
+    xs, ys = (np.concatenate(column) for column in zip(*parts, strict=True))
+    return LimbData(xs, ys, tuple(segments), inputs.names, joints, rates.pop())
+
+
+def _load_one(
+    layout: JointLayout, inputs: LimbInputs, joints: Sequence[str], target: str, recording_stem: Path, residual_stem: Path
+) -> tuple[NDArray[np.float32], NDArray[np.float32], tuple[Span, ...], float]:
+    """Return inputs, targets, segments and rate of one recording."""
+    recording = read_recording(recording_stem, layout)
+    torque = read_target(residual_stem, joints, target)
+    if len(torque) != len(recording.sensed):
+        raise DataError(
+            f"{residual_stem}.npy: {len(torque)} rows, but its recording {recording_stem}.npy has "
+            f"{len(recording.sensed)}"
+        )
+    return inputs(recording.sensed), torque, recording.segments, recording.rate_hz
+
+
+def read_target(residual_stem: Path, joints: Sequence[str], target: str) -> NDArray[np.float32]:
+    """Return the torque to learn of some joints, (T, n) [N, N m], from a residual file.
+
+    Raises:
+        ConfigError: the target is not known.
+        DataError: the file is damaged or a column is missing.
+    """
+    if target not in TARGETS:
+        raise ConfigError(not_accepted("target", target, TARGETS))
+    array, meta = read_array(residual_stem)
+    where = {column["name"]: i for i, column in enumerate(meta["columns"])}
+    wanted = {signal: [f"{signal}.{joint}" for joint in joints] for signal in ("r", "tau_ext_lp")}
+    missing = [name for names in wanted.values() for name in names if name not in where]
+    if missing:
+        held = ", ".join(list(where)[:3])
+        raise DataError(f"{residual_stem}.json: column {missing[0]!r} is missing; it holds {held}, ...")
+    residual, external = (np.asarray(array[:, [where[n] for n in names]]) for names in wanted.values())
+    return residual - external if target == "uncertainty" else external
+
+
+def scale_of(array: NDArray[np.float32], spans: Sequence[Span]) -> Scale:
+    """Return mean and standard deviation of the columns of an array (N, n) over some spans of its rows.
+
+    A constant column, such as a joint that a scenario holds still, gets the standard deviation 1.
+    """
+    count = sum(end - start for start, end in spans)
+    mean = np.sum([array[a:b].sum(axis=0, dtype=np.float64) for a, b in spans], axis=0) / count
+    square = np.sum([np.square(array[a:b] - mean).sum(axis=0) for a, b in spans], axis=0) / count
+    std = np.sqrt(square)
+    std[std <= CONSTANT * np.maximum(1.0, np.abs(mean))] = 1.0
+    return Scale(mean.astype(np.float32), std.astype(np.float32))

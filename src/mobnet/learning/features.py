@@ -1,0 +1,89 @@
+"""Inputs of the limb networks, eq. (17) and Table 1."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
+from mobnet.core.recording import Sensed
+from mobnet.robot.frames import QUATERNION, rotation
+
+OMEGA = slice(3, N_VIRTUAL)  # of the generalized velocity, base axes
+BASE_NAMES = (
+    *(f"R.{row}{column}" for column in (1, 2) for row in (1, 2, 3)),
+    *(f"{signal}.{axis}" for signal in ("omega", "acc") for axis in "xyz"),
+)
+
+
+@dataclass(frozen=True)
+class LimbInputs:
+    """Which signals one limb network sees, in the order of its row of Table 1.
+
+    Attributes:
+        names: name of each input, (n_in,): q^g [rad] and v^g [rad/s] of each limb in `Q`, tau_d^g [N m] of each limb
+            in `T`, then U^V: two columns of the pelvis rotation [-], its angular velocity [rad/s] and its linear
+            acceleration as the IMU reads it [m/s^2], both in pelvis axes.
+        columns: where they stand in `signals`, (n_in,).
+    """
+
+    names: tuple[str, ...]
+    columns: NDArray[np.intp]
+
+    def __call__(self, sensed: Sensed) -> NDArray[np.float32]:
+        """Return the inputs x^g of eq. (17), (T, n_in), or (n_in,) for one sample."""
+        return signals(sensed)[..., self.columns]
+
+
+def signals(sensed: Sensed) -> NDArray[np.float32]:
+    """Return all that any limb network may see, in float32: the one place where physics turns into network numbers.
+
+    Args:
+        sensed: a recording or one sample.
+
+    Returns:
+        Columns of `signal_names`, (T, 3 nu + 12), or (3 nu + 12,) for one sample; units of `LimbInputs`.
+    """
+    first_columns = rotation(sensed.q[..., QUATERNION])[..., :2]
+    parts = [
+        sensed.q[..., NQ_BASE:],
+        sensed.v[..., N_VIRTUAL:],
+        sensed.tau_des,
+        np.swapaxes(first_columns, -1, -2).reshape(*first_columns.shape[:-2], -1),
+        sensed.v[..., OMEGA],
+        sensed.acc_base_in_base,
+    ]
+    return np.concatenate(parts, axis=-1, dtype=np.float32, casting="same_kind")
+
+
+def signal_names(layout: JointLayout) -> tuple[str, ...]:
+    """Return the names of the columns of `signals`, (3 nu + 12,)."""
+    return (*(f"{signal}.{j}" for signal in ("q", "v", "tau_des") for j in layout.actuated), *BASE_NAMES)
+
+
+def limb_inputs(layout: JointLayout, row: Mapping[str, Any]) -> LimbInputs:
+    """Build the inputs of a row of Table 1 from its limbs `Q` and `T`; the width of x^g is (n_in,).
+
+    Raises:
+        ConfigError: a limb is unknown, or is the virtual one, which has no encoders or motors.
+    """
+    encoders = [_actuated(layout, limb) for limb in row["Q"]]
+    names = [f"{signal}.{joint}" for joints in encoders for signal in ("q", "v") for joint in joints]
+    names += [f"tau_des.{joint}" for limb in row["T"] for joint in _actuated(layout, limb)]
+    names += BASE_NAMES
+    where = {name: i for i, name in enumerate(signal_names(layout))}
+    return LimbInputs(tuple(names), np.array([where[name] for name in names], dtype=np.intp))
+
+
+def _actuated(layout: JointLayout, limb: str) -> Sequence[str]:
+    """Return the joints of a limb that has motors."""
+    joints = layout.limb(limb)
+    if set(joints) & set(layout.virtual):
+        accepted = [name for name, group in layout.groups.items() if not set(group) & set(layout.virtual)]
+        raise ConfigError(not_accepted("limb of a network's Q or T", limb, accepted))
+    return joints

@@ -1,0 +1,88 @@
+"""One training, with every number it depends on."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+
+from mobnet.core.config import config_hash
+from mobnet.core.errors import ConfigError, not_accepted
+
+
+@dataclass(frozen=True)
+class Job:
+    """One training.
+
+    Attributes:
+        method: row of the configuration's methods.
+        limb: limb group, g of (17).
+        seed: number of the repetition.
+        root_seed: root of every random number.
+        target: what is learned, `uncertainty` or `external`.
+        row: the limb's row of Table 1.
+        settings: section `learning` of the configuration, the scale's sizes laid over it.
+        epochs: number of epochs.
+    """
+
+    method: str
+    limb: str
+    seed: int
+    root_seed: int
+    target: str
+    row: Mapping[str, Any]
+    settings: Mapping[str, Any]
+    epochs: int
+
+    @property
+    def name(self) -> str:
+        """Experiment and seed, such as `MOB-Net-LL-s0`."""
+        return f"{self.method}-{self.limb}-s{self.seed}"
+
+    @property
+    def horizon(self) -> int:
+        """Steps of truncated back-propagation [samples], last column of Table 1."""
+        return self.row["horizon_steps"]
+
+    def stream(self, rate_hz: float) -> int:
+        """Return the length of a stream in whole horizons [samples] at a sampling rate [Hz]."""
+        return max(1, round(self.settings["stream_s"] * rate_hz / self.horizon)) * self.horizon
+
+    def generator(self, *purpose: int | str) -> np.random.Generator:
+        """Return the random numbers of a purpose, such as an epoch's; independent of all others."""
+        words = hashlib.sha256(repr((self.root_seed, self.name, *purpose)).encode()).digest()
+        return np.random.default_rng(list(words))
+
+    def rate(self, epoch: int) -> float:
+        """Return the learning rate of an epoch: linear to its last value, then constant (section 4.4); unitless."""
+        passed = min(1.0, epoch / max(1.0, self.settings["rate_decay_share"] * self.epochs))
+        return self.settings["rate_first"] * (1.0 - (1.0 - self.settings["rate_last_ratio"]) * passed)
+
+    def fingerprint(self, data_digest: str, device: torch.device) -> str:
+        """Return a hash of all that the weights depend on: numbers, data, this package's code, torch, device."""
+        code = [path.read_text(encoding="utf-8") for path in sorted(Path(__file__).parent.glob("*.py"))]
+        return config_hash({**asdict(self), "data": data_digest, "code": code, "torch": torch.__version__,
+                            "device": device.type})  # fmt: skip
+
+
+def job_of(config: Mapping[str, Any], method: str, limb: str, seed: int) -> Job:
+    """Gather what a training depends on.
+
+    Raises:
+        ConfigError: the method or the limb is unknown, or the method learns nothing.
+    """
+    learned = {name: row for name, row in config["methods"].items() if "target" in row}
+    if method not in learned:
+        raise ConfigError(not_accepted("method to train", method, learned))
+    if limb not in config["networks"]:
+        raise ConfigError(not_accepted("limb to train", limb, config["networks"]))
+    sizes = config["sizes"]
+    settings = dict(config["learning"])
+    settings |= {key: sizes[key] for key in ("batch_size", "stream_s") if key in sizes}
+    row = config["networks"][limb]
+    return Job(method, limb, seed, config["seed"], learned[method]["target"], row, settings, sizes["epochs"])

@@ -1,0 +1,97 @@
+"""Several limb networks run as one: section 4.1's six independent networks, outputs concatenated."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.errors import DataError
+from mobnet.core.joints import JointLayout
+from mobnet.core.recording import Sensed
+from mobnet.learning.features import signal_names, signals
+from mobnet.learning.networks import Network, Prediction, load_network
+
+State = tuple[NDArray[np.float32], ...]  # recurrent state of each network, (hidden,) each
+
+
+class LimbNetworks:
+    """Limb networks side by side, Figure 2 (b).
+
+    Attributes:
+        networks: one per limb.
+        joints: names of all their joints, (n,), in the networks' order.
+    """
+
+    def __init__(self, networks: Sequence[Network], layout: JointLayout) -> None:
+        """Find each network's inputs among the robot's signals.
+
+        Args:
+            networks: one per limb.
+            layout: the robot's joints.
+
+        Raises:
+            DataError: a network wants a signal that the robot does not have.
+        """
+        self.networks = tuple(networks)
+        self.joints = tuple(joint for network in networks for joint in network.joints)
+        self._columns = [_columns(network, layout) for network in networks]
+
+    def init(self) -> State:
+        """Return the zero states, (hidden,) each."""
+        return tuple(network.init() for network in self.networks)
+
+    def step(self, state: State, sample: Sensed) -> tuple[State, Prediction]:
+        """Take one sample (1-D arrays); return the new states and the prediction (n,) [N, N m]."""
+        x = signals(sample)
+        stepped = [
+            network.step(carried, x[columns])
+            for network, carried, columns in zip(self.networks, state, self._columns, strict=True)
+        ]
+        return tuple(after for after, _ in stepped), _joined([prediction for _, prediction in stepped])
+
+    def run(self, sensed: Sensed) -> Prediction:
+        """Run over one contiguous recording from fresh states; return the prediction (T, n) [N, N m]."""
+        x = signals(sensed)
+        return _joined(
+            [network.run(x[:, columns]) for network, columns in zip(self.networks, self._columns, strict=True)]
+        )
+
+
+def load_limb_networks(folders: Mapping[str, Path], layout: JointLayout) -> LimbNetworks:
+    """Read the networks of some limbs.
+
+    Args:
+        folders: limb -> folder with the weights of its network.
+        layout: the robot's joints.
+
+    Raises:
+        DataError: weights are missing or damaged, or belong to another limb or robot.
+    """
+    networks = [load_network(folder) for folder in folders.values()]
+    for network, (limb, folder) in zip(networks, folders.items(), strict=True):
+        if (network.limb, network.joints) != (limb, layout.limb(limb)):
+            raise DataError(f"{folder}: network of limb {network.limb!r} with joints {', '.join(network.joints)}; "
+                            f"accepted: {limb!r} with {', '.join(layout.limb(limb))}")  # fmt: skip
+    return LimbNetworks(networks, layout)
+
+
+def _columns(network: Network, layout: JointLayout) -> NDArray[np.intp]:
+    """Return where a network's inputs stand in `signals`, (n_in,)."""
+    where = {name: i for i, name in enumerate(signal_names(layout))}
+    missing = [name for name in network.input_names if name not in where]
+    if missing:
+        raise DataError(f"network of limb {network.limb!r}: input {missing[0]!r} is not a signal of this robot; "
+                        f"accepted: {', '.join(list(where)[:3])}, ...")  # fmt: skip
+    return np.array([where[name] for name in network.input_names], dtype=np.intp)
+
+
+def _joined(predictions: Sequence[Prediction]) -> Prediction:
+    """Return the predictions of several limbs side by side."""
+    if len(predictions) == 1:
+        return predictions[0]
+    mean = np.concatenate([p.mean for p in predictions], axis=-1)
+    stds = [p.std for p in predictions if p.std is not None]
+    return Prediction(mean, np.concatenate(stds, axis=-1) if stds else None)

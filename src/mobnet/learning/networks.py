@@ -1,0 +1,125 @@
+"""Trained limb networks as they run on a robot: one sample at a time, NumPy only.
+
+Small matrix-vector products at batch 1 cost less in NumPy than a call into torch; weights are laid out as
+`torch.nn.GRU` documents them.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from safetensors import SafetensorError, safe_open
+
+from mobnet.core.errors import DataError
+
+WEIGHTS = "weights.safetensors"
+NOTE = "note"  # one entry of the file's metadata: more would be written in an order that changes
+TENSORS = (
+    *(f"cell.{kind}_{source}_l0" for kind in ("weight", "bias") for source in ("ih", "hh")),
+    *("head.weight", "head.bias", "input.mean", "input.std", "target.mean", "target.std"),
+)
+Array = NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """Predicted torque and its standard deviation, (n,) or (T, n) [N, N m], eq. (18)."""
+
+    mean: Array
+    std: Array | None = None
+
+
+class Network:
+    """GRU-Linear of Table 1 with its z-scores: physical inputs in, torques [N, N m] out.
+
+    Attributes:
+        limb: name of the limb.
+        joints: names of the joints, (n,).
+        input_names: names of the inputs, (n_in,).
+    """
+
+    def __init__(self, tensors: Mapping[str, Array], limb: str, joints: tuple[str, ...], input_names: tuple[str, ...],
+                 std_min: float) -> None:
+        """Take weights by the names torch gives them.
+
+        Args:
+            tensors: `cell.*`, `head.*` and the z-scores `input.mean|std` (n_in,), `target.mean|std` (n,).
+            limb: name of the limb.
+            joints: names of the joints.
+            input_names: names of the inputs.
+            std_min: smallest standard deviation, z-scored [-].
+        """
+        self.limb, self.joints, self.input_names = limb, joints, input_names
+        self.std_min = np.float32(std_min)
+        w_in, w_state, b_in, b_state, self._w_out, self._b_out, *scales = (
+            np.asarray(tensors[name], dtype=np.float32) for name in TENSORS
+        )
+        self._input_mean, self._input_std, self._target_mean, self._target_std = scales
+        self.hidden = w_state.shape[1]
+        # sigmoid(x) = (1 + tanh(x / 2)) / 2: the halves go into the weights of the reset and update gates
+        half = np.repeat(np.float32([0.5, 0.5, 1.0]), self.hidden)
+        self._w_in, self._w_state = half[:, None] * w_in, half[:, None] * w_state
+        self._b_in, self._b_state = half * b_in, half * b_state
+
+    def init(self) -> Array:
+        """Return the zero state (hidden,)."""
+        return np.zeros(self.hidden, dtype=np.float32)
+
+    def step(self, state: Array, x: Array) -> tuple[Array, Prediction]:
+        """Advance by one sample of inputs (n_in,); return the new state (hidden,) and the prediction (n,) [N, N m]."""
+        state = self._advance(state, self._w_in @ self._z_score(x) + self._b_in)
+        return state, self._predict(self._w_out @ state + self._b_out)
+
+    def run(self, x: Array) -> Prediction:
+        """Run over a contiguous recording of inputs (T, n_in) from a fresh state; return (T, n) [N, N m]."""
+        gates = self._z_score(x) @ self._w_in.T + self._b_in
+        states = np.empty((len(x), self.hidden), dtype=np.float32)
+        state = self.init()
+        for k, gate in enumerate(gates):
+            state = states[k] = self._advance(state, gate)
+        return self._predict(states @ self._w_out.T + self._b_out)
+
+    def _z_score(self, x: Array) -> Array:
+        """Return z-scored inputs."""
+        return (x - self._input_mean) / self._input_std
+
+    def _advance(self, state: Array, gates_in: Array) -> Array:
+        """Return the GRU's next state from the input's share of the gates (3 hidden,): reset, update, new."""
+        h = self.hidden
+        gates_state = self._w_state @ state
+        gates_state += self._b_state
+        opened = np.tanh(gates_in[: 2 * h] + gates_state[: 2 * h])
+        opened *= 0.5
+        opened += 0.5
+        gates_state[2 * h :] *= opened[:h]
+        new = np.tanh(gates_in[2 * h :] + gates_state[2 * h :])
+        return new + opened[h:] * (state - new)
+
+    def _predict(self, output: Array) -> Prediction:
+        """Return the prediction in physical units from the linear layer's output (..., 2 n)."""
+        mean, raw = np.split(output, 2, axis=-1)
+        std = np.maximum(np.logaddexp(raw, 0.0, dtype=np.float32), self.std_min)
+        return Prediction(mean * self._target_std + self._target_mean, std * self._target_std)
+
+
+def load_network(folder: Path) -> Network:
+    """Read a trained network from its folder.
+
+    Raises:
+        DataError: the weights are missing or damaged.
+    """
+    path = folder / WEIGHTS
+    try:
+        with safe_open(path, framework="numpy") as file:
+            note = json.loads(file.metadata()[NOTE])
+            tensors = {name: file.get_tensor(name) for name in TENSORS}
+        return Network(tensors, note["limb"], tuple(note["joints"]), tuple(note["inputs"]), note["std_min"])
+    except FileNotFoundError:
+        raise DataError(f"{path}: file is missing") from None
+    except (SafetensorError, KeyError, TypeError) as error:
+        raise DataError(f"{path}: not the weights of a limb network ({error})") from None

@@ -1,0 +1,104 @@
+"""One epoch of training and of validation with carried state (section 4.4)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import torch
+from torch import Tensor
+
+from mobnet.learning.loss import gaussian_loss
+from mobnet.learning.model import LimbNetwork
+from mobnet.learning.streams import Plan
+
+
+@dataclass(frozen=True)
+class Samples:
+    """Z-scored training samples on the device that trains: inputs (N, n_in) and targets (N, n), unitless."""
+
+    inputs: Tensor
+    targets: Tensor
+
+    def horizons(self, plan: Plan, horizon: int) -> Iterator[tuple[Tensor, Tensor, Tensor]]:
+        """Walk through a plan.
+
+        Args:
+            plan: course of an epoch.
+            horizon: steps of one update [samples].
+
+        Yields:
+            Inputs (h, B, n_in), targets (h, B, n), and what the carried state is multiplied with (1, B, 1): 0 where
+            a lane enters a stream.
+        """
+        device = self.inputs.device
+        steps = torch.arange(horizon, device=device)[:, None]
+        rows = torch.from_numpy(plan.rows).to(device)
+        kept = torch.from_numpy(~plan.fresh).to(device, self.inputs.dtype)
+        for first, keep in zip(rows, kept, strict=True):
+            index = (first + steps).reshape(-1)
+            shape = (horizon, len(first), -1)
+            yield (
+                self.inputs.index_select(0, index).view(shape),
+                self.targets.index_select(0, index).view(shape),
+                keep[None, :, None],
+            )
+
+
+def train_epoch(
+    network: LimbNetwork,
+    optimizer: torch.optim.Optimizer,
+    samples: Samples,
+    plan: Plan,
+    horizon: int,
+    gradient_norm: float,
+) -> tuple[float, float]:
+    """Run one epoch of truncated back-propagation through time: state carried, detached every horizon.
+
+    Args:
+        network: trained in place.
+        optimizer: Adam.
+        samples: z-scored inputs (N, n_in) and targets (N, n).
+        plan: course of the epoch, rows (updates, lanes).
+        horizon: steps of one update [samples].
+        gradient_norm: the gradient is clipped to this norm.
+
+    Returns:
+        Mean loss (22) and mean norm of the gradient before the clip.
+    """
+    network.train()
+    losses, norms = [], []
+    state = network.fresh_state(plan.rows.shape[1], samples.inputs.device)
+    for x, target, keep in samples.horizons(plan, horizon):
+        mean, std, after = network(x, state * keep)
+        loss = gaussian_loss(mean, std, target)
+        optimizer.zero_grad()
+        loss.backward()
+        norms.append(torch.nn.utils.clip_grad_norm_(network.parameters(), gradient_norm))
+        optimizer.step()
+        state = after.detach()
+        losses.append(loss.detach())
+    return torch.stack(losses).mean().item(), torch.stack(norms).mean().item()
+
+
+@torch.no_grad()
+def validate(network: LimbNetwork, samples: Samples, plan: Plan, horizon: int) -> tuple[float, Tensor]:
+    """Run a validation with carried state.
+
+    Args:
+        network: as trained so far.
+        samples: z-scored inputs (N, n_in) and targets (N, n).
+        plan: fixed course, rows (updates, lanes).
+        horizon: steps looked at together [samples].
+
+    Returns:
+        Mean loss (22), and the root mean square error of each joint (n,), z-scored.
+    """
+    network.eval()
+    losses, squares = [], []
+    state = network.fresh_state(plan.rows.shape[1], samples.inputs.device)
+    for x, target, keep in samples.horizons(plan, horizon):
+        mean, std, state = network(x, state * keep)
+        losses.append(gaussian_loss(mean, std, target))
+        squares.append((mean - target).square().mean(dim=(0, 1)))
+    return torch.stack(losses).mean().item(), torch.stack(squares).mean(dim=0).sqrt().cpu()

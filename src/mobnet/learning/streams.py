@@ -1,0 +1,120 @@
+"""Contiguous streams: how recordings are split 9:1 and fed to a network whose state is carried (section 4.3, 4.4).
+
+A batch is a set of lanes that walk through the data side by side, one horizon of steps per update. Streams, contiguous
+pieces of a recording, are laid end to end in an order drawn each epoch and dealt to the lanes; where a lane enters a
+new stream its state starts from zero. So every batch is full, whatever the number and the lengths of the streams.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.errors import DataError
+
+Span = tuple[int, int]  # first row and the row after the last
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The course of one epoch.
+
+    Attributes:
+        rows: first row of each horizon of steps, (updates, lanes).
+        fresh: True where a lane enters a stream there and its state starts from zero, (updates, lanes).
+    """
+
+    rows: NDArray[np.int64]
+    fresh: NDArray[np.bool_]
+
+    def __len__(self) -> int:
+        """Return the number of updates."""
+        return len(self.rows)
+
+
+def split(segments: Sequence[Span], validation_share: float) -> tuple[list[Span], list[Span]]:
+    """Cut the end of each contiguous segment off for validation: 9:1 in section 4.3, never single samples.
+
+    Args:
+        segments: contiguous stretches (start, end) of rows.
+        validation_share: share of the samples in (0, 1).
+
+    Returns:
+        Training blocks and validation blocks.
+    """
+    training, validation = [], []
+    for start, end in segments:
+        cut = end - round((end - start) * validation_share)
+        training.append((start, cut))
+        validation.append((cut, end))
+    return training, validation
+
+
+def cut_streams(
+    blocks: Sequence[Span], stream: int, horizon: int, rng: np.random.Generator | None = None
+) -> list[Span]:
+    """Cut blocks into streams of whole horizons.
+
+    Args:
+        blocks: contiguous stretches (start, end) of rows.
+        stream: length of a stream [samples].
+        horizon: steps of truncated back-propagation [samples]; a piece shorter than this is left out.
+        rng: draws where the first cut of a block lies, so that epochs differ, and the order of the streams; without
+            it cuts start at the block's first row and the order stays.
+
+    Returns:
+        Streams (start, end); lengths are multiples of `horizon`.
+    """
+    streams = []
+    for start, end in blocks:
+        first = start + (int(rng.integers(stream)) if rng else 0)
+        cuts = [start, *range(first, end, stream), end]
+        pieces = [(a, a + (b - a) // horizon * horizon) for a, b in zip(cuts, cuts[1:], strict=False)]
+        streams += [(a, b) for a, b in pieces if b > a]
+    return [streams[i] for i in rng.permutation(len(streams))] if rng else streams
+
+
+def deal(streams: Sequence[Span], lanes: int, horizon: int) -> Plan:
+    """Lay streams end to end and deal them to lanes of equal length, TBPTT of section 4.4.
+
+    Args:
+        streams: contiguous stretches (start, end) of whole horizons.
+        lanes: streams run side by side, the batch size.
+        horizon: steps of one update [samples].
+
+    Raises:
+        DataError: the streams hold fewer horizons than there are lanes.
+    """
+    rows = np.concatenate([np.arange(a, b, horizon) for a, b in streams] or [np.empty(0)]).astype(np.int64)
+    updates = len(rows) // lanes
+    if updates == 0:
+        raise DataError(
+            f"{len(rows)} horizons of {horizon} samples cannot fill a batch of {lanes} streams; "
+            "accepted: longer recordings, a smaller batch_size"
+        )
+    follows = np.concatenate([[False], np.diff(rows) == horizon])
+    follows[np.cumsum([0] + [(b - a) // horizon for a, b in streams[:-1]])] = False
+    shape = (lanes, updates)
+    fresh = ~follows[: lanes * updates].reshape(shape)
+    fresh[:, 0] = True
+    return Plan(rows[: lanes * updates].reshape(shape).T.copy(), fresh.T.copy())
+
+
+def epoch_plan(blocks: Sequence[Span], stream: int, horizon: int, lanes: int, rng: np.random.Generator) -> Plan:
+    """Return the course of a training epoch: new cuts, new order; arrays (updates, lanes) of rows [samples]."""
+    return deal(cut_streams(blocks, stream, horizon, rng), lanes, horizon)
+
+
+def validation_plan(blocks: Sequence[Span], stream: int, horizon: int, lanes: int) -> Plan:
+    """Return the fixed course of a validation, at most `lanes` side by side; arrays (updates, lanes) of rows [samples].
+
+    The state is carried through whole blocks. Lanes are about one stream long, so that the zero states at their starts
+    weigh as little as in training.
+    """
+    longest = max((b - a for a, b in blocks), default=0)
+    streams = cut_streams(blocks, max(longest, 1), horizon)
+    total = sum(b - a for a, b in streams)
+    return deal(streams, max(1, min(lanes, total // stream)), horizon)

@@ -1,0 +1,65 @@
+"""What a training run leaves to look at: metrics.csv, which is the truth, and an offline wandb run, a view of it."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import shutil
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from mobnet.core.store import write_text
+from mobnet.learning.checkpoint import Row
+
+METRICS = "metrics.csv"
+COLUMNS = ("epoch", "train_loss", "validation_loss", "validation_rmse", "rate", "gradient_norm")
+WANDB_PLACES = ("WANDB_CACHE_DIR", "WANDB_DATA_DIR", "WANDB_CONFIG_DIR")
+
+
+def write_metrics(path: Path, rows: Sequence[Row]) -> None:
+    """Write one line per epoch: losses of (22) unitless, RMSE [N, N m], rate and gradient norm [-]; atomic."""
+    text = io.StringIO()
+    writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    write_text(path, text.getvalue())
+
+
+def write_wandb(folder: Path, name: str, settings: Mapping[str, Any], rows: Sequence[Row]) -> Path:
+    """Write an offline wandb run of a finished training; nothing leaves the machine.
+
+    A run is written at the end in one go: offline runs cannot be resumed, and a training can.
+
+    Args:
+        folder: where the runs lie.
+        name: experiment and seed, such as `MOB-Net-LL-s0`.
+        settings: shown as the run's configuration.
+        rows: metrics of each epoch.
+
+    Returns:
+        The run's folder, `folder/offline-run-<name>`.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    target = folder / f"offline-run-{name}"
+    with tempfile.TemporaryDirectory(prefix=".scratch-", dir=folder) as scratch:
+        _log_run(scratch, name, settings, rows)
+        (run,) = (Path(scratch) / "wandb").glob("offline-run-*")
+        shutil.rmtree(target, ignore_errors=True)
+        os.replace(run, target)
+    return target
+
+
+def _log_run(scratch: str, name: str, settings: Mapping[str, Any], rows: Sequence[Row]) -> None:
+    """Log the epochs into a run below the scratch folder."""
+    os.environ |= {place: scratch for place in WANDB_PLACES} | {"WANDB_ERROR_REPORTING": "false"}
+    import wandb  # reads its environment when imported
+
+    quiet = wandb.Settings(x_disable_stats=True, x_disable_meta=True, console="off", silent=True, disable_git=True)
+    with wandb.init(
+        project="mobnet", id=name, name=name, dir=scratch, mode="offline", config=dict(settings), settings=quiet
+    ) as run:
+        for row in rows:
+            run.log(dict(row), step=int(row["epoch"]))

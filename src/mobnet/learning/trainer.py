@@ -1,0 +1,129 @@
+"""The course of a training: epochs, checkpoints, progress, and stopping when it diverges (section 4.4)."""
+
+from __future__ import annotations
+
+import logging
+import math
+import time
+from pathlib import Path
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch import Tensor
+
+from mobnet.core.errors import TrainingError
+from mobnet.learning import checkpoint
+from mobnet.learning.checkpoint import CHECKPOINT, Progress, Row
+from mobnet.learning.dataset import LimbData, Scale, scale_of
+from mobnet.learning.job import Job
+from mobnet.learning.model import build_network
+from mobnet.learning.optimisation import Samples, train_epoch, validate
+from mobnet.learning.streams import epoch_plan, split, validation_plan
+from mobnet.learning.tracking import METRICS, write_metrics
+
+log = logging.getLogger(__name__)
+
+
+class Trainer:
+    """Trains one network on z-scored samples.
+
+    Attributes:
+        job: what is trained.
+        network: as trained so far.
+        scales: z-scores of the inputs (n_in,) and targets (n,), from the training blocks alone.
+        device: where it trains, a GPU if there is one.
+        fingerprint: hash of all that the weights depend on.
+    """
+
+    def __init__(self, job: Job, data: LimbData) -> None:
+        """Split, scale and move the data to the device.
+
+        Args:
+            job: what is trained.
+            data: inputs (N, n_in) and targets (N, n) [N, N m].
+
+        Raises:
+            DataError: the data do not fill one batch.
+        """
+        self.job = job
+        self.device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
+        self.fingerprint = job.fingerprint(data.digest(), self.device)
+        self._blocks, held_out = split(data.segments, job.settings["validation_share"])
+        self.scales = scale_of(data.inputs, self._blocks), scale_of(data.targets, self._blocks)
+        arrays = (data.inputs, data.targets)
+        self._samples = Samples(*(self._scaled(*pair) for pair in zip(arrays, self.scales, strict=True)))
+        self._shape = (job.stream(data.rate_hz), job.horizon, job.settings["batch_size"])
+        self._validation = validation_plan(held_out, *self._shape)
+        seed = int(job.generator("weights").integers(np.iinfo(np.int64).max))
+        sizes = len(data.input_names), len(data.joints)
+        self.network = build_network(job.row, *sizes, job.settings["std_min"], seed).to(self.device)
+        betas = tuple(job.settings["optimizer_betas"])
+        self._optimizer = torch.optim.Adam(self.network.parameters(), lr=job.rate(0), betas=betas)
+
+    def _scaled(self, array: NDArray[np.float32], scale: Scale) -> Tensor:
+        """Return z-scored columns on the device."""
+        scaled = array - scale.mean
+        scaled /= scale.std
+        return torch.from_numpy(scaled).to(self.device)
+
+    def run(self, state_dir: Path) -> Progress:
+        """Run all epochs, or those that a killed run left, and return metrics and best weights.
+
+        Args:
+            state_dir: gets a checkpoint and `metrics.csv` at each epoch.
+
+        Raises:
+            TrainingError: the loss is not finite or above `divergence_loss`.
+        """
+        path = state_dir / CHECKPOINT
+        done = checkpoint.resume(path, self.fingerprint, self.network, self._optimizer)
+        while done.epoch < self.job.epochs:
+            started = time.monotonic()
+            row = self._epoch(done.epoch)
+            done.rows.append(row)
+            if done.best_row() is row:
+                done.best = checkpoint.copy_weights(self.network)
+            done.seconds += time.monotonic() - started
+            checkpoint.save(path, self.fingerprint, self.network, self._optimizer, done)
+            write_metrics(state_dir / METRICS, done.rows)
+            self._report(row, done)
+        return done
+
+    def _epoch(self, epoch: int) -> Row:
+        """Train and validate once; return the epoch's metrics."""
+        job, rate = self.job, self.job.rate(epoch)
+        for group in self._optimizer.param_groups:
+            group["lr"] = rate
+        plan = epoch_plan(self._blocks, *self._shape, job.generator("epoch", epoch))
+        clip = job.settings["gradient_norm"]
+        loss, norm = train_epoch(self.network, self._optimizer, self._samples, plan, job.horizon, clip)
+        self._check("training", epoch, loss, rate)
+        validation, rmse = validate(self.network, self._samples, self._validation, job.horizon)
+        self._check("validation", epoch, validation, rate)
+        return {
+            "epoch": epoch + 1,
+            "train_loss": loss,
+            "validation_loss": validation,
+            "validation_rmse": float((rmse.numpy() * self.scales[1].std).mean()),
+            "rate": rate,
+            "gradient_norm": norm,
+        }
+
+    def _check(self, kind: str, epoch: int, loss: float, rate: float) -> None:
+        """Raise if a loss (22) is not finite, or the training diverged."""
+        bound = self.job.settings["divergence_loss"]
+        if not math.isfinite(loss) or (kind == "training" and loss > bound):
+            raise TrainingError(
+                f"{self.job.name}: epoch {epoch + 1}: {kind} loss {loss:g} at rate {rate:g} (accepted: finite, at most "
+                f"{bound:g}); try a smaller learning.rate_first or learning.gradient_norm, and look for outliers"
+            )
+
+    def _report(self, row: Row, done: Progress) -> None:
+        """Log an epoch with its losses, rate and the time left."""
+        left = done.seconds / done.epoch * (self.job.epochs - done.epoch)
+        log.info(
+            "%s: epoch %d/%d, loss %.3f, validation %.3f (%.3g N m), rate %.2g, %.0f s left",
+            self.job.name, done.epoch, self.job.epochs, row["train_loss"], row["validation_loss"],
+            row["validation_rmse"], row["rate"], left,
+        )  # fmt: skip

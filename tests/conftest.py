@@ -1,0 +1,98 @@
+"""Made-up recordings: smooth random joint motion and an uncertainty torque that the inputs explain."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+from numpy.typing import NDArray
+
+from mobnet.core.config import load_layout, resolve
+from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
+from mobnet.core.recording import Recording, Sensed, Truth, recording_columns
+from mobnet.core.store import write_array, write_recording
+
+ROOT = Path(__file__).parents[1]
+RATE_HZ = 1000.0
+WAVES = 3  # sines per signal
+Array = NDArray[np.float64]
+
+
+@pytest.fixture(scope="session")
+def full_config() -> dict[str, Any]:
+    """The repository's configuration at its smoke scale."""
+    config = yaml.safe_load((ROOT / "configs" / "config.yaml").read_text())
+    config["robot"] = str(ROOT / config["robot"])
+    return resolve({**config, "scale": "smoke"})
+
+
+@pytest.fixture(scope="session")
+def layout(full_config: dict[str, Any]) -> JointLayout:
+    return load_layout(Path(full_config["robot"]))
+
+
+@pytest.fixture(scope="session")
+def made_up(layout: JointLayout) -> Callable[..., Recording]:
+    """Return a function of (seed, seconds, segments) that makes a recording up."""
+
+    def make(seed: int = 0, seconds: float = 2.0, segments: int = 1) -> Recording:
+        return _recording(layout, np.random.default_rng(seed), round(seconds * RATE_HZ), segments)
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def write_pair(layout: JointLayout) -> Callable[[Path, Recording], tuple[Path, Path]]:
+    """Return a function that writes a recording and a residual, and returns their stems."""
+
+    def write(folder: Path, recording: Recording) -> tuple[Path, Path]:
+        folder.mkdir(parents=True, exist_ok=True)
+        stems = folder / f"recording{recording.meta['seed']}", folder / f"residual{recording.meta['seed']}"
+        write_recording(stems[0], recording, layout)
+        external = recording.truth.tau_ext
+        array = np.concatenate([external + _uncertainty(recording.sensed, layout), external], axis=1)
+        columns = [
+            (f"{quantity}.{name.removeprefix('tau_ext.')}", unit, frame)
+            for quantity in ("r", "tau_ext_lp")
+            for name, unit, frame in recording_columns(layout)["tau_ext"]
+        ]
+        write_array(stems[1], array, columns, {"rate_hz": RATE_HZ}, recording.segments)
+        return stems
+
+    return write
+
+
+def _recording(layout: JointLayout, rng: np.random.Generator, samples: int, segments: int) -> Recording:
+    """Return sines of random frequency and phase in every signal, the base turned by a random angle."""
+    time = np.arange(samples) / RATE_HZ
+    q, v = np.zeros((samples, layout.nq)), np.zeros((samples, layout.nv))
+    q[:, NQ_BASE:], v[:, N_VIRTUAL:] = _sines(time, layout.nu, rng, 0.3)
+    angles, v[:, 3:N_VIRTUAL] = _sines(time, 3, rng, 0.1)
+    half = np.linalg.norm(angles, axis=1, keepdims=True) / 2
+    q[:, 3:NQ_BASE] = np.concatenate([np.cos(half), np.sinc(half / np.pi) * angles / 2], axis=1)
+    torque, external = _sines(time, layout.nu, rng, 30.0)[0], _sines(time, layout.nv, rng, 20.0)[0]
+    acc = _sines(time, 3, rng, 1.0)[0] + [0, 0, 9.81]
+    sensed = Sensed(q, v, acc, torque, torque, np.zeros((samples, 2)))
+    truth = Truth(external, np.zeros((samples, 6)), np.zeros((samples, 6)), np.ones((samples, 2)))
+    edges = np.linspace(0, samples, segments + 1).round().astype(int)
+    spans = tuple((int(a), int(b)) for a, b in zip(edges, edges[1:], strict=False))
+    meta = {"scenario": "made_up", "level": "all_uncertainty", "seed": int(rng.integers(1 << 30))}
+    return Recording(sensed, truth, spans, RATE_HZ, meta)
+
+
+def _sines(time: Array, count: int, rng: np.random.Generator, size: float) -> tuple[Array, Array]:
+    """Return a smooth random signal (T, count) and its rate."""
+    frequency = 2 * np.pi * rng.uniform(0.3, 2.0, (WAVES, count))
+    phase = time[:, None, None] * frequency + rng.uniform(0, 2 * np.pi, (WAVES, count))
+    amplitude = size * rng.uniform(0.3, 1.0, (WAVES, count)) / WAVES
+    return (amplitude * np.sin(phase)).sum(axis=1), (amplitude * frequency * np.cos(phase)).sum(axis=1)
+
+
+def _uncertainty(sensed: Sensed, layout: JointLayout) -> Array:
+    """Return friction-like torque (T, nv) that velocity and desired torque explain."""
+    friction = 8.0 * np.tanh(sensed.v[:, N_VIRTUAL:] / 0.1) + 0.2 * sensed.tau_des
+    return np.concatenate([np.zeros((len(sensed), N_VIRTUAL)), friction], axis=1)
