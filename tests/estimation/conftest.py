@@ -1,0 +1,115 @@
+"""A robot that follows a trajectory known in closed form, and what its sensors read on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+from numpy.typing import NDArray
+
+from mobnet.core.recording import FEET, Sensed
+from mobnet.robot.description import RobotDescription, load_robot
+from mobnet.robot.dynamics import inverse_dynamics
+from mobnet.robot.nominal import NominalModel
+
+REPO = Path(__file__).parents[2]
+SUB_STEPS = 2  # plant ticks in a sample
+Array = NDArray[np.float64]
+
+
+@pytest.fixture(scope="session")
+def robot() -> RobotDescription:
+    return load_robot(REPO / "configs" / "robots" / "tocabi.yaml")
+
+
+@pytest.fixture(scope="session")
+def nominal(robot: RobotDescription) -> NominalModel:
+    return NominalModel(robot)
+
+
+@pytest.fixture
+def config() -> dict[str, Any]:
+    """The repository's configuration with an absolute robot path."""
+    config = yaml.safe_load((REPO / "configs" / "config.yaml").read_text())
+    return {**config, "robot": str(REPO / config["robot"])}
+
+
+@dataclass(frozen=True)
+class Wave:
+    """amplitude * sin(2 pi frequency t + phase), each (n,), and its derivatives."""
+
+    amplitude: Array
+    frequency_hz: Array
+    phase: Array
+
+    def __call__(self, t: float) -> tuple[Array, Array, Array]:
+        """Return value, first and second derivative at t [s]."""
+        rate = 2 * np.pi * self.frequency_hz
+        angle = rate * t + self.phase
+        sine, cosine = self.amplitude * np.sin(angle), self.amplitude * np.cos(angle)
+        return sine, rate * cosine, -(rate**2) * sine
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """Position and roll, pitch, yaw of the base and all joints as waves."""
+
+    wave: Wave
+
+    def __call__(self, t: float) -> tuple[Array, Array, Array]:
+        """Return q (nq,), v (nv,) and its derivative (nv,) at t [s]."""
+        x, dx, ddx = self.wave(t)
+        quat, omega, alpha = base_rotation(x[3:6], dx[3:6], ddx[3:6])
+        q = np.concatenate([x[:3], quat, x[6:]])
+        v = np.concatenate([dx[:3], omega, dx[6:]])
+        return q, v, np.concatenate([ddx[:3], alpha, ddx[6:]])
+
+
+def base_rotation(x: Array, dx: Array, ddx: Array) -> tuple[Array, Array, Array]:
+    """Return quaternion w x y z, angular velocity and acceleration in base axes from roll, pitch, yaw (3,)."""
+    (sr, cr), (sp, cp) = (np.sin(x[0]), np.cos(x[0])), (np.sin(x[1]), np.cos(x[1]))
+    euler = np.array([[1, 0, -sp], [0, cr, cp * sr], [0, -sr, cp * cr]])
+    roll_rate = np.array([[0, 0, 0], [0, -sr, cp * cr], [0, -cr, -cp * sr]]) * dx[0]
+    pitch_rate = np.array([[0, 0, -cp], [0, 0, -sp * sr], [0, 0, -sp * cr]]) * dx[1]
+    (a, b), (c, d), (e, f) = ((np.cos(angle / 2), np.sin(angle / 2)) for angle in x)
+    quat = np.array([a * c * e + b * d * f, b * c * e - a * d * f, a * d * e + b * c * f, a * c * f - b * d * e])
+    return quat, euler @ dx, euler @ ddx + (roll_rate + pitch_rate) @ dx
+
+
+@pytest.fixture(scope="session")
+def trajectory(robot: RobotDescription) -> Trajectory:
+    """All joints swing at a few tenths of a radian and one or two Hertz, each in its own time."""
+    rng, nv = np.random.default_rng(7), robot.layout.nv
+    return Trajectory(Wave(rng.uniform(0.1, 0.3, nv), rng.uniform(0.7, 2.0, nv), rng.uniform(0, 2 * np.pi, nv)))
+
+
+def sensed_of(q: Array, v: Array, tau: Array) -> Sensed:
+    """Return what a robot senses from positions (T, nq), velocities (T, nv) and motor torques (T, nu)."""
+    return Sensed(q, v, np.zeros((len(q), 3)), tau, tau, np.zeros((len(q), len(FEET))))
+
+
+@pytest.fixture
+def follow(nominal: NominalModel, trajectory: Trajectory) -> Callable[..., tuple[Sensed, Array]]:
+    """A function rate_hz, seconds, external (nu,) [N m] -> what is sensed, and the true external torque (T, nv).
+
+    Motors give what the motion needs less the external torque, which starts with the first sample; the base has no
+    motors, so all it needs is external. Torques are means over the sub-steps of a sample.
+    """
+
+    def run(rate_hz: float, seconds: float, external: Array) -> tuple[Sensed, Array]:
+        times = np.arange(round(seconds * rate_hz) + 1) / rate_hz
+        states = [trajectory(t) for t in times]
+        middles = (np.arange(SUB_STEPS) + 0.5) / SUB_STEPS - 1
+        needed = np.array(
+            [np.mean([inverse_dynamics(nominal, *trajectory(t + m / rate_hz)) for m in middles], 0) for t in times]
+        )
+        truth = np.concatenate([needed[:, :6], np.tile(external, (len(times), 1))], axis=1)
+        q, v = (np.stack([state[i] for state in states]) for i in range(2))
+        return sensed_of(q, v, needed[:, 6:] - external), truth
+
+    return run

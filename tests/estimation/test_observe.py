@@ -1,0 +1,153 @@
+"""The residual file: what it holds, how segments and levels enter, and the scheme's error on the simulated plant."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from mobnet.core.errors import ConfigError, DataError
+from mobnet.core.recording import Recording, Sensed, Truth
+from mobnet.core.store import read_array, write_recording
+from mobnet.estimation.observe import observe, observer_of, residual_columns
+from mobnet.estimation.observer import MomentumObserver, low_pass
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.nominal import NominalModel
+from mobnet.robot.plant import SOLE_TYPE, TERRAIN_TYPE, robot_spec
+
+RATE_HZ, GAIN_HZ = 1000.0, 100.0
+META = {"scenario": "random_walk", "level": "ideal", "seed": 3}
+
+
+@pytest.fixture
+def recording(robot: RobotDescription, follow: Callable) -> Recording:
+    """Two segments of a tenth of a second each."""
+    sensed, tau_ext = follow(RATE_HZ, 0.199, np.zeros(robot.layout.nu))
+    wrench = np.zeros((len(sensed), 6))
+    truth = Truth(tau_ext, wrench, wrench, np.zeros((len(sensed), 2)))
+    return Recording(sensed, truth, ((0, 100), (100, 200)), RATE_HZ, META)
+
+
+@pytest.fixture
+def written(robot: RobotDescription, tmp_path: Path) -> Callable[[Recording], Path]:
+    """A function that writes a recording and returns its stem."""
+
+    def write(recording: Recording) -> Path:
+        write_recording(tmp_path / "s3", recording, robot.layout)
+        return tmp_path / "s3"
+
+    return write
+
+
+def test_file_has_residual_then_truth_and_says_where_from(
+    config: dict[str, Any], recording: Recording, robot: RobotDescription, written: Callable, tmp_path: Path
+) -> None:
+    observe(config, written(recording), tmp_path / "out" / "s3")
+    array, meta = read_array(tmp_path / "out" / "s3")
+    names = [column["name"] for column in meta["columns"]]
+    joints = robot.layout.names
+    assert names == [f"r.{joint}" for joint in joints] + [f"tau_ext_lp.{joint}" for joint in joints]
+    assert (array.dtype, array.shape) == (np.float32, (200, 2 * robot.layout.nv))
+    assert {key: meta[key] for key in META} == META
+    assert (meta["rate_hz"], meta["gain_hz"], meta["nominal_mass_ratio"]) == (RATE_HZ, GAIN_HZ, 1.0)
+    assert meta["segments"] == [[0, 100], [100, 200]]
+
+
+def test_without_uncertainty_residual_is_the_low_passed_truth(
+    config: dict[str, Any], recording: Recording, written: Callable, tmp_path: Path
+) -> None:
+    observe(config, written(recording), tmp_path / "out")
+    array, _ = read_array(tmp_path / "out")
+    residual, truth = np.split(np.asarray(array, dtype=np.float64), 2, axis=1)
+    assert np.abs(truth[:, :6]).max() > 100
+    assert np.abs(residual - truth).max() < 0.02
+
+
+def test_every_segment_starts_anew(
+    config: dict[str, Any], recording: Recording, nominal: NominalModel, written: Callable, tmp_path: Path
+) -> None:
+    observe(config, written(recording), tmp_path / "out")
+    array, _ = read_array(tmp_path / "out")
+    nv = nominal.model.nv
+    np.testing.assert_array_equal(array[[0, 100]], 0)
+    alone = MomentumObserver(nominal, GAIN_HZ, RATE_HZ).residual(recording.sensed[100:200])
+    np.testing.assert_allclose(array[100:, :nv], alone, atol=0.02)
+    np.testing.assert_allclose(array[100:, nv:], low_pass(recording.truth.tau_ext[100:], GAIN_HZ, RATE_HZ), atol=0.01)
+
+
+def test_level_picks_the_nominal_model(config: dict[str, Any], robot: RobotDescription) -> None:
+    ratios = {level: observer_of(config, robot, level, RATE_HZ).nominal.mass_ratio for level in config["levels"]}
+    assert ratios == {"ideal": 1.0, "sensor_noise": 1.0, "all_uncertainty": 0.9}
+
+
+def test_lighter_nominal_model_leaves_a_share_of_what_is_needed_in_the_residual(
+    config: dict[str, Any], recording: Recording, written: Callable, tmp_path: Path, robot: RobotDescription
+) -> None:
+    stem = written(replace(recording, meta={**META, "level": "all_uncertainty"}))
+    observe(config, stem, tmp_path / "out")
+    array, meta = read_array(tmp_path / "out")
+    residual, truth = np.split(np.asarray(array, dtype=np.float64), 2, axis=1)
+    needed = np.concatenate([recording.truth.tau_ext[:, :6], recording.sensed.tau_motor], axis=1)
+    error = -0.1 * low_pass(needed[:100], GAIN_HZ, RATE_HZ)
+    assert meta["nominal_mass_ratio"] == 0.9
+    np.testing.assert_allclose((residual - truth)[:100], error, atol=0.02)
+
+
+def test_unknown_or_missing_level_is_named(
+    config: dict[str, Any], recording: Recording, written: Callable, tmp_path: Path
+) -> None:
+    with pytest.raises(ConfigError, match="'perfect' is not accepted; accepted: all_uncertainty, ideal"):
+        observe(config, written(replace(recording, meta={**META, "level": "perfect"})), tmp_path / "out")
+    with pytest.raises(DataError, match="key 'level' is missing"):
+        observe(config, written(replace(recording, meta={})), tmp_path / "out")
+    assert not (tmp_path / "out.json").exists()
+
+
+def test_columns_carry_unit_and_frame(robot: RobotDescription) -> None:
+    described = {name: (unit, frame) for name, unit, frame in residual_columns(robot.layout)}
+    assert described["r.V1"] == ("N", "world")
+    assert described["tau_ext_lp.V4"] == ("N m", "joint")
+    assert described["r.LL3"] == ("N m", "joint")
+
+
+@pytest.mark.sim
+def test_on_the_simulated_plant_the_scheme_meets_the_ideal_row(nominal: NominalModel, robot: RobotDescription) -> None:
+    q, v, tau, tau_ext = _shaken(robot, samples=400)
+    zeros = np.zeros((len(q), 3))
+    sensed = Sensed(q, v, zeros, tau, tau, zeros[:, :2])
+    error = MomentumObserver(nominal, GAIN_HZ, RATE_HZ).residual(sensed) - low_pass(tau_ext, GAIN_HZ, RATE_HZ)
+    rmse = np.sqrt(np.mean(error**2, axis=0))
+    layout = robot.layout
+    limits = {"LL": 0.01, "RL": 0.01, "W": 0.02, "LA": 0.01, "RA": 0.01}  # [N m], Table 5, row Ideal
+    assert np.abs(tau_ext[:, 2]).max() > 500
+    for limb, limit in limits.items():
+        assert rmse[layout.columns(layout.limb(limb))].mean() < limit, limb
+    assert rmse[:3].mean() < 0.07  # [N]
+    assert rmse[3:6].mean() < 0.03
+
+
+def _shaken(robot: RobotDescription, samples: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Return q, v after each sample of a standing robot, and means of motor and contact torque over its sub-steps."""
+    spec = robot_spec(robot)
+    plane = mujoco.mjtGeom.mjGEOM_PLANE
+    spec.worldbody.add_geom(type=plane, size=[5, 5, 1], contype=TERRAIN_TYPE, conaffinity=SOLE_TYPE)
+    spec.option.timestep = 1 / (2 * RATE_HZ)
+    model = spec.compile()
+    data, rng = mujoco.MjData(model), np.random.default_rng(2)
+    data.qpos[2] = robot.link_length * 2 - robot.hip_pos[2] - robot.sole_height
+    rows = []
+    for _ in range(samples):
+        push = 0.1 * robot.torque_limits * rng.normal(size=robot.layout.nu)
+        ticks = []
+        for _ in range(2):
+            data.ctrl[:] = push - robot.torque_limits * (12 * data.qpos[7:] + 0.25 * data.qvel[6:])
+            mujoco.mj_step(model, data)
+            ticks.append(np.concatenate([data.ctrl, data.qfrc_constraint]))  # soles: the only constraints
+        rows.append(np.concatenate([data.qpos, data.qvel, np.mean(ticks, axis=0)]))
+    nq, nv, nu = model.nq, model.nv, model.nu
+    return tuple(np.split(np.array(rows), [nq, nq + nv, nq + nv + nu], axis=1))
