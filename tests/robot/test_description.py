@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 from mobnet.core.errors import ConfigError
-from mobnet.robot.description import RobotDescription, load_robot, with_mirrored
+from mobnet.robot.description import RobotDescription, load_robot
 
 TABLE = Path(__file__).parents[2] / "configs" / "robots" / "tocabi.yaml"
 
@@ -39,15 +39,6 @@ def test_link_inertia_obeys_the_triangle_inequality(robot: RobotDescription) -> 
         assert principal[2] <= 1.001 * (principal[0] + principal[1]), body.name
 
 
-def test_mirroring_twice_gives_the_left_side_back(robot: RobotDescription) -> None:
-    row = {"name": "left_hand", "body": "L_Wrist2_Link", "pos": [0.1, 0.2, 0.3]}
-    left, right = with_mirrored([row])
-    assert left is row
-    assert right["body"] == "R_Wrist2_Link"
-    np.testing.assert_allclose(right["pos"], [0.1, -0.2, 0.3])
-    assert {shape.name for shape in robot.shapes} >= {"left_thigh", "right_thigh", "head"}
-
-
 def test_unknown_foot_is_named(robot: RobotDescription) -> None:
     with pytest.raises(ConfigError, match="'middle' is not accepted; accepted: left, right"):
         robot.foot("middle")
@@ -58,11 +49,12 @@ def test_unknown_foot_is_named(robot: RobotDescription) -> None:
     [
         (lambda table: table["bodies"][1].update(parent="nowhere"), "'nowhere' is not accepted"),
         (lambda table: table["joints"][0].update(body="L_Wing"), "'L_Wing' is not accepted"),
-        (lambda table: table["joints"].reverse(), "joints stand as"),
-        (lambda table: table["bodies"].insert(1, table["bodies"].pop(8)), "order"),
+        (lambda table: table["joints"].reverse(), "joints stand in the order"),
+        (lambda table: table["bodies"].insert(1, table["bodies"].pop(8)), "joints stand in the order"),
+        (lambda table: table["hands"].update(left="L_Hook"), "left hand: 'L_Hook' is not accepted"),
     ],
 )
-def test_table_that_does_not_fit_itself_is_refused(tmp_path: Path, break_it, message: str) -> None:  # noqa: ANN001
+def test_table_that_does_not_fit_itself_is_refused(tmp_path: Path, break_it, message: str) -> None:
     table = yaml.safe_load(TABLE.read_text())
     break_it(table)
     path = tmp_path / "robot.yaml"

@@ -23,7 +23,7 @@ log = logging.getLogger(__name__)
 
 
 def observe(config: Mapping[str, Any], recording_stem: Path, out_stem: Path) -> None:
-    """Write r of (9) and the low-passed external torque of (15) for a recording, 2 x (T, nv) [N, N m].
+    """Write r of (9) and the low-passed external torque of (15) for a recording, 2 x (T, nv) [N] and [N m].
 
     Columns are `r.<joint>` and then `tau_ext_lp.<joint>`; segments are the recording's, and the observer starts anew
     with each. The target of the networks (section 4.2.3) is their difference.
@@ -78,7 +78,7 @@ def level_of(recording: Recording, stem: Path) -> str:
 def residual_and_truth(
     observer: MomentumObserver, recording: Recording
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return r of (9) and the low-passed external torque, (T, nv) each [N, N m], every segment on its own."""
+    """Return r of (9) and the low-passed external torque, (T, nv) each [N] and [N m], every segment on its own."""
     residual, truth = np.zeros(recording.sensed.v.shape), np.zeros(recording.sensed.v.shape)
     for span in recording.spans():
         residual[span] = observer.residual(recording.sensed[span])

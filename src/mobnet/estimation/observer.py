@@ -34,9 +34,9 @@ class ObserverState:
     """What the observer carries from one sample to the next; all None before the first.
 
     Attributes:
-        momentum: p of (4) at the last sample (nv,) [kg m/s, kg m^2/s].
-        beta: C^T v - g of (6) at the last sample (nv,) [N, N m].
-        residual: r of (9) at the last sample (nv,) [N, N m].
+        momentum: p of (4) at the last sample (nv,) [kg m/s] and [kg m^2/s].
+        beta: C^T v - g of (6) at the last sample (nv,) [N] and [N m].
+        residual: r of (9) at the last sample (nv,) [N] and [N m].
     """
 
     momentum: Array | None = None
@@ -75,7 +75,7 @@ class MomentumObserver:
         return ObserverState()
 
     def step(self, state: ObserverState, sample: Sensed) -> tuple[ObserverState, Array]:
-        """Take one sample (1-D arrays); return the new state and r of (9), (nv,) [N, N m]. The first r is zero."""
+        """Take one sample (1-D arrays); return the new state and r of (9), (nv,) [N] and [N m]. The first r is zero."""
         p, beta = momentum_and_beta(self.nominal, sample.q, sample.v)
         if state.momentum is None or state.beta is None or state.residual is None:
             residual = np.zeros_like(p)
@@ -86,7 +86,7 @@ class MomentumObserver:
         return ObserverState(p, beta, residual), residual
 
     def residual(self, sensed: Sensed) -> Array:
-        """Return r of (9) over one contiguous stretch, (T, nv) [N, N m]; equal to stepping through it.
+        """Return r of (9) over one contiguous stretch, (T, nv) [N] and [N m]; equal to stepping through it.
 
         Raises:
             DataError: positions or velocities do not fit the model.
@@ -141,9 +141,9 @@ def low_pass(x: NDArray[Any], gain_hz: float, rate_hz: float) -> Array:
 
 def _filtered(x: Array, pole: float) -> Array:
     """Return y_k = pole y_{k-1} + (1 - pole) x_k along time, (T, ...)."""
-    return lfilter([1 - pole], [1, -pole], x, axis=0)
+    return np.asarray(lfilter([1 - pole], [1, -pole], x, axis=0))
 
 
 def _with_base(torque: Array) -> Array:
-    """Return tau_v of (1): six zeros of the base, then the motors' torque, (nv,) [N, N m]."""
+    """Return tau_v of (1): six zeros of the base, then the motors' torque, (nv,) [N] and [N m]."""
     return np.concatenate([np.zeros(N_VIRTUAL), torque])

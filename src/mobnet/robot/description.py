@@ -5,106 +5,29 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from mobnet.core.config import read_yaml
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import JointLayout, layout_of
+from mobnet.robot.parts import (
+    Body,
+    Foot,
+    Joint,
+    Point,
+    Shape,
+    Vector,
+    read_body,
+    read_joint,
+    read_point,
+    read_shape,
+    vector,
+    with_mirrored,
+)
 
 SIDES = ("left", "right")
 WORLD = "world"
-MIRROR_Y = np.array([1.0, -1.0, 1.0])
-Vector = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Body:
-    """A link, without its rotor.
-
-    Attributes:
-        name: name in the table.
-        parent: name of the body it hangs on, `world` for the base.
-        pos: origin in the parent's frame (3,) [m].
-        quat: orientation in the parent's frame, unit, w x y z (4,).
-        mass: link mass [kg].
-        com: centre of mass in body axes (3,) [m].
-        inertia: about the centre of mass, body axes: xx yy zz xy xz yz (6,) [kg m^2].
-    """
-
-    name: str
-    parent: str
-    pos: Vector
-    quat: Vector
-    mass: float
-    com: Vector
-    inertia: Vector
-
-
-@dataclass(frozen=True)
-class Joint:
-    """An actuated hinge at its body's origin.
-
-    Attributes:
-        id: name used in this project, LL1 and so on (Figure 4).
-        body: name of the body it moves.
-        axis: unit axis in body axes (3,).
-        range: lower and upper limit (2,) [rad].
-        torque_limit: largest motor torque [N m].
-        armature: reflected rotor inertia [kg m^2].
-        velocity_limit: largest speed [rad/s].
-    """
-
-    id: str
-    body: str
-    axis: Vector
-    range: Vector
-    torque_limit: float
-    armature: float
-    velocity_limit: float
-
-
-@dataclass(frozen=True)
-class Foot:
-    """A foot: `body` is welded to `ankle`, the last link of the leg `limb`."""
-
-    body: str
-    ankle: str
-    limb: str
-
-
-@dataclass(frozen=True)
-class Shape:
-    """A solid to look at, without mass; either `pos` (3,) [m] or `segment` (6,) [m] places it in its body's frame.
-
-    Attributes:
-        name: name of the solid.
-        body: body that carries it.
-        type: capsule, cylinder, box, ellipsoid or sphere.
-        size: radius or half lengths [m].
-        pos: centre (3,) [m].
-        segment: both ends (6,) [m], or None.
-        rgba: colour (4,), 0..1.
-    """
-
-    name: str
-    body: str
-    type: str
-    size: Vector
-    pos: Vector
-    segment: Vector | None
-    rgba: Vector
-
-
-@dataclass(frozen=True)
-class Point:
-    """A named point of a body, pos (3,) [m] in body axes."""
-
-    name: str
-    body: str
-    pos: Vector
 
 
 @dataclass(frozen=True)
@@ -192,101 +115,51 @@ def load_robot(path: Path) -> RobotDescription:
     robot = RobotDescription(
         name=table["name"],
         layout=layout,
-        bodies=tuple(_body(row) for row in table["bodies"]),
-        joints=tuple(_joint(row) for row in table["joints"]),
+        bodies=tuple(read_body(row) for row in table["bodies"]),
+        joints=tuple(read_joint(row) for row in table["joints"]),
         feet={side: Foot(**feet[side]) for side in SIDES},
         hands=table["hands"],
-        sensor_pos=_vector(feet["sensor_pos"]),
-        sole_centre=_vector(feet["sole_box_centre"]),
-        sole_half=_vector(feet["sole_box_half"]),
+        sensor_pos=vector(feet["sensor_pos"]),
+        sole_centre=vector(feet["sole_box_centre"]),
+        sole_half=vector(feet["sole_box_half"]),
         sole_height=float(feet["sole_height"]),
-        hip_pos=_vector(leg["hip_pos"]),
+        hip_pos=vector(leg["hip_pos"]),
         link_length=float(leg["link_length"]),
-        imu_pos=_vector(table["imu"]["pos"]),
-        shapes=tuple(_shape(row, table["tones"]) for row in with_mirrored(table.get("shapes", []))),
-        points=tuple(
-            Point(row["name"], row["body"], _vector(row["pos"])) for row in with_mirrored(table.get("points", []))
-        ),
+        imu_pos=vector(table["imu"]["pos"]),
+        shapes=tuple(read_shape(row, table["tones"]) for row in with_mirrored(table.get("shapes", []))),
+        points=tuple(read_point(row) for row in with_mirrored(table.get("points", []))),
     )
-    _check(robot, path)
+    for problem in (_tree_problem(robot), _name_problem(robot), _order_problem(robot)):
+        if problem is not None:
+            raise ConfigError(f"{path}: {problem}")
     return robot
 
 
-def with_mirrored(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Return rows of the left side together with their mirror images in y; other rows stay alone."""
-    return [image for row in rows for image in ([row, _mirrored(row)] if row["name"].startswith("left_") else [row])]
+def _tree_problem(robot: RobotDescription) -> str | None:
+    """Return what is wrong where a body hangs on none that stands before it."""
+    known = [WORLD]
+    for body in robot.bodies:
+        if body.parent not in known:
+            return not_accepted(f"parent of {body.name}", body.parent, known)
+        known = [name for name in known if name != WORLD] + [body.name]
+    return None
 
 
-def _mirrored(row: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a row of the left side as the right side has it."""
-    image = {**row, "name": row["name"].replace("left_", "right_", 1), "body": row["body"].replace("L_", "R_", 1)}
-    for key in ("pos", "segment"):
-        if key in row:
-            image[key] = (np.reshape(row[key], (-1, len(MIRROR_Y))) * MIRROR_Y).ravel()
-    return image
-
-
-def _vector(values: ArrayLike) -> Vector:
-    """Return numbers of the table as a float64 vector."""
-    return np.asarray(values, dtype=np.float64)
-
-
-def _body(row: Mapping[str, Any]) -> Body:
-    """Return a row of `bodies`; its quaternion is brought to unit length."""
-    quat = _vector(row["quat"])
-    return Body(
-        row["name"],
-        row["parent"],
-        _vector(row["pos"]),
-        quat / np.linalg.norm(quat),
-        float(row["mass"]),
-        _vector(row["com"]),
-        _vector(row["inertia"]),
-    )
-
-
-def _joint(row: Mapping[str, Any]) -> Joint:
-    """Return a row of `joints`."""
-    return Joint(
-        row["id"],
-        row["body"],
-        _vector(row["axis"]),
-        _vector(row["range"]),
-        float(row["torque_limit"]),
-        float(row["armature"]),
-        float(row["velocity_limit"]),
-    )
-
-
-def _shape(row: Mapping[str, Any], tones: Mapping[str, Any]) -> Shape:
-    """Return a row of `shapes`."""
-    return Shape(
-        row["name"],
-        row["body"],
-        row["type"],
-        _vector(row["size"]),
-        _vector(row.get("pos", np.zeros_like(MIRROR_Y))),
-        _vector(row["segment"]) if "segment" in row else None,
-        _vector(tones[row["tone"]]),
-    )
-
-
-def _check(robot: RobotDescription, path: Path) -> None:
-    """Raise a ConfigError where bodies, joints, feet or shapes name what is not there or stand in another order."""
+def _name_problem(robot: RobotDescription) -> str | None:
+    """Return what is wrong where a joint, foot, hand, shape or point stands on a body that is not there."""
     known = [body.name for body in robot.bodies]
-    for i, body in enumerate(robot.bodies):
-        if body.parent not in (known[:i] or [WORLD]):
-            raise ConfigError(f"{path}: " + not_accepted(f"parent of {body.name}", body.parent, known[:i] or [WORLD]))
-    names = [(f"body of {part.name}", part.body) for part in (*robot.shapes, *robot.points)]
-    names += [(f"body of {joint.id}", joint.body) for joint in robot.joints]
-    names += [(f"{side} foot", foot.body) for side, foot in robot.feet.items()]
-    for what, name in names + [("hand", hand) for hand in robot.hands.values()]:
-        if name not in known:
-            raise ConfigError(f"{path}: " + not_accepted(what, name, known))
-    order = tuple(joint.id for joint in robot.joints)
-    if order != robot.layout.actuated:
-        raise ConfigError(f"{path}: joints stand as {order}; accepted: {robot.layout.actuated}")
+    users = [(f"body of {part.name}", part.body) for part in (*robot.shapes, *robot.points)]
+    users += [(f"body of {joint.id}", joint.body) for joint in robot.joints]
+    users += [(f"{side} foot", foot.body) for side, foot in robot.feet.items()]
+    users += [(f"{side} hand", hand) for side, hand in robot.hands.items()]
+    return next((not_accepted(what, name, known) for what, name in users if name not in known), None)
+
+
+def _order_problem(robot: RobotDescription) -> str | None:
+    """Return what is wrong where joints, or the bodies that they move, do not stand in motor order."""
+    accepted = robot.layout.actuated
+    listed = tuple(joint.id for joint in robot.joints)
     moved = {joint.body: joint.id for joint in robot.joints}
-    depth_first = tuple(moved[name] for name in known if name in moved)
-    if depth_first != order:
-        raise ConfigError(f"{path}: bodies move joints in the order {depth_first}; accepted: {order}")
+    depth_first = tuple(moved[body.name] for body in robot.bodies if body.name in moved)
+    wrong = next((order for order in (listed, depth_first) if order != accepted), None)
+    return None if wrong is None else f"joints stand in the order {wrong}; accepted: {accepted}"

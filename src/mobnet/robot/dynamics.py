@@ -18,49 +18,57 @@ Array = NDArray[np.float64]
 
 
 def mass_matrix(nominal: NominalModel, q: NDArray[Any]) -> Array:
-    """Return M(q) of (1), rotor inertia included, (nv, nv) [kg, kg m, kg m^2]."""
+    """Return M(q) of (1), rotor inertia included, (nv, nv) [kg], [kg m], [kg m^2]."""
     upper = np.triu(pin.crba(nominal.model, nominal.data, to_pinocchio(q)))
     return upper + np.triu(upper, 1).T
 
 
 def coriolis(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> Array:
-    """Return C(q, v) of (1) with C + C^T = Mdot, (nv, nv)."""
+    """Return C(q, v) of (1) with C + C^T = Mdot, (nv, nv); times v it is in [N] and [N m]."""
     return pin.computeCoriolisMatrix(nominal.model, nominal.data, to_pinocchio(q), _float64(v))
 
 
 def gravity(nominal: NominalModel, q: NDArray[Any]) -> Array:
-    """Return g(q) of (1), (nv,) [N, N m]."""
+    """Return g(q) of (1), (nv,) [N] and [N m]."""
     return pin.computeGeneralizedGravity(nominal.model, nominal.data, to_pinocchio(q))
 
 
 def bias(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> Array:
-    """Return C v + g of (1), (nv,) [N, N m]."""
+    """Return C v + g of (1), (nv,) [N] and [N m]."""
     return pin.nonLinearEffects(nominal.model, nominal.data, to_pinocchio(q), _float64(v))
 
 
 def inverse_dynamics(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any], a: NDArray[Any]) -> Array:
-    """Return M a + C v + g of (1), a the derivative of v, (nv,) [N, N m]."""
+    """Return M a + C v + g of (1), a the derivative of v, (nv,) [N] and [N m]."""
     return pin.rnea(nominal.model, nominal.data, to_pinocchio(q), _float64(v), _float64(a))
 
 
 def momentum(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> Array:
-    """Return p = M v of (4), (nv,) [kg m/s, kg m^2/s]."""
+    """Return p = M v of (4), (nv,) [kg m/s] and [kg m^2/s]."""
     return momentum_and_beta(nominal, q, v)[0]
 
 
 def beta(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> Array:
-    """Return C^T v - g of (6), (nv,) [N, N m]."""
+    """Return C^T v - g of (6), (nv,) [N] and [N m]."""
     return momentum_and_beta(nominal, q, v)[1]
 
 
 def momentum_and_beta(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> tuple[Array, Array]:
-    """Return p = M v of (4) and C^T v - g of (6), each (..., nv), for positions (..., nq) and velocities (..., nv).
+    """Return p = M v of (4) and C^T v - g of (6), (..., nv) each.
 
-    One momentum costs an inverse dynamics without velocity, rnea(q, 0, v) = M v + g, which is cheaper than M.
+    Args:
+        nominal: the model.
+        q: positions (..., nq), base quaternion w x y z.
+        v: velocities (..., nv) [m/s] and [rad/s].
+
+    Returns:
+        p [kg m/s] and [kg m^2/s], and beta [N] and [N m].
+
     """
     model, data, nv = nominal.model, nominal.data, nominal.model.nv
     positions = to_pinocchio(q).reshape(-1, model.nq)
     velocities = _float64(v).reshape(-1, nv)
+    # rnea(q, 0, v) = M v + g is cheaper than M itself
     p, result, still = np.empty_like(velocities), np.empty_like(velocities), np.zeros(nv)
     rnea, weight, matrix = pin.rnea, pin.computeGeneralizedGravity, pin.computeCoriolisMatrix
     for k, (position, velocity) in enumerate(zip(positions, velocities, strict=True)):

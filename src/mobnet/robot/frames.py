@@ -20,7 +20,7 @@ XYZW_TO_WXYZ = (3, 0, 1, 2)
 
 
 def to_pinocchio(q: NDArray[Any]) -> NDArray[np.float64]:
-    """Return generalized positions (..., nq) of a recording, quaternion w x y z, as Pinocchio's, x y z w.
+    """Return generalized positions (..., nq) [m], [-], [rad] of a recording, w x y z, as Pinocchio's, x y z w.
 
     Quaternions are brought to unit length: float32 logs and noise leave it.
     """
@@ -28,7 +28,7 @@ def to_pinocchio(q: NDArray[Any]) -> NDArray[np.float64]:
 
 
 def from_pinocchio(q: NDArray[Any]) -> NDArray[np.float64]:
-    """Return Pinocchio's generalized positions (..., nq) with the quaternion as w x y z."""
+    """Return Pinocchio's generalized positions (..., nq) [m], [-], [rad] with the quaternion as w x y z."""
     return _reordered(q, XYZW_TO_WXYZ)
 
 
@@ -41,7 +41,7 @@ def _reordered(q: NDArray[Any], order: tuple[int, ...]) -> NDArray[np.float64]:
 
 
 def rotation(quat: NDArray[Any]) -> NDArray[np.float64]:
-    """Return the rotation matrices (..., 3, 3) of unit quaternions w x y z (..., 4), body to world."""
+    """Return the rotation matrices (..., 3, 3) [-] of unit quaternions w x y z (..., 4), body to world."""
     w, x, y, z = np.moveaxis(np.asarray(quat, dtype=np.float64), -1, 0)
     rows = [
         [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],

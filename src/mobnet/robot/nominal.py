@@ -9,7 +9,8 @@ from __future__ import annotations
 import pinocchio as pin
 
 from mobnet.core.joints import N_VIRTUAL
-from mobnet.robot.description import SIDES, Body, Joint, RobotDescription
+from mobnet.robot.description import SIDES, RobotDescription
+from mobnet.robot.parts import Body, Joint
 
 ALIGNED = {(1.0, 0.0, 0.0): pin.JointModelRX, (0.0, 1.0, 0.0): pin.JointModelRY, (0.0, 0.0, 1.0): pin.JointModelRZ}
 

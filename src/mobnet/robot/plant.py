@@ -6,7 +6,8 @@ from collections.abc import Mapping
 
 import mujoco
 
-from mobnet.robot.description import SIDES, WORLD, Body, RobotDescription, Shape
+from mobnet.robot.description import SIDES, WORLD, RobotDescription
+from mobnet.robot.parts import Body, Shape
 
 SOLE_TYPE = 2  # contype of soles and conaffinity of terrain: only soles on terrain collide
 TERRAIN_TYPE = 1  # contype of terrain and conaffinity of soles

@@ -32,7 +32,7 @@ def foot_jacobian(nominal: NominalModel, q: NDArray[Any], side: str) -> Array:
 
 
 def foot_torque(nominal: NominalModel, q: NDArray[Any], side: str, wrench: NDArray[Any]) -> Array:
-    """Return J_foot^T F of (2), (..., nv) [N, N m].
+    """Return J_foot^T F of (2), (T, nv) or (nv,) [N] and [N m].
 
     Args:
         nominal: the model; its masses do not matter.
@@ -53,12 +53,12 @@ def foot_torque(nominal: NominalModel, q: NDArray[Any], side: str, wrench: NDArr
 
 
 def feet_torque(nominal: NominalModel, q: NDArray[Any], wrenches: Mapping[str, NDArray[Any]]) -> Array:
-    """Return the sum of J^T F over the feet, (..., nv) [N, N m]: the training label of section 4.2.3.
+    """Return the sum of J^T F over the feet, (T, nv) or (nv,) [N] and [N m]: the training label of section 4.2.3.
 
     Args:
         nominal: the model; its masses do not matter.
         q: generalized positions (..., nq).
-        wrenches: side -> wrench (..., 6) [N, N m] as in `foot_torque`.
+        wrenches: side -> wrench (..., 6) [N] and [N m] as in `foot_torque`.
 
     Raises:
         ConfigError: a side is unknown.
