@@ -14,7 +14,7 @@ import yaml
 from mobnet.core.joints import JointLayout, layout_of
 from mobnet.core.recording import Recording, Sensed, Truth
 from mobnet.core.store import write_array, write_recording
-from mobnet.evaluation.rows import Score
+from mobnet.evaluation.rows import Score, write_rows
 
 REPO = Path(__file__).parents[2]
 RATE_HZ = 100.0
@@ -22,6 +22,12 @@ STEP_ROWS = 70  # rows in the air and rows on the ground of the made-up walk
 JOINTS = [f"LL{i}" for i in range(1, 7)]
 LEVELS = {"ideal": ["MOB"], "sensor_noise": ["MOB"], "all_uncertainty": ["MOB", "MOB-Net", "FTS-e2e"]}
 MEANS = {"ideal": 0.01, "sensor_noise": 1.2, "MOB": 19.0, "MOB-Net": 1.5, "FTS-e2e": 2.0}  # avg [N m]
+
+
+@pytest.fixture
+def rng() -> np.random.Generator:
+    """Random numbers, the same in every run."""
+    return np.random.default_rng(5)
 
 
 @pytest.fixture
@@ -72,9 +78,16 @@ def made_up_scores(networks: int = 2, tests: int = 3) -> list[Score]:
 
 
 @pytest.fixture
-def scores() -> list[Score]:
-    """Scores of 2 networks on 3 tests."""
-    return made_up_scores()
+def make_scores() -> Callable[..., list[Score]]:
+    """Make scores of any number of networks and tests: make_scores(networks=2, tests=3)."""
+    return made_up_scores
+
+
+@pytest.fixture
+def scores_csv(tmp_path: Path) -> Path:
+    """Scores of 2 networks on 3 tests, written."""
+    write_rows(tmp_path / "scores.csv", Score, made_up_scores())
+    return tmp_path / "scores.csv"
 
 
 def write_walk(

@@ -116,17 +116,33 @@ def read_claims(path: Path) -> list[Claim]:
 
 def claim_fault(entry: Mapping[str, Any]) -> str | None:
     """Return what is wrong with a claim's entry and what is accepted, or None."""
+    fault = keys_fault(entry)
+    if fault:
+        return fault
+    if entry["quantity"] not in QUANTITIES:
+        return not_accepted("quantity", entry["quantity"], QUANTITIES)
+    count = QUANTITIES[entry["quantity"]][0]
+    if len(entry["cells"]) != count:
+        return f"{len(entry['cells'])} cells; {entry['quantity']} takes {count}"
+    return bounds_fault("reproduced", entry["reproduced"]) or bounds_fault("direction", entry["direction"])
+
+
+def keys_fault(entry: Mapping[str, Any]) -> str | None:
+    """Return which key of a claim's entry is unknown or missing, or None."""
     accepted = [field.name for field in fields(Claim) if field.name != "name"]
     unknown = [key for key in entry if key not in accepted]
     if unknown:
         return not_accepted("key", unknown[0], accepted)
     missing = [key for key in accepted if key not in entry and key != "metric"]
-    if missing:
-        return f"key {missing[0]!r} is missing"
-    if entry["quantity"] not in QUANTITIES:
-        return not_accepted("quantity", entry["quantity"], QUANTITIES)
-    count = QUANTITIES[entry["quantity"]][0]
-    return None if len(entry["cells"]) == count else f"{len(entry['cells'])} cells; {entry['quantity']} takes {count}"
+    return f"key {missing[0]!r} is missing" if missing else None
+
+
+def bounds_fault(key: str, bounds: Sequence[float | None]) -> str | None:
+    """Return what is wrong with a range [low, high], in [N m] or [-], or None."""
+    known = [bound for bound in bounds if bound is not None]
+    if len(bounds) == 2 and known == sorted(known):
+        return None
+    return f"{key}: {bounds} is not accepted; accepted: [low, high] with low <= high, null for no bound"
 
 
 def judge(config: Mapping[str, Any], claim: Claim, scores: Sequence[Score]) -> Verdict:
@@ -145,14 +161,14 @@ def judge(config: Mapping[str, Any], claim: Claim, scores: Sequence[Score]) -> V
 
 
 def verdict_of(value: float, claim: Claim) -> str:
-    """Return `reproduced`, `direction only` or `not reproduced` for our number [unit of the claim]."""
+    """Return `reproduced`, `direction only` or `not reproduced` for our number, [N m] or [-] as the claim says."""
     if inside(value, claim.reproduced):
         return "reproduced"
     return "direction only" if inside(value, claim.direction) else "not reproduced"
 
 
 def inside(value: float, bounds: Bounds) -> bool:
-    """Return whether a number lies in a closed range, None being no bound."""
+    """Return whether a number lies in a closed range of its unit, [N m] or [-], None being no bound."""
     low, high = bounds
     return (low is None or value >= low) and (high is None or value <= high)
 

@@ -59,7 +59,7 @@ def draw_gait_cycle(panels: Sequence[Panel], joint: str) -> Figure:
     """Draw one gait cycle of a joint, a panel for each level and method, swing shaded (Figure 5).
 
     Args:
-        panels: arrays (T,), torque in [N m].
+        panels: arrays (T,), torque in [N m], time in [s].
         joint: name for the axis label.
     """
     with mpl.rc_context(STYLE):

@@ -43,7 +43,7 @@ def first(means: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def summarise(grids: Sequence[NDArray[Any]], config: Mapping[str, Any], combine: Combine = first) -> Summary:
-    """Return a number made of the means of grids of runs, and its bootstrap interval.
+    """Return a number made of the means of grids of runs, and its bootstrap interval, e.g. [N m].
 
     A network is drawn for all grids at once, and so is a test recording: seeds are shared, so a ratio is paired.
 
@@ -76,7 +76,7 @@ def summarise(grids: Sequence[NDArray[Any]], config: Mapping[str, Any], combine:
 
 
 def stack(grids: Sequence[NDArray[Any]]) -> NDArray[np.float64]:
-    """Return grids (networks, tests) as one array (K, networks, tests), a single row repeated for all networks.
+    """Return grids (networks, tests) as one array (K, networks, tests) [N m], a single row repeated for all.
 
     Raises:
         DataError: the shapes do not fit.

@@ -15,11 +15,11 @@ def rmse(estimate: NDArray[Any], truth: NDArray[Any]) -> NDArray[np.float64]:
     """Return the root-mean-square error of each joint, the number of Tables 5 to 8.
 
     Args:
-        estimate: estimated external torque (T, n) [N, N m].
-        truth: true external torque behind the observer's low-pass, tau~_e of (15), (T, n) [N, N m].
+        estimate: estimated external torque (T, n) [N m]; V1..V3 [N].
+        truth: true external torque behind the observer's low-pass, tau~_e of (15), (T, n) [N m]; V1..V3 [N].
 
     Returns:
-        (n,) [N, N m].
+        (n,) [N m]; V1..V3 [N].
     """
     error = np.asarray(estimate, dtype=np.float64) - np.asarray(truth, dtype=np.float64)
     return np.sqrt(np.mean(error**2, axis=0))
@@ -29,12 +29,12 @@ def roughness(signal: NDArray[Any], spans: Spans, rate_hz: float) -> NDArray[np.
     """Return how jagged each signal is: root mean square of its rate of change (section 5.1 on Figure 5).
 
     Args:
-        signal: torque (T, n) [N, N m].
+        signal: torque (T, n) [N m]; V1..V3 [N].
         spans: contiguous stretches (start, end); no difference is taken across their borders.
         rate_hz: samples per second [Hz].
 
     Returns:
-        (n,) [N/s, N m/s].
+        (n,) [N m/s]; V1..V3 [N/s].
     """
     steps = [np.diff(np.asarray(signal[start:end], dtype=np.float64), axis=0) for start, end in spans]
     return np.sqrt(np.mean(np.concatenate(steps) ** 2, axis=0)) * rate_hz

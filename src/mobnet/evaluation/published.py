@@ -35,7 +35,7 @@ def read_published(path: Path, table: str) -> dict[str, Any]:
 
 
 def published_value(entry: Mapping[str, Any], level: str, method: str, joint: str) -> float | None:
-    """Return the paper's number [unit of the table], or None where it prints none."""
+    """Return the paper's number [N m], V1..V3 [N], or None where it prints none."""
     row = entry["rows"].get(level, {}).get(method)
     if row is None or joint not in entry["joints"]:
         return None

@@ -38,7 +38,7 @@ class Wanted:
 
 
 def run_grid(scores: Sequence[Score], wanted: Wanted) -> NDArray[np.float64]:
-    """Return the runs of a number, (networks, tests) [unit of the scores], seeds ascending.
+    """Return the runs of a number, (networks, tests) [N m] (or the metric's unit), seeds ascending.
 
     Raises:
         DataError: no run, two rows of the same run, or a network that misses a test.

@@ -134,7 +134,7 @@ def column_index(meta: Mapping[str, Any]) -> dict[str, int]:
 
 
 def take(array: NDArray[Any], meta: Mapping[str, Any], stem: Path, prefix: str, joints: Sequence[str]) -> NDArray[Any]:
-    """Return the columns `prefix` + joint of a stored array, (T, len(joints)).
+    """Return the columns `prefix` + joint of a stored array, (T, len(joints)), torques in [N m].
 
     Raises:
         DataError: a column is missing.

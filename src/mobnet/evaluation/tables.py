@@ -67,7 +67,7 @@ def table_cells(
 
 
 def table_tex(cells: Sequence[Cell], entry: Mapping[str, Any], confidence: float) -> str:
-    """Return the table as a TeX tabular, laid out as in the paper."""
+    """Return the table [N m] as a TeX tabular, laid out as in the paper; `confidence` is a share [-]."""
     header = ["Uncertainty level", "Method", "", *map(tex_escape, entry["joints"])]
     lines = _lines(cells, entry, confidence)
     lines = [line if isinstance(line, str) else list(map(tex_escape, line)) for line in lines]
@@ -75,13 +75,13 @@ def table_tex(cells: Sequence[Cell], entry: Mapping[str, Any], confidence: float
 
 
 def table_markdown(cells: Sequence[Cell], entry: Mapping[str, Any], confidence: float) -> str:
-    """Return the table as Markdown, laid out as in the paper."""
+    """Return the table [N m] as Markdown, laid out as in the paper; `confidence` is a share [-]."""
     header = ["Uncertainty level", "Method", "", *entry["joints"]]
     return markdown_table(header, _lines(cells, entry, confidence), left=len(header) - len(entry["joints"]))
 
 
 def _lines(cells: Sequence[Cell], entry: Mapping[str, Any], confidence: float) -> list[Line]:
-    """Return the rows of text: for each level and method ours, its interval and the paper's, the last two if any."""
+    """Return the rows of text, level by level and method by method."""
     lines: list[Line] = []
     seen: list[str] = []
     for level, method in dict.fromkeys((cell.level, cell.method) for cell in cells):
@@ -91,11 +91,17 @@ def _lines(cells: Sequence[Cell], entry: Mapping[str, Any], confidence: float) -
             lines.append(RULE if first else GAP)
         over = _floor(cells, entry) if entry["floor"]["level"] in seen and level != entry["floor"]["level"] else None
         seen.append(level)
-        lines.append([entry["labels"].get(level, level) if first else "", method, "ours", *_values(row, over, "value")])
-        if any(cell.low is not None for cell in row):
-            lines.append(["", "", f"{confidence:.0%}", *(span(cell.low, cell.high) for cell in row)])
-        if any(cell.published is not None for cell in row):
-            lines.append(["", "", "paper", *_values(row, over, "published")])
+        lines += _method_lines(row, entry["labels"].get(level, level) if first else "", over, confidence)
+    return lines
+
+
+def _method_lines(row: Sequence[Cell], label: str, over: Cell | None, confidence: float) -> list[Line]:
+    """Return a method's rows of text: ours, then its interval and the paper's numbers, if there are any."""
+    lines: list[Line] = [[label, row[0].method, "ours", *_values(row, over, "value")]]
+    if any(cell.low is not None for cell in row):
+        lines.append(["", "", f"{confidence:.0%}", *(span(cell.low, cell.high) for cell in row)])
+    if any(cell.published is not None for cell in row):
+        lines.append(["", "", "paper", *_values(row, over, "published")])
     return lines
 
 
