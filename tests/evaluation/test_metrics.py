@@ -43,3 +43,9 @@ def test_every_metric_of_a_perfect_constant_estimate_is_zero() -> None:
     signal = np.full((20, 2), 4.0)
     for measure, _ in METRICS.values():
         np.testing.assert_allclose(measure(signal, signal, ((0, 20),), 1000.0), 0.0)
+
+
+def test_samples_between_segments_do_not_count() -> None:
+    estimate = np.array([[1.0], [1.0], [50.0], [1.0], [1.0]])
+    measure, _ = METRICS["rmse"]
+    np.testing.assert_allclose(measure(estimate, np.zeros((5, 1)), ((0, 2), (3, 5)), 1000.0), 1.0)
