@@ -1,6 +1,7 @@
 """The paper builds where TeX exists, says what is missing where it does not, and never changes on its own."""
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -8,8 +9,11 @@ import pytest
 
 from mobnet.core.errors import DataError
 from mobnet.evaluation import paper
+from mobnet.evaluation.deviations import deviations
+from mobnet.evaluation.gait import figure_05
 from mobnet.evaluation.paper import PaperError, build, collect, missing_packages
 
+REPO = Path(__file__).parents[2]
 SOURCE = r"""\documentclass{article}
 \pdfinfoomitdate=1 \pdftrailerid{} \providecommand{\tables}{../tables}
 \begin{document}\input{\tables/table_05}\end{document}
@@ -63,6 +67,18 @@ def test_with_tex_equal_input_gives_equal_bytes(config: dict[str, Any], source: 
     run(config, source)
     assert pdf.read_bytes() == once
     assert once.startswith(b"%PDF")
+
+
+@with_tex
+def test_the_paper_itself_builds_from_the_golden_tables(
+    config: dict[str, Any], tmp_path: Path, walk: Callable[..., dict[str, Any]]
+) -> None:
+    for golden in (REPO / "tests/golden").glob("*.tex"):
+        (tmp_path / golden.name).write_text(golden.read_text())
+    deviations(REPO / "docs/deviations.md", tmp_path / "deviations.tex")
+    figure_05(config, [walk(1.0, method="MOB"), walk(2.0)], tmp_path)
+    build(config, REPO / "paper/main.tex", tmp_path, tmp_path, tmp_path / "out/main.pdf")
+    assert (tmp_path / "out/main.pdf").stat().st_size > 50_000
 
 
 @with_tex
