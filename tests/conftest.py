@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -79,7 +80,7 @@ def _recording(layout: JointLayout, rng: np.random.Generator, samples: int, segm
     sensed = Sensed(q, v, acc, torque, torque, np.zeros((samples, 2)))
     truth = Truth(external, np.zeros((samples, 6)), np.zeros((samples, 6)), np.ones((samples, 2)))
     edges = np.linspace(0, samples, segments + 1).round().astype(int)
-    spans = tuple((int(a), int(b)) for a, b in zip(edges, edges[1:], strict=False))
+    spans = tuple((int(a), int(b)) for a, b in pairwise(edges))
     meta = {"scenario": "made_up", "level": "all_uncertainty", "seed": int(rng.integers(1 << 30))}
     return Recording(sensed, truth, spans, RATE_HZ, meta)
 

@@ -53,7 +53,7 @@ class LimbData:
         """Return a hash of every number of the data."""
         digest = hashlib.sha256(repr((self.segments, self.input_names, self.joints, self.rate_hz)).encode())
         for array in (self.inputs, self.targets):
-            digest.update(memoryview(np.ascontiguousarray(array)).cast("B"))
+            digest.update(np.ascontiguousarray(array).data)
         return digest.hexdigest()
 
 
@@ -96,7 +96,12 @@ def load_limb_data(
 
 
 def _load_one(
-    layout: JointLayout, inputs: LimbInputs, joints: Sequence[str], target: str, recording_stem: Path, residual_stem: Path
+    layout: JointLayout,
+    inputs: LimbInputs,
+    joints: Sequence[str],
+    target: str,
+    recording_stem: Path,
+    residual_stem: Path,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], tuple[Span, ...], float]:
     """Return inputs, targets, segments and rate of one recording."""
     recording = read_recording(recording_stem, layout)

@@ -10,6 +10,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,8 +44,14 @@ class Network:
         input_names: names of the inputs, (n_in,).
     """
 
-    def __init__(self, tensors: Mapping[str, Array], limb: str, joints: tuple[str, ...], input_names: tuple[str, ...],
-                 std_min: float) -> None:
+    def __init__(
+        self,
+        tensors: Mapping[str, Array],
+        limb: str,
+        joints: tuple[str, ...],
+        input_names: tuple[str, ...],
+        std_min: float,
+    ) -> None:
         """Take weights by the names torch gives them.
 
         Args:
@@ -62,7 +69,7 @@ class Network:
         self._input_mean, self._input_std, self._target_mean, self._target_std = scales
         self.hidden = w_state.shape[1]
         # sigmoid(x) = (1 + tanh(x / 2)) / 2: the halves go into the weights of the reset and update gates
-        half = np.repeat(np.float32([0.5, 0.5, 1.0]), self.hidden)
+        half = np.repeat(np.array([0.5, 0.5, 1.0], dtype=np.float32), self.hidden)
         self._w_in, self._w_state = half[:, None] * w_in, half[:, None] * w_state
         self._b_in, self._b_state = half * b_in, half * b_state
 
@@ -88,7 +95,7 @@ class Network:
         """Return z-scored inputs."""
         return (x - self._input_mean) / self._input_std
 
-    def _advance(self, state: Array, gates_in: Array) -> Array:
+    def _advance(self, state: Array, gates_in: NDArray[Any]) -> Array:
         """Return the GRU's next state from the input's share of the gates (3 hidden,): reset, update, new."""
         h = self.hidden
         gates_state = self._w_state @ state

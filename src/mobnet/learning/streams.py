@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,7 +73,7 @@ def cut_streams(
     for start, end in blocks:
         first = start + (int(rng.integers(stream)) if rng else 0)
         cuts = [start, *range(first, end, stream), end]
-        pieces = [(a, a + (b - a) // horizon * horizon) for a, b in zip(cuts, cuts[1:], strict=False)]
+        pieces = [(a, a + (b - a) // horizon * horizon) for a, b in pairwise(cuts)]
         streams += [(a, b) for a, b in pieces if b > a]
     return [streams[i] for i in rng.permutation(len(streams))] if rng else streams
 

@@ -24,7 +24,7 @@ def write_metrics(path: Path, rows: Sequence[Row]) -> None:
     text = io.StringIO()
     writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
     writer.writeheader()
-    writer.writerows(rows)
+    writer.writerows({name: row[name] for name in COLUMNS} for row in rows)
     write_text(path, text.getvalue())
 
 
@@ -54,7 +54,7 @@ def write_wandb(folder: Path, name: str, settings: Mapping[str, Any], rows: Sequ
 
 def _log_run(scratch: str, name: str, settings: Mapping[str, Any], rows: Sequence[Row]) -> None:
     """Log the epochs into a run below the scratch folder."""
-    os.environ |= {place: scratch for place in WANDB_PLACES} | {"WANDB_ERROR_REPORTING": "false"}
+    os.environ |= dict.fromkeys(WANDB_PLACES, scratch) | {"WANDB_ERROR_REPORTING": "false"}
     import wandb  # reads its environment when imported
 
     quiet = wandb.Settings(x_disable_stats=True, x_disable_meta=True, console="off", silent=True, disable_git=True)

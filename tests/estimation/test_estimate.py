@@ -1,0 +1,62 @@
+"""The rule `estimate`: columns, segments, and what a file says of itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mobnet.core.errors import DataError
+from mobnet.core.estimator import Estimate
+from mobnet.core.joints import JointLayout
+from mobnet.core.recording import Recording
+from mobnet.core.store import read_array
+from mobnet.estimation.estimate import estimate, run_segments, table_of
+from mobnet.estimation.methods import build_estimator
+
+Write = Callable[[Path, Recording], tuple[Path, Path]]
+
+
+def test_each_segment_starts_from_a_fresh_state(
+    full_config: dict[str, Any], tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write
+) -> None:
+    recording = made_up(0, 0.4, segments=2)
+    stem, _ = write_pair(tmp_path, recording)
+    estimate(full_config, "MOB", stem, {}, tmp_path / "out")
+    array, meta = read_array(tmp_path / "out")
+    estimator = build_estimator(full_config, "MOB", {}, "all_uncertainty", 1000.0)
+    for span in recording.spans():
+        alone = estimator.estimate(recording.sensed[span]).tau_ext
+        np.testing.assert_allclose(array[span], alone, atol=1e-3 * np.abs(alone).max())
+        assert not array[span.start].any()
+    assert meta["segments"] == [[0, 200], [200, 400]]
+    assert (meta["method"], meta["scenario"], meta["level"]) == ("MOB", "made_up", "all_uncertainty")
+    assert [column["name"] for column in meta["columns"]] == [f"tau_ext.{joint}" for joint in estimator.joints]
+
+
+def test_std_columns_follow_if_there_are_any(layout: JointLayout) -> None:
+    tau, std = np.zeros((3, 2)), np.ones((3, 2))
+    array, columns = table_of(Estimate(tau, std), ["V1", "LL2"], layout)
+    assert columns[0] == ("tau_ext.V1", "N", "world")
+    assert [name for name, _, _ in columns] == ["tau_ext.V1", "tau_ext.LL2", "std.V1", "std.LL2"]
+    np.testing.assert_array_equal(array, np.concatenate([tau, std], axis=1))
+    assert len(table_of(Estimate(tau), ["V1", "LL2"], layout)[1]) == 2
+
+
+def test_a_method_without_a_std_gets_none(full_config: dict[str, Any], made_up: Callable[..., Recording]) -> None:
+    estimator = build_estimator(full_config, "MOB", {}, "ideal", 1000.0)
+    assert run_segments(estimator, made_up(0, 0.1)).std is None
+
+
+def test_a_recording_that_names_no_level_is_refused(
+    full_config: dict[str, Any], tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write
+) -> None:
+    stem, _ = write_pair(tmp_path, made_up(0, 0.1))
+    path = stem.with_suffix(".json")
+    path.write_text(path.read_text().replace('"level"', '"lever"'))
+    with pytest.raises(DataError, match="key 'level' is missing"):
+        estimate(full_config, "MOB", stem, {}, tmp_path / "out")
+    assert not (tmp_path / "out.npy").exists()

@@ -1,0 +1,60 @@
+"""Eq. (15): what a model of the uncertainty leaves of the residual."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from mobnet.core.recording import Recording, Sensed
+from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.residual import ResidualEstimator
+from mobnet.learning.networks import Prediction
+from mobnet.robot.nominal import NominalModel
+
+LIMB = ("LL3", "LL1")  # not in the robot's order
+OFFSET = np.array([3.0, -2.0], dtype=np.float32)
+
+
+class Constant:
+    """Predicts the same uncertainty torque always, without a standard deviation."""
+
+    joints = LIMB
+
+    def init(self) -> None:
+        return None
+
+    def step(self, state: None, sample: Sensed) -> tuple[None, Prediction]:
+        return None, Prediction(OFFSET)
+
+    def run(self, sensed: Sensed) -> Prediction:
+        return Prediction(np.tile(OFFSET, (len(sensed), 1)))
+
+
+@pytest.fixture
+def observer(nominal: NominalModel) -> MomentumObserver:
+    return MomentumObserver(nominal, 100.0, 1000.0)
+
+
+def test_without_a_model_it_is_the_observer(observer: MomentumObserver, made_up: Callable[..., Recording]) -> None:
+    sensed = made_up(0, 0.1).sensed
+    estimator = ResidualEstimator(observer)
+    result = estimator.estimate(sensed)
+    assert estimator.joints == observer.nominal.robot.layout.names
+    assert result.std is None
+    np.testing.assert_array_equal(result.tau_ext, observer.residual(sensed))
+
+
+def test_a_model_is_subtracted_from_its_own_joints(
+    observer: MomentumObserver, made_up: Callable[..., Recording]
+) -> None:
+    sensed = made_up(0, 0.1).sensed
+    estimator = ResidualEstimator(observer, Constant())
+    columns = observer.nominal.robot.layout.columns(LIMB)
+    result = estimator.estimate(sensed)
+    np.testing.assert_allclose(result.tau_ext, observer.residual(sensed)[:, columns] - OFFSET)
+    state = estimator.init()
+    for k in range(len(sensed)):
+        state, one = estimator.step(state, sensed[k])
+        np.testing.assert_allclose(one.tau_ext, result.tau_ext[k], rtol=1e-9, atol=1e-9)

@@ -1,0 +1,85 @@
+"""Checkpoints: what is saved comes back, and what belongs elsewhere does not."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+
+import pytest
+import torch
+
+from mobnet.learning import checkpoint
+from mobnet.learning.checkpoint import Progress
+from mobnet.learning.model import LimbNetwork
+
+Pair = tuple[LimbNetwork, torch.optim.Adam]
+
+
+def trained(steps: int) -> Pair:
+    """Return a small network and its optimizer after some updates."""
+    torch.manual_seed(0)
+    network = LimbNetwork(3, 8, 2, 1e-6)
+    optimizer = torch.optim.Adam(network.parameters(), lr=1e-2)
+    for _ in range(steps):
+        advance((network, optimizer))
+    return network, optimizer
+
+
+def advance(pair: Pair) -> None:
+    """Make one update towards zero."""
+    pair[1].zero_grad()
+    pair[0](torch.ones(5, 2, 3), pair[0].fresh_state(2))[0].square().sum().backward()
+    pair[1].step()
+
+
+@pytest.fixture
+def saved(tmp_path: Path) -> tuple[Path, Pair, Progress]:
+    pair = trained(3)
+    done = Progress([{"epoch": 1, "validation_loss": 0.5}], checkpoint.copy_weights(pair[0]), 2.5)
+    checkpoint.save(tmp_path / "c.safetensors", "print", *pair, done)
+    return tmp_path / "c.safetensors", pair, done
+
+
+def test_a_resumed_pair_takes_the_same_next_step(saved: tuple[Path, Pair, Progress]) -> None:
+    path, pair, done = saved
+    other = trained(0)
+    found = checkpoint.resume(path, "print", *other)
+    assert (found.rows, found.seconds, found.epoch) == (done.rows, done.seconds, 1)
+    assert all(torch.equal(found.best[name], tensor) for name, tensor in done.best.items())
+    for both in (pair, other):
+        advance(both)
+    weights = zip(pair[0].parameters(), other[0].parameters(), strict=True)
+    assert all(torch.equal(a, b) for a, b in weights)
+
+
+def test_a_checkpoint_of_another_run_is_not_used_and_says_so(
+    saved: tuple[Path, Pair, Progress], caplog: pytest.LogCaptureFixture
+) -> None:
+    network, optimizer = trained(0)
+    before = checkpoint.copy_weights(network)
+    with caplog.at_level(logging.WARNING):
+        assert checkpoint.resume(saved[0], "other", network, optimizer).epoch == 0
+    assert "starting afresh" in caplog.text
+    assert all(torch.equal(before[name], tensor) for name, tensor in network.state_dict().items())
+
+
+def test_a_damaged_checkpoint_is_not_used_and_says_so(
+    saved: tuple[Path, Pair, Progress], caplog: pytest.LogCaptureFixture
+) -> None:
+    saved[0].write_bytes(saved[0].read_bytes()[:100])
+    assert checkpoint.resume(saved[0], "print", *trained(0)).epoch == 0
+    assert "damaged" in caplog.text
+
+
+def test_without_a_checkpoint_a_training_starts_at_the_first_epoch(tmp_path: Path) -> None:
+    assert checkpoint.resume(tmp_path / "none", "print", *trained(0)).epoch == 0
+
+
+def test_the_first_of_equal_epochs_is_the_best() -> None:
+    rows = [{"epoch": i, "validation_loss": loss} for i, loss in enumerate([3.0, 1.0, 2.0, 1.0])]
+    assert Progress(rows).best_row() is rows[1]
+
+
+def test_the_same_training_writes_the_same_bytes(saved: tuple[Path, Pair, Progress], tmp_path: Path) -> None:
+    checkpoint.save(tmp_path / "again", "print", *saved[1], saved[2])
+    assert (tmp_path / "again").read_bytes() == saved[0].read_bytes()

@@ -1,0 +1,91 @@
+"""Training data: the target of section 4.2.3, z-scores, and files that do not fit."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mobnet.core.errors import ConfigError, DataError
+from mobnet.core.joints import JointLayout
+from mobnet.core.recording import Recording
+from mobnet.core.store import read_array
+from mobnet.learning.dataset import LimbData, load_limb_data, read_target, scale_of
+
+Write = Callable[[Path, Recording], tuple[Path, Path]]
+
+
+@pytest.fixture
+def stems(tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write) -> list[tuple[Path, Path]]:
+    return [write_pair(tmp_path, made_up(seed, 1.0 + seed, segments=2)) for seed in (0, 1)]
+
+
+@pytest.fixture
+def load(stems: list[tuple[Path, Path]], full_config: dict[str, Any], layout: JointLayout) -> Callable[..., LimbData]:
+    def load(target: str) -> LimbData:
+        recordings, residuals = zip(*stems, strict=True)
+        return load_limb_data(layout, full_config["networks"]["LL"], "LL", target, recordings, residuals)
+
+    return load
+
+
+def test_uncertainty_and_external_torque_add_up_to_the_residual(
+    load: Callable[..., LimbData], stems: list[tuple[Path, Path]], layout: JointLayout
+) -> None:
+    total = load("uncertainty").targets + load("external").targets
+    residual = np.concatenate([read_array(stem)[0][:, layout.columns(layout.limb("LL"))] for _, stem in stems])
+    np.testing.assert_allclose(total, residual, atol=1e-5)
+
+
+def test_recordings_are_laid_end_to_end_and_keep_their_segments(load: Callable[..., LimbData]) -> None:
+    data = load("uncertainty")
+    assert data.segments == ((0, 500), (500, 1000), (1000, 2000), (2000, 3000))
+    assert data.inputs.shape == (3000, 30)
+    assert data.targets.shape == (3000, 6)
+
+
+def test_digest_changes_with_any_number(load: Callable[..., LimbData]) -> None:
+    data, again = load("uncertainty"), load("uncertainty")
+    assert data.digest() == again.digest() != load("external").digest()
+    again.inputs[17, 3] += 1e-3
+    assert data.digest() != again.digest()
+
+
+def test_z_scores_come_from_the_given_rows_alone() -> None:
+    x = np.random.default_rng(0).normal(3.0, 2.0, (1000, 4)).astype(np.float32)
+    x[:, 3] = 0.25
+    used = np.concatenate([x[:200], x[500:700]])
+    scale = scale_of(x, [(0, 200), (500, 700)])
+    np.testing.assert_allclose(scale.mean, used.mean(axis=0), rtol=1e-5)
+    np.testing.assert_allclose(scale.std[:3], used.std(axis=0)[:3], rtol=1e-5)
+    assert scale.std[3] == 1.0
+
+
+def test_an_unknown_target_is_refused(stems: list[tuple[Path, Path]]) -> None:
+    with pytest.raises(ConfigError, match="'all' is not accepted; accepted: external, uncertainty"):
+        read_target(stems[0][1], ["LL1"], "all")
+
+
+def test_a_missing_column_is_named(stems: list[tuple[Path, Path]], load: Callable[..., LimbData]) -> None:
+    path = stems[1][1].with_suffix(".json")
+    path.write_text(path.read_text().replace('"tau_ext_lp.LL4"', '"other.LL4"'))
+    with pytest.raises(DataError, match=r"column 'tau_ext_lp.LL4' is missing"):
+        load("external")
+
+
+def test_a_residual_of_another_recording_is_refused(
+    stems: list[tuple[Path, Path]], full_config: dict[str, Any], layout: JointLayout
+) -> None:
+    with pytest.raises(DataError, match=r"2000 rows, but its recording .* has 1000"):
+        load_limb_data(layout, full_config["networks"]["LL"], "LL", "external", [stems[0][0]], [stems[1][1]])
+
+
+def test_recordings_at_two_rates_are_refused(stems: list[tuple[Path, Path]], load: Callable[..., LimbData]) -> None:
+    path = stems[1][0].with_suffix(".json")
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"rate_hz": 500.0}))
+    with pytest.raises(DataError, match=r"\[500.0, 1000.0\] Hz"):
+        load("external")

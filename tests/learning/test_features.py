@@ -1,0 +1,64 @@
+"""Inputs of the limb networks, eq. (17) and Table 1."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mobnet.core.errors import ConfigError
+from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
+from mobnet.core.recording import Recording
+from mobnet.learning.features import limb_inputs, signal_names, signals
+from mobnet.robot.frames import rotation
+
+WIDTHS = {"LL": 30, "RL": 30, "RA": 34, "LA": 34, "W": 50, "V": 74}  # Table 1
+
+
+@pytest.mark.parametrize("limb", WIDTHS)
+def test_width_is_that_of_table_1(limb: str, full_config: dict[str, Any], layout: JointLayout) -> None:
+    inputs = limb_inputs(layout, full_config["networks"][limb])
+    assert len(inputs.names) == len(inputs.columns) == len(set(inputs.names)) == WIDTHS[limb]
+
+
+def test_leg_sees_its_own_joints_torques_and_the_pelvis(
+    full_config: dict[str, Any], layout: JointLayout, made_up: Callable[..., Recording]
+) -> None:
+    sensed = made_up().sensed
+    leg = layout.columns(layout.limb("LL")) - N_VIRTUAL
+    turned = rotation(sensed.q[:, 3:NQ_BASE])
+    expected = np.concatenate(
+        [
+            sensed.q[:, NQ_BASE + leg],
+            sensed.v[:, N_VIRTUAL + leg],
+            sensed.tau_des[:, leg],
+            turned[:, :, 0],
+            turned[:, :, 1],
+            sensed.v[:, 3:N_VIRTUAL],
+            sensed.acc_base_in_base,
+        ],
+        axis=1,
+    )
+    np.testing.assert_array_equal(limb_inputs(layout, full_config["networks"]["LL"])(sensed), np.float32(expected))
+
+
+def test_arm_sees_the_waist_and_no_torque(full_config: dict[str, Any], layout: JointLayout) -> None:
+    names = limb_inputs(layout, full_config["networks"]["LA"]).names
+    assert [name for name in names if name.startswith("q.")] == [f"q.{j}" for j in layout.limb("LA") + layout.limb("W")]
+    assert not any(name.startswith("tau_des") for name in names)
+
+
+def test_a_sample_gives_its_row_of_the_recording(made_up: Callable[..., Recording], layout: JointLayout) -> None:
+    sensed = made_up().sensed
+    whole = signals(sensed)
+    assert whole.dtype == np.float32
+    assert whole.shape == (len(sensed), len(signal_names(layout)))
+    np.testing.assert_array_equal(signals(sensed[7]), whole[7])
+
+
+@pytest.mark.parametrize("limb", ["V", "tail"])
+def test_a_limb_without_motors_is_refused(limb: str, layout: JointLayout) -> None:
+    with pytest.raises(ConfigError, match=limb):
+        limb_inputs(layout, {"Q": [limb], "T": []})

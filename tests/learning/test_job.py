@@ -1,0 +1,64 @@
+"""What a training depends on."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+import torch
+
+from mobnet.core.errors import ConfigError
+from mobnet.learning.job import Job, job_of
+
+
+@pytest.fixture
+def job(full_config: dict[str, Any]) -> Job:
+    return replace(job_of(full_config, "MOB-Net", "LL", 0), epochs=200)
+
+
+def test_rate_falls_linearly_to_a_hundredth_over_the_first_half(job: Job) -> None:
+    rates = np.array([job.rate(epoch) for epoch in range(200)])
+    assert rates[0] == 0.005
+    np.testing.assert_allclose(np.diff(rates[:101]), -0.005 * 0.99 / 100)
+    np.testing.assert_allclose(rates[100:], 5e-5)
+
+
+def test_one_epoch_trains_at_the_first_rate(job: Job) -> None:
+    assert replace(job, epochs=1).rate(0) == 0.005
+
+
+def test_sizes_of_the_scale_lie_over_the_settings(full_config: dict[str, Any]) -> None:
+    job = job_of(full_config | {"sizes": {"epochs": 3, "batch_size": 2}}, "MOB-Net", "LL", 0)
+    assert (job.epochs, job.settings["batch_size"]) == (3, 2)
+    assert job.settings["stream_s"] == full_config["learning"]["stream_s"]
+
+
+@pytest.mark.parametrize("rate_hz", [1000.0, 500.0, 0.1])
+def test_a_stream_is_whole_horizons_and_at_least_one(job: Job, rate_hz: float) -> None:
+    stream = job.stream(rate_hz)
+    assert stream % job.horizon == 0
+    assert stream == max(job.horizon, round(job.settings["stream_s"] * rate_hz))
+
+
+def test_random_numbers_differ_by_purpose_and_repeat(job: Job) -> None:
+    draws = {p: job.generator(*p).integers(1 << 60) for p in [("epoch", 0), ("epoch", 1), ("weights",)]}
+    assert len(set(draws.values())) == len(draws)
+    assert job.generator("epoch", 0).integers(1 << 60) == draws["epoch", 0]
+    assert replace(job, seed=1).generator("epoch", 0).integers(1 << 60) != draws["epoch", 0]
+
+
+@pytest.mark.parametrize("change", [{"seed": 1}, {"epochs": 9}, {"settings": {}}, {"target": "external"}])
+def test_fingerprint_changes_with_the_job(job: Job, change: dict[str, Any]) -> None:
+    cpu = torch.device("cpu")
+    assert job.fingerprint("data", cpu) == job.fingerprint("data", cpu)
+    assert job.fingerprint("data", cpu) != replace(job, **change).fingerprint("data", cpu)
+    assert job.fingerprint("data", cpu) != job.fingerprint("other", cpu)
+
+
+def test_unknown_names_are_refused(full_config: dict[str, Any]) -> None:
+    with pytest.raises(ConfigError, match="'MOB' is not accepted; accepted: FTS-e2e, MOB-Net"):
+        job_of(full_config, "MOB", "LL", 0)
+    with pytest.raises(ConfigError, match="'tail' is not accepted"):
+        job_of(full_config, "MOB-Net", "tail", 0)

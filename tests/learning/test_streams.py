@@ -1,0 +1,70 @@
+"""Contiguous streams: a 9:1 split in blocks, and lanes whose state can be carried."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mobnet.core.errors import DataError
+from mobnet.learning.streams import cut_streams, deal, epoch_plan, split, validation_plan
+
+SEGMENTS = [(0, 10_000), (10_000, 13_337), (13_337, 13_360), (13_360, 20_000)]
+STREAM, HORIZON, LANES = 1000, 50, 8
+
+
+def test_split_is_9_to_1_in_blocks_and_loses_nothing() -> None:
+    training, validation = split(SEGMENTS, 0.1)
+    covered = np.concatenate([np.arange(a, b) for a, b in sorted(training + validation)])
+    np.testing.assert_array_equal(covered, np.arange(20_000))
+    assert sum(b - a for a, b in validation) == pytest.approx(2000, abs=len(SEGMENTS))
+    assert len(validation) == len(SEGMENTS)
+
+
+def test_no_training_row_is_seen_twice_in_an_epoch_and_few_are_left_out() -> None:
+    training, _ = split(SEGMENTS, 0.1)
+    plan = epoch_plan(training, STREAM, HORIZON, LANES, np.random.default_rng(0))
+    rows = (plan.rows[..., None] + np.arange(HORIZON)).ravel()
+    allowed = np.concatenate([np.arange(a, b) for a, b in training])
+    assert len(np.unique(rows)) == len(rows)
+    assert np.isin(rows, allowed).all()
+    assert len(rows) > 0.9 * len(allowed)
+
+
+def test_state_is_carried_only_from_one_sample_to_the_next() -> None:
+    plan = epoch_plan(SEGMENTS, STREAM, HORIZON, LANES, np.random.default_rng(1))
+    follows = np.diff(plan.rows, axis=0) == HORIZON
+    assert plan.fresh[0].all()
+    assert follows[~plan.fresh[1:]].all()
+    assert plan.fresh.mean() < 3 * HORIZON / STREAM
+
+
+def test_a_state_never_crosses_a_segment() -> None:
+    plan = epoch_plan(SEGMENTS, STREAM, HORIZON, LANES, np.random.default_rng(2))
+    segment = np.searchsorted([start for start, _ in SEGMENTS], plan.rows, side="right")
+    last = np.searchsorted([start for start, _ in SEGMENTS], plan.rows + HORIZON - 1, side="right")
+    np.testing.assert_array_equal(segment, last)
+    assert plan.fresh[1:][np.diff(segment, axis=0) != 0].all()
+
+
+def test_epochs_differ_and_repeat_with_their_seed() -> None:
+    plans = [epoch_plan(SEGMENTS, STREAM, HORIZON, LANES, np.random.default_rng(seed)) for seed in (1, 1, 2)]
+    np.testing.assert_array_equal(plans[0].rows, plans[1].rows)
+    assert not np.array_equal(plans[0].rows[:10], plans[2].rows[:10])
+    assert set(np.unique(plans[0].rows % HORIZON)) != set(np.unique(plans[2].rows % HORIZON))
+
+
+def test_validation_carries_the_state_through_a_whole_block() -> None:
+    plan = validation_plan([(100, 1105)], 10_000, HORIZON, LANES)
+    np.testing.assert_array_equal(plan.rows[:, 0], np.arange(100, 1100, HORIZON))
+    assert plan.fresh.sum() == 1
+
+
+def test_pieces_shorter_than_a_horizon_are_left_out() -> None:
+    assert cut_streams([(0, 49), (60, 175)], STREAM, HORIZON) == [(60, 160)]
+
+
+def test_too_few_samples_for_a_batch_are_refused() -> None:
+    with pytest.raises(DataError, match="2 horizons of 50 samples cannot fill a batch of 8"):
+        deal([(0, 100)], LANES, HORIZON)
+    with pytest.raises(DataError, match="0 horizons"):
+        deal([], LANES, HORIZON)
