@@ -13,8 +13,10 @@ import yaml
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout, layout_of
+from mobnet.core.names import check_names
 
 SCHEMA = Path(__file__).parents[3] / "workflow" / "schemas" / "config.schema.yaml"
+BOUNDS = ("type", "pattern", "minimum", "exclusiveMinimum", "maximum", "minItems", "maxItems")
 
 
 def read_yaml(path: Path) -> dict[str, Any]:
@@ -48,7 +50,7 @@ def load_config(path: Path, scale: str | None = None) -> dict[str, Any]:
 
 
 def check_config(config: Mapping[str, Any], name: str = "config") -> None:
-    """Check a configuration against the schema.
+    """Check a configuration against the schema, and that the names it uses exist.
 
     Raises:
         ConfigError: one line with the key, the value and what is accepted.
@@ -58,6 +60,7 @@ def check_config(config: Mapping[str, Any], name: str = "config") -> None:
     if error is not None:
         where = ".".join(map(str, error.absolute_path)) or "top level"
         raise ConfigError(f"{name}: {where}: {error.message}{_accepted(error)}")
+    check_names(config, load_layout(Path(config["robot"])), name)
 
 
 def _accepted(error: jsonschema.ValidationError) -> str:
@@ -65,7 +68,9 @@ def _accepted(error: jsonschema.ValidationError) -> str:
     schema: Mapping[str, Any] = error.schema if isinstance(error.schema, Mapping) else {}
     if error.validator == "additionalProperties":
         return f"; accepted keys: {', '.join(sorted(schema.get('properties', {})))}"
-    bounds = {key: schema[key] for key in ("type", "minimum", "exclusiveMinimum", "maximum") if key in schema}
+    if error.validator == "required":
+        return f"; required keys: {', '.join(schema['required'])}"
+    bounds = {key: schema[key] for key in BOUNDS if key in schema}
     return f"; accepted: {json.dumps(bounds)}" if bounds and error.validator != "enum" else ""
 
 

@@ -1,0 +1,19 @@
+# From an empty folder to every table and figure: collect -> observe -> train -> estimate -> score -> tables, paper.
+# `snakemake --cores 2` makes all of it at the scale that configs/config.yaml names; --config scale=smoke takes minutes.
+
+
+configfile: "configs/config.yaml"
+
+
+include: "workflow/rules/common.smk"
+include: "workflow/rules/collect.smk"
+include: "workflow/rules/learn.smk"
+include: "workflow/rules/evaluate.smk"
+include: "workflow/rules/report.smk"
+
+
+rule all:
+    default_target: True
+    input:
+        PRODUCTS,
+        MANIFEST,

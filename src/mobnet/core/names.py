@@ -1,0 +1,55 @@
+"""Names in the configuration that must exist elsewhere in it, or on the robot."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from typing import Any
+
+from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.core.joints import JointLayout
+
+Use = tuple[str, str, Collection[str]]  # dotted key, name, accepted names
+
+
+def check_names(config: Mapping[str, Any], layout: JointLayout, where: str = "config") -> None:
+    """Check that every scale, level, scenario, terrain, method, limb and joint that is named exists.
+
+    Raises:
+        ConfigError: one line with the key, the name and the accepted names.
+    """
+    for uses in (network_uses, scenario_uses, evaluation_uses):
+        for key, name, accepted in uses(config, layout):
+            if name not in accepted:
+                raise ConfigError(f"{where}: {not_accepted(key, name, accepted)}")
+
+
+def network_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
+    """Yield the limbs that networks (Table 1) and methods name."""
+    for limb, row in config["networks"].items():
+        yield "networks", limb, layout.groups
+        for inputs in ("Q", "T"):
+            yield from ((f"networks.{limb}.{inputs}", group, layout.groups) for group in row[inputs])
+    for method, row in config["methods"].items():
+        yield from ((f"methods.{method}.limbs", limb, config["networks"]) for limb in row.get("limbs", []))
+
+
+def scenario_uses(config: Mapping[str, Any], _: JointLayout) -> Iterator[Use]:
+    """Yield the terrains of scenarios, and the scale, scenarios and levels of the sizes."""
+    for name, scenario in config["scenarios"].items():
+        yield f"scenarios.{name}.terrain", scenario["terrain"], config["terrain"]
+    yield "scale", config["scale"], config["scales"]
+    for name, sizes in config["scales"].items():
+        yield f"scales.{name}.train.scenario", sizes["train"]["scenario"], config["scenarios"]
+        yield f"scales.{name}.train.level", sizes["train"]["level"], config["levels"]
+
+
+def evaluation_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
+    """Yield what Table 5 and Figure 5 name."""
+    table, figure = config["evaluation"]["table_05"], config["evaluation"]["figure_05"]
+    yield "evaluation.table_05.limb", table["limb"], layout.groups
+    yield "evaluation.figure_05.joint", figure["joint"], layout.names
+    for key, part, levels in (("table_05", table, "levels"), ("figure_05", figure, "panels")):
+        yield f"evaluation.{key}.scenario", part["scenario"], config["scenarios"]
+        for level, methods in part[levels].items():
+            yield f"evaluation.{key}.{levels}", level, config["levels"]
+            yield from ((f"evaluation.{key}.{levels}.{level}", method, config["methods"]) for method in methods)

@@ -1,0 +1,56 @@
+"""The list of every result file with its hash, as sha256sum writes and reads it."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable
+from pathlib import Path
+
+from mobnet.core.errors import DataError
+from mobnet.core.store import write_text
+
+BETWEEN = "  "  # sha256sum's text between hash and name
+
+
+def write_manifest(files: Iterable[Path], out: Path) -> None:
+    """Write one line a file, sorted by name: SHA-256 and path as given.
+
+    Raises:
+        DataError: a file is missing.
+    """
+    lines = [f"{file_hash(path)}{BETWEEN}{path}\n" for path in sorted(set(files))]
+    write_text(out, "".join(lines))
+
+
+def damaged_files(manifest: Path) -> list[str]:
+    """Return one line for each file that is missing or differs from a manifest; its paths are seen from here.
+
+    Raises:
+        DataError: the manifest is missing.
+    """
+    try:
+        lines = manifest.read_text(encoding="utf-8").splitlines()
+    except FileNotFoundError:
+        raise DataError(f"{manifest}: file is missing; ./reproduce all writes it") from None
+    return [fault for fault in (_fault(*line.split(BETWEEN, 1)) for line in lines) if fault]
+
+
+def _fault(expected: str, name: str) -> str | None:
+    """Return what is wrong with a file, or None."""
+    if not Path(name).is_file():
+        return f"{name}: file is missing"
+    found = file_hash(Path(name))
+    return None if found == expected else f"{name}: hash {found[:12]}, the manifest says {expected[:12]}"
+
+
+def file_hash(path: Path) -> str:
+    """Return the SHA-256 of a file.
+
+    Raises:
+        DataError: the file is missing.
+    """
+    try:
+        with path.open("rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    except FileNotFoundError:
+        raise DataError(f"{path}: file is missing") from None

@@ -1,0 +1,158 @@
+"""What the rules share: the checked configuration, the names of files, and what each rule depends on."""
+
+import sys
+from pathlib import Path
+
+from mobnet.core.code import code_hash
+from mobnet.core.config import check_config, config_hash, read_yaml, resolve
+from mobnet.core.environment import quieten
+from mobnet.core.errors import MobnetError
+
+ROOT = Path(workflow.basedir)
+quieten(ROOT)
+# Every job, also one that outlives a killed run, holds this lock; ./reproduce clears up only once it holds it alone.
+shell.prefix(f"exec 9<>'{ROOT}/.cache/run.lock'; flock -s 9; ")
+
+try:
+    check_config(config, "configs/config.yaml")
+    settings = resolve(config)
+    CONTENT = {key: config_hash(read_yaml(Path(settings[key]))) for key in ("robot", "published", "claims")}
+except MobnetError as error:
+    sys.exit(str(error))
+
+SCALE, SIZES = settings["scale"], settings["sizes"]
+MAIN = "default"  # its tables stand where a reader looks for them; other scales have folders of their own
+RESULTS = f"results/{SCALE}"
+TABLES, FIGURES = ("tables", "figures") if SCALE == MAIN else (f"tables/{SCALE}", f"figures/{SCALE}")
+PAPER = "paper" if SCALE == MAIN else f"{RESULTS}/paper"
+MANIFEST = "results/MANIFEST.sha256" if SCALE == MAIN else f"{RESULTS}/MANIFEST.sha256"
+FIRST_TRAINING_SEED = 1000  # test recordings count from 1
+TRAIN_SEEDS = [FIRST_TRAINING_SEED + i for i in range(SIZES["train"]["shards"])]
+TEST_SEEDS = [1 + i for i in range(SIZES["test"]["shards"])]
+TABLE_05, FIGURE_05 = settings["evaluation"]["table_05"], settings["evaluation"]["figure_05"]
+
+
+wildcard_constraints:
+    scenario="|".join(settings["scenarios"]),
+    level="|".join(settings["levels"]),
+    method="|".join(settings["methods"]),
+    limb="|".join(settings["networks"]),
+    seed=r"\d+",
+
+
+def code_of(*rules):
+    """Return the hash of the code behind rules' scripts."""
+    return code_hash(*(ROOT / "workflow" / "scripts" / f"{rule}.py" for rule in rules))
+
+
+def part(*sections, **picked):
+    """Return some sections of the configuration, of those `picked` only the entries named.
+
+    A script sees nothing else, so a rule reruns when, and only when, something that it can read has changed.
+    """
+    few = {section: {name: settings[section][name] for name in names} for section, names in picked.items()}
+    return {section: settings[section] for section in sections} | few
+
+
+def sizes(*names):
+    """Return the named sizes of the scale, those that it has."""
+    return {"sizes": {name: SIZES[name] for name in names if name in SIZES}}
+
+
+def files(kind, ending="npy"):
+    """Return the pattern of a kind's files of one recording."""
+    return f"{RESULTS}/{kind}/{{scenario}}/{{level}}/s{{seed}}.{ending}"
+
+
+def training(kind):
+    """Return the files of a kind that the networks learn from."""
+    return expand(files(kind), seed=TRAIN_SEEDS, **{key: SIZES["train"][key] for key in ("scenario", "level")})
+
+
+def duration_s(seed):
+    """Return how long the recording of a seed is [s]."""
+    return SIZES["train" if int(seed) >= FIRST_TRAINING_SEED else "test"]["shard_s"]
+
+
+def limbs_of(method):
+    """Return the limbs whose networks a method uses."""
+    return settings["methods"][method].get("limbs", [])
+
+
+def network(method, limb, seed, name="weights.safetensors"):
+    """Return a file of a trained network."""
+    return f"{RESULTS}/networks/{method}-{limb}-s{seed}/{name}"
+
+
+def network_seeds(method):
+    """Return the seeds of a method's networks; 0 where it has none."""
+    return SIZES["network_seeds"] if limbs_of(method) else [0]
+
+
+def entry(scenario, level, method, network_seed, test_seed):
+    """Return one run of a method: what it is, and the stems of its files."""
+    place = f"{scenario}/{level}/s{test_seed}"
+    return {
+        "level": level,
+        "method": method,
+        "network_seed": network_seed,
+        "test_seed": test_seed,
+        "recording": f"{RESULTS}/recordings/{place}",
+        "residual": f"{RESULTS}/residuals/{place}",
+        "estimate": f"{RESULTS}/estimates/{method}/n{network_seed}/{place}",
+    }
+
+
+def runs_of(scenario):
+    """Return every run of a scenario that a table or a figure needs."""
+    wanted = [(TABLE_05["scenario"], TABLE_05["levels"]), (FIGURE_05["scenario"], FIGURE_05["panels"])]
+    pairs = {
+        (level, method): None
+        for name, levels in wanted
+        if name == scenario
+        for level in levels
+        for method in levels[level]
+    }
+    return [
+        entry(scenario, level, method, seed, test)
+        for level, method in pairs
+        for seed in network_seeds(method)
+        for test in TEST_SEEDS
+    ]
+
+
+def panels_of(figure):
+    """Return the runs that a figure of one recording shows: first network, first test."""
+    return [
+        entry(figure["scenario"], level, method, network_seeds(method)[0], TEST_SEEDS[0])
+        for level, methods in figure["panels"].items()
+        for method in methods
+    ]
+
+
+def arrays(entries, *kinds):
+    """Return the files of some kinds of runs."""
+    return list(dict.fromkeys(f"{run[kind]}.npy" for run in entries for kind in kinds))
+
+
+def products():
+    """Return every file worth keeping, also those that later ones could be made without."""
+    scenarios = dict.fromkeys([TABLE_05["scenario"], FIGURE_05["scenario"]])
+    runs = [run for scenario in scenarios for run in runs_of(scenario)]
+    networks = [
+        network(method, limb, seed, name)
+        for method in settings["methods"]
+        for limb in limbs_of(method)
+        for seed in network_seeds(method)
+        for name in ("weights.safetensors", "metrics.csv", "run.json")
+    ]
+    stored = training("recordings") + training("residuals") + arrays(runs, "recording", "residual", "estimate")
+    notes = [str(Path(name).with_suffix(".json")) for name in stored]
+    tables = expand(f"{TABLES}/{{name}}.{{ending}}", name=["table_05", "claims"], ending=["csv", "tex", "md"])
+    figures = expand(f"{FIGURES}/figure_05.{{ending}}", ending=["pdf", "png", "csv"])
+    scores = expand(f"{RESULTS}/scores/{{scenario}}.csv", scenario=scenarios)
+    texts = [f"{TABLES}/numbers.tex", f"{TABLES}/deviations.tex", f"{PAPER}/build.json"]
+    return stored + notes + networks + scores + tables + figures + texts
+
+
+PRODUCTS = products()

@@ -1,0 +1,76 @@
+# Scores of all runs of a scenario; then one rule for each table and figure of the paper, under its own number.
+
+
+rule score:
+    input:
+        lambda w: arrays(runs_of(w.scenario), "residual", "estimate"),
+    output:
+        ensure(f"{RESULTS}/scores/{{scenario}}.csv", non_empty=True),
+    log:
+        f"{RESULTS}/logs/score/{{scenario}}.log",
+    benchmark:
+        f"{RESULTS}/bench/score/{{scenario}}.tsv"
+    threads: 1
+    params:
+        config=part("robot"),
+        entries=lambda w: runs_of(w.scenario),
+        robot=CONTENT["robot"],
+        code=code_of("score"),
+    script:
+        "../scripts/score.py"
+
+
+rule table_05:
+    input:
+        scores=f"{RESULTS}/scores/{TABLE_05['scenario']}.csv",
+    output:
+        ensure(expand(f"{TABLES}/table_05.{{ending}}", ending=["csv", "tex", "md"]), non_empty=True),
+    log:
+        f"{RESULTS}/logs/table_05.log",
+    benchmark:
+        f"{RESULTS}/bench/table_05.tsv"
+    threads: 1
+    params:
+        config=part("seed", "published", "evaluation"),
+        published=CONTENT["published"],
+        code=code_of("table_05"),
+    script:
+        "../scripts/table_05.py"
+
+
+rule figure_05:
+    input:
+        arrays(panels_of(FIGURE_05), "recording", "residual", "estimate"),
+    output:
+        ensure(expand(f"{FIGURES}/figure_05.{{ending}}", ending=["pdf", "png", "csv"]), non_empty=True),
+    log:
+        f"{RESULTS}/logs/figure_05.log",
+    benchmark:
+        f"{RESULTS}/bench/figure_05.tsv"
+    threads: 1
+    params:
+        config=part("robot", "published", "evaluation") | sizes("figure_start_s"),
+        entries=panels_of(FIGURE_05),
+        robot=CONTENT["robot"],
+        published=CONTENT["published"],
+        code=code_of("figure_05"),
+    script:
+        "../scripts/figure_05.py"
+
+
+rule claims:
+    input:
+        scores=f"{RESULTS}/scores/{TABLE_05['scenario']}.csv",
+    output:
+        ensure(expand(f"{TABLES}/claims.{{ending}}", ending=["csv", "tex", "md"]), non_empty=True),
+    log:
+        f"{RESULTS}/logs/claims.log",
+    benchmark:
+        f"{RESULTS}/bench/claims.tsv"
+    threads: 1
+    params:
+        config=part("seed", "claims", "evaluation"),
+        claims=CONTENT["claims"],
+        code=code_of("claims"),
+    script:
+        "../scripts/claims.py"

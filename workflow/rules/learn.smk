@@ -1,0 +1,50 @@
+# One network a limb, method and seed; then every method on every test.
+
+
+rule train:
+    input:
+        recordings=training("recordings"),
+        residuals=training("residuals"),
+    output:
+        weights=ensure(network("{method}", "{limb}", "{seed}"), non_empty=True),
+        metrics=ensure(network("{method}", "{limb}", "{seed}", "metrics.csv"), non_empty=True),
+        note=ensure(network("{method}", "{limb}", "{seed}", "run.json"), non_empty=True),
+    log:
+        f"{RESULTS}/logs/train/{{method}}-{{limb}}-s{{seed}}.log",
+    benchmark:
+        f"{RESULTS}/bench/train/{{method}}-{{limb}}-s{{seed}}.tsv"
+    priority: 10
+    threads: 1
+    params:
+        config=lambda w: part("seed", "robot", "learning", methods=[w.method], networks=[w.limb])
+        | sizes("epochs", "batch_size", "stream_s"),
+        state=f"{RESULTS}/state/{{method}}-{{limb}}-s{{seed}}",
+        wandb=f"{RESULTS}/wandb",
+        robot=CONTENT["robot"],
+        code=code_of("train"),
+    script:
+        "../scripts/train.py"
+
+
+rule estimate:
+    input:
+        array=files("recordings"),
+        note=files("recordings", "json"),
+        networks=lambda w: [network(w.method, limb, w.network_seed) for limb in limbs_of(w.method)],
+    output:
+        array=ensure(files("estimates/{method}/n{network_seed}"), non_empty=True),
+        note=ensure(files("estimates/{method}/n{network_seed}", "json"), non_empty=True),
+    log:
+        f"{RESULTS}/logs/estimate/{{method}}-n{{network_seed}}-{{scenario}}-{{level}}-s{{seed}}.log",
+    benchmark:
+        f"{RESULTS}/bench/estimate/{{method}}-n{{network_seed}}-{{scenario}}-{{level}}-s{{seed}}.tsv"
+    wildcard_constraints:
+        network_seed=r"\d+",
+    threads: 1
+    params:
+        config=lambda w: part("robot", "rates", "plant", "observer", levels=[w.level], methods=[w.method]),
+        limbs=lambda w: limbs_of(w.method),
+        robot=CONTENT["robot"],
+        code=code_of("estimate"),
+    script:
+        "../scripts/estimate.py"

@@ -1,0 +1,68 @@
+# The paper with its numbers, and the list of every result file.
+
+
+rule numbers:
+    input:
+        table=f"{TABLES}/table_05.csv",
+        claims=f"{TABLES}/claims.csv",
+    output:
+        ensure(f"{TABLES}/numbers.tex", non_empty=True),
+    log:
+        f"{RESULTS}/logs/numbers.log",
+    threads: 1
+    params:
+        config=part("scale", "rates", "evaluation", "sizes"),
+        code=code_of("numbers"),
+    script:
+        "../scripts/numbers.py"
+
+
+rule deviations:
+    input:
+        "docs/deviations.md",
+    output:
+        ensure(f"{TABLES}/deviations.tex", non_empty=True),
+    log:
+        f"{RESULTS}/logs/deviations.log",
+    threads: 1
+    params:
+        code=code_of("deviations"),
+    script:
+        "../scripts/deviations.py"
+
+
+rule paper:
+    input:
+        main="paper/main.tex",
+        references="paper/refs.bib",
+        tables=expand(f"{TABLES}/{{name}}.tex", name=["table_05", "claims", "numbers", "deviations"]),
+        figures=f"{FIGURES}/figure_05.pdf",
+    output:
+        ensure(f"{PAPER}/build.json", non_empty=True),
+    log:
+        f"{RESULTS}/logs/paper.log",
+    benchmark:
+        f"{RESULTS}/bench/paper.tsv"
+    threads: 1
+    params:
+        config=part("scale"),
+        tables=TABLES,
+        figures=FIGURES,
+        pdf=f"{PAPER}/main.pdf",
+        code=code_of("paper"),
+    script:
+        "../scripts/paper.py"
+
+
+rule manifest:
+    input:
+        PRODUCTS,
+    output:
+        ensure(MANIFEST, non_empty=True),
+    log:
+        f"{RESULTS}/logs/manifest.log",
+    threads: 1
+    params:
+        code=code_of("manifest"),
+    script:
+        "../scripts/manifest.py"

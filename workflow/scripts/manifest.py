@@ -1,0 +1,9 @@
+"""Rule `manifest`: the hash of every result file."""
+
+from pathlib import Path
+
+from mobnet.core.logs import job
+from mobnet.evaluation.manifest import write_manifest
+
+with job(snakemake.log[0]):
+    write_manifest([Path(name) for name in snakemake.input], Path(snakemake.output[0]))

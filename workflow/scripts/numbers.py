@@ -1,0 +1,10 @@
+"""Rule `numbers`: every number of the paper's prose as a TeX name."""
+
+from pathlib import Path
+
+from mobnet.core.logs import job
+from mobnet.evaluation.numbers import numbers
+
+with job(snakemake.log[0]):
+    table, judged = Path(snakemake.input.table), Path(snakemake.input.claims)
+    numbers(snakemake.params.config, table, judged, Path(snakemake.output[0]))

@@ -1,0 +1,15 @@
+"""Rule `paper`: the PDF where TeX is installed; elsewhere a note of what is missing."""
+
+from pathlib import Path
+
+from mobnet.core.logs import job
+from mobnet.evaluation.paper import build
+
+with job(snakemake.log[0]):
+    build(
+        snakemake.params.config,
+        Path(snakemake.input.main),
+        Path(snakemake.params.tables),
+        Path(snakemake.params.figures),
+        Path(snakemake.params.pdf),
+    )

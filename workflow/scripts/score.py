@@ -1,0 +1,9 @@
+"""Rule `score`: the errors of every run of a scenario."""
+
+from pathlib import Path
+
+from mobnet.core.logs import job
+from mobnet.evaluation.scores import score
+
+with job(snakemake.log[0]):
+    score(snakemake.params.config, snakemake.wildcards.scenario, snakemake.params.entries, Path(snakemake.output[0]))
