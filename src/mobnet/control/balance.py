@@ -97,9 +97,9 @@ def adapt_duration(par: WalkingParameters, s: object, double_support: float, dt:
     shortest = max(par.step_min_s, s.commanded - par.step_shorter_max_s)
     longest = s.commanded + par.step_longer_max_s
     wanted = clip(_lateral_duration(par, s, double_support, shortest, longest, work), shortest, longest)
-    travel = np.hypot(s.target[0] - s.foot[0], s.target[1] - s.foot[1])
+    travel = np.hypot(s.target[0] - s.lift[0], s.target[1] - s.lift[1])
     quickest = double_support + PEAK_SPEED_RATIO * travel / (par.swing_xy_share * par.swing_speed_max_m_s)
-    wanted = max(wanted, quickest)
+    wanted = max(wanted, min(quickest, s.commanded))
     if wanted < s.t + SOONEST_S:
         wanted = min(s.commanded, s.t + SOONEST_S)
     s.total += clip(wanted - s.total, -par.timing_rate * dt, par.timing_rate * dt)
