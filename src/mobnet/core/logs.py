@@ -17,15 +17,14 @@ FORMAT = "%(asctime)s %(levelname)s %(message)s"
 
 @contextlib.contextmanager
 def job(log_file: Path | str) -> Iterator[None]:
-    """Log a job to its file and, but for errors, to the terminal; snakemake shows a failed job's file itself.
+    """Log a job to its file and to the terminal.
 
     Raises:
-        SystemExit: the job raised a MobnetError; its message is the log's last line.
+        SystemExit: the job raised a MobnetError; its message is the last line of the log.
     """
     path = Path(log_file)
     path.parent.mkdir(parents=True, exist_ok=True)
     handlers = [logging.FileHandler(path, mode="w", encoding="utf-8"), logging.StreamHandler(sys.stderr)]
-    handlers[1].addFilter(lambda record: record.levelno < logging.ERROR)
     root = logging.getLogger()
     previous = root.handlers[:], root.level
     root.handlers[:] = []

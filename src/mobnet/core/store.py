@@ -132,7 +132,8 @@ def check_finite(name: str, array: NDArray[Any], columns: Sequence[Column]) -> N
 def write_recording(stem: Path, recording: Recording, layout: JointLayout) -> None:
     """Write a recording as one array of all fields, (T, C)."""
     columns = recording_columns(layout)
-    parts = [getattr(recording.sensed, n) if hasattr(recording.sensed, n) else getattr(recording.truth, n) for n in columns]
+    fields = {**vars(recording.sensed), **vars(recording.truth)}
+    parts = [fields[name] for name in columns]
     flat = [column for group in columns.values() for column in group]
     meta = {"rate_hz": recording.rate_hz, **recording.meta}
     write_array(stem, np.concatenate(parts, axis=1), flat, meta, recording.segments)
@@ -152,8 +153,10 @@ def read_recording(stem: Path, layout: JointLayout) -> Recording:
     for field, columns in recording_columns(layout).items():
         missing = [name for name, _, _ in columns if name not in where]
         if missing:
-            raise DataError(f"{stem}.json: column {missing[0]!r} is missing; it holds {len(where)} columns: "
-                            f"{', '.join(list(where)[:3])}, ...")
+            raise DataError(
+                f"{stem}.json: column {missing[0]!r} is missing; it holds {len(where)} columns: "
+                f"{', '.join(list(where)[:3])}, ..."
+            )
         values[field] = _select(array, [where[name] for name, _, _ in columns])
     sensed = {name: values[name] for name in Sensed.__dataclass_fields__}
     truth = {name: values[name] for name in Truth.__dataclass_fields__}
