@@ -9,6 +9,7 @@ import torch
 from torch import Tensor, nn
 
 from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.learning.gru import run_gru
 
 CELLS = {"GRU": nn.GRU}
 
@@ -50,7 +51,7 @@ class LimbNetwork(nn.Module):
         Returns:
             Mean (h, B, n), standard deviation (h, B, n), both z-scored, and the state after the stretch.
         """
-        hidden, state = self.cell(x, state)
+        hidden, state = run_gru(self.cell, x, state)
         mean, raw = self.head(hidden).chunk(2, dim=-1)
         return mean, nn.functional.softplus(raw).clamp_min(self.std_min), state
 
