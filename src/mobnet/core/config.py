@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import jsonschema
 import yaml
+from jsonschema import ValidationError, validate
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout, layout_of
@@ -55,15 +55,15 @@ def check_config(config: Mapping[str, Any], name: str = "config") -> None:
     Raises:
         ConfigError: one line with the key, the value and what is accepted.
     """
-    validator = jsonschema.Draft202012Validator(read_yaml(SCHEMA))
-    error = jsonschema.exceptions.best_match(validator.iter_errors(config))
-    if error is not None:
+    try:
+        validate(config, read_yaml(SCHEMA))
+    except ValidationError as error:
         where = ".".join(map(str, error.absolute_path)) or "top level"
-        raise ConfigError(f"{name}: {where}: {error.message}{_accepted(error)}")
+        raise ConfigError(f"{name}: {where}: {error.message}{_accepted(error)}") from None
     check_names(config, load_layout(Path(config["robot"])), name)
 
 
-def _accepted(error: jsonschema.ValidationError) -> str:
+def _accepted(error: ValidationError) -> str:
     """Return what the schema would accept in place of the offending key or value."""
     schema: Mapping[str, Any] = error.schema if isinstance(error.schema, Mapping) else {}
     if error.validator == "additionalProperties":
