@@ -72,6 +72,7 @@ class WalkingParameters(NamedTuple):
     base_time_constant_s: float
     leg_stiffness_nm_rad: Array
     leg_damping_nms_rad: Array
+    unloaded_stiffness: float
     posture_rad: Array
     posture_stiffness_nm_rad: Array
     posture_damping_nms_rad: Array

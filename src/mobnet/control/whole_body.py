@@ -84,7 +84,7 @@ def stance_torque(
         error, rate = s.q_reference[k, j] - q[7 + joint], s.v_reference[k, j] - v[6 + joint]
         if j < ANKLE_PITCH:
             pull = par.leg_stiffness_nm_rad[j] * error + par.leg_damping_nms_rad[j] * rate
-            tau[joint] += 0.5 * (1.0 + load) * pull - push
+            tau[joint] += (par.unloaded_stiffness + (1.0 - par.unloaded_stiffness) * load) * pull - push
         else:
             tau[joint] += par.ankle_damping_nms * rate - push
             tau[joint] += _ankle_correction(par, pose, s, k, j - ANKLE_PITCH, foot, push, wrench, dt)
