@@ -1,0 +1,132 @@
+"""Time of one tick of MOB-Net at batch 1: the six networks of Table 1 against torch eager, and with the observer.
+
+Weights are random: the time does not depend on them. All run in one thread, in turns, tick by tick.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from mobnet.core.config import load_config, load_layout
+from mobnet.core.joints import NQ_BASE, JointLayout
+from mobnet.core.recording import FEET, Sensed
+from mobnet.estimation.observe import observer_of
+from mobnet.estimation.residual import ResidualEstimator
+from mobnet.learning.features import limb_inputs, signals
+from mobnet.learning.limbs import LimbNetworks
+from mobnet.learning.model import LimbNetwork, build_network
+from mobnet.learning.networks import Network
+from mobnet.robot.description import load_robot
+
+CONFIG = Path(__file__).parents[1] / "configs" / "config.yaml"
+TICKS, WARM_UP = 3000, 200
+TICK_S = 1e-3  # the robot's, section 4.1
+Row = dict[str, float | str]
+Tick = Callable[[Sensed], None]
+
+
+def main() -> list[Row]:
+    """Return a row for the networks alone and one for a whole tick: microseconds (p50, p99) and ticks above 1 ms."""
+    torch.set_num_threads(1)
+    config = load_config(CONFIG, "default")
+    config["robot"] = str(CONFIG.parents[1] / config["robot"])
+    layout = load_layout(Path(config["robot"]))
+    models = {limb: _model(config, layout, limb) for limb in config["networks"]}
+    networks = LimbNetworks([_network(config, layout, limb, model) for limb, model in models.items()], layout)
+    observer = observer_of(config, load_robot(Path(config["robot"])), "all_uncertainty", config["rates"]["data_hz"])
+    ticks = [_stepper(networks), _stepper(ResidualEstimator(observer, networks)), _eager(config, layout, models)]
+    ours, whole, eager = _times(ticks, layout)
+    return [
+        _row("six networks, one tick, against torch eager", ours, eager),
+        _row("MOB-Net with observer, one tick, against torch eager networks alone", whole, eager),
+    ]
+
+
+def _row(name: str, ours: NDArray[Any], reference: NDArray[Any]) -> Row:
+    """Return a row from the times of all ticks (TICKS,) [s]; the ratio is of the medians."""
+    p50, p99 = np.percentile(ours, [50, 99]) * 1e6
+    row: Row = {"name": name, "ours": float(p50), "reference": float(np.median(reference) * 1e6), "unit": "us"}
+    late = {"p99": float(p99), "reference_p99": float(np.percentile(reference, 99) * 1e6)}
+    return {
+        **row,
+        "ratio": float(np.median(reference) / np.median(ours)),
+        **late,
+        "above_1ms": int((ours > TICK_S).sum()),
+    }
+
+
+def _times(ticks: list[Tick], layout: JointLayout) -> NDArray[np.float64]:
+    """Return the time of each tick of each contender, (contenders, TICKS) [s], taken in turns."""
+    rng = np.random.default_rng(0)
+    sample = _sample(layout, rng)
+    times = np.empty((len(ticks), WARM_UP + TICKS))
+    for k in range(times.shape[1]):
+        for i, tick in enumerate(ticks):
+            started = time.perf_counter()
+            tick(sample)
+            times[i, k] = time.perf_counter() - started
+    return times[:, WARM_UP:]
+
+
+def _stepper(estimator: Any) -> Tick:
+    """Return a tick of something with `init` and `step`."""
+    state = estimator.init()
+
+    def tick(sample: Sensed) -> None:
+        nonlocal state
+        state, _ = estimator.step(state, sample)
+
+    return tick
+
+
+def _eager(config: dict[str, Any], layout: JointLayout, models: dict[str, LimbNetwork]) -> Tick:
+    """Return a tick of the same networks in torch."""
+    states = {limb: model.fresh_state(1) for limb, model in models.items()}
+    columns = {limb: limb_inputs(layout, config["networks"][limb]).columns for limb in models}
+
+    @torch.inference_mode()
+    def tick(sample: Sensed) -> None:
+        x = signals(sample)
+        for limb, model in models.items():
+            hidden, states[limb] = model.cell(torch.from_numpy(x[columns[limb]])[None, None], states[limb])
+            _, raw = model.head(hidden).chunk(2, dim=-1)
+            torch.nn.functional.softplus(raw).clamp_min(model.std_min)
+
+    return tick
+
+
+def _model(config: dict[str, Any], layout: JointLayout, limb: str) -> LimbNetwork:
+    """Return a limb's network with its first weights."""
+    row = config["networks"][limb]
+    sizes = len(limb_inputs(layout, row).names), len(layout.limb(limb))
+    return build_network(row, *sizes, config["learning"]["std_min"], seed=0)
+
+
+def _network(config: dict[str, Any], layout: JointLayout, limb: str, model: LimbNetwork) -> Network:
+    """Return the same network as it runs on a robot."""
+    names, joints = limb_inputs(layout, config["networks"][limb]).names, layout.limb(limb)
+    tensors = {name: tensor.numpy() for name, tensor in model.state_dict().items()}
+    for kind, count in (("input", len(names)), ("target", len(joints))):
+        tensors |= {f"{kind}.mean": np.zeros(count, np.float32), f"{kind}.std": np.ones(count, np.float32)}
+    return Network(tensors, limb, joints, names, model.std_min)
+
+
+def _sample(layout: JointLayout, rng: np.random.Generator) -> Sensed:
+    """Return one random sample, the base upright."""
+    q = rng.normal(0, 0.3, layout.nq)
+    q[3:NQ_BASE] = [1.0, 0.0, 0.0, 0.0]
+    torque = rng.normal(0, 30.0, layout.nu)
+    return Sensed(q, rng.normal(size=layout.nv), rng.normal(size=3), torque, torque, np.zeros(len(FEET)))
+
+
+if __name__ == "__main__":
+    for row in main():
+        print("{name}: {ours:.0f} against {reference:.0f} {unit} (p99 {p99:.0f} against {reference_p99:.0f}), "
+              "ratio {ratio:.2f}, {above_1ms} ticks above 1 ms".format(**row))  # fmt: skip
