@@ -109,7 +109,8 @@ class Network:
 
     def _predict(self, output: Array) -> Prediction:
         """Return the prediction in physical units from the linear layer's output (..., 2 n)."""
-        mean, raw = np.split(output, 2, axis=-1)
+        n = len(self.joints)
+        mean, raw = output[..., :n], output[..., n:]
         std = np.maximum(np.logaddexp(raw, 0.0, dtype=np.float32), self.std_min)
         return Prediction(mean * self._target_std + self._target_mean, std * self._target_std)
 
