@@ -9,7 +9,7 @@ from mobnet.control.compiled import compiled
 from mobnet.control.footsteps import decay
 from mobnet.control.geometry import clip, dead, to_world, to_yaw_frame
 from mobnet.control.kinematics import Pose
-from mobnet.control.parameters import WalkingParameters
+from mobnet.control.parameters import State, WalkingParameters
 
 Array = NDArray[np.float64]
 
@@ -21,7 +21,7 @@ DCM_LOST_M = -0.045
 
 
 @compiled
-def measure_dcm(par: WalkingParameters, s: object, pose: Pose, gravity_m_s2: float) -> None:
+def measure_dcm(par: WalkingParameters, s: State, pose: Pose, gravity_m_s2: float) -> None:
     """Fill omega and dcm from the centre of mass and the angular momentum about it."""
     height = max(pose.com[2] - s.sole_height, HEIGHT_MIN_M)
     s.omega = np.sqrt(gravity_m_s2 / height)
@@ -35,7 +35,7 @@ def measure_dcm(par: WalkingParameters, s: object, pose: Pose, gravity_m_s2: flo
 
 
 @compiled
-def ground_force(par: WalkingParameters, s: object, pose: Pose, ankle: Array, gravity_m_s2: float, work: Array) -> None:
+def ground_force(par: WalkingParameters, s: State, pose: Pose, ankle: Array, gravity_m_s2: float, work: Array) -> None:
     """Fill error, zmp [m] and force [N]: the ZMP that pulls the DCM back, kept inside the support, and its force."""
     for i in range(2):
         s.error[i] = s.dcm[i] - s.dcm_reference[i]
@@ -65,7 +65,7 @@ def ground_force(par: WalkingParameters, s: object, pose: Pose, ankle: Array, gr
 
 
 @compiled
-def adapt_foothold(par: WalkingParameters, s: object, ankle: Array, dt: float, work: Array) -> None:
+def adapt_foothold(par: WalkingParameters, s: State, ankle: Array, dt: float, work: Array) -> None:
     """Move the swing foot's target (2,) [m] to where the DCM error will need it, at a limited speed [m/s]."""
     remaining = s.total - s.t
     if 0.0 <= remaining <= par.foothold_freeze_s:
@@ -73,8 +73,9 @@ def adapt_foothold(par: WalkingParameters, s: object, ankle: Array, dt: float, w
         return
     to_yaw_frame(s.error, s.stance_yaw, work)
     growth = 1.0 / decay(s.omega, remaining)
-    change_x = clip(dead(work[0], par.foothold_band_m[0]) * growth, -par.foothold_change_max_m[0], par.foothold_change_max_m[0])
-    change_y = clip(dead(work[1], par.foothold_band_m[1]) * growth, -par.foothold_change_max_m[1], par.foothold_change_max_m[1])
+    band, most = par.foothold_band_m, par.foothold_change_max_m
+    change_x = clip(dead(work[0], band[0]) * growth, -most[0], most[0])
+    change_y = clip(dead(work[1], band[1]) * growth, -most[1], most[1])
     for i in range(2):
         work[i] = s.next_ankle[i] - ankle[i]
     to_yaw_frame(work, s.stance_yaw, work)
@@ -90,7 +91,7 @@ def adapt_foothold(par: WalkingParameters, s: object, ankle: Array, dt: float, w
 
 
 @compiled
-def adapt_duration(par: WalkingParameters, s: object, double_support: float, dt: float, work: Array) -> None:
+def adapt_duration(par: WalkingParameters, s: State, double_support: float, dt: float, work: Array) -> None:
     """Move the step's duration s.total [s] to when the lateral DCM will be where the next foot wants it."""
     if s.total - s.t <= par.timing_freeze_s:
         return
@@ -107,7 +108,7 @@ def adapt_duration(par: WalkingParameters, s: object, double_support: float, dt:
 
 @compiled
 def _lateral_duration(
-    par: WalkingParameters, s: object, double_support: float, shortest: float, longest: float, work: Array
+    par: WalkingParameters, s: State, double_support: float, shortest: float, longest: float, work: Array
 ) -> float:
     """Return the duration [s] at which the lateral DCM meets its planned end, sways within the band left alone."""
     middle = 0.5 * double_support

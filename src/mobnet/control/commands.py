@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.control.parameters import DURATION, FOOT_HEIGHT, STEP_X, STEP_Y, TURN
+from mobnet.control.parameters import DURATION, FOOT_HEIGHT, STEP_X, TURN
 from mobnet.core.errors import ConfigError, not_accepted
 
 Array = NDArray[np.float64]
@@ -33,7 +33,7 @@ def fixed_commands(command: Mapping[str, float], in_place_steps: int) -> Array:
     row = np.array([float(command[name]) for name in COMMAND_FIELDS])
     row[TURN] = np.deg2rad(row[TURN])
     rows = np.tile(row, (in_place_steps + 1, 1))
-    rows[:in_place_steps, : DURATION] = 0.0
+    rows[:in_place_steps, :DURATION] = 0.0
     return rows
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mobnet.control.compiled import compiled
 from mobnet.control.geometry import clip
-from mobnet.control.parameters import STEP_X, STEP_Y, TURN, WalkingParameters
+from mobnet.control.parameters import STEP_X, STEP_Y, TURN, State, WalkingParameters
 
 Array = NDArray[np.float64]
 
@@ -23,7 +23,7 @@ def decay(omega: float, time: float) -> float:
 
 
 @compiled
-def plan_steps(par: WalkingParameters, s: object, ankle: Array) -> None:
+def plan_steps(par: WalkingParameters, s: State, ankle: Array) -> None:
     """Lay the next four footholds from the stance ankle (3,) [m] and fill next_ankle, next_yaw, plan and dcm_end."""
     x, y, yaw, side = ankle[0], ankle[1], s.stance_yaw, s.side
     for k in range(5):
@@ -48,7 +48,7 @@ def plan_steps(par: WalkingParameters, s: object, ankle: Array) -> None:
 
 
 @compiled
-def reference(s: object, double_support: float) -> None:
+def reference(s: State, double_support: float) -> None:
     """Fill zmp_nominal and dcm_reference at time s.t; the ZMP ramps from the old to the new foot in double support.
 
     The middle of the next double support, at total + double_support / 2 [s], is where the DCM reaches dcm_end.

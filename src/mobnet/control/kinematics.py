@@ -73,23 +73,23 @@ class Pose(NamedTuple):
 
 def tree_of(robot: RobotDescription, mass_ratio: float) -> Tree:
     """Build the tree of a robot with all masses and inertias times mass_ratio [-]."""
-    index = {body.name: i for i, body in enumerate(robot.bodies)}
-    actuator = {joint.body: i for i, joint in enumerate(robot.joints)}
-    turn = np.zeros((len(robot.bodies), 3, 3))
-    for i, body in enumerate(robot.bodies):
+    bodies = robot.bodies
+    index = {body.name: i for i, body in enumerate(bodies)}
+    moved = np.array([index[joint.body] for joint in robot.joints], dtype=np.int64)
+    joint, turn, axis = np.full(len(bodies), -1), np.zeros((len(bodies), 3, 3)), np.zeros((len(bodies), 3))
+    joint[moved], axis[moved] = np.arange(len(moved)), [joint.axis for joint in robot.joints]
+    for i, body in enumerate(bodies):
         quaternion_to_matrix(np.asarray(body.quat) / np.linalg.norm(body.quat), turn[i])
     return Tree(
-        parent=np.array([index.get(body.parent, -1) for body in robot.bodies], dtype=np.int64),
-        joint=np.array([actuator.get(body.name, -1) for body in robot.bodies], dtype=np.int64),
-        offset=np.array([body.pos for body in robot.bodies], dtype=float),
+        parent=np.array([index.get(body.parent, -1) for body in bodies], dtype=np.int64),
+        joint=joint,
+        offset=np.array([body.pos for body in bodies], dtype=float),
         turn=turn,
-        axis=np.array(
-            [robot.joints[actuator[b.name]].axis if b.name in actuator else np.zeros(3) for b in robot.bodies], float
-        ),
-        mass=mass_ratio * np.array([body.mass for body in robot.bodies]),
-        com=np.array([body.com for body in robot.bodies], dtype=float),
-        inertia=mass_ratio * np.array([np.mean(body.inertia[:3]) for body in robot.bodies]),
-        body_of_joint=np.array([index[joint.body] for joint in robot.joints], dtype=np.int64),
+        axis=axis,
+        mass=mass_ratio * np.array([body.mass for body in bodies]),
+        com=np.array([body.com for body in bodies], dtype=float),
+        inertia=mass_ratio * np.array([np.mean(body.inertia[:3]) for body in bodies], dtype=float),
+        body_of_joint=moved,
     )
 
 
@@ -121,7 +121,7 @@ def _chain(tree: Tree, q: Array, v: Array, pose: Pose) -> None:
     """Place and move every body from its parent's pose."""
     fixed, turned, arm, swept = np.empty((3, 3)), np.empty((3, 3)), np.empty(3), np.empty(3)
     for b in range(1, len(tree.parent)):
-        parent, joint = tree.parent[b], tree.joint[b]
+        parent, joint = tree.parent[b], int(tree.joint[b])
         rotate(pose.rotation[parent], tree.offset[b], arm)
         cross(pose.omega[parent], arm, swept)
         multiply(pose.rotation[parent], tree.turn[b], fixed)

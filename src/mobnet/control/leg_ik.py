@@ -20,7 +20,9 @@ class LegGeometry(NamedTuple):
 
 
 @compiled
-def leg_ik(leg: LegGeometry, side: float, r_base: Array, p_base: Array, r_foot: Array, p_ankle: Array, q: Array) -> None:
+def leg_ik(
+    leg: LegGeometry, side: float, r_base: Array, p_base: Array, r_foot: Array, p_ankle: Array, q: Array
+) -> None:
     """Write the six joint angles [rad] that put the ankle at a pose into q (6,).
 
     With R_foot = R_base Rz(q1) Rx(q2) Ry(q3 + q4 + q5) Rx(q6) and r the hip seen from the ankle in foot axes:

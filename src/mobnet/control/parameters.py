@@ -14,6 +14,7 @@ Array = NDArray[np.float64]
 
 STEP_X, STEP_Y, TURN, DURATION, FOOT_HEIGHT = range(5)  # columns of a command
 SIDES = (1.0, -1.0)  # of the left, right leg: +y is left
+State = np.record  # one record of STATE; its fields are attributes
 
 
 class WalkingParameters(NamedTuple):
@@ -104,11 +105,13 @@ def walking_parameters(settings: Mapping[str, Any]) -> WalkingParameters:
     names = WalkingParameters._fields
     for key in set(settings) ^ set(names):
         raise ConfigError(not_accepted("walking: key", key, names))
-    return WalkingParameters(
-        **{k: np.array(settings[k], dtype=float) if isinstance(settings[k], list) else float(settings[k]) for k in names}
-    )
+    values: dict[str, Any] = {
+        name: np.array(value, dtype=float) if isinstance(value, list) else float(value)
+        for name, value in settings.items()
+    }
+    return WalkingParameters(**values)
 
 
-def empty_state() -> Any:
+def empty_state() -> State:
     """Return a zeroed controller state, one record."""
-    return np.recarray(1, dtype=STATE, buf=np.zeros(1, dtype=STATE))[0]
+    return np.zeros(1, dtype=STATE).view(np.recarray)[0]

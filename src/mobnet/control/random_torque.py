@@ -13,7 +13,7 @@ from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
 
 Array = NDArray[np.float64]
-LIMBS = {"LL": "legs_waist_nm", "RL": "legs_waist_nm", "W": "legs_waist_nm", "LA": "arms_nm", "RA": "arms_nm", "N": "neck_nm"}
+LIMBS = dict.fromkeys(("LL", "RL", "W"), "legs_waist_nm") | {"LA": "arms_nm", "RA": "arms_nm", "N": "neck_nm"}
 
 
 class RandomTorque(NamedTuple):

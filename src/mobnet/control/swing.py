@@ -7,13 +7,13 @@ from numpy.typing import NDArray
 
 from mobnet.control.compiled import compiled
 from mobnet.control.geometry import rise, rise_slope, wrap, yaw_roll_pitch_matrix
-from mobnet.control.parameters import FOOT_HEIGHT, WalkingParameters
+from mobnet.control.parameters import FOOT_HEIGHT, State, WalkingParameters
 
 Array = NDArray[np.float64]
 
 
 @compiled
-def swing_height(par: WalkingParameters, s: object, ground: float, span: float, u: float) -> tuple[float, float]:
+def swing_height(par: WalkingParameters, s: State, ground: float, span: float, u: float) -> tuple[float, float]:
     """Return ankle height [m] and its rate [m/s] at phase u of a swing of span [s] that ends at height ground [m]."""
     top = max(s.lift[2], ground) + s.command[FOOT_HEIGHT]
     if u < par.swing_apex:
@@ -35,8 +35,8 @@ def swing_height(par: WalkingParameters, s: object, ground: float, span: float, 
 
 
 @compiled
-def swing_foot(par: WalkingParameters, s: object, double_support: float, ground: float) -> None:
-    """Fill foot (3,) [m], foot_velocity (3,) [m/s], foot_rotation (3, 3) and foot_yaw_rate [rad/s] of the swing foot."""
+def swing_foot(par: WalkingParameters, s: State, double_support: float, ground: float) -> None:
+    """Fill the swing foot's foot (3,) [m], foot_velocity (3,) [m/s], foot_rotation (3, 3), foot_yaw_rate [rad/s]."""
     span = s.total - double_support
     u = (s.t - double_support) / span
     x = u / par.swing_xy_share
@@ -48,7 +48,5 @@ def swing_foot(par: WalkingParameters, s: object, double_support: float, ground:
     x = u / par.swing_level_share
     turn = wrap(s.next_yaw - s.lift_yaw)
     level = 1.0 - rise(x)
-    yaw_roll_pitch_matrix(
-        s.lift_yaw + turn * rise(x), s.lift_roll * level, s.lift_pitch * level, s.foot_rotation
-    )
+    yaw_roll_pitch_matrix(s.lift_yaw + turn * rise(x), s.lift_roll * level, s.lift_pitch * level, s.foot_rotation)
     s.foot_yaw_rate = turn * rise_slope(x) / (par.swing_level_share * span)

@@ -1,7 +1,7 @@
 """One tick of the walking controller: events of the step, plan, balance, references, torques.
 
-Omnidirectional walking by commands (step x, y, turn, duration, foot height), recovered by the ankle, by the foothold and
-by the duration of the step. It knows the nominal model and the sensed state only.
+Omnidirectional walking by commands (step x, y, turn, duration, foot height), recovered by the ankle, by the foothold
+and by the duration of the step. It knows the nominal model and the sensed state only.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from mobnet.control.footsteps import plan_steps, reference
 from mobnet.control.geometry import clip, smoothstep, wrap
 from mobnet.control.kinematics import Pose, Tree, empty_pose, tree_of, update
 from mobnet.control.leg_ik import LegGeometry
-from mobnet.control.parameters import DURATION, WalkingParameters
+from mobnet.control.parameters import DURATION, State, WalkingParameters
 from mobnet.control.swing import swing_foot
 from mobnet.control.whole_body import leg_reference, posture_torque, stance_torque, swing_torque
 from mobnet.robot.description import SIDES, RobotDescription
@@ -80,7 +80,7 @@ def make_walker(robot: RobotDescription, par: WalkingParameters, mass_ratio: flo
 
 
 @compiled
-def walk(walker: Walker, s: object, q: Array, v: Array, wrenches: Array, commands: Array, dt: float, tau: Array) -> None:
+def walk(walker: Walker, s: State, q: Array, v: Array, wrenches: Array, commands: Array, dt: float, tau: Array) -> None:
     """Advance the controller by dt [s] and write the desired torques tau (nu,) [N m].
 
     Args:
@@ -134,10 +134,8 @@ def _move_wrenches(walker: Walker, wrenches: Array) -> None:
 @compiled
 def vertical_force(walker: Walker, k: int) -> float:
     """Return the ground's vertical force on foot k (0 left, 1 right) [N], world axes."""
-    rotation = walker.pose.rotation[walker.feet[k]]
-    return (
-        rotation[2, 0] * walker.wrench[k, 0] + rotation[2, 1] * walker.wrench[k, 1] + rotation[2, 2] * walker.wrench[k, 2]
-    )
+    up, force = walker.pose.rotation[walker.feet[k], 2], walker.wrench[k]
+    return up[0] * force[0] + up[1] * force[1] + up[2] * force[2]
 
 
 @compiled
@@ -147,7 +145,7 @@ def foot_yaw(pose: Pose, foot: int) -> float:
 
 
 @compiled
-def _touch_down(walker: Walker, s: object, commands: Array) -> None:
+def _touch_down(walker: Walker, s: State, commands: Array) -> None:
     """End the step when the swing foot carries load, or is too late: swap feet and take the next command."""
     par = walker.par
     if s.swinging == 0:
@@ -175,7 +173,7 @@ def _touch_down(walker: Walker, s: object, commands: Array) -> None:
 
 
 @compiled
-def _feet(walker: Walker, s: object, stance: int, double_support: float) -> None:
+def _feet(walker: Walker, s: State, stance: int, double_support: float) -> None:
     """Fill the shares of load, the stance foot's yaw and the height of the soles [m]."""
     pose = walker.pose
     share = clip(s.t / double_support, 0.0, 1.0)
@@ -189,7 +187,7 @@ def _feet(walker: Walker, s: object, stance: int, double_support: float) -> None
 
 
 @compiled
-def _lift_off(walker: Walker, s: object, stance: int, double_support: float) -> None:
+def _lift_off(walker: Walker, s: State, stance: int, double_support: float) -> None:
     """Start the swing at the end of double support: note where the foot leaves."""
     if s.swinging == 1 or s.t <= double_support:
         return
@@ -208,7 +206,7 @@ def _lift_off(walker: Walker, s: object, stance: int, double_support: float) -> 
 
 
 @compiled
-def _pelvis(par: WalkingParameters, s: object, dt: float) -> None:
+def _pelvis(par: WalkingParameters, s: State, dt: float) -> None:
     """Move the pelvis' wanted height [m] and yaw [rad]: over the soles, between the feet."""
     error = s.sole_height + par.pelvis_height_m - s.height
     bound = par.pelvis_height_speed_m_s
@@ -220,7 +218,7 @@ def _pelvis(par: WalkingParameters, s: object, dt: float) -> None:
 
 
 @compiled
-def _stand_reference(walker: Walker, s: object, ankle: Array, other: Array, stance: int) -> None:
+def _stand_reference(walker: Walker, s: State, ankle: Array, other: Array, stance: int) -> None:
     """Fill the reference of standing: the DCM above the middle of the feet, the load by where the ZMP is wanted."""
     par = walker.par
     offset_x, offset_y = np.cos(s.stance_yaw) * par.zmp_offset_x_m, np.sin(s.stance_yaw) * par.zmp_offset_x_m
@@ -238,7 +236,7 @@ def _stand_reference(walker: Walker, s: object, ankle: Array, other: Array, stan
 
 
 @compiled
-def _torques(walker: Walker, s: object, stance: int, q: Array, v: Array, dt: float, tau: Array) -> None:
+def _torques(walker: Walker, s: State, stance: int, q: Array, v: Array, dt: float, tau: Array) -> None:
     """Write all desired torques (nu,) [N m]."""
     par, pose = walker.par, walker.pose
     tau[:] = pose.gravity

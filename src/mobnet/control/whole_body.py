@@ -9,14 +9,12 @@ from mobnet.control.compiled import compiled
 from mobnet.control.geometry import clip, cross, dead, solve, triple, yaw_roll_pitch_matrix
 from mobnet.control.kinematics import Pose, Tree
 from mobnet.control.leg_ik import LegGeometry, leg_ik
-from mobnet.control.parameters import SIDES, WalkingParameters
+from mobnet.control.parameters import SIDES, State, WalkingParameters
 
 Array = NDArray[np.float64]
 LEFT_SIDE, RIGHT_SIDE = SIDES
 LEG_JOINTS = 6
 ANKLE_PITCH, ANKLE_ROLL = 4, 5  # joints of a leg
-
-
 
 
 @compiled
@@ -35,8 +33,9 @@ def leg_jacobian(tree: Tree, pose: Pose, first: int, foot: int, out: Array) -> N
 
 @compiled
 def leg_reference(
-    par: WalkingParameters, leg: LegGeometry, tree: Tree, pose: Pose, s: object, k: int, first: int, foot: int, swings: bool
-) -> None:
+    par: WalkingParameters, leg: LegGeometry, tree: Tree, pose: Pose, s: State, k: int, first: int, foot: int,
+    swings: bool,
+) -> None:  # fmt: skip
     """Fill q_reference[k] [rad] and v_reference[k] [rad/s] of leg k (0 left, 1 right).
 
     A swing leg takes its foot to the target from where the pelvis is; a stance leg takes the pelvis, level, to its
@@ -69,7 +68,7 @@ def leg_reference(
 
 @compiled
 def stance_torque(
-    par: WalkingParameters, tree: Tree, pose: Pose, s: object, k: int, first: int, foot: int,
+    par: WalkingParameters, tree: Tree, pose: Pose, s: State, k: int, first: int, foot: int,
     q: Array, v: Array, wrench: Array, point: Array, dt: float, tau: Array,
 ) -> None:  # fmt: skip
     """Add the torques [N m] of a leg that carries the share load[k] of the ground force at `point` (3,) [m]."""
@@ -92,14 +91,12 @@ def stance_torque(
 
 @compiled
 def _ankle_correction(
-    par: WalkingParameters, pose: Pose, s: object, k: int, which: int, foot: int, push: float, wrench: Array, dt: float
+    par: WalkingParameters, pose: Pose, s: State, k: int, which: int, foot: int, push: float, wrench: Array, dt: float
 ) -> float:
     """Return the torque [N m] that makes the measured ankle moment the wanted one and keeps the foot from tipping.
 
-    Args:
-        which: 0 pitch, 1 roll.
-        push: wanted moment of the ground about the ankle axis [N m].
-        wrench: of the ground, foot axes, about the ankle (6,) [N, N m].
+    Which is 0 for pitch, 1 for roll; push [N m] is the wanted moment of the ground about that axis and wrench (6,)
+    [N, N m] the ground's about the ankle, foot axes; dt in [s].
     """
     rotation = pose.rotation[foot]
     sin_roll, sin_pitch = rotation[2, 1], -rotation[2, 0]
@@ -124,7 +121,7 @@ def _ankle_correction(
 
 
 @compiled
-def swing_torque(par: WalkingParameters, s: object, k: int, first: int, q: Array, v: Array, tau: Array) -> None:
+def swing_torque(par: WalkingParameters, s: State, k: int, first: int, q: Array, v: Array, tau: Array) -> None:
     """Add the torques [N m] that make a swing leg follow its reference."""
     for j in range(LEG_JOINTS):
         joint = first + j

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from mobnet.control.compiled import compiled
 from mobnet.control.geometry import clip
+from mobnet.control.parameters import State
 from mobnet.control.random_torque import RandomTorque, advance_random_torque
 from mobnet.control.walking import Walker, walk
 from mobnet.simulation.friction import Friction, friction_torque
@@ -62,7 +63,9 @@ class Plant(NamedTuple):
     every: int
 
 
-def make_plant(world: World, native: Native, friction: Friction, limits: Array, fall_height: float, every: int) -> Plant:
+def make_plant(
+    world: World, native: Native, friction: Friction, limits: Array, fall_height: float, every: int
+) -> Plant:
     """Collect the live arrays of a world; the world must outlive the plant. limits (nu,) [N m], fall_height [m]."""
     data = world.data
     return Plant(
@@ -74,7 +77,7 @@ def make_plant(world: World, native: Native, friction: Friction, limits: Array, 
 
 @compiled
 def run(
-    plant: Plant, walker: Walker, sensors: Sensors, s: object, torque: RandomTorque, commands: Array,
+    plant: Plant, walker: Walker, sensors: Sensors, s: State, torque: RandomTorque, commands: Array,
     rng_noise: np.random.Generator, rng_torque: np.random.Generator, log: NDArray[np.float32],
 ) -> int:  # fmt: skip
     """Simulate len(log) samples into log (n, C), columns of `recording_columns`; return how many before a fall."""
@@ -102,7 +105,7 @@ def run(
 
 
 @compiled
-def _explore(walker: Walker, s: object, torque: RandomTorque, rng: np.random.Generator, dt: float, tau: Array) -> None:
+def _explore(walker: Walker, s: State, torque: RandomTorque, rng: np.random.Generator, dt: float, tau: Array) -> None:
     """Add the random torque to the desired torques tau (nu,) [N m], but not to a leg that carries load."""
     advance_random_torque(torque, rng, dt)
     swing = -1 if s.swinging == 0 else (1 if s.side > 0 else 0)
@@ -148,7 +151,7 @@ def _add_external(plant: Plant, tau_ext: Array) -> None:
 
 
 @compiled
-def _wrap(plant: Plant, sensors: Sensors, s: object) -> None:
+def _wrap(plant: Plant, sensors: Sensors, s: State) -> None:
     """Put a robot that walked a period of the terrain back, and all world positions of the controller with it."""
     for i in range(2):
         if abs(plant.qpos[i]) <= plant.period:
@@ -164,7 +167,7 @@ def _wrap(plant: Plant, sensors: Sensors, s: object) -> None:
 
 @compiled
 def _write(
-    row: NDArray[np.float32], sensors: Sensors, s: object, tau_des: Array, tau_motor: Array, tau_ext: Array,
+    row: NDArray[np.float32], sensors: Sensors, s: State, tau_des: Array, tau_motor: Array, tau_ext: Array,
     wrenches: Array, every: int,
 ) -> None:  # fmt: skip
     """Write one sample in the order of `recording_columns`; sums over the sample's steps become means."""

@@ -110,8 +110,7 @@ def bind(model: mujoco.MjModel, data: mujoco.MjData) -> Native:
     return native
 
 
-@intrinsic
-def call_step(typingctx: Any, step: Any, model: Any, data: Any) -> Any:
+def _call_step(typingctx: Any, step: Any, model: Any, data: Any) -> Any:
     """Call mj_step(model, data), all three given as addresses."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
@@ -120,6 +119,9 @@ def call_step(typingctx: Any, step: Any, model: Any, data: Any) -> Any:
         return context.get_dummy_value()
 
     return types.void(types.int64, types.int64, types.int64), codegen
+
+
+call_step: Any = intrinsic(_call_step)
 
 
 def _pointer(kind: Any) -> Any:

@@ -24,7 +24,7 @@ from mobnet.robot.description import RobotDescription, load_robot
 from mobnet.simulation.engine import make_plant, run
 from mobnet.simulation.friction import make_friction
 from mobnet.simulation.native import bind
-from mobnet.simulation.sensing import make_sensors, read_sensors
+from mobnet.simulation.sensing import make_sensors
 from mobnet.simulation.start import start_walking
 from mobnet.simulation.world import World, leg_mask, make_world
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from mobnet.control.geometry import solve
 from mobnet.control.kinematics import update
 from mobnet.control.leg_ik import leg_ik
-from mobnet.control.parameters import DURATION
+from mobnet.control.parameters import DURATION, State
 from mobnet.control.walking import Walker
 from mobnet.control.whole_body import leg_jacobian
 from mobnet.robot.description import RobotDescription
@@ -37,7 +37,9 @@ def place(walker: Walker, robot: RobotDescription, ground_m: float) -> tuple[Arr
     return q, ankles
 
 
-def start_walking(walker: Walker, robot: RobotDescription, s: np.record, command: Array, ground_m: float) -> tuple[Array, Array]:
+def start_walking(
+    walker: Walker, robot: RobotDescription, s: State, command: Array, ground_m: float
+) -> tuple[Array, Array]:
     """Return q (nq,) and v (nv,) amid double support, swaying to the left, and set the controller's state to it.
 
     The pelvis has the lateral speed of a linear inverted pendulum that steps in place.
@@ -67,7 +69,9 @@ def start_walking(walker: Walker, robot: RobotDescription, s: np.record, command
     return q, v
 
 
-def start_standing(walker: Walker, robot: RobotDescription, s: np.record, command: Array, ground_m: float) -> tuple[Array, Array]:
+def start_standing(
+    walker: Walker, robot: RobotDescription, s: State, command: Array, ground_m: float
+) -> tuple[Array, Array]:
     """Return q (nq,) and v (nv,) at rest and set the controller to stand; the arguments are `start_walking`'s."""
     q, ankles = place(walker, robot, ground_m)
     _set_state(walker, s, command, q, ankles)
@@ -75,7 +79,7 @@ def start_standing(walker: Walker, robot: RobotDescription, s: np.record, comman
     return q, np.zeros(robot.layout.nv)
 
 
-def _set_state(walker: Walker, s: np.record, command: Array, q: Array, ankles: Array) -> None:
+def _set_state(walker: Walker, s: State, command: Array, q: Array, ankles: Array) -> None:
     """Set the controller's state to both feet on the ground, the left one about to carry the robot."""
     for name in s.dtype.names or ():
         s[name] = 0
