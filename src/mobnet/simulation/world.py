@@ -45,16 +45,12 @@ def make_world(config: Mapping[str, Any], robot: RobotDescription, terrain: str,
     spec = robot_spec(robot)
     period = add_terrain(spec, terrain, config["terrain"])
     _set_options(spec, plant, config["rates"]["plant_hz"])
-    spec.visual.global_.offwidth, spec.visual.global_.offheight = OFFSCREEN_SIZE
     model = spec.compile()
     if config["levels"][level]["friction"]:
         legs = leg_mask(robot)
         loss = np.where(legs, plant["friction"]["loss_legs_nm"], plant["friction"]["loss_others_nm"])
         model.dof_frictionloss[-robot.layout.nu :] = loss
     return World(model, mujoco.MjData(model), period, top_of(terrain, config["terrain"]))
-
-
-OFFSCREEN_SIZE = (1280, 960)  # pixels a picture may have
 
 
 def leg_mask(robot: RobotDescription) -> NDArray[np.bool_]:
