@@ -29,7 +29,10 @@ MANIFEST = "results/MANIFEST.sha256" if SCALE == MAIN else f"{RESULTS}/MANIFEST.
 FIRST_TRAINING_SEED = 1000  # test recordings count from 1
 TRAIN_SEEDS = [FIRST_TRAINING_SEED + i for i in range(SIZES["train"]["shards"])]
 TEST_SEEDS = [1 + i for i in range(SIZES["test"]["shards"])]
-TABLE_05, FIGURE_05 = settings["evaluation"]["table_05"], settings["evaluation"]["figure_05"]
+TABLE_05, FIGURE_05 = (
+    settings["evaluation"]["table_05"],
+    settings["evaluation"]["figure_05"],
+)
 
 
 wildcard_constraints:
@@ -66,7 +69,11 @@ def files(kind, ending="npy"):
 
 def training(kind):
     """Return the files of a kind that the networks learn from."""
-    return expand(files(kind), seed=TRAIN_SEEDS, **{key: SIZES["train"][key] for key in ("scenario", "level")})
+    return expand(
+        files(kind),
+        seed=TRAIN_SEEDS,
+        **{key: SIZES["train"][key] for key in ("scenario", "level")},
+    )
 
 
 def duration_s(seed):
@@ -105,7 +112,10 @@ def entry(scenario, level, method, network_seed, test_seed):
 
 def runs_of(scenario):
     """Return every run of a scenario that a table or a figure needs."""
-    wanted = [(TABLE_05["scenario"], TABLE_05["levels"]), (FIGURE_05["scenario"], FIGURE_05["panels"])]
+    wanted = [
+        (TABLE_05["scenario"], TABLE_05["levels"]),
+        (FIGURE_05["scenario"], FIGURE_05["panels"]),
+    ]
     pairs = {
         (level, method): None
         for name, levels in wanted
@@ -148,7 +158,11 @@ def products():
     ]
     stored = training("recordings") + training("residuals") + arrays(runs, "recording", "residual", "estimate")
     notes = [str(Path(name).with_suffix(".json")) for name in stored]
-    tables = expand(f"{TABLES}/{{name}}.{{ending}}", name=["table_05", "claims"], ending=["csv", "tex", "md"])
+    tables = expand(
+        f"{TABLES}/{{name}}.{{ending}}",
+        name=["table_05", "claims"],
+        ending=["csv", "tex", "md"],
+    )
     figures = expand(f"{FIGURES}/figure_05.{{ending}}", ending=["pdf", "png", "csv"])
     scores = expand(f"{RESULTS}/scores/{{scenario}}.csv", scenario=scenarios)
     texts = [f"{TABLES}/numbers.tex", f"{TABLES}/deviations.tex", f"{PAPER}/build.json"]

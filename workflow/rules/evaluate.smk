@@ -24,7 +24,10 @@ rule table_05:
     input:
         scores=f"{RESULTS}/scores/{TABLE_05['scenario']}.csv",
     output:
-        ensure(expand(f"{TABLES}/table_05.{{ending}}", ending=["csv", "tex", "md"]), non_empty=True),
+        ensure(
+            expand(f"{TABLES}/table_05.{{ending}}", ending=["csv", "tex", "md"]),
+            non_empty=True,
+        ),
     log:
         f"{RESULTS}/logs/table_05.log",
     benchmark:
@@ -42,7 +45,10 @@ rule figure_05:
     input:
         arrays(panels_of(FIGURE_05), "recording", "residual", "estimate"),
     output:
-        ensure(expand(f"{FIGURES}/figure_05.{{ending}}", ending=["pdf", "png", "csv"]), non_empty=True),
+        ensure(
+            expand(f"{FIGURES}/figure_05.{{ending}}", ending=["pdf", "png", "csv"]),
+            non_empty=True,
+        ),
     log:
         f"{RESULTS}/logs/figure_05.log",
     benchmark:
@@ -62,7 +68,10 @@ rule claims:
     input:
         scores=f"{RESULTS}/scores/{TABLE_05['scenario']}.csv",
     output:
-        ensure(expand(f"{TABLES}/claims.{{ending}}", ending=["csv", "tex", "md"]), non_empty=True),
+        ensure(
+            expand(f"{TABLES}/claims.{{ending}}", ending=["csv", "tex", "md"]),
+            non_empty=True,
+        ),
     log:
         f"{RESULTS}/logs/claims.log",
     benchmark:

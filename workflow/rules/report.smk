@@ -35,8 +35,11 @@ rule paper:
     input:
         main="paper/main.tex",
         references="paper/refs.bib",
-        tables=expand(f"{TABLES}/{{name}}.tex", name=["table_05", "claims", "numbers", "deviations"]),
-        figures=f"{FIGURES}/figure_05.pdf",
+        tables=expand(
+            f"{TABLES}/{{name}}.tex",
+            name=["table_05", "claims", "numbers", "deviations"],
+        ),
+        figures=[f"{FIGURES}/figure_05.pdf"],
     output:
         ensure(f"{PAPER}/build.json", non_empty=True),
     log:
@@ -46,9 +49,6 @@ rule paper:
     threads: 1
     params:
         config=part("scale"),
-        tables=TABLES,
-        figures=FIGURES,
-        pdf=f"{PAPER}/main.pdf",
         code=code_of("paper"),
     script:
         "../scripts/paper.py"

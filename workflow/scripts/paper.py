@@ -9,7 +9,7 @@ with job(snakemake.log[0]):
     build(
         snakemake.params.config,
         Path(snakemake.input.main),
-        Path(snakemake.params.tables),
-        Path(snakemake.params.figures),
-        Path(snakemake.params.pdf),
+        Path(snakemake.input.tables[0]).parent,
+        Path(snakemake.input.figures[0]).parent,
+        Path(snakemake.output[0]).with_name("main.pdf"),
     )

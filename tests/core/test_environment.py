@@ -1,0 +1,39 @@
+"""Every process of the project runs one thread and writes inside the project."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from mobnet.core.environment import CACHES, child_environment, quieten
+
+
+def test_caches_lie_inside_the_project(tmp_path: Path) -> None:
+    variables = child_environment(tmp_path)
+    for name in CACHES.keys() - {"TMPDIR"}:
+        assert Path(variables[name]).is_relative_to(tmp_path)
+        assert Path(variables[name]).is_dir()
+
+
+def test_one_thread_each(tmp_path: Path) -> None:
+    assert {value for name, value in child_environment(tmp_path).items() if name.endswith("_NUM_THREADS")} == {"1"}
+
+
+def test_temporary_folder_stays_short_enough_for_a_socket(tmp_path: Path) -> None:
+    assert "TMPDIR" not in child_environment(tmp_path / ("long" * 20))
+
+
+def test_what_a_user_set_stays(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(os, "environ", {"OMP_NUM_THREADS": "4"})
+    quieten(tmp_path)
+    assert os.environ["OMP_NUM_THREADS"] == "4"
+    assert os.environ["WANDB_MODE"] == "offline"
+
+
+def test_module_needs_the_standard_library_only() -> None:
+    code = "import sys; sys.path.insert(0, 'src'); import mobnet.core.environment"
+    subprocess.run([sys.executable, "-I", "-S", "-c", code], check=True)

@@ -1,0 +1,41 @@
+"""The layout of the generalized velocity is that of Figure 4, and unknown names are refused."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mobnet.core.errors import ConfigError
+from mobnet.core.joints import JointLayout, layout_of
+
+
+def test_tocabi_has_39_degrees_of_freedom(layout: JointLayout) -> None:
+    assert (layout.nv, layout.nu, layout.nq) == (39, 33, 40)
+
+
+def test_groups_partition_the_joints(layout: JointLayout) -> None:
+    members = [joint for group in layout.groups.values() for joint in group]
+    assert sorted(members) == sorted(layout.names)
+
+
+def test_columns_are_the_inverse_of_names(layout: JointLayout) -> None:
+    rng = np.random.default_rng(0)
+    order = rng.permutation(layout.nv)
+    np.testing.assert_array_equal(layout.columns([layout.names[i] for i in order]), order)
+
+
+def test_linear_virtual_joints_are_forces_and_all_others_torques(layout: JointLayout) -> None:
+    assert [layout.unit(name) for name in layout.names] == ["N"] * 3 + ["N m"] * 36
+
+
+def test_unknown_limb_and_joint_are_named(layout: JointLayout) -> None:
+    with pytest.raises(ConfigError, match=r"limb: 'tail' is not accepted; accepted: LA, LL"):
+        layout.limb("tail")
+    with pytest.raises(ConfigError, match=r"joint: 'LL7' is not accepted"):
+        layout.columns(["LL1", "LL7"])
+
+
+def test_group_of_an_unknown_joint_is_refused() -> None:
+    order = {"virtual": ["V1"], "actuated": ["A1"]}
+    with pytest.raises(ConfigError, match="joint: 'A2'"):
+        layout_of(order, {"A": ["A2"]})

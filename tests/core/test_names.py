@@ -1,0 +1,28 @@
+"""A name in the configuration is one that exists."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from mobnet.core.errors import ConfigError
+from mobnet.core.joints import JointLayout
+from mobnet.core.names import check_names, evaluation_uses, network_uses, scenario_uses
+
+
+def test_the_repository_names_only_what_exists(full_config: dict[str, Any], layout: JointLayout) -> None:
+    check_names(full_config, layout)
+
+
+def test_every_reference_is_looked_at(full_config: dict[str, Any], layout: JointLayout) -> None:
+    keys = {key for uses in (network_uses, scenario_uses, evaluation_uses) for key, _, _ in uses(full_config, layout)}
+    expected = {"networks", "networks.V.Q", "methods.MOB-Net.limbs", "scale", "scenarios.random_walk.terrain"}
+    assert expected | {"evaluation.table_05.levels.ideal", "evaluation.figure_05.joint"} <= keys
+
+
+def test_unknown_method_of_a_table_is_named(full_config: dict[str, Any], layout: JointLayout) -> None:
+    table = {**full_config["evaluation"]["table_05"], "levels": {"ideal": ["MOB", "magic"]}}
+    config = {**full_config, "evaluation": {**full_config["evaluation"], "table_05": table}}
+    with pytest.raises(ConfigError, match=r"table_05\.levels\.ideal: 'magic' is not accepted; accepted: FTS-e2e, MOB"):
+        check_names(config, layout)

@@ -1,0 +1,69 @@
+"""Copies of the project in which the workflow may run without touching the checkout's results."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PARTS = ("Snakefile", "workflow", "profiles", "configs", "src", "docs", "paper", "reproduce")
+LOCKS = ("environment.lock", "cuda.constraints")
+Snakemake = Callable[..., subprocess.CompletedProcess[str]]
+
+
+@pytest.fixture(scope="session")
+def snakemake() -> Snakemake:
+    """Return a function that runs snakemake in a folder and returns what it printed."""
+
+    def run(*words: str, folder: Path = ROOT) -> subprocess.CompletedProcess[str]:
+        environment = {**os.environ, "PYTHONPATH": str(folder / "src")}
+        words = (sys.executable, "-m", "snakemake", *words)
+        return subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True, check=False)
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def outputs(snakemake: Snakemake) -> Callable[[str], dict[str, str]]:
+    """Return a function of a scale that returns file -> rule of everything the workflow makes."""
+
+    def listing(scale: str) -> dict[str, str]:
+        done = snakemake("--summary", "--config", f"scale={scale}")
+        assert done.returncode == 0, done.stderr
+        header, *rows = (line.split("\t") for line in done.stdout.splitlines())
+        return {row[header.index("output_file")]: row[header.index("rule")] for row in rows}
+
+    return listing
+
+
+@pytest.fixture(scope="session")
+def make_project(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+    """Return a function of a name that copies the project; its `.venv` stands for the Python that runs the tests."""
+
+    def make(name: str) -> Path:
+        folder = tmp_path_factory.mktemp(name)
+        for part in PARTS:
+            source = ROOT / part
+            ignored = shutil.ignore_patterns("__pycache__", "*.pdf", "build.json", ".*")
+            if source.is_dir():
+                shutil.copytree(source, folder / part, symlinks=True, ignore=ignored)
+            else:
+                shutil.copy2(source, folder / part)
+        content = b"".join((ROOT / lock).read_bytes() for lock in LOCKS)
+        for lock in LOCKS:
+            shutil.copy2(ROOT / lock, folder / lock)
+        python = folder / ".venv" / "bin" / "python"
+        python.parent.mkdir(parents=True)
+        python.write_text(f'#!/bin/sh\nPYTHONPATH="{folder}/src" exec "{sys.executable}" "$@"\n')
+        python.chmod(0o755)
+        (folder / ".venv" / "installed-lock.sha256").write_text(hashlib.sha256(content).hexdigest())
+        return folder
+
+    return make

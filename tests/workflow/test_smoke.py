@@ -1,0 +1,129 @@
+"""The whole line at the smoke scale: unbroken, again, and killed at random moments."""
+
+from __future__ import annotations
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from .conftest import Snakemake
+
+SMOKE = ("--config", "scale=smoke")
+NO_OP_S = 15.0
+KILLS = 5
+LONGEST_S = 20.0
+
+pytestmark = [pytest.mark.slow, pytest.mark.sim]
+
+
+def reproduce(folder: Path, *words: str) -> subprocess.Popen[bytes]:
+    """Start ./reproduce in a process group of its own."""
+    command = [sys.executable, str(folder / "reproduce"), "all", *SMOKE, *words]
+    with (folder / "out.log").open("ab") as out:
+        return subprocess.Popen(command, cwd=folder, stdout=out, stderr=out, start_new_session=True)
+
+
+def told(folder: Path) -> str:
+    """Return what the runs in a folder printed last."""
+    return (folder / "out.log").read_text()[-5000:]
+
+
+def products(folder: Path) -> dict[str, bytes]:
+    """Return the content of every table, and of every figure's numbers."""
+    found = [*(folder / "tables" / "smoke").iterdir(), *(folder / "figures" / "smoke").glob("*.csv")]
+    return {path.name: path.read_bytes() for path in found}
+
+
+@pytest.fixture(scope="module")
+def unbroken(make_project: Callable[[str], Path]) -> Path:
+    """A project in which the smoke scale ran on two cores."""
+    folder = make_project("unbroken")
+    assert reproduce(folder).wait() == 0, told(folder)
+    return folder
+
+
+def test_smoke_makes_tables_figures_and_networks(unbroken: Path) -> None:
+    made = products(unbroken)
+    assert {"table_05.csv", "table_05.tex", "table_05.md", "claims.csv", "figure_05.csv"} <= set(made)
+    assert all(made.values())
+    assert (unbroken / "figures" / "smoke" / "figure_05.pdf").read_bytes().startswith(b"%PDF")
+    assert len(list((unbroken / "results" / "smoke" / "networks").glob("*/weights.safetensors"))) == 4
+
+
+def test_every_job_left_a_log_and_a_benchmark(unbroken: Path) -> None:
+    logs = {path.stem for path in (unbroken / "results" / "smoke" / "logs" / "collect").iterdir()}
+    assert logs == {path.stem for path in (unbroken / "results" / "smoke" / "bench" / "collect").iterdir()}
+    assert len(logs) == 5
+
+
+def test_second_call_does_nothing(unbroken: Path) -> None:
+    before = time.monotonic()
+    assert reproduce(unbroken).wait() == 0
+    assert time.monotonic() - before < NO_OP_S
+    assert "Nothing to be done" in told(unbroken)
+
+
+def test_manifest_finds_one_flipped_byte(unbroken: Path) -> None:
+    manifest = "results/smoke/MANIFEST.sha256"
+    words = [sys.executable, str(unbroken / "reproduce"), "verify", "--manifest", manifest]
+    assert subprocess.run(words, cwd=unbroken, check=False, capture_output=True).returncode == 0
+    path = unbroken / "results" / "smoke" / "networks" / "MOB-Net-LL-s0" / "weights.safetensors"
+    whole, times = path.read_bytes(), path.stat()
+    path.write_bytes(whole[:-1] + bytes([whole[-1] ^ 1]))
+    done = subprocess.run(words, cwd=unbroken, check=False, capture_output=True, text=True)
+    path.write_bytes(whole)
+    os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
+    assert done.returncode == 1
+    assert "MOB-Net-LL-s0/weights.safetensors: hash" in done.stdout
+
+
+def test_comment_reruns_nothing_and_an_edit_just_what_depends_on_it(unbroken: Path, snakemake: Snakemake) -> None:
+    path = unbroken / "src" / "mobnet" / "evaluation" / "tables.py"
+    text = path.read_text()
+    path.write_text(text + "# a comment\n")
+    assert "Nothing to be done" in snakemake("-n", *SMOKE, folder=unbroken).stdout
+    path.write_text(text + "ADDED = 1\n")
+    planned = snakemake("-n", *SMOKE, folder=unbroken).stdout
+    path.write_text(text)
+    assert {"table_05", "numbers", "paper", "manifest"} <= set(planned.split())
+    assert not {"collect", "observe", "train", "estimate", "score"} & set(planned.split())
+
+
+def test_damaged_recording_stops_with_one_line_and_nothing_half_written(
+    unbroken: Path, make_project: Callable[[str], Path], snakemake: Snakemake
+) -> None:
+    folder = make_project("damaged")
+    place = Path("results") / "smoke" / "recordings" / "forward_walk" / "ideal"
+    (folder / place).mkdir(parents=True)
+    for ending in ("json", "npy"):
+        content = (unbroken / place / f"s1.{ending}").read_bytes()
+        (folder / place / f"s1.{ending}").write_bytes(content[: len(content) // 2] if ending == "npy" else content)
+    target = "results/smoke/residuals/forward_walk/ideal/s1.npy"
+    done = snakemake(*SMOKE, "--rerun-triggers", "mtime", "--", target, folder=folder)
+    assert done.returncode != 0
+    assert (done.stdout + done.stderr).count(f"{place}/s1.npy: truncated or damaged") == 1
+    assert not (folder / target).exists()
+
+
+def test_killed_at_random_moments_ends_with_the_same_tables(
+    unbroken: Path, make_project: Callable[[str], Path]
+) -> None:
+    folder = make_project("killed")
+    moments = random.Random(2023)
+    for kill in range(KILLS):
+        run = reproduce(folder, "--cores", "1")
+        time.sleep(moments.uniform(1.0, LONGEST_S))
+        if kill % 2:
+            os.killpg(run.pid, signal.SIGKILL)
+        else:
+            run.kill()  # its jobs live on and keep the lock until they end
+        run.wait()
+    assert reproduce(folder, "--cores", "1").wait() == 0, told(folder)
+    assert products(folder) == products(unbroken)
