@@ -16,6 +16,8 @@ from mobnet.core.config import load_layout, resolve
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Recording, Sensed, Truth, recording_columns
 from mobnet.core.store import write_array, write_recording
+from mobnet.robot.description import RobotDescription, load_robot
+from mobnet.robot.nominal import NominalModel
 
 ROOT = Path(__file__).parents[1]
 RATE_HZ = 1000.0
@@ -34,6 +36,16 @@ def full_config() -> dict[str, Any]:
 @pytest.fixture(scope="session")
 def layout(full_config: dict[str, Any]) -> JointLayout:
     return load_layout(Path(full_config["robot"]))
+
+
+@pytest.fixture(scope="session")
+def robot(full_config: dict[str, Any]) -> RobotDescription:
+    return load_robot(Path(full_config["robot"]))
+
+
+@pytest.fixture(scope="session")
+def nominal(robot: RobotDescription) -> NominalModel:
+    return NominalModel(robot)
 
 
 @pytest.fixture(scope="session")

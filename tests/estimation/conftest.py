@@ -13,23 +13,13 @@ import yaml
 from numpy.typing import NDArray
 
 from mobnet.core.recording import FEET, Sensed
-from mobnet.robot.description import RobotDescription, load_robot
+from mobnet.robot.description import RobotDescription
 from mobnet.robot.dynamics import inverse_dynamics
 from mobnet.robot.nominal import NominalModel
 
 REPO = Path(__file__).parents[2]
 SUB_STEPS = 2  # plant ticks in a sample
 Array = NDArray[np.float64]
-
-
-@pytest.fixture(scope="session")
-def robot() -> RobotDescription:
-    return load_robot(REPO / "configs" / "robots" / "tocabi.yaml")
-
-
-@pytest.fixture(scope="session")
-def nominal(robot: RobotDescription) -> NominalModel:
-    return NominalModel(robot)
 
 
 @pytest.fixture

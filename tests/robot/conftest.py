@@ -3,32 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from mobnet.robot.description import RobotDescription, load_robot
-from mobnet.robot.nominal import NominalModel
+from mobnet.robot.description import RobotDescription
 from mobnet.robot.plant import SOLE_TYPE, TERRAIN_TYPE, robot_spec
 
-TABLE = Path(__file__).parents[2] / "configs" / "robots" / "tocabi.yaml"
 Array = NDArray[np.float64]
 TIME_STEP_S = 0.0005
 STIFFNESS, DAMPING = 12.0, 0.25  # per N m of torque limit, 1/rad and s/rad
 PUSH = np.array([10.0, 5.0, 3.0])  # on the left sole [N]
-
-
-@pytest.fixture(scope="session")
-def robot() -> RobotDescription:
-    return load_robot(TABLE)
-
-
-@pytest.fixture(scope="session")
-def nominal(robot: RobotDescription) -> NominalModel:
-    return NominalModel(robot)
 
 
 @pytest.fixture(scope="session")
