@@ -23,22 +23,16 @@ compiled = numba.njit(cache=True, error_model="numpy", fastmath={"contract", "ns
 def rational_tanh(x: np.float32) -> np.float32:
     """Return tanh(x), unitless, within a few float32 roundings; loops over it vectorize, which tanh's do not.
 
-    Source: the rational minimax approximation of the Eigen library, Eigen/src/Core/MathFunctionsImpl.h.
+    tanh(x / 2) by the seventh convergent of Lambert's continued fraction, x / (1 + x^2 / (3 + x^2 / (5 + ...))), then
+    the double of the argument: tanh(2 y) = 2 t / (1 + t^2).
     """
-    bound = np.float32(7.90531110763549805)
-    x = bound if x > bound else x  # NaN passes
-    x = -bound if x < -bound else x
-    s = x * x
-    p = np.float32(-2.76076847742355e-16) * s + np.float32(2.00018790482477e-13)
-    p = p * s + np.float32(-8.60467152213735e-11)
-    p = p * s + np.float32(5.12229709037114e-08)
-    p = p * s + np.float32(1.48572235717979e-05)
-    p = p * s + np.float32(6.37261928875436e-04)
-    p = p * s + np.float32(4.89352455891786e-03)
-    q = np.float32(1.19825839466702e-06) * s + np.float32(1.18534705686654e-04)
-    q = q * s + np.float32(2.26843463243900e-03)
-    q = q * s + np.float32(4.89352518554385e-03)
-    return x * p / q
+    x = min(np.float32(9.0), max(np.float32(-9.0), x)) if x == x else x  # tanh(9) rounds to 1; NaN passes
+    y = np.float32(0.5) * x
+    s = y * y
+    p = np.float32(135135) + s * (np.float32(17325) + s * (np.float32(378) + s))
+    q = np.float32(135135) + s * (np.float32(62370) + s * (np.float32(3150) + s * np.float32(28)))
+    t = y * p / q
+    return (t + t) / (np.float32(1.0) + t * t)
 
 
 @compiled
