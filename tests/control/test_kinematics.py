@@ -1,0 +1,116 @@
+"""Kinematics and centroidal quantities against MuJoCo."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import mujoco
+import numpy as np
+import pytest
+
+from mobnet.control.kinematics import tree_of, update
+from mobnet.control.walking import Walker
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.plant import robot_spec
+
+SEEDS = range(4)
+
+
+@pytest.fixture(scope="module")
+def model(robot: RobotDescription) -> mujoco.MjModel:
+    return robot_spec(robot).compile()
+
+
+@pytest.fixture
+def at(model: mujoco.MjModel, random_pose: Callable) -> Callable[[int], mujoco.MjData]:
+    """A function seed -> MuJoCo's data in the walker's random pose."""
+
+    def place(seed: int) -> mujoco.MjData:
+        data = mujoco.MjData(model)
+        data.qpos[:], data.qvel[:] = random_pose(seed)
+        mujoco.mj_forward(model, data)
+        mujoco.mj_subtreeVel(model, data)
+        return data
+
+    return place
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_bodies_stand_where_mujoco_puts_them(walker: Walker, robot: RobotDescription, at: Callable, seed: int) -> None:
+    data, pose = at(seed), walker.pose
+    for i, body in enumerate(robot.bodies):
+        np.testing.assert_allclose(pose.position[i], data.body(body.name).xpos, atol=1e-12)
+        np.testing.assert_allclose(pose.rotation[i].ravel(), data.body(body.name).xmat, atol=1e-12)
+    for j, joint in enumerate(robot.joints):
+        np.testing.assert_allclose(pose.axis[j], data.joint(joint.id).xaxis, atol=1e-12)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_bodies_move_as_mujoco_s_jacobian_says(
+    walker: Walker, robot: RobotDescription, model: mujoco.MjModel, at: Callable, seed: int
+) -> None:
+    data, pose = at(seed), walker.pose
+    linear, angular = np.zeros((3, model.nv)), np.zeros((3, model.nv))
+    for i, body in enumerate(robot.bodies):
+        mujoco.mj_jacBody(model, data, linear, angular, model.body(body.name).id)
+        np.testing.assert_allclose(pose.velocity[i], linear @ data.qvel, atol=1e-11)
+        np.testing.assert_allclose(pose.omega[i], angular @ data.qvel, atol=1e-11)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_centre_of_mass_and_its_momentum_equal_mujoco_s(
+    walker: Walker, robot: RobotDescription, at: Callable, seed: int
+) -> None:
+    data, pose = at(seed), walker.pose
+    base = data.body(robot.base)
+    assert pose.weight[0] == pytest.approx(robot.mass, rel=1e-12)
+    np.testing.assert_allclose(pose.com, base.subtree_com, atol=1e-12)
+    np.testing.assert_allclose(pose.com_velocity, base.subtree_linvel, atol=1e-11)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_angular_momentum_is_exact_for_round_links(
+    walker: Walker, robot: RobotDescription, random_pose: Callable, seed: int
+) -> None:
+    """With every link's inertia replaced by its mean principal moment, which the controller assumes."""
+    round_links = robot_spec(robot).compile()
+    round_links.body_inertia[:] = round_links.body_inertia.mean(axis=1, keepdims=True)
+    data = mujoco.MjData(round_links)
+    data.qpos[:], data.qvel[:] = random_pose(seed)
+    mujoco.mj_forward(round_links, data)
+    mujoco.mj_subtreeVel(round_links, data)
+    np.testing.assert_allclose(walker.pose.spin, data.body(robot.base).subtree_angmom, atol=1e-10)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_mean_inertia_costs_less_than_a_tenth_of_angular_momentum(
+    walker: Walker, robot: RobotDescription, at: Callable, seed: int
+) -> None:
+    true = at(seed).body(robot.base).subtree_angmom
+    assert np.linalg.norm(walker.pose.spin - true) < 0.1 * np.linalg.norm(true)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_gravity_torque_equals_mujoco_s_bias_at_zero_velocity(
+    walker: Walker, model: mujoco.MjModel, at: Callable, seed: int
+) -> None:
+    data = at(seed)
+    data.qvel[:] = 0
+    mujoco.mj_forward(model, data)
+    np.testing.assert_allclose(walker.pose.gravity, data.qfrc_bias[6:], atol=1e-10)
+
+
+def test_mass_ratio_scales_masses_and_inertias_only(robot: RobotDescription) -> None:
+    full, light = tree_of(robot, 1.0), tree_of(robot, 0.9)
+    for name in full._fields:
+        factor = 0.9 if name in ("mass", "inertia") else 1
+        np.testing.assert_allclose(getattr(light, name), factor * np.asarray(getattr(full, name)), rtol=1e-15)
+
+
+def test_update_forgets_the_last_pose(walker: Walker, random_pose: Callable) -> None:
+    q, v = random_pose(0)
+    first = [np.copy(field) for field in walker.pose]
+    random_pose(1)
+    update(walker.tree, q, v, walker.gravity, walker.pose)
+    for before, after in zip(first, walker.pose, strict=True):
+        np.testing.assert_array_equal(before, after)

@@ -1,0 +1,82 @@
+"""The swing foot: where it starts and ends, and that its velocity is the derivative of its position."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mobnet.control.parameters import FOOT_HEIGHT, State, WalkingParameters
+from mobnet.control.swing import swing_foot, swing_height
+
+DOUBLE_SUPPORT, SPAN, GROUND = 0.13, 0.67, 0.158
+STEP = 1e-6
+
+
+@pytest.fixture
+def swinging(stepping: State) -> State:
+    stepping.lift = [0.0, -0.1, 0.163]
+    stepping.lift_yaw, stepping.lift_roll, stepping.lift_pitch, stepping.next_yaw = 0.1, 0.05, -0.04, 0.4
+    stepping.target = [0.3, -0.12]
+    stepping.total = DOUBLE_SUPPORT + SPAN
+    return stepping
+
+
+def at(par: WalkingParameters, s: State, t: float) -> State:
+    """Return a copy of the state with the swing foot at time t [s]."""
+    moved = s.copy()
+    moved.t = t
+    swing_foot(par, moved, DOUBLE_SUPPORT, GROUND)
+    return moved
+
+
+def test_starts_where_the_foot_left(par: WalkingParameters, swinging: State) -> None:
+    s = at(par, swinging, DOUBLE_SUPPORT)
+    np.testing.assert_allclose(s.foot, swinging.lift, atol=1e-15)
+    np.testing.assert_allclose(s.foot_velocity, 0.0, atol=1e-12)
+
+
+def test_ends_over_the_foothold_level_and_descending(par: WalkingParameters, swinging: State) -> None:
+    s = at(par, swinging, swinging.total)
+    np.testing.assert_allclose(s.foot, [*swinging.target, GROUND], atol=1e-12)
+    np.testing.assert_allclose(s.foot_velocity, [0.0, 0.0, -par.descent_speed_m_s], atol=1e-12)
+    yaw = np.arctan2(s.foot_rotation[1, 0], s.foot_rotation[0, 0])
+    assert yaw == pytest.approx(swinging.next_yaw, abs=1e-12)
+    assert s.foot_rotation[2, 2] == pytest.approx(1, abs=1e-12)
+
+
+def test_apex_is_the_commanded_height_over_the_higher_foot(par: WalkingParameters, swinging: State) -> None:
+    height, rate = swing_height(par, swinging, GROUND, SPAN, par.swing_apex)
+    assert height == pytest.approx(max(swinging.lift[2], GROUND) + swinging.command[FOOT_HEIGHT], abs=1e-14)
+    assert rate == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("t", [0.2, 0.3, 0.44, 0.6, 0.75, 0.82, 0.85])
+def test_velocity_is_the_derivative_of_the_position(par: WalkingParameters, swinging: State, t: float) -> None:
+    difference = (at(par, swinging, t + STEP).foot - at(par, swinging, t - STEP).foot) / (2 * STEP)
+    s = at(par, swinging, t)
+    np.testing.assert_allclose(s.foot_velocity, difference, atol=1e-6)
+    turned = [np.arctan2(m[1, 0], m[0, 0]) for m in (at(par, swinging, t + d).foot_rotation for d in (-STEP, STEP))]
+    assert s.foot_yaw_rate == pytest.approx((turned[1] - turned[0]) / (2 * STEP), abs=1e-6)
+
+
+def test_moving_target_enters_the_velocity(par: WalkingParameters, swinging: State) -> None:
+    swinging.target_velocity = [0.5, -0.2]
+    moved = swinging.copy()
+    moved.target = swinging.target + STEP * swinging.target_velocity
+    t = 0.5
+    difference = (at(par, moved, t + STEP).foot - at(par, swinging, t).foot)[:2] / STEP
+    np.testing.assert_allclose(at(par, swinging, t).foot_velocity[:2], difference, atol=1e-5)
+
+
+@pytest.mark.parametrize("phase", ["apex", "end"])
+def test_position_and_velocity_are_continuous(par: WalkingParameters, swinging: State, phase: str) -> None:
+    u = par.swing_apex if phase == "apex" else 1.0
+    before, after = (swing_height(par, swinging, GROUND, SPAN, u + d) for d in (-1e-9, 1e-9))
+    np.testing.assert_allclose(before, after, atol=1e-6)
+
+
+def test_late_foot_goes_down_to_the_depth_and_no_further(par: WalkingParameters, swinging: State) -> None:
+    heights = [swing_height(par, swinging, GROUND, SPAN, u)[0] for u in np.linspace(1.0, 1.5, 100)]
+    assert (np.diff(heights) <= 0).all()
+    assert heights[-1] == pytest.approx(GROUND - par.descent_depth_m, abs=1e-15)
+    assert min(heights) == heights[-1]
