@@ -79,6 +79,54 @@ def write_pair(layout: JointLayout) -> Callable[[Path, Recording], tuple[Path, P
     return write
 
 
+@pytest.fixture(scope="session")
+def turned() -> Callable[..., tuple[Array, Array, Any]]:
+    """Return a function (q, v, s, yaw, shift) -> q, v and controller state turned about the world's z and shifted."""
+
+    def turn(q: Array, v: Array, s: Any, yaw: float, shift: Array) -> tuple[Array, Array, Any]:
+        q, v, s, c, n = q.copy(), v.copy(), s.copy(), np.cos(yaw), np.sin(yaw)
+        rotation = np.array([[c, -n], [n, c]])
+        for place in (q, s.old_ankle, s.lift, s.foot, s.target):
+            place[:2] = rotation @ place[:2] + shift
+        for direction in (v, s.velocity, s.target_velocity):
+            direction[:2] = rotation @ direction[:2]
+        w, x, y, z = q[3:7]
+        c, n = np.cos(yaw / 2), np.sin(yaw / 2)
+        q[3:7] = c * w - n * z, c * x - n * y, c * y + n * x, c * z + n * w
+        for angle in ("old_yaw", "yaw", "yaw_start", "lift_yaw"):
+            s[angle] += yaw
+        return q, v, s
+
+    return turn
+
+
+@pytest.fixture(scope="session")
+def mirrored(robot: RobotDescription) -> Callable[..., tuple[Array, Array, Any]]:
+    """Return a function (q, v, s) -> q, v and controller state reflected in y: left becomes right."""
+    names = [joint.id for joint in robot.joints]
+    images = [{"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:] for name in names]
+    partner = np.array([names.index(name) for name in images])
+    pseudo = np.array([-1.0, 1.0, -1.0])
+    sign = np.array(
+        [robot.joints[p].axis @ (pseudo * joint.axis) for p, joint in zip(partner, robot.joints, strict=True)]
+    )
+
+    def mirror(q: Array, v: Array, s: Any) -> tuple[Array, Array, Any]:
+        q, v, s = q.copy(), v.copy(), s.copy()
+        q[NQ_BASE:], v[N_VIRTUAL:] = (sign * q[NQ_BASE:])[partner], (sign * v[N_VIRTUAL:])[partner]
+        for vector in (q, v, s.old_ankle, s.lift, s.foot, s.target, s.velocity, s.target_velocity):
+            vector[1] *= -1
+        q[4:NQ_BASE] *= pseudo
+        v[3:N_VIRTUAL] *= pseudo
+        for name in ("side", "old_yaw", "yaw", "yaw_start", "lift_yaw", "lift_roll"):
+            s[name] *= -1
+        s.command *= [1, -1, -1, 1, 1]
+        s.load, s.integral = s.load[::-1].copy(), s.integral[::-1] * [1, -1]
+        return q, v, s
+
+    return mirror
+
+
 def _recording(layout: JointLayout, rng: np.random.Generator, samples: int, segments: int) -> Recording:
     """Return sines of random frequency and phase in every signal, the base turned by a random angle."""
     time = np.arange(samples) / RATE_HZ

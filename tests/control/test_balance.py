@@ -1,0 +1,167 @@
+"""Ground force, foothold and step duration: their limits, and what they do without an error."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from mobnet.control.balance import adapt_duration, adapt_foothold, ground_force, measure_dcm
+from mobnet.control.footsteps import plan_steps, reference
+from mobnet.control.geometry import to_yaw_frame
+from mobnet.control.parameters import State, WalkingParameters
+from mobnet.control.walking import Walker
+
+ANKLE = np.array([0.2, 0.1, 0.158])
+TICK_S, GRAVITY = 0.0005, 9.81
+
+
+@pytest.fixture
+def swinging(par: WalkingParameters, stepping: State) -> State:
+    """On the reference, in the middle of the swing, the target on its foothold."""
+    s = stepping
+    plan_steps(par, s, ANKLE)
+    s.swinging, s.t = 1, 0.4
+    reference(s, double_support(par, s))
+    s.dcm = s.dcm_reference
+    s.target, s.lift = s.next_ankle, [0.1, -0.1, 0.158]
+    return s
+
+
+def double_support(par: WalkingParameters, s: State) -> float:
+    """Return how long both feet stand [s]."""
+    return par.double_support_share * s.commanded
+
+
+def test_dcm_converges_to_com_plus_velocity_over_omega(walker: Walker, stepping: State, random_pose: Callable) -> None:
+    random_pose(0)
+    pose, par = walker.pose, walker.par
+    pose.com[2], stepping.sole_height = 0.9, 0.05
+    for _ in range(400):
+        measure_dcm(par, stepping, pose, GRAVITY)
+    assert stepping.omega == pytest.approx(np.sqrt(GRAVITY / 0.85), rel=1e-12)
+    turning = np.array([pose.spin[1], -pose.spin[0]]) / (pose.weight[0] * 0.85)
+    np.testing.assert_allclose(
+        stepping.dcm, pose.com[:2] + (pose.com_velocity[:2] + turning) / stepping.omega, atol=1e-9
+    )
+
+
+def test_omega_stays_finite_while_the_robot_lies(walker: Walker, stepping: State, random_pose: Callable) -> None:
+    random_pose(0)
+    walker.pose.com[2] = -1.0
+    measure_dcm(walker.par, stepping, walker.pose, GRAVITY)
+    assert np.isfinite(stepping.omega)
+
+
+def test_no_error_means_the_nominal_zmp_and_the_weight(walker: Walker, swinging: State, random_pose: Callable) -> None:
+    random_pose(1)
+    pose, mass = walker.pose, walker.pose.weight[0]
+    swinging.height_rate = pose.com_velocity[2]
+    ground_force(walker.par, swinging, pose, ANKLE, GRAVITY, np.zeros(3))
+    np.testing.assert_allclose(swinging.zmp, swinging.zmp_nominal, atol=1e-15)
+    assert swinging.force[2] == pytest.approx(mass * GRAVITY, rel=1e-12)
+    np.testing.assert_allclose(swinging.force[:2] / mass, swinging.omega**2 * (pose.com[:2] - swinging.zmp), rtol=1e-12)
+
+
+@pytest.mark.parametrize("error", [(0.3, 0.2), (-0.3, -0.2), (0.0, 1.0)])
+def test_zmp_stays_on_the_sole(walker: Walker, swinging: State, random_pose: Callable, error: tuple) -> None:
+    random_pose(1)
+    par, local = walker.par, np.zeros(2)
+    swinging.dcm = swinging.dcm_reference + np.array(error)
+    ground_force(par, swinging, walker.pose, ANKLE, GRAVITY, np.zeros(3))
+    to_yaw_frame(swinging.zmp - ANKLE[:2], swinging.stance_yaw, local)
+    assert par.sole_x_m[0] - 1e-12 <= local[0] <= par.sole_x_m[1] + 1e-12
+    assert abs(local[1]) <= par.sole_y_m + 1e-12
+
+
+@pytest.mark.parametrize("standing", [0, 1])
+def test_zmp_shift_on_two_feet_is_limited(
+    walker: Walker, swinging: State, random_pose: Callable, standing: int
+) -> None:
+    random_pose(1)
+    swinging.swinging, swinging.standing = 0, standing
+    local, par = np.zeros(2), walker.par
+    swinging.dcm = swinging.dcm_reference + 1.0
+    ground_force(par, swinging, walker.pose, ANKLE, GRAVITY, np.zeros(3))
+    to_yaw_frame(swinging.zmp - swinging.zmp_nominal, swinging.stance_yaw, local)
+    bound = par.stand_shift_m if standing else par.double_support_shift_m
+    assert (np.abs(local) <= np.array(bound) + 1e-12).all()
+
+
+def test_foothold_stays_without_an_error(par: WalkingParameters, swinging: State) -> None:
+    adapt_foothold(par, swinging, ANKLE, TICK_S, np.zeros(3))
+    np.testing.assert_allclose(swinging.target, swinging.next_ankle, atol=1e-15)
+    np.testing.assert_allclose(swinging.target_velocity, 0, atol=1e-12)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize("error", [(2.0, 2.0), (-2.0, -2.0), (0.05, -0.02)])
+def test_foothold_stays_in_reach_and_moves_at_its_speed(
+    par: WalkingParameters, swinging: State, error: tuple, side: float
+) -> None:
+    swinging.side = side
+    plan_steps(par, swinging, ANKLE)
+    swinging.target = swinging.next_ankle
+    swinging.error = error
+    for _ in range(3000):
+        before = swinging.target.copy()
+        adapt_foothold(par, swinging, ANKLE, TICK_S, np.zeros(3))
+        moved = swinging.target - before
+        assert (np.abs(moved) <= par.foothold_speed_m_s * TICK_S + 1e-15).all()
+        np.testing.assert_allclose(moved, swinging.target_velocity * TICK_S, atol=1e-12)
+    local = np.zeros(2)
+    to_yaw_frame(swinging.target - ANKLE[:2], swinging.stance_yaw, local)
+    assert abs(local[0]) <= par.foothold_x_max_m + 1e-9
+    assert par.foothold_y_m[0] - 1e-9 <= -side * local[1] <= par.foothold_y_m[1] + 1e-9
+
+
+def test_foothold_is_frozen_just_before_landing_and_free_when_late(par: WalkingParameters, swinging: State) -> None:
+    swinging.error = (0.2, 0.0)
+    swinging.t = swinging.total - par.foothold_freeze_s / 2
+    adapt_foothold(par, swinging, ANKLE, TICK_S, np.zeros(3))
+    np.testing.assert_array_equal(swinging.target_velocity, 0)
+    swinging.t = swinging.total + TICK_S
+    adapt_foothold(par, swinging, ANKLE, TICK_S, np.zeros(3))
+    assert swinging.target_velocity.any()
+
+
+def test_duration_stays_without_an_error(par: WalkingParameters, swinging: State) -> None:
+    swinging.lift = [*swinging.target, 0.158]  # no way to go
+    adapt_duration(par, swinging, double_support(par, swinging), TICK_S, np.zeros(3))
+    assert swinging.total == swinging.commanded
+
+
+@pytest.mark.parametrize("lateral", [-0.3, -0.06, -0.03, 0.03, 0.06, 0.3])
+def test_duration_keeps_its_limits_and_rate(par: WalkingParameters, swinging: State, lateral: float) -> None:
+    turned = swinging.stance_yaw
+    swinging.dcm = swinging.dcm_reference + lateral * np.array([-np.sin(turned), np.cos(turned)])
+    swinging.lift = [*swinging.target, 0.158]
+    for t in np.arange(0.2, 1.2, TICK_S):
+        swinging.t, before = t, swinging.total
+        adapt_duration(par, swinging, double_support(par, swinging), TICK_S, np.zeros(3))
+        assert abs(swinging.total - before) <= par.timing_rate * TICK_S + 1e-15
+        shortest = max(par.step_min_s, swinging.commanded - par.step_shorter_max_s)
+        assert shortest <= swinging.total <= swinging.commanded + par.step_longer_max_s
+
+
+def test_dcm_that_runs_ahead_shortens_the_step(par: WalkingParameters, swinging: State) -> None:
+    """The lateral DCM nearer to the swing side than planned is sooner where the next foot wants it."""
+    turned = swinging.stance_yaw
+    swinging.lift = [*swinging.target, 0.158]
+    to_swing_side = -swinging.side * np.array([-np.sin(turned), np.cos(turned)])
+    durations = []
+    for ahead in (-0.04, 0.0, 0.04):
+        s = swinging.copy()
+        s.dcm = s.dcm_reference + ahead * to_swing_side
+        adapt_duration(par, s, double_support(par, s), TICK_S, np.zeros(3))
+        durations.append(s.total)
+    assert durations[0] > durations[1] > durations[2]
+
+
+def test_far_foothold_is_not_reached_faster_than_the_swing_limit(par: WalkingParameters, swinging: State) -> None:
+    turned = swinging.stance_yaw
+    swinging.lift = [swinging.target[0] - 0.6, swinging.target[1], 0.158]
+    swinging.dcm = swinging.dcm_reference - swinging.side * 0.1 * np.array([-np.sin(turned), np.cos(turned)])
+    adapt_duration(par, swinging, double_support(par, swinging), TICK_S, np.zeros(3))
+    assert swinging.total == swinging.commanded

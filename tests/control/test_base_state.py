@@ -1,0 +1,63 @@
+"""The filter of the base's velocity converges to what the standing feet say, and integrates in the air."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mobnet.control.base_state import update_base
+from mobnet.control.kinematics import update
+from mobnet.control.walking import Walker
+from mobnet.robot.description import RobotDescription
+
+TICK_S = 0.0005
+DRIFT = np.array([0.1, -0.05, 0.02])  # error of the base velocity at the start [m/s]
+
+
+def run(walker: Walker, q: np.ndarray, v: np.ndarray, loads: list[float], acc: np.ndarray, seconds: float) -> None:
+    """Advance the filter; the joints stand still."""
+    for _ in range(round(seconds / TICK_S)):
+        update(walker.tree, q, v, walker.gravity, walker.pose)
+        update_base(
+            walker.pose, walker.feet, walker.sole, np.array(loads), acc, walker.gravity,
+            walker.par.base_time_constant_s, TICK_S, q, v,
+        )  # fmt: skip
+
+
+@pytest.fixture
+def standing(robot: RobotDescription) -> tuple[np.ndarray, np.ndarray]:
+    q, v = np.zeros(robot.layout.nq), np.zeros(robot.layout.nv)
+    q[3:7] = [np.cos(0.4), 0, 0, np.sin(0.4)]
+    v[:3] = DRIFT
+    return q, v
+
+
+@pytest.mark.parametrize("loads", [[500.0, 500.0], [900.0, 0.0]])
+def test_error_decays_with_the_time_constant_on_loaded_feet(walker: Walker, standing: tuple, loads: list) -> None:
+    q, v = standing
+    run(walker, q, v, loads, np.array([0, 0, walker.gravity]), 0.5)
+    left = np.exp(-0.5 / walker.par.base_time_constant_s)
+    np.testing.assert_allclose(v[:3], DRIFT * left, rtol=2e-3)
+    np.testing.assert_allclose(q[:3], DRIFT * walker.par.base_time_constant_s * (1 - left), rtol=2e-3)
+
+
+@pytest.mark.parametrize("loads", [[0.0, 0.0], [-30.0, -1.0]])
+def test_free_fall_is_integrated_without_feet(walker: Walker, standing: tuple, loads: list) -> None:
+    q, v = standing
+    run(walker, q, v, loads, np.zeros(3), 0.2)
+    np.testing.assert_allclose(v[:3], DRIFT + [0, 0, -walker.gravity * 0.2], atol=1e-10)
+
+
+def test_acceleration_is_turned_into_the_world(walker: Walker, standing: tuple) -> None:
+    q, v = standing
+    run(walker, q, v, [0.0, 0.0], np.array([1.0, 0, walker.gravity]), 0.1)
+    np.testing.assert_allclose(v[:3] - DRIFT, [0.1 * np.cos(0.8), 0.1 * np.sin(0.8), 0], atol=1e-10)
+
+
+def test_the_loaded_foot_decides(walker: Walker, standing: tuple) -> None:
+    """A swinging leg that carries nothing does not enter."""
+    q, v = standing
+    v[:3] = 0
+    v[6 + walker.first[1] + 2] = 3.0  # right hip pitch [rad/s]
+    run(walker, q, v, [900.0, 0.0], np.array([0, 0, walker.gravity]), 0.01)
+    np.testing.assert_allclose(v[:3], 0, atol=1e-12)

@@ -1,0 +1,180 @@
+"""Joint torques and references of the legs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import mujoco
+import numpy as np
+import pytest
+
+from mobnet.control.kinematics import update
+from mobnet.control.parameters import State
+from mobnet.control.walking import Walker
+from mobnet.control.whole_body import (
+    LEG_JOINTS,
+    leg_jacobian,
+    leg_reference,
+    posture_torque,
+    stance_torque,
+    swing_torque,
+)
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.plant import robot_spec
+
+BENT = np.array([0.1, 0.05, -0.5, 0.9, -0.4, -0.05])  # a leg [rad]
+STEP, TICK_S = 1e-6, 0.0005
+LEGS = [0, 1]
+
+
+@pytest.fixture
+def crouched(walker: Walker, robot: RobotDescription) -> tuple[np.ndarray, np.ndarray]:
+    """Position (nq,) and velocity (nv,), both legs bent, the base tilted a little and moving."""
+    q, v = np.zeros(robot.layout.nq), np.zeros(robot.layout.nv)
+    q[:7] = [0.3, -0.2, 0.9, *(np.array([1.0, 0.05, -0.04, 0.3]) / np.linalg.norm([1.0, 0.05, -0.04, 0.3]))]
+    v[:3] = [0.1, -0.2, 0.05]
+    for first in walker.first:
+        q[7 + first : 13 + first] = BENT
+    update(walker.tree, q, v, walker.gravity, walker.pose)
+    return q, v
+
+
+@pytest.mark.parametrize("k", LEGS)
+def test_jacobian_equals_differences_of_the_kinematics(walker: Walker, crouched: tuple, k: int) -> None:
+    q, v = crouched
+    first, foot, pose = walker.first[k], walker.feet[k], walker.pose
+    jacobian, column = np.zeros((6, 6)), np.zeros(6)
+    leg_jacobian(walker.tree, pose, first, foot, jacobian)
+    for j in range(LEG_JOINTS):
+        places = []
+        for step in (-STEP, STEP):
+            moved = q.copy()
+            moved[7 + first + j] += step
+            update(walker.tree, moved, v, walker.gravity, pose)
+            places.append((pose.position[foot].copy(), pose.rotation[foot].copy()))
+        spin = (places[1][1] - places[0][1]) @ places[0][1].T / (2 * STEP)
+        column[:3] = (places[1][0] - places[0][0]) / (2 * STEP)
+        column[3:] = spin[2, 1], spin[0, 2], spin[1, 0]
+        np.testing.assert_allclose(jacobian[:, j], column, atol=2e-6)
+
+
+@pytest.mark.parametrize("k", LEGS)
+def test_swing_reference_moves_the_foot_as_asked(walker: Walker, crouched: tuple, stepping: State, k: int) -> None:
+    q, v = crouched
+    pose, first, foot = walker.pose, walker.first[k], walker.feet[k]
+    v[3:6] = [0.05, -0.03, 0.1]
+    update(walker.tree, q, v, walker.gravity, pose)
+    stepping.foot, stepping.foot_rotation = pose.position[foot], pose.rotation[foot]
+    stepping.foot_velocity, stepping.foot_yaw_rate = [0.3, 0.1, -0.2], 0.4
+    leg_reference(walker.par, walker.leg, walker.tree, pose, stepping, k, first, foot, True)
+    np.testing.assert_allclose(stepping.q_reference[k], BENT, atol=1e-12)
+    v[6 + first : 12 + first] = stepping.v_reference[k]
+    update(walker.tree, q, v, walker.gravity, pose)
+    np.testing.assert_allclose(pose.velocity[foot], stepping.foot_velocity, atol=1e-10)
+    np.testing.assert_allclose(pose.omega[foot], [0, 0, stepping.foot_yaw_rate], atol=1e-10)
+
+
+@pytest.mark.parametrize("k", LEGS)
+def test_stance_reference_levels_the_pelvis_over_a_still_foot(
+    walker: Walker, crouched: tuple, stepping: State, k: int
+) -> None:
+    q, v = crouched
+    pose, first, foot = walker.pose, walker.first[k], walker.feet[k]
+    stepping.height, stepping.yaw, stepping.height_rate = 0.93, 0.5, v[2]
+    leg_reference(walker.par, walker.leg, walker.tree, pose, stepping, k, first, foot, False)
+    v[6 + first : 12 + first] = stepping.v_reference[k]
+    still = pose.position[foot].copy()
+    update(walker.tree, q, v, walker.gravity, pose)
+    np.testing.assert_allclose(pose.velocity[foot], 0, atol=1e-10)
+    q[2], q[3:7] = 0.93, [np.cos(0.25), 0, 0, np.sin(0.25)]
+    q[7 + first : 13 + first] = stepping.q_reference[k]
+    update(walker.tree, q, v, walker.gravity, pose)
+    np.testing.assert_allclose(pose.position[foot], still, atol=1e-12)
+
+
+def test_reference_speed_is_limited_also_near_a_straight_leg(walker: Walker, crouched: tuple, stepping: State) -> None:
+    q, v = crouched
+    q[10] = 1e-3
+    update(walker.tree, q, v, walker.gravity, walker.pose)
+    stepping.foot, stepping.foot_rotation = walker.pose.position[walker.feet[0]], np.eye(3)
+    stepping.foot_velocity = [0.0, 0.0, -5.0]
+    leg_reference(walker.par, walker.leg, walker.tree, walker.pose, stepping, 0, walker.first[0], walker.feet[0], True)
+    assert np.abs(stepping.v_reference[0]).max() <= walker.par.joint_speed_max_rad_s
+
+
+def stand(walker: Walker, crouched: tuple, s: State, k: int, wrench: np.ndarray, dt: float) -> np.ndarray:
+    """Return the torques (nu,) of a stance leg that follows its reference, pushing below the ankle."""
+    q, v = crouched
+    first, foot, tau = walker.first[k], walker.feet[k], np.zeros(len(q) - 7)
+    s.q_reference[k], s.v_reference[k] = q[7 + first : 13 + first], v[6 + first : 12 + first]
+    point = walker.pose.position[foot] + [0.03, 0.01, -0.158]
+    stance_torque(walker.par, walker.tree, walker.pose, s, k, first, foot, q, v, wrench, point, dt, tau)
+    return tau
+
+
+@pytest.mark.parametrize("k", LEGS)
+def test_stance_torque_is_the_force_through_mujoco_s_jacobian(
+    walker: Walker, robot: RobotDescription, crouched: tuple, stepping: State, k: int
+) -> None:
+    q, _ = crouched
+    stepping.force, stepping.load = [40.0, -25.0, 900.0], [0.6, 0.4]
+    foot = walker.feet[k]
+    walker.pose.rotation[foot] = np.eye(3)  # a level, still foot: no guard against tipping
+    walker.pose.omega[foot] = 0
+    tau = stand(walker, crouched, stepping, k, np.zeros(6), 0.0)
+    model = robot_spec(robot).compile()
+    data, jacobian = mujoco.MjData(model), np.zeros((3, model.nv))
+    data.qpos[:] = q
+    mujoco.mj_forward(model, data)
+    body = model.body(robot.bodies[foot].name).id
+    mujoco.mj_jac(model, data, jacobian, None, walker.pose.position[foot] + [0.03, 0.01, -0.158], body)
+    np.testing.assert_allclose(tau, -stepping.load[k] * jacobian[:, 6:].T @ stepping.force, atol=1e-9)
+
+
+@pytest.mark.parametrize("which", [0, 1])
+def test_ankle_integral_makes_up_for_a_missing_moment_within_its_bound(
+    walker: Walker, crouched: tuple, stepping: State, which: int
+) -> None:
+    stepping.force, stepping.load = [0.0, 0.0, 900.0], [1.0, 0.0]
+    walker.pose.rotation[walker.feet[0]] = np.eye(3)
+    before = stand(walker, crouched, stepping, 0, np.zeros(6), 0.0)[4 + which]
+    for _ in range(20_000):
+        after = stand(walker, crouched, stepping, 0, np.zeros(6), TICK_S)[4 + which]
+    push = -before
+    assert push != 0
+    assert np.sign(after - before) == -np.sign(push)  # pushes harder
+    assert abs(stepping.integral[0, which]) <= walker.par.ankle_integral_max_nm
+
+
+def test_integral_leaks_away_on_a_tilted_foot(walker: Walker, crouched: tuple, stepping: State) -> None:
+    stepping.load, stepping.integral[0] = [1.0, 0.0], 20.0
+    walker.pose.rotation[walker.feet[0]] = np.array(
+        [[1, 0, 0], [0, np.cos(0.3), -np.sin(0.3)], [0, np.sin(0.3), np.cos(0.3)]]
+    )
+    rate = walker.par.ankle_leak_hz + walker.par.ankle_tilt_leak_hz
+    stand(walker, crouched, stepping, 0, np.full(6, 1e3), TICK_S)
+    np.testing.assert_allclose(stepping.integral[0], 20 * (1 - rate * TICK_S), rtol=1e-12)
+
+
+def test_swing_torque_is_zero_on_the_reference_and_forgets_the_integral(
+    walker: Walker, crouched: tuple, stepping: State
+) -> None:
+    q, v = crouched
+    tau = np.zeros(len(q) - 7)
+    stepping.q_reference[0], stepping.integral[0] = BENT, 5.0
+    swing_torque(walker.par, stepping, 0, walker.first[0], q, v, tau)
+    np.testing.assert_array_equal(tau, 0)
+    np.testing.assert_array_equal(stepping.integral[0], 0)
+    stepping.q_reference[0] += 0.1
+    swing_torque(walker.par, stepping, 0, walker.first[0], q, v, tau)
+    np.testing.assert_allclose(tau[:6], 0.1 * np.array(walker.par.leg_stiffness_nm_rad), rtol=1e-12)
+
+
+def test_posture_torque_is_a_spring_and_a_damper(walker: Walker, random_pose: Callable) -> None:
+    q, v = random_pose(0)
+    par, tau = walker.par, np.zeros(len(q) - 7)
+    posture_torque(par, walker.upper, q, v, par.posture_rad, tau)
+    error, rate = par.posture_rad - q[7 + walker.upper :], v[6 + walker.upper :]
+    expected = par.posture_stiffness_nm_rad * error - par.posture_damping_nms_rad * rate
+    np.testing.assert_allclose(tau[walker.upper :], expected, rtol=1e-12)
+    np.testing.assert_array_equal(tau[: walker.upper], 0)
