@@ -1,0 +1,76 @@
+"""Speed of the observer over a recording against stepping it sample by sample in Python; one thread, in turns.
+
+Smooth random motion of all joints: the time does not depend on it.
+"""
+
+from __future__ import annotations
+
+import statistics
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mobnet.core.config import load_config
+from mobnet.core.joints import NQ_BASE, JointLayout
+from mobnet.core.recording import FEET, Sensed
+from mobnet.estimation.observe import observer_of
+from mobnet.estimation.observer import MomentumObserver
+from mobnet.robot.description import load_robot
+
+CONFIG = Path(__file__).parents[1] / "configs" / "config.yaml"
+LEVEL = "all_uncertainty"
+SAMPLES, ROUNDS = 5000, 5
+
+
+def main() -> list[dict[str, float | str]]:
+    """Return one row: microseconds a sample of both, and their ratio over the turns."""
+    config = load_config(CONFIG)
+    robot, rate = load_robot(Path(config["robot"])), config["rates"]["data_hz"]
+    observer = observer_of(config, robot, LEVEL, rate)
+    sensed = _motion(robot.layout, rate)
+    turns = [_turn(observer, sensed) for _ in range(ROUNDS + 1)][1:]
+    ours, loop = (statistics.median(column) / SAMPLES * 1e6 for column in zip(*turns, strict=True))
+    ratios = [theirs / mine for mine, theirs in turns]
+    return [
+        {
+            "name": "observer, a recording at once, against a loop of single samples",
+            "ours": ours,
+            "reference": loop,
+            "unit": "us/sample",
+            "ratio": statistics.median(ratios),
+            "ratio_min": min(ratios),
+        }
+    ]
+
+
+def _turn(observer: MomentumObserver, sensed: Sensed) -> tuple[float, float]:
+    """Return the CPU time [s] of the recording at once and sample by sample."""
+    started = time.process_time()
+    residual = observer.residual(sensed)
+    between = time.process_time()
+    state = observer.init()
+    for k in range(SAMPLES):
+        state, last = observer.step(state, sensed[k])
+    ended = time.process_time()
+    np.testing.assert_allclose(residual[-1], last, atol=1e-6)
+    return between - started, ended - between
+
+
+def _motion(layout: JointLayout, rate_hz: float) -> Sensed:
+    """Return smooth motion of all joints about an upright base, (SAMPLES, ...)."""
+    rng = np.random.default_rng(0)
+    phase = np.arange(SAMPLES)[:, None] / rate_hz * rng.uniform(1.0, 10.0, layout.nv)
+    q, v = np.zeros((SAMPLES, layout.nq)), np.cos(phase)
+    q[:, NQ_BASE - 4] = 1.0
+    q[:, NQ_BASE:] = np.sin(phase[:, layout.nv - layout.nu :])
+    torque: Any = 30.0 * np.sin(phase[:, layout.nv - layout.nu :])
+    return Sensed(q, v, np.zeros((SAMPLES, 3)), torque, torque, np.zeros((SAMPLES, len(FEET))))
+
+
+if __name__ == "__main__":
+    for row in main():
+        print(
+            "{name}: {ours:.1f} against {reference:.1f} {unit}, ratio {ratio:.2f}, least {ratio_min:.2f}".format(**row)
+        )
