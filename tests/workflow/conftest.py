@@ -44,13 +44,13 @@ def outputs(snakemake: Snakemake) -> Callable[[str], dict[str, str]]:
 
 
 @pytest.fixture(scope="session")
-def make_project(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
-    """Return a function of a name that copies the project; its `.venv` stands for the Python that runs the tests."""
+def make_project(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
+    """Return a function of a name that copies the project, or a copy; `.venv` stands for the Python of the tests."""
 
-    def make(name: str) -> Path:
+    def make(name: str, origin: Path = ROOT) -> Path:
         folder = tmp_path_factory.mktemp(name)
         for part in PARTS:
-            source = ROOT / part
+            source = origin / part
             ignored = shutil.ignore_patterns("__pycache__", "*.pdf", "build.json", ".*")
             if source.is_dir():
                 shutil.copytree(source, folder / part, symlinks=True, ignore=ignored)

@@ -42,7 +42,7 @@ def products(folder: Path) -> dict[str, bytes]:
 
 
 @pytest.fixture(scope="module")
-def unbroken(make_project: Callable[[str], Path]) -> Path:
+def unbroken(make_project: Callable[..., Path]) -> Path:
     """A project in which the smoke scale ran on two cores."""
     folder = make_project("unbroken")
     assert reproduce(folder).wait() == 0, told(folder)
@@ -97,9 +97,9 @@ def test_comment_reruns_nothing_and_an_edit_just_what_depends_on_it(unbroken: Pa
 
 
 def test_damaged_recording_stops_with_one_line_and_nothing_half_written(
-    unbroken: Path, make_project: Callable[[str], Path], snakemake: Snakemake
+    unbroken: Path, make_project: Callable[..., Path], snakemake: Snakemake
 ) -> None:
-    folder = make_project("damaged")
+    folder = make_project("damaged", unbroken)
     place = Path("results") / "smoke" / "recordings" / "forward_walk" / "ideal"
     (folder / place).mkdir(parents=True)
     for ending in ("json", "npy"):
@@ -112,10 +112,8 @@ def test_damaged_recording_stops_with_one_line_and_nothing_half_written(
     assert not (folder / target).exists()
 
 
-def test_killed_at_random_moments_ends_with_the_same_tables(
-    unbroken: Path, make_project: Callable[[str], Path]
-) -> None:
-    folder = make_project("killed")
+def test_killed_at_random_moments_ends_with_the_same_tables(unbroken: Path, make_project: Callable[..., Path]) -> None:
+    folder = make_project("killed", unbroken)
     moments = random.Random(2023)
     for kill in range(KILLS):
         run = reproduce(folder, "--cores", "1")
