@@ -1,0 +1,194 @@
+"""The plant's loop: external torque, sensors, symmetries, limits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+from mobnet.control.parameters import empty_state
+from mobnet.control.walking import walk
+from mobnet.robot.description import SIDES
+from mobnet.robot.plant import sole_name
+from mobnet.simulation import engine
+from mobnet.simulation.record import Simulator
+
+NV = 39
+
+
+def contact_torque(simulator: Simulator) -> np.ndarray:
+    """Return the sum of J^T F (nv,) over the contacts of the step just taken, by MuJoCo's own functions."""
+    model, data = simulator.world.model, simulator.world.data
+    torque, wrench, jacobian = np.zeros(NV), np.zeros(6), np.zeros((3, NV))
+    for index, contact in enumerate(data.contact):
+        mujoco.mj_contactForce(model, data, index, wrench)
+        force = contact.frame.reshape(3, 3).T @ wrench[:3]
+        for geom, sign in ((contact.geom1, -1), (contact.geom2, 1)):
+            mujoco.mj_jac(model, data, jacobian, None, contact.pos, model.geom_bodyid[geom])
+            torque += sign * jacobian.T @ force
+    return torque
+
+
+def external(simulator: Simulator) -> np.ndarray:
+    """Return the loop's external torque (nv,) of the step just taken."""
+    tau_ext = np.zeros(NV)
+    engine._add_external(simulator.plant, tau_ext)
+    return tau_ext
+
+
+@pytest.mark.parametrize("level", ["ideal", "all_uncertainty"])
+def test_contact_rows_equal_mujoco_s_contact_forces(simulate: Callable, run: Callable, level: str) -> None:
+    simulator = simulate("forward_walk", level)
+    touched = 0
+    for _ in range(30):
+        run(simulator, 0.03)
+        expected = contact_torque(simulator)
+        np.testing.assert_allclose(external(simulator), expected, atol=1e-9 * max(1.0, np.abs(expected).max()))
+        touched += np.abs(expected).max() > 100
+    assert touched > 20
+
+
+def test_applied_wrench_enters_through_its_jacobian(simulate: Callable, run: Callable) -> None:
+    simulator = simulate("flat_walk", "all_uncertainty")
+    model, data = simulator.world.model, simulator.world.data
+    hand = model.body(simulator.robot.hands["left"]).id
+    push = np.array([12.0, -7.0, 20.0, 1.0, 2.0, -0.5])
+    data.xfrc_applied[hand] = push
+    run(simulator, 0.2)
+    linear, angular = np.zeros((3, NV)), np.zeros((3, NV))
+    mujoco.mj_jac(model, data, linear, angular, data.xipos[hand], hand)
+    expected = contact_torque(simulator) + linear.T @ push[:3] + angular.T @ push[3:]
+    np.testing.assert_allclose(external(simulator), expected, atol=1e-9 * np.abs(expected).max())
+
+
+def test_foot_sensors_mapped_through_their_jacobian_are_the_contact_torque(simulate: Callable, run: Callable) -> None:
+    simulator = simulate("forward_walk", "all_uncertainty")
+    model, data = simulator.world.model, simulator.world.data
+    linear, angular = np.zeros((3, NV)), np.zeros((3, NV))
+    for _ in range(30):
+        run(simulator, 0.03)
+        mapped = np.zeros(NV)
+        for k, side in enumerate(SIDES):
+            site = model.site(sole_name(side)).id
+            mujoco.mj_jacSite(model, data, linear, angular, site)
+            axes = data.site_xmat[site].reshape(3, 3)
+            wrench = simulator.sensors.wrenches[k]
+            mapped += linear.T @ axes @ wrench[:3] + angular.T @ axes @ wrench[3:]
+        expected = contact_torque(simulator)
+        np.testing.assert_allclose(mapped, expected, atol=1e-8 * max(1.0, np.abs(expected).max()))
+
+
+@pytest.mark.sim
+@pytest.mark.parametrize("scenario", ["flat_place", "checks_place"])
+def test_standing_robot_stays_upright_and_weighs_its_weight(simulate: Callable, run: Callable, scenario: str) -> None:
+    simulator = simulate(scenario, "ideal", standing=True)
+    log = run(simulator, 5.0)
+    assert log.done == 5000
+    end = log.rows[-500:]
+    weight = simulator.robot.mass * 9.81
+    assert end[:, log.columns["tau_ext"]][:, 2].mean() == pytest.approx(weight, rel=1e-3)
+    w, x, y, _ = end[:, log.columns["q"]][:, 3:7].T
+    assert np.abs(2 * (w * y - x * y)).max() < 0.05
+    assert np.abs(end[:, log.columns["v"]]).max() < 0.02
+    assert log["contact"][-500:].all()
+    assert not log["swing"].any()
+
+
+@pytest.mark.sim
+@pytest.mark.parametrize("yaw", [np.pi / 2, np.pi])
+def test_turned_start_gives_the_turned_motion(simulate: Callable, run: Callable, turned: Callable, yaw: float) -> None:
+    """By right angles, under which the friction pyramid is invariant."""
+    here, there = simulate("flat_walk", "ideal"), simulate("flat_walk", "ideal")
+    start = turned(here.plant.qpos, here.plant.qvel, here.state, yaw, np.zeros(2))
+    put(there, *start)
+    for simulator in (here, there):
+        assert run(simulator, 2.0).done == 2000
+    q, v, _ = turned(here.plant.qpos, here.plant.qvel, here.state, yaw, np.zeros(2))
+    np.testing.assert_allclose(there.plant.qpos[7:], q[7:], atol=1e-4)
+    np.testing.assert_allclose(np.remainder(there.plant.qpos[:2] - q[:2] + 0.5, 1.0) - 0.5, 0, atol=1e-4)
+    np.testing.assert_allclose(there.plant.qvel, v, atol=1e-3)
+
+
+@pytest.mark.sim
+def test_mirrored_start_gives_the_mirrored_motion(simulate: Callable, run: Callable, mirrored: Callable) -> None:
+    """Within what the table's own small asymmetry does in a second."""
+    here, there = simulate("flat_walk", "ideal"), simulate("flat_walk", "ideal")
+    put(there, *mirrored(here.plant.qpos, here.plant.qvel, here.state))
+    there.commands = there.commands * [1, -1, -1, 1, 1]
+    for simulator in (here, there):
+        assert run(simulator, 1.0).done == 1000
+    q, _, s = mirrored(here.plant.qpos, here.plant.qvel, here.state)
+    np.testing.assert_allclose(there.plant.qpos, q, atol=1e-3)
+    assert (there.state.side, there.state.steps) == (s.side, s.steps)
+
+
+def put(simulator: Simulator, q: np.ndarray, v: np.ndarray, s: np.record) -> None:
+    """Set plant, sensors and controller."""
+    simulator.plant.qpos[:] = simulator.sensors.q[:] = q
+    simulator.plant.qvel[:] = simulator.sensors.v[:] = v
+    simulator.state = s
+
+
+def test_wrap_over_a_period_keeps_torques(simulate: Callable, run: Callable) -> None:
+    simulator = simulate("flat_walk", "all_uncertainty")
+    run(simulator, 1.0)
+    plant, sensors, s = simulator.plant, simulator.sensors, simulator.state
+    wrapped, moved = s.copy(), plant._replace(period=1e-6, qpos=plant.qpos.copy())
+    shifted = sensors._replace(q=sensors.q.copy())
+    engine._wrap(moved, shifted, wrapped)
+    assert (np.abs(moved.qpos[:2] - plant.qpos[:2]) > 0).all()
+    torques = []
+    for state, q in ((s.copy(), sensors.q), (wrapped, shifted.q)):
+        tau = np.zeros(33)
+        walk(simulator.walker, state, q, sensors.v, sensors.wrenches, simulator.commands, plant.dt, tau)
+        torques.append(tau)
+    np.testing.assert_allclose(torques[0], torques[1], atol=1e-9)
+
+
+@pytest.mark.sim
+def test_robot_never_leaves_the_terrain(simulate: Callable, run: Callable) -> None:
+    simulator = simulate("forward_walk", "all_uncertainty")
+    log = run(simulator, 8.0)
+    step = np.abs(np.diff(log["q"][:, :2], axis=0))
+    assert np.abs(log["q"][:, :2]).max() < simulator.plant.period + 0.05
+    assert ((step < 0.01) | (np.abs(step - simulator.plant.period) < 0.01)).all()
+    assert (step > 0.01).any()  # it walked further than a period
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize("swinging", [0, 1])
+def test_random_torque_never_acts_on_a_support_leg(simulate: Callable, side: float, swinging: int) -> None:
+    simulator = simulate("flat_walk", "ideal")
+    walker, s, tau = simulator.walker, empty_state(), np.zeros(33)
+    torque = simulator.torque._replace(value=np.ones(33), left=np.full(33, 1.0))
+    s.side, s.swinging = side, swinging
+    engine._explore(walker, s, torque, np.random.default_rng(0), 0.0005, tau)
+    pushed = {"LL": tau[:6], "RL": tau[6:12]}
+    swing = {1.0: "RL", -1.0: "LL"}[side]
+    for leg, values in pushed.items():
+        assert (values == float(swinging == 1 and leg == swing)).all()
+    assert (tau[12:] == 1).all()
+
+
+@pytest.mark.sim
+def test_motor_torque_is_the_desired_one_within_the_limits(simulate: Callable, run: Callable) -> None:
+    log = run(simulator := simulate("random_walk", "all_uncertainty"), 2.0)
+    limits = simulator.robot.torque_limits.astype(np.float32)
+    assert (np.abs(log["tau_motor"]) <= limits * (1 + 1e-6)).all()
+    inside = (np.abs(log["tau_des"]) < 0.5 * limits).all(axis=0)
+    np.testing.assert_array_equal(log["tau_des"][:, inside], log["tau_motor"][:, inside])
+
+
+def test_run_stops_where_the_pelvis_is_low_or_not_finite(
+    simulate: Callable, run: Callable, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)  # MuJoCo notes there that a number is not finite
+    low = simulate("flat_walk", "ideal")
+    low.plant.qpos[2] = 0.3
+    assert run(low, 0.1).done == 0
+    lost = simulate("flat_walk", "ideal")
+    lost.sensors.v[10] = np.nan
+    assert run(lost, 0.1).done < 100

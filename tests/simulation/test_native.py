@@ -1,0 +1,73 @@
+"""The C structs are read as Python's own views read them, and the compiled call is MuJoCo's step."""
+
+from __future__ import annotations
+
+import ctypes
+
+import mujoco
+import numpy as np
+import pytest
+from numba import njit
+
+from mobnet.core.errors import SimulationError
+from mobnet.robot.description import RobotDescription
+from mobnet.simulation import native
+from mobnet.simulation.native import addresses_at, bind, c_struct, call_step, doubles_at, ints_at
+from mobnet.simulation.world import World, make_world
+
+POINTERS = ("qpos", "qvel", "ctrl", "qfrc_applied", "xpos", "sensordata", "efc_type", "efc_J", "efc_force", "contact")
+
+
+@pytest.fixture
+def world(full_config: dict, robot: RobotDescription) -> World:
+    """Feet on the ground, so that there are contact rows."""
+    world = make_world(full_config, robot, "flat", "ideal")
+    world.data.qpos[2] = 2 * robot.link_length - robot.hip_pos[2] - robot.sole_height - 1e-3
+    mujoco.mj_forward(world.model, world.data)
+    return world
+
+
+def test_struct_offsets_read_what_python_s_views_hold(world: World) -> None:
+    raw, data = c_struct("mjData").from_address(world.data._address), world.data
+    assert data.nefc > 0
+    for field in ("nefc", "ncon", "ne", "nf"):
+        assert getattr(raw, field) == getattr(data, field)
+    assert raw.time == data.time
+    for field in set(POINTERS) - {"contact"}:
+        assert getattr(raw, field) == getattr(data, field).ctypes.data
+
+
+def test_compiled_code_reads_the_constraint_rows(world: World) -> None:
+    @njit
+    def read(data: int, nefc: int, kind: int, force: int, row: int) -> tuple[int, int, float]:
+        kinds, forces = ints_at(addresses_at(data + kind)[0]), doubles_at(addresses_at(data + force)[0])
+        return ints_at(data + nefc)[0], kinds[row], forces[row]
+
+    at, data = bind(world.model, world.data), world.data
+    for row in range(data.nefc):
+        found = read(at.data, at.nefc, at.efc_type, at.efc_force, row)
+        assert found == (data.nefc, data.efc_type[row], data.efc_force[row])
+
+
+def test_call_by_address_is_mujoco_s_step_to_the_bit(world: World) -> None:
+    @njit
+    def step(function: int, model: int, data: int) -> None:
+        call_step(function, model, data)
+
+    at = bind(world.model, world.data)
+    twin = mujoco.MjData(world.model)
+    twin.qpos[:] = world.data.qpos
+    mujoco.mj_forward(world.model, twin)
+    for _ in range(20):
+        step(at.step, at.model, at.data)
+        mujoco.mj_step(world.model, twin)
+    np.testing.assert_array_equal(world.data.qpos, twin.qpos)
+    np.testing.assert_array_equal(world.data.efc_force, twin.efc_force)
+
+
+def test_a_struct_that_is_laid_out_otherwise_is_refused(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
+    fields = [("more", ctypes.c_int64), *c_struct("mjData")._fields_]
+    shifted = type("mjData", (ctypes.Structure,), {"_fields_": fields})
+    monkeypatch.setattr(native, "c_struct", lambda name: shifted)
+    with pytest.raises(SimulationError, match=r"mjData\.\w+: at \d+, Python says \d+"):
+        bind(world.model, world.data)

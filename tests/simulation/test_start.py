@@ -1,0 +1,83 @@
+"""Starts: feet on the ground, weight over the nominal ZMP, and a sway that repeats."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from mobnet.control.kinematics import update
+from mobnet.control.parameters import DURATION
+from mobnet.simulation.record import Simulator
+from mobnet.simulation.start import CLEARANCE_M, place, start_standing, start_walking
+
+
+@pytest.fixture
+def simulator(simulate: Callable) -> Simulator:
+    return simulate("checks_place", "ideal")
+
+
+def test_feet_stand_level_side_by_side_just_over_the_ground(simulator: Simulator) -> None:
+    walker, robot = simulator.walker, simulator.robot
+    q, ankles = place(walker, robot, 0.015)
+    update(walker.tree, q, np.zeros(39), walker.gravity, walker.pose)
+    for k, side in enumerate((1, -1)):
+        foot = walker.feet[k]
+        np.testing.assert_allclose(walker.pose.position[foot], ankles[k], atol=1e-10)
+        np.testing.assert_allclose(walker.pose.rotation[foot], np.eye(3), atol=1e-12)
+        assert ankles[k, 1] == side * walker.par.foot_spacing_m / 2
+    assert ankles[0, 2] + robot.sole_height == pytest.approx(0.015 + CLEARANCE_M, abs=1e-15)
+    assert walker.pose.com[0] == pytest.approx(ankles[0, 0] + walker.par.zmp_offset_x_m, abs=1e-9)
+
+
+def test_feet_do_not_move_while_the_pelvis_sways(simulator: Simulator) -> None:
+    walker = simulator.walker
+    q, v = start_walking(walker, simulator.robot, simulator.state, simulator.commands[0], 0.0)
+    update(walker.tree, q, v, walker.gravity, walker.pose)
+    assert v[1] > 0.1
+    np.testing.assert_allclose(walker.pose.velocity[walker.feet], 0, atol=1e-10)
+    np.testing.assert_allclose(walker.pose.omega[walker.feet], 0, atol=1e-10)
+
+
+def test_pendulum_that_starts_so_returns_after_two_steps(simulator: Simulator) -> None:
+    """The ZMP stands a step on the left foot, then on the right one: a linear inverted pendulum's motion."""
+    walker, state, command = simulator.walker, simulator.state, simulator.commands[0]
+    _, v = start_walking(walker, simulator.robot, state, command, 0.0)
+    update(walker.tree, *place(walker, simulator.robot, 0.0)[:1], np.zeros(39), walker.gravity, walker.pose)
+    height = walker.pose.com[2] - CLEARANCE_M
+    omega, y, speed = np.sqrt(walker.gravity / height), 0.0, v[1]
+    middle = []
+    for side in (1, -1):
+        zmp, grown, swung = (
+            side * walker.par.foot_spacing_m / 2,
+            *(f(omega * command[DURATION]) for f in (np.cosh, np.sinh)),
+        )
+        y, speed = zmp + (y - zmp) * grown + speed / omega * swung, (y - zmp) * omega * swung + speed * grown
+        middle.append((y, speed))
+    np.testing.assert_allclose(middle, [(0, -v[1]), (0, v[1])], atol=1e-9)
+
+
+def test_start_is_amid_double_support_of_the_left_foot(simulator: Simulator) -> None:
+    walker, state, command = simulator.walker, simulator.state, simulator.commands[0]
+    state.integral[:], state.steps = 9.0, 7  # of an episode before
+    start_walking(walker, simulator.robot, state, command, 0.0)
+    assert (state.side, state.swinging, state.standing, state.steps) == (1.0, 0, 0, 0)
+    assert state.t == pytest.approx(walker.par.double_support_share * command[DURATION] / 2)
+    assert not state.integral.any()
+    assert state.total == state.commanded == command[DURATION]
+
+
+def test_standing_start_is_at_rest(simulator: Simulator) -> None:
+    _, v = start_standing(simulator.walker, simulator.robot, simulator.state, simulator.commands[0], 0.0)
+    assert not v.any()
+    assert simulator.state.standing == 1
+
+
+@pytest.mark.sim
+def test_steps_in_place_stay_in_place(simulate: Callable, run: Callable) -> None:
+    simulator = simulate("flat_place", "ideal")
+    log = run(simulator, 6.0)
+    assert log.done == 6000
+    assert np.abs(log["q"][:, 0]).max() < 0.05
+    assert np.abs(log["q"][:, 1]).max() < 0.12
