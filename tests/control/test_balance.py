@@ -132,6 +132,30 @@ def test_duration_stays_without_an_error(par: WalkingParameters, swinging: State
     assert swinging.total == swinging.commanded
 
 
+@pytest.mark.parametrize("ahead_s", [-0.05, 0.0, 0.05])
+def test_duration_converges_to_the_closed_form_of_a_reference_run_early_or_late(
+    par: WalkingParameters, swinging: State, ahead_s: float
+) -> None:
+    """Without dead band and ankle, a DCM that is `ahead_s` ahead of its reference ends the step that much sooner."""
+    free = par._replace(timing_band_m=0.0, timing_ankle_m=0.0)
+    swinging.lift = [*swinging.target, 0.158]
+    now = swinging.t
+    swinging.t = now + ahead_s
+    reference(swinging, double_support(par, swinging))
+    swinging.t, swinging.dcm = now, swinging.dcm_reference
+    for _ in range(1000):
+        adapt_duration(free, swinging, double_support(par, swinging), TICK_S, np.zeros(3))
+    assert swinging.total == pytest.approx(swinging.commanded - ahead_s, abs=1e-9)
+
+
+def test_duration_of_a_step_on_its_reference_stays_also_without_a_dead_band(
+    par: WalkingParameters, swinging: State
+) -> None:
+    swinging.lift = [*swinging.target, 0.158]
+    adapt_duration(par._replace(timing_band_m=0.0), swinging, double_support(par, swinging), TICK_S, np.zeros(3))
+    assert swinging.total == pytest.approx(swinging.commanded, abs=1e-12)
+
+
 @pytest.mark.parametrize("lateral", [-0.3, -0.06, -0.03, 0.03, 0.06, 0.3])
 def test_duration_keeps_its_limits_and_rate(par: WalkingParameters, swinging: State, lateral: float) -> None:
     turned = swinging.stance_yaw

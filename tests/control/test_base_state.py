@@ -61,3 +61,18 @@ def test_the_loaded_foot_decides(walker: Walker, standing: tuple) -> None:
     v[6 + walker.first[1] + 2] = 3.0  # right hip pitch [rad/s]
     run(walker, q, v, [900.0, 0.0], np.array([0, 0, walker.gravity]), 0.01)
     np.testing.assert_allclose(v[:3], 0, atol=1e-12)
+
+
+def test_foot_that_rolls_about_its_sole_s_centre_counts_as_still(walker: Walker, standing: tuple) -> None:
+    """The ankle of such a foot moves; the sole's centre has zero velocity."""
+    q, v = standing
+    v[:] = 0
+    update(walker.tree, q, v, walker.gravity, walker.pose)
+    foot, rolling = walker.feet[0], np.array([0.5, -0.8, 0.2])
+    walker.pose.omega[foot] = rolling
+    walker.pose.velocity[foot] = -np.cross(rolling, walker.pose.rotation[foot] @ walker.sole)
+    update_base(
+        walker.pose, walker.feet, walker.sole, np.array([900.0, 0.0]), np.array([0, 0, walker.gravity]),
+        walker.gravity, walker.par.base_time_constant_s, TICK_S, q, v,
+    )  # fmt: skip
+    np.testing.assert_allclose(v, 0, atol=1e-14)
