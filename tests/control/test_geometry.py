@@ -71,6 +71,7 @@ def test_yaw_frame_round_trip_also_in_place() -> None:
 
 
 def test_rotation_matrices_equal_mujoco_s() -> None:
+    """MuJoCo's quaternions are the reference."""
     rng = np.random.default_rng(0)
     axis = rng.normal(size=3)
     axis /= np.linalg.norm(axis)
@@ -94,6 +95,7 @@ def test_yaw_pitch_roll_is_the_product_of_three_turns() -> None:
 
 
 def test_products_equal_numpy_s() -> None:
+    """numpy is the reference."""
     rng = np.random.default_rng(1)
     a, b, force = rng.normal(size=(3, 3))
     m, n = rng.normal(size=(2, 3, 3))
@@ -109,6 +111,7 @@ def test_products_equal_numpy_s() -> None:
 
 @pytest.mark.parametrize("seed", range(5))
 def test_elimination_solves_what_numpy_solves(seed: int) -> None:
+    """numpy is the reference; the first pivot is zero."""
     rng = np.random.default_rng(seed)
     matrix, right = rng.normal(size=(6, 6)), rng.normal(size=6)
     matrix[0, 0] = 0.0  # needs a pivot

@@ -37,6 +37,7 @@ def at(model: mujoco.MjModel, random_pose: Callable) -> Callable[[int], mujoco.M
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_bodies_stand_where_mujoco_puts_them(walker: Walker, robot: RobotDescription, at: Callable, seed: int) -> None:
+    """MuJoCo is the reference, at a random state."""
     data, pose = at(seed), walker.pose
     for i, body in enumerate(robot.bodies):
         np.testing.assert_allclose(pose.position[i], data.body(body.name).xpos, atol=1e-12)
@@ -49,6 +50,7 @@ def test_bodies_stand_where_mujoco_puts_them(walker: Walker, robot: RobotDescrip
 def test_bodies_move_as_mujoco_s_jacobian_says(
     walker: Walker, robot: RobotDescription, model: mujoco.MjModel, at: Callable, seed: int
 ) -> None:
+    """MuJoCo is the reference, at a random state."""
     data, pose = at(seed), walker.pose
     linear, angular = np.zeros((3, model.nv)), np.zeros((3, model.nv))
     for i, body in enumerate(robot.bodies):
@@ -61,6 +63,7 @@ def test_bodies_move_as_mujoco_s_jacobian_says(
 def test_centre_of_mass_and_its_momentum_equal_mujoco_s(
     walker: Walker, robot: RobotDescription, at: Callable, seed: int
 ) -> None:
+    """MuJoCo is the reference, at a random state."""
     data, pose = at(seed), walker.pose
     base = data.body(robot.base)
     assert pose.weight[0] == pytest.approx(robot.mass, rel=1e-12)
@@ -94,6 +97,7 @@ def test_mean_inertia_costs_less_than_a_tenth_of_angular_momentum(
 def test_gravity_torque_equals_mujoco_s_bias_at_zero_velocity(
     walker: Walker, model: mujoco.MjModel, at: Callable, seed: int
 ) -> None:
+    """MuJoCo is the reference, at a random state."""
     data = at(seed)
     data.qvel[:] = 0
     mujoco.mj_forward(model, data)

@@ -41,6 +41,7 @@ def crouched(walker: Walker, robot: RobotDescription) -> tuple[np.ndarray, np.nd
 
 @pytest.mark.parametrize("k", LEGS)
 def test_jacobian_equals_differences_of_the_kinematics(walker: Walker, crouched: tuple, k: int) -> None:
+    """The reference is a central difference of order two."""
     q, v = crouched
     first, foot, pose = walker.first[k], walker.feet[k], walker.pose
     jacobian, column = np.zeros((6, 6)), np.zeros(6)
@@ -116,6 +117,7 @@ def stand(walker: Walker, crouched: tuple, s: State, k: int, wrench: np.ndarray,
 def test_stance_torque_is_the_force_through_mujoco_s_jacobian(
     walker: Walker, robot: RobotDescription, crouched: tuple, stepping: State, k: int
 ) -> None:
+    """MuJoCo's Jacobian of the point under the foot is the reference."""
     q, _ = crouched
     stepping.force, stepping.load = [40.0, -25.0, 900.0], [0.6, 0.4]
     foot = walker.feet[k]

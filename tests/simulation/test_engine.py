@@ -41,6 +41,7 @@ def external(simulator: Simulator) -> np.ndarray:
 
 @pytest.mark.parametrize("level", ["ideal", "all_uncertainty"])
 def test_contact_rows_equal_mujoco_s_contact_forces(simulate: Callable, run: Callable, level: str) -> None:
+    """The reference is mj_contactForce, mapped by mj_jac at each contact."""
     simulator = simulate("forward_walk", level)
     touched = 0
     for _ in range(30):
@@ -52,6 +53,7 @@ def test_contact_rows_equal_mujoco_s_contact_forces(simulate: Callable, run: Cal
 
 
 def test_applied_wrench_enters_through_its_jacobian(simulate: Callable, run: Callable) -> None:
+    """The reference is mj_jac at the body's centre of mass."""
     simulator = simulate("flat_walk", "all_uncertainty")
     model, data = simulator.world.model, simulator.world.data
     hand = model.body(simulator.robot.hands["left"]).id
@@ -65,6 +67,7 @@ def test_applied_wrench_enters_through_its_jacobian(simulate: Callable, run: Cal
 
 
 def test_foot_sensors_mapped_through_their_jacobian_are_the_contact_torque(simulate: Callable, run: Callable) -> None:
+    """The sole is massless, so both are equivalent at any acceleration."""
     simulator = simulate("forward_walk", "all_uncertainty")
     model, data = simulator.world.model, simulator.world.data
     linear, angular = np.zeros((3, NV)), np.zeros((3, NV))

@@ -20,6 +20,7 @@ def friction(full_config: dict[str, Any]) -> Friction:
 @pytest.mark.parametrize("rate", [-3.0, -0.2, 0.2, 1.51, 6.0])
 @pytest.mark.parametrize("torque", [-100.0, 0.0, 30.0])
 def test_leg_friction_is_table_4_in_equation_23(friction: Friction, rate: float, torque: float) -> None:
+    """The closed form of (23) with the numbers of Table 4."""
     dry = 5.0 + (2.0 - 5.0) * np.exp(-abs(rate / 1.51)) + 0.002 * torque**2
     assert friction_torque(friction, LEG, rate, torque) == pytest.approx(-np.sign(rate) * dry - 4.0 * rate, rel=1e-6)
 

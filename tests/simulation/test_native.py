@@ -50,6 +50,8 @@ def test_compiled_code_reads_the_constraint_rows(world: World) -> None:
 
 
 def test_call_by_address_is_mujoco_s_step_to_the_bit(world: World) -> None:
+    """The reference is Python's own mj_step."""
+
     @njit
     def step(function: int, model: int, data: int) -> None:
         call_step(function, model, data)
