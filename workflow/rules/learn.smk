@@ -17,7 +17,7 @@ rule train:
     threads: 1
     params:
         config=lambda w: part("seed", "robot", "learning", methods=[w.method], networks=[w.limb])
-        | sizes("epochs", "batch_size", "stream_s"),
+        | sizes("epochs", "batch_size", "stream_s", "rate_decay_share"),
         state=f"{RESULTS}/state/{{method}}-{{limb}}-s{{seed}}",
         wandb=f"{RESULTS}/wandb",
         robot=CONTENT["robot"],

@@ -83,6 +83,6 @@ def job_of(config: Mapping[str, Any], method: str, limb: str, seed: int) -> Job:
         raise ConfigError(not_accepted("limb to train", limb, config["networks"]))
     sizes = config["sizes"]
     settings = dict(config["learning"])
-    settings |= {key: sizes[key] for key in ("batch_size", "stream_s") if key in sizes}
+    settings |= {key: sizes[key] for key in ("batch_size", "stream_s", "rate_decay_share") if key in sizes}
     row = config["networks"][limb]
     return Job(method, limb, seed, config["seed"], learned[method]["target"], row, settings, sizes["epochs"])
