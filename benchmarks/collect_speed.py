@@ -119,14 +119,20 @@ def _step_with_note(plant: Plant, inputs: Inputs, counter: NDArray[np.int64]) ->
 @compiled
 def _replay(plant: Plant, live: Any, values: Any) -> None:
     """Step once from each noted state."""
-    qpos, qvel, ctrl, applied, warm = live
     for k in range(len(values[0])):
-        qpos[:] = values[0][k]
-        qvel[:] = values[1][k]
-        ctrl[:] = values[2][k]
-        applied[:] = values[3][k]
-        warm[:] = values[4][k]
+        _put(live[0], values[0], k)
+        _put(live[1], values[1], k)
+        _put(live[2], values[2], k)
+        _put(live[3], values[3], k)
+        _put(live[4], values[4], k)
         call_step(plant.native.step, plant.native.model, plant.native.data)
+
+
+@compiled
+def _put(live: NDArray[np.float64], values: NDArray[np.float64], k: int) -> None:
+    """Copy row k of values (steps, n) into live (n,)."""
+    for i in range(len(live)):
+        live[i] = values[k, i]
 
 
 if __name__ == "__main__":
