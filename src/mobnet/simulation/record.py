@@ -62,18 +62,21 @@ class Simulator:
         native = bind(self.world.model, self.world.data)
         self.plant = make_plant(self.world, native, friction, robot.torque_limits, fall_height, every)
         self.state = empty_state()
-        streams = np.random.SeedSequence([config["seed"], zlib.crc32(scenario.encode()), seed]).spawn(3)
-        self.rng_commands, self.rng_noise, self.rng_torque = map(np.random.default_rng, streams)
+        streams = np.random.SeedSequence([config["seed"], zlib.crc32(scenario.encode()), seed]).spawn(4)
+        self.rng_commands, self.rng_noise, self.rng_torque, self.rng_place = map(np.random.default_rng, streams)
         self.commands = np.zeros((0, 0))
 
     def start(self) -> None:
-        """Begin an episode: fresh commands, the robot amid a step."""
+        """Begin an episode: fresh commands, the robot amid a step somewhere on the terrain."""
         commands, steps = self.config["commands"], self.config["recording"]["episode_steps"]
         if self.settings["commands"] == "random":
             self.commands = random_commands(commands, self.rng_commands, steps)
         else:
             self.commands = fixed_commands(self.settings["commands"], commands["random"]["in_place_steps"])
         q, v = start_walking(self.walker, self.robot, self.state, self.commands[0], self.world.top)
+        place = self.rng_place.uniform(-0.5, 0.5, 2) * self.world.period
+        q[:2] += place
+        self.state.old_ankle[:2] += place
         plant, data = self.plant, self.world.data
         data.qacc_warmstart[:] = 0.0
         plant.qpos[:], plant.qvel[:], plant.sensordata[:] = q, v, 0.0
