@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from mobnet.control.compiled import compiled
 from mobnet.control.geometry import cross, rotate
 from mobnet.control.kinematics import Pose
+from mobnet.control.stack import vector3
 
 Array = NDArray[np.float64]
 
@@ -42,9 +43,10 @@ def update_base(
         q: generalized position, updated in place (nq,).
         v: generalized velocity, updated in place (nv,).
     """
-    acceleration, arm, swept, slip = np.empty(3), np.empty(3), np.empty(3), np.zeros(3)
+    acceleration, arm, swept, slip = vector3(), vector3(), vector3(), vector3()
     rotate(pose.rotation[0], acc_base_in_base, acceleration)
     acceleration[2] -= gravity_m_s2
+    slip[0] = slip[1] = slip[2] = 0.0
     weights = 0.0
     for k in range(2):
         load = max(loads[k], 0.0)

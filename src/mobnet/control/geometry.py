@@ -141,7 +141,10 @@ def solve(matrix: Array, right: Array) -> bool:
     """
     n = len(right)
     for i in range(n):
-        pivot = i + np.argmax(np.abs(matrix[i:, i]))
+        pivot = i
+        for j in range(i + 1, n):
+            if abs(matrix[j, i]) > abs(matrix[pivot, i]):
+                pivot = j
         if abs(matrix[pivot, i]) < 1e-9:
             return False
         if pivot != i:

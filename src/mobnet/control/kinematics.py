@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from mobnet.control.compiled import compiled
 from mobnet.control.geometry import axis_angle_to_matrix, cross, multiply, quaternion_to_matrix, rotate
+from mobnet.control.stack import matrix3, vector3
 from mobnet.robot.description import RobotDescription
 
 Array = NDArray[np.float64]
@@ -119,7 +120,7 @@ def update(tree: Tree, q: Array, v: Array, gravity_m_s2: float, pose: Pose) -> N
 @compiled
 def _chain(tree: Tree, q: Array, v: Array, pose: Pose) -> None:
     """Place and move every body from its parent's pose."""
-    fixed, turned, arm, swept = np.empty((3, 3)), np.empty((3, 3)), np.empty(3), np.empty(3)
+    fixed, turned, arm, swept = matrix3(), matrix3(), vector3(), vector3()
     for b in range(1, len(tree.parent)):
         parent, joint = tree.parent[b], int(tree.joint[b])
         rotate(pose.rotation[parent], tree.offset[b], arm)
@@ -130,7 +131,9 @@ def _chain(tree: Tree, q: Array, v: Array, pose: Pose) -> None:
             pose.velocity[b, i] = pose.velocity[parent, i] + swept[i]
             pose.omega[b, i] = pose.omega[parent, i]
         if joint < 0:
-            pose.rotation[b] = fixed
+            for i in range(3):
+                for j in range(3):
+                    pose.rotation[b, i, j] = fixed[i, j]
             continue
         rotate(fixed, tree.axis[b], pose.axis[joint])
         axis_angle_to_matrix(tree.axis[b], q[7 + joint], turned)
@@ -142,7 +145,7 @@ def _chain(tree: Tree, q: Array, v: Array, pose: Pose) -> None:
 @compiled
 def _centroid(tree: Tree, pose: Pose) -> None:
     """Fill centre of mass, its velocity and the angular momentum about it; start the subtree sums."""
-    arm, swept = np.empty(3), np.empty(3)
+    arm, swept = vector3(), vector3()
     total = 0.0
     pose.com[:] = 0.0
     pose.com_velocity[:] = 0.0

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.control.compiled import compiled
+from mobnet.control.stack import matrix3, vector3
 
 Array = NDArray[np.float64]
 
@@ -39,7 +40,7 @@ def leg_ik(
         q: result (6,).
     """
     b = leg.length
-    hip = np.empty(3)
+    hip = vector3()
     for i in range(3):
         hip[i] = (
             p_base[i]
@@ -63,7 +64,7 @@ def leg_ik(
 def _hip_angles(r_base: Array, r_foot: Array, pitch: float, roll: float, q: Array) -> None:
     """Write hip yaw, roll and pitch [rad] into q[0:3] from C = R_base^T R_foot Rx(-roll) Ry(-pitch)."""
     cr, sr, cp, sp = np.cos(roll), np.sin(roll), np.cos(pitch), np.sin(pitch)
-    c = np.empty((3, 3))
+    c = matrix3()
     for i in range(3):
         a0 = r_base[0, i] * r_foot[0, 0] + r_base[1, i] * r_foot[1, 0] + r_base[2, i] * r_foot[2, 0]
         a1 = r_base[0, i] * r_foot[0, 1] + r_base[1, i] * r_foot[1, 1] + r_base[2, i] * r_foot[2, 1]

@@ -239,7 +239,8 @@ def _stand_reference(walker: Walker, s: State, ankle: Array, other: Array, stanc
 def _torques(walker: Walker, s: State, stance: int, q: Array, v: Array, dt: float, tau: Array) -> None:
     """Write all desired torques (nu,) [N m]."""
     par, pose = walker.par, walker.pose
-    tau[:] = pose.gravity
+    for j in range(len(tau)):
+        tau[j] = pose.gravity[j]
     for k in range(2):
         foot, first = walker.feet[k], walker.first[k]
         swings = s.swinging == 1 and k != stance

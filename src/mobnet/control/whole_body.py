@@ -10,6 +10,7 @@ from mobnet.control.geometry import clip, cross, dead, solve, triple, yaw_roll_p
 from mobnet.control.kinematics import Pose, Tree
 from mobnet.control.leg_ik import LegGeometry, leg_ik
 from mobnet.control.parameters import SIDES, State, WalkingParameters
+from mobnet.control.stack import matrix3, vector3
 
 Array = NDArray[np.float64]
 LEFT_SIDE, RIGHT_SIDE = SIDES
@@ -20,7 +21,7 @@ ANKLE_PITCH, ANKLE_ROLL = 4, 5  # joints of a leg
 @compiled
 def leg_jacobian(tree: Tree, pose: Pose, first: int, foot: int, out: Array) -> None:
     """Write the ankle's Jacobian (6, 6) against the base, linear over angular rows, world axes, into out."""
-    arm, column = np.empty(3), np.empty(3)
+    arm, column = vector3(), vector3()
     for j in range(LEG_JOINTS):
         body = tree.body_of_joint[first + j]
         for i in range(3):
@@ -42,7 +43,7 @@ def leg_reference(
     height and yaw from where the foot is.
     """
     side = LEFT_SIDE if k == 0 else RIGHT_SIDE
-    rates, arm, swept = s.v_reference[k], np.empty(3), np.empty(3)
+    rates, arm, swept = s.v_reference[k], vector3(), vector3()
     if swings:
         leg_ik(leg, side, pose.rotation[0], pose.position[0], s.foot_rotation, s.foot, s.q_reference[k])
         for i in range(3):
@@ -53,7 +54,7 @@ def leg_reference(
             rates[3 + i] = -pose.omega[0, i]
         rates[5] += s.foot_yaw_rate
     else:
-        level, base = np.empty((3, 3)), np.empty(3)
+        level, base = matrix3(), vector3()
         yaw_roll_pitch_matrix(s.yaw, 0.0, 0.0, level)
         base[0], base[1], base[2] = pose.position[0, 0], pose.position[0, 1], s.height
         leg_ik(leg, side, level, base, pose.rotation[foot], pose.position[foot], s.q_reference[k])
@@ -73,7 +74,7 @@ def stance_torque(
 ) -> None:  # fmt: skip
     """Add the torques [N m] of a leg that carries the share load[k] of the ground force at `point` (3,) [m]."""
     load = s.load[k]
-    arm = np.empty(3)
+    arm = vector3()
     for j in range(LEG_JOINTS):
         joint = first + j
         body = tree.body_of_joint[joint]

@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import carray
 from numpy.typing import NDArray
 
-from mobnet.control.compiled import compiled
+from mobnet.control.compiled import allocating, compiled
 from mobnet.control.geometry import clip
 from mobnet.control.parameters import State
 from mobnet.control.random_torque import RandomTorque, advance_random_torque
@@ -75,7 +74,7 @@ def make_plant(
     )  # fmt: skip
 
 
-@compiled
+@allocating
 def run(
     plant: Plant, walker: Walker, sensors: Sensors, s: State, torque: RandomTorque, commands: Array,
     rng_noise: np.random.Generator, rng_torque: np.random.Generator, log: NDArray[np.float32],
@@ -139,15 +138,15 @@ def _add_external(plant: Plant, tau_ext: Array) -> None:
     rows = ints_at(data + plant.native.nefc)[0]
     if rows == 0:
         return
-    kinds = carray(ints_at(addresses_at(data + plant.native.efc_type)[0]), (rows,))
-    forces = carray(doubles_at(addresses_at(data + plant.native.efc_force)[0]), (rows,))
-    jacobian = carray(doubles_at(addresses_at(data + plant.native.efc_jacobian)[0]), (rows, nv))
+    kinds = ints_at(addresses_at(data + plant.native.efc_type)[0])
+    forces = doubles_at(addresses_at(data + plant.native.efc_force)[0])
+    jacobian = doubles_at(addresses_at(data + plant.native.efc_jacobian)[0])
     for r in range(rows - 1, -1, -1):  # contact rows come last
         if kinds[r] < FIRST_CONTACT_ROW:
             break
         if forces[r] != 0.0:
             for i in range(nv):
-                tau_ext[i] += jacobian[r, i] * forces[r]
+                tau_ext[i] += jacobian[r * nv + i] * forces[r]
 
 
 @compiled
@@ -182,7 +181,7 @@ def _write(
     for k in range(2):
         at = _put(row, at, wrenches[k], 1.0 / every)
     for k in range(2):
-        row[at + k] = np.linalg.norm(wrenches[k, :3]) > every * CONTACT_FORCE_N
+        row[at + k] = np.sqrt(wrenches[k, 0] ** 2 + wrenches[k, 1] ** 2 + wrenches[k, 2] ** 2) > every * CONTACT_FORCE_N
 
 
 @compiled

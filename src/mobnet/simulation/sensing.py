@@ -101,8 +101,9 @@ def read_sensors(
             walker.par.base_time_constant_s, dt, sensors.q, sensors.v,
         )  # fmt: skip
     else:
-        sensors.q[:3] = qpos[:3]
-        sensors.v[:3] = qvel[:3]
+        for i in range(3):
+            sensors.q[i] = qpos[i]
+            sensors.v[i] = qvel[i]
     for i in range(3, 7):
         sensors.q[i] = qpos[i]
     for i in range(3, 6):
