@@ -9,7 +9,7 @@ import pytest
 from mobnet.core.errors import DataError
 from mobnet.core.store import read_json
 from mobnet.evaluation import snapshot as module
-from mobnet.evaluation.snapshot import compare_snapshot, main, write_snapshot
+from mobnet.evaluation.snapshot import HEADLINE, compare_snapshot, main, with_headline, write_snapshot
 
 TABLE = (
     "scenario,level,method,joint,metric,value,published\nwalk,ideal,MOB,LL1,rmse,1.5,2\nwalk,ideal,MOB,LL2,rmse,3,4\n"
@@ -37,7 +37,7 @@ def rewrite(old: str, new: str) -> list[str]:
 @pytest.mark.usefixtures("stored")
 def test_snapshot_holds_tables_and_pictures_with_their_origin() -> None:
     names = sorted(path.name for path in Path("docs/results").iterdir())
-    assert names == ["figure_05.png", "provenance.json", "table_05.csv"]
+    assert names == ["figure_05.png", "provenance.json", "table_05.csv", "table_05.md"]
     assert set(read_json(Path("docs/results/provenance.json"))) == {"scale", "commit", "lock", "config"}
 
 
@@ -83,3 +83,21 @@ def test_exit_status_tells_whether_anything_differs(monkeypatch: pytest.MonkeyPa
     assert rewrite("1.5", "1.6")
     assert main(["compare"]) == 1
     assert main(["verify"]) == 1  # there is no manifest
+
+
+def test_the_headline_replaces_what_stood_between_the_marks_and_nothing_else() -> None:
+    page = f"a\n<!-- {HEADLINE} -->\nold\n<!-- /{HEADLINE} -->\nb\n"
+    once = with_headline(page, "| new |\n")
+    assert once == page.replace("old", "| new |")
+    assert with_headline(once, "| new |\n") == once
+
+
+def test_a_page_without_marks_is_refused() -> None:
+    with pytest.raises(DataError, match="marks"):
+        with_headline("no marks", "| new |")
+
+
+def test_the_readme_shows_the_committed_headline_table() -> None:
+    root = Path(__file__).parents[2]
+    page, table = (root / "README.md").read_text(), (root / "docs" / "results" / f"{HEADLINE}.md").read_text()
+    assert with_headline(page, table) == page

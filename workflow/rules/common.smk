@@ -4,7 +4,8 @@ import sys
 from pathlib import Path
 
 from mobnet.core.code import code_hash
-from mobnet.core.config import check_config, config_hash, read_yaml, resolve
+from mobnet.core.config import check_config as validate
+from mobnet.core.config import config_hash, read_yaml, resolve
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
 
@@ -14,7 +15,7 @@ quieten(ROOT)
 shell.prefix(f"exec 9<>'{ROOT}/.cache/run.lock'; flock -s 9; ")
 
 try:
-    check_config(config, "configs/config.yaml")
+    validate(config, "configs/config.yaml")
     settings = resolve(config)
     CONTENT = {key: config_hash(read_yaml(Path(settings[key]))) for key in ("robot", "published", "claims")}
 except MobnetError as error:

@@ -17,24 +17,25 @@ from typing import Any
 from mobnet.core.config import load_config
 from mobnet.core.errors import DataError, MobnetError
 from mobnet.core.provenance import provenance
-from mobnet.core.store import atomic_path, write_json
+from mobnet.core.store import atomic_path, write_json, write_text
 from mobnet.evaluation.manifest import damaged_files
 
 log = logging.getLogger(__name__)
 
 CONFIG, TABLES, FIGURES = Path("configs/config.yaml"), Path("tables"), Path("figures")
 SNAPSHOT, MANIFEST = Path("docs/results"), Path("results/MANIFEST.sha256")
+README, HEADLINE = Path("README.md"), "table_05"
 KEYS = ("scenario", "level", "method", "joint", "metric", "claim")  # columns that name a row; the others are results
 Rows = dict[tuple[str, ...], dict[str, str]]
 
 
 def write_snapshot(config: Mapping[str, Any], tables: Path, figures: Path, out: Path) -> None:
-    """Copy a scale's tables (CSV) and figures (PNG) and note where they come from.
+    """Copy a scale's tables (CSV, Markdown) and figures (PNG) and note where they come from.
 
     Raises:
         DataError: there is no table to copy.
     """
-    found = [*sorted(tables.glob("*.csv")), *sorted(figures.glob("*.png"))]
+    found = [*sorted(tables.glob("*.csv")), *sorted(tables.glob("*.md")), *sorted(figures.glob("*.png"))]
     if not any(path.suffix == ".csv" for path in found):
         raise DataError(f"{tables}: holds no CSV; ./reproduce all makes them")
     for source in found:
@@ -42,6 +43,18 @@ def write_snapshot(config: Mapping[str, Any], tables: Path, figures: Path, out: 
             shutil.copyfile(source, temporary)
     write_json(out / "provenance.json", {"scale": config["scale"], **provenance(config)})
     log.info("%s: %d files", out, len(found))
+
+
+def with_headline(text: str, table: str) -> str:
+    """Return a page with the headline table between its marks.
+
+    Raises:
+        DataError: the page lacks the marks.
+    """
+    first, last = f"<!-- {HEADLINE} -->\n", f"<!-- /{HEADLINE} -->"
+    if first not in text or last not in text:
+        raise DataError(f"{README}: the marks {first.strip()!r} and {last!r} are missing")
+    return text[: text.index(first)] + first + table.strip() + "\n" + text[text.index(last) :]
 
 
 def compare_snapshot(snapshot: Path, tables: Path) -> list[str]:
@@ -96,6 +109,8 @@ def main(words: list[str]) -> int:
     try:
         if options.command == "snapshot":
             write_snapshot(load_config(CONFIG), TABLES, FIGURES, SNAPSHOT)
+            table = (SNAPSHOT / f"{HEADLINE}.md").read_text(encoding="utf-8")
+            write_text(README, with_headline(README.read_text(encoding="utf-8"), table))
             return 0
         compares = options.command == "compare"
         found = compare_snapshot(SNAPSHOT, TABLES) if compares else damaged_files(options.manifest)
