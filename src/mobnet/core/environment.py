@@ -12,7 +12,6 @@ LONGEST_TEMPORARY = 70  # characters; the path of a Unix socket below it must no
 THREADED = ("OMP", "OPENBLAS", "MKL", "NUMEXPR", "NUMBA")
 CACHES = {
     "XDG_CACHE_HOME": "xdg",
-    "XDG_CONFIG_HOME": "config",
     "XDG_DATA_HOME": "data",
     "NUMBA_CACHE_DIR": "numba",
     "MPLCONFIGDIR": "matplotlib",
