@@ -18,11 +18,19 @@ def job(full_config: dict[str, Any]) -> Job:
     return replace(job_of(full_config, "MOB-Net", "LL", 0), epochs=200)
 
 
-def test_rate_falls_linearly_to_a_hundredth_over_the_first_half(job: Job) -> None:
+def test_rate_falls_linearly_to_a_hundredth_over_the_first_half_at_the_papers_size(full_config: dict[str, Any]) -> None:
+    job = job_of(full_config | {"sizes": full_config["scales"]["paper"]}, "MOB-Net", "LL", 0)
     rates = np.array([job.rate(epoch) for epoch in range(200)])
     assert rates[0] == 0.005
     np.testing.assert_allclose(np.diff(rates[:101]), -0.005 * 0.99 / 100)
     np.testing.assert_allclose(rates[100:], 5e-5)
+
+
+def test_rate_of_a_short_run_falls_to_its_very_end(full_config: dict[str, Any]) -> None:
+    job = job_of(full_config | {"sizes": full_config["scales"]["default"]}, "MOB-Net", "LL", 0)
+    rates = np.array([job.rate(epoch) for epoch in range(job.epochs)])
+    assert (np.diff(rates) < 0).all()
+    np.testing.assert_allclose(rates[[0, -1]], [0.005, 5e-5])
 
 
 def test_one_epoch_trains_at_the_first_rate(job: Job) -> None:
