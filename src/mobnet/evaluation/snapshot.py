@@ -35,8 +35,9 @@ def write_snapshot(config: Mapping[str, Any], tables: Path, figures: Path, out: 
     Raises:
         DataError: there is no table to copy.
     """
-    found = [*sorted(tables.glob("*.csv")), *sorted(tables.glob("*.md")), *sorted(figures.glob("*.png"))]
-    if not any(path.suffix == ".csv" for path in found):
+    numbers = sorted(tables.glob("*.csv"))
+    found = [*numbers, *(path.with_suffix(".md") for path in numbers), *sorted(figures.glob("*.png"))]
+    if not numbers:
         raise DataError(f"{tables}: holds no CSV; ./reproduce all makes them")
     for source in found:
         with atomic_path(out / source.name) as temporary:
