@@ -12,6 +12,7 @@ import pytest
 
 from mobnet.control.kinematics import update
 from mobnet.control.parameters import DURATION, STEP_X, STEP_Y, TURN
+from mobnet.core.config import load_layout
 from mobnet.core.errors import ConfigError, SimulationError
 from mobnet.core.recording import FEET, recording_width
 from mobnet.core.store import read_array, read_recording
@@ -196,3 +197,12 @@ def step_errors(simulator: Simulator, q: np.ndarray, air: np.ndarray) -> np.ndar
             (c * apart[0] + n * apart[1] - command[STEP_X], c * apart[1] - n * apart[0] - left, turned - turn)
         )
     return np.array(errors)
+
+
+@pytest.mark.sim
+def test_a_standing_scenario_stands_through_all_uncertainty(config: dict[str, Any], tmp_path: Path) -> None:
+    collect(config, "stand", "all_uncertainty", 1, 10.0, tmp_path / "stand")
+    recording = read_recording(tmp_path / "stand", load_layout(Path(config["robot"])))
+    assert recording.meta["falls"] == 0
+    assert not recording.sensed.swing.any()
+    assert recording.truth.contact.all()

@@ -25,11 +25,12 @@ from mobnet.simulation.engine import make_plant, run
 from mobnet.simulation.friction import make_friction
 from mobnet.simulation.native import bind
 from mobnet.simulation.sensing import make_sensors
-from mobnet.simulation.start import start_walking
+from mobnet.simulation.start import start_standing, start_walking
 from mobnet.simulation.world import World, leg_mask, make_world
 
 log = logging.getLogger(__name__)
 Rows = NDArray[np.float32]
+STAND = "stand"  # commands of a scenario that does not walk; the other word is `random`
 REPORT_WALL_S = 5.0  # between two lines of progress
 FALLS_MAX = 20  # more falls than this in one recording: something is wrong with the setting
 
@@ -67,13 +68,15 @@ class Simulator:
         self.commands = np.zeros((0, 0))
 
     def start(self) -> None:
-        """Begin an episode: fresh commands, the robot amid a step somewhere on the terrain."""
-        commands, steps = self.config["commands"], self.config["recording"]["episode_steps"]
-        if self.settings["commands"] == "random":
+        """Begin an episode: fresh commands, the robot amid a step, or standing, somewhere on the terrain."""
+        commands, wanted = self.config["commands"], self.settings["commands"]
+        if isinstance(wanted, str):
+            steps = self.config["recording"]["episode_steps"]
             self.commands = random_commands(commands, self.rng_commands, steps)
         else:
-            self.commands = fixed_commands(self.settings["commands"], commands["random"]["in_place_steps"])
-        q, v = start_walking(self.walker, self.robot, self.state, self.commands[0], self.world.top)
+            self.commands = fixed_commands(wanted, commands["random"]["in_place_steps"])
+        begin = start_standing if wanted == STAND else start_walking
+        q, v = begin(self.walker, self.robot, self.state, self.commands[0], self.world.top)
         place = self.rng_place.uniform(-0.5, 0.5, 2) * self.world.period
         q[:2] += place
         self.state.old_ankle[:2] += place
