@@ -13,17 +13,13 @@ from mobnet.control.parameters import State, WalkingParameters
 
 Array = NDArray[np.float64]
 
-HEIGHT_MIN_M = 0.4  # keeps w finite while the robot falls
 PEAK_SPEED_RATIO = 1.875  # largest slope of the quintic `rise`
-SOONEST_S = 0.1  # a step never ends sooner than this from now
-DCM_MIN_M = 0.01
-DCM_LOST_M = -0.045
 
 
 @compiled
 def measure_dcm(par: WalkingParameters, s: State, pose: Pose, gravity_m_s2: float) -> None:
     """Fill omega and dcm from the centre of mass and the angular momentum about it."""
-    height = max(pose.com[2] - s.sole_height, HEIGHT_MIN_M)
+    height = max(pose.com[2] - s.sole_height, par.com_height_min_m)
     s.omega = np.sqrt(gravity_m_s2 / height)
     mass = pose.weight[0]
     raw_x = pose.com_velocity[0] + pose.spin[1] / (mass * height)
@@ -101,8 +97,8 @@ def adapt_duration(par: WalkingParameters, s: State, double_support: float, dt: 
     travel = np.hypot(s.target[0] - s.lift[0], s.target[1] - s.lift[1])
     quickest = double_support + PEAK_SPEED_RATIO * travel / (par.swing_xy_share * par.swing_speed_max_m_s)
     wanted = max(wanted, min(quickest, s.commanded))
-    if wanted < s.t + SOONEST_S:
-        wanted = min(s.commanded, s.t + SOONEST_S)
+    if wanted < s.t + par.timing_soonest_s:
+        wanted = min(s.commanded, s.t + par.timing_soonest_s)
     s.total += clip(wanted - s.total, -par.timing_rate * dt, par.timing_rate * dt)
 
 
@@ -124,8 +120,8 @@ def _lateral_duration(
     if end <= par.timing_ankle_m or abs(error) <= par.timing_band_m:
         return s.commanded
     ankle = np.sign(error) * min(par.timing_ankle_m, abs(error) - par.timing_band_m)
-    if end - ankle > DCM_MIN_M and now - ankle > DCM_MIN_M:
+    if end - ankle > par.timing_dcm_min_m and now - ankle > par.timing_dcm_min_m:
         return s.t - middle + np.log((end - ankle) / (now - ankle)) / s.omega
     if error < 0.0:
-        return longest if now > DCM_LOST_M else shortest
+        return longest if now > par.timing_dcm_lost_m else shortest
     return s.commanded

@@ -25,6 +25,7 @@ class WalkingParameters(NamedTuple):
     toe_in_max_rad: float
     double_support_share: float
     velocity_filter: float
+    com_height_min_m: float
     dcm_gain: float
     vertical_damping_hz: float
     sole_x_m: Array
@@ -44,6 +45,9 @@ class WalkingParameters(NamedTuple):
     timing_ankle_m: float
     timing_rate: float
     timing_freeze_s: float
+    timing_soonest_s: float
+    timing_dcm_min_m: float
+    timing_dcm_lost_m: float
     step_min_s: float
     step_shorter_max_s: float
     step_longer_max_s: float

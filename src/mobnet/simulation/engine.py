@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,7 +19,7 @@ from mobnet.simulation.sensing import Sensors, read_sensors
 from mobnet.simulation.world import World
 
 Array = NDArray[np.float64]
-FIRST_CONTACT_ROW = 5  # mjCNST_CONTACT_FRICTIONLESS; equality, friction loss and limits come before
+FIRST_CONTACT_ROW = int(mujoco.mjtConstraint.mjCNSTR_CONTACT_FRICTIONLESS)  # equality, friction loss, limits: before
 CONTACT_FORCE_N = 1.0  # a foot whose sensor feels more touches the ground
 
 
