@@ -12,7 +12,7 @@ import pytest
 import yaml
 from numpy.typing import NDArray
 
-from mobnet.core.recording import FEET, Sensed
+from mobnet.core.recording import COMMAND, FEET, Sensed
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.dynamics import inverse_dynamics
 from mobnet.robot.nominal import NominalModel
@@ -80,7 +80,7 @@ def trajectory(robot: RobotDescription) -> Trajectory:
 
 def sensed_of(q: Array, v: Array, tau: Array) -> Sensed:
     """Return what a robot senses from positions (T, nq), velocities (T, nv) and motor torques (T, nu)."""
-    return Sensed(q, v, np.zeros((len(q), 3)), tau, tau, np.zeros((len(q), len(FEET))))
+    return Sensed(q, v, np.zeros((len(q), 3)), tau, tau, np.zeros((len(q), len(FEET))), np.zeros((len(q), len(COMMAND))))
 
 
 @pytest.fixture

@@ -119,7 +119,7 @@ def test_columns_carry_unit_and_frame(robot: RobotDescription) -> None:
 def test_on_the_simulated_plant_the_scheme_meets_the_ideal_row(nominal: NominalModel, robot: RobotDescription) -> None:
     q, v, tau, tau_ext = _shaken(robot, samples=400)
     zeros = np.zeros((len(q), 3))
-    sensed = Sensed(q, v, zeros, tau, tau, zeros[:, :2])
+    sensed = Sensed(q, v, zeros, tau, tau, zeros[:, :2], np.zeros((len(q), 5)))
     error = MomentumObserver(nominal, GAIN_HZ, RATE_HZ).residual(sensed) - low_pass(tau_ext, GAIN_HZ, RATE_HZ)
     rmse = np.sqrt(np.mean(error**2, axis=0))
     layout = robot.layout

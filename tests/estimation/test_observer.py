@@ -143,7 +143,7 @@ def test_noise_of_velocity_obeys_its_law(nominal: NominalModel, observer: Moment
     std = np.concatenate([np.full(3, 1e-3), np.full(3, 5e-3), np.full(layout.nu, 2e-3)])
     v = std * rng.normal(size=(count, layout.nv))
     still = np.zeros((count, layout.nu))
-    sensed = Sensed(np.tile(q, (count, 1)), v, np.zeros((count, 3)), still, still, np.zeros((count, 2)))
+    sensed = Sensed(np.tile(q, (count, 1)), v, np.zeros((count, 3)), still, still, np.zeros((count, 2)), np.zeros((count, 5)))
     factor = (1 - observer.pole) * RATE_HZ * np.sqrt(2 / (1 + observer.pole))
     assert factor == pytest.approx(97.5, abs=0.05)
     expected = factor * np.sqrt((mass_matrix(nominal, q) * std) ** 2 @ np.ones(layout.nv))

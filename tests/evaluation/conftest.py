@@ -109,7 +109,7 @@ def write_walk(
     truth = load[:, None] * np.linspace(-1, 1, layout.nv)
     zeros = np.zeros
     sensed = Sensed(zeros((rows, layout.nq)), zeros((rows, layout.nv)), zeros((rows, 3)), zeros((rows, layout.nu)),
-                    zeros((rows, layout.nu)), np.stack([air, 1 - air], axis=1))  # fmt: skip
+                    zeros((rows, layout.nu)), np.stack([air, 1 - air], axis=1), zeros((rows, 5)))  # fmt: skip
     wrench = zeros((rows, 6))
     recording = Recording(sensed, Truth(truth, wrench, wrench, zeros((rows, 2))), ((0, rows),), RATE_HZ, {})
     write_recording(folder / "recording", recording, layout)

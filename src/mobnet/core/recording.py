@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from mobnet.core.joints import JointLayout
 
 FEET = ("left_foot", "right_foot")
+COMMAND = (("step_x", "m"), ("step_y", "m"), ("turn", "rad"), ("duration", "s"), ("foot_height", "m"))  # Table 2
 Column = tuple[str, str, str]  # name, unit, frame
 
 
@@ -25,6 +26,8 @@ class Sensed:
         tau_des: desired torque before the motor limits (T, nu) [N m], mean over the control ticks of the sample.
         tau_motor: torque the motors gave, after their limits (T, nu) [N m], mean over the control ticks.
         swing: 1 where the walking plan has the left, right foot in the air (T, 2).
+        command: step x, step y [m], turn [rad], duration [s] and foot height [m] of the step being made (T, 5), Table 2;
+            zero while the robot stands.
     """
 
     q: NDArray[Any]
@@ -33,6 +36,7 @@ class Sensed:
     tau_des: NDArray[Any]
     tau_motor: NDArray[Any]
     swing: NDArray[Any]
+    command: NDArray[Any]
 
     def __len__(self) -> int:
         """Return the number of samples."""
@@ -101,6 +105,7 @@ def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:
         "tau_des": [(f"tau_des.{j}", "N m", "joint") for j in actuated],
         "tau_motor": [(f"tau_motor.{j}", "N m", "joint") for j in actuated],
         "swing": [(f"swing.{foot}", "-", "plan") for foot in FEET],
+        "command": [(f"command.{name}", unit, "stance foot") for name, unit in COMMAND],
         "tau_ext": [
             (f"tau_ext.{j}", layout.unit(j), "world" if i < len(xyz) else "joint") for i, j in enumerate(layout.names)
         ],

@@ -178,7 +178,8 @@ def _write(
     at = _put(row, at, tau_motor, 1.0 / every)
     row[at] = s.swinging if s.side < 0 else 0
     row[at + 1] = s.swinging if s.side > 0 else 0
-    at = _put(row, at + 2, tau_ext, 1.0 / every)
+    at = _put(row, at + 2, s.command, 1.0 - s.standing)
+    at = _put(row, at, tau_ext, 1.0 / every)
     for k in range(2):
         at = _put(row, at, wrenches[k], 1.0 / every)
     for k in range(2):
