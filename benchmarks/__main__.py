@@ -12,7 +12,7 @@ import importlib
 import sys
 from pathlib import Path
 
-from mobnet.core.store import atomic_path
+from mobnet.core.files import atomic_path
 
 NAMES = ("collect_speed", "observer_speed", "train_speed", "step_latency")
 OUT = Path("results") / "bench.csv"

@@ -142,7 +142,7 @@ def _recording(layout: JointLayout, rng: np.random.Generator, samples: int, segm
     edges = np.linspace(0, samples, segments + 1).round().astype(int)
     spans = tuple((int(a), int(b)) for a, b in pairwise(edges))
     meta = {"scenario": "made_up", "level": "all_uncertainty", "seed": int(rng.integers(1 << 30))}
-    return Recording(sensed, truth, spans, RATE_HZ, meta)
+    return Recording(sensed, spans, RATE_HZ, meta, truth)
 
 
 def _sines(time: Array, count: int, rng: np.random.Generator, size: float) -> tuple[Array, Array]:

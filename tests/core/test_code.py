@@ -56,8 +56,8 @@ def test_an_import_inside_a_function_counts(package: Path) -> None:
 
 
 def test_packages_on_the_way_count() -> None:
-    names = [file.name for file in module_files("mobnet.core.store.write_json")]
-    assert names == ["__init__.py", "__init__.py", "store.py"]
+    names = [file.name for file in module_files("mobnet.core.files.write_json")]
+    assert names == ["__init__.py", "__init__.py", "files.py"]
 
 
 def test_notes_of_provenance_do_not_count() -> None:

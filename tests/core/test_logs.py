@@ -18,9 +18,9 @@ def fail(error: Exception) -> None:
 def test_expected_error_is_one_line_in_log_and_terminal(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "logs" / "a.log"
     with pytest.raises(SystemExit) as caught, job(path):
-        fail(DataError("a.npy: truncated"))
+        fail(DataError("a.parquet: truncated"))
     assert caught.value.code == 1
-    assert path.read_text().splitlines()[-1].endswith("ERROR a.npy: truncated")
+    assert path.read_text().splitlines()[-1].endswith("ERROR a.parquet: truncated")
     assert capsys.readouterr().err == path.read_text()
 
 

@@ -7,24 +7,26 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording, recording_columns, recording_width
 from mobnet.core.store import (
-    atomic_path,
+    GROUP_ROWS,
+    array_writer,
     read_array,
-    read_json,
     read_recording,
+    read_sensed,
     write_array,
-    write_json,
     write_recording,
-    write_text,
 )
 
 COLUMNS = [("a", "m", "world"), ("b", "rad", "joint")]
@@ -81,49 +83,64 @@ def test_every_column_has_one_name_unit_and_frame(layout: JointLayout) -> None:
     assert all(all(column) for column in columns)
 
 
-def test_truncated_array_is_named(array_stem: Path) -> None:
-    path = array_stem.with_suffix(".npy")
-    path.write_bytes(path.read_bytes()[:-12])
-    with pytest.raises(DataError, match=r"s1\.npy: truncated or damaged"):
+def foreign(path: Path, array: np.ndarray, names: str = "ab") -> None:
+    """Write a parquet file as somebody else's program would."""
+    pq.write_table(pa.table(dict(zip(names, array.T, strict=True))), path)
+
+
+@pytest.mark.parametrize("kept", [0, 3, 100, -12, -1])
+def test_truncated_array_is_named(array_stem: Path, kept: int) -> None:
+    path = array_stem.with_suffix(".parquet")
+    path.write_bytes(path.read_bytes()[:kept])
+    with pytest.raises(DataError, match=r"s1\.parquet: truncated or damaged \(.+\)$"):
         read_array(array_stem)
 
 
-@pytest.mark.parametrize("content", [b"", b"not an array"])
-def test_file_that_is_no_array_is_named(array_stem: Path, content: bytes) -> None:
-    array_stem.with_suffix(".npy").write_bytes(content)
-    with pytest.raises(DataError, match=r"s1\.npy: truncated or damaged"):
+def test_any_damaged_sample_is_noticed(tmp_path: Path) -> None:
+    array = np.random.default_rng(0).normal(size=(300, 2)).astype(np.float32)
+    write_array(tmp_path / "s1", array, COLUMNS, META)
+    path = tmp_path / "s1.parquet"
+    whole = path.read_bytes()
+    for place in range(100, 2200, 300):  # amid the numbers of either column
+        path.write_bytes(whole[:place] + bytes([whole[place] ^ 1]) + whole[place + 1 :])
+        with pytest.raises(DataError, match=r"s1\.parquet: truncated or damaged"):
+            read_array(tmp_path / "s1")
+
+
+def test_file_that_is_no_array_is_named(array_stem: Path) -> None:
+    array_stem.with_suffix(".parquet").write_bytes(b"not an array")
+    with pytest.raises(DataError, match=r"s1\.parquet: truncated or damaged"):
         read_array(array_stem)
 
 
-def test_shape_that_disagrees_with_its_description_is_named(array_stem: Path) -> None:
-    np.save(array_stem.with_suffix(".npy"), np.zeros((9, 2), dtype=np.float32))
+def test_array_that_disagrees_with_its_description_is_named(array_stem: Path) -> None:
+    foreign(array_stem.with_suffix(".parquet"), np.zeros((9, 2)))
     with pytest.raises(DataError, match=r"shape \(9, 2\), but s1\.json says \(10, 2\)"):
         read_array(array_stem)
+    foreign(array_stem.with_suffix(".parquet"), np.zeros((10, 2)), "ac")
+    with pytest.raises(DataError, match=r"s1\.parquet: column 'c', but s1\.json says 'b'"):
+        read_array(array_stem, ["a"])
 
 
-@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 1e300])
 def test_value_that_is_not_finite_is_refused_by_writer_and_reader(array_stem: Path, value: float) -> None:
-    array = np.zeros((10, 2), dtype=np.float32)
+    array = np.zeros((10, 2))
     array[7, 1] = value
-    with pytest.raises(DataError, match=r"column 'b', row 7: -?(nan|inf) \(accepted: finite numbers\)"):
-        write_array(array_stem.with_name("s2"), array, COLUMNS, META)
-    assert not array_stem.with_name("s2.npy").exists()
-    np.save(array_stem.with_suffix(".npy"), array)
-    with pytest.raises(DataError, match=r"s1\.npy: column 'b', row 7"):
-        read_array(array_stem)
+    before = array_stem.with_suffix(".parquet").read_bytes()
+    with pytest.raises(DataError, match=r"s1\.parquet: column 'b', row 7: -?(nan|inf) \(accepted: finite numbers\)"):
+        write_array(array_stem, array, COLUMNS, META)
+    assert array_stem.with_suffix(".parquet").read_bytes() == before
+    foreign(array_stem.with_suffix(".parquet"), array)
+    with pytest.raises(DataError, match=r"s1\.parquet: column 'b', row 7"):
+        read_array(array_stem, ["b"])
+    assert not read_array(array_stem, ["a"])[0].any()
 
 
-@pytest.mark.parametrize("ending", [".npy", ".json"])
+@pytest.mark.parametrize("ending", [".parquet", ".json"])
 def test_missing_file_is_named(array_stem: Path, ending: str) -> None:
     array_stem.with_suffix(ending).unlink()
     with pytest.raises(DataError, match=rf"s1\{ending}: file is missing"):
         read_array(array_stem)
-
-
-def test_json_that_is_damaged_is_named(tmp_path: Path) -> None:
-    (tmp_path / "a.json").write_text('{"rows": ')
-    with pytest.raises(DataError, match=r"a\.json: not JSON"):
-        read_json(tmp_path / "a.json")
 
 
 def test_missing_column_is_named(recording_stem: Path, layout: JointLayout) -> None:
@@ -131,7 +148,7 @@ def test_missing_column_is_named(recording_stem: Path, layout: JointLayout) -> N
     keep = [i for i, column in enumerate(meta["columns"]) if column["name"] != "tau_des.LL3"]
     columns = [tuple(meta["columns"][i].values()) for i in keep]
     write_array(recording_stem, array[:, keep], columns, META)
-    with pytest.raises(DataError, match=r"s1\.json: column 'tau_des\.LL3' is missing"):
+    with pytest.raises(DataError, match=r"s1\.parquet: column 'tau_des\.LL3' is missing; it holds \d+ columns: q"):
         read_recording(recording_stem, layout)
 
 
@@ -141,20 +158,121 @@ def test_array_that_does_not_fit_its_columns_is_refused(tmp_path: Path) -> None:
     assert not list(tmp_path.iterdir())
 
 
-def test_failed_write_keeps_the_old_file_and_leaves_nothing_else(tmp_path: Path) -> None:
-    path = tmp_path / "a.json"
-    write_json(path, {"a": 1})
-    with pytest.raises(ZeroDivisionError), atomic_path(path) as temporary:
-        temporary.write_text(f"half {1 / 0}")
-    assert read_json(path) == {"a": 1}
-    assert list(tmp_path.iterdir()) == [path]
+def pieces(array: np.ndarray, rng: np.random.Generator) -> list[np.ndarray]:
+    """Cut an array into pieces of random length, some of them empty."""
+    return np.split(array, np.sort(rng.integers(0, len(array), 7)))
 
 
-def test_writing_makes_folders_and_a_readable_file(tmp_path: Path) -> None:
-    path = tmp_path / "new" / "folder" / "a.txt"
-    write_text(path, "text")
-    assert path.read_text() == "text"
-    assert path.stat().st_mode & 0o444 == 0o444
+def stream(
+    stem: Path,
+    pieces: Iterable[np.ndarray],
+    after: Iterable[np.ndarray] = (),
+    segments: list[tuple[int, int]] | None = None,
+    closed: bool = True,
+) -> None:
+    """Append pieces, close, append what comes after that."""
+    with array_writer(stem, COLUMNS) as writer:
+        for piece in pieces:
+            writer.append(piece)
+        if closed:
+            writer.close(META, segments)
+        for piece in after:
+            writer.append(piece)
+
+
+def test_streamed_array_is_the_same_file_as_a_whole_one(tmp_path: Path) -> None:
+    rng = np.random.default_rng(3)
+    array = rng.normal(size=(2 * GROUP_ROWS + 17, 2)).astype(np.float32)
+    write_array(tmp_path / "whole", array, COLUMNS, META, [(0, 5), (5, len(array))])
+    stream(tmp_path / "streamed", pieces(array, rng), segments=[(0, 5), (5, len(array))])
+    for ending in (".parquet", ".json"):
+        one, two = (tmp_path.joinpath(name + ending).read_bytes() for name in ("whole", "streamed"))
+        assert one == two
+    np.testing.assert_array_equal(read_array(tmp_path / "streamed")[0], array)
+    assert pq.read_metadata(tmp_path / "streamed.parquet").num_row_groups == 3
+
+
+@pytest.mark.parametrize("rows", [0, 1, GROUP_ROWS - 1, GROUP_ROWS, GROUP_ROWS + 1])
+def test_any_number_of_rows_comes_back(tmp_path: Path, rows: int) -> None:
+    array = np.arange(rows, dtype=np.float32)[:, None] * np.float32([1, -2])
+    write_array(tmp_path / "s1", array, COLUMNS, META)
+    read, meta = read_array(tmp_path / "s1")
+    np.testing.assert_array_equal(read, array)
+    assert meta["rows"] == rows
+    assert read.flags.c_contiguous
+
+
+def test_value_that_is_not_finite_is_named_by_its_row_in_the_file(tmp_path: Path) -> None:
+    array = np.zeros((3 * 700, 2), dtype=np.float32)
+    array[1999, 0] = np.nan
+    with pytest.raises(DataError, match="column 'a', row 1999: nan"):
+        stream(tmp_path / "s1", np.split(array, 3))
+    assert not list(tmp_path.iterdir())
+
+
+def test_nothing_appears_when_the_block_does_not_end_well(array_stem: Path) -> None:
+    files = {path: path.read_bytes() for path in array_stem.parent.iterdir()}
+    row = np.zeros((1, 2))
+    with pytest.raises(ZeroDivisionError):
+        stream(array_stem, (row * (1 // (3 - i)) for i in range(9)))
+    with pytest.raises(DataError, match="must follow the last of its 1 rows"):
+        stream(array_stem, [row], closed=False)
+    with pytest.raises(DataError, match="must follow the last of its 3 rows"):
+        stream(array_stem, [row, row], [row])
+    assert {path: path.read_bytes() for path in array_stem.parent.iterdir()} == files
+
+
+def test_same_array_gives_the_same_bytes(array_stem: Path) -> None:
+    before = array_stem.with_suffix(".parquet").read_bytes()
+    write_array(array_stem, np.arange(20.0).reshape(10, 2), COLUMNS, META)
+    assert array_stem.with_suffix(".parquet").read_bytes() == before
+
+
+def test_wanted_columns_are_read_in_the_order_asked_for(recording_stem: Path) -> None:
+    array, meta = read_array(recording_stem)
+    names = [column["name"] for column in meta["columns"]]
+    picked = np.random.default_rng(0).permutation(len(names))[:9]
+    some, meta_again = read_array(recording_stem, [names[i] for i in picked])
+    np.testing.assert_array_equal(some, array[:, picked])
+    assert some.flags.c_contiguous
+    assert meta_again == meta
+    assert read_array(recording_stem, [])[0].shape == (len(array), 0)
+
+
+def test_only_wanted_columns_are_read(tmp_path: Path) -> None:
+    array = np.random.default_rng(0).normal(size=(300, 2))
+    write_array(tmp_path / "s1", array, COLUMNS, META)
+    path = tmp_path / "s1.parquet"
+    path.write_bytes(path.read_bytes()[:100] + bytes(50) + path.read_bytes()[150:])  # amid the first column
+    np.testing.assert_array_equal(read_array(tmp_path / "s1", ["b"])[0][:, 0], array[:, 1].astype(np.float32))
+    with pytest.raises(DataError, match="damaged"):
+        read_array(tmp_path / "s1", ["a"])
+
+
+def test_sensed_part_is_that_of_the_recording_and_needs_no_truth(recording_stem: Path, layout: JointLayout) -> None:
+    recording = read_recording(recording_stem, layout)
+    sensed_only = [(n, u, f) for field in list(recording_columns(layout).items())[:7] for n, u, f in field[1]]
+    assert not [name for name, _, _ in sensed_only if name.startswith(("tau_ext", "wrench", "contact"))]
+    array, meta = read_array(recording_stem, [name for name, _, _ in sensed_only])
+    write_array(recording_stem.with_name("log"), array, sensed_only, {"rate_hz": meta["rate_hz"]})
+    for stem in (recording_stem, recording_stem.with_name("log")):
+        log = read_sensed(stem, layout)
+        assert not hasattr(log, "truth")
+        assert (log.segments, log.rate_hz) == (recording.segments, recording.rate_hz)
+        for name, value in vars(recording.sensed).items():
+            np.testing.assert_array_equal(getattr(log.sensed, name), value, err_msg=name)
+    with pytest.raises(DataError, match=r"column 'tau_ext\.V1' is missing"):
+        read_recording(recording_stem.with_name("log"), layout)
+
+
+def test_parquet_alone_says_what_its_columns_are(recording_stem: Path, layout: JointLayout) -> None:
+    schema = pq.read_schema(recording_stem.with_suffix(".parquet"))
+    columns = [column for group in recording_columns(layout).values() for column in group]
+    described = [(f.name, f.metadata[b"unit"].decode(), f.metadata[b"frame"].decode()) for f in schema]
+    assert described == columns
+    assert {str(field.type) for field in schema} == {"float"}
+    frame = pd.read_parquet(recording_stem.with_suffix(".parquet"), columns=["tau_ext.LL3", "q.base_x"])
+    np.testing.assert_array_equal(frame.to_numpy(), read_array(recording_stem, ["tau_ext.LL3", "q.base_x"])[0])
 
 
 WRITER = """
@@ -162,7 +280,7 @@ import sys, numpy as np
 from pathlib import Path
 from mobnet.core.store import write_array
 for i in range(10**6):
-    write_array(Path(sys.argv[1]), np.full((20000, 2), float(i)), [("a", "m", "w"), ("b", "m", "w")], {"rate_hz": 1.0})
+    write_array(Path(sys.argv[1]), np.full((80000, 2), float(i)), [("a", "m", "w"), ("b", "m", "w")], {"rate_hz": 1.0})
     if i == 0:
         print("ready", flush=True)
 """

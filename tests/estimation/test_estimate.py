@@ -59,4 +59,4 @@ def test_a_recording_that_names_no_level_is_refused(
     path.write_text(path.read_text().replace('"level"', '"lever"'))
     with pytest.raises(DataError, match="key 'level' is missing"):
         estimate(full_config, "MOB", stem, {}, tmp_path / "out")
-    assert not (tmp_path / "out.npy").exists()
+    assert not (tmp_path / "out.parquet").exists()

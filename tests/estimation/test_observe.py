@@ -30,7 +30,7 @@ def recording(robot: RobotDescription, follow: Callable) -> Recording:
     sensed, tau_ext = follow(RATE_HZ, 0.199, np.zeros(robot.layout.nu))
     wrench = np.zeros((len(sensed), 6))
     truth = Truth(tau_ext, wrench, wrench, np.zeros((len(sensed), 2)))
-    return Recording(sensed, truth, ((0, 100), (100, 200)), RATE_HZ, META)
+    return Recording(sensed, ((0, 100), (100, 200)), RATE_HZ, META, truth)
 
 
 @pytest.fixture

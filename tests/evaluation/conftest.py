@@ -111,7 +111,7 @@ def write_walk(
     sensed = Sensed(zeros((rows, layout.nq)), zeros((rows, layout.nv)), zeros((rows, 3)), zeros((rows, layout.nu)),
                     zeros((rows, layout.nu)), np.stack([air, 1 - air], axis=1), zeros((rows, 5)))  # fmt: skip
     wrench = zeros((rows, 6))
-    recording = Recording(sensed, Truth(truth, wrench, wrench, zeros((rows, 2))), ((0, rows),), RATE_HZ, {})
+    recording = Recording(sensed, ((0, rows),), RATE_HZ, {}, Truth(truth, wrench, wrench, zeros((rows, 2))))
     write_recording(folder / "recording", recording, layout)
     lp = [(f"tau_ext_lp.{joint}", layout.unit(joint), "joint") for joint in layout.names]
     r = [(f"r.{joint}", layout.unit(joint), "joint") for joint in layout.names]

@@ -14,7 +14,7 @@ from mobnet.evaluation.manifest import damaged_files, file_hash, write_manifest
 
 @pytest.fixture
 def files(tmp_path: Path) -> list[Path]:
-    paths = [tmp_path / "b.npy", tmp_path / "a.csv"]
+    paths = [tmp_path / "b.parquet", tmp_path / "a.csv"]
     for path in paths:
         path.write_bytes(path.name.encode() * 1000)
     write_manifest(paths, tmp_path / "MANIFEST.sha256")
@@ -50,6 +50,6 @@ def test_hash_is_the_reference_sha256(files: list[Path]) -> None:
 def test_missing_manifest_and_missing_result_are_named(tmp_path: Path) -> None:
     with pytest.raises(DataError, match=r"MANIFEST\.sha256: file is missing; \./reproduce all writes it"):
         damaged_files(tmp_path / "MANIFEST.sha256")
-    with pytest.raises(DataError, match=r"none\.npy: file is missing"):
-        write_manifest([tmp_path / "none.npy"], tmp_path / "MANIFEST.sha256")
+    with pytest.raises(DataError, match=r"none\.parquet: file is missing"):
+        write_manifest([tmp_path / "none.parquet"], tmp_path / "MANIFEST.sha256")
     assert not (tmp_path / "MANIFEST.sha256").exists()

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from mobnet.core.errors import DataError
-from mobnet.core.store import read_json
+from mobnet.core.files import read_json
 from mobnet.evaluation import snapshot as module
 from mobnet.evaluation.snapshot import HEADLINE, compare_snapshot, main, with_headline, write_snapshot
 

@@ -13,7 +13,7 @@ import pytest
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
-from mobnet.core.store import read_array
+from mobnet.core.store import read_array, write_array
 from mobnet.learning.dataset import LimbData, load_limb_data, read_target, scale_of
 
 Write = Callable[[Path, Recording], tuple[Path, Path]]
@@ -71,9 +71,11 @@ def test_an_unknown_target_is_refused(stems: list[tuple[Path, Path]]) -> None:
 
 
 def test_a_missing_column_is_named(stems: list[tuple[Path, Path]], load: Callable[..., LimbData]) -> None:
-    path = stems[1][1].with_suffix(".json")
-    path.write_text(path.read_text().replace('"tau_ext_lp.LL4"', '"other.LL4"'))
-    with pytest.raises(DataError, match=r"column 'tau_ext_lp.LL4' is missing"):
+    array, meta = read_array(stems[1][1])
+    columns = [tuple(column.values()) for column in meta["columns"]]
+    others = [(name.replace("tau_ext_lp.LL4", "other.LL4"), unit, frame) for name, unit, frame in columns]
+    write_array(stems[1][1], array, others, meta)
+    with pytest.raises(DataError, match=r"column 'tau_ext_lp\.LL4' is missing"):
         load("external")
 
 

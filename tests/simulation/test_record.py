@@ -104,7 +104,7 @@ def test_pushed_robot_falls_and_walks_again(simulate: Callable) -> None:
 def test_same_seed_gives_the_same_bytes_and_another_does_not(config: dict[str, Any], tmp_path: Path) -> None:
     for name, seed in (("a", 1), ("b", 1), ("c", 2)):
         collect(config, "random_walk", "all_uncertainty", seed, 0.5, tmp_path / name)
-    a, b, c = ((tmp_path / f"{name}.npy").read_bytes() for name in "abc")
+    a, b, c = ((tmp_path / f"{name}.parquet").read_bytes() for name in "abc")
     assert a == b
     assert a != c
 

@@ -69,7 +69,7 @@ def test_clean_removes_only_what_git_ignores(
 ) -> None:
     subprocess.run(["git", "init", "-q", tmp_path], check=True)
     (tmp_path / ".gitignore").write_text("results/\n/tables/*\n!/tables/README.md\n")
-    for name in ("results/a.npy", "tables/t.csv", "tables/README.md", "src/kept.py"):
+    for name in ("results/a.parquet", "tables/t.csv", "tables/README.md", "src/kept.py"):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text("x")
     monkeypatch.setattr(reproduce, "ROOT", tmp_path)

@@ -102,13 +102,13 @@ def test_damaged_recording_stops_with_one_line_and_nothing_half_written(
     folder = make_project("damaged", unbroken)
     place = Path("results") / "smoke" / "recordings" / "forward_walk" / "ideal"
     (folder / place).mkdir(parents=True)
-    for ending in ("json", "npy"):
+    for ending in ("json", "parquet"):
         content = (unbroken / place / f"s1.{ending}").read_bytes()
-        (folder / place / f"s1.{ending}").write_bytes(content[: len(content) // 2] if ending == "npy" else content)
-    target = "results/smoke/residuals/forward_walk/ideal/s1.npy"
+        (folder / place / f"s1.{ending}").write_bytes(content[: len(content) // 2] if ending == "parquet" else content)
+    target = "results/smoke/residuals/forward_walk/ideal/s1.parquet"
     done = snakemake(*SMOKE, "--rerun-triggers", "mtime", "--", target, folder=folder)
     assert done.returncode != 0
-    assert (done.stdout + done.stderr).count(f"{place}/s1.npy: truncated or damaged") == 1
+    assert (done.stdout + done.stderr).count(f"{place}/s1.parquet: truncated or damaged") == 1
     assert not (folder / target).exists()
 
 

@@ -26,8 +26,8 @@ class Sensed:
         tau_des: desired torque before the motor limits (T, nu) [N m], mean over the control ticks of the sample.
         tau_motor: torque the motors gave, after their limits (T, nu) [N m], mean over the control ticks.
         swing: 1 where the walking plan has the left, right foot in the air (T, 2).
-        command: step x, step y [m], turn [rad], duration [s] and foot height [m] of the step being made (T, 5), Table 2;
-            zero while the robot stands.
+        command: step x, step y [m], turn [rad], duration [s] and foot height [m] of the step being made (T, 5),
+            Table 2; zero while the robot stands.
     """
 
     q: NDArray[Any]
@@ -70,19 +70,17 @@ class Truth:
 
 
 @dataclass(frozen=True)
-class Recording:
-    """One stored run: samples at a fixed rate, cut into segments that are contiguous in time.
+class SensedRecording:
+    """One stored run as the robot saw it: samples at a fixed rate, cut into segments that are contiguous in time.
 
     Attributes:
         sensed: what a robot has.
-        truth: what only the plant knows.
         segments: start and end row of each contiguous stretch; a fall ends one and the next starts anew.
         rate_hz: samples per second [Hz].
         meta: scenario, level, seed, provenance and what else the writer noted.
     """
 
     sensed: Sensed
-    truth: Truth
     segments: tuple[tuple[int, int], ...]
     rate_hz: float
     meta: Mapping[str, Any]
@@ -90,6 +88,17 @@ class Recording:
     def spans(self) -> list[slice]:
         """Return the segments as slices."""
         return [slice(start, end) for start, end in self.segments]
+
+
+@dataclass(frozen=True)
+class Recording(SensedRecording):
+    """One stored run with what only the plant knows.
+
+    Attributes:
+        truth: what only the plant knows.
+    """
+
+    truth: Truth
 
 
 def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:

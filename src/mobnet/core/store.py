@@ -1,69 +1,120 @@
-"""The only reader and writer of result files: atomic, described, checked.
+"""The only reader and writer of arrays and recordings: described, checked, streamed.
 
-An array is two files: `NAME.npy`, float32, one row a sample, and `NAME.json`, its columns (name, unit, frame), row
-count, segments and provenance. The JSON is written last, so a pair with a JSON is whole.
+An array is two files: `NAME.parquet`, float32, one row a sample, each column with its unit and frame, and `NAME.json`,
+its columns, row count, segments and provenance. The JSON is written last, so a pair with a JSON is whole.
 """
 
 from __future__ import annotations
 
 import contextlib
-import json
-import os
-import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from mobnet.core.errors import DataError
+from mobnet.core.files import atomic_path, read_json, write_json
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Column, Recording, Sensed, Truth, recording_columns
+from mobnet.core.recording import Column, Recording, Sensed, SensedRecording, Truth, recording_columns
 
-CHECKED_ROWS = 1 << 16  # rows looked at together when searching for NaN: bounds memory on hour-long files
+ARRAY, NOTE = ".parquet", ".json"
+GROUP_ROWS = 60_000  # rows stored together, a minute at 1 kHz: what a writer or a reader holds besides its result
+BLOCK_ROWS = 256  # rows turned into columns, or back, together: they fit the processor's cache
+# docs/notes/0010-parquet.md has the measurements behind these
+CODING = {
+    "compression": "lz4",
+    "use_byte_stream_split": True,
+    "use_dictionary": False,
+    "write_statistics": False,
+    "write_page_checksum": True,
+}
+
+
+class ArrayWriter:
+    """Rows on their way into an array's file; `array_writer` makes one."""
+
+    def __init__(self, stem: Path, columns: Sequence[Column], file: pq.ParquetWriter) -> None:
+        """Write into an open file; columns (C,) are its own."""
+        self.rows = 0
+        self._stem, self._columns, self._file = stem, columns, file
+        self._names = [name for name, _, _ in columns]
+        self._note: dict[str, Any] = {}
+        self._group = np.empty((len(columns), GROUP_ROWS), dtype=np.float32)
+
+    def append(self, rows: NDArray[Any]) -> None:
+        """Add samples (n, C), stored as float32; n is any number.
+
+        Raises:
+            DataError: the shape does not fit the columns, or a value is not finite.
+        """
+        if rows.ndim != 2 or rows.shape[1] != len(self._columns):
+            raise DataError(f"{self._stem}: array of shape {rows.shape}, but {len(self._columns)} columns are named")
+        done = 0
+        while done < len(rows):
+            filled = self.rows % GROUP_ROWS
+            with np.errstate(over="ignore"):  # what float32 cannot hold becomes infinite and is refused
+                block = rows[done : done + min(BLOCK_ROWS, GROUP_ROWS - filled)].astype(np.float32, copy=False)
+            check_finite(f"{self._stem}{ARRAY}", block, self._names, self.rows)
+            self._group[:, filled : filled + len(block)] = block.T
+            done += len(block)
+            self.rows += len(block)
+            if self.rows % GROUP_ROWS == 0:
+                self._store(GROUP_ROWS)
+
+    def close(self, meta: Mapping[str, Any], segments: Sequence[tuple[int, int]] | None = None) -> None:
+        """Describe the rows, which are all there now; the files appear when the writer's block ends.
+
+        Args:
+            meta: what else to note; must hold `rate_hz` [Hz].
+            segments: contiguous stretches (start, end) of rows; one stretch when not given.
+        """
+        described = [dict(zip(("name", "unit", "frame"), column, strict=True)) for column in self._columns]
+        spans = [list(span) for span in (segments or [(0, self.rows)])]
+        self._note = {"rows": self.rows, "segments": spans, **meta, "columns": described}
+
+    def finish(self) -> dict[str, Any]:
+        """Store the rows still in hand and return the description, as `array_writer` does at its end.
+
+        Raises:
+            DataError: rows were never described, or more came after that.
+        """
+        if self._note.get("rows") != self.rows:
+            raise DataError(f"{self._stem}{ARRAY}: close(meta, segments) must follow the last of its {self.rows} rows")
+        self._store(self.rows % GROUP_ROWS)
+        return self._note
+
+    def _store(self, count: int) -> None:
+        """Store the first `count` rows of the group in hand as a row group."""
+        if count:
+            columns = [pa.array(column[:count]) for column in self._group]
+            self._file.write_batch(pa.RecordBatch.from_arrays(columns, schema=self._file.schema), GROUP_ROWS)
 
 
 @contextlib.contextmanager
-def atomic_path(path: Path) -> Iterator[Path]:
-    """Yield a temporary path beside `path`; on success it is synced to disk and takes its place, else it goes."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=path.suffix, dir=path.parent)
-    os.close(handle)
-    temporary = Path(name)
-    try:
-        yield temporary
-        with temporary.open("rb+") as file:
-            os.fsync(file.fileno())
-        temporary.chmod(0o644)
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
+def array_writer(stem: Path, columns: Sequence[Column]) -> Iterator[ArrayWriter]:
+    """Write `stem.parquet` and then `stem.json` piece by piece, in the memory of a minute of samples.
 
+    Both appear when the block ends, if `close` was called and nothing was raised; else what was there before stays.
 
-def write_text(path: Path, text: str) -> None:
-    """Write a text file atomically."""
-    with atomic_path(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
-
-
-def write_json(path: Path, value: Mapping[str, Any]) -> None:
-    """Write a JSON file atomically, keys in the order given."""
-    write_text(path, json.dumps(value, indent=1) + "\n")
-
-
-def read_json(path: Path) -> dict[str, Any]:
-    """Read a JSON object.
+    Args:
+        stem: path without a suffix.
+        columns: name, unit and frame of each column, (C,).
 
     Raises:
-        DataError: the file is missing or is not JSON.
+        DataError: the block ended without `close`.
     """
-    try:
-        return json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise DataError(f"{path}: file is missing") from None
-    except json.JSONDecodeError as error:
-        raise DataError(f"{path}: not JSON, {error}") from None
+    described = [pa.field(n, pa.float32(), nullable=False, metadata={"unit": u, "frame": f}) for n, u, f in columns]
+    with atomic_path(stem.with_suffix(ARRAY)) as temporary:
+        with pq.ParquetWriter(temporary, pa.schema(described), **CODING) as file:
+            writer = ArrayWriter(stem, columns, file)
+            yield writer
+            note = writer.finish()
+        stem.with_suffix(NOTE).unlink(missing_ok=True)
+    write_json(stem.with_suffix(NOTE), note)
 
 
 def write_array(
@@ -73,7 +124,7 @@ def write_array(
     meta: Mapping[str, Any],
     segments: Sequence[tuple[int, int]] | None = None,
 ) -> None:
-    """Write `stem.npy` (float32) and then `stem.json`.
+    """Write `stem.parquet` (float32) and then `stem.json`.
 
     Args:
         stem: path without a suffix.
@@ -85,48 +136,81 @@ def write_array(
     Raises:
         DataError: the shape does not fit the columns, or a value is not finite.
     """
-    if array.ndim != 2 or array.shape[1] != len(columns):
-        raise DataError(f"{stem}: array of shape {array.shape}, but {len(columns)} columns are named")
-    check_finite(f"{stem}.npy", array, columns)
-    stem.with_suffix(".json").unlink(missing_ok=True)
-    with atomic_path(stem.with_suffix(".npy")) as temporary:
-        np.save(temporary, np.ascontiguousarray(array, dtype=np.float32))
-    described = [dict(zip(("name", "unit", "frame"), column, strict=True)) for column in columns]
-    spans = [list(span) for span in (segments or [(0, len(array))])]
-    write_json(stem.with_suffix(".json"), {"rows": len(array), "segments": spans, **meta, "columns": described})
+    with array_writer(stem, columns) as writer:
+        writer.append(array)
+        writer.close(meta, segments)
 
 
-def read_array(stem: Path) -> tuple[NDArray[np.float32], dict[str, Any]]:
-    """Read an array written by `write_array`, memory-mapped, and its description.
+def read_array(stem: Path, names: Sequence[str] | None = None) -> tuple[NDArray[np.float32], dict[str, Any]]:
+    """Read an array written by `write_array` and its description.
+
+    Args:
+        stem: path without a suffix.
+        names: columns wanted, in this order, (C,); only these are read, all when not given.
+
+    Returns:
+        Samples (T, C), contiguous, and the description of the whole file.
 
     Raises:
-        DataError: a file is missing, truncated, holds NaN, or the two do not agree.
+        DataError: a file is missing, truncated, holds NaN, lacks a column, or the two do not agree.
     """
-    meta = read_json(stem.with_suffix(".json"))
-    path = stem.with_suffix(".npy")
+    meta = read_json(stem.with_suffix(NOTE))
+    path = stem.with_suffix(ARRAY)
     try:
-        array = np.load(path, mmap_mode="r", allow_pickle=False)
+        with pq.ParquetFile(path, page_checksum_verification=True) as file:
+            wanted = _agreed_names(stem, file, meta, names)
+            return _read_columns(path, file, wanted), meta
     except FileNotFoundError:
         raise DataError(f"{path}: file is missing") from None
-    except (ValueError, EOFError) as error:
-        raise DataError(f"{path}: truncated or damaged ({error})") from None
-    expected = (meta["rows"], len(meta["columns"]))
-    if array.shape != expected:
-        raise DataError(f"{path}: shape {array.shape}, but {stem.name}.json says {expected}")
-    check_finite(str(path), array, [(c["name"], c["unit"], c["frame"]) for c in meta["columns"]])
-    return array, meta
+    except (pa.ArrowException, OSError) as error:
+        raise DataError(f"{path}: truncated or damaged ({' '.join(str(error).split())})") from None
 
 
-def check_finite(name: str, array: NDArray[Any], columns: Sequence[Column]) -> None:
-    """Raise a DataError that names row and column if an array (T, C) holds NaN or infinity."""
-    for start in range(0, len(array), CHECKED_ROWS):
-        bad = np.argwhere(~np.isfinite(array[start : start + CHECKED_ROWS]))
-        if len(bad):
-            row, column = bad[0]
-            value = array[start + row, column]
+def _agreed_names(
+    stem: Path, file: pq.ParquetFile, meta: Mapping[str, Any], names: Sequence[str] | None
+) -> Sequence[str]:
+    """Return the columns to read, after checking that the file holds them and is what its description says."""
+    held, noted = file.schema_arrow.names, [column["name"] for column in meta["columns"]]
+    found, expected = (file.metadata.num_rows, len(held)), (meta["rows"], len(noted))
+    if found != expected:
+        raise DataError(f"{stem}{ARRAY}: shape {found}, but {stem.name}{NOTE} says {expected}")
+    for there, said in zip(held, noted, strict=True):
+        if there != said:
+            raise DataError(f"{stem}{ARRAY}: column {there!r}, but {stem.name}{NOTE} says {said!r}")
+    for name in names or ():
+        if name not in held:
             raise DataError(
-                f"{name}: column {columns[column][0]!r}, row {start + row}: {value} (accepted: finite numbers)"
+                f"{stem}{ARRAY}: column {name!r} is missing; it holds {len(held)} columns: {', '.join(held[:3])}, ..."
             )
+    return held if names is None else names
+
+
+def _read_columns(path: Path, file: pq.ParquetFile, names: Sequence[str]) -> NDArray[np.float32]:
+    """Return columns of an open file, (T, C)."""
+    array = np.empty((file.metadata.num_rows, len(names)), dtype=np.float32)
+    start = 0
+    for group in range(file.num_row_groups):
+        table = file.read_row_group(group, columns=list(names), use_threads=False)
+        columns = np.empty((len(names), table.num_rows), dtype=np.float32)
+        with np.errstate(over="ignore"):  # a foreign file may hold more than float32 can; infinite is refused below
+            for column, name in zip(columns, names, strict=True):
+                column[:] = table.column(name)
+        rows = array[start : start + table.num_rows]
+        for first in range(0, len(rows), BLOCK_ROWS):
+            rows[first : first + BLOCK_ROWS] = columns[:, first : first + BLOCK_ROWS].T
+        check_finite(str(path), rows, names, start)
+        start += len(rows)
+    return array
+
+
+def check_finite(name: str, rows: NDArray[Any], names: Sequence[str], first: int = 0) -> None:
+    """Raise a DataError that names row and column if samples (n, C), of which `first` is the first, are not finite."""
+    finite = np.isfinite(rows)
+    if not finite.all():
+        row, column = np.argwhere(~finite)[0]
+        raise DataError(
+            f"{name}: column {names[column]!r}, row {first + row}: {rows[row, column]} (accepted: finite numbers)"
+        )
 
 
 def write_recording(stem: Path, recording: Recording, layout: JointLayout) -> None:
@@ -139,32 +223,39 @@ def write_recording(stem: Path, recording: Recording, layout: JointLayout) -> No
     write_array(stem, np.concatenate(parts, axis=1), flat, meta, recording.segments)
 
 
-def read_recording(stem: Path, layout: JointLayout) -> Recording:
-    """Read a recording; arrays are float32 views of the memory-mapped file.
+def read_sensed(stem: Path, layout: JointLayout) -> SensedRecording:
+    """Read what the robot sensed, float32, and leave the truth on disk: all that an estimator gets.
 
     Columns are found by name, so a robot's log may hold others too and in any order.
 
     Raises:
         DataError: a file is missing or damaged, or a column is missing.
     """
-    array, meta = read_array(stem)
-    where = {column["name"]: i for i, column in enumerate(meta["columns"])}
-    values: dict[str, NDArray[Any]] = {}
-    for field, columns in recording_columns(layout).items():
-        missing = [name for name, _, _ in columns if name not in where]
-        if missing:
-            raise DataError(
-                f"{stem}.json: column {missing[0]!r} is missing; it holds {len(where)} columns: "
-                f"{', '.join(list(where)[:3])}, ..."
-            )
-        values[field] = _select(array, [where[name] for name, _, _ in columns])
-    sensed = {name: values[name] for name in Sensed.__dataclass_fields__}
-    truth = {name: values[name] for name in Truth.__dataclass_fields__}
-    segments = tuple((int(start), int(end)) for start, end in meta["segments"])
-    return Recording(Sensed(**sensed), Truth(**truth), segments, float(meta["rate_hz"]), meta)
+    values, meta = _read_fields(stem, layout, list(Sensed.__dataclass_fields__))
+    return SensedRecording(Sensed(**values), *_spans_and_rate(meta), meta)
 
 
-def _select(array: NDArray[Any], columns: list[int]) -> NDArray[Any]:
-    """Return columns of an array, as a view where they are contiguous."""
-    first, last = columns[0], columns[-1]
-    return array[:, first : last + 1] if columns == list(range(first, last + 1)) else array[:, columns]
+def read_recording(stem: Path, layout: JointLayout) -> Recording:
+    """Read a recording, sensed and truth, float32; columns are found by name.
+
+    Raises:
+        DataError: a file is missing or damaged, or a column is missing.
+    """
+    values, meta = _read_fields(stem, layout, [*Sensed.__dataclass_fields__, *Truth.__dataclass_fields__])
+    sensed, truth = ({name: values[name] for name in part.__dataclass_fields__} for part in (Sensed, Truth))
+    return Recording(Sensed(**sensed), *_spans_and_rate(meta), meta, Truth(**truth))
+
+
+def _read_fields(
+    stem: Path, layout: JointLayout, fields: Sequence[str]
+) -> tuple[dict[str, NDArray[np.float32]], dict[str, Any]]:
+    """Return fields of a recording, each (T, C) and a view of one array, and the file's description."""
+    columns = recording_columns(layout)
+    array, meta = read_array(stem, [name for field in fields for name, _, _ in columns[field]])
+    ends = np.cumsum([len(columns[field]) for field in fields])
+    return dict(zip(fields, np.split(array, ends[:-1], axis=1), strict=True)), meta
+
+
+def _spans_and_rate(meta: Mapping[str, Any]) -> tuple[tuple[tuple[int, int], ...], float]:
+    """Return segments and rate [Hz] of a file's description."""
+    return tuple((int(start), int(end)) for start, end in meta["segments"]), float(meta["rate_hz"])

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from mobnet.core.config import load_layout
 from mobnet.core.estimator import Estimate, Estimator
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Column, Recording, recording_columns
-from mobnet.core.store import read_recording, write_array
+from mobnet.core.recording import Column, SensedRecording, recording_columns
+from mobnet.core.store import read_sensed, write_array
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.observe import CARRIED, level_of
 
@@ -41,7 +41,7 @@ def estimate(
         DataError: the recording or a network is damaged.
     """
     layout = load_layout(Path(config["robot"]))
-    recording = read_recording(recording_stem, layout)
+    recording = read_sensed(recording_stem, layout)
     level = level_of(recording, recording_stem)
     estimator = build_estimator(config, method, network_dirs, level, recording.rate_hz)
     array, columns = table_of(run_segments(estimator, recording), estimator.joints, layout)
@@ -55,7 +55,7 @@ def estimate(
     log.info("%s: %s of %d samples, %d joints", out_stem, method, len(array), len(estimator.joints))
 
 
-def run_segments(estimator: Estimator, recording: Recording) -> Estimate:
+def run_segments(estimator: Estimator, recording: SensedRecording) -> Estimate:
     """Return the estimate (T, n) [N, N m] of all segments, each from a fresh state; zero outside of segments."""
     shape = (len(recording.sensed), len(estimator.joints))
     tau, std, has_std = np.zeros(shape), np.zeros(shape), False

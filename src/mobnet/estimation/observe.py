@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Column, Recording, recording_columns
+from mobnet.core.recording import Column, Recording, SensedRecording, recording_columns
 from mobnet.core.store import read_recording, write_array
 from mobnet.estimation.observer import MomentumObserver, low_pass
 from mobnet.robot.description import RobotDescription, load_robot
@@ -64,7 +64,7 @@ def observer_of(config: Mapping[str, Any], robot: RobotDescription, level: str, 
     return MomentumObserver(nominal, config["observer"]["gain_hz"], rate_hz)
 
 
-def level_of(recording: Recording, stem: Path) -> str:
+def level_of(recording: SensedRecording, stem: Path) -> str:
     """Return the uncertainty level a recording was made at.
 
     Raises:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.config import read_yaml
 from mobnet.core.errors import ConfigError, not_accepted
-from mobnet.core.store import write_text
+from mobnet.core.files import write_text
 from mobnet.evaluation.intervals import Summary, first, summarise
 from mobnet.evaluation.markup import markdown_table, number, span, tex_escape, tex_table
 from mobnet.evaluation.rows import Score, read_rows, write_rows

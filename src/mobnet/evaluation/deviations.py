@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from mobnet.core.errors import DataError
-from mobnet.core.store import write_text
+from mobnet.core.files import write_text
 from mobnet.evaluation.markup import tex_escape, tex_table
 
 WIDTHS = (0.13, 0.25, 0.24, 0.30)  # shares of the text width, one a column

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from mobnet.core.store import atomic_path
+from mobnet.core.files import atomic_path
 
 # Okabe and Ito's colours, told apart by colour-blind readers; shades differ in print without colour too.
 COLOURS = {"truth": "black", "swing": "#009E73", "MOB": "#0072B2", "MOB-Net": "#D55E00", "FTS-e2e": "#CC79A7"}

@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 
 from mobnet.core.config import load_layout, read_yaml
 from mobnet.core.errors import ConfigError, DataError, not_accepted
+from mobnet.core.files import write_text
 from mobnet.core.recording import FEET
-from mobnet.core.store import read_array, write_text
+from mobnet.core.store import read_array
 from mobnet.evaluation.figures import Panel, curve_rows, draw_gait_cycle, save_figure
 from mobnet.evaluation.metrics import Spans
 from mobnet.evaluation.published import read_published
 from mobnet.evaluation.rows import csv_text
-from mobnet.evaluation.scores import read_pair, take
+from mobnet.evaluation.scores import read_pair
 
 log = logging.getLogger(__name__)
 
@@ -60,11 +61,11 @@ def read_panel(config: Mapping[str, Any], entry: Mapping[str, Any], label: str) 
     if joint not in pair.joints:
         raise ConfigError(f"{entry['estimate']}.json: " + not_accepted("joint", joint, pair.joints))
     stem = Path(entry["recording"])
-    recording, recorded = read_array(stem)
-    air = take(recording, recorded, stem, SWING, [foot_of(Path(config["robot"]), joint)])[:, 0] > AIR
+    swing, _ = read_array(stem, [SWING + foot_of(Path(config["robot"]), joint)])
+    air = swing[:, 0] > AIR
     rows = gait_cycle(air, pair.spans, round(start_s * pair.rate_hz))
     if rows is None:
-        raise DataError(f"{stem}.npy: no whole gait cycle after {start_s} s; it lasts {len(air) / pair.rate_hz} s")
+        raise DataError(f"{stem}.parquet: no whole gait cycle after {start_s} s; it lasts {len(air) / pair.rate_hz} s")
     column = pair.joints.index(joint)
     time = np.arange(rows.stop - rows.start) / pair.rate_hz
     title = f"{entry['method']}, {label[:1].lower()}{label[1:]}"

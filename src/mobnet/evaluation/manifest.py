@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from mobnet.core.errors import DataError
-from mobnet.core.store import write_text
+from mobnet.core.files import write_text
 
 BETWEEN = "  "  # sha256sum's text between hash and name
 

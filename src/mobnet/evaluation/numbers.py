@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from mobnet.core.store import write_text
+from mobnet.core.files import write_text
 from mobnet.evaluation.claims import Verdict
 from mobnet.evaluation.markup import number, tex_escape
 from mobnet.evaluation.rows import Cell, read_rows

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from mobnet.core.errors import DataError, MobnetError
-from mobnet.core.store import atomic_path, write_json
+from mobnet.core.files import atomic_path, write_json
 
 log = logging.getLogger(__name__)
 

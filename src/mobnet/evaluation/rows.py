@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, TypeVar, get_type_hints
 
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.core.store import write_text
+from mobnet.core.files import write_text
 
 Row = TypeVar("Row")
 

@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from mobnet.core.config import load_layout
 from mobnet.core.errors import DataError
+from mobnet.core.files import read_json
 from mobnet.core.joints import JointLayout
-from mobnet.core.store import read_array
+from mobnet.core.store import NOTE, read_array
 from mobnet.evaluation.metrics import METRICS, Spans
 from mobnet.evaluation.rows import Score, write_rows
 
@@ -108,39 +109,20 @@ def read_pair(estimate_stem: Path, residual_stem: Path, layout: JointLayout) -> 
     Raises:
         DataError: a file is missing or damaged, a column is missing, or rows or segments differ.
     """
-    estimate, meta = read_array(estimate_stem)
-    residual, residual_meta = read_array(residual_stem)
+    meta, residual_meta = (read_json(stem.with_suffix(NOTE)) for stem in (estimate_stem, residual_stem))
     for key in ("rows", "segments", "rate_hz"):
         if meta[key] != residual_meta[key]:
             raise DataError(
                 f"{estimate_stem}.json: {key} is {meta[key]}, but {residual_meta[key]} in {residual_stem}.json"
             )
-    where = column_index(meta)
-    joints = tuple(joint for joint in layout.names if ESTIMATE + joint in where)
+    held = [column["name"] for column in meta["columns"]]
+    joints = tuple(joint for joint in layout.names if ESTIMATE + joint in held)
     if not joints:
-        raise DataError(f"{estimate_stem}.json: no column {ESTIMATE}<joint>; it holds {', '.join(where)}")
+        raise DataError(f"{estimate_stem}.json: no column {ESTIMATE}<joint>; it holds {', '.join(held)}")
     return Pair(
         joints,
-        take(estimate, meta, estimate_stem, ESTIMATE, joints),
-        take(residual, residual_meta, residual_stem, TRUTH, joints),
+        read_array(estimate_stem, [ESTIMATE + joint for joint in joints])[0],
+        read_array(residual_stem, [TRUTH + joint for joint in joints])[0],
         tuple((int(start), int(end)) for start, end in meta["segments"]),
         float(meta["rate_hz"]),
     )
-
-
-def column_index(meta: Mapping[str, Any]) -> dict[str, int]:
-    """Return column name -> index of a stored array's description."""
-    return {column["name"]: i for i, column in enumerate(meta["columns"])}
-
-
-def take(array: NDArray[Any], meta: Mapping[str, Any], stem: Path, prefix: str, joints: Sequence[str]) -> NDArray[Any]:
-    """Return the columns `prefix` + joint of a stored array, (T, len(joints)), torques in [N m].
-
-    Raises:
-        DataError: a column is missing.
-    """
-    where = column_index(meta)
-    for joint in joints:
-        if prefix + joint not in where:
-            raise DataError(f"{stem}.json: column {prefix + joint!r} is missing; it holds {len(where)} columns")
-    return array[:, [where[prefix + joint] for joint in joints]]

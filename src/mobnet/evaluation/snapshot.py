@@ -16,8 +16,8 @@ from typing import Any
 
 from mobnet.core.config import load_config
 from mobnet.core.errors import DataError, MobnetError
+from mobnet.core.files import atomic_path, write_json, write_text
 from mobnet.core.provenance import provenance
-from mobnet.core.store import atomic_path, write_json, write_text
 from mobnet.evaluation.manifest import damaged_files
 
 log = logging.getLogger(__name__)

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from mobnet.core.store import write_text
+from mobnet.core.files import write_text
 from mobnet.evaluation.intervals import summarise
 from mobnet.evaluation.markup import GAP, RULE, Line, markdown_table, number, span, tex_escape, tex_table
 from mobnet.evaluation.published import published_value, read_published

@@ -17,7 +17,7 @@ from safetensors import SafetensorError, safe_open
 from safetensors.torch import save_file
 from torch import Tensor, nn
 
-from mobnet.core.store import atomic_path
+from mobnet.core.files import atomic_path
 
 CHECKPOINT = "checkpoint.safetensors"
 Row = Mapping[str, float]  # one epoch's line of metrics.csv

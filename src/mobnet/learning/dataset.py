@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.joints import JointLayout
-from mobnet.core.store import read_array, read_recording
+from mobnet.core.store import read_array, read_sensed
 from mobnet.learning.features import LimbInputs, limb_inputs
 from mobnet.learning.streams import Span
 
@@ -104,11 +104,11 @@ def _load_one(
     residual_stem: Path,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], tuple[Span, ...], float]:
     """Return inputs, targets, segments and rate of one recording."""
-    recording = read_recording(recording_stem, layout)
+    recording = read_sensed(recording_stem, layout)
     torque = read_target(residual_stem, joints, target)
     if len(torque) != len(recording.sensed):
         raise DataError(
-            f"{residual_stem}.npy: {len(torque)} rows, but its recording {recording_stem}.npy has "
+            f"{residual_stem}.parquet: {len(torque)} rows, but its recording {recording_stem}.parquet has "
             f"{len(recording.sensed)}"
         )
     return inputs(recording.sensed), torque, recording.segments, recording.rate_hz
@@ -123,15 +123,11 @@ def read_target(residual_stem: Path, joints: Sequence[str], target: str) -> NDAr
     """
     if target not in TARGETS:
         raise ConfigError(not_accepted("target", target, TARGETS))
-    array, meta = read_array(residual_stem)
-    where = {column["name"]: i for i, column in enumerate(meta["columns"])}
-    wanted = {signal: [f"{signal}.{joint}" for joint in joints] for signal in ("r", "tau_ext_lp")}
-    missing = [name for names in wanted.values() for name in names if name not in where]
-    if missing:
-        held = ", ".join(list(where)[:3])
-        raise DataError(f"{residual_stem}.json: column {missing[0]!r} is missing; it holds {held}, ...")
-    residual, external = (np.asarray(array[:, [where[n] for n in names]]) for names in wanted.values())
-    return residual - external if target == "uncertainty" else external
+    external, _ = read_array(residual_stem, [f"tau_ext_lp.{joint}" for joint in joints])
+    if target == "external":
+        return external
+    residual, _ = read_array(residual_stem, [f"r.{joint}" for joint in joints])
+    return residual - external
 
 
 def scale_of(array: NDArray[np.float32], spans: Sequence[Span]) -> Scale:

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from mobnet.core.store import write_text
+from mobnet.core.files import write_text
 from mobnet.learning.checkpoint import Row
 
 METRICS = "metrics.csv"

@@ -12,8 +12,8 @@ import torch
 from safetensors.torch import save_file
 
 from mobnet.core.config import load_layout
+from mobnet.core.files import atomic_path, write_json
 from mobnet.core.provenance import provenance
-from mobnet.core.store import atomic_path, write_json
 from mobnet.learning.checkpoint import CHECKPOINT, Progress
 from mobnet.learning.dataset import LimbData, load_limb_data
 from mobnet.learning.job import job_of

@@ -1,0 +1,34 @@
+"""A file is the old one or the whole new one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from mobnet.core.errors import DataError
+from mobnet.core.files import atomic_path, read_json, write_json, write_text
+
+
+def test_failed_write_keeps_the_old_file_and_leaves_nothing_else(tmp_path: Path) -> None:
+    path = tmp_path / "a.json"
+    write_json(path, {"a": 1})
+    with pytest.raises(ZeroDivisionError), atomic_path(path) as temporary:
+        temporary.write_text(f"half {1 / 0}")
+    assert read_json(path) == {"a": 1}
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_writing_makes_folders_and_a_readable_file(tmp_path: Path) -> None:
+    path = tmp_path / "new" / "folder" / "a.txt"
+    write_text(path, "text")
+    assert path.read_text() == "text"
+    assert path.stat().st_mode & 0o444 == 0o444
+
+
+def test_json_that_is_missing_or_damaged_is_named(tmp_path: Path) -> None:
+    with pytest.raises(DataError, match=r"a\.json: file is missing"):
+        read_json(tmp_path / "a.json")
+    (tmp_path / "a.json").write_text('{"rows": ')
+    with pytest.raises(DataError, match=r"a\.json: not JSON"):
+        read_json(tmp_path / "a.json")
