@@ -63,7 +63,7 @@ def sizes(*names):
     return {"sizes": {name: SIZES[name] for name in names if name in SIZES}}
 
 
-def files(kind, ending="npy"):
+def files(kind, ending="parquet"):
     """Return the pattern of a kind's files of one recording."""
     return f"{RESULTS}/{kind}/{{scenario}}/{{level}}/s{{seed}}.{ending}"
 
@@ -143,7 +143,7 @@ def panels_of(figure):
 
 def arrays(entries, *kinds):
     """Return the files of some kinds of runs."""
-    return list(dict.fromkeys(f"{run[kind]}.npy" for run in entries for kind in kinds))
+    return list(dict.fromkeys(f"{run[kind]}.parquet" for run in entries for kind in kinds))
 
 
 def products():
