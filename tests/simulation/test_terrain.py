@@ -1,88 +1,173 @@
-"""Uneven ground: heights and period."""
+"""Uneven ground: heights, slopes, period, and what is drawn of it."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import mujoco
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from mobnet.core.errors import ConfigError
 from mobnet.robot.plant import SOLE_TYPE, TERRAIN_TYPE
-from mobnet.simulation.terrain import add_terrain, frustum, top_of
+from mobnet.simulation.terrain import REACH_M, TERRAIN_GROUP, TERRAINS, Terrain, add_terrain, draw_terrain, frustum
+
+SEEDS = range(4)
+Heights = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 
-def compile_terrain(settings: dict[str, Any], name: str) -> tuple[mujoco.MjModel, mujoco.MjData, float]:
-    """Return a world with nothing but the terrain, and its period [m]."""
+def build(terrain: Terrain, half_width: float | None = None) -> tuple[mujoco.MjModel, Heights]:
+    """Return a world with nothing but the terrain, and its height (n,) [m] under points (n, 2) [m]."""
     spec = mujoco.MjSpec()
-    period = add_terrain(spec, name, settings)
+    add_terrain(spec, terrain, half_width)
     model = spec.compile()
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
-    return model, data, period
+    data, hit, down = mujoco.MjData(model), np.zeros(1, dtype=np.int32), np.array([0.0, 0.0, -1.0])
+    mujoco.mj_kinematics(model, data)
+
+    def heights(points: NDArray[np.float64]) -> NDArray[np.float64]:
+        starts = np.column_stack([points, np.ones(len(points))])
+        return 1.0 - np.array([mujoco.mj_ray(model, data, start, down, None, 1, -1, hit) for start in starts])
+
+    return model, heights
 
 
-def height(model: mujoco.MjModel, data: mujoco.MjData, x: float, y: float) -> float:
-    """Return the ground's height [m] under a point."""
-    hit = np.zeros(1, dtype=np.int32)
-    return 1.0 - mujoco.mj_ray(model, data, np.array([x, y, 1.0]), np.array([0.0, 0.0, -1.0]), None, 1, -1, hit)
+@pytest.fixture
+def draw(full_config: dict[str, Any]) -> Callable[..., Terrain]:
+    """A function (name, seed) -> a terrain."""
+    return lambda name, seed=0: draw_terrain(name, full_config["terrain"], np.random.default_rng(seed))
 
 
-def test_checks_are_up_and_down_in_turn(full_config: dict[str, Any]) -> None:
-    model, data, _ = compile_terrain(full_config["terrain"], "checks")
-    cell = full_config["terrain"]["checks"]["cell_m"]
-    for i in range(-3, 3):
-        for j in range(-3, 3):
-            up = (i + j) % 2 == 0
-            z = height(model, data, (i + 0.5) * cell, (j + 0.5) * cell)
-            assert z == pytest.approx(0.015 * up, abs=1e-6)
+def test_checks_are_up_and_down_in_turn(draw: Callable[..., Terrain]) -> None:
+    terrain = draw("checks")
+    cells = np.stack(np.meshgrid(np.arange(-3, 3), np.arange(-3, 3)), axis=-1).reshape(-1, 2)
+    z = build(terrain)[1]((cells + 0.5) * terrain.period / 2)
+    np.testing.assert_allclose(z, np.where(cells.sum(axis=1) % 2 == 0, 0.015, 0.0), atol=1e-6)
 
 
-def test_terrain_repeats_after_its_period(full_config: dict[str, Any]) -> None:
-    model, data, period = compile_terrain(full_config["terrain"], "checks")
-    points = np.random.default_rng(0).uniform(-0.6, 0.6, (200, 2))
-    heights = np.array([height(model, data, x, y) for x, y in points])
-    assert set(np.round(heights, 3)) >= {0.0, 0.015}
-    for shift in ([period, 0.0], [0.0, -period]):
-        moved = np.array([height(model, data, x, y) for x, y in points + shift])
-        np.testing.assert_allclose(moved, heights, atol=1e-6)
+@pytest.mark.parametrize("name", TERRAINS)
+def test_terrain_repeats_wherever_a_foot_gets(draw: Callable[..., Terrain], name: str) -> None:
+    """A robot at the end of its period is put back by one: all within its reach must be the same there."""
+    terrain = draw(name)
+    _, heights = build(terrain)
+    around = np.random.default_rng(0).uniform(-REACH_M, REACH_M, (300, 2))
+    for end in ([1, 0], [0, -1], [-1, 1]):
+        before = around + terrain.period * np.array(end)
+        for axis in np.flatnonzero(end):
+            after = before - terrain.period * np.array(end) * (np.arange(2) == axis)
+            np.testing.assert_allclose(heights(after), heights(before), atol=1e-9)
 
 
-def test_terrain_reaches_further_than_the_robot_goes(full_config: dict[str, Any]) -> None:
-    """The robot is put back after a period; a long step and a foot must still find ground there."""
-    checks = full_config["terrain"]["checks"]
-    _, _, period = compile_terrain(full_config["terrain"], "checks")
-    assert checks["cells"] * checks["cell_m"] / 2 >= period + 0.6
+@pytest.mark.parametrize(
+    ("name", "top"), [("checks", 0.015), ("plates", 0.010), ("slope", 0.8 * np.tan(np.deg2rad(3)))]
+)
+def test_the_top_is_as_high_as_it_should_be(draw: Callable[..., Terrain], name: str, top: float) -> None:
+    terrain = draw(name)
+    points = np.random.default_rng(0).uniform(-0.5, 0.5, (500, 2)) * terrain.period
+    z = build(terrain)[1](points)
+    assert z.max() == pytest.approx(top, abs=1e-6)
+    assert z.min() == pytest.approx(0, abs=1e-12)
 
 
-def test_edges_slope(full_config: dict[str, Any]) -> None:
-    model, data, _ = compile_terrain(full_config["terrain"], "checks")
-    checks = full_config["terrain"]["checks"]
-    z = [height(model, data, checks["cell_m"] - share * checks["bevel_m"], 0.15) for share in (0.25, 0.5, 0.75)]
-    np.testing.assert_allclose(z, checks["height_m"] * np.array([0.25, 0.5, 0.75]), atol=1e-5)
+@pytest.mark.parametrize(("name", "steepest"), [("checks", 1.5), ("plates", 1.0), ("slope", np.tan(np.deg2rad(3)))])
+def test_no_side_is_vertical(draw: Callable[..., Terrain], name: str, steepest: float) -> None:
+    """Along lines through a whole period, points 1 mm apart differ by as much as the steepest side allows at most."""
+    terrain = draw(name)
+    _, heights = build(terrain)
+    rng, steps = np.random.default_rng(1), []
+    for _ in range(8):
+        yaw = rng.uniform(0, np.pi)
+        along = np.arange(-terrain.period / 2, terrain.period / 2, 1e-3)[:, None] * [np.cos(yaw), np.sin(yaw)]
+        z = heights(along + rng.uniform(-0.3, 0.3, 2))
+        steps.append(np.abs(np.diff(z)).max())
+    assert 0.7 * steepest * 1e-3 < max(steps) <= steepest * 1e-3 + 1e-6
 
 
-def test_flat_is_flat_and_has_no_top(full_config: dict[str, Any]) -> None:
-    model, data, period = compile_terrain(full_config["terrain"], "flat")
+@pytest.mark.parametrize("seed", SEEDS)
+def test_slope_rises_by_three_degrees_both_ways_and_is_even_across(draw: Callable[..., Terrain], seed: int) -> None:
+    terrain = draw("slope", seed)
+    _, heights = build(terrain)
+    line = np.arange(0.0, terrain.period, 0.01)
+    profiles = [heights(np.column_stack([line * (axis == k) for k in range(2)])) for axis in range(2)]
+    along, across = sorted(profiles, key=np.ptp, reverse=True)
+    angle = np.rad2deg(np.arctan(np.diff(along) / 0.01))
+    for wanted, share in ((3.0, 0.8 / 2.6), (-3.0, 0.8 / 2.6), (0.0, 1.0 / 2.6)):
+        assert np.mean(np.abs(angle - wanted) < 1e-3) == pytest.approx(share, abs=0.02)
+    assert np.ptp(across) < 1e-9
+
+
+def test_slopes_go_either_way_and_begin_anywhere(draw: Callable[..., Terrain]) -> None:
+    places = [draw("slope", seed).pieces[0].place for seed in range(20)]
+    assert {int(np.flatnonzero(place)[0]) for place in places} == {0, 1}
+    assert np.ptp([place.sum() for place in places]) > 1.3
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_plates_keep_apart_all_over_the_world(draw: Callable[..., Terrain], seed: int) -> None:
+    """Points all over each plate lie in no other plate, nor in a copy of one beyond the period's edge."""
+    terrain = draw("plates", seed)
+    areas, grid = [], np.stack(np.meshgrid(*[np.linspace(-1, 1, 21)] * 2), axis=-1).reshape(-1, 2)
+    assert len(terrain.pieces) == 3
+    for plate in terrain.pieces:
+        areas.append(4 * plate.bottom.prod())
+        points = plate.place + (grid * plate.bottom) @ rotation(plate.yaw).T
+        for other in terrain.pieces:
+            for i, j in np.ndindex(3, 3):
+                centre = other.place + terrain.period * (np.array([i, j]) - 1)
+                inside = (np.abs((points - centre) @ rotation(other.yaw)) < other.bottom + 0.019).all(axis=1)
+                assert not inside.any() or (other is plate and (i, j) == (1, 1))
+    np.testing.assert_allclose(areas, [0.54, 0.36, 0.27])
+
+
+def rotation(yaw: float) -> NDArray[np.float64]:
+    """Return the rotation (2, 2) by an angle [rad]."""
+    return np.array([[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]])
+
+
+def test_a_draw_is_the_generators(draw: Callable[..., Terrain]) -> None:
+    a, b, c = draw("plates", 1), draw("plates", 1), draw("plates", 2)
+    for one, same, another in zip(a.pieces, b.pieces, c.pieces, strict=True):
+        np.testing.assert_array_equal(one.place, same.place)
+        assert one.yaw == same.yaw
+        assert np.abs(one.place - another.place).max() > 1e-3
+        assert one.yaw != another.yaw
+
+
+def test_a_wider_terrain_is_the_same_terrain(draw: Callable[..., Terrain]) -> None:
+    """Pictures show more of the ground, but the same."""
+    for name in TERRAINS:
+        terrain = draw(name)
+        points = np.random.default_rng(2).uniform(-REACH_M, REACH_M, (200, 2))
+        np.testing.assert_allclose(build(terrain, 6.0)[1](points), build(terrain)[1](points), atol=1e-9)
+
+
+def test_plates_without_room_are_named(full_config: dict[str, Any]) -> None:
+    row = {**full_config["terrain"]["plates"], "period_m": 1.0}
+    with pytest.raises(ConfigError, match=r"no room for a plate of \[0\.\d+, 0\.\d+\] m in a period of 1\.0 m"):
+        draw_terrain("plates", {"plates": row}, np.random.default_rng(0))
+
+
+def test_flat_is_the_ground_alone(draw: Callable[..., Terrain]) -> None:
+    model, heights = build(draw("flat"))
     assert model.ngeom == 1
-    assert height(model, data, 0.3, 7.0) == pytest.approx(0, abs=1e-12)
-    assert period > 0
-    assert [top_of(name, full_config["terrain"]) for name in ("flat", "checks")] == [0.0, 0.015]
+    assert heights(np.array([[0.3, 7.0]])) == pytest.approx(0, abs=1e-12)
 
 
-def test_only_soles_touch_the_terrain(full_config: dict[str, Any]) -> None:
-    model, _, _ = compile_terrain(full_config["terrain"], "checks")
+@pytest.mark.parametrize("name", TERRAINS)
+def test_only_soles_touch_the_terrain(draw: Callable[..., Terrain], name: str) -> None:
+    model, _ = build(draw(name))
     assert set(model.geom_contype) == {TERRAIN_TYPE}
     assert set(model.geom_conaffinity) == {SOLE_TYPE}
+    assert set(model.geom_group) == {TERRAIN_GROUP}
 
 
 def test_frustum_is_symmetric_and_stands_on_the_ground() -> None:
-    corners = frustum(0.15, 0.14, 0.015)
+    corners = frustum(np.array([0.15, 0.3]), np.array([0.14, 0.29]), 0.015)
     np.testing.assert_allclose(corners.mean(axis=0), [0, 0, 0.0075], atol=1e-15)
-    assert np.abs(corners[corners[:, 2] == 0]).max() == 0.15
+    np.testing.assert_array_equal(np.abs(corners[corners[:, 2] == 0]), np.tile([0.15, 0.3, 0.0], (4, 1)))
 
 
 def test_unknown_terrain_is_named(full_config: dict[str, Any]) -> None:
-    with pytest.raises(ConfigError, match="terrain: 'stairs' is not accepted; accepted: checks, flat"):
-        add_terrain(mujoco.MjSpec(), "stairs", full_config["terrain"])
+    with pytest.raises(ConfigError, match="terrain: 'stairs' is not accepted; accepted: checks, flat, plates, slope"):
+        draw_terrain("stairs", full_config["terrain"], np.random.default_rng(0))

@@ -10,11 +10,13 @@ import pytest
 
 from mobnet.core.errors import ConfigError
 from mobnet.robot.description import RobotDescription
-from mobnet.simulation.world import leg_mask, make_world
+from mobnet.simulation.world import World, ground_height, leg_mask, make_world
+
+RNG = np.random.default_rng(0)
 
 
 def test_options_are_those_the_truth_is_aligned_with(full_config: dict[str, Any], robot: RobotDescription) -> None:
-    option = make_world(full_config, robot, "checks", "ideal").model.opt
+    option = make_world(full_config, robot, "checks", "ideal", RNG).model.opt
     assert option.timestep == 1 / full_config["rates"]["plant_hz"] == 0.0005
     assert option.integrator == mujoco.mjtIntegrator.mjINT_EULER
     assert option.jacobian == mujoco.mjtJacobian.mjJAC_DENSE  # the truth reads dense contact rows
@@ -26,14 +28,14 @@ def test_options_are_those_the_truth_is_aligned_with(full_config: dict[str, Any]
 def test_level_switches_friction_loss(
     full_config: dict[str, Any], robot: RobotDescription, level: str, present: int
 ) -> None:
-    model = make_world(full_config, robot, "flat", level).model
+    model = make_world(full_config, robot, "flat", level, RNG).model
     np.testing.assert_array_equal(model.dof_frictionloss[:6], 0)
     np.testing.assert_array_equal(model.dof_frictionloss[6:], present * np.where(leg_mask(robot), 10.0, 8.0))
     assert not model.dof_damping.any()
 
 
 def test_every_geom_has_the_configured_contact(full_config: dict[str, Any], robot: RobotDescription) -> None:
-    model, plant = make_world(full_config, robot, "checks", "ideal").model, full_config["plant"]
+    model, plant = make_world(full_config, robot, "checks", "ideal", RNG).model, full_config["plant"]
     touching = model.geom_contype != 0
     assert set(model.geom_friction[touching, 0]) == {plant["contact_friction"]}
     expected = [plant["contact_time_constant_s"], plant["contact_damping_ratio"]]
@@ -42,7 +44,7 @@ def test_every_geom_has_the_configured_contact(full_config: dict[str, Any], robo
 
 def test_plant_keeps_the_true_masses_at_every_level(full_config: dict[str, Any], robot: RobotDescription) -> None:
     for level in full_config["levels"]:
-        mass = make_world(full_config, robot, "flat", level).model.body_mass.sum()
+        mass = make_world(full_config, robot, "flat", level, RNG).model.body_mass.sum()
         assert mass == pytest.approx(robot.mass, rel=1e-12)
 
 
@@ -55,4 +57,44 @@ def test_unknown_terrain_or_level_is_named(
     full_config: dict[str, Any], robot: RobotDescription, terrain: str, level: str
 ) -> None:
     with pytest.raises(ConfigError, match=r"(stairs|perfect)' is not accepted; accepted: "):
-        make_world(full_config, robot, terrain, level)
+        make_world(full_config, robot, terrain, level, RNG)
+
+
+@pytest.mark.parametrize("name", ["checks", "flat", "plates", "slope"])
+def test_rays_find_the_heights_of_what_stands_there(
+    full_config: dict[str, Any], robot: RobotDescription, name: str
+) -> None:
+    """The pieces' own figures tell the height without a ray; the robot, half above, is not ground."""
+    world = make_world(full_config, robot, name, "ideal", np.random.default_rng(3))
+    points = np.random.default_rng(4).uniform(-0.5, 0.5, (500, 2)) * world.period
+    np.testing.assert_allclose(ground_height(world, points), heights_of_pieces(world, points), atol=1e-6)
+
+
+def heights_of_pieces(world: World, points: np.ndarray) -> np.ndarray:
+    """Return the height (n,) [m] of the highest piece under points (n, 2) [m], from the pieces' widths."""
+    highest = np.zeros(len(points))
+    for piece in world.terrain.pieces:
+        c, n = np.cos(piece.yaw), np.sin(piece.yaw)
+        for i, j in np.ndindex(3, 3):
+            offset = points - piece.place - world.period * (np.array([i, j]) - 1)
+            inside = np.abs(offset @ [[c, -n], [n, c]])
+            ended = np.isfinite(piece.bottom)
+            bottom, top = piece.bottom[ended], piece.top[ended]
+            slope = (bottom - inside[:, ended]) / (bottom - top)
+            highest = np.maximum(highest, piece.height * np.clip(slope.min(axis=1), 0.0, 1.0))
+    return highest
+
+
+def test_heights_survive_a_reset(full_config: dict[str, Any], robot: RobotDescription) -> None:
+    world = make_world(full_config, robot, "slope", "ideal", RNG)
+    points = np.random.default_rng(5).uniform(-1.0, 1.0, (50, 2))
+    before = ground_height(world, points)
+    mujoco.mj_resetData(world.model, world.data)
+    np.testing.assert_array_equal(ground_height(world, points), before)
+    assert np.ptp(before) > 0.01
+
+
+def test_same_generator_builds_the_same_world(full_config: dict[str, Any], robot: RobotDescription) -> None:
+    a, b, c = (make_world(full_config, robot, "plates", "ideal", np.random.default_rng(s)) for s in (1, 1, 2))
+    np.testing.assert_array_equal(a.model.geom_pos, b.model.geom_pos)
+    assert a.model.geom_pos.shape != c.model.geom_pos.shape or not np.array_equal(a.model.geom_pos, c.model.geom_pos)

@@ -12,10 +12,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.store import atomic_path
+from mobnet.core.files import atomic_path
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.plant import robot_spec
-from mobnet.simulation.terrain import add_terrain
+from mobnet.simulation.terrain import add_terrain, draw_terrain
 
 log = logging.getLogger(__name__)
 Pixels = NDArray[np.uint8]
@@ -24,7 +24,7 @@ SIZE = (1000, 750)  # width, height [pixels]
 CAMERA = {"distance": 3.85, "azimuth": 134.0, "elevation": -8.0}  # [m], [deg], [deg]
 VIEW_DEG = 30.0  # a long lens: little distortion
 EYE_FROM_PELVIS_M = (0.02, 0.0, -0.08)
-CELLS = 60  # of the terrain per side: past where the fog ends
+WIDE_M = 9.0  # half width of the terrain: past where the fog ends
 EXTENT_M = 2.0  # the scene's size that MuJoCo scales shadow and fog by
 FOG = (1.8, 4.4)  # start and end, in extents
 SKY_RGB = (0.86, 0.91, 0.96)
@@ -67,8 +67,7 @@ def picture_model(config: Mapping[str, Any], robot: RobotDescription, terrain: s
         ConfigError: the terrain is unknown.
     """
     spec = robot_spec(robot)
-    checks = {**config["terrain"]["checks"], "cells": CELLS}
-    add_terrain(spec, terrain, {**config["terrain"], "checks": checks})
+    add_terrain(spec, draw_terrain(terrain, config["terrain"], np.random.default_rng(0)), WIDE_M)
     spec.stat.extent, spec.stat.center = EXTENT_M, [0.0, 0.0, EXTENT_M / 2]
     _set_view(spec.visual)
     spec.add_texture(

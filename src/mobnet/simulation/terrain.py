@@ -1,9 +1,12 @@
-"""Uneven ground (Figure 3 a) that repeats, so that a robot which has walked one period can be put back."""
+"""Uneven ground (Figure 3) that repeats, so that a robot which has walked one period can be put back.
+
+Whatever stands on the even ground is a frustum: its sides slope, or a tilted sole jams on them.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
@@ -12,49 +15,153 @@ from numpy.typing import NDArray
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.robot.plant import SOLE_TYPE, TERRAIN_TYPE
 
-TERRAINS = ("checks", "flat")
+Array = NDArray[np.float64]
+TERRAINS = ("checks", "flat", "plates", "slope")
+TERRAIN_GROUP = 0  # geom group of the ground and what stands on it
 GROUND_RGBA = (0.55, 0.57, 0.60, 1.0)
-CHECK_RGBA = (0.75, 0.63, 0.45, 1.0)
+WOOD_RGBA = (0.75, 0.63, 0.45, 1.0)
 FLAT_PERIOD_M = 1.0  # flat ground repeats at any length
+REACH_M = 0.9  # no foot is ever further from the pelvis; the pelvis stays within a period of the origin
+DRAWS_MAX = 1000  # of one plate's place
+ROUND_OFF_M = 1e-9
 
 
-def add_terrain(spec: mujoco.MjSpec, name: str, settings: Mapping[str, Any]) -> float:
-    """Add the ground z = 0 and what stands on it; return the period [m] after which it repeats in x and y.
+class Piece(NamedTuple):
+    """A frustum on z = 0 that repeats.
+
+    Attributes:
+        bottom: half widths (2,) at its foot [m]; infinite where it has no end.
+        top: half widths (2,) at its top [m].
+        height: [m].
+        place: centre (2,) [m].
+        yaw: [rad].
+    """
+
+    bottom: Array
+    top: Array
+    height: float
+    place: Array
+    yaw: float = 0.0
+
+
+class Terrain(NamedTuple):
+    """Even ground and what stands on one period of it.
+
+    Attributes:
+        period: length after which the terrain repeats in x and y [m].
+        pieces: what stands on one period.
+    """
+
+    period: float
+    pieces: tuple[Piece, ...] = ()
+
+
+def draw_terrain(name: str, settings: Mapping[str, Any], rng: np.random.Generator) -> Terrain:
+    """Draw a terrain of section 4.3; checks and flat ground are always the same.
+
+    Args:
+        name: key of `settings`.
+        settings: section `terrain` of the configuration.
+        rng: decides where plates lie and which way a slope goes.
 
     Raises:
-        ConfigError: the terrain is unknown.
+        ConfigError: the terrain is unknown, or its plates find no room.
     """
-    if name not in TERRAINS:
-        raise ConfigError(not_accepted("terrain", name, TERRAINS))
-    spec.worldbody.add_geom(
-        name="ground", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], contype=TERRAIN_TYPE, conaffinity=SOLE_TYPE,
-        rgba=GROUND_RGBA,
-    )  # fmt: skip
-    return _add_checks(spec, settings[name]) if name == "checks" else FLAT_PERIOD_M
+    if name == "checks":
+        return _checks(settings[name])
+    if name == "plates":
+        return _plates(settings[name], rng)
+    if name == "slope":
+        return _slope(settings[name], rng)
+    if name == "flat":
+        return Terrain(FLAT_PERIOD_M)
+    raise ConfigError(not_accepted("terrain", name, TERRAINS))
 
 
-def top_of(name: str, settings: Mapping[str, Any]) -> float:
+def top_of(terrain: Terrain) -> float:
     """Return the height of the terrain's highest point [m]."""
-    return float(settings[name].get("height_m", 0.0))
+    return max((piece.height for piece in terrain.pieces), default=0.0)
 
 
-def _add_checks(spec: mujoco.MjSpec, checks: Mapping[str, Any]) -> float:
-    """Add every other cell of a checkerboard as a bevelled plate; its edges slope, or a tilted sole jams on them."""
-    half, bevel, height = checks["cell_m"] / 2, checks["bevel_m"], checks["height_m"]
-    spec.add_mesh(name="check", uservert=frustum(half, half - bevel, height).ravel())
-    cells = int(checks["cells"])
-    for i in range(cells):
-        for j in range(cells):
-            if (i + j) % 2 == 0:
-                place = (np.array([i, j]) - (cells - 1) / 2) * checks["cell_m"]
-                spec.worldbody.add_geom(
-                    type=mujoco.mjtGeom.mjGEOM_MESH, meshname="check", pos=[*place, 0.0], contype=TERRAIN_TYPE,
-                    conaffinity=SOLE_TYPE, rgba=CHECK_RGBA,
-                )  # fmt: skip
-    return 2 * checks["cell_m"]
+def _checks(row: Mapping[str, Any]) -> Terrain:
+    """Return every other cell of a checkerboard (Figure 3 a)."""
+    half = np.full(2, row["cell_m"] / 2)
+    cells = tuple(Piece(half, half - row["bevel_m"], row["height_m"], sign * half) for sign in (1, -1))
+    return Terrain(2 * row["cell_m"], cells)
 
 
-def frustum(bottom: float, top: float, height: float) -> NDArray[np.float64]:
-    """Return the corners (8, 3) [m] of a square frustum of half widths bottom and top [m] on z = 0."""
+def _plates(row: Mapping[str, Any], rng: np.random.Generator) -> Terrain:
+    """Return plates at random places that do not touch each other, across the period's edge neither (Figure 3 b)."""
+    period = row["period_m"]
+    plates: list[Piece] = []
+    for size in row["sizes_m"]:
+        half = np.array(size) / 2
+        for _ in range(DRAWS_MAX):
+            place, yaw = rng.uniform(-0.5, 0.5, 2) * period, rng.uniform(0, np.pi)
+            plate = Piece(half, half - row["bevel_m"], row["height_m"], place, yaw)
+            if all(_apart(plate, other, period, row["gap_m"]) for other in (*plates, plate)):
+                plates.append(plate)
+                break
+        else:
+            raise ConfigError(f"terrain.plates: no room for a plate of {size} m in a period of {period} m")
+    return Terrain(period, tuple(plates))
+
+
+def _slope(row: Mapping[str, Any], rng: np.random.Generator) -> Terrain:
+    """Return even ground, a slope up, even ground and a slope down, along x or y (Figure 3 c)."""
+    run, even = row["slope_m"], row["even_m"]
+    period = 2 * (run + even)
+    along, place = rng.integers(2), rng.uniform(-0.5, 0.5) * period
+    bottom, top, centre = np.full(2, np.inf), np.full(2, np.inf), np.zeros(2)
+    bottom[along], top[along], centre[along] = even / 2 + run, even / 2, place
+    return Terrain(period, (Piece(bottom, top, run * np.tan(np.deg2rad(row["angle_deg"])), centre),))
+
+
+def _apart(a: Piece, b: Piece, period: float, gap: float) -> bool:
+    """Return whether a piece and all copies of another keep a gap [m]; a piece is no copy of itself.
+
+    Two convex figures are apart where one of their sides' directions separates them.
+    """
+    offsets = np.array([b.place - a.place + period * np.array([i, j]) for i in (-1, 0, 1) for j in (-1, 0, 1)])
+    offsets = offsets[offsets.any(axis=1)]
+    sides = np.hstack([_turn(a.yaw), _turn(b.yaw)])
+    reach = sum(np.abs(sides.T @ _turn(piece.yaw)) @ piece.bottom for piece in (a, b))
+    return bool((np.abs(offsets @ sides) > reach + gap).any(axis=1).all())
+
+
+def _turn(yaw: float) -> Array:
+    """Return the rotation (2, 2) by an angle [rad]."""
+    return np.array([[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]])
+
+
+def add_terrain(spec: mujoco.MjSpec, terrain: Terrain, half_width: float | None = None) -> None:
+    """Add the ground z = 0 and all that stands on it within a half width [m]; without one, as far as a robot gets."""
+    half_width = terrain.period + REACH_M if half_width is None else half_width
+    touch = {"contype": TERRAIN_TYPE, "conaffinity": SOLE_TYPE, "group": TERRAIN_GROUP}
+    spec.worldbody.add_geom(name="ground", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], rgba=GROUND_RGBA, **touch)
+    for number, piece in enumerate(terrain.pieces):
+        bottom, top = np.minimum(piece.bottom, half_width), np.minimum(piece.top, half_width)
+        spec.add_mesh(name=f"piece{number}", uservert=frustum(bottom, top, piece.height).ravel())
+        for x, y in _copies(piece, terrain.period, half_width):
+            spec.worldbody.add_geom(
+                type=mujoco.mjtGeom.mjGEOM_MESH, meshname=f"piece{number}", pos=[x, y, 0.0], rgba=WOOD_RGBA,
+                quat=[np.cos(piece.yaw / 2), 0.0, 0.0, np.sin(piece.yaw / 2)], **touch,
+            )  # fmt: skip
+
+
+def _copies(piece: Piece, period: float, half_width: float) -> Iterator[Array]:
+    """Yield the centres (2,) [m] of the copies that reach into a square of that half width [m]."""
+    endless = np.isinf(piece.bottom)
+    reach = np.abs(_turn(piece.yaw)) @ np.where(endless, 0.0, piece.bottom)
+    most = int(np.ceil(half_width / period)) + 1
+    for shift in np.ndindex(2 * most + 1, 2 * most + 1):
+        number = np.array(shift) - most
+        place = piece.place + period * number
+        if not (number[endless].any() or (np.abs(place) - reach > half_width - ROUND_OFF_M).any()):
+            yield place
+
+
+def frustum(bottom: Array, top: Array, height: float) -> Array:
+    """Return the corners (8, 3) [m] of a frustum of half widths bottom (2,) and top (2,) [m] on z = 0."""
     square = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
     return np.vstack([np.c_[square * bottom, np.zeros(4)], np.c_[square * top, np.full(4, height)]])

@@ -13,7 +13,10 @@ from numpy.typing import NDArray
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.plant import robot_spec
-from mobnet.simulation.terrain import add_terrain, top_of
+from mobnet.simulation.terrain import TERRAIN_GROUP, Terrain, add_terrain, draw_terrain, top_of
+
+DOWN = np.array([0.0, 0.0, -1.0])
+RAY_M = 1.0  # rays begin this high over the highest point
 
 
 @dataclass(frozen=True)
@@ -23,18 +26,35 @@ class World:
     Attributes:
         model: MuJoCo's model.
         data: its state.
-        period: length after which the terrain repeats in x and y [m].
-        top: height of the terrain's highest point [m].
+        terrain: what was drawn.
     """
 
     model: mujoco.MjModel
     data: mujoco.MjData
-    period: float
-    top: float
+    terrain: Terrain
+
+    @property
+    def period(self) -> float:
+        """Length after which the terrain repeats in x and y [m]."""
+        return self.terrain.period
+
+    @property
+    def top(self) -> float:
+        """Height of the terrain's highest point [m]."""
+        return top_of(self.terrain)
 
 
-def make_world(config: Mapping[str, Any], robot: RobotDescription, terrain: str, level: str) -> World:
+def make_world(
+    config: Mapping[str, Any], robot: RobotDescription, terrain: str, level: str, rng: np.random.Generator
+) -> World:
     """Compile the robot on a terrain; the level switches friction loss on or off.
+
+    Args:
+        config: the resolved configuration.
+        robot: its figures.
+        terrain: key of `terrain` in the configuration.
+        level: key of `levels`.
+        rng: draws the terrain.
 
     Raises:
         ConfigError: terrain or level is unknown.
@@ -43,14 +63,26 @@ def make_world(config: Mapping[str, Any], robot: RobotDescription, terrain: str,
         raise ConfigError(not_accepted("level", level, config["levels"]))
     plant = config["plant"]
     spec = robot_spec(robot)
-    period = add_terrain(spec, terrain, config["terrain"])
+    drawn = draw_terrain(terrain, config["terrain"], rng)
+    add_terrain(spec, drawn)
     _set_options(spec, plant, config["rates"]["plant_hz"])
     model = spec.compile()
     if config["levels"][level]["friction"]:
         legs = leg_mask(robot)
         loss = np.where(legs, plant["friction"]["loss_legs_nm"], plant["friction"]["loss_others_nm"])
         model.dof_frictionloss[-robot.layout.nu :] = loss
-    return World(model, mujoco.MjData(model), period, top_of(terrain, config["terrain"]))
+    return World(model, mujoco.MjData(model), drawn)
+
+
+def ground_height(world: World, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the terrain's height (n,) [m] under points (n, 2) [m], found by rays from above; a robot is no ground."""
+    model = world.model
+    data = mujoco.MjData(model)  # the world's own may have been reset and not know where its geoms are
+    mujoco.mj_kinematics(model, data)
+    groups = (np.arange(mujoco.mjNGROUP) == TERRAIN_GROUP).astype(np.uint8)
+    above, hit = world.top + RAY_M, np.zeros(1, dtype=np.int32)
+    starts = np.column_stack([points, np.full(len(points), above)])
+    return above - np.array([mujoco.mj_ray(model, data, start, DOWN, groups, 1, -1, hit) for start in starts])
 
 
 def leg_mask(robot: RobotDescription) -> NDArray[np.bool_]:
