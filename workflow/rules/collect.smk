@@ -1,6 +1,25 @@
 # Recordings of the walking robot, and what the observer makes of them.
 
 
+rule motion:
+    output:
+        array=ensure(f"{RESULTS}/motions/{{motion}}/s{{seed}}.parquet", non_empty=True),
+        note=ensure(f"{RESULTS}/motions/{{motion}}/s{{seed}}.json", non_empty=True),
+    log:
+        f"{RESULTS}/logs/motion/{{motion}}-s{{seed}}.log",
+    benchmark:
+        f"{RESULTS}/bench/motion/{{motion}}-s{{seed}}.tsv"
+    priority: 30
+    threads: 1
+    params:
+        config=lambda w: part("seed", "robot", "walking", motions=[w.motion]),
+        duration_s=lambda w: duration_s(w.seed),
+        robot=CONTENT["robot"],
+        code=code_of("motion"),
+    script:
+        "../scripts/motion.py"
+
+
 rule collect:
     output:
         array=ensure(files("recordings"), non_empty=True),

@@ -4,8 +4,8 @@ import sys
 from pathlib import Path
 
 from mobnet.core.code import code_hash
+from mobnet.core.config import FIRST_TRAINING_SEED, config_hash, read_yaml, resolve
 from mobnet.core.config import check_config as validate
-from mobnet.core.config import config_hash, read_yaml, resolve
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
 
@@ -27,7 +27,6 @@ RESULTS = f"results/{SCALE}"
 TABLES, FIGURES = ("tables", "figures") if SCALE == MAIN else (f"tables/{SCALE}", f"figures/{SCALE}")
 PAPER = "paper" if SCALE == MAIN else f"{RESULTS}/paper"
 MANIFEST = "results/MANIFEST.sha256" if SCALE == MAIN else f"{RESULTS}/MANIFEST.sha256"
-FIRST_TRAINING_SEED = 1000  # test recordings count from 1
 TRAIN_SEEDS = [FIRST_TRAINING_SEED + i for i in range(SIZES["train"]["shards"])]
 TEST_SEEDS = [1 + i for i in range(SIZES["test"]["shards"])]
 TABLE_05, FIGURE_05 = (
@@ -41,6 +40,7 @@ wildcard_constraints:
     level="|".join(settings["levels"]),
     method="|".join(settings["methods"]),
     limb="|".join(settings["networks"]),
+    motion="|".join(settings["motions"]),
     seed=r"\d+",
 
 

@@ -16,6 +16,7 @@ from mobnet.core.joints import JointLayout, layout_of
 from mobnet.core.names import check_names
 
 SCHEMA = Path(__file__).parents[3] / "workflow" / "schemas" / "config.schema.yaml"
+FIRST_TRAINING_SEED = 1000  # recordings and motions for tests count from 1
 BOUNDS = ("type", "pattern", "minimum", "exclusiveMinimum", "maximum", "minItems", "maxItems")
 
 

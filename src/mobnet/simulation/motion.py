@@ -1,0 +1,136 @@
+"""Random motion of the upper body (section 4.3): band-limited targets of both hands, waist and head, made safe.
+
+The paper records a person for 15 minutes and multiplies that by four with other speeds and offset hand targets. Here
+the person is a sum of sines. Training seeds count from `FIRST_TRAINING_SEED`: each is one variant of one part of the
+base motion, and the variants of a part share its targets.
+"""
+
+from __future__ import annotations
+
+import logging
+import zlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter1d
+from scipy.special import erf
+
+from mobnet.core.config import FIRST_TRAINING_SEED
+from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.core.provenance import provenance
+from mobnet.core.store import write_array
+from mobnet.robot.description import RobotDescription, load_robot
+from mobnet.simulation.reaching import Reacher
+
+log = logging.getLogger(__name__)
+Array = NDArray[np.float64]
+BOTH_SIDES = np.array([[1.0, 1.0, 1.0], [1.0, -1.0, 1.0]])  # the right side is the mirror image in y
+SHOULDER = "Shoulder3_Link"
+
+
+def make_motion(config: Mapping[str, Any], name: str, seed: int, duration_s: float, out_stem: Path) -> None:
+    """Write knots of joint targets [rad] of the joints above the legs, columns q_ref.<joint> (section 4.3).
+
+    Raises:
+        ConfigError: the motion or its duration is not accepted.
+        SimulationError: the motion comes too near to the robot itself.
+    """
+    if name not in config["motions"]:
+        raise ConfigError(not_accepted("motion", name, config["motions"]))
+    if not duration_s > 0:
+        raise ConfigError(f"duration_s: {duration_s} is not accepted; accepted: > 0")
+    settings = config["motions"][name]
+    robot = load_robot(Path(config["robot"]))
+    part, variant = part_and_variant(seed, len(settings["variants"]))
+    rng = np.random.default_rng(np.random.SeedSequence([config["seed"], zlib.crc32(name.encode()), part]))
+    knots = plan(robot, settings, np.array(config["walking"]["posture_rad"]), variant, rng, duration_s)
+    names = robot.layout.actuated[-knots.shape[1] :]
+    columns = [(f"q_ref.{joint}", "rad", "joint") for joint in names]
+    meta = {
+        "rate_hz": settings["knot_hz"], "motion": name, "seed": seed, "part": part, "variant": variant,
+        "provenance": provenance(config),
+    }  # fmt: skip
+    write_array(out_stem, knots, columns, meta)
+
+
+def part_and_variant(seed: int, variants: int) -> tuple[int, int]:
+    """Return which part of the base motion a seed draws, and its variant; test seeds draw their own in variant 0."""
+    index = seed - FIRST_TRAINING_SEED
+    return (seed, 0) if index < 0 else (FIRST_TRAINING_SEED + index // variants, index % variants)
+
+
+def plan(
+    robot: RobotDescription, settings: Mapping[str, Any], posture: Array, variant: int, rng: np.random.Generator,
+    duration_s: float,
+) -> Array:  # fmt: skip
+    """Return knots (T, n) [rad] that start at rest in the posture (n,) [rad]."""
+    limits = working_range(robot, settings)
+    reacher = Reacher(robot, settings, limits, posture)
+    change = settings["variants"][variant]
+    time = np.arange(round(duration_s * settings["knot_hz"]) + 1) / settings["knot_hz"]
+    waves = band_limited(change["speed"] * time, 6 + len(limits), settings, rng)
+    hands = hand_targets(shoulder(robot), settings, waves[:, :6]) + change["hand_offset_m"] * np.stack(
+        [MIRROR**0, MIRROR]
+    )
+    joints = limits.mean(axis=1) + 0.5 * np.diff(limits)[:, 0] * waves[:, 6:]
+    share = smooth_step((time - settings["still_s"]) / settings["ease_s"])
+    start = reacher.hand_positions()
+    knots = np.zeros((len(time), len(limits)))
+    for i, s in enumerate(share):
+        knots[i] = reacher.step(start + s * (hands[i] - start), posture + s * (joints[i] - posture))
+    return gaussian_filter1d(knots, settings["smoothing_s"] * settings["knot_hz"], axis=0, mode="nearest")
+
+
+def working_range(robot: RobotDescription, settings: Mapping[str, Any]) -> Array:
+    """Return the working range (n, 2) [rad] of the joints above the legs: the right arm's mirrors the left one's."""
+    rows = {limb: np.array(settings[key], dtype=float) for limb, key in (("W", "waist_rad"), ("N", "neck_rad"))}
+    rows["LA"] = np.array(settings["arm_rad"], dtype=float)
+    rows["RA"] = -rows["LA"][:, ::-1]
+    return np.concatenate([rows[limb] for limb in ("W", "LA", "N", "RA")])
+
+
+def hand_targets(centre: Array, settings: Mapping[str, Any], waves: Array) -> Array:
+    """Return hands (T, 2, 3) [m] in the chest's frame from waves (T, 6) in -1..1: azimuth, elevation, distance.
+
+    Args:
+        centre: what the left hand moves around (3,) [m].
+        settings: spans of azimuth, elevation and distance.
+        waves: left hand, then right hand.
+    """
+    spans = np.array([settings[key] for key in ("hand_azimuth_rad", "hand_elevation_rad", "hand_distance_m")])
+    azimuth, elevation, distance = np.moveaxis(
+        spans.mean(axis=1) + 0.5 * np.diff(spans)[:, 0] * waves.reshape(-1, 2, 3), -1, 0
+    )
+    across = np.cos(elevation)
+    direction = np.stack([across * np.cos(azimuth), across * np.sin(azimuth), np.sin(elevation)], axis=-1)
+    return (centre + distance[..., None] * direction) * BOTH_SIDES
+
+
+def shoulder(robot: RobotDescription) -> Array:
+    """Return the left shoulder's last centre (3,) [m] in the chest's frame, the arm's joints at zero."""
+    bodies = {body.name: body for body in robot.bodies}
+    chest = next(point.body for point in robot.points if point.name == "torso")
+    place, link = np.zeros(3), bodies[f"L_{SHOULDER}"]
+    while link.name != chest:
+        place, link = place + link.pos, bodies[link.parent]
+    return place
+
+
+def band_limited(time: Array, count: int, settings: Mapping[str, Any], rng: np.random.Generator) -> Array:
+    """Return signals (T, count), spread evenly over -1..1, of sines within the band [Hz] at time (T,) [s]."""
+    waves, (lowest, highest) = settings["waves"], settings["band_hz"]
+    frequency = 2 * np.pi * rng.uniform(lowest, highest, (waves, count))
+    phase = rng.uniform(0, 2 * np.pi, (waves, count))
+    total = np.zeros((len(time), count))
+    for f, p in zip(frequency, phase, strict=True):
+        total += np.sin(time[:, None] * f + p)
+    return erf(total / np.sqrt(waves))  # the sum is nearly normal, of variance waves / 2
+
+
+def smooth_step(x: Array) -> Array:
+    """Return 0 below 0, 1 above 1, and a rise between with no jump up to the second derivative (T,)."""
+    x = np.clip(x, 0.0, 1.0)
+    return x**3 * (10 - 15 * x + 6 * x**2)

@@ -1,0 +1,158 @@
+"""The upper body on a fixed pelvis follows hand and posture targets by differential inverse kinematics (mink).
+
+The guard is MuJoCo's collision detection: the robot's own solids, and the space in which the legs walk, keep apart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import mink
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.errors import SimulationError
+from mobnet.robot.description import SIDES, RobotDescription
+from mobnet.simulation.self_collision import check_spec
+
+Array = NDArray[np.float64]
+ZONE_TYPE = 2  # contype of the legs' space: only upper bodies meet it
+SOLVER = "daqp"
+
+
+class ClearanceLimit(mink.Limit):
+    """Solids that are near approach only as fast as their distance shrinks to the least one allowed."""
+
+    def __init__(self, model: mujoco.MjModel, least_m: float, gain: float) -> None:
+        """Set the least distance [m] and the share of what is left of it that one step may use up."""
+        self.model, self.least, self.gain = model, least_m, gain
+        self.jacobians = np.zeros((2, 3, model.nv))
+
+    def compute_qp_inequalities(self, configuration: mink.Configuration, dt: float) -> mink.Constraint:
+        """Return G dq <= h, a row per contact: -n (J_2 - J_1) dq <= gain (distance - least), dq in [rad]."""
+        del dt
+        data = configuration.data
+        mujoco.mj_collision(self.model, data)
+        if data.ncon == 0:
+            return mink.Constraint()
+        contact = data.contact
+        bodies = self.model.geom_bodyid[contact.geom]
+        rows = np.zeros((data.ncon, self.model.nv))
+        for row, normal, point, pair in zip(rows, contact.frame, contact.pos, bodies, strict=True):
+            for jacobian, body in zip(self.jacobians, pair, strict=True):
+                mujoco.mj_jac(self.model, data, jacobian, None, point, body)
+            row[:] = normal[:3] @ (self.jacobians[0] - self.jacobians[1])
+        return mink.Constraint(G=rows, h=self.gain * np.maximum(contact.dist - self.least, 0.0))
+
+
+class Reacher:
+    """Follows targets knot by knot from a posture; `settings` is a row of `motions` in the configuration."""
+
+    def __init__(self, robot: RobotDescription, settings: Mapping[str, Any], limits: Array, posture: Array) -> None:
+        """Build model, tasks and limits.
+
+        Args:
+            robot: figures of the robot.
+            settings: numbers of the motion.
+            limits: working range of the joints above the legs (n, 2) [rad].
+            posture: where to start (n,) [rad].
+        """
+        model = upper_body(robot, limits, settings["guard_m"], settings["leg_poses_rad"])
+        self.dt = 1.0 / settings["knot_hz"]
+        self.configuration = mink.Configuration(model, posture)
+        self.hands = [
+            mink.FrameTask(f"{side}_hand", "site", settings["hand_cost"], 0.0, gain=settings["gain"]) for side in SIDES
+        ]
+        cost = np.full(model.nv, settings["arm_cost"])
+        free = [model.joint(name).id for limb in ("W", "N") for name in robot.layout.limb(limb)]
+        cost[free] = settings["trunk_cost"]
+        self.posture = mink.PostureTask(model, cost, gain=settings["gain"])
+        names = robot.layout.actuated[-model.nv :]
+        speeds = {
+            joint.id: settings["speed_share"] * joint.velocity_limit for joint in robot.joints if joint.id in names
+        }
+        self.limits = [
+            mink.ConfigurationLimit(model),
+            mink.VelocityLimit(model, speeds),
+            ClearanceLimit(model, settings["clearance_m"], settings["gain"]),
+        ]
+        self.chest = model.body(model.site("torso").bodyid[0]).id
+
+    def step(self, hands: Array, posture: Array) -> Array:
+        """Move by one knot towards hands (2, 3) [m] in the chest's frame and posture (n,) [rad]; return q (n,) [rad].
+
+        Raises:
+            SimulationError: the quadratic program has no solution.
+        """
+        data = self.configuration.data
+        chest = data.xmat[self.chest].reshape(3, 3)
+        for task, hand in zip(self.hands, hands, strict=True):
+            task.set_target(mink.SE3.from_translation(data.xpos[self.chest] + chest @ hand))
+        self.posture.set_target(posture)
+        try:
+            v = mink.solve_ik(self.configuration, [*self.hands, self.posture], self.dt, SOLVER, limits=self.limits)
+        except mink.NoSolutionFound as error:
+            raise SimulationError(f"inverse kinematics: {error}") from None
+        self.configuration.integrate_inplace(v, self.dt)
+        return self.configuration.q.copy()
+
+    def hand_positions(self) -> Array:
+        """Return both hands (2, 3) [m] in the chest's frame."""
+        data = self.configuration.data
+        chest = data.xmat[self.chest].reshape(3, 3)
+        return np.stack([data.site(f"{side}_hand").xpos - data.xpos[self.chest] for side in SIDES]) @ chest
+
+
+def upper_body(
+    robot: RobotDescription, limits: Array, reach_m: float, leg_poses: Sequence[Sequence[float]]
+) -> mujoco.MjModel:
+    """Compile what stands above the legs on a fixed pelvis, and the space of the legs as solids of the pelvis.
+
+    Args:
+        robot: figures of the robot.
+        limits: working range of the joints above the legs (n, 2) [rad].
+        reach_m: solids nearer than this make contacts [m].
+        leg_poses: left hip yaw, roll, pitch and knee (4,) [rad]; the right leg's are their mirror images.
+    """
+    solids = leg_space(robot, leg_poses)
+    spec = check_spec(robot, reach_m)
+    spec.compiler.degree = False
+    legs = {name for foot in robot.feet.values() for name in robot.layout.limb(foot.limb)}
+    for part in [*spec.actuators, *spec.sensors]:
+        spec.delete(part)
+    for joint in [joint for joint in spec.joints if joint.name in legs or joint.name == "base"]:
+        spec.delete(joint)
+    for joint, span in zip(spec.joints, limits, strict=True):
+        joint.limited, joint.range = True, span
+    moved = {body.name for joint in spec.joints for body in [joint.parent, *joint.parent.find_all("body")]}
+    for geom in spec.geoms:
+        geom.conaffinity |= ZONE_TYPE * (geom.parent.name in moved and geom.contype > 0)
+    base = spec.body(robot.base)
+    for fromto, radius in solids:
+        geom = base.add_geom(
+            type=mujoco.mjtGeom.mjGEOM_CAPSULE, contype=ZONE_TYPE, conaffinity=0, margin=reach_m / 2, mass=0
+        )
+        geom.fromto, geom.size[0] = fromto, radius
+    return spec.compile()
+
+
+def leg_space(robot: RobotDescription, poses: Sequence[Sequence[float]]) -> list[tuple[Array, float]]:
+    """Return capsules (both ends (6,) [m] in the base's frame, radius [m]) of both legs' shapes at some poses."""
+    model = check_spec(robot, 0.0).compile()
+    data = mujoco.MjData(model)
+    capsules = []
+    for pose in poses:
+        for foot, sign in zip(robot.feet.values(), (1.0, -1.0), strict=True):
+            first = model.joint(robot.layout.limb(foot.limb)[0]).qposadr[0]
+            data.qpos[:] = model.qpos0
+            data.qpos[:3] = 0.0
+            data.qpos[first : first + len(pose)] = np.array([sign, sign, 1.0, 1.0]) * pose
+            mujoco.mj_kinematics(model, data)
+            knee = model.joint(robot.layout.limb(foot.limb)[3]).bodyid[0]
+            for i in np.flatnonzero(np.isin(model.geom_bodyid, [model.body_parentid[knee], knee])):
+                axis = data.geom_xmat[i].reshape(3, 3)[:, 2] * model.geom_size[i, 1]
+                ends = np.concatenate([data.geom_xpos[i] - axis, data.geom_xpos[i] + axis])
+                capsules.append((ends, float(model.geom_size[i, 0])))
+    return capsules

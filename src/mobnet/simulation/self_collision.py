@@ -1,0 +1,97 @@
+"""Does the robot touch itself? Smallest distance between its own solids (section 4.3: none in the random motion).
+
+The solids are the robot's shapes. Every pair is checked whose bodies can really meet. Not checked are bodies that joints
+hold together: at most `NEIGHBOURS` joints apart, or joined at one point by a hip or waist whose axes meet. Their shapes
+overlap by construction, or would touch only far outside any working range (a forearm folded flat).
+"""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.errors import DataError
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.parts import Body
+from mobnet.robot.plant import SHAPE_GROUP, robot_spec
+
+REACH_M = 0.06  # distances beyond this are not told apart; what is near costs time
+NEIGHBOURS = 2  # joints
+OWN_TYPE = 1  # contype and conaffinity of the robot's own solids in the check model
+
+
+class Clearance:
+    """Distances between the robot's own solids, by MuJoCo's collision detection on a model of its own."""
+
+    def __init__(self, robot: RobotDescription, reach_m: float = REACH_M) -> None:
+        """Compile the check model.
+
+        Args:
+            robot: figures and shapes of the robot.
+            reach_m: largest distance that is told apart [m].
+        """
+        self.reach = reach_m
+        self.model = check_spec(robot, reach_m).compile()
+        self.data = mujoco.MjData(self.model)
+
+    def nearest(self, q: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the smallest distance between two checked solids (T,) [m] at q (T, nq) [m, rad].
+
+        Negative where they overlap, and `reach` where none are nearer than that.
+
+        Raises:
+            DataError: q has another shape.
+        """
+        if q.ndim != 2 or q.shape[1] != self.model.nq:
+            raise DataError(f"q: shape {q.shape} is not accepted; accepted: (T, {self.model.nq})")
+        result = np.full(len(q), self.reach)
+        for i, row in enumerate(q):
+            self.data.qpos[:] = row
+            result[i] = self._collide()
+        return result
+
+    def pair(self, q: NDArray[np.float64]) -> tuple[str, str] | None:
+        """Return the names of the two solids that are nearest at q (nq,) [m, rad]; None where all are out of reach."""
+        self.data.qpos[:] = q
+        if self._collide() >= self.reach:
+            return None
+        first, second = self.data.contact.geom[np.argmin(self.data.contact.dist)]
+        return self.model.geom(first).name, self.model.geom(second).name
+
+    def _collide(self) -> float:
+        """Find the contacts of the data's position; return the smallest distance [m]."""
+        mujoco.mj_kinematics(self.model, self.data)
+        mujoco.mj_collision(self.model, self.data)
+        return min(self.reach, self.data.contact.dist.min()) if self.data.ncon else self.reach
+
+
+def check_spec(robot: RobotDescription, reach_m: float) -> mujoco.MjSpec:
+    """Return the robot whose own shapes collide, all that come nearer than `reach_m` [m], and nothing else."""
+    spec = robot_spec(robot)
+    for geom in spec.geoms:
+        own = OWN_TYPE if geom.group == SHAPE_GROUP else 0
+        geom.contype, geom.conaffinity, geom.condim = own, own, 1
+        geom.margin = reach_m / 2  # MuJoCo adds the two margins of a pair
+    for i, body in enumerate(robot.bodies):
+        for other in robot.bodies[:i]:
+            if held_together(robot, body, other):
+                spec.add_exclude(bodyname1=body.name, bodyname2=other.name)
+    return spec
+
+
+def held_together(robot: RobotDescription, body: Body, other: Body) -> bool:
+    """Return whether joints hold two bodies so close that their shapes are not checked against each other."""
+    path = _to_base(robot, body) ^ _to_base(robot, other)
+    joints = [link for link in robot.bodies if link.name in path and robot.joint_of(link.name) is not None]
+    return len(joints) <= NEIGHBOURS or sum(bool(link.pos.any()) for link in joints) <= 1
+
+
+def _to_base(robot: RobotDescription, body: Body) -> frozenset[str]:
+    """Return the names of a body and of all it hangs on."""
+    parents = {link.name: link.parent for link in robot.bodies}
+    names, name = set(), body.name
+    while name in parents:
+        names.add(name)
+        name = parents[name]
+    return frozenset(names)
