@@ -72,9 +72,7 @@ def plan(
     change = settings["variants"][variant]
     time = np.arange(round(duration_s * settings["knot_hz"]) + 1) / settings["knot_hz"]
     waves = band_limited(change["speed"] * time, 6 + len(limits), settings, rng)
-    hands = hand_targets(shoulder(robot), settings, waves[:, :6]) + change["hand_offset_m"] * np.stack(
-        [MIRROR**0, MIRROR]
-    )
+    hands = hand_targets(shoulder(robot) + change["hand_offset_m"], settings, waves[:, :6])
     joints = limits.mean(axis=1) + 0.5 * np.diff(limits)[:, 0] * waves[:, 6:]
     share = smooth_step((time - settings["still_s"]) / settings["ease_s"])
     start = reacher.hand_positions()

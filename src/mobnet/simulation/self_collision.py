@@ -1,8 +1,8 @@
 """Does the robot touch itself? Smallest distance between its own solids (section 4.3: none in the random motion).
 
-The solids are the robot's shapes. Every pair is checked whose bodies can really meet. Not checked are bodies that joints
-hold together: at most `NEIGHBOURS` joints apart, or joined at one point by a hip or waist whose axes meet. Their shapes
-overlap by construction, or would touch only far outside any working range (a forearm folded flat).
+The solids are the robot's shapes. Every pair is checked whose bodies can really meet. Not checked are bodies that
+joints hold together: at most `NEIGHBOURS` joints apart, or joined at one point by a hip or waist whose axes meet. Their
+shapes overlap by construction, or would touch only far outside any working range (a forearm folded flat).
 """
 
 from __future__ import annotations
