@@ -1,0 +1,81 @@
+"""Which samples of recordings are looked at: all or those around pushes, evenly thinned, in blocks of time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.recording import FEET
+from mobnet.core.store import read_array
+from mobnet.evaluation.metrics import Spans
+
+FLAG = 0.5  # a stored flag above this is 1
+
+
+@dataclass(frozen=True)
+class Pushed:
+    """Where in a recording a swinging left leg is pushed: it has external torque though its foot touches nothing.
+
+    Attributes:
+        joint: joint of the left leg that the push turns.
+        torque_nm: external torque above this is a push [N m].
+        after_s: how long after a push the robot is still looked at [s].
+    """
+
+    joint: str
+    torque_nm: float
+    after_s: float
+
+    def spans(self, stem: Path) -> list[tuple[int, int]]:
+        """Return the spans (start, end) of rows around the pushes of a recording, in order.
+
+        Raises:
+            DataError: a file or a column is missing.
+        """
+        names = [f"swing.{FEET[0]}", f"contact.{FEET[0]}", f"tau_ext.{self.joint}"]
+        array, meta = read_array(stem, names)
+        free = (array[:, 0] > FLAG) & (array[:, 1] < FLAG)
+        return runs(
+            free & (np.abs(array[:, 2]) > self.torque_nm), meta["segments"], round(self.after_s * meta["rate_hz"])
+        )
+
+
+def pushed_of(test: Mapping[str, Any], settings: Mapping[str, Any]) -> Pushed | None:
+    """Return which samples of a test count, None for all; `settings` has push_nm [N m] and push_after_s [s]."""
+    return Pushed(test["pushed"], settings["push_nm"], settings["push_after_s"]) if "pushed" in test else None
+
+
+def runs(flags: NDArray[np.bool_], segments: Spans, after: int) -> list[tuple[int, int]]:
+    """Return the spans (start, end) of rows in which a flag is set or was within the last `after` rows.
+
+    Args:
+        flags: (T,).
+        segments: contiguous stretches (start, end); a span stays within one.
+        after: rows added to every span.
+    """
+    spans = []
+    for first, last in segments:
+        wide = np.zeros(last - first + 1, dtype=bool)
+        for row in np.flatnonzero(flags[first:last]):
+            wide[row : min(row + after + 1, last - first)] = True
+        edges = np.flatnonzero(np.diff(wide, prepend=False)) + first
+        spans += [(int(start), int(end)) for start, end in edges.reshape(-1, 2)]
+    return spans
+
+
+def blocks_of(spans: Spans, length: int) -> Iterator[tuple[int, int]]:
+    """Yield spans (start, end) cut into blocks of `length` rows; the last of each span may be shorter."""
+    for first, last in spans:
+        for start in range(int(first), int(last), length):
+            yield start, min(start + length, int(last))
+
+
+def evenly(total: int, count: int) -> NDArray[np.intp]:
+    """Return the indices of `count` samples spread evenly over `total`, or of all where there are fewer."""
+    taken = min(total, count)
+    return np.arange(taken) * total // max(1, taken)

@@ -1,0 +1,59 @@
+"""How the upper body moved in recordings: hand speeds and the joint ranges visited."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mobnet.core.joints import NQ_BASE
+from mobnet.core.recording import recording_columns
+from mobnet.core.store import read_array
+from mobnet.evaluation.kinematics import hand_speeds
+from mobnet.robot.description import SIDES
+from mobnet.robot.nominal import NominalModel
+
+LIMBS = ("W", "LA", "RA")
+
+
+def upper_body(
+    config: Mapping[str, Any], stems: Sequence[Path], nominal: NominalModel
+) -> Iterator[tuple[str, str, float, str]]:
+    """Yield quantity, part, value and unit: hand speeds against the pelvis [m/s] and joint ranges visited [rad].
+
+    Args:
+        config: resolved configuration: `evaluation.data.every`, samples from one looked at to the next.
+        stems: recordings.
+        nominal: the model whose kinematics are used.
+
+    Raises:
+        DataError: a file or a column is missing.
+    """
+    layout, every = nominal.robot.layout, config["evaluation"]["data"]["every"]
+    columns = recording_columns(layout)
+    names = [name for field in ("q", "v") for name, _, _ in columns[field]]
+    speeds, lows, highs = [], [], []
+    for stem in stems:
+        q, v = np.split(read_array(stem, names)[0][::every], [layout.nq], axis=1)
+        speeds.append(hand_speeds(nominal, q, v))
+        lows.append(q[:, NQ_BASE:].min(axis=0))
+        highs.append(q[:, NQ_BASE:].max(axis=0))
+    speed = np.concatenate(speeds)
+    for k, side in enumerate(SIDES):
+        yield "mean hand speed", side, float(speed[:, k].mean()), "m/s"
+        yield "largest hand speed", side, float(speed[:, k].max()), "m/s"
+    low, high = np.min(lows, axis=0), np.max(highs, axis=0)
+    bounds = np.array([joint.range for joint in nominal.robot.joints])
+    share = (high - low) / (bounds[:, 1] - bounds[:, 0])
+    for limb in LIMBS:
+        own = [layout.actuated.index(joint) for joint in layout.limb(limb)]
+        yield "joint range visited", f"limb {limb}", float(share[own].mean()), "-"
+        for k in own:
+            joint = layout.actuated[k]
+            yield "joint range visited", joint, float(share[k]), "-"
+            for quantity, value in (("smallest position", low[k]), ("largest position", high[k])):
+                yield quantity, joint, float(value), "rad"
+            for quantity, value in (("lower limit", bounds[k, 0]), ("upper limit", bounds[k, 1])):
+                yield quantity, joint, float(value), "rad"
