@@ -85,7 +85,7 @@ class WalkingParameters(NamedTuple):
 
 STATE = np.dtype(
     [
-        ("side", "f8"), ("t", "f8"), ("total", "f8"), ("commanded", "f8"), ("standing", "i8"), ("steps", "i8"),
+        ("clock", "f8"), ("side", "f8"), ("t", "f8"), ("total", "f8"), ("commanded", "f8"), ("standing", "i8"), ("steps", "i8"),
         ("command", "f8", 5), ("old_ankle", "f8", 3), ("old_yaw", "f8"), ("swinging", "i8"),
         ("yaw", "f8"), ("yaw_start", "f8"), ("height", "f8"), ("height_rate", "f8"),
         ("velocity", "f8", 2), ("target", "f8", 2), ("target_velocity", "f8", 2),

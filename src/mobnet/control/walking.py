@@ -40,6 +40,8 @@ class Walker(NamedTuple):
         sole: centre of the sole in the foot (3,) [m].
         gravity: [m/s^2].
         wrench: ground's wrenches about the ankles, foot axes (2, 6) [N, N m]; buffer.
+        posture: where the joints above the legs should be (nu - upper,) [rad]; whoever moves them writes it.
+        posture_rate: their wanted velocity (nu - upper,) [rad/s].
         work: scratch (3,).
     """
 
@@ -54,6 +56,8 @@ class Walker(NamedTuple):
     sole: Array
     gravity: float
     wrench: Array
+    posture: Array
+    posture_rate: Array
     work: Array
 
 
@@ -75,6 +79,8 @@ def make_walker(robot: RobotDescription, par: WalkingParameters, mass_ratio: flo
         sole=np.array([*robot.sole_centre[:2], robot.sole_height]),
         gravity=float(gravity_m_s2),
         wrench=np.zeros((2, 6)),
+        posture=par.posture_rad.copy(),
+        posture_rate=np.zeros(len(par.posture_rad)),
         work=np.zeros(3),
     )
 
@@ -257,4 +263,4 @@ def _torques(walker: Walker, s: State, stance: int, q: Array, v: Array, dt: floa
             point[1] += pose.position[foot, 1] + np.sin(yaw) * par.zmp_offset_x_m - s.zmp_nominal[1]
         point[2] = pose.position[foot, 2] + walker.sole[2]
         stance_torque(par, walker.tree, pose, s, k, first, foot, q, v, walker.wrench[k], point, dt, tau)
-    posture_torque(par, walker.upper, q, v, par.posture_rad, tau)
+    posture_torque(par, walker.upper, q, v, walker.posture, walker.posture_rate, tau)

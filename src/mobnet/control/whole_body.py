@@ -133,9 +133,11 @@ def swing_torque(par: WalkingParameters, s: State, k: int, first: int, q: Array,
 
 
 @compiled
-def posture_torque(par: WalkingParameters, first: int, q: Array, v: Array, target: Array, tau: Array) -> None:
-    """Add the torques [N m] that hold the joints from `first` on at the target posture (n,) [rad]."""
+def posture_torque(
+    par: WalkingParameters, first: int, q: Array, v: Array, target: Array, rate: Array, tau: Array
+) -> None:
+    """Add the torques [N m] that keep the joints from `first` on at a target (n,) [rad] moving at rate (n,) [rad/s]."""
     for j in range(len(target)):
         joint = first + j
         tau[joint] += par.posture_stiffness_nm_rad[j] * (target[j] - q[7 + joint])
-        tau[joint] -= par.posture_damping_nms_rad[j] * v[6 + joint]
+        tau[joint] += par.posture_damping_nms_rad[j] * (rate[j] - v[6 + joint])

@@ -12,15 +12,18 @@ from mobnet.control.compiled import allocating, compiled
 from mobnet.control.geometry import clip
 from mobnet.control.parameters import State
 from mobnet.control.random_torque import RandomTorque, advance_random_torque
+from mobnet.control.upper_body import UpperBody, follow
 from mobnet.control.walking import Walker, walk
 from mobnet.simulation.friction import Friction, friction_torque
 from mobnet.simulation.native import Native, addresses_at, call_step, doubles_at, ints_at
+from mobnet.simulation.pushes import Pushes, push
 from mobnet.simulation.sensing import Sensors, read_sensors
 from mobnet.simulation.world import World
 
 Array = NDArray[np.float64]
 FIRST_CONTACT_ROW = int(mujoco.mjtConstraint.mjCNSTR_CONTACT_FRICTIONLESS)  # equality, friction loss, limits: before
-CONTACT_FORCE_N = 1.0  # a foot whose sensor feels more touches the ground
+CONTACT_FORCE_N = 1.0  # a foot that the ground pushes harder touches it
+LEG_JOINTS = 6
 
 
 class Plant(NamedTuple):
@@ -31,7 +34,11 @@ class Plant(NamedTuple):
         qpos: generalized position (nq,).
         qvel: generalized velocity (nv,).
         ctrl: motor torques (nu,) [N m].
-        qfrc_applied: generalized forces from outside MuJoCo (nv,) [N, N m]; here the friction.
+        qfrc_applied: generalized forces from outside MuJoCo (nv,) [N, N m]: friction and pushes on joints.
+        xfrc_applied: pushes on bodies, at their centres of mass (nbody, 6) [N, N m].
+        site_xpos: points of the robot (nsite, 3) [m].
+        xipos: centres of mass of the bodies (nbody, 3) [m].
+        xmat: axes of the bodies (nbody, 9).
         qfrc_smooth: passive - bias + applied + actuator + mapped xfrc_applied (nv,).
         qfrc_bias: Coriolis, centrifugal and gravity (nv,).
         qfrc_passive: passive forces (nv,).
@@ -50,6 +57,10 @@ class Plant(NamedTuple):
     qvel: Array
     ctrl: Array
     qfrc_applied: Array
+    xfrc_applied: Array
+    site_xpos: Array
+    xipos: Array
+    xmat: Array
     qfrc_smooth: Array
     qfrc_bias: Array
     qfrc_passive: Array
@@ -69,36 +80,44 @@ def make_plant(
     """Collect the live arrays of a world; the world must outlive the plant. limits (nu,) [N m], fall_height [m]."""
     data = world.data
     return Plant(
-        native, data.qpos, data.qvel, data.ctrl, data.qfrc_applied, data.qfrc_smooth, data.qfrc_bias,
-        data.qfrc_passive, data.qfrc_actuator, data.sensordata, friction, np.array(limits, dtype=float),
-        float(world.period), float(fall_height), float(world.model.opt.timestep), int(every),
+        native, data.qpos, data.qvel, data.ctrl, data.qfrc_applied, data.xfrc_applied, data.site_xpos, data.xipos,
+        data.xmat, data.qfrc_smooth, data.qfrc_bias, data.qfrc_passive, data.qfrc_actuator, data.sensordata, friction,
+        np.array(limits, dtype=float), float(world.period), float(fall_height), float(world.model.opt.timestep), int(every),
     )  # fmt: skip
 
 
 @allocating
 def run(
-    plant: Plant, walker: Walker, sensors: Sensors, s: State, torque: RandomTorque, commands: Array,
-    rng_noise: np.random.Generator, rng_torque: np.random.Generator, log: NDArray[np.float32],
+    plant: Plant, walker: Walker, sensors: Sensors, s: State, commands: Array, upper: UpperBody, torque: RandomTorque,
+    pushes: Pushes, rng_noise: np.random.Generator, rng_torque: np.random.Generator, rng_pushes: np.random.Generator,
+    log: NDArray[np.float32],
 ) -> int:  # fmt: skip
     """Simulate len(log) samples into log (n, C), columns of `recording_columns`; return how many before a fall."""
     nv, nu = len(plant.qvel), len(plant.ctrl)
     tau, tau_des, tau_motor, tau_ext = np.zeros(nu), np.zeros(nu), np.zeros(nu), np.zeros(nv)
-    wrenches = np.zeros((2, 6))
+    wrenches, touch = np.zeros((2, 6)), np.zeros(2)
     for row in range(len(log)):
         tau_des[:] = 0.0
         tau_motor[:] = 0.0
         tau_ext[:] = 0.0
         wrenches[:] = 0.0
+        touch[:] = 0.0
         for _ in range(plant.every):
+            follow(upper, s.clock, walker.posture, walker.posture_rate)
             walk(walker, s, sensors.q, sensors.v, sensors.wrenches, commands, plant.dt, tau)
             _explore(walker, s, torque, rng_torque, plant.dt, tau)
             _actuate(plant, tau, tau_des, tau_motor)
+            push(
+                pushes, s, plant.xfrc_applied, plant.qfrc_applied, plant.site_xpos, plant.xipos, plant.xmat, rng_pushes,
+                tau_ext,
+            )
+            s.clock += plant.dt
             call_step(plant.native.step, plant.native.model, plant.native.data)
-            _add_external(plant, tau_ext)
+            _add_external(plant, walker, tau_ext, touch)
             read_sensors(sensors, walker, plant.qpos, plant.qvel, plant.sensordata, rng_noise, plant.dt)
             wrenches += sensors.wrenches
             _wrap(plant, sensors, s)
-        _write(log[row], sensors, s, tau_des, tau_motor, tau_ext, wrenches, plant.every)
+        _write(log[row], sensors, s, tau_des, tau_motor, tau_ext, wrenches, touch, plant.every)
         if not plant.qpos[2] > plant.fall_height:  # a state that is not finite is a fall too
             return row
     return len(log)
@@ -127,10 +146,11 @@ def _actuate(plant: Plant, tau: Array, tau_des: Array, tau_motor: Array) -> None
 
 
 @compiled
-def _add_external(plant: Plant, tau_ext: Array) -> None:
-    """Add the external torque of the step just taken (nv,): J^T F of the solver's contact rows and applied wrenches.
+def _add_external(plant: Plant, walker: Walker, tau_ext: Array, touch: Array) -> None:
+    """Add the external torque of the step just taken (nv,): J^T F of the solver's contact rows and pushes on bodies.
 
-    Only the contact rows: the constraint forces as a whole also hold friction loss and limits.
+    Only the contact rows: the constraint forces as a whole also hold friction loss and limits. Their forces [N] are
+    added to touch (2,) of the left, right foot: the edges of a contact's friction pyramid add up to its normal force.
     """
     nv, data = len(tau_ext), plant.native.data
     for i in range(nv):
@@ -148,6 +168,12 @@ def _add_external(plant: Plant, tau_ext: Array) -> None:
         if forces[r] != 0.0:
             for i in range(nv):
                 tau_ext[i] += jacobian[r * nv + i] * forces[r]
+            for k in range(2):
+                first = r * nv + 6 + walker.first[k]
+                for i in range(first, first + LEG_JOINTS):
+                    if jacobian[i] != 0.0:
+                        touch[k] += forces[r]
+                        break
 
 
 @compiled
@@ -168,7 +194,7 @@ def _wrap(plant: Plant, sensors: Sensors, s: State) -> None:
 @compiled
 def _write(
     row: NDArray[np.float32], sensors: Sensors, s: State, tau_des: Array, tau_motor: Array, tau_ext: Array,
-    wrenches: Array, every: int,
+    wrenches: Array, touch: Array, every: int,
 ) -> None:  # fmt: skip
     """Write one sample in the order of `recording_columns`; sums over the sample's steps become means."""
     at = _put(row, 0, sensors.q, 1.0)
@@ -183,7 +209,7 @@ def _write(
     for k in range(2):
         at = _put(row, at, wrenches[k], 1.0 / every)
     for k in range(2):
-        row[at + k] = np.sqrt(wrenches[k, 0] ** 2 + wrenches[k, 1] ** 2 + wrenches[k, 2] ** 2) > every * CONTACT_FORCE_N
+        row[at + k] = touch[k] > every * CONTACT_FORCE_N
 
 
 @compiled

@@ -1,4 +1,7 @@
-"""A start in the middle of a step: a still start needs a shift of weight that friction spoils."""
+"""A start in the middle of a step: a still start needs a shift of weight that friction spoils.
+
+On ground at height zero, facing along x; `turn` puts it elsewhere.
+"""
 
 from __future__ import annotations
 
@@ -14,19 +17,19 @@ from mobnet.control.whole_body import leg_jacobian
 from mobnet.robot.description import RobotDescription
 
 Array = NDArray[np.float64]
-CLEARANCE_M = 0.001  # soles over the terrain's highest point at the start
+CLEARANCE_M = 0.001  # soles over the ground at the start
 ITERATIONS = 20  # of the feet's place under the centre of mass; converges by a factor 4 each
 SIDES = (1.0, -1.0)
 
 
-def place(walker: Walker, robot: RobotDescription, ground_m: float) -> tuple[Array, Array]:
-    """Return q (nq,) and the ankles (2, 3) [m] of standing, pelvis level, weight over the nominal ZMP."""
+def place(walker: Walker, robot: RobotDescription) -> tuple[Array, Array]:
+    """Return q (nq,) and the ankles (2, 3) [m] of standing in the walker's posture, pelvis level, weight over the ZMP."""
     par = walker.par
     q, v = np.zeros(robot.layout.nq), np.zeros(robot.layout.nv)
-    q[2], q[3] = ground_m + CLEARANCE_M + par.pelvis_height_m, 1.0
-    q[7 + walker.upper :] = par.posture_rad
+    q[2], q[3] = CLEARANCE_M + par.pelvis_height_m, 1.0
+    q[7 + walker.upper :] = walker.posture
     ankles = np.zeros((2, 3))
-    ankles[:, 2] = ground_m + CLEARANCE_M - robot.sole_height
+    ankles[:, 2] = CLEARANCE_M - robot.sole_height
     ankles[:, 1] = np.array(SIDES) * par.foot_spacing_m / 2
     for _ in range(ITERATIONS):
         for k, side in enumerate(SIDES):
@@ -37,9 +40,7 @@ def place(walker: Walker, robot: RobotDescription, ground_m: float) -> tuple[Arr
     return q, ankles
 
 
-def start_walking(
-    walker: Walker, robot: RobotDescription, s: State, command: Array, ground_m: float
-) -> tuple[Array, Array]:
+def start_walking(walker: Walker, robot: RobotDescription, s: State, command: Array) -> tuple[Array, Array]:
     """Return q (nq,) and v (nv,) amid double support, swaying to the left, and set the controller's state to it.
 
     The pelvis has the lateral speed of a linear inverted pendulum that steps in place.
@@ -49,13 +50,13 @@ def start_walking(
         robot: its figures.
         s: controller state, overwritten.
         command: first command (5,).
-        ground_m: height of the ground under the feet [m].
     """
     par = walker.par
-    q, ankles = place(walker, robot, ground_m)
+    q, ankles = place(walker, robot)
     omega = np.sqrt(walker.gravity / (walker.pose.com[2] - ankles[0, 2] - robot.sole_height))
     sway = omega * par.foot_spacing_m / 2 * np.tanh(omega * command[DURATION] / 2)
     v = np.zeros(robot.layout.nv)
+    v[6 + walker.upper :] = walker.posture_rate
     v[1] = sway
     for k in range(2):
         jacobian, rates = np.zeros((6, 6)), np.zeros(6)
@@ -69,14 +70,33 @@ def start_walking(
     return q, v
 
 
-def start_standing(
-    walker: Walker, robot: RobotDescription, s: State, command: Array, ground_m: float
-) -> tuple[Array, Array]:
-    """Return q (nq,) and v (nv,) at rest and set the controller to stand; the arguments are `start_walking`'s."""
-    q, ankles = place(walker, robot, ground_m)
+def start_standing(walker: Walker, robot: RobotDescription, s: State, command: Array) -> tuple[Array, Array]:
+    """Return q (nq,) and v (nv,) of a still stance and set the controller to stand; arguments as `start_walking`'s."""
+    q, ankles = place(walker, robot)
     _set_state(walker, s, command, q, ankles)
     s.standing = 1
-    return q, np.zeros(robot.layout.nv)
+    v = np.zeros(robot.layout.nv)
+    v[6 + walker.upper :] = walker.posture_rate
+    return q, v
+
+
+def turn(s: State, q: Array, v: Array, yaw: float, place: Array) -> None:
+    """Turn a start about the origin by yaw [rad] and move it to place (2,) [m]; q (nq,), v (nv,) and s are changed."""
+    c, n = np.cos(yaw), np.sin(yaw)
+    rotation = np.array([[c, -n], [n, c]])
+    for vector in (q[:2], v[:2], s.old_ankle[:2], s.velocity):
+        vector[:] = rotation @ vector
+    q[:2] += place
+    s.old_ankle[:2] += place
+    q[3:7] = [np.cos(yaw / 2), 0.0, 0.0, np.sin(yaw / 2)]
+    s.yaw = s.yaw_start = s.old_yaw = s.stance_yaw = yaw
+
+
+def raise_start(s: State, q: Array, height_m: float) -> None:
+    """Put a start on ground at a height [m]; q (nq,) and s are changed."""
+    q[2] += height_m
+    s.old_ankle[2] += height_m
+    s.height += height_m
 
 
 def _set_state(walker: Walker, s: State, command: Array, q: Array, ankles: Array) -> None:

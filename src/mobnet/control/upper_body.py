@@ -1,0 +1,51 @@
+"""Where the joints above the legs should be: still in a posture, or along knots of a motion."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.control.compiled import compiled
+
+Array = NDArray[np.float64]
+
+
+class UpperBody(NamedTuple):
+    """Knots of a motion and where they are now.
+
+    Attributes:
+        knots: joint positions at equal steps of time (k, n) [rad]; a single knot holds still.
+        rate_hz: knots per second [Hz].
+        start: time of the motion when the episode's clock is zero, one entry (1,) [s].
+    """
+
+    knots: Array
+    rate_hz: float
+    start: Array
+
+
+@compiled
+def follow(upper: UpperBody, clock: float, q: Array, v: Array) -> None:
+    """Write the wanted positions q (n,) [rad] and velocities v (n,) [rad/s] at a clock [s]; ends are held.
+
+    Between knots runs a cubic whose slopes at the knots are the central differences: continuous in velocity.
+    """
+    last = len(upper.knots) - 1
+    at = (clock + upper.start[0]) * upper.rate_hz
+    if last < 1 or at <= 0.0 or at >= last:
+        row = 0 if last < 1 or at <= 0.0 else last
+        for j in range(len(q)):
+            q[j], v[j] = upper.knots[row, j], 0.0
+        return
+    k = int(at)
+    x = at - k
+    before, after = max(k - 1, 0), min(k + 2, last)
+    h1, h2, h3 = x * x * (3.0 - 2.0 * x), x * (x - 1.0) * (x - 1.0), x * x * (x - 1.0)
+    d1, d2, d3 = 6.0 * x * (1.0 - x), (x - 1.0) * (3.0 * x - 1.0), x * (3.0 * x - 2.0)
+    for j in range(len(q)):
+        a, b = upper.knots[k, j], upper.knots[k + 1, j]
+        slope_a, slope_b = 0.5 * (b - upper.knots[before, j]), 0.5 * (upper.knots[after, j] - a)
+        q[j] = a + (b - a) * h1 + slope_a * h2 + slope_b * h3
+        v[j] = ((b - a) * d1 + slope_a * d2 + slope_b * d3) * upper.rate_hz
