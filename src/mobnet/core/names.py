@@ -44,8 +44,9 @@ def scenario_uses(config: Mapping[str, Any], _: JointLayout) -> Iterator[Use]:
 
 
 def evaluation_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
-    """Yield what Table 5 and Figure 5 name."""
+    """Yield what the tables and figures name."""
     table, figure = config["evaluation"]["table_05"], config["evaluation"]["figure_05"]
+    yield from data_uses(config, layout)
     yield "evaluation.table_05.limb", table["limb"], layout.groups
     yield "evaluation.figure_05.joint", figure["joint"], layout.names
     for key, part, levels in (("table_05", table, "levels"), ("figure_05", figure, "panels")):
@@ -53,3 +54,16 @@ def evaluation_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[
         for level, methods in part[levels].items():
             yield f"evaluation.{key}.{levels}", level, config["levels"]
             yield from ((f"evaluation.{key}.{levels}.{level}", method, config["methods"]) for method in methods)
+
+
+def data_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
+    """Yield what Figure 19 and the tables of the data name."""
+    settings = config["evaluation"]
+    yield from (("evaluation.figure_19.joints", joint, layout.actuated) for joint in settings["figure_19"]["joints"])
+    yield "evaluation.coverage.limb", settings["coverage"]["limb"], config["networks"]
+    for test in settings["coverage"]["tests"]:
+        yield "evaluation.coverage.tests.scenario", test["scenario"], config["scenarios"]
+        yield "evaluation.coverage.tests.level", test["level"], config["levels"]
+        yield "evaluation.coverage.tests.pushed", test.get("pushed", layout.actuated[0]), layout.actuated
+    for key in ("sets", "ratio"):
+        yield from ((f"evaluation.uncertainty.{key}", limb, layout.groups) for limb in settings["uncertainty"][key])

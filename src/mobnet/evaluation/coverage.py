@@ -144,7 +144,7 @@ def read_blocks(
     for stem in stems:
         recording = read_sensed(Path(stem), layout)
         length = round(settings["block_s"] * recording.rate_hz)
-        spans = pushed.spans(Path(stem)) if pushed else recording.segments
+        spans = pushed.spans(Path(stem)) if pushed else tuple(recording.segments)
         for start, end in blocks_of(spans, length):
             blocks.append(inputs(recording.sensed[start : end : settings["every"]]))
     return blocks
@@ -194,7 +194,7 @@ def visited(
     for joint in joints:
         planes = [array[:, [where[f"{quantity}.{joint}"] for quantity in OUTSIDE]] for array in samples]
         both = np.concatenate(planes)
-        bounds = np.stack([both.min(axis=0), both.max(axis=0)], axis=1)
+        bounds = list(zip(both.min(axis=0), both.max(axis=0), strict=True))
         shares.append([float(np.mean(np.histogramdd(plane, cells, bounds)[0] > 0)) for plane in planes])
     for joint, (have, lack) in zip([*joints, ALL], [*shares, np.mean(shares, axis=0).tolist()], strict=True):
         yield Covered("training", "", AREA, joint, 0, have, lack, have / lack, None, None)

@@ -31,7 +31,7 @@ class Pushed:
     torque_nm: float
     after_s: float
 
-    def spans(self, stem: Path) -> list[tuple[int, int]]:
+    def spans(self, stem: Path) -> Spans:
         """Return the spans (start, end) of rows around the pushes of a recording, in order.
 
         Raises:
@@ -50,7 +50,7 @@ def pushed_of(test: Mapping[str, Any], settings: Mapping[str, Any]) -> Pushed | 
     return Pushed(test["pushed"], settings["push_nm"], settings["push_after_s"]) if "pushed" in test else None
 
 
-def runs(flags: NDArray[np.bool_], segments: Spans, after: int) -> list[tuple[int, int]]:
+def runs(flags: NDArray[np.bool_], segments: Spans, after: int) -> Spans:
     """Return the spans (start, end) of rows in which a flag is set or was within the last `after` rows.
 
     Args:
@@ -58,14 +58,14 @@ def runs(flags: NDArray[np.bool_], segments: Spans, after: int) -> list[tuple[in
         segments: contiguous stretches (start, end); a span stays within one.
         after: rows added to every span.
     """
-    spans = []
+    spans: list[tuple[int, int]] = []
     for first, last in segments:
         wide = np.zeros(last - first + 1, dtype=bool)
         for row in np.flatnonzero(flags[first:last]):
             wide[row : min(row + after + 1, last - first)] = True
         edges = np.flatnonzero(np.diff(wide, prepend=False)) + first
         spans += [(int(start), int(end)) for start, end in edges.reshape(-1, 2)]
-    return spans
+    return tuple(spans)
 
 
 def blocks_of(spans: Spans, length: int) -> Iterator[tuple[int, int]]:

@@ -53,8 +53,8 @@ def uncertainty(config: Mapping[str, Any], sets: Mapping[str, Sequence[str]], ou
     """Write uncertainty.csv, .tex and .md: standard deviation of the learning target of each joint [N m], V1..V3 [N].
 
     Args:
-        config: resolved configuration: `robot`, `published`, `evaluation.uncertainty`: `sets`, limb -> training set, and
-            `ratio`, limb -> accepted ratios [-] to the robot's.
+        config: resolved configuration: `robot`, `published`, `evaluation.uncertainty`: `sets`, limb -> training set,
+            and `ratio`, limb -> accepted ratios [-] to the robot's.
         sets: name of a training set -> stems of its residuals.
         out_dir: gets the three files.
 
