@@ -7,6 +7,7 @@ its columns, row count, segments and provenance. The JSON is written last, so a 
 from __future__ import annotations
 
 import contextlib
+import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -37,10 +38,10 @@ CODING = {
 class ArrayWriter:
     """Rows on their way into an array's file; `array_writer` makes one."""
 
-    def __init__(self, stem: Path, columns: Sequence[Column], file: pq.ParquetWriter) -> None:
-        """Write into an open file; columns (C,) are its own."""
+    def __init__(self, stem: Path, columns: Sequence[Column], file: pq.ParquetWriter, descriptor: int) -> None:
+        """Write into an open file, of which the system has a descriptor too; columns (C,) are its own."""
         self.rows = 0
-        self._stem, self._columns, self._file = stem, columns, file
+        self._stem, self._columns, self._file, self._descriptor = stem, columns, file, descriptor
         self._names = [name for name, _, _ in columns]
         self._note: dict[str, Any] = {}
         self._group = np.empty((len(columns), GROUP_ROWS), dtype=np.float32)
@@ -92,6 +93,8 @@ class ArrayWriter:
         if count:
             columns = [pa.array(column[:count]) for column in self._group]
             self._file.write_batch(pa.RecordBatch.from_arrays(columns, schema=self._file.schema), GROUP_ROWS)
+            # on to the disk now, and out of the system's memory, whose fresh pages would cost more than the coding
+            os.posix_fadvise(self._descriptor, 0, 0, os.POSIX_FADV_DONTNEED)
 
 
 @contextlib.contextmanager
@@ -109,8 +112,8 @@ def array_writer(stem: Path, columns: Sequence[Column]) -> Iterator[ArrayWriter]
     """
     described = [pa.field(n, pa.float32(), nullable=False, metadata={"unit": u, "frame": f}) for n, u, f in columns]
     with atomic_path(stem.with_suffix(ARRAY)) as temporary:
-        with pq.ParquetWriter(temporary, pa.schema(described), **CODING) as file:
-            writer = ArrayWriter(stem, columns, file)
+        with temporary.open("wb") as raw, pq.ParquetWriter(raw, pa.schema(described), **CODING) as file:
+            writer = ArrayWriter(stem, columns, file, raw.fileno())
             yield writer
             note = writer.finish()
         stem.with_suffix(NOTE).unlink(missing_ok=True)
