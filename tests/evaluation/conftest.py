@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import yaml
 
-from mobnet.core.joints import JointLayout, layout_of
+from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout, layout_of
 from mobnet.core.recording import Recording, Sensed, Truth
 from mobnet.core.store import write_array, write_recording
 from mobnet.evaluation.rows import Score, write_rows
@@ -51,6 +51,30 @@ def config() -> dict[str, Any]:
             "bootstrap_draws": 200,
             "table_05": {"scenario": "forward_walk", "limb": "LL", "levels": LEVELS},
             "figure_05": {"scenario": "forward_walk", "joint": "LL3", "start_s": 1.0},
+            "figure_19": {"joints": ["LL2", "LL3"], "dots": 12, "test_dots": 8},
+            "coverage": {
+                "limb": "LL",
+                "samples": 400,
+                "every": 2,
+                "block_s": 5.0,
+                "range": [0.01, 0.99],
+                "cells": 10,
+                "push_nm": 5.0,
+                "push_after_s": 0.1,
+            },
+            "data": {"every": 10},
+            "commands": {"bins": 5},
+            "steps": {"bins": 3, "tolerance": 0.15},
+            "uncertainty": {"sets": {"LL": "walk", "W": "motion", "V": "motion"}, "ratio": {"LL": [0.4, 2.5]}},
+        },
+        "networks": {"LL": {"Q": ["LL"], "T": ["LL"]}},
+        "walking": {"foot_spacing_m": 0.205},
+        "commands": {
+            "step_x_m": [-0.15, 0.2],
+            "step_y_m": [-0.1, 0.1],
+            "turn_deg": [-20.0, 20.0],
+            "duration_s": [0.6, 0.7, 0.8, 0.9],
+            "foot_height_m": [0.04, 0.05, 0.06, 0.07],
         },
         "sizes": {
             "train": {"shards": 6, "shard_s": 300.0},
@@ -131,3 +155,50 @@ def walk(tmp_path: Path, layout: JointLayout) -> Callable[..., dict[str, Any]]:
         return write_walk(tmp_path / f"{method}-{error}-{steps}", layout, error, steps, method)
 
     return write
+
+
+def write_steps(stem: Path, layout: JointLayout, seed: int, size: float = 1.0, stands: bool = False) -> str:
+    """Write a recording of 20 s of random steps and motion, and its residual beside it; return the recording's stem.
+
+    Args:
+        stem: gets the recording; its residual's name ends in `_residual`.
+        layout: joints.
+        seed: of all that is drawn.
+        size: of velocities [rad/s] and, times 40, of desired torques [N m].
+        stands: whether the robot stands in the second half.
+    """
+    rng, rows = np.random.default_rng(seed), 2000
+    time = np.arange(rows) / RATE_HZ
+    waves = np.sin(2 * np.pi * rng.uniform(0.2, 2.0, layout.nu) * time[:, None] + rng.uniform(0, 6.3, layout.nu))
+    q, v = np.zeros((rows, layout.nq)), np.zeros((rows, layout.nv))
+    q[:, 3], q[:, NQ_BASE:], v[:, N_VIRTUAL:] = 1.0, 0.2 * waves, size * waves[:, ::-1]
+    step = np.arange(rows) // STEP_ROWS
+    low, high = np.array([-0.15, -0.1, -0.3, 0.6, 0.04]), np.array([0.2, 0.1, 0.3, 0.9, 0.07])
+    command = rng.uniform(low, high, (step[-1] + 1, len(low)))[step]
+    swing = np.stack([step % 2 == 0, step % 2 == 1], axis=1) & (np.arange(rows) % STEP_ROWS > 5)[:, None]
+    if stands:
+        command[rows // 2 :], swing[rows // 2 :] = 0.0, False
+    torque = 40.0 * size * rng.normal(size=(rows, layout.nu))
+    sensed = Sensed(q, v, rng.normal(size=(rows, 3)), torque, torque, swing.astype(float), command)
+    truth = Truth(rng.normal(size=v.shape), np.zeros((rows, 6)), np.zeros((rows, 6)), 1.0 - swing)
+    meta = {"falls": seed % 2, "terrains": ["checks", "flat"]}
+    spans = ((0, rows // 2), (rows // 2, rows))
+    write_recording(stem, Recording(sensed, spans, RATE_HZ, meta, truth), layout)
+    columns = [
+        (f"{kind}.{joint}", layout.unit(joint), "joint") for kind in ("r", "tau_ext_lp") for joint in layout.names
+    ]
+    residual = np.concatenate([size * 20.0 * rng.normal(size=v.shape), truth.tau_ext], axis=1)
+    write_array(stem.with_name(f"{stem.name}_residual"), residual, columns, {"rate_hz": RATE_HZ}, spans)
+    return str(stem)
+
+
+@pytest.fixture(scope="session")
+def data_sets(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[str]]:
+    """Stems of the made-up recordings of three training sets, two each, and of a test."""
+    table = yaml.safe_load((REPO / "configs/robots/tocabi.yaml").read_text())
+    layout, folder = layout_of(table["order"], table["groups"]), tmp_path_factory.mktemp("sets")
+    sets = {"walk": (1.0, False), "walk_plain": (0.7, False), "motion": (0.5, True), "test": (0.9, False)}
+    return {
+        name: [write_steps(folder / f"{name}{k}", layout, 10 * k + len(name), *kind) for k in range(2)]
+        for name, kind in sets.items()
+    }
