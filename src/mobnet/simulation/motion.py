@@ -19,7 +19,7 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.special import erf
 
 from mobnet.core.config import FIRST_TRAINING_SEED
-from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.core.errors import ConfigError, SimulationError, not_accepted
 from mobnet.core.provenance import provenance
 from mobnet.core.store import write_array
 from mobnet.robot.description import RobotDescription, load_robot
@@ -28,7 +28,7 @@ from mobnet.simulation.reaching import Reacher
 log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
 BOTH_SIDES = np.array([[1.0, 1.0, 1.0], [1.0, -1.0, 1.0]])  # the right side is the mirror image in y
-SHOULDER = "Shoulder3_Link"
+HAND_WAVES = 6  # azimuth, elevation and distance of two hands
 
 
 def make_motion(config: Mapping[str, Any], name: str, seed: int, duration_s: float, out_stem: Path) -> None:
@@ -46,14 +46,13 @@ def make_motion(config: Mapping[str, Any], name: str, seed: int, duration_s: flo
     robot = load_robot(Path(config["robot"]))
     part, variant = part_and_variant(seed, len(settings["variants"]))
     rng = np.random.default_rng(np.random.SeedSequence([config["seed"], zlib.crc32(name.encode()), part]))
-    knots = plan(robot, settings, np.array(config["walking"]["posture_rad"]), variant, rng, duration_s)
+    reacher = Reacher(robot, settings, working_range(robot, settings), np.array(config["walking"]["posture_rad"]))
+    knots = plan(robot, settings, reacher, variant, rng, duration_s)
     names = robot.layout.actuated[-knots.shape[1] :]
-    columns = [(f"q_ref.{joint}", "rad", "joint") for joint in names]
-    meta = {
-        "rate_hz": settings["knot_hz"], "motion": name, "seed": seed, "part": part, "variant": variant,
-        "provenance": provenance(config),
-    }  # fmt: skip
-    write_array(out_stem, knots, columns, meta)
+    figures = {"motion": name, "seed": seed, "part": part, "variant": variant, **measured(reacher, settings, knots)}
+    log.info("%s: %s", out_stem.name, figures)
+    meta = {"rate_hz": settings["knot_hz"], **figures, "provenance": provenance(config)}
+    write_array(out_stem, knots, [(f"q_ref.{joint}", "rad", "joint") for joint in names], meta)
 
 
 def part_and_variant(seed: int, variants: int) -> tuple[int, int]:
@@ -63,23 +62,39 @@ def part_and_variant(seed: int, variants: int) -> tuple[int, int]:
 
 
 def plan(
-    robot: RobotDescription, settings: Mapping[str, Any], posture: Array, variant: int, rng: np.random.Generator,
+    robot: RobotDescription, settings: Mapping[str, Any], reacher: Reacher, variant: int, rng: np.random.Generator,
     duration_s: float,
 ) -> Array:  # fmt: skip
-    """Return knots (T, n) [rad] that start at rest in the posture (n,) [rad]."""
-    limits = working_range(robot, settings)
-    reacher = Reacher(robot, settings, limits, posture)
-    change = settings["variants"][variant]
+    """Return knots (T, n) [rad] that start at rest where the reacher is."""
+    change, limits = settings["variants"][variant], working_range(robot, settings)
     time = np.arange(round(duration_s * settings["knot_hz"]) + 1) / settings["knot_hz"]
-    waves = band_limited(change["speed"] * time, 6 + len(limits), settings, rng)
-    hands = hand_targets(shoulder(robot) + change["hand_offset_m"], settings, waves[:, :6])
-    joints = limits.mean(axis=1) + 0.5 * np.diff(limits)[:, 0] * waves[:, 6:]
+    waves = band_limited(change["speed"] * time, HAND_WAVES + len(limits), settings, rng)
+    hands = hand_targets(shoulder(robot) + change["hand_offset_m"], settings, waves[:, :HAND_WAVES])
+    joints = limits.mean(axis=1) + 0.5 * np.diff(limits)[:, 0] * waves[:, HAND_WAVES:]
     share = smooth_step((time - settings["still_s"]) / settings["ease_s"])
-    start = reacher.hand_positions()
+    place, posture = reacher.hand_positions(), reacher.configuration.q
     knots = np.zeros((len(time), len(limits)))
     for i, s in enumerate(share):
-        knots[i] = reacher.step(start + s * (hands[i] - start), posture + s * (joints[i] - posture))
+        knots[i] = reacher.step(place + s * (hands[i] - place), posture + s * (joints[i] - posture))
     return gaussian_filter1d(knots, settings["smoothing_s"] * settings["knot_hz"], axis=0, mode="nearest")
+
+
+def measured(reacher: Reacher, settings: Mapping[str, Any], knots: Array) -> dict[str, float]:
+    """Return the least distance [m] and the hands' speeds [m/s], seen from the pelvis, along knots (T, n) [rad].
+
+    Raises:
+        SimulationError: the motion comes nearer than is allowed.
+    """
+    nearest, hands = reacher.look(knots)
+    if nearest.min() < settings["clearance_least_m"]:
+        when = np.argmin(nearest) / settings["knot_hz"]
+        raise SimulationError(
+            f"motion: {nearest.min():.3f} m between two solids at {when:.2f} s is not accepted; "
+            f"accepted: >= {settings['clearance_least_m']}"
+        )
+    speed = np.linalg.norm(np.gradient(hands, 1.0 / settings["knot_hz"], axis=0), axis=-1)
+    values = {"clearance_m": nearest.min(), "hand_speed_mean_m_s": speed.mean(), "hand_speed_max_m_s": speed.max()}
+    return {name: round(float(value), 4) for name, value in values.items()}
 
 
 def working_range(robot: RobotDescription, settings: Mapping[str, Any]) -> Array:
@@ -108,13 +123,10 @@ def hand_targets(centre: Array, settings: Mapping[str, Any], waves: Array) -> Ar
 
 
 def shoulder(robot: RobotDescription) -> Array:
-    """Return the left shoulder's last centre (3,) [m] in the chest's frame, the arm's joints at zero."""
-    bodies = {body.name: body for body in robot.bodies}
-    chest = next(point.body for point in robot.points if point.name == "torso")
-    place, link = np.zeros(3), bodies[f"L_{SHOULDER}"]
-    while link.name != chest:
-        place, link = place + link.pos, bodies[link.parent]
-    return place
+    """Return the left shoulder's third centre (3,) [m] in the chest's frame, the arm's joints at zero."""
+    moved = {joint.id: joint.body for joint in robot.joints}
+    links = [body for body in robot.bodies if body.name in [moved[name] for name in robot.layout.limb("LA")[:3]]]
+    return np.sum([link.pos for link in links], axis=0)
 
 
 def band_limited(time: Array, count: int, settings: Mapping[str, Any], rng: np.random.Generator) -> Array:

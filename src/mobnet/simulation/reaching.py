@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.errors import SimulationError
 from mobnet.robot.description import SIDES, RobotDescription
-from mobnet.simulation.self_collision import check_spec
+from mobnet.simulation.self_collision import check_spec, collide
 
 Array = NDArray[np.float64]
 ZONE_TYPE = 2  # contype of the legs' space: only upper bodies meet it
@@ -44,7 +44,7 @@ class ClearanceLimit(mink.Limit):
             for jacobian, body in zip(self.jacobians, pair, strict=True):
                 mujoco.mj_jac(self.model, data, jacobian, None, point, body)
             row[:] = normal[:3] @ (self.jacobians[0] - self.jacobians[1])
-        return mink.Constraint(G=rows, h=self.gain * np.maximum(contact.dist - self.least, 0.0))
+        return mink.Constraint(G=rows, h=self.gain * (contact.dist - self.least))
 
 
 class Reacher:
@@ -60,7 +60,8 @@ class Reacher:
             posture: where to start (n,) [rad].
         """
         model = upper_body(robot, limits, settings["guard_m"], settings["leg_poses_rad"])
-        self.dt = 1.0 / settings["knot_hz"]
+        self.dt, self.reach = 1.0 / settings["knot_hz"], settings["guard_m"]
+        self.lead = settings["hand_speed_max_m_s"] * self.dt / settings["gain"]
         self.configuration = mink.Configuration(model, posture)
         self.hands = [
             mink.FrameTask(f"{side}_hand", "site", settings["hand_cost"], 0.0, gain=settings["gain"]) for side in SIDES
@@ -69,6 +70,8 @@ class Reacher:
         free = [model.joint(name).id for limb in ("W", "N") for name in robot.layout.limb(limb)]
         cost[free] = settings["trunk_cost"]
         self.posture = mink.PostureTask(model, cost, gain=settings["gain"])
+        self.inertia = mink.PostureTask(model, settings["inertia_cost"])
+        self.before = posture
         names = robot.layout.actuated[-model.nv :]
         speeds = {
             joint.id: settings["speed_share"] * joint.velocity_limit for joint in robot.joints if joint.id in names
@@ -86,13 +89,19 @@ class Reacher:
         Raises:
             SimulationError: the quadratic program has no solution.
         """
+        q = self.configuration.q
+        ahead = hands - self.hand_positions()
+        ahead *= np.minimum(1.0, self.lead / np.maximum(np.linalg.norm(ahead, axis=1, keepdims=True), self.lead))
         data = self.configuration.data
-        chest = data.xmat[self.chest].reshape(3, 3)
-        for task, hand in zip(self.hands, hands, strict=True):
-            task.set_target(mink.SE3.from_translation(data.xpos[self.chest] + chest @ hand))
+        for task, side, away in zip(self.hands, SIDES, ahead, strict=True):
+            chest = data.xmat[self.chest].reshape(3, 3)
+            task.set_target(mink.SE3.from_translation(data.site(f"{side}_hand").xpos + chest @ away))
         self.posture.set_target(posture)
+        self.inertia.set_target(2 * q - self.before)
+        self.before = q.copy()
         try:
-            v = mink.solve_ik(self.configuration, [*self.hands, self.posture], self.dt, SOLVER, limits=self.limits)
+            tasks = [*self.hands, self.posture, self.inertia]
+            v = mink.solve_ik(self.configuration, tasks, self.dt, SOLVER, limits=self.limits)
         except mink.NoSolutionFound as error:
             raise SimulationError(f"inverse kinematics: {error}") from None
         self.configuration.integrate_inplace(v, self.dt)
@@ -101,8 +110,17 @@ class Reacher:
     def hand_positions(self) -> Array:
         """Return both hands (2, 3) [m] in the chest's frame."""
         data = self.configuration.data
-        chest = data.xmat[self.chest].reshape(3, 3)
-        return np.stack([data.site(f"{side}_hand").xpos - data.xpos[self.chest] for side in SIDES]) @ chest
+        hands = np.stack([data.site(f"{side}_hand").xpos for side in SIDES])
+        return (hands - data.xpos[self.chest]) @ data.xmat[self.chest].reshape(3, 3)
+
+    def look(self, knots: Array) -> tuple[Array, Array]:
+        """Return the least distance (T,) [m] and both hands from the pelvis (T, 2, 3) [m] along knots (T, n) [rad]."""
+        model, data = self.configuration.model, self.configuration.data
+        nearest, hands = np.zeros(len(knots)), np.zeros((len(knots), 2, 3))
+        for i, q in enumerate(knots):
+            nearest[i] = collide(model, data, q, self.reach)
+            hands[i] = [data.site(f"{side}_hand").xpos for side in SIDES]
+        return nearest, hands
 
 
 def upper_body(
