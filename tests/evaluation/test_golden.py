@@ -12,9 +12,14 @@ from typing import Any
 import pytest
 
 from mobnet.evaluation.claims import claims
+from mobnet.evaluation.commands import commands, steps
+from mobnet.evaluation.coverage import coverage
+from mobnet.evaluation.data_sets import data
 from mobnet.evaluation.gait import figure_05
 from mobnet.evaluation.numbers import numbers
+from mobnet.evaluation.spread import figure_19
 from mobnet.evaluation.tables import table_05
+from mobnet.evaluation.uncertainty import uncertainty
 
 REPO = Path(__file__).parents[2]
 GOLDEN = REPO / "tests/golden"
@@ -47,3 +52,27 @@ def test_figure_05_is_made_of_the_golden_numbers(
 ) -> None:
     figure_05(config, [walk(-15.0, method="MOB"), walk(1.5)], tmp_path)
     check(tmp_path / "figure_05.csv")
+
+
+def test_tables_of_the_data_are_the_golden_ones(
+    tmp_path: Path, config: dict[str, Any], data_sets: dict[str, list[str]]
+) -> None:
+    sets = {name: data_sets[name] for name in ("walk", "motion")}
+    data(config, sets, tmp_path)
+    steps(config, {"walk": data_sets["walk"]}, tmp_path)
+    commands(config, sets, tmp_path)
+    uncertainty(config, {name: [f"{stem}_residual" for stem in stems] for name, stems in sets.items()}, tmp_path)
+    tables = [f"{name}.{ending}" for name in ("data", "steps", "uncertainty") for ending in ("csv", "tex", "md")]
+    for name in [*tables, "commands.csv"]:
+        check(tmp_path / name)
+
+
+def test_figure_19_and_coverage_are_the_golden_ones(
+    tmp_path: Path, config: dict[str, Any], data_sets: dict[str, list[str]]
+) -> None:
+    training = {"with RTE": data_sets["walk"], "without RTE": data_sets["walk_plain"]}
+    tests = [{"scenario": "walk_test", "level": "all_uncertainty", "recordings": data_sets["test"]}]
+    figure_19(config, training, tests, tmp_path)
+    coverage(config, training, tests, tmp_path)
+    for name in ("figure_19.csv", "coverage.csv", "coverage.tex", "coverage.md"):
+        check(tmp_path / name)

@@ -36,7 +36,7 @@ def network_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use
 def scenario_uses(config: Mapping[str, Any], _: JointLayout) -> Iterator[Use]:
     """Yield the terrains of scenarios, and the scale, scenarios and levels of the sizes."""
     for name, scenario in config["scenarios"].items():
-        yield f"scenarios.{name}.terrain", scenario["terrain"], config["terrain"]
+        yield from ((f"scenarios.{name}.terrain", terrain, config["terrain"]) for terrain in scenario["terrain"])
     yield "scale", config["scale"], config["scales"]
     for name, sizes in config["scales"].items():
         yield f"scales.{name}.train.scenario", sizes["train"]["scenario"], config["scenarios"]

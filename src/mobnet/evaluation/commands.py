@@ -38,8 +38,8 @@ class Bar:
     Attributes:
         set: data set.
         command: quantity of Table 2.
-        low: lower end of the bin [unit].
-        high: upper end of the bin [unit].
+        bin_from: lower end of the bin [unit].
+        bin_to: upper end of the bin [unit].
         count: steps.
         share: of the set's steps [-].
         unit: unit of the bin.
@@ -47,8 +47,8 @@ class Bar:
 
     set: str
     command: str
-    low: float
-    high: float
+    bin_from: float
+    bin_to: float
     count: int
     share: float
     unit: str
@@ -61,8 +61,8 @@ class Followed:
     Attributes:
         set: data set.
         command: quantity of Table 2.
-        low: lower end of the bin [unit].
-        high: upper end of the bin [unit].
+        bin_from: lower end of the bin [unit].
+        bin_to: upper end of the bin [unit].
         count: steps of the foot that leads.
         commanded: mean [unit].
         measured: mean [unit].
@@ -73,8 +73,8 @@ class Followed:
 
     set: str
     command: str
-    low: float
-    high: float
+    bin_from: float
+    bin_to: float
     count: int
     commanded: float
     measured: float
@@ -150,7 +150,7 @@ def panel(rows: Sequence[Bar], column: int) -> Bars:
     names = dict.fromkeys(row.set for row in own)
     shares = {name: np.array([row.share for row in own if row.set == name]) for name in names}
     first = [row for row in own if row.set == own[0].set]
-    return Bars(LABELS[column], np.array([first[0].low, *(row.high for row in first)]), shares)
+    return Bars(LABELS[column], np.array([first[0].bin_from, *(row.bin_to for row in first)]), shares)
 
 
 def steps(config: Mapping[str, Any], sets: Sets, out_dir: Path) -> None:
@@ -206,6 +206,6 @@ def followed_lines(rows: Sequence[Followed]) -> list[Line]:
         digits = 1 if row.unit == "deg" else 3
         within = "-" if row.within is None else f"{row.within:.0%}"
         names = [row.set, f"{row.command.replace('_', ' ')} [{row.unit}]"] if first else ["", ""]
-        numbers = [number(value, digits) for value in (row.low, row.high, row.commanded, row.measured)]
+        numbers = [number(value, digits) for value in (row.bin_from, row.bin_to, row.commanded, row.measured)]
         lines.append([*names, *numbers[:2], str(row.count), *numbers[2:], number(row.ratio), within])
     return lines

@@ -25,7 +25,10 @@ log = logging.getLogger(__name__)
 CONFIG, TABLES, FIGURES = Path("configs/config.yaml"), Path("tables"), Path("figures")
 SNAPSHOT, MANIFEST = Path("docs/results"), Path("results/MANIFEST.sha256")
 README, HEADLINE = Path("README.md"), "table_05"
-KEYS = ("scenario", "level", "method", "joint", "metric", "claim")  # columns that name a row; the others are results
+KEYS = (  # columns that name a row; the others are results
+    "scenario", "level", "method", "joint", "metric", "claim",
+    "set", "quantity", "part", "command", "bin_from", "measure", "limb",
+)  # fmt: skip
 Rows = dict[tuple[str, ...], dict[str, str]]
 
 
