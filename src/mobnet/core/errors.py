@@ -25,6 +25,10 @@ class SimulationError(MobnetError):
     """The plant could not be simulated as asked."""
 
 
+class DrawingError(MobnetError):
+    """The machine lacks what drawing needs."""
+
+
 def not_accepted(what: str, value: object, accepted: Iterable[object]) -> str:
     """Return the house's one-line message for a value outside a closed set."""
     return f"{what}: {value!r} is not accepted; accepted: {', '.join(sorted(map(str, accepted)))}"

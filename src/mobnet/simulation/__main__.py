@@ -3,83 +3,172 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import logging
+import math
 import sys
+import tempfile
+import time
+from collections import deque
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
-import numpy as np
-
+from mobnet.control.upper_body import UpperBody
 from mobnet.core.config import load_config
-from mobnet.core.errors import ConfigError, MobnetError
-from mobnet.core.recording import recording_width
-from mobnet.simulation.record import Simulator
-from mobnet.simulation.render import save_picture
+from mobnet.core.errors import ConfigError, DrawingError, MobnetError, not_accepted
+from mobnet.simulation.clip import check_ending, save_clip
+from mobnet.simulation.motion import make_motion
+from mobnet.simulation.record import read_motion
+from mobnet.simulation.render import Pixels, draw_frames, picture_model, save_picture
+from mobnet.simulation.simulator import Simulator
+from mobnet.simulation.view import LOOKED_FOR_S, SYNC_S, has_display, upright, walk, walk_to_mid_stride, watch
 
 log = logging.getLogger(__name__)
-MID_STRIDE = 0.6  # of a step's time; the swinging foot is then ahead of the other and still in the air
-LOOKED_FOR_S = 3.0  # a left step comes within this time
-FRAME_S = 0.01  # between two looks at the stride
+SECONDS, MOTION_S = 10.0, 120.0  # walked, and moved by the upper body, where no time is given
+FRAMES_HZ = 12.5  # of a clip
+CLIP_WIDTHS = (160, 1920)  # accepted [pixels]
+HEIGHT_OF_WIDTH = 0.75
+REPORT_WALL_S = 5.0  # between two lines of progress
+INTERRUPTED = 130  # exit code, as the shell's
+DESCRIPTION = """Walk a scenario and look at it. Opens MuJoCo's viewer where there is a display; --picture and --video
+draw without one. A robot that falls ends the walk; the exit code is then 1."""
 
 
 def main(words: list[str] | None = None) -> int:
-    """Simulate, report steps and falls, and draw the robot in mid-stride if asked; return the exit code."""
+    """Simulate, show or draw as asked, report steps and falls; return the exit code."""
     options = _parse(words)
     logging.basicConfig(level=logging.INFO, format="%(message)s")
     try:
-        return _walk(options)
-    except MobnetError as error:
+        return _look(options)
+    except (MobnetError, OSError) as error:  # OSError: a folder that cannot be written
         log.error("error: %s", error)
         return 1
+    except KeyboardInterrupt:
+        log.error("interrupted; a file that was not complete is not there")
+        return INTERRUPTED
 
 
 def _parse(words: list[str] | None) -> argparse.Namespace:
     """Read the command line."""
-    parser = argparse.ArgumentParser(prog="python -m mobnet.simulation", description="Walk a scenario and look at it.")
-    parser.add_argument("--scenario", default="forward_walk", help="key of `scenarios` in the configuration")
-    parser.add_argument("--level", default="all_uncertainty", help="key of `levels` in the configuration")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--seconds", type=float, default=3.0, help="simulated time")
-    parser.add_argument("--picture", type=Path, help="PNG of the first left step in mid-stride after that time")
-    parser.add_argument("--config", type=Path, default=Path("configs/config.yaml"))
+    parser = argparse.ArgumentParser(prog="python -m mobnet.simulation", description=DESCRIPTION)
+    parser.add_argument("--scenario", default="forward_walk", help="key of `scenarios` (%(default)s)")
+    parser.add_argument("--level", default="all_uncertainty", help="key of `levels` (%(default)s)")
+    parser.add_argument("--terrain", help="key of `terrain`; without it, one of the scenario's is drawn")
+    parser.add_argument("--seed", type=int, default=1, help="of commands, noise, terrain and place (%(default)s)")
+    parser.add_argument(
+        "--seconds", type=float, help=f"simulated time ({SECONDS:g}; in the viewer: until it is closed)"
+    )
+    parser.add_argument("--video", type=Path, metavar="FILE", help=".gif, .webp, or .mp4 where there is an ffmpeg")
+    parser.add_argument("--width", type=int, default=400, metavar="PIXELS", help="of the video (%(default)s)")
+    parser.add_argument(
+        "--picture", type=Path, metavar="FILE", help=".png of the first left step in mid-stride after that time"
+    )
+    parser.add_argument(
+        "--config", type=Path, default=Path("configs/config.yaml"), help="where these keys stand (%(default)s)"
+    )
     return parser.parse_args(words)
 
 
-def _walk(options: argparse.Namespace) -> int:
+def _look(options: argparse.Namespace) -> int:
     """Walk as the options say; a machine that cannot draw is no failure, a fall is.
 
     Raises:
         ConfigError: the configuration or an option is not accepted.
     """
-    if not options.seconds > 0:
+    _check(options)
+    window = not (options.video or options.picture) and has_display()
+    seconds = options.seconds or (math.inf if window else SECONDS)
+    simulator = _simulator(options, seconds)
+    begin = simulator.state.clock
+    if window:
+        watch(simulator, seconds)
+    else:
+        _draw(simulator, options, seconds)
+    end = "" if upright(simulator) else ", then a fall"
+    what = f"{options.scenario}, {options.level}, {simulator.setting.terrain}"
+    log.info("%s: %d steps in %.2f s%s", what, simulator.state.steps, simulator.state.clock - begin, end)
+    return 1 if end else 0
+
+
+def _check(options: argparse.Namespace) -> None:
+    """Check what argparse does not.
+
+    Raises:
+        ConfigError: an option is not accepted.
+    """
+    if options.seconds is not None and not 0 < options.seconds < math.inf:
         raise ConfigError(f"--seconds: {options.seconds} is not accepted; accepted: > 0")
+    if options.seed < 0:
+        raise ConfigError(f"--seed: {options.seed} is not accepted; accepted: >= 0")
+    if not CLIP_WIDTHS[0] <= options.width <= CLIP_WIDTHS[1]:
+        raise ConfigError(f"--width: {options.width} is not accepted; accepted: {CLIP_WIDTHS[0]} to {CLIP_WIDTHS[1]}")
+    if options.picture is not None and options.picture.suffix != ".png":
+        raise ConfigError(not_accepted("--picture", options.picture.name, ["NAME.png"]))
+    if options.video is not None:
+        check_ending(options.video)
+
+
+def _simulator(options: argparse.Namespace, seconds: float) -> Simulator:
+    """Return a started simulator; its upper body moves for the seconds to come, for some time if they have no end.
+
+    Raises:
+        ConfigError: scenario, level or terrain are not accepted.
+    """
     config = load_config(options.config)
-    simulator = Simulator(config, options.scenario, options.level, options.seed)
+    scenario = config["scenarios"].get(options.scenario, {})  # an unknown one is the simulator's to name
+    if options.terrain:
+        scenario["terrain"] = [options.terrain]
+    upper = None
+    if "motion" in scenario:
+        moved_s = min(seconds, MOTION_S) + LOOKED_FOR_S
+        log.info("%.0f s of motion of the upper body are made first", moved_s)
+        upper = _motion(config, scenario["motion"], options.seed, moved_s)
+    simulator = Simulator(config, options.scenario, options.level, options.seed, upper)
     simulator.start()
-    rate = config["rates"]["data_hz"]
-    walked = _advance(simulator, wanted := round(options.seconds * rate))
-    frames = round(LOOKED_FOR_S / FRAME_S) if options.picture and walked == wanted else 0
-    for _ in range(frames):
-        if _in_mid_stride(simulator):
-            break
-        walked += _advance(simulator, round(FRAME_S * rate))
-    upright = simulator.world.data.qpos[2] > config["recording"]["fall_height_m"]
-    end = "" if upright else ", then a fall"
-    log.info("%s, %s: %d steps in %.2f s%s", options.scenario, options.level, simulator.state.steps, walked / rate, end)
-    if options.picture is not None:
-        terrain = simulator.settings["terrain"]
-        save_picture(config, simulator.robot, terrain, simulator.world.data.qpos, options.picture)
-    return 0 if upright else 1
+    return simulator
 
 
-def _advance(simulator: Simulator, samples: int) -> int:
-    """Simulate some samples that nobody keeps; return how many came before a fall."""
-    return simulator.run(np.zeros((samples, recording_width(simulator.robot.layout)), dtype=np.float32))
+def _motion(config: Mapping[str, Any], name: str, seed: int, seconds: float) -> UpperBody:
+    """Return a motion of the upper body as the workflow makes it."""
+    with tempfile.TemporaryDirectory() as folder:
+        make_motion(config, name, seed, seconds, Path(folder) / name)
+        return read_motion(Path(folder) / name)
 
 
-def _in_mid_stride(simulator: Simulator) -> bool:
-    """Return whether the left foot is in the air and ahead of the right one."""
-    s = simulator.state
-    return s.swinging == 1 and s.side < 0 and s.t > MID_STRIDE * s.total
+def _draw(simulator: Simulator, options: argparse.Namespace, seconds: float) -> None:
+    """Walk for the seconds and draw the video and the picture that are asked for; without EGL, walk only."""
+    end = simulator.state.clock + seconds
+    if options.video:
+        with _tolerant():
+            save_clip(_frames(simulator, options.width, seconds), FRAMES_HZ, options.video)
+    deque(walk(simulator, end - simulator.state.clock, SYNC_S), maxlen=0)  # what no video has walked
+    if options.picture:
+        if upright(simulator):
+            walk_to_mid_stride(simulator)
+        with _tolerant():
+            save_picture(simulator.robot, simulator.world.terrain, simulator.world.data.qpos, options.picture)
+
+
+@contextlib.contextmanager
+def _tolerant() -> Iterator[None]:
+    """Say what a machine lacks for a drawing, and go on."""
+    try:
+        yield
+    except DrawingError as error:
+        log.warning("not drawn: %s", error)
+
+
+def _frames(simulator: Simulator, width: int, seconds: float) -> Iterator[Pixels]:
+    """Yield the frames of a walk, reporting how many while it takes long; sizes are even, as MP4 asks for."""
+    size = width // 2 * 2, round(width * HEIGHT_OF_WIDTH / 2) * 2
+    model = picture_model(simulator.robot, simulator.world.terrain, size)
+    reported = time.perf_counter()
+    for number, frame in enumerate(draw_frames(model, walk(simulator, seconds, 1 / FRAMES_HZ))):
+        yield frame
+        if time.perf_counter() - reported > REPORT_WALL_S:
+            log.info("%d of %d frames", number, seconds * FRAMES_HZ)
+            reported = time.perf_counter()
 
 
 if __name__ == "__main__":

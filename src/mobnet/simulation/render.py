@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import logging
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -12,12 +13,12 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.core.errors import DrawingError
 from mobnet.core.files import atomic_path
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.plant import robot_spec
-from mobnet.simulation.terrain import add_terrain, draw_terrain
+from mobnet.simulation.terrain import Terrain, add_terrain
 
-log = logging.getLogger(__name__)
 Pixels = NDArray[np.uint8]
 PACKAGES = "libegl1 libegl-mesa0 libgl1-mesa-dri"  # Debian's names of Mesa's EGL
 SIZE = (1000, 750)  # width, height [pixels]
@@ -29,111 +30,122 @@ EXTENT_M = 2.0  # the scene's size that MuJoCo scales shadow and fog by
 FOG = (1.8, 4.4)  # start and end, in extents
 SKY_RGB = (0.86, 0.91, 0.96)
 HEADLIGHT, HEADLIGHT_SHINE, SUN, SUN_SHINE = 0.36, 0.1, 0.58, 0.25  # brightness, 0..1
-SUN_DIRECTION = (-0.48, 0.29, -0.87)
+SUN_DIRECTION = np.array([-0.48, 0.29, -0.87])
 SUN_DISTANCE_M = 5.0
 SHADOW_PIXELS, SAMPLES = 8192, 8  # of the shadow's map, of a pixel
 SHADOW_CLIP = 2.5  # half width of the shadow's map, in extents; at its edge shadows speckle
 logging.getLogger("OpenGL").setLevel(logging.WARNING)  # it tells of every optional part it lacks
 
 
-def save_picture(config: Mapping[str, Any], robot: RobotDescription, terrain: str, q: NDArray[Any], path: Path) -> bool:
-    """Draw the robot at q (nq,) [m, rad] into a PNG, or say in one line what the machine lacks for it.
-
-    Args:
-        config: the resolved configuration.
-        robot: figures of the robot.
-        terrain: key of `terrain` in the configuration.
-        q: generalized position (nq,), quaternion w x y z.
-        path: the PNG; written as a whole or not at all.
-
-    Returns:
-        Whether the picture was drawn.
-    """
-    try:
-        pixels = draw(picture_model(config, robot, terrain), q)
-    except (ImportError, AttributeError, OSError, RuntimeError, _gl_error(), mujoco.FatalError) as error:
-        reason = " ".join(str(error).split())
-        log.warning("picture skipped, no drawing off screen (%s); Debian packages for it: %s", reason, PACKAGES)
-        return False
-    with atomic_path(path) as temporary:
-        matplotlib.image.imsave(temporary, pixels, format="png", pil_kwargs={"optimize": True})
-    return True
-
-
-def picture_model(config: Mapping[str, Any], robot: RobotDescription, terrain: str) -> mujoco.MjModel:
-    """Compile the robot on a wide terrain under a sky; nothing of it enters a simulation.
+def save_picture(robot: RobotDescription, terrain: Terrain, q: NDArray[Any], path: Path) -> None:
+    """Draw the robot at q (nq,) [m, rad] into a PNG, written as a whole or not at all.
 
     Raises:
-        ConfigError: the terrain is unknown.
+        DrawingError: the machine cannot draw off screen.
+    """
+    (pixels,) = draw_frames(picture_model(robot, terrain), [q])
+    with atomic_path(path) as temporary:
+        matplotlib.image.imsave(temporary, pixels, format="png", pil_kwargs={"optimize": True})
+
+
+def picture_model(robot: RobotDescription, terrain: Terrain, size: tuple[int, int] = SIZE) -> mujoco.MjModel:
+    """Compile the robot on more of its terrain under a sky; nothing of it enters a simulation.
+
+    Args:
+        robot: figures of the robot.
+        terrain: the one that the robot walks on.
+        size: width and height of pictures [pixels].
     """
     spec = robot_spec(robot)
-    add_terrain(spec, draw_terrain(terrain, config["terrain"], np.random.default_rng(0)), WIDE_M)
+    add_terrain(spec, terrain, WIDE_M)
     spec.stat.extent, spec.stat.center = EXTENT_M, [0.0, 0.0, EXTENT_M / 2]
-    _set_view(spec.visual)
+    _set_view(spec.visual, size)
     spec.add_texture(
         name="sky", type=mujoco.mjtTexture.mjTEXTURE_SKYBOX, builtin=mujoco.mjtBuiltin.mjBUILTIN_FLAT, rgb1=SKY_RGB,
         width=SAMPLES, height=SAMPLES,
     )  # fmt: skip
     spec.worldbody.add_light(
-        pos=-SUN_DISTANCE_M * np.array(SUN_DIRECTION), dir=SUN_DIRECTION, castshadow=True, diffuse=[SUN] * 3,
+        pos=-SUN_DISTANCE_M * SUN_DIRECTION, dir=SUN_DIRECTION, castshadow=True, diffuse=[SUN] * 3,
         specular=[SUN_SHINE] * 3, type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
     )  # fmt: skip
     return spec.compile()
 
 
-def _set_view(visual: Any) -> None:
+def _set_view(visual: Any, size: tuple[int, int]) -> None:
     """Set size, lens, light and quality of pictures."""
-    visual.global_.offwidth, visual.global_.offheight = SIZE
+    visual.global_.offwidth, visual.global_.offheight = size
     visual.global_.fovy = VIEW_DEG
     visual.headlight.ambient = visual.headlight.diffuse = [HEADLIGHT] * 3
     visual.headlight.specular = [HEADLIGHT_SHINE] * 3
     visual.map.fogstart, visual.map.fogend = FOG
     visual.map.shadowclip = SHADOW_CLIP
     visual.rgba.fog = visual.rgba.haze = [*SKY_RGB, 1.0]
-    visual.quality.shadowsize, visual.quality.offsamples = SHADOW_PIXELS, SAMPLES
+    shrunk = SIZE[0] // size[0]
+    visual.quality.shadowsize, visual.quality.offsamples = SHADOW_PIXELS // max(shrunk, 1), SAMPLES
 
 
-def draw(model: mujoco.MjModel, q: NDArray[Any]) -> Pixels:
-    """Draw a model at q (nq,) [m, rad] with the camera on its base; return pixels (height, width, 3).
+def aim(camera: mujoco.MjvCamera, base: NDArray[Any]) -> None:
+    """Point a camera at a robot whose base is at (3,) [m]."""
+    camera.lookat[:] = base + EYE_FROM_PELVIS_M
+    for name, value in CAMERA.items():
+        setattr(camera, name, value)
+
+
+def draw_frames(model: mujoco.MjModel, qs: Iterable[NDArray[Any]]) -> Iterator[Pixels]:
+    """Draw a model at each q (nq,) [m, rad], the camera on its base; yield pixels (height, width, 3).
+
+    All frames share one OpenGL context; frames are drawn as they are asked for.
+
+    Raises:
+        DrawingError: the machine cannot draw off screen.
+    """
+    data, camera, option = mujoco.MjData(model), mujoco.MjvCamera(), mujoco.MjvOption()
+    scene = mujoco.MjvScene(model, maxgeom=2 * model.ngeom)
+    everything = mujoco.mjtCatBit.mjCAT_ALL.value
+    with _off_screen(model) as target:
+        for q in qs:
+            data.qpos[:] = q
+            mujoco.mj_kinematics(model, data)
+            mujoco.mj_camlight(model, data)
+            data.light_xpos[0] = data.qpos[:3] - SUN_DISTANCE_M * SUN_DIRECTION  # the shadow's map has an edge
+            aim(camera, data.qpos[:3])
+            mujoco.mjv_updateScene(model, data, option, None, camera, everything, scene)
+            scene.flags[mujoco.mjtRndFlag.mjRND_FOG] = 1
+            yield _pixels(model, scene, target)
+
+
+@contextlib.contextmanager
+def _off_screen(model: mujoco.MjModel) -> Iterator[mujoco.MjrContext]:
+    """Open an OpenGL context for pictures of a model's size.
 
     The EGL context is made here: `mujoco.Renderer` takes the kind that was chosen when mujoco was first imported.
 
     Raises:
-        ImportError: the machine has no EGL; PyOpenGL may raise AttributeError or its own errors instead.
+        DrawingError: the machine has no EGL; PyOpenGL tells so by errors of many kinds.
     """
-    from mujoco.egl import GLContext  # needs EGL, which only pictures need
+    with contextlib.ExitStack() as stack:
+        try:
+            from mujoco.egl import GLContext  # needs EGL, which only pictures need
 
-    data = mujoco.MjData(model)
-    data.qpos[:] = q
-    mujoco.mj_forward(model, data)
-    camera = mujoco.MjvCamera()
-    camera.lookat[:] = data.qpos[:3] + EYE_FROM_PELVIS_M
-    for name, value in CAMERA.items():
-        setattr(camera, name, value)
-    scene = mujoco.MjvScene(model, maxgeom=2 * model.ngeom)
-    everything = mujoco.mjtCatBit.mjCAT_ALL.value
-    mujoco.mjv_updateScene(model, data, mujoco.MjvOption(), None, camera, everything, scene)
-    scene.flags[mujoco.mjtRndFlag.mjRND_FOG] = 1
-    context = GLContext(*SIZE)
-    try:
-        context.make_current()
-        return _pixels(model, scene)
-    finally:
-        context.free()
+            context = GLContext(model.vis.global_.offwidth, model.vis.global_.offheight)
+            stack.callback(context.free)
+            context.make_current()
+            target = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100.value)
+            stack.callback(target.free)
+            mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, target)
+        except (ImportError, AttributeError, OSError, RuntimeError, _gl_error(), mujoco.FatalError) as error:
+            reason = " ".join(str(error).split())
+            raise DrawingError(f"no drawing off screen ({reason}); Debian packages for it: {PACKAGES}") from error
+        yield target
 
 
-def _pixels(model: mujoco.MjModel, scene: mujoco.MjvScene) -> Pixels:
-    """Draw a scene into the current OpenGL context; return pixels (height, width, 3), the top row first."""
-    target = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100.value)
-    try:
-        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, target)
-        frame = mujoco.MjrRect(0, 0, *SIZE)
-        pixels = np.empty((SIZE[1], SIZE[0], 3), dtype=np.uint8)
-        mujoco.mjr_render(frame, scene, target)
-        mujoco.mjr_readPixels(pixels, None, frame, target)
-        return pixels[::-1]
-    finally:
-        target.free()
+def _pixels(model: mujoco.MjModel, scene: mujoco.MjvScene, target: mujoco.MjrContext) -> Pixels:
+    """Draw a scene; return pixels (height, width, 3), the top row first."""
+    width, height = model.vis.global_.offwidth, model.vis.global_.offheight
+    frame, pixels = mujoco.MjrRect(0, 0, width, height), np.empty((height, width, 3), dtype=np.uint8)
+    mujoco.mjr_render(frame, scene, target)
+    mujoco.mjr_readPixels(pixels, None, frame, target)
+    return pixels[::-1]
 
 
 def _gl_error() -> type[Exception]:

@@ -1,0 +1,115 @@
+"""The command: what it makes, and one line for what it does not accept."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+
+import matplotlib.image
+import pytest
+from PIL import Image
+
+from mobnet.core.errors import DrawingError
+from mobnet.simulation import __main__ as command
+from mobnet.simulation import render
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(autouse=True)
+def at_home(monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture) -> None:
+    """Run in the repository, without a display, and keep what is said."""
+    monkeypatch.chdir(ROOT)
+    monkeypatch.setattr(command, "has_display", lambda: False)
+    caplog.set_level(logging.INFO)
+
+
+@pytest.mark.slow
+@pytest.mark.sim
+def test_it_draws_a_walking_robot(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    clip, picture = tmp_path / "walk.gif", tmp_path / "walk.png"
+    words = [
+        "--seconds",
+        "1.2",
+        "--video",
+        str(clip),
+        "--width",
+        "201",
+        "--picture",
+        str(picture),
+        "--terrain",
+        "plates",
+    ]
+    assert command.main(words) == 0
+    if "not drawn" in caplog.text:
+        pytest.skip(caplog.messages[0])
+    with Image.open(clip) as frames:
+        assert (frames.n_frames, frames.size) == (16, (200, 150))
+    assert matplotlib.image.imread(picture).shape[:2] == render.SIZE[::-1]
+    assert "forward_walk, all_uncertainty, plates: " in caplog.messages[-1]
+
+
+@pytest.mark.slow
+@pytest.mark.sim
+def test_what_cannot_be_drawn_is_still_walked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    def refuse(*_: object) -> None:
+        raise DrawingError("no drawing off screen")
+
+    monkeypatch.setattr(command, "draw_frames", refuse)
+    monkeypatch.setattr(command, "save_picture", refuse)
+    words = ["--video", str(tmp_path / "walk.gif"), "--picture", str(tmp_path / "walk.png"), "--seconds", "0.5"]
+    assert command.main(words) == 0
+    assert caplog.messages[:2] == ["not drawn: no drawing off screen"] * 2
+    assert not list(tmp_path.iterdir())
+    walked = float(caplog.messages[2].split(" in ")[1].split(" s")[0])
+    assert 0.5 <= walked <= 0.5 + command.LOOKED_FOR_S
+
+
+@pytest.mark.slow
+@pytest.mark.sim
+@pytest.mark.parametrize(("words", "wanted"), [([], float("inf")), (["--seconds", "2"], 2.0)])
+def test_where_there_is_a_display_the_viewer_opens(
+    monkeypatch: pytest.MonkeyPatch, words: list[str], wanted: float
+) -> None:
+    watched = []
+    monkeypatch.setattr(command, "has_display", lambda: True)
+    monkeypatch.setattr(command, "watch", lambda simulator, seconds: watched.append(seconds))
+    assert command.main(words) == 0
+    assert watched == [wanted]
+
+
+def test_ctrl_c_is_one_line(monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture) -> None:
+    def stop(_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(command, "load_config", stop)
+    assert command.main([]) == 130
+    assert [len(message.splitlines()) for message in caplog.messages] == [1]
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--seconds", "-1"], "--seconds: -1.0 is not accepted; accepted: > 0"),
+        (["--seconds", "0"], "--seconds: 0.0 is not accepted; accepted: > 0"),
+        (["--seconds", "nan"], "--seconds: nan is not accepted; accepted: > 0"),
+        (["--seed", "-1"], "--seed: -1 is not accepted; accepted: >= 0"),
+        (["--width", "10"], "--width: 10 is not accepted; accepted: 160 to 1920"),
+        (["--video", "walk.avi"], "--video: '.avi' is not accepted; accepted: .gif, .mp4, .webp"),
+        (["--picture", "walk.jpg"], "--picture: 'walk.jpg' is not accepted; accepted: NAME.png"),
+        (["--scenario", "moon"], "scenario: 'moon' is not accepted; accepted: "),
+        (["--level", "perfect"], "level: 'perfect' is not accepted; accepted: "),
+        (["--terrain", "stairs"], "terrain: 'stairs' is not accepted; accepted: checks, flat, plates, slope"),
+        (["--config", "nowhere.yaml"], "nowhere.yaml"),
+    ],
+)
+def test_what_is_not_accepted_is_named_in_one_line(
+    words: list[str], message: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    assert command.main(words) == 1
+    assert len(caplog.messages) == 1
+    assert caplog.messages[0].startswith("error: ")
+    assert message in caplog.messages[0]
+    assert "\n" not in caplog.messages[0]

@@ -1,0 +1,136 @@
+"""Walking for the eye: states at their times, and a viewer that shows the plant without touching it."""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from collections.abc import Callable
+
+import mujoco
+import mujoco.viewer
+import numpy as np
+import pytest
+
+from mobnet.simulation import view
+
+pytestmark = pytest.mark.sim
+
+
+class FakeViewer:
+    """Stands in for MuJoCo's: notes what it is given to show, and is closed after some looks."""
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, looks: int) -> None:
+        self.model, self.data, self.looks = model, data, looks
+        self.cam, self.shown, self.aims, self.locked = mujoco.MjvCamera(), [], [], False
+
+    def __enter__(self) -> FakeViewer:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.closed = True
+
+    @contextlib.contextmanager
+    def lock(self):
+        self.locked = True
+        yield
+        self.locked = False
+
+    def is_running(self) -> bool:
+        self.looks -= 1
+        return self.looks >= 0
+
+    def sync(self) -> None:
+        assert not self.locked
+        self.shown.append((time.perf_counter(), self.data.qpos.copy()))
+        self.aims.append(self.cam.lookat.copy())
+
+
+@pytest.fixture
+def open_viewer(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], list[FakeViewer]]:
+    """A function (looks until it is closed) -> viewers opened."""
+    opened: list[FakeViewer] = []
+
+    def install(looks: int) -> list[FakeViewer]:
+        def launch(model: mujoco.MjModel, data: mujoco.MjData, **_: object) -> FakeViewer:
+            opened.append(FakeViewer(model, data, looks))
+            return opened[-1]
+
+        monkeypatch.setattr(mujoco.viewer, "launch_passive", launch)
+        return opened
+
+    return install
+
+
+def test_walk_yields_the_start_and_then_every_time_asked_for(simulate: Callable) -> None:
+    simulator, twin = simulate("flat_walk", "ideal"), simulate("flat_walk", "ideal")
+    states = list(view.walk(simulator, 0.4, 0.1))
+    assert len(states) == 5
+    twin.run(np.zeros((200, twin.width), dtype=np.float32))
+    np.testing.assert_array_equal(states[2], twin.world.data.qpos)
+
+
+def test_walk_ends_with_a_fall(simulate: Callable) -> None:
+    simulator = simulate("flat_walk", "ideal")
+    simulator.world.data.qvel[1] = 6.0
+    states = list(view.walk(simulator, 10.0, 0.1))
+    assert 2 < len(states) < 40
+    assert not view.upright(simulator)
+
+
+def test_mid_stride_has_the_left_foot_in_the_air(simulate: Callable) -> None:
+    simulator = simulate("flat_walk", "ideal")
+    assert view.upright(simulator)
+    view.walk_to_mid_stride(simulator)
+    assert simulator.state.swinging == 1
+    assert simulator.state.side < 0
+
+
+def test_the_viewer_shows_the_walk_in_real_time_until_it_is_closed(simulate: Callable, open_viewer: Callable) -> None:
+    simulator, twin = simulate("checks_place", "ideal"), simulate("checks_place", "ideal")
+    (viewer,) = watched(simulator, open_viewer(41), np.inf)
+    assert len(viewer.shown) == 41
+    times = [moment for moment, _ in viewer.shown]
+    assert 0.38 < times[-1] - times[0] < 0.8
+    for (_, shown), wanted in zip(viewer.shown, view.walk(twin, 0.4, view.SYNC_S), strict=True):
+        np.testing.assert_array_equal(shown, wanted)
+
+
+def test_the_viewers_camera_goes_with_the_robot(simulate: Callable, open_viewer: Callable) -> None:
+    simulator = simulate("flat_walk", "ideal")
+    (viewer,) = watched(simulator, open_viewer(20), np.inf)
+    offsets = np.array(viewer.aims) - [shown[:3] for _, shown in viewer.shown]
+    np.testing.assert_allclose(offsets, np.tile(offsets[0], (len(offsets), 1)), atol=1e-12)
+
+
+def test_the_plant_is_not_what_a_mouse_can_pull(simulate: Callable, open_viewer: Callable) -> None:
+    simulator = simulate("checks_place", "ideal")
+    (viewer,) = watched(simulator, open_viewer(2), np.inf)
+    assert viewer.data is not simulator.world.data
+    assert viewer.model is not simulator.world.model
+
+
+def test_when_the_time_is_over_the_window_stays(simulate: Callable, open_viewer: Callable) -> None:
+    simulator = simulate("checks_place", "ideal")
+    (viewer,) = watched(simulator, open_viewer(30), 0.1)
+    assert len(viewer.shown) == 11
+    assert viewer.looks < 0
+
+
+def watched(simulator, opened: list[FakeViewer], seconds: float) -> list[FakeViewer]:
+    """Watch a simulator; return the viewers that were opened, all closed by now."""
+    view.watch(simulator, seconds)
+    assert all(viewer.closed for viewer in opened)
+    return opened
+
+
+def test_without_a_display_there_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    monkeypatch.setattr("sys.platform", "linux")
+    assert not view.has_display()
+
+
+def test_a_display_that_does_not_answer_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    monkeypatch.setenv("DISPLAY", ":987")
+    assert not view.has_display()
