@@ -1,0 +1,130 @@
+"""Self-collision: hits are seen with the solids that hit, nothing where nothing is near, and distances are right."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from mobnet.core.errors import DataError
+from mobnet.core.joints import NQ_BASE
+from mobnet.robot.description import RobotDescription
+from mobnet.simulation.self_collision import REACH_M, Clearance, held_together
+
+Array = NDArray[np.float64]
+STANDING = {"LL3": -0.4, "LL4": 0.8, "LL5": -0.4, "RL3": -0.4, "RL4": 0.8, "RL5": -0.4}
+HITS = {  # joint angles [rad] besides the standing posture -> the solids that overlap
+    ("chest_front", "left_hand"): {"LA1": 0.0, "LA2": 0.1, "LA4": -0.5, "LA5": -2.1, "LA6": 0.2, "LA7": -1.1},
+    ("left_thigh", "left_hand"): {"LA1": 0.1, "LA2": 0.2, "LA4": -1.0, "LA5": -0.5, "LA6": 0.1, "LA7": -0.4},
+    ("left_shank", "right_shank"): {"LL2": -0.3},
+    ("left_ankle", "right_ankle"): {"LL2": -0.2},
+}
+HANDS_MEET = {1: 0.1, 2: 0.0, 3: 2.0, 4: -1.0, 5: -1.4, 6: 0.1, 7: -1.1, 8: -0.1}  # left arm; the right one mirrors it
+
+
+@pytest.fixture(scope="module")
+def clearance(robot: RobotDescription) -> Clearance:
+    return Clearance(robot)
+
+
+@pytest.fixture(scope="module")
+def standing(full_config: dict[str, Any], robot: RobotDescription) -> Array:
+    """Standing with bent knees in the walking posture (nq,)."""
+    q = np.zeros(robot.layout.nq)
+    q[3] = 1.0
+    posture = full_config["walking"]["posture_rad"]
+    q[-len(posture) :] = posture
+    return with_angles(robot, q, STANDING)
+
+
+def with_angles(robot: RobotDescription, q: Array, angles: dict[str, float]) -> Array:
+    """Return q (nq,) with some joints at other angles [rad]."""
+    q = q.copy()
+    for name, angle in angles.items():
+        q[NQ_BASE + robot.layout.actuated.index(name)] = angle
+    return q
+
+
+def hands_together(robot: RobotDescription, q: Array) -> Array:
+    """Return q (nq,) with both hands in one another before the chest."""
+    arms = {f"LA{k}": angle for k, angle in HANDS_MEET.items()} | {f"RA{k}": -angle for k, angle in HANDS_MEET.items()}
+    return with_angles(robot, q, arms)
+
+
+@pytest.mark.parametrize("pair", HITS)
+def test_a_hit_is_seen(clearance: Clearance, robot: RobotDescription, standing: Array, pair: tuple[str, str]) -> None:
+    q = with_angles(robot, standing, HITS[pair])
+    assert clearance.nearest(q[None])[0] < -0.02
+    assert set(clearance.pair(q) or ()) == set(pair)
+
+
+def test_hand_on_hand_is_seen(clearance: Clearance, robot: RobotDescription, standing: Array) -> None:
+    q = hands_together(robot, standing)
+    assert clearance.nearest(q[None])[0] < -0.02
+    assert clearance.pair(q) == ("left_hand", "right_hand")
+
+
+def test_nothing_is_near_in_the_posture_however_a_leg_walks(
+    clearance: Clearance, robot: RobotDescription, standing: Array, full_config: dict[str, Any]
+) -> None:
+    assert clearance.pair(standing) is None
+    for yaw, roll, pitch, knee in full_config["motions"]["random_motion"]["leg_poses_rad"]:
+        lifted = {"LL1": yaw, "LL2": roll, "LL3": pitch, "LL4": knee, "LL5": -pitch - knee}
+        assert clearance.nearest(with_angles(robot, standing, lifted)[None])[0] > 0.02
+
+
+def test_where_the_robot_is_does_not_matter(clearance: Clearance, robot: RobotDescription, standing: Array) -> None:
+    hit = with_angles(robot, standing, {"LL2": -0.15})
+    moved = hit.copy()
+    moved[:7] = 3.0, -2.0, 1.0, 0.5, -0.5, 0.5, 0.5
+    np.testing.assert_allclose(clearance.nearest(moved[None]), clearance.nearest(hit[None]), atol=1e-6)
+
+
+def test_distance_of_two_capsules_is_that_of_their_axes_less_their_radii(
+    robot: RobotDescription, standing: Array
+) -> None:
+    """Both thighs are parallel, hips 0.205 m apart, and nothing else is as near."""
+    clearance = Clearance(robot, 0.1)
+    radius = next(shape.size[0] for shape in robot.shapes if shape.name == "left_thigh")
+    assert clearance.nearest(standing[None])[0] == pytest.approx(2 * robot.hip_pos[1] - 2 * radius, abs=1e-6)
+    assert clearance.pair(standing) == ("left_thigh", "right_thigh")
+
+
+def test_distance_never_jumps_while_hands_meet(clearance: Clearance, robot: RobotDescription, standing: Array) -> None:
+    """MuJoCo's own test of two boxes misses some that are near: the distance then falls from out of reach at once."""
+    rng = np.random.default_rng(0)
+    meeting, share = hands_together(robot, standing), np.linspace(0, 1, 300)[:, None]
+    for _ in range(10):
+        wrists = dict(zip(("LA6", "LA7", "LA8", "RA6", "RA7", "RA8"), rng.uniform(-1, 1, 6), strict=True))
+        turned = with_angles(robot, meeting, wrists)
+        apart = with_angles(robot, turned, {"LA3": 1.0, "RA3": -1.0})
+        distance = clearance.nearest(apart + share * (turned - apart))
+        assert distance[0] == REACH_M
+        assert distance[-1] < 0
+        assert np.abs(np.diff(np.maximum(distance, 0))).max() < 0.004
+
+
+def test_out_of_reach_is_the_reach(robot: RobotDescription, standing: Array) -> None:
+    assert Clearance(robot).nearest(np.stack([standing, standing])).tolist() == [REACH_M, REACH_M]
+
+
+def test_neighbours_are_left_out_and_legs_are_not(robot: RobotDescription) -> None:
+    bodies = {body.name: body for body in robot.bodies}
+    for one, other, held in [
+        ("L_Elbow_Link", "L_Forearm_Link", True),
+        ("base_link", "L_Thigh_Link", True),
+        ("base_link", "Upperbody_Link", True),
+        ("Upperbody_Link", "L_Shoulder3_Link", False),
+        ("L_Thigh_Link", "R_Thigh_Link", False),
+        ("L_HipRoll_Link", "R_HipCenter_Link", False),
+        ("Upperbody_Link", "L_Wrist2_Link", False),
+    ]:
+        assert held_together(robot, bodies[one], bodies[other]) == held
+        assert held_together(robot, bodies[other], bodies[one]) == held
+
+
+def test_another_shape_is_refused(clearance: Clearance) -> None:
+    with pytest.raises(DataError, match=r"shape \(3, 39\) is not accepted; accepted: \(T, 40\)"):
+        clearance.nearest(np.zeros((3, 39)))
