@@ -59,6 +59,7 @@ def config() -> dict[str, Any]:
                 "block_s": 5.0,
                 "range": [0.01, 0.99],
                 "cells": 10,
+                "cell_range": [0.001, 0.999],
                 "push_nm": 5.0,
                 "push_after_s": 0.1,
             },
@@ -69,6 +70,7 @@ def config() -> dict[str, Any]:
         },
         "networks": {"LL": {"Q": ["LL"], "T": ["LL"]}},
         "walking": {"foot_spacing_m": 0.205},
+        "terrain": {"checks": {}, "flat": {}},
         "commands": {
             "step_x_m": [-0.15, 0.2],
             "step_y_m": [-0.1, 0.1],

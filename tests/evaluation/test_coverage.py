@@ -29,6 +29,7 @@ from mobnet.learning.features import limb_inputs
 
 Sets = dict[str, list[str]]
 NAMES = ("v.LL1", "tau_des.LL1")
+PLANE = {"cells": 10, "cell_range": [0.0, 1.0]}
 TEST = {"scenario": "walk_test", "level": "all_uncertainty"}
 
 
@@ -74,8 +75,8 @@ def test_distance_is_to_the_nearest_sample_in_units_of_the_common_spread(config:
 
 def test_the_wider_set_visits_more_of_the_plane_and_equal_sets_equally_much(rng: np.random.Generator) -> None:
     wide = rng.uniform(-1, 1, (3000, 2))
-    assert {row.ratio for row in visited([wide, wide], NAMES, ["LL1"], 10)} == {1.0}
-    for row in visited([wide, 0.5 * wide], NAMES, ["LL1"], 10):
+    assert {row.ratio for row in visited(AREA, [wide, wide], NAMES, ["LL1"], PLANE)} == {1.0}
+    for row in visited(AREA, [wide, 0.5 * wide], NAMES, ["LL1"], PLANE):
         assert row.measure == AREA
         assert row.with_rte == pytest.approx(1.0, abs=0.02)
         assert row.ratio == pytest.approx(4.0, rel=0.5)

@@ -20,11 +20,13 @@ from scipy.spatial import cKDTree
 from mobnet.core.config import load_layout
 from mobnet.core.files import write_text
 from mobnet.core.joints import JointLayout
+from mobnet.core.recording import FEET
 from mobnet.core.store import read_sensed
+from mobnet.evaluation.gait import foot_of
 from mobnet.evaluation.intervals import summarise
 from mobnet.evaluation.markup import RULE, Line, markdown_table, number, span, tex_escape, tex_table
 from mobnet.evaluation.rows import write_rows
-from mobnet.evaluation.samples import Pushed, blocks_of, evenly, pushed_of
+from mobnet.evaluation.samples import FLAG, Pushed, blocks_of, evenly, pushed_of
 from mobnet.learning.features import LimbInputs, limb_inputs
 
 log = logging.getLogger(__name__)
@@ -33,7 +35,7 @@ Array = NDArray[np.float64]
 Blocks = Sequence[NDArray[Any]]  # one array (n, ...) a block of test samples
 WITH, WITHOUT = "with RTE", "without RTE"  # names of the training sets
 OUTSIDE = {"v": "outside velocity", "tau_des": "outside torque"}
-AREA = "visited cells"
+AREA, AIR_AREA = "visited cells", "visited cells, swing"
 NEAREST = {"nearest, median": 0.5, "nearest, 95 %": 0.95}
 ALL = "all"  # joints together
 
@@ -45,7 +47,8 @@ class Covered:
     Attributes:
         scenario: test; `training` where none is needed.
         level: its uncertainty level.
-        measure: AREA or a value of OUTSIDE, a share [-], or a name of NEAREST, a distance in z-scored inputs [-].
+        measure: AREA, AIR_AREA or a value of OUTSIDE, a share [-], or a name of NEAREST, a distance in z-scored
+            inputs [-].
         joint: joint, or `all`, the mean over joints or inputs together.
         block_count: blocks of test samples, each contiguous in time; 0 without a test.
         with_rte: number against the training set with random torque exploration [-].
@@ -93,6 +96,7 @@ def coverage(
     Args:
         config: resolved configuration: `robot`, `networks`, `seed`, and of `evaluation`: `coverage` (limb, samples of
             each training set, every, block_s, range, the central quantiles [-], cells,
+            cell_range,
             push_nm, push_after_s), `confidence`,
             `bootstrap_draws`.
         training: `with RTE` and `without RTE` -> stems of the recordings.
@@ -105,13 +109,18 @@ def coverage(
     """
     settings, layout = config["evaluation"]["coverage"], load_layout(Path(config["robot"]))
     inputs = limb_inputs(layout, config["networks"][settings["limb"]])
-    joints = layout.limb(settings["limb"])
-    samples = equal_sets([read_blocks(training[name], layout, inputs, settings) for name in (WITH, WITHOUT)], settings)
+    joints, foot = layout.limb(settings["limb"]), FEET.index(foot_of(Path(config["robot"]), settings["limb"] + "1"))
+    sets = [training[WITH], training[WITHOUT]]
+    samples = equal_sets([read_blocks(stems, layout, inputs, settings) for stems in sets], settings)
+    airborne = equal_sets([read_blocks(stems, layout, inputs, settings, foot) for stems in sets], settings)
     mean, std = scale_of(np.concatenate(samples))
     references = [refer(array, settings["range"], mean, std) for array in samples]
-    rows = list(visited(samples, inputs.names, joints, settings["cells"]))
+    rows = [
+        *visited(AREA, samples, inputs.names, joints, settings),
+        *visited(AIR_AREA, airborne, inputs.names, joints, settings),
+    ]
     for test in tests:
-        blocks = read_blocks(test["recordings"], layout, inputs, settings, pushed_of(test, settings))
+        blocks = read_blocks(test["recordings"], layout, inputs, settings, pushed=pushed_of(test, settings))
         if not blocks:
             log.warning("%s: no push is found in its %d recordings", test["scenario"], len(test["recordings"]))
             continue
@@ -126,6 +135,7 @@ def read_blocks(
     layout: JointLayout,
     inputs: LimbInputs,
     settings: Mapping[str, Any],
+    foot: int | None = None,
     pushed: Pushed | None = None,
 ) -> list[NDArray[np.float32]]:
     """Return every k-th sample of a network's inputs, block by block (n, n_in), units of `LimbInputs`.
@@ -135,6 +145,7 @@ def read_blocks(
         layout: joints.
         inputs: of the limb's network.
         settings: `evaluation.coverage`: block_s [s], every.
+        foot: look at samples with this foot, 0 left, 1 right, in the air only.
         pushed: look at these samples only; a block each.
 
     Raises:
@@ -146,7 +157,8 @@ def read_blocks(
         length = round(settings["block_s"] * recording.rate_hz)
         spans = pushed.spans(Path(stem)) if pushed else tuple(recording.segments)
         for start, end in blocks_of(spans, length):
-            blocks.append(inputs(recording.sensed[start : end : settings["every"]]))
+            sensed = recording.sensed[start : end : settings["every"]]
+            blocks.append(inputs(sensed)[slice(None) if foot is None else sensed.swing[:, foot] > FLAG])
     return blocks
 
 
@@ -177,27 +189,32 @@ def refer(samples: NDArray[Any], shares: Sequence[float], mean: Array, std: Arra
 
 
 def visited(
-    samples: Sequence[NDArray[Any]], names: Sequence[str], joints: Sequence[str], cells: int
+    measure: str,
+    samples: Sequence[NDArray[Any]],
+    names: Sequence[str],
+    joints: Sequence[str],
+    settings: Mapping[str, Any],
 ) -> Iterator[Covered]:
     """Yield the share of a joint's velocity-torque plane that each training set visits [-] (Figure 19).
 
-    The plane is the rectangle that both sets together fill, cut into cells x cells.
+    The plane is a rectangle of both sets together, without their rarest samples, cut into equal cells.
 
     Args:
+        measure: AREA or AIR_AREA.
         samples: with and without random torque exploration (n, n_in) [rad/s], [N m] among the inputs.
         names: of the inputs (n_in,).
         joints: joints of the limb.
-        cells: along each side.
+        settings: `evaluation.coverage`: cells along each side, cell_range, the quantiles [-] at its ends.
     """
     where = {name: column for column, name in enumerate(names)}
     shares = []
     for joint in joints:
         planes = [array[:, [where[f"{quantity}.{joint}"] for quantity in OUTSIDE]] for array in samples]
         both = np.concatenate(planes)
-        bounds = list(zip(both.min(axis=0), both.max(axis=0), strict=True))
-        shares.append([float(np.mean(np.histogramdd(plane, cells, bounds)[0] > 0)) for plane in planes])
+        bounds = list(zip(*np.quantile(both, settings["cell_range"], axis=0), strict=True))
+        shares.append([float(np.mean(np.histogramdd(plane, settings["cells"], bounds)[0] > 0)) for plane in planes])
     for joint, (have, lack) in zip([*joints, ALL], [*shares, np.mean(shares, axis=0).tolist()], strict=True):
-        yield Covered("training", "", AREA, joint, 0, have, lack, have / lack, None, None)
+        yield Covered("training", "", measure, joint, 0, have, lack, have / lack, None, None)
 
 
 def outside(

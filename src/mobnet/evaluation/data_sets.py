@@ -66,7 +66,8 @@ def data(config: Mapping[str, Any], sets: Sets, out_dir: Path) -> None:
     """Write data.csv, .tex and .md.
 
     Args:
-        config: resolved configuration: `robot`, `published`, `walking`, `commands`, `evaluation.data`.
+        config: resolved configuration: `robot`, `published`, `walking`, `commands`, `terrain`,
+            `evaluation.data`.
         sets: name -> stems of the recordings.
         out_dir: gets the three files.
 
@@ -79,7 +80,11 @@ def data(config: Mapping[str, Any], sets: Sets, out_dir: Path) -> None:
     for name, texts in sets.items():
         stems = list(map(Path, texts))
         known = printed.get(name, {})
-        found = [*extent(stems), *commanded(config, stems, nominal), *upper_body(config, stems, nominal)]
+        found = [
+            *extent(stems, list(config["terrain"])),
+            *commanded(config, stems, nominal),
+            *upper_body(config, stems, nominal),
+        ]
         rows += [Fact(name, *fact, _published(config, known, *fact[:2])) for fact in found]
     header = ["", *(name.replace("_", " ") for name in sets), "Paper"]
     lines = fact_lines([row for row in rows if row.part not in nominal.robot.layout.actuated], list(sets))
@@ -90,7 +95,7 @@ def data(config: Mapping[str, Any], sets: Sets, out_dir: Path) -> None:
     log.info("%s: %d facts", out_dir / "data.csv", len(rows))
 
 
-def extent(stems: Sequence[Path]) -> Iterator[Found]:
+def extent(stems: Sequence[Path], terrains: Sequence[str]) -> Iterator[Found]:
     """Yield length [min], samples, falls, episodes and the shares of the terrains [-] of recordings.
 
     Raises:
@@ -107,7 +112,7 @@ def extent(stems: Sequence[Path]) -> Iterator[Found]:
     for note in notes:
         for (start, end), terrain in zip(note["segments"], note.get("terrains", []), strict=False):
             ground[terrain] += end - start
-    for terrain in sorted(ground):
+    for terrain in terrains:
         yield "time on terrain", terrain, ground[terrain] / samples, "-"
     clearances = [note["clearance_min_m"] for note in notes if "clearance_min_m" in note]
     if clearances:
