@@ -57,7 +57,7 @@ def picture_model(robot: RobotDescription, terrain: Terrain, size: tuple[int, in
         size: width and height of pictures [pixels].
     """
     spec = robot_spec(robot)
-    add_terrain(spec, terrain, WIDE_M)
+    add_terrain(spec, _cut(terrain), WIDE_M)
     spec.stat.extent, spec.stat.center = EXTENT_M, [0.0, 0.0, EXTENT_M / 2]
     _set_view(spec.visual, size)
     spec.add_texture(
@@ -69,6 +69,16 @@ def picture_model(robot: RobotDescription, terrain: Terrain, size: tuple[int, in
         specular=[SUN_SHINE] * 3, type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
     )  # fmt: skip
     return spec.compile()
+
+
+def _cut(terrain: Terrain) -> Terrain:
+    """Return a terrain with endless pieces cut into periods: light and fog are computed at corners alone."""
+    half = terrain.period / 2
+    pieces = [
+        piece._replace(bottom=np.minimum(piece.bottom, half), top=np.minimum(piece.top, half))
+        for piece in terrain.pieces
+    ]
+    return Terrain(terrain.period, tuple(pieces))
 
 
 def _set_view(visual: Any, size: tuple[int, int]) -> None:
