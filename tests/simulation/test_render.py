@@ -13,6 +13,7 @@ from mobnet.simulation import render
 from mobnet.simulation.terrain import draw_terrain
 
 ROOT = Path(__file__).parents[2]
+SMALL = (400, 300)  # width, height [pixels]
 SHAPES = 2  # geom group of what is seen of the robot
 NO_OPENGL = f"""
 import ctypes, sys
@@ -44,7 +45,7 @@ def terrain(full_config):
 
 @pytest.fixture(scope="module")
 def model(robot, terrain):
-    return render.picture_model(robot, terrain)
+    return render.picture_model(robot, terrain, SMALL)
 
 
 @pytest.fixture(scope="module")
@@ -111,7 +112,7 @@ def test_frames_are_drawn_only_as_they_are_asked_for(model, upright, pixels):
 
 def test_a_picture_has_the_size_asked_for(robot, terrain, upright, pixels):
     assert draw(render.picture_model(robot, terrain, (200, 100)), upright).shape == (100, 200, 3)
-    assert pixels.shape == (*render.SIZE[::-1], 3)
+    assert pixels.shape == (*SMALL[::-1], 3)
 
 
 def test_the_terrain_that_was_drawn_is_seen(full_config, robot, upright, pixels):
@@ -125,7 +126,7 @@ def test_the_terrain_that_was_drawn_is_seen(full_config, robot, upright, pixels)
 def test_the_file_holds_what_was_drawn(robot, terrain, upright, pixels, tmp_path):
     render.save_picture(robot, terrain, upright, tmp_path / "robot.png")
     written = matplotlib.image.imread(tmp_path / "robot.png")[..., :3]
-    np.testing.assert_array_equal(np.round(written * 255), pixels)
+    np.testing.assert_array_equal(np.round(written * 255), draw(render.picture_model(robot, terrain), upright))
 
 
 def test_without_opengl_one_line_names_the_packages_and_nothing_is_written(tmp_path):
