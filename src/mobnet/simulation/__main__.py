@@ -45,7 +45,7 @@ def main(words: list[str] | None = None) -> int:
         log.error("error: %s", error)
         return 1
     except KeyboardInterrupt:
-        log.error("interrupted; a file that was not complete is not there")
+        log.error("interrupted; no unfinished file is left")
         return INTERRUPTED
 
 
@@ -167,7 +167,7 @@ def _frames(simulator: Simulator, width: int, seconds: float) -> Iterator[Pixels
     for number, frame in enumerate(draw_frames(model, walk(simulator, seconds, 1 / FRAMES_HZ))):
         yield frame
         if time.perf_counter() - reported > REPORT_WALL_S:
-            log.info("%d of %d frames", number, seconds * FRAMES_HZ)
+            log.info("%d of %d frames", number + 1, 1 + round(seconds * FRAMES_HZ))
             reported = time.perf_counter()
 
 
