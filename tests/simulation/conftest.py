@@ -16,9 +16,9 @@ from mobnet.simulation.start import start_standing
 
 IN_PLACE = {"step_x_m": 0.0, "step_y_m": 0.0, "turn_deg": 0.0, "duration_s": 0.7, "foot_height_m": 0.05}
 MADE_UP = {  # scenarios of the tests
-    "flat_walk": {"terrain": "flat", "commands": {**IN_PLACE, "step_x_m": 0.1, "step_y_m": 0.05, "turn_deg": 8.0}},
-    "flat_place": {"terrain": "flat", "commands": IN_PLACE},
-    "checks_place": {"terrain": "checks", "commands": IN_PLACE},
+    "flat_walk": {"terrain": ["flat"], "commands": {**IN_PLACE, "step_x_m": 0.1, "step_y_m": 0.05, "turn_deg": 8.0}},
+    "flat_place": {"terrain": ["flat"], "commands": IN_PLACE},
+    "checks_place": {"terrain": ["checks"], "commands": IN_PLACE},
 }
 
 
@@ -38,9 +38,7 @@ def simulate(config: dict[str, Any]) -> Callable[..., Simulator]:
         simulator = Simulator(config, scenario, level, seed)
         simulator.start()
         if standing:
-            start = start_standing(
-                simulator.walker, simulator.robot, simulator.state, simulator.commands[0], simulator.world.top
-            )
+            start = start_standing(simulator.walker, simulator.robot, simulator.state, simulator.commands[0])
             simulator.plant.qpos[:], simulator.plant.qvel[:] = start
             simulator.sensors.q[:], simulator.sensors.v[:] = start
         return simulator

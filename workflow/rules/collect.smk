@@ -13,7 +13,7 @@ rule motion:
     threads: 1
     params:
         config=lambda w: part("seed", "robot", "walking", motions=[w.motion]),
-        duration_s=lambda w: duration_s(w.seed),
+        duration_s=lambda w: duration_s(moved_by(w.motion), w.seed),
         robot=CONTENT["robot"],
         code=code_of("motion"),
     script:
@@ -21,6 +21,8 @@ rule motion:
 
 
 rule collect:
+    input:
+        motion=lambda w: motion_of(w.scenario, w.seed),
     output:
         array=ensure(files("recordings"), non_empty=True),
         note=ensure(files("recordings", "json"), non_empty=True),
@@ -42,9 +44,10 @@ rule collect:
             "walking",
             levels=[w.level],
             scenarios=[w.scenario],
-            terrain=[settings["scenarios"][w.scenario]["terrain"]],
+            terrain=settings["scenarios"][w.scenario]["terrain"],
+            pushes=settings["scenarios"][w.scenario].get("pushes", []),
         ),
-        duration_s=lambda w: duration_s(w.seed),
+        duration_s=lambda w: duration_s([w.scenario], w.seed),
         robot=CONTENT["robot"],
         code=code_of("collect"),
     script:

@@ -27,7 +27,6 @@ RESULTS = f"results/{SCALE}"
 TABLES, FIGURES = ("tables", "figures") if SCALE == MAIN else (f"tables/{SCALE}", f"figures/{SCALE}")
 PAPER = "paper" if SCALE == MAIN else f"{RESULTS}/paper"
 MANIFEST = "results/MANIFEST.sha256" if SCALE == MAIN else f"{RESULTS}/MANIFEST.sha256"
-TRAIN_SEEDS = [FIRST_TRAINING_SEED + i for i in range(SIZES["train"]["shards"])]
 TEST_SEEDS = [1 + i for i in range(SIZES["test"]["shards"])]
 TABLE_05, FIGURE_05 = (
     settings["evaluation"]["table_05"],
@@ -68,18 +67,43 @@ def files(kind, ending="parquet"):
     return f"{RESULTS}/{kind}/{{scenario}}/{{level}}/s{{seed}}.{ending}"
 
 
-def training(kind):
-    """Return the files of a kind that the networks learn from."""
-    return expand(
-        files(kind),
-        seed=TRAIN_SEEDS,
-        **{key: SIZES["train"][key] for key in ("scenario", "level")},
-    )
+def training(kind, name):
+    """Return the files of a kind of a training set."""
+    row = SIZES["train"][name]
+    seeds = [FIRST_TRAINING_SEED + i for i in range(row["shards"])]
+    return expand(files(kind), seed=seeds, scenario=row["scenario"], level=row["level"])
 
 
-def duration_s(seed):
-    """Return how long the recording of a seed is [s]."""
-    return SIZES["train" if int(seed) >= FIRST_TRAINING_SEED else "test"]["shard_s"]
+def data_of(limb):
+    """Return the training set that a limb's network learns from."""
+    return settings["networks"][limb]["data"]
+
+
+def duration_s(scenarios, seed):
+    """Return how long the longest recording of some scenarios with a seed is [s]."""
+    if int(seed) < FIRST_TRAINING_SEED:
+        return SIZES["test"]["shard_s"]
+    return max(row["shard_s"] for row in SIZES["train"].values() if row["scenario"] in scenarios)
+
+
+def motion_of(scenario, seed):
+    """Return the file of the upper body's motion in a recording, none if it is still."""
+    name = settings["scenarios"][scenario].get("motion")
+    return [f"{RESULTS}/motions/{name}/s{seed}.parquet"] if name else []
+
+
+def moved_by(motion):
+    """Return the scenarios whose upper body follows a motion."""
+    return [name for name, row in settings["scenarios"].items() if row.get("motion") == motion]
+
+
+def test_recordings():
+    """Return the recordings of every test, whether a table shows it yet or not."""
+    return [
+        name
+        for scenario, levels in settings["tests"].items()
+        for name in expand(files("recordings"), scenario=scenario, level=levels, seed=TEST_SEEDS)
+    ]
 
 
 def limbs_of(method):
@@ -157,7 +181,9 @@ def products():
         for seed in network_seeds(method)
         for name in ("weights.safetensors", "metrics.csv", "run.json")
     ]
-    stored = training("recordings") + training("residuals") + arrays(runs, "recording", "residual", "estimate")
+    stored = [name for row in SIZES["train"] for name in training("recordings", row)]
+    stored += [name for row in ("walk", "motion") for name in training("residuals", row)]
+    stored += list(dict.fromkeys(test_recordings() + arrays(runs, "recording", "residual", "estimate")))
     notes = [str(Path(name).with_suffix(".json")) for name in stored]
     tables = expand(
         f"{TABLES}/{{name}}.{{ending}}",

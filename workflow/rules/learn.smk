@@ -3,8 +3,8 @@
 
 rule train:
     input:
-        recordings=training("recordings"),
-        residuals=training("residuals"),
+        recordings=lambda w: training("recordings", data_of(w.limb)),
+        residuals=lambda w: training("residuals", data_of(w.limb)),
     output:
         weights=ensure(network("{method}", "{limb}", "{seed}"), non_empty=True),
         metrics=ensure(network("{method}", "{limb}", "{seed}", "metrics.csv"), non_empty=True),

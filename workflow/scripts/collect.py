@@ -13,4 +13,5 @@ with job(snakemake.log[0]):
         int(snakemake.wildcards.seed),
         snakemake.params.duration_s,
         Path(snakemake.output.array).with_suffix(""),
+        Path(snakemake.input.motion[0]).with_suffix("") if snakemake.input.motion else None,
     )

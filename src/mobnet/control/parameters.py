@@ -75,6 +75,9 @@ class WalkingParameters(NamedTuple):
     stand_load_min: float
     stand_shift_m: Array
     base_time_constant_s: float
+    stumble_m: float
+    slope_rate_hz: float
+    slope_max: float
     leg_stiffness_nm_rad: Array
     leg_damping_nms_rad: Array
     unloaded_stiffness: float
@@ -91,7 +94,7 @@ STATE = np.dtype(
         ("velocity", "f8", 2), ("target", "f8", 2), ("target_velocity", "f8", 2),
         ("lift", "f8", 3), ("lift_yaw", "f8"), ("lift_roll", "f8"), ("lift_pitch", "f8"),
         ("integral", "f8", (2, 2)), ("load", "f8", 2), ("stance_yaw", "f8"), ("next_yaw", "f8"), ("omega", "f8"),
-        ("sole_height", "f8"), ("plan", "f8", (5, 2)), ("next_ankle", "f8", 2), ("dcm_end", "f8", 2),
+        ("sole_height", "f8"), ("slope", "f8", 2), ("plan", "f8", (5, 2)), ("next_ankle", "f8", 2), ("dcm_end", "f8", 2),
         ("zmp_old", "f8", 2), ("zmp_nominal", "f8", 2), ("dcm_reference", "f8", 2), ("dcm", "f8", 2),
         ("error", "f8", 2), ("zmp", "f8", 2), ("force", "f8", 3), ("foot", "f8", 3), ("foot_velocity", "f8", 3),
         ("foot_rotation", "f8", (3, 3)), ("foot_yaw_rate", "f8"), ("q_reference", "f8", (2, 6)),

@@ -48,5 +48,9 @@ def swing_foot(par: WalkingParameters, s: State, double_support: float, ground: 
     x = u / par.swing_level_share
     turn = wrap(s.next_yaw - s.lift_yaw)
     level = 1.0 - rise(x)
-    yaw_roll_pitch_matrix(s.lift_yaw + turn * rise(x), s.lift_roll * level, s.lift_pitch * level, s.foot_rotation)
+    yaw = s.lift_yaw + turn * rise(x)
+    c, n = np.cos(yaw), np.sin(yaw)
+    roll = (s.slope[1] * c - s.slope[0] * n) * rise(x) + s.lift_roll * level
+    pitch = -(s.slope[0] * c + s.slope[1] * n) * rise(x) + s.lift_pitch * level
+    yaw_roll_pitch_matrix(yaw, roll, pitch, s.foot_rotation)
     s.foot_yaw_rate = turn * rise_slope(x) / (par.swing_level_share * span)

@@ -122,7 +122,9 @@ def walk(walker: Walker, s: State, q: Array, v: Array, wrenches: Array, commands
     if s.swinging:
         adapt_foothold(par, s, ankle, dt, walker.work)
         adapt_duration(par, s, double_support, dt, walker.work)
-        swing_foot(par, s, double_support, ankle[2])
+        _feel_slope(par, s, pose.rotation[walker.feet[stance]], dt)
+        rise = s.slope[0] * (s.target[0] - ankle[0]) + s.slope[1] * (s.target[1] - ankle[1])
+        swing_foot(par, s, double_support, ankle[2] + rise)
     _torques(walker, s, stance, q, v, dt, tau)
 
 
@@ -172,8 +174,9 @@ def _touch_down(walker: Walker, s: State, commands: Array) -> None:
     s.t = clip(s.t - s.total, -par.early_max_s, 0.0)
     s.yaw_start = s.yaw
     row = min(s.steps, len(commands) - 1)
+    stumbles = np.hypot(s.error[0], s.error[1]) > par.stumble_m
     for i in range(5):
-        s.command[i] = commands[row, i]
+        s.command[i] = 0.0 if stumbles and i < DURATION else commands[row, i]
     s.commanded = s.command[DURATION]
     s.total = s.commanded
 
@@ -190,6 +193,14 @@ def _feet(walker: Walker, s: State, stance: int, double_support: float) -> None:
     s.sole_height = walker.sole[2]
     for k in range(2):
         s.sole_height += s.load[k] * pose.position[walker.feet[k], 2]
+
+
+@compiled
+def _feel_slope(par: WalkingParameters, s: State, foot: Array, dt: float) -> None:
+    """Move the ground's slope along world x and y [-] towards that of a foot (3, 3) that carries the robot."""
+    for i in range(2):
+        slope = s.slope[i] + par.slope_rate_hz * dt * (-foot[i, 2] / foot[2, 2] - s.slope[i])
+        s.slope[i] = clip(slope, -par.slope_max, par.slope_max)
 
 
 @compiled

@@ -17,7 +17,7 @@ def check_names(config: Mapping[str, Any], layout: JointLayout, where: str = "co
     Raises:
         ConfigError: one line with the key, the name and the accepted names.
     """
-    for uses in (network_uses, scenario_uses, evaluation_uses):
+    for uses in (network_uses, scenario_uses, size_uses, evaluation_uses):
         for key, name, accepted in uses(config, layout):
             if name not in accepted:
                 raise ConfigError(f"{where}: {not_accepted(key, name, accepted)}")
@@ -33,14 +33,28 @@ def network_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use
         yield from ((f"methods.{method}.limbs", limb, config["networks"]) for limb in row.get("limbs", []))
 
 
-def scenario_uses(config: Mapping[str, Any], _: JointLayout) -> Iterator[Use]:
-    """Yield the terrains of scenarios, and the scale, scenarios and levels of the sizes."""
+def scenario_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
+    """Yield what scenarios name, and the joints of pushes."""
     for name, scenario in config["scenarios"].items():
-        yield from ((f"scenarios.{name}.terrain", terrain, config["terrain"]) for terrain in scenario["terrain"])
+        place = f"scenarios.{name}"
+        yield from ((f"{place}.terrain", terrain, config["terrain"]) for terrain in scenario["terrain"])
+        yield from ((f"{place}.pushes", push, config["pushes"]) for push in scenario.get("pushes", ()))
+        yield from ((f"{place}.motion", scenario[key], config["motions"]) for key in ("motion",) if key in scenario)
+        yield f"{place}.draws", scenario.get("draws", name), config["scenarios"]
+    for name, row in config["pushes"].items():
+        yield from ((f"pushes.{name}.joint", row[key], layout.actuated) for key in ("joint",) if key in row)
+
+
+def size_uses(config: Mapping[str, Any], _: JointLayout) -> Iterator[Use]:
+    """Yield the scale, and the scenarios and levels of tests and training sets."""
     yield "scale", config["scale"], config["scales"]
+    for scenario, levels in config["tests"].items():
+        yield "tests", scenario, config["scenarios"]
+        yield from ((f"tests.{scenario}", level, config["levels"]) for level in levels)
     for name, sizes in config["scales"].items():
-        yield f"scales.{name}.train.scenario", sizes["train"]["scenario"], config["scenarios"]
-        yield f"scales.{name}.train.level", sizes["train"]["level"], config["levels"]
+        for data, row in sizes["train"].items():
+            yield f"scales.{name}.train.{data}.scenario", row["scenario"], config["scenarios"]
+            yield f"scales.{name}.train.{data}.level", row["level"], config["levels"]
 
 
 def evaluation_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
