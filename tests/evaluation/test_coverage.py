@@ -58,7 +58,9 @@ def test_about_two_percent_of_training_lie_outside_its_own_range(rng: np.random.
         assert row.with_rte == pytest.approx(0.02, abs=0.001)
 
 
-def test_distance_is_to_the_nearest_sample_in_units_of_the_common_spread(config: dict[str, Any]) -> None:
+def test_distance_to_the_nearest_sample_has_its_closed_form_in_units_of_the_common_spread(
+    config: dict[str, Any],
+) -> None:
     mean, std = np.array([1.0, 2.0]), np.array([2.0, 4.0])
     references = [
         refer(np.array([[1.0, 2.0], [9.0, 2.0]]), [0, 1], mean, std),
@@ -98,7 +100,7 @@ def test_blocks_hold_the_inputs_of_table_1(config: dict[str, Any], layout: Joint
     ] * 4  # 20 s in two segments, blocks of 5 s, every second sample
 
 
-def test_a_run_with_itself_is_even_and_tests_without_pushes_are_left_out(
+def test_equivalent_sets_come_out_even_and_tests_without_pushes_are_left_out(
     tmp_path: Path, config: dict[str, Any], data_sets: Sets
 ) -> None:
     training = {"with RTE": data_sets["walk"], "without RTE": data_sets["walk"]}

@@ -30,7 +30,7 @@ def posture(robot: RobotDescription, **angles: float) -> np.ndarray:
     return q
 
 
-def test_a_straight_leg_swings_on_a_circle_about_the_hip(nominal: NominalModel) -> None:
+def test_a_straight_leg_has_the_closed_form_of_a_circle_about_the_hip(nominal: NominalModel) -> None:
     rest = ankle_places(nominal, posture(nominal.robot))[0][0]
     pitched = ankle_places(nominal, posture(nominal.robot, LL3=0.3))[0][0]
     np.testing.assert_allclose(pitched[0] - rest[0], [-LEG_M * np.sin(0.3), 0, LEG_M * (1 - np.cos(0.3))], atol=1e-12)
@@ -44,7 +44,7 @@ def test_the_hips_yaw_is_the_feets_yaw(nominal: NominalModel) -> None:
     np.testing.assert_allclose(yaw, [0.25, -0.4], atol=1e-12)
 
 
-def test_hand_speed_is_that_of_finite_differences_and_knows_no_base(nominal: NominalModel) -> None:
+def test_hand_speed_is_that_of_finite_differences_and_invariant_to_the_base(nominal: NominalModel) -> None:
     robot, rng, step = nominal.robot, np.random.default_rng(3), 1e-6
     q, v = posture(robot), rng.normal(size=(1, robot.layout.nv))
     q[0, NQ_BASE:] = rng.uniform(-0.5, 0.5, robot.layout.nu)

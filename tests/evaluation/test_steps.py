@@ -61,7 +61,7 @@ def turned_legs(nominal: NominalModel, **angles: float) -> np.ndarray:
 
 
 @pytest.mark.parametrize("foot", [0, 1])
-def test_steps_of_straight_legs_are_those_of_their_hips(nominal: NominalModel, foot: int) -> None:
+def test_steps_of_straight_legs_have_the_closed_form_of_their_hips(nominal: NominalModel, foot: int) -> None:
     side, out = "LR"[foot], (1, -1)[foot]
     found = {
         "rest": measure(nominal, turned_legs(nominal), np.array([foot]), SPACING_M),
@@ -75,7 +75,7 @@ def test_steps_of_straight_legs_are_those_of_their_hips(nominal: NominalModel, f
     np.testing.assert_allclose(found["yaw"], [[0, 0, 0.3]], atol=1e-12)
 
 
-def test_a_step_does_not_depend_on_where_the_robot_is_and_faces(nominal: NominalModel) -> None:
+def test_a_step_is_invariant_to_where_the_robot_is_and_faces(nominal: NominalModel) -> None:
     q = turned_legs(nominal, LL1=0.2, LL3=-0.3, LL4=0.4, RL2=-0.1, RL3=0.2)
     here = measure(nominal, q, np.array([0]), SPACING_M)
     q[0, :7] = [3.0, -2.0, 1.0, np.cos(1.2), 0.0, 0.0, np.sin(1.2)]

@@ -22,7 +22,7 @@ def residuals(data_sets: Sets) -> Sets:
     return {name: [f"{stem}_residual" for stem in stems] for name, stems in data_sets.items()}
 
 
-def test_standard_deviation_is_that_of_all_files_together(tmp_path: Path) -> None:
+def test_standard_deviation_file_by_file_is_equivalent_to_that_of_all_samples_together(tmp_path: Path) -> None:
     rng = np.random.default_rng(1)
     parts = [rng.normal(1000.0 * k, 1.0 + k, (n, 4)) for k, n in enumerate((50, 400, 7))]
     columns = [(name, "N m", "joint") for name in ("r.A", "r.B", "tau_ext_lp.A", "tau_ext_lp.B")]

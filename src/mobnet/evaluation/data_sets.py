@@ -102,21 +102,25 @@ def extent(stems: Sequence[Path], terrains: Sequence[str]) -> Iterator[Found]:
         DataError: a file is missing.
     """
     notes = [read_json(stem.with_suffix(".json")) for stem in stems]
-    samples = sum(note["rows"] for note in notes)
     yield "recordings", "", len(notes), ""
     yield "duration", "", sum(note["rows"] / note["rate_hz"] for note in notes) / MINUTE_S, "min"
-    yield "samples", "", samples, ""
+    yield "samples", "", sum(note["rows"] for note in notes), ""
     yield "falls", "", sum(note["falls"] for note in notes), ""
     yield "episodes", "", sum(len(note["segments"]) for note in notes), ""
-    ground: Counter[str] = Counter()
-    for note in notes:
-        for (start, end), terrain in zip(note["segments"], note.get("terrains", []), strict=False):
-            ground[terrain] += end - start
-    for terrain in terrains:
-        yield "time on terrain", terrain, ground[terrain] / samples, "-"
+    yield from ground(notes, terrains)
     clearances = [note["clearance_min_m"] for note in notes if "clearance_min_m" in note]
     if clearances:
         yield "smallest self-clearance", "", min(clearances), "m"
+
+
+def ground(notes: Sequence[Mapping[str, Any]], terrains: Sequence[str]) -> Iterator[Found]:
+    """Yield the share of the samples on each terrain [-], as the recordings note it segment by segment."""
+    walked: Counter[str] = Counter()
+    for note in notes:
+        for (start, end), terrain in zip(note["segments"], note["terrains"], strict=True):
+            walked[terrain] += end - start
+    for terrain in terrains:
+        yield "time on terrain", terrain, walked[terrain] / walked.total(), "-"
 
 
 def commanded(config: Mapping[str, Any], stems: Sequence[Path], nominal: NominalModel) -> Iterator[Found]:

@@ -7,12 +7,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mobnet.core.joints import NQ_BASE
 from mobnet.core.recording import recording_columns
 from mobnet.core.store import read_array
 from mobnet.evaluation.kinematics import hand_speeds
-from mobnet.robot.description import SIDES
+from mobnet.robot.description import SIDES, RobotDescription
 from mobnet.robot.nominal import NominalModel
 
 LIMBS = ("W", "LA", "RA")
@@ -44,16 +45,28 @@ def upper_body(
     for k, side in enumerate(SIDES):
         yield "mean hand speed", side, float(speed[:, k].mean()), "m/s"
         yield "largest hand speed", side, float(speed[:, k].max()), "m/s"
-    low, high = np.min(lows, axis=0), np.max(highs, axis=0)
-    bounds = np.array([joint.range for joint in nominal.robot.joints])
+    yield from joint_ranges(nominal.robot, np.min(lows, axis=0), np.max(highs, axis=0))
+
+
+def joint_ranges(
+    robot: RobotDescription, low: NDArray[Any], high: NDArray[Any]
+) -> Iterator[tuple[str, str, float, str]]:
+    """Yield what joints above the legs visit of the range between their limits, limb by limb and joint by joint.
+
+    Args:
+        robot: the robot's table; gives the limits.
+        low: smallest positions (nu,) [rad].
+        high: largest positions (nu,) [rad].
+    """
+    bounds = np.array([joint.range for joint in robot.joints])
     share = (high - low) / (bounds[:, 1] - bounds[:, 0])
     for limb in LIMBS:
-        own = [layout.actuated.index(joint) for joint in layout.limb(limb)]
+        own = [robot.layout.actuated.index(joint) for joint in robot.layout.limb(limb)]
         yield "joint range visited", f"limb {limb}", float(share[own].mean()), "-"
         for k in own:
-            joint = layout.actuated[k]
+            joint = robot.layout.actuated[k]
             yield "joint range visited", joint, float(share[k]), "-"
-            for quantity, value in (("smallest position", low[k]), ("largest position", high[k])):
-                yield quantity, joint, float(value), "rad"
-            for quantity, value in (("lower limit", bounds[k, 0]), ("upper limit", bounds[k, 1])):
-                yield quantity, joint, float(value), "rad"
+            yield "smallest position", joint, float(low[k]), "rad"
+            yield "largest position", joint, float(high[k]), "rad"
+            yield "lower limit", joint, float(bounds[k, 0]), "rad"
+            yield "upper limit", joint, float(bounds[k, 1]), "rad"
