@@ -8,6 +8,7 @@ configfile: "configs/config.yaml"
 include: "workflow/rules/common.smk"
 include: "workflow/rules/collect.smk"
 include: "workflow/rules/learn.smk"
+include: "workflow/rules/data.smk"
 include: "workflow/rules/evaluate.smk"
 include: "workflow/rules/report.smk"
 

@@ -66,9 +66,13 @@ def config() -> dict[str, Any]:
             "data": {"every": 10},
             "commands": {"bins": 5},
             "steps": {"bins": 3, "tolerance": 0.15},
-            "uncertainty": {"sets": {"LL": "walk", "W": "motion", "V": "motion"}, "ratio": {"LL": [0.4, 2.5]}},
+            "uncertainty": {"ratio": {"LL": [0.4, 2.5]}},
         },
-        "networks": {"LL": {"Q": ["LL"], "T": ["LL"]}},
+        "networks": {
+            "LL": {"Q": ["LL"], "T": ["LL"], "data": "walk"},
+            "W": {"data": "motion"},
+            "V": {"data": "motion"},
+        },
         "walking": {"foot_spacing_m": 0.205},
         "terrain": {"checks": {}, "flat": {}},
         "commands": {
@@ -79,7 +83,7 @@ def config() -> dict[str, Any]:
             "foot_height_m": [0.04, 0.05, 0.06, 0.07],
         },
         "sizes": {
-            "train": {"shards": 6, "shard_s": 300.0},
+            "train": {"walk": {"shards": 6, "shard_s": 300.0}},
             "test": {"shards": 3, "shard_s": 60.0},
             "network_seeds": [0, 1, 2],
             "epochs": 20,

@@ -9,9 +9,11 @@ import pytest
 
 from mobnet.core.errors import DataError
 from mobnet.evaluation import paper
+from mobnet.evaluation.commands import commands
 from mobnet.evaluation.deviations import deviations
 from mobnet.evaluation.gait import figure_05
 from mobnet.evaluation.paper import PaperError, build, collect, missing_packages
+from mobnet.evaluation.spread import figure_19
 
 REPO = Path(__file__).parents[2]
 SOURCE = r"""\documentclass{article}
@@ -71,12 +73,14 @@ def test_with_tex_equal_input_gives_equal_bytes(config: dict[str, Any], source: 
 
 @with_tex
 def test_the_paper_itself_builds_from_the_golden_tables(
-    config: dict[str, Any], tmp_path: Path, walk: Callable[..., dict[str, Any]]
+    config: dict[str, Any], tmp_path: Path, walk: Callable[..., dict[str, Any]], data_sets: dict[str, list[str]]
 ) -> None:
     for golden in (REPO / "tests/golden").glob("*.tex"):
         (tmp_path / golden.name).write_text(golden.read_text())
     deviations(REPO / "docs/deviations.md", tmp_path / "deviations.tex")
     figure_05(config, [walk(1.0, method="MOB"), walk(2.0)], tmp_path)
+    figure_19(config, {"with RTE": data_sets["walk"]}, [{"scenario": "t", "recordings": data_sets["test"]}], tmp_path)
+    commands(config, {"walk": data_sets["walk"]}, tmp_path)
     build(config, REPO / "paper/main.tex", tmp_path, tmp_path, tmp_path / "out/main.pdf")
     assert (tmp_path / "out/main.pdf").stat().st_size > 50_000
 

@@ -48,7 +48,7 @@ def test_training_and_test_recordings_are_disjoint(outputs: Outputs) -> None:
     sizes = load_config(ROOT / "configs" / "config.yaml", "default")["sizes"]
     paths = [Path(name) for name in outputs("default") if "/recordings/" in name and name.endswith(".parquet")]
     seeds = {folder: sorted(int(p.stem[1:]) for p in paths if p.parent.parts[3:] == folder) for folder in FOLDERS}
-    assert seeds[FOLDERS[0]] == [1000 + i for i in range(sizes["train"]["shards"])]
+    assert seeds[FOLDERS[0]] == [1000 + i for i in range(sizes["train"]["walk"]["shards"])]
     assert seeds[FOLDERS[1]] == [1 + i for i in range(sizes["test"]["shards"])]
 
 

@@ -32,6 +32,7 @@ TABLE_05, FIGURE_05 = (
     settings["evaluation"]["table_05"],
     settings["evaluation"]["figure_05"],
 )
+TARGET_SETS = list(dict.fromkeys(row["data"] for row in settings["networks"].values()))  # those that networks learn
 
 
 wildcard_constraints:
@@ -170,6 +171,35 @@ def arrays(entries, *kinds):
     return list(dict.fromkeys(f"{run[kind]}.parquet" for run in entries for kind in kinds))
 
 
+def stems(names):
+    """Return files without their endings."""
+    return [str(Path(name).with_suffix("")) for name in names]
+
+
+def training_stems(kind, *names):
+    """Return training set -> stems of its files of a kind."""
+    return {name: stems(training(kind, name)) for name in names}
+
+
+def exploration_sets():
+    """Return the training sets with and without random torque exploration -> stems of their recordings."""
+    sets = {"with RTE": "walk", "without RTE": "walk_plain"}
+    return {label: stems(training("recordings", name)) for label, name in sets.items()}
+
+
+def coverage_tests():
+    """Return the tests that training data are held against, each with the stems of its recordings."""
+    return [
+        {**test, "recordings": stems(expand(files("recordings"), seed=TEST_SEEDS, **test))}
+        for test in settings["evaluation"]["coverage"]["tests"]
+    ]
+
+
+def coverage_recordings():
+    """Return the recordings of those tests."""
+    return list(dict.fromkeys(f"{stem}.parquet" for test in coverage_tests() for stem in test["recordings"]))
+
+
 def products():
     """Return every file worth keeping, also those that later ones could be made without."""
     scenarios = dict.fromkeys([TABLE_05["scenario"], FIGURE_05["scenario"]])
@@ -182,15 +212,20 @@ def products():
         for name in ("weights.safetensors", "metrics.csv", "run.json")
     ]
     stored = [name for row in SIZES["train"] for name in training("recordings", row)]
-    stored += [name for row in ("walk", "motion") for name in training("residuals", row)]
-    stored += list(dict.fromkeys(test_recordings() + arrays(runs, "recording", "residual", "estimate")))
+    stored += [name for row in TARGET_SETS for name in training("residuals", row)]
+    tests = test_recordings() + coverage_recordings()
+    stored += list(dict.fromkeys(tests + arrays(runs, "recording", "residual", "estimate")))
     notes = [str(Path(name).with_suffix(".json")) for name in stored]
     tables = expand(
         f"{TABLES}/{{name}}.{{ending}}",
-        name=["table_05", "claims"],
+        name=["table_05", "claims", "data", "steps", "coverage", "uncertainty"],
         ending=["csv", "tex", "md"],
     )
-    figures = expand(f"{FIGURES}/figure_05.{{ending}}", ending=["pdf", "png", "csv"])
+    figures = expand(
+        f"{FIGURES}/{{name}}.{{ending}}",
+        name=["figure_05", "figure_19", "commands"],
+        ending=["pdf", "png", "csv"],
+    )
     scores = expand(f"{RESULTS}/scores/{{scenario}}.csv", scenario=scenarios)
     texts = [f"{TABLES}/numbers.tex", f"{TABLES}/deviations.tex", f"{PAPER}/build.json"]
     return stored + notes + networks + scores + tables + figures + texts

@@ -37,9 +37,18 @@ rule paper:
         references="paper/refs.bib",
         tables=expand(
             f"{TABLES}/{{name}}.tex",
-            name=["table_05", "claims", "numbers", "deviations"],
+            name=[
+                "table_05",
+                "claims",
+                "data",
+                "steps",
+                "coverage",
+                "uncertainty",
+                "numbers",
+                "deviations",
+            ],
         ),
-        figures=[f"{FIGURES}/figure_05.pdf"],
+        figures=expand(f"{FIGURES}/{{name}}.pdf", name=["figure_05", "figure_19", "commands"]),
     output:
         ensure(f"{PAPER}/build.json", non_empty=True),
     log:

@@ -79,5 +79,4 @@ def data_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
         yield "evaluation.coverage.tests.scenario", test["scenario"], config["scenarios"]
         yield "evaluation.coverage.tests.level", test["level"], config["levels"]
         yield "evaluation.coverage.tests.pushed", test.get("pushed", layout.actuated[0]), layout.actuated
-    for key in ("sets", "ratio"):
-        yield from ((f"evaluation.uncertainty.{key}", limb, layout.groups) for limb in settings["uncertainty"][key])
+    yield from (("evaluation.uncertainty.ratio", limb, config["networks"]) for limb in settings["uncertainty"]["ratio"])

@@ -59,7 +59,7 @@ def tex_definition(item: tuple[str, str]) -> str:
 def size_texts(config: Mapping[str, Any]) -> dict[str, str]:
     """Return the sizes of the chosen scale as texts: minutes [min], million samples, epochs, seeds."""
     sizes = config["sizes"]
-    train, test = sizes["train"], sizes["test"]
+    train, test = sizes["train"]["walk"], sizes["test"]
     return {
         "scale": tex_escape(config["scale"]),
         "train minutes": f"{train['shards'] * train['shard_s'] / MINUTE_S:g}",

@@ -53,8 +53,8 @@ def uncertainty(config: Mapping[str, Any], sets: Mapping[str, Sequence[str]], ou
     """Write uncertainty.csv, .tex and .md: standard deviation of the learning target of each joint [N m], V1..V3 [N].
 
     Args:
-        config: resolved configuration: `robot`, `published`, `evaluation.uncertainty`: `sets`, limb -> training set,
-            and `ratio`, limb -> accepted ratios [-] to the robot's.
+        config: resolved configuration: `robot`, `published`, `networks`, which name the training set of each limb, and
+            `evaluation.uncertainty.ratio`, limb -> accepted ratios [-] to the robot's.
         sets: name of a training set -> stems of its residuals.
         out_dir: gets the three files.
 
@@ -65,8 +65,8 @@ def uncertainty(config: Mapping[str, Any], sets: Mapping[str, Sequence[str]], ou
     layout = load_layout(Path(config["robot"]))
     settings, entry = config["evaluation"]["uncertainty"], read_sizes(Path(config["published"]), layout)
     rows: list[Size] = []
-    for limb, name in settings["sets"].items():
-        joints = layout.limb(limb)
+    for limb, network in config["networks"].items():
+        name, joints = network["data"], layout.limb(limb)
         values = target_std(list(map(Path, sets[name])), joints)
         known = entry["std"].get(limb, [None] * len(joints))
         for joint, value, theirs in zip(joints, values.tolist(), known, strict=True):
