@@ -5,12 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json, write_json
-from mobnet.evaluation.data_sets import Fact, data, extent
+from mobnet.evaluation.data_sets import Fact, commanded, data, extent
 from mobnet.evaluation.rows import read_rows
+from mobnet.evaluation.steps import Steps
+from mobnet.robot.description import load_robot
+from mobnet.robot.nominal import NominalModel
 
 Sets = dict[str, list[str]]
 Facts = dict[tuple[str, str, str], Fact]
@@ -65,6 +69,17 @@ def test_clearance_is_the_smallest_that_was_noted(tmp_path: Path, data_sets: Set
         )
     found = {(quantity, part): value for quantity, part, value, _ in extent(stems, ["checks"])}
     assert found["smallest self-clearance", ""] == 0.02
+
+
+def test_a_command_never_given_has_no_ratio(
+    monkeypatch: pytest.MonkeyPatch, config: dict[str, Any], data_sets: Sets
+) -> None:
+    monkeypatch.setattr(Steps, "follows", lambda self, column: np.full(len(self), column != 2))
+    nominal = NominalModel(load_robot(Path(config["robot"])))
+    parts = [
+        part for quantity, part, _, _ in commanded(config, [Path(data_sets["walk"][0])], nominal) if "over" in quantity
+    ]
+    assert parts == ["step_x", "step_y"]
 
 
 def test_a_missing_recording_is_named(tmp_path: Path, config: dict[str, Any]) -> None:

@@ -25,7 +25,7 @@ rule figure_19:
         "../scripts/figure_19.py"
 
 
-rule coverage:
+rule data_coverage:
     input:
         training("recordings", "walk"),
         training("recordings", "walk_plain"),
@@ -36,9 +36,9 @@ rule coverage:
             non_empty=True,
         ),
     log:
-        f"{RESULTS}/logs/coverage.log",
+        f"{RESULTS}/logs/data_coverage.log",
     benchmark:
-        f"{RESULTS}/bench/coverage.tsv"
+        f"{RESULTS}/bench/data_coverage.tsv"
     threads: 1
     params:
         config=part(
@@ -50,9 +50,9 @@ rule coverage:
         training=exploration_sets(),
         tests=coverage_tests(),
         robot=CONTENT["robot"],
-        code=code_of("coverage"),
+        code=code_of("data_coverage"),
     script:
-        "../scripts/coverage.py"
+        "../scripts/data_coverage.py"
 
 
 rule data:

@@ -140,8 +140,8 @@ def commanded(config: Mapping[str, Any], stems: Sequence[Path], nominal: Nominal
         yield "largest command", name, float(values.max()), UNITS[k]
         near = np.abs(values[:, None] - ends).min(axis=1) <= EDGE * (ends[1] - ends[0])
         yield "steps on an edge", name, float(near.mean()), "-"
-        if k < CHOICES:
-            follows = steps.follows(k)
+        follows = steps.follows(k)
+        if k < CHOICES and follows.any():
             size, got = np.abs(values[follows]), steps.measured[follows, k] * np.sign(values[follows])
             yield "measured over commanded", name, float(got.sum() / size.sum()), "-"
 

@@ -1,4 +1,4 @@
-"""Rule `coverage`: how much of the tests the training data cover, with and without random torque exploration."""
+"""Rule `data_coverage`: what training covers of the tests; a script coverage.py would hide the package numba imports."""
 
 from pathlib import Path
 
