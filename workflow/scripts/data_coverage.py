@@ -1,4 +1,4 @@
-"""Rule `data_coverage`: what training covers of the tests; a script coverage.py would hide the package numba imports."""
+"""Rule `data_coverage`: what training covers of the tests; a coverage.py here would hide the package numba imports."""
 
 from pathlib import Path
 
@@ -6,4 +6,6 @@ from mobnet.core.logs import job
 from mobnet.evaluation.coverage import coverage
 
 with job(snakemake.log[0]):
-    coverage(snakemake.params.config, snakemake.params.training, snakemake.params.tests, Path(snakemake.output[0]).parent)
+    coverage(
+        snakemake.params.config, snakemake.params.training, snakemake.params.tests, Path(snakemake.output[0]).parent
+    )

@@ -6,4 +6,6 @@ from mobnet.core.logs import job
 from mobnet.evaluation.spread import figure_19
 
 with job(snakemake.log[0]):
-    figure_19(snakemake.params.config, snakemake.params.training, snakemake.params.tests, Path(snakemake.output[0]).parent)
+    figure_19(
+        snakemake.params.config, snakemake.params.training, snakemake.params.tests, Path(snakemake.output[0]).parent
+    )
