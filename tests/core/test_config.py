@@ -9,10 +9,11 @@ from typing import Any
 import pytest
 import yaml
 
-from mobnet.core.config import SCHEMA, check_config, config_hash, load_config, read_yaml
+from mobnet.core.config import FIRST_TRAINING_SEED, SCHEMA, check_config, config_hash, load_config, read_yaml
 from mobnet.core.errors import ConfigError
 
 CONFIG = Path("configs/config.yaml")
+DRAWN = ("terrain", "commands", "narrowed", "motion")  # of a scenario
 
 
 @pytest.fixture
@@ -43,16 +44,28 @@ def test_every_scale_is_accepted(scale: str) -> None:
         ("colour", "red", r"top level: .*'colour' was unexpected.*accepted keys: claims"),
         ("scales.smoke.test.shard_s", -10.0, r"scales\.smoke\.test\.shard_s: -10\.0 .*exclusiveMinimum"),
         ("scales.smoke.epochs", 0, r"scales\.smoke\.epochs: 0 .*minimum"),
-        ("scenarios.forward_walk.commands.duration_s", -0.7, r"forward_walk\.commands.*-0\.7"),
+        ("scenarios.walk_test.commands", "sprint", r"walk_test\.commands: 'sprint' does not match '\^\(random"),
+        ("scenarios.knee_swing.commands", {"duration_s": 0.7}, r"knee_swing\.commands: 'step_x_m' is a required"),
+        ("scenarios.forward_walk.commands.duration_s", -0.7, r"\.commands\.duration_s: -0\.7 .*exclusiveMinimum"),
         ("rates.plant_hz", "fast", r"rates\.plant_hz: 'fast' is not of type 'number'"),
         ("levels.ideal.base_state", "guessed", r"'guessed' is not one of \['true_state', 'sensed'\]"),
         ("scale", "huge", r"scale: 'huge' is not accepted; accepted: default, paper, smoke"),
         ("methods.MOB-Net.limbs", ["LL", "tail"], r"methods\.MOB-Net\.limbs: 'tail' is not accepted; accepted: LA, LL"),
         ("networks.LL.Q", ["tail"], r"networks\.LL\.Q: 'tail' is not accepted; accepted: LA, LL, N, RA, RL, V, W"),
-        ("scenarios.forward_walk.terrain", "ice", r"forward_walk\.terrain: 'ice' is not accepted; accepted: checks"),
+        ("scenarios.forward_walk.terrain", "checks", r"forward_walk\.terrain: 'checks' is not of type 'array'"),
+        ("scenarios.forward_walk.terrain", [], r"forward_walk\.terrain: \[\] "),
+        ("scenarios.walk_test.terrain", ["flat", "ice"], r"walk_test\.terrain: 'ice' is not accepted; accepted: checks"),
+        ("scenarios.knee_swing.pushes", ["elbow"], r"knee_swing\.pushes: 'elbow' is not accepted; accepted: hip_pitch"),
+        ("scenarios.motion_test.motion", "dance", r"motion_test\.motion: 'dance' is not accepted; accepted: random_mot"),
+        ("scenarios.hand_load_10.draws", "hops", r"hand_load_10\.draws: 'hops' is not accepted; accepted: forward_w"),
+        ("pushes.hip_pitch.joint", "LL9", r"pushes\.hip_pitch\.joint: 'LL9' is not accepted; accepted: "),
+        ("tests.stroll", ["ideal"], r"tests: 'stroll' is not accepted; accepted: forward_walk"),
+        ("tests.walk_test", ["perfect"], r"tests\.walk_test: 'perfect' is not accepted; accepted: all_uncertainty"),
         ("evaluation.figure_05.joint", "LL9", r"figure_05\.joint: 'LL9' is not accepted"),
         ("evaluation.table_05.scenario", "dance", r"table_05\.scenario: 'dance' is not accepted"),
-        ("scales.smoke.train.level", "none", r"scales\.smoke\.train\.level: 'none' is not accepted"),
+        ("scales.smoke.train.walk.level", "none", r"smoke\.train\.walk\.level: 'none' is not accepted; accepted: all_"),
+        ("scales.paper.train.motion.scenario", "nap", r"paper\.train\.motion\.scenario: 'nap' is not accepted"),
+        ("networks.LL.data", "walks", r"networks\.LL\.data.*'walks' is not"),
     ],
 )
 def test_fault_is_one_line_with_key_value_and_accepted(
@@ -65,10 +78,40 @@ def test_fault_is_one_line_with_key_value_and_accepted(
     assert "\n" not in text
 
 
-def test_missing_key_is_named(config: dict[str, Any]) -> None:
-    del config["seed"]
-    with pytest.raises(ConfigError, match=r"'seed' is a required property; required keys: scale, seed"):
+@pytest.mark.parametrize("key", ["seed", "pushes", "tests", "motions", "scales"])
+def test_missing_key_is_named(config: dict[str, Any], key: str) -> None:
+    del config[key]
+    with pytest.raises(ConfigError, match=rf"'{key}' is a required property; required keys: scale, seed"):
         check_config(config)
+
+
+@pytest.mark.parametrize("key", ["pause_s", "force_n", "point", "direction"])
+def test_push_says_where_when_and_how_hard(config: dict[str, Any], key: str) -> None:
+    """A push without a pause and without times would never end."""
+    del config["pushes"]["torso"][key]
+    with pytest.raises(ConfigError, match=r"pushes\.torso: .* is not valid under any of the given schemas"):
+        check_config(config)
+
+
+@pytest.mark.parametrize("key", ["walk", "walk_plain", "motion"])
+def test_every_scale_has_every_training_set(config: dict[str, Any], key: str) -> None:
+    del config["scales"]["smoke"]["train"][key]
+    with pytest.raises(ConfigError, match=rf"scales\.smoke\.train: '{key}' is a required property"):
+        check_config(config)
+
+
+def test_seeds_of_tests_and_training_never_meet(config: dict[str, Any]) -> None:
+    for sizes in config["scales"].values():
+        assert sizes["test"]["shards"] < FIRST_TRAINING_SEED
+
+
+def test_scenarios_that_draw_the_same_differ_in_pushes_or_random_torque_alone(config: dict[str, Any]) -> None:
+    scenarios = config["scenarios"]
+    for name, row in scenarios.items():
+        if "draws" not in row:
+            continue
+        drawn = scenarios[row["draws"]]
+        assert [row.get(key) for key in DRAWN] == [drawn.get(key) for key in DRAWN], name
 
 
 def test_file_that_is_missing_or_no_mapping_is_named(tmp_path: Path) -> None:

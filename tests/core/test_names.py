@@ -8,7 +8,7 @@ import pytest
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
-from mobnet.core.names import check_names, evaluation_uses, network_uses, scenario_uses
+from mobnet.core.names import check_names, evaluation_uses, network_uses, scenario_uses, size_uses
 
 
 def test_the_repository_names_only_what_exists(full_config: dict[str, Any], layout: JointLayout) -> None:
@@ -16,9 +16,13 @@ def test_the_repository_names_only_what_exists(full_config: dict[str, Any], layo
 
 
 def test_every_reference_is_looked_at(full_config: dict[str, Any], layout: JointLayout) -> None:
-    keys = {key for uses in (network_uses, scenario_uses, evaluation_uses) for key, _, _ in uses(full_config, layout)}
+    every = (network_uses, scenario_uses, size_uses, evaluation_uses)
+    keys = {key for uses in every for key, _, _ in uses(full_config, layout)}
     expected = {"networks", "networks.V.Q", "methods.MOB-Net.limbs", "scale", "scenarios.random_walk.terrain"}
-    assert expected | {"evaluation.table_05.levels.ideal", "evaluation.figure_05.joint"} <= keys
+    expected |= {"evaluation.table_05.levels.ideal", "evaluation.figure_05.joint", "tests", "tests.walk_test"}
+    expected |= {"scenarios.random_walk.pushes", "scenarios.random_motion.motion", "scenarios.hand_load_10.draws"}
+    expected |= {"pushes.hip_pitch.joint", "scales.paper.train.walk.scenario", "scales.smoke.train.motion.level"}
+    assert expected <= keys
 
 
 def test_unknown_method_of_a_table_is_named(full_config: dict[str, Any], layout: JointLayout) -> None:
