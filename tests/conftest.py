@@ -88,7 +88,7 @@ def turned() -> Callable[..., tuple[Array, Array, Any]]:
         rotation = np.array([[c, -n], [n, c]])
         for place in (q, s.old_ankle, s.lift, s.foot, s.target):
             place[:2] = rotation @ place[:2] + shift
-        for direction in (v, s.velocity, s.target_velocity):
+        for direction in (v, s.velocity, s.target_velocity, s.slope):
             direction[:2] = rotation @ direction[:2]
         w, x, y, z = q[3:7]
         c, n = np.cos(yaw / 2), np.sin(yaw / 2)
@@ -114,14 +114,14 @@ def mirrored(robot: RobotDescription) -> Callable[..., tuple[Array, Array, Any]]
     def mirror(q: Array, v: Array, s: Any) -> tuple[Array, Array, Any]:
         q, v, s = q.copy(), v.copy(), s.copy()
         q[NQ_BASE:], v[N_VIRTUAL:] = (sign * q[NQ_BASE:])[partner], (sign * v[N_VIRTUAL:])[partner]
-        for vector in (q, v, s.old_ankle, s.lift, s.foot, s.target, s.velocity, s.target_velocity):
+        for vector in (q, v, s.old_ankle, s.lift, s.foot, s.target, s.velocity, s.target_velocity, s.slope):
             vector[1] *= -1
         q[4:NQ_BASE] *= pseudo
         v[3:N_VIRTUAL] *= pseudo
         for name in ("side", "old_yaw", "yaw", "yaw_start", "lift_yaw", "lift_roll"):
             s[name] *= -1
         s.command *= [1, -1, -1, 1, 1]
-        s.load, s.integral = s.load[::-1].copy(), s.integral[::-1] * [1, -1]
+        s.load, s.load_error, s.integral = s.load[::-1].copy(), s.load_error[::-1].copy(), s.integral[::-1] * [1, -1]
         return q, v, s
 
     return mirror

@@ -22,7 +22,7 @@ class Walk:
 
     def __init__(self, walker: Walker, robot: RobotDescription) -> None:
         self.walker, self.s = walker, empty_state()
-        self.q, self.v = start_walking(walker, robot, self.s, COMMANDS[0], 0.0)
+        self.q, self.v = start_walking(walker, robot, self.s, COMMANDS[0])
         self.v[:] = 0
         self.wrenches, self.tau = np.zeros((2, 6)), np.zeros(robot.layout.nu)
         self.wrenches[0, 2] = WEIGHT_N
@@ -176,7 +176,7 @@ def test_foot_yaw_is_the_heading_of_its_x_axis(walker: Walker, random_pose: Call
 
 def test_standing_never_steps(walker: Walker, robot: RobotDescription) -> None:
     stand = Walk(walker, robot)
-    stand.q, stand.v = start_standing(walker, robot, stand.s, COMMANDS[0], 0.0)
+    stand.q, stand.v = start_standing(walker, robot, stand.s, COMMANDS[0])
     for _ in range(2000):
         stand.tick()
     s: State = stand.s

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from mobnet.core.recording import recording_columns, recording_width
-from mobnet.simulation.record import Simulator
+from mobnet.simulation.simulator import Simulator
 from mobnet.simulation.start import start_standing
 
 IN_PLACE = {"step_x_m": 0.0, "step_y_m": 0.0, "turn_deg": 0.0, "duration_s": 0.7, "foot_height_m": 0.05}

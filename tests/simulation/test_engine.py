@@ -14,7 +14,7 @@ from mobnet.control.walking import walk
 from mobnet.robot.description import SIDES
 from mobnet.robot.plant import sole_name
 from mobnet.simulation import engine
-from mobnet.simulation.record import Simulator
+from mobnet.simulation.simulator import Simulator
 
 NV = 39
 

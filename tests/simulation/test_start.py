@@ -9,7 +9,7 @@ import pytest
 
 from mobnet.control.kinematics import update
 from mobnet.control.parameters import DURATION
-from mobnet.simulation.record import Simulator
+from mobnet.simulation.simulator import Simulator
 from mobnet.simulation.start import CLEARANCE_M, place, start_standing, start_walking
 
 

@@ -75,6 +75,8 @@ class WalkingParameters(NamedTuple):
     stand_load_min: float
     stand_shift_m: Array
     base_time_constant_s: float
+    load_gain: float
+    load_filter: float
     stumble_m: float
     slope_rate_hz: float
     slope_max: float
@@ -93,7 +95,7 @@ STATE = np.dtype(
         ("yaw", "f8"), ("yaw_start", "f8"), ("height", "f8"), ("height_rate", "f8"),
         ("velocity", "f8", 2), ("target", "f8", 2), ("target_velocity", "f8", 2),
         ("lift", "f8", 3), ("lift_yaw", "f8"), ("lift_roll", "f8"), ("lift_pitch", "f8"),
-        ("integral", "f8", (2, 2)), ("load", "f8", 2), ("stance_yaw", "f8"), ("next_yaw", "f8"), ("omega", "f8"),
+        ("integral", "f8", (2, 2)), ("load", "f8", 2), ("load_error", "f8", 2), ("stance_yaw", "f8"), ("next_yaw", "f8"), ("omega", "f8"),
         ("sole_height", "f8"), ("slope", "f8", 2), ("plan", "f8", (5, 2)), ("next_ankle", "f8", 2), ("dcm_end", "f8", 2),
         ("zmp_old", "f8", 2), ("zmp_nominal", "f8", 2), ("dcm_reference", "f8", 2), ("dcm", "f8", 2),
         ("error", "f8", 2), ("zmp", "f8", 2), ("force", "f8", 3), ("foot", "f8", 3), ("foot_velocity", "f8", 3),

@@ -125,6 +125,7 @@ def walk(walker: Walker, s: State, q: Array, v: Array, wrenches: Array, commands
         _feel_slope(par, s, pose.rotation[walker.feet[stance]], dt)
         rise = s.slope[0] * (s.target[0] - ankle[0]) + s.slope[1] * (s.target[1] - ankle[1])
         swing_foot(par, s, double_support, ankle[2] + rise)
+    _share_load(walker, s)
     _torques(walker, s, stance, q, v, dt, tau)
 
 
@@ -220,6 +221,14 @@ def _lift_off(walker: Walker, s: State, stance: int, double_support: float) -> N
     for i in range(2):
         s.target[i] = s.next_ankle[i]
         s.target_velocity[i] = 0.0
+
+
+@compiled
+def _share_load(walker: Walker, s: State) -> None:
+    """Filter how much less than its share of the vertical force each foot carries while both should, load_error [N]."""
+    for k in range(2):
+        error = 0.0 if s.swinging == 1 else s.load[k] * s.force[2] - vertical_force(walker, k)
+        s.load_error[k] += walker.par.load_filter * (error - s.load_error[k])
 
 
 @compiled

@@ -73,14 +73,16 @@ def stance_torque(
     q: Array, v: Array, wrench: Array, point: Array, dt: float, tau: Array,
 ) -> None:  # fmt: skip
     """Add the torques [N m] of a leg that carries the share load[k] of the ground force at `point` (3,) [m]."""
-    load = s.load[k]
-    arm = vector3()
+    load, arm, force = s.load[k], vector3(), vector3()
+    for i in range(3):
+        force[i] = load * s.force[i]
+    force[2] += par.load_gain * s.load_error[k]
     for j in range(LEG_JOINTS):
         joint = first + j
         body = tree.body_of_joint[joint]
         for i in range(3):
             arm[i] = point[i] - pose.position[body, i]
-        push = load * triple(pose.axis[joint], arm, s.force)
+        push = triple(pose.axis[joint], arm, force)
         error, rate = s.q_reference[k, j] - q[7 + joint], s.v_reference[k, j] - v[6 + joint]
         if j < ANKLE_PITCH:
             pull = par.leg_stiffness_nm_rad[j] * error + par.leg_damping_nms_rad[j] * rate
