@@ -44,6 +44,23 @@ def test_ends_over_the_foothold_level_and_descending(par: WalkingParameters, swi
     assert s.foot_rotation[2, 2] == pytest.approx(1, abs=1e-12)
 
 
+@pytest.mark.parametrize("slope", [(0.05, 0.0), (0.0, 0.05), (-0.03, 0.04)])
+@pytest.mark.parametrize("yaw", [0.0, 0.4, -2.0, 3.0])
+def test_landing_sole_lies_on_the_felt_slope(
+    par: WalkingParameters, swinging: State, slope: tuple[float, float], yaw: float
+) -> None:
+    swinging.slope, swinging.next_yaw = slope, yaw
+    normal = at(par, swinging, swinging.total).foot_rotation[:, 2]
+    np.testing.assert_allclose(-normal[:2] / normal[2], slope, atol=2e-4)
+
+
+def test_foot_leaves_as_it_stood_whatever_the_slope(par: WalkingParameters, swinging: State) -> None:
+    level, sloping = swinging.copy(), swinging.copy()
+    sloping.slope = [0.05, -0.02]
+    here, there = (at(par, s, DOUBLE_SUPPORT).foot_rotation for s in (level, sloping))
+    np.testing.assert_array_equal(there, here)
+
+
 def test_apex_is_the_commanded_height_over_the_higher_foot(par: WalkingParameters, swinging: State) -> None:
     height, rate = swing_height(par, swinging, GROUND, SPAN, par.swing_apex)
     assert height == pytest.approx(max(swinging.lift[2], GROUND) + swinging.command[FOOT_HEIGHT], abs=1e-14)

@@ -7,8 +7,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from mobnet.control.parameters import DURATION, State, empty_state
-from mobnet.control.walking import Walker, foot_yaw, make_walker, vertical_force, walk
+from mobnet.control.geometry import yaw_roll_pitch_matrix
+from mobnet.control.parameters import DURATION, State, WalkingParameters, empty_state
+from mobnet.control.walking import Walker, _feel_slope, _share_load, foot_yaw, make_walker, vertical_force, walk
 from mobnet.robot.description import RobotDescription
 from mobnet.simulation.start import start_standing, start_walking
 
@@ -110,6 +111,91 @@ def test_last_command_is_repeated(walking: Walk) -> None:
     walking.wrenches[RIGHT, 2] = WEIGHT_N
     walking.tick()
     np.testing.assert_array_equal(walking.s.command, COMMANDS[-1])
+
+
+@pytest.mark.parametrize(("share", "stumbles"), [(0.99, False), (1.01, True)])
+@pytest.mark.parametrize("direction", [(1.0, 0.0), (0.0, -1.0), (0.6, 0.8)])
+def test_step_after_a_stumble_is_made_in_place_and_later_ones_as_commanded(
+    swinging: Walk, share: float, stumbles: bool, direction: tuple[float, float]
+) -> None:
+    """The command's duration and foot height stay, its step and turn are zero where the DCM error is large."""
+    swinging.wrenches[RIGHT, 2] = WEIGHT_N
+    swinging.s.error = share * swinging.walker.par.stumble_m * np.array(direction)
+    swinging.tick()
+    expected = COMMANDS[1].copy()
+    expected[:DURATION] *= not stumbles
+    np.testing.assert_array_equal(swinging.s.command, expected)
+    assert swinging.s.total == COMMANDS[1, DURATION]
+    swinging.s.swinging, swinging.s.t = 1, swinging.s.total
+    swinging.s.error = [0.0, 0.0]
+    swinging.wrenches[0, 2] = WEIGHT_N
+    swinging.tick()
+    np.testing.assert_array_equal(swinging.s.command, COMMANDS[-1])
+
+
+@pytest.mark.parametrize("lacks", [-120.0, 0.0, 200.0])
+def test_load_error_converges_to_what_a_foot_lacks_of_its_share(walker: Walker, stepping: State, lacks: float) -> None:
+    load_feet(walker, stepping, lacks)
+    for _ in range(200):
+        _share_load(walker, stepping)
+    np.testing.assert_allclose(stepping.load_error, [lacks, -lacks], atol=1e-6)
+
+
+def test_load_error_decays_to_zero_while_one_foot_swings(walker: Walker, stepping: State) -> None:
+    load_feet(walker, stepping, 200.0)
+    stepping.load_error, stepping.swinging = [200.0, -200.0], 1
+    _share_load(walker, stepping)
+    np.testing.assert_allclose(stepping.load_error, np.array([200.0, -200.0]) * (1 - walker.par.load_filter))
+    for _ in range(300):
+        _share_load(walker, stepping)
+    np.testing.assert_allclose(stepping.load_error, 0.0, atol=1e-9)
+
+
+def load_feet(walker: Walker, s: State, lacks: float) -> None:
+    """Let both feet be level, 0.6 and 0.4 of 900 N wanted on them; the left one has less by `lacks` [N]."""
+    s.load, s.force, s.swinging = [0.6, 0.4], [30.0, -20.0, WEIGHT_N], 0
+    walker.pose.rotation[walker.feet] = np.eye(3)
+    walker.wrench[:] = 0.0
+    walker.wrench[:, 2] = 0.6 * WEIGHT_N - lacks, 0.4 * WEIGHT_N + lacks
+
+
+@pytest.mark.parametrize("yaw", [0.0, 0.9, -2.5])
+def test_felt_slope_converges_to_the_foot_s_and_takes_a_time_constant(par: WalkingParameters, yaw: float) -> None:
+    s, foot, slope = empty_state(), np.zeros((3, 3)), np.array([0.04, -0.03])
+    c, n = np.cos(yaw), np.sin(yaw)
+    roll, pitch = np.arctan(slope @ [-n, c]), -np.arctan(slope @ [c, n])
+    yaw_roll_pitch_matrix(yaw, roll, pitch, foot)
+    ticks = round(1.0 / (par.slope_rate_hz * TICK_S))
+    for _ in range(ticks):
+        _feel_slope(par, s, foot, TICK_S)
+    np.testing.assert_allclose(s.slope, slope * (1 - np.exp(-1)), rtol=5e-3)
+    for _ in range(20 * ticks):
+        _feel_slope(par, s, foot, TICK_S)
+    np.testing.assert_allclose(s.slope, slope, rtol=3e-3)
+
+
+def test_felt_slope_stays_within_its_bound_under_a_foot_that_tips(par: WalkingParameters) -> None:
+    s, foot = empty_state(), np.zeros((3, 3))
+    yaw_roll_pitch_matrix(0.3, 0.5, -0.6, foot)
+    for _ in range(20_000):
+        _feel_slope(par, s, foot, TICK_S)
+        assert np.abs(s.slope).max() <= par.slope_max
+    assert np.abs(s.slope).max() == par.slope_max
+
+
+@pytest.mark.parametrize("slope", [(0.0, 0.0), (0.05, 0.0), (-0.02, 0.04)])
+def test_foot_comes_down_where_the_slope_puts_the_ground(swinging: Walk, slope: tuple[float, float]) -> None:
+    """At the end of its swing the ankle is over the foothold as high as a plane of that slope through the other."""
+    swinging.to(swinging.s.total - 3 * TICK_S)
+    s, stance = swinging.s, swinging.walker.pose.position[swinging.walker.feet[0]]
+    s.slope = slope
+    swinging.to(s.total)
+    s.slope = slope
+    before = s.total
+    s.t = before - TICK_S
+    swinging.tick()
+    expected = stance[2] + np.dot(s.slope, s.target - stance[:2])
+    assert s.foot[2] == pytest.approx(expected, abs=1e-3)
 
 
 def disturbed(walk: Walk, seed: int) -> None:

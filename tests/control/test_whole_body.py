@@ -8,6 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 
+from mobnet.control.geometry import yaw_roll_pitch_matrix
 from mobnet.control.kinematics import update
 from mobnet.control.parameters import State
 from mobnet.control.walking import Walker
@@ -131,6 +132,40 @@ def test_stance_torque_is_the_force_through_mujoco_s_jacobian(
     body = model.body(robot.bodies[foot].name).id
     mujoco.mj_jac(model, data, jacobian, None, walker.pose.position[foot] + [0.03, 0.01, -0.158], body)
     np.testing.assert_allclose(tau, -stepping.load[k] * jacobian[:, 6:].T @ stepping.force, atol=1e-9)
+
+
+@pytest.mark.parametrize("k", LEGS)
+def test_leg_that_lacks_load_pushes_by_a_share_of_it_more(
+    walker: Walker, robot: RobotDescription, crouched: tuple, stepping: State, k: int
+) -> None:
+    """More torque is that of more vertical force: the same as of a wanted force greater by that much."""
+    lacks = 80.0
+    stepping.force, stepping.load = [40.0, -25.0, 900.0], [0.6, 0.4]
+    before = stand(walker, crouched, stepping, k, np.zeros(6), 0.0)
+    stepping.load_error[k] = lacks
+    felt = stand(walker, crouched, stepping, k, np.zeros(6), 0.0)
+    stepping.load_error[k] = 0.0
+    stepping.force[2] += walker.par.load_gain * lacks / stepping.load[k]
+    np.testing.assert_allclose(felt, stand(walker, crouched, stepping, k, np.zeros(6), 0.0), atol=1e-9)
+    knee = walker.first[k] + 3
+    assert (felt - before)[knee] < -1.0  # a positive angle bends the knee: this stretches the leg
+
+
+@pytest.mark.parametrize("yaw", [0.0, 1.1, -2.6])
+def test_foot_that_lies_on_the_slope_is_not_guarded_and_a_level_one_is(
+    walker: Walker, crouched: tuple, stepping: State, yaw: float
+) -> None:
+    stepping.load, stepping.force, stepping.slope = [1.0, 0.0], [0.0, 0.0, 0.0], [0.03, -0.02]
+    foot, c, n = walker.feet[0], np.cos(yaw), np.sin(yaw)
+    walker.pose.omega[foot] = 0
+    ankles = []
+    for share in (0.0, 1.0):  # level, along the slope
+        slope = share * stepping.slope
+        roll, pitch = np.arcsin(slope @ [-n, c]), -np.arcsin(slope @ [c, n])
+        yaw_roll_pitch_matrix(yaw, roll, pitch, walker.pose.rotation[foot])
+        ankles.append(np.abs(stand(walker, crouched, stepping, 0, np.zeros(6), 0.0)[4:6]).max())
+    assert ankles[0] > 0.5 * walker.par.guard_stiffness_nm * 0.03
+    assert ankles[1] < 0.01 * ankles[0]
 
 
 @pytest.mark.parametrize("which", [0, 1])
