@@ -80,7 +80,10 @@ def trajectory(robot: RobotDescription) -> Trajectory:
 
 def sensed_of(q: Array, v: Array, tau: Array) -> Sensed:
     """Return what a robot senses from positions (T, nq), velocities (T, nv) and motor torques (T, nu)."""
-    return Sensed(q, v, np.zeros((len(q), 3)), tau, tau, np.zeros((len(q), len(FEET))), np.zeros((len(q), len(COMMAND))))
+    samples = len(q)
+    return Sensed(
+        q, v, np.zeros((samples, 3)), tau, tau, np.zeros((samples, len(FEET))), np.zeros((samples, len(COMMAND)))
+    )
 
 
 @pytest.fixture

@@ -90,17 +90,17 @@ class WalkingParameters(NamedTuple):
 
 STATE = np.dtype(
     [
-        ("clock", "f8"), ("side", "f8"), ("t", "f8"), ("total", "f8"), ("commanded", "f8"), ("standing", "i8"), ("steps", "i8"),
-        ("command", "f8", 5), ("old_ankle", "f8", 3), ("old_yaw", "f8"), ("swinging", "i8"),
+        ("clock", "f8"), ("side", "f8"), ("t", "f8"), ("total", "f8"), ("commanded", "f8"), ("standing", "i8"),
+        ("steps", "i8"), ("command", "f8", 5), ("old_ankle", "f8", 3), ("old_yaw", "f8"), ("swinging", "i8"),
         ("yaw", "f8"), ("yaw_start", "f8"), ("height", "f8"), ("height_rate", "f8"),
         ("velocity", "f8", 2), ("target", "f8", 2), ("target_velocity", "f8", 2),
         ("lift", "f8", 3), ("lift_yaw", "f8"), ("lift_roll", "f8"), ("lift_pitch", "f8"),
-        ("integral", "f8", (2, 2)), ("load", "f8", 2), ("load_error", "f8", 2), ("stance_yaw", "f8"), ("next_yaw", "f8"), ("omega", "f8"),
-        ("sole_height", "f8"), ("slope", "f8", 2), ("plan", "f8", (5, 2)), ("next_ankle", "f8", 2), ("dcm_end", "f8", 2),
-        ("zmp_old", "f8", 2), ("zmp_nominal", "f8", 2), ("dcm_reference", "f8", 2), ("dcm", "f8", 2),
-        ("error", "f8", 2), ("zmp", "f8", 2), ("force", "f8", 3), ("foot", "f8", 3), ("foot_velocity", "f8", 3),
-        ("foot_rotation", "f8", (3, 3)), ("foot_yaw_rate", "f8"), ("q_reference", "f8", (2, 6)),
-        ("v_reference", "f8", (2, 6)), ("jacobian", "f8", (6, 6)),
+        ("integral", "f8", (2, 2)), ("load", "f8", 2), ("load_error", "f8", 2), ("stance_yaw", "f8"),
+        ("next_yaw", "f8"), ("omega", "f8"), ("sole_height", "f8"), ("slope", "f8", 2), ("plan", "f8", (5, 2)),
+        ("next_ankle", "f8", 2), ("dcm_end", "f8", 2), ("zmp_old", "f8", 2), ("zmp_nominal", "f8", 2),
+        ("dcm_reference", "f8", 2), ("dcm", "f8", 2), ("error", "f8", 2), ("zmp", "f8", 2), ("force", "f8", 3),
+        ("foot", "f8", 3), ("foot_velocity", "f8", 3), ("foot_rotation", "f8", (3, 3)), ("foot_yaw_rate", "f8"),
+        ("q_reference", "f8", (2, 6)), ("v_reference", "f8", (2, 6)), ("jacobian", "f8", (6, 6)),
     ]
 )  # fmt: skip
 

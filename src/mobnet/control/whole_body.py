@@ -109,10 +109,8 @@ def _ankle_correction(
         omega += rotation[i, column] * pose.omega[foot, i]
     yaw = np.arctan2(rotation[1, 0], rotation[0, 0])
     c, n = np.cos(yaw), np.sin(yaw)
-    if which == 0:
-        tilt = sin_pitch + s.slope[0] * c + s.slope[1] * n
-    else:
-        tilt = sin_roll - (s.slope[1] * c - s.slope[0] * n)
+    x, y = s.slope[0], s.slope[1]
+    tilt = sin_pitch + x * c + y * n if which == 0 else sin_roll - (y * c - x * n)
     measured = wrench[4] if which == 0 else wrench[3]
     leak = par.ankle_leak_hz
     if abs(sin_roll) + abs(sin_pitch) > par.ankle_tilt:

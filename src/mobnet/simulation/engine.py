@@ -82,7 +82,8 @@ def make_plant(
     return Plant(
         native, data.qpos, data.qvel, data.ctrl, data.qfrc_applied, data.xfrc_applied, data.site_xpos, data.xipos,
         data.xmat, data.qfrc_smooth, data.qfrc_bias, data.qfrc_passive, data.qfrc_actuator, data.sensordata, friction,
-        np.array(limits, dtype=float), float(world.period), float(fall_height), float(world.model.opt.timestep), int(every),
+        np.array(limits, dtype=float), float(world.period), float(fall_height), float(world.model.opt.timestep),
+        int(every),
     )  # fmt: skip
 
 
@@ -110,7 +111,7 @@ def run(
             push(
                 pushes, s, plant.xfrc_applied, plant.qfrc_applied, plant.site_xpos, plant.xipos, plant.xmat, rng_pushes,
                 tau_ext,
-            )
+            )  # fmt: skip
             s.clock += plant.dt
             call_step(plant.native.step, plant.native.model, plant.native.data)
             _add_external(plant, walker, tau_ext, touch)

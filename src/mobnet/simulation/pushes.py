@@ -22,9 +22,16 @@ Array = NDArray[np.float64]
 DIRECTIONS = ("any", "horizontal", "down", "backward")  # backward: against the x axis of the pushed body
 ANY, HORIZONTAL, DOWN, BACKWARD = range(4)
 SHAPES = ("step", "half_sine")
+HALF_SINE = 1
 PHASES = ("always", "left_swing", "right_swing", "left_support", "right_support")
 SHARE_WINDOW = 0.05  # [-] of a step: a push whose moment has passed by more waits for the next step
 
+DEFAULTS = {"during": PHASES[0], "share": (0.0, 0.0), "pause_s": (0.0, 0.0), "direction": DIRECTIONS[0]}
+
+LAW = np.dtype([
+    ("site", "i8"), ("body", "i8"), ("dof", "i8"), ("phase", "i8"), ("direction", "i8"), ("shape", "i8"),
+    ("timed", "i8"), ("share", "f8", 2), ("pause", "f8", 2), ("size", "f8", 2), ("duration", "f8", 2),
+])  # fmt: skip
 STATE = np.dtype([
     ("start", "f8"), ("end", "f8"), ("share", "f8"), ("active", "i8"), ("count", "i8"),
     ("size", "f8"), ("direction", "f8", 3),
@@ -35,33 +42,17 @@ class Pushes(NamedTuple):
     """Laws and state of the pushes of a scenario, one row each.
 
     Attributes:
-        site: point that is pushed (n,), -1 for a torque on a joint.
-        body: its body (n,).
-        dof: joint that is turned (n,), in the generalized velocity; -1 for a force.
-        phase: when it may come (n,), index of PHASES.
-        share: bounds of the share of the step's duration at which it comes (n, 2) [-].
-        pause: bounds of the time between two (n, 2) [s]; used where `times` is empty.
+        law: records of LAW (n,): `site`, the point that is pushed, and its `body`, both -1 for a torque on a joint;
+            `dof`, the joint's place in the generalized velocity, -1 for a force; `phase`, `direction` and `shape`,
+            indices of PHASES, DIRECTIONS and SHAPES; `timed`, 1 where `times` rules; bounds of the `share` [-] of the
+            step at which it comes, of the `pause` [s] between two, of the `size` [N] or [N m] of the peak and of the
+            `duration` [s].
         times: earliest times of the episode (n, k) [s], padded with infinity.
-        timed: 1 where `times` rules (n,).
-        size: bounds of the peak (n, 2) [N] or [N m].
-        duration: bounds (n, 2) [s].
-        direction: index of DIRECTIONS (n,).
-        shape: index of SHAPES (n,).
         state: running push of each row (n,), records of STATE.
     """
 
-    site: NDArray[np.int64]
-    body: NDArray[np.int64]
-    dof: NDArray[np.int64]
-    phase: NDArray[np.int64]
-    share: Array
-    pause: Array
+    law: NDArray[Any]
     times: Array
-    timed: NDArray[np.int64]
-    size: Array
-    duration: Array
-    direction: NDArray[np.int64]
-    shape: NDArray[np.int64]
     state: NDArray[Any]
 
 
@@ -73,59 +64,45 @@ def make_pushes(
     Raises:
         ConfigError: a push, its point or its joint is unknown.
     """
+    laws, times = [], []
     for name in names:
         if name not in settings:
             raise ConfigError(not_accepted("push", name, settings))
-    rows = [settings[name] for name in names]
-    sites = [_site(model, name, row) for name, row in zip(names, rows, strict=True)]
-    longest = max((len(row.get("at_s", ())) for row in rows), default=0)
-    times = np.full((len(rows), longest + 1), np.inf)  # the last one never comes
-    for k, row in enumerate(rows):
-        times[k, : len(row.get("at_s", ()))] = row.get("at_s", ())
-    return Pushes(
-        site=_whole(sites),
-        body=_whole(model.site_bodyid[site] if site >= 0 else -1 for site in sites),
-        dof=_whole(_dof(robot, name, row) for name, row in zip(names, rows, strict=True)),
-        phase=_whole(PHASES.index(row.get("during", PHASES[0])) for row in rows),
-        share=_bounds(row.get("share", (0.0, 0.0)) for row in rows),
-        pause=_bounds(row.get("pause_s", (0.0, 0.0)) for row in rows),
-        times=times,
-        timed=_whole("at_s" in row for row in rows),
-        size=_bounds(row["torque_nm"] if "joint" in row else row["force_n"] for row in rows),
-        duration=_bounds(row["duration_s"] for row in rows),
-        direction=_whole(DIRECTIONS.index(row.get("direction", DIRECTIONS[0])) for row in rows),
-        shape=_whole(SHAPES.index(row["shape"]) for row in rows),
-        state=np.zeros(len(rows), dtype=STATE),
-    )
+        laws.append(_law(name, settings[name], model, robot))
+        times.append(settings[name].get("at_s", ()))
+    padded = np.full((len(names), 1 + max(map(len, times), default=0)), np.inf)  # the last one never comes
+    for k, row in enumerate(times):
+        padded[k, : len(row)] = row
+    return Pushes(np.array(laws, dtype=LAW), padded, np.zeros(len(names), dtype=STATE))
 
 
-def _whole(values: Any) -> NDArray[np.int64]:
-    """Return whole numbers (n,)."""
-    return np.array([int(value) for value in values], dtype=np.int64)
+def _law(name: str, settings: Mapping[str, Any], model: mujoco.MjModel, robot: RobotDescription) -> tuple[Any, ...]:
+    """Return a record of LAW from a row of the `pushes` section."""
+    row = {**DEFAULTS, **settings}
+    return (
+        *_target(name, row, model, robot), PHASES.index(row["during"]), DIRECTIONS.index(row["direction"]),
+        SHAPES.index(row["shape"]), "at_s" in row, row["share"], row["pause_s"],
+        row["torque_nm"] if "joint" in row else row["force_n"], row["duration_s"],
+    )  # fmt: skip
 
 
-def _bounds(values: Any) -> Array:
-    """Return lower and upper bounds (n, 2)."""
-    return np.array([list(map(float, value)) for value in values], dtype=np.float64).reshape(-1, 2)
-
-
-def _site(model: mujoco.MjModel, name: str, row: Mapping[str, Any]) -> int:
-    """Return the index of a push's point, -1 if it turns a joint."""
+def _target(name: str, row: Mapping[str, Any], model: mujoco.MjModel, robot: RobotDescription) -> tuple[int, int, int]:
+    """Return site, body and -1 of a push on a point; -1, -1 and the place in the generalized velocity of a joint's."""
     if "joint" in row:
-        return -1
-    sites = [model.site(i).name for i in range(model.nsite)]
-    if row["point"] not in sites:
-        raise ConfigError(not_accepted(f"pushes.{name}.point", row["point"], sites))
-    return sites.index(row["point"])
+        return -1, -1, N_VIRTUAL + _index(f"pushes.{name}.joint", row["joint"], robot.layout.actuated)
+    site = _index(f"pushes.{name}.point", row["point"], [model.site(i).name for i in range(model.nsite)])
+    return site, int(model.site_bodyid[site]), -1
 
 
-def _dof(robot: RobotDescription, name: str, row: Mapping[str, Any]) -> int:
-    """Return the place of a push's joint in the generalized velocity, -1 if it pushes a point."""
-    if "joint" not in row:
-        return -1
-    if row["joint"] not in robot.layout.actuated:
-        raise ConfigError(not_accepted(f"pushes.{name}.joint", row["joint"], robot.layout.actuated))
-    return N_VIRTUAL + robot.layout.actuated.index(row["joint"])
+def _index(key: str, name: str, accepted: Sequence[str]) -> int:
+    """Return the place of a name among those accepted.
+
+    Raises:
+        ConfigError: it is not one of them.
+    """
+    if name not in accepted:
+        raise ConfigError(not_accepted(key, name, accepted))
+    return list(accepted).index(name)
 
 
 def reset_pushes(pushes: Pushes, start_s: float, rng: np.random.Generator) -> None:
@@ -137,14 +114,14 @@ def reset_pushes(pushes: Pushes, start_s: float, rng: np.random.Generator) -> No
 
 @compiled
 def plan(pushes: Pushes, k: int, now: float, rng: np.random.Generator) -> None:
-    """Draw when push k comes next: at its next set time [s], or after a pause."""
-    s = pushes.state[k]
-    s.active = 0
-    if pushes.timed[k] == 1:
-        s.start = pushes.times[k, min(s.count, pushes.times.shape[1] - 1)]
+    """Draw when push k comes next: at its next set time [s], or after a pause from now [s] on."""
+    law, p = pushes.law[k], pushes.state[k]
+    p.active = 0
+    if law.timed == 1:
+        p.start = pushes.times[k, min(p.count, pushes.times.shape[1] - 1)]
     else:
-        s.start = now + rng.uniform(pushes.pause[k, 0], pushes.pause[k, 1])
-    s.share = rng.uniform(pushes.share[k, 0], pushes.share[k, 1])
+        p.start = now + rng.uniform(law.pause[0], law.pause[1])
+    p.share = rng.uniform(law.share[0], law.share[1])
 
 
 @compiled
@@ -160,23 +137,37 @@ def in_phase(phase: int, share: float, s: State) -> bool:
 
 
 @compiled
-def _begin(pushes: Pushes, k: int, now: float, xmat: Array, rng: np.random.Generator) -> None:
-    """Draw size, duration and direction of push k and start it."""
-    s = pushes.state[k]
-    s.active = 1
-    s.count += 1
-    s.start = now
-    s.end = now + rng.uniform(pushes.duration[k, 0], pushes.duration[k, 1])
-    s.size = rng.uniform(pushes.size[k, 0], pushes.size[k, 1])
+def _begin(law: Any, p: Any, now: float, axes: Array, rng: np.random.Generator) -> None:
+    """Draw size, duration and direction of a push and start it now [s]; axes (9,) are those of the pushed body."""
+    p.active = 1
+    p.count += 1
+    p.start = now
+    p.end = now + rng.uniform(law.duration[0], law.duration[1])
+    p.size = rng.uniform(law.size[0], law.size[1])
     yaw = rng.uniform(-np.pi, np.pi)
-    up = rng.uniform(-1.0, 1.0) if pushes.direction[k] == ANY else 0.0
+    up = rng.uniform(-1.0, 1.0) if law.direction == ANY else 0.0
     flat = np.sqrt(1.0 - up * up)
-    s.direction[0], s.direction[1], s.direction[2] = flat * np.cos(yaw), flat * np.sin(yaw), up
-    if pushes.direction[k] == DOWN:
-        s.direction[0], s.direction[1], s.direction[2] = 0.0, 0.0, -1.0
-    elif pushes.direction[k] == BACKWARD:
+    p.direction[0], p.direction[1], p.direction[2] = flat * np.cos(yaw), flat * np.sin(yaw), up
+    if law.direction == DOWN:
+        p.direction[0], p.direction[1], p.direction[2] = 0.0, 0.0, -1.0
+    elif law.direction == BACKWARD:
         for i in range(3):
-            s.direction[i] = -xmat[pushes.body[k], 3 * i]
+            p.direction[i] = -axes[3 * i]
+
+
+@compiled
+def _advance(pushes: Pushes, k: int, s: State, xmat: Array, rng: np.random.Generator) -> float:
+    """End or begin push k if it is time to; return how hard it pushes now [N] or [N m], zero between two pushes."""
+    law, p = pushes.law[k], pushes.state[k]
+    if p.active == 1 and s.clock >= p.end:
+        plan(pushes, k, s.clock, rng)
+    if p.active == 0 and s.clock >= p.start and in_phase(law.phase, p.share, s):
+        _begin(law, p, s.clock, xmat[law.body], rng)
+    if p.active == 0:
+        return 0.0
+    if law.shape == HALF_SINE:
+        return p.size * np.sin(np.pi * (s.clock - p.start) / (p.end - p.start))
+    return p.size
 
 
 @compiled
@@ -197,34 +188,22 @@ def push(
         rng: random numbers of the pushes.
         tau_joints: the joint torques alone are added to it (nv,) [N m]: unlike forces they leave no trace in MuJoCo.
     """
-    for k in range(len(pushes.state)):
-        if pushes.body[k] >= 0:
-            for i in range(6):
-                xfrc[pushes.body[k], i] = 0.0
-    for k in range(len(pushes.state)):
-        p = pushes.state[k]
-        if p.active == 1 and s.clock >= p.end:
-            plan(pushes, k, s.clock, rng)
-        if p.active == 0 and s.clock >= p.start and in_phase(pushes.phase[k], p.share, s):
-            _begin(pushes, k, s.clock, xmat, rng)
-        if p.active == 0:
-            continue
-        size = p.size
-        if pushes.shape[k] == 1:
-            size *= np.sin(np.pi * (s.clock - p.start) / (p.end - p.start))
-        if pushes.dof[k] >= 0:
-            qfrc[pushes.dof[k]] += size
-            tau_joints[pushes.dof[k]] += size
-        else:
-            _force_at(pushes, k, size, xfrc, site_xpos, xipos)
+    for k in range(len(pushes.law)):
+        if pushes.law[k].dof < 0:
+            xfrc[pushes.law[k].body] = 0.0
+    for k in range(len(pushes.law)):
+        law, size = pushes.law[k], _advance(pushes, k, s, xmat, rng)
+        if law.dof >= 0:
+            qfrc[law.dof] += size
+            tau_joints[law.dof] += size
+        elif size != 0.0:
+            _force_at(site_xpos[law.site], xipos[law.body], size, pushes.state[k].direction, xfrc[law.body])
 
 
 @compiled
-def _force_at(pushes: Pushes, k: int, size: float, xfrc: Array, site_xpos: Array, xipos: Array) -> None:
-    """Add a force [N] of that size at the point of push k, as a wrench at its body's centre of mass."""
-    body, point, direction = pushes.body[k], site_xpos[pushes.site[k]], pushes.state[k].direction
+def _force_at(point: Array, centre: Array, size: float, direction: Array, wrench: Array) -> None:
+    """Add a force [N] in a direction (3,) at a point (3,) [m] to the wrench (6,) [N, N m] about a centre (3,) [m]."""
     for i in range(3):
         j, n = (i + 1) % 3, (i + 2) % 3
-        xfrc[body, i] += size * direction[i]
-        arm_j, arm_n = point[j] - xipos[body, j], point[n] - xipos[body, n]
-        xfrc[body, 3 + i] += size * (arm_j * direction[n] - arm_n * direction[j])
+        wrench[i] += size * direction[i]
+        wrench[3 + i] += size * ((point[j] - centre[j]) * direction[n] - (point[n] - centre[n]) * direction[j])

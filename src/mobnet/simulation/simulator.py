@@ -109,8 +109,9 @@ class Simulator:
             limits = np.maximum(self.robot.torque_limits, config["plant"]["motor_limit_min_nm"])
             fall_height = config["recording"]["fall_height_m"]
             plant = make_plant(world, bind(world.model, world.data), friction, limits, fall_height, every)
+            sensors = make_sensors(config, self.level, world.model)
             pushes = make_pushes(config["pushes"], self.settings.get("pushes", []), world.model, self.robot)
-            self.terrains[terrain] = Setting(terrain, world, plant, make_sensors(config, self.level, world.model), pushes)
+            self.terrains[terrain] = Setting(terrain, world, plant, sensors, pushes)
         return self.terrains[terrain]
 
     def start(self, motion_s: float = 0.0) -> None:

@@ -23,7 +23,7 @@ SIDES = (1.0, -1.0)
 
 
 def place(walker: Walker, robot: RobotDescription) -> tuple[Array, Array]:
-    """Return q (nq,) and the ankles (2, 3) [m] of standing in the walker's posture, pelvis level, weight over the ZMP."""
+    """Return q (nq,) and the ankles (2, 3) [m] of standing in the walker's posture: level, weight over the ZMP."""
     par = walker.par
     q, v = np.zeros(robot.layout.nq), np.zeros(robot.layout.nv)
     q[2], q[3] = CLEARANCE_M + par.pelvis_height_m, 1.0

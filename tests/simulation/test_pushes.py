@@ -1,0 +1,159 @@
+"""Pushes: when they come, how hard, and that the external torque is theirs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from mobnet.core.errors import ConfigError
+from mobnet.simulation import engine
+from mobnet.simulation.pushes import make_pushes
+from mobnet.simulation.simulator import Simulator
+
+NV = 39
+LL3 = 6 + 2
+
+
+def pushed(
+    simulate: Callable, config: dict[str, Any], scenario: str = "flat_place", **rows: dict[str, Any]
+) -> Simulator:
+    """Return a started walk of the ideal plant with these pushes."""
+    config["pushes"] = rows
+    config["scenarios"][scenario]["pushes"] = list(rows)
+    return simulate(scenario, "ideal")
+
+
+def watch(simulator: Simulator, run: Callable, seconds: float) -> list[dict[str, Any]]:
+    """Return clock, walking state and pushes after every millisecond."""
+    seen = []
+    for _ in range(round(seconds * 1000)):
+        log = run(simulator, 0.001)
+        s = simulator.state
+        seen.append({
+            "clock": s.clock, "swinging": s.swinging, "side": s.side, "share": s.t / s.total,
+            "state": simulator.setting.pushes.state.copy(), "tau_ext": log["tau_ext"][0].copy(),
+            "wrench": np.concatenate([log["wrench_left_foot"][0], log["wrench_right_foot"][0]]),
+            "contact": log["contact"][0].copy(),
+        })  # fmt: skip
+    return seen
+
+
+def test_force_at_a_point_enters_through_its_jacobian(
+    simulate: Callable, run: Callable, config: dict[str, Any]
+) -> None:
+    """The reference is mj_jacSite; contacts are subtracted by MuJoCo's own contact forces."""
+    row = {"point": "left_hand", "at_s": [0.0], "force_n": [30.0, 30.0], "duration_s": [9.0, 9.0], "direction": "down"}
+    simulator = pushed(simulate, config, load={**row, "shape": "step"})
+    run(simulator, 2.2)
+    model, data = simulator.world.model, simulator.world.data
+    tau_ext, linear = np.zeros(NV), np.zeros((3, NV))
+    engine._add_external(simulator.plant, simulator.walker, tau_ext, np.zeros(2))
+    expected = -30.0 * np.zeros(NV)
+    wrench, jacobian = np.zeros(6), np.zeros((3, NV))
+    for index, contact in enumerate(data.contact):
+        mujoco.mj_contactForce(model, data, index, wrench)
+        mujoco.mj_jac(model, data, jacobian, None, contact.pos, model.geom_bodyid[contact.geom2])
+        expected += jacobian.T @ contact.frame.reshape(3, 3).T @ wrench[:3]
+    body = model.site_bodyid[model.site("left_hand").id]
+    push = data.xfrc_applied[body]
+    assert push[:3] == pytest.approx([0, 0, -30])
+    angular = np.zeros((3, NV))
+    mujoco.mj_jac(model, data, linear, angular, data.xipos[body], body)
+    expected += linear.T @ push[:3] + angular.T @ push[3:]
+    np.testing.assert_allclose(tau_ext, expected, atol=1e-9 * np.abs(expected).max())
+    arm = data.site_xpos[model.site("left_hand").id] - data.xipos[body]
+    np.testing.assert_allclose(push[3:], np.cross(arm, push[:3]), atol=0.02)  # the point is of the step before
+
+
+def test_torque_on_a_joint_is_external_torque_of_that_joint_alone(
+    simulate: Callable, run: Callable, config: dict[str, Any]
+) -> None:
+    row = {"joint": "LL3", "during": "left_swing", "share": [0.4, 0.4], "at_s": [0.0], "torque_nm": [30.0, 30.0]}
+    seen = watch(pushed(simulate, config, step={**row, "duration_s": [0.1, 0.1], "shape": "step"}), run, 4.0)
+    torque = np.array([moment["tau_ext"] for moment in seen])
+    on = np.array([moment["state"]["active"][0] for moment in seen]) > 0
+    assert on.sum() == pytest.approx(100, abs=2)
+    middle = np.flatnonzero(on)[5:-5]
+    np.testing.assert_allclose(torque[middle, LL3], 30.0, atol=1e-4)
+    np.testing.assert_allclose(np.delete(torque[middle, 6:12], 2, axis=1), 0, atol=1e-4)
+    first = seen[np.flatnonzero(on)[0]]
+    assert (first["side"], first["swinging"]) == (-1.0, 1)
+    assert first["share"] == pytest.approx(0.4, abs=0.05)
+
+
+def test_half_sine_has_its_peak_and_length_and_the_foot_feels_it(
+    simulate: Callable, run: Callable, config: dict[str, Any]
+) -> None:
+    row = {"point": "left_sole", "during": "left_swing", "share": [0.4, 0.4], "at_s": [0.0], "force_n": [50.0, 50.0]}
+    row |= {"duration_s": [0.1, 0.1], "direction": "horizontal", "shape": "half_sine"}
+    seen = watch(pushed(simulate, config, foot=row), run, 4.0)
+    on = [moment for moment in seen if moment["state"]["active"][0]]
+    felt = np.array([np.linalg.norm(moment["wrench"][:3]) for moment in on])
+    assert len(on) == pytest.approx(100, abs=2)
+    assert felt.max() == pytest.approx(50.0, rel=0.01)
+    assert felt.sum() / 1000 == pytest.approx(50.0 * 0.1 * 2 / np.pi, rel=0.02)
+    assert not any(moment["contact"][0] for moment in on)  # a push is no ground
+
+
+@pytest.mark.parametrize(("phase", "side"), [("left_support", 1.0), ("right_support", -1.0), ("right_swing", 1.0)])
+def test_phase_and_time_of_a_push_are_kept(
+    simulate: Callable, run: Callable, config: dict[str, Any], phase: str, side: float
+) -> None:
+    row = {"point": "torso", "during": phase, "share": [0.5, 0.5], "at_s": [0.5, 2.0], "force_n": [5.0, 5.0]}
+    row |= {"duration_s": [0.05, 0.05], "direction": "any", "shape": "step"}
+    seen = watch(pushed(simulate, config, torso=row), run, 6.0)
+    begun = [b for a, b in pairwise(seen) if b["state"]["count"][0] > a["state"]["count"][0]]
+    assert len(begun) == 2
+    for moment, earliest in zip(begun, (0.5, 2.0), strict=True):
+        assert earliest <= moment["clock"] < earliest + 2.0
+        assert (moment["side"], moment["swinging"]) == (side, 1)
+
+
+def test_random_pushes_pause_as_asked_and_point_anywhere(
+    simulate: Callable, run: Callable, config: dict[str, Any]
+) -> None:
+    row = {"point": "torso", "pause_s": [0.05, 0.2], "force_n": [1.0, 2.0], "duration_s": [0.01, 0.02]}
+    seen = watch(pushed(simulate, config, torso={**row, "direction": "any", "shape": "step"}), run, 12.0)
+    starts = [b for a, b in pairwise(seen) if b["state"]["count"][0] > a["state"]["count"][0]]
+    gaps = np.diff([moment["clock"] for moment in starts])
+    assert len(starts) > 60
+    assert gaps.min() > 0.058
+    assert gaps.max() < 0.223
+    directions = np.array([moment["state"]["direction"][0] for moment in starts])
+    np.testing.assert_allclose(np.linalg.norm(directions, axis=1), 1.0)
+    assert np.abs(directions.mean(axis=0)).max() < 0.3
+    np.testing.assert_allclose((directions**2).mean(axis=0), 1 / 3, atol=0.12)
+    sizes = np.array([moment["state"]["size"][0] for moment in starts])
+    assert 1.0 <= sizes.min() < 1.1 < 1.9 < sizes.max() <= 2.0
+
+
+def test_push_of_the_knee_goes_against_its_front(simulate: Callable, run: Callable, config: dict[str, Any]) -> None:
+    row = {"point": "left_knee_front", "at_s": [0.0], "force_n": [9.0, 9.0], "duration_s": [1.0, 1.0]}
+    simulator = pushed(simulate, config, knee={**row, "direction": "backward", "shape": "step"})
+    forward = None
+    while not simulator.setting.pushes.state["active"][0]:
+        forward = simulator.world.data.body("L_Knee_Link").xmat.reshape(3, 3)[:, 0].copy()
+        run(simulator, 0.001)
+    assert forward is not None
+    np.testing.assert_allclose(simulator.setting.pushes.state["direction"][0], -forward, atol=0.01)
+
+
+@pytest.mark.parametrize(
+    ("row", "message"),
+    [
+        ({"point": "nose", "force_n": [1, 2], "direction": "any"}, r"pushes\.odd\.point: 'nose' is not accepted"),
+        ({"joint": "LL9", "torque_nm": [1, 2]}, r"pushes\.odd\.joint: 'LL9' is not accepted"),
+    ],
+)
+def test_unknown_place_is_named(simulate: Callable, row: dict[str, Any], message: str) -> None:
+    simulator = simulate("flat_place", "ideal")
+    row = {"pause_s": [1, 2], "duration_s": [1, 2], "shape": "step", **row}
+    with pytest.raises(ConfigError, match=message):
+        make_pushes({"odd": row}, ["odd"], simulator.world.model, simulator.robot)
+    with pytest.raises(ConfigError, match=r"push: 'even' is not accepted; accepted: odd"):
+        make_pushes({"odd": row}, ["even"], simulator.world.model, simulator.robot)
