@@ -14,7 +14,7 @@ import numpy as np
 
 from mobnet.core.config import load_config
 from mobnet.core.joints import NQ_BASE, JointLayout
-from mobnet.core.recording import FEET, Sensed
+from mobnet.core.recording import COMMAND, FEET, Sensed
 from mobnet.estimation.observe import observer_of
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.robot.description import load_robot
@@ -50,7 +50,7 @@ def _turn(observer: MomentumObserver, sensed: Sensed) -> tuple[float, float]:
     started = time.process_time()
     residual = observer.residual(sensed)
     between = time.process_time()
-    state = observer.init()
+    state, last = observer.init(), residual[0]
     for k in range(SAMPLES):
         state, last = observer.step(state, sensed[k])
     ended = time.process_time()
@@ -66,7 +66,8 @@ def _motion(layout: JointLayout, rate_hz: float) -> Sensed:
     q[:, NQ_BASE - 4] = 1.0
     q[:, NQ_BASE:] = np.sin(phase[:, layout.nv - layout.nu :])
     torque: Any = 30.0 * np.sin(phase[:, layout.nv - layout.nu :])
-    return Sensed(q, v, np.zeros((SAMPLES, 3)), torque, torque, np.zeros((SAMPLES, len(FEET))))
+    flags, command = np.zeros((SAMPLES, len(FEET))), np.zeros((SAMPLES, len(COMMAND)))
+    return Sensed(q, v, np.zeros((SAMPLES, 3)), torque, torque, flags, command)
 
 
 if __name__ == "__main__":

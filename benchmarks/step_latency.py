@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.config import load_config, load_layout
 from mobnet.core.joints import NQ_BASE, JointLayout
-from mobnet.core.recording import FEET, Sensed
+from mobnet.core.recording import COMMAND, FEET, Sensed
 from mobnet.estimation.observe import observer_of
 from mobnet.estimation.residual import ResidualEstimator
 from mobnet.learning.features import limb_inputs, signals
@@ -123,7 +123,8 @@ def _sample(layout: JointLayout, rng: np.random.Generator) -> Sensed:
     q = rng.normal(0, 0.3, layout.nq)
     q[3:NQ_BASE] = [1.0, 0.0, 0.0, 0.0]
     torque = rng.normal(0, 30.0, layout.nu)
-    return Sensed(q, rng.normal(size=layout.nv), rng.normal(size=3), torque, torque, np.zeros(len(FEET)))
+    flags, command = np.zeros(len(FEET)), np.zeros(len(COMMAND))
+    return Sensed(q, rng.normal(size=layout.nv), rng.normal(size=3), torque, torque, flags, command)
 
 
 if __name__ == "__main__":
