@@ -78,6 +78,7 @@ class WalkingParameters(NamedTuple):
     load_gain: float
     load_filter: float
     stumble_m: float
+    stumble_sunk_m: float
     slope_rate_hz: float
     slope_max: float
     leg_stiffness_nm_rad: Array

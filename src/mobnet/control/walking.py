@@ -175,7 +175,8 @@ def _touch_down(walker: Walker, s: State, commands: Array) -> None:
     s.t = clip(s.t - s.total, -par.early_max_s, 0.0)
     s.yaw_start = s.yaw
     row = min(s.steps, len(commands) - 1)
-    stumbles = np.hypot(s.error[0], s.error[1]) > par.stumble_m
+    sunk = s.height - walker.pose.position[0, 2]
+    stumbles = np.hypot(s.error[0], s.error[1]) > par.stumble_m or sunk > par.stumble_sunk_m
     for i in range(5):
         s.command[i] = 0.0 if stumbles and i < DURATION else commands[row, i]
     s.commanded = s.command[DURATION]

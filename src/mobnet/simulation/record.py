@@ -18,6 +18,7 @@ from mobnet.core.errors import ConfigError, SimulationError
 from mobnet.core.provenance import provenance
 from mobnet.core.recording import recording_columns
 from mobnet.core.store import array_writer, read_array
+from mobnet.simulation.self_collision import Clearance
 from mobnet.simulation.simulator import Simulator
 
 log = logging.getLogger(__name__)
@@ -39,6 +40,21 @@ class Course:
     segments: list[tuple[int, int]] = field(default_factory=list)
     terrains: list[str] = field(default_factory=list)
     falls: int = 0
+
+
+class Watch:
+    """Looks now and then whether the robot touches itself (section 4.3: self-collision does not occur)."""
+
+    def __init__(self, clearance: Clearance, every: int, nq: int) -> None:
+        """Look at each `every`-th sample of a chunk, at its first nq columns."""
+        self.clearance, self.every, self.nq = clearance, every, nq
+        self.nearest, self.collisions = clearance.reach, 0
+
+    def look(self, rows: Rows) -> None:
+        """Note the smallest distance [m] in some samples (n, C) and in how many solids overlap."""
+        distances = self.clearance.nearest(rows[:: self.every, : self.nq].astype(np.float64))
+        self.nearest = min(self.nearest, float(distances.min()))
+        self.collisions += int((distances < 0.0).sum())
 
 
 def collect(
@@ -75,12 +91,20 @@ def collect(
     simulator = Simulator(config, scenario, level, seed, upper)
     rate, samples = config["rates"]["data_hz"], round(duration_s * config["rates"]["data_hz"])
     columns = [column for group in recording_columns(simulator.robot.layout).values() for column in group]
+    every = round(rate / config["recording"]["clearance_hz"])
+    watch = Watch(Clearance(simulator.robot), every, simulator.robot.layout.nq)
     with array_writer(out_stem, columns) as writer:
-        course = record(simulator, samples, config["recording"], rate, writer.append)
+
+        def keep(rows: Rows) -> None:
+            writer.append(rows)
+            watch.look(rows)
+
+        course = record(simulator, samples, config["recording"], rate, keep)
         wall_s = round(time.perf_counter() - started, 1)
         meta = {
             "rate_hz": rate, "scenario": scenario, "level": level, "seed": seed, "falls": course.falls,
-            "terrains": course.terrains, "wall_s": wall_s, "provenance": provenance(config),
+            "terrains": course.terrains, "clearance_min_m": round(watch.nearest, 4),
+            "self_collisions": watch.collisions, "wall_s": wall_s, "provenance": provenance(config),
         }  # fmt: skip
         writer.close(meta, course.segments)
     log.info("%s: %d samples, %d falls, %.1f x real time", out_stem.name, samples, course.falls, duration_s / wall_s)
