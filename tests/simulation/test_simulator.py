@@ -1,0 +1,216 @@
+"""Episodes of a scenario: what they share, what they draw, and that each begins on the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+from scipy.stats import kstest
+
+from mobnet.control.parameters import DURATION, FOOT_HEIGHT
+from mobnet.control.upper_body import UpperBody, follow
+from mobnet.robot.description import SIDES
+from mobnet.robot.plant import sole_name
+from mobnet.simulation.simulator import STREAMS, Simulator
+from mobnet.simulation.start import CLEARANCE_M
+from mobnet.simulation.world import ground_height
+
+TERRAINS = ["checks", "plates", "slope", "flat"]
+LEVEL = "all_uncertainty"
+PUSH = {"point": "torso", "at_s": [-0.5], "force_n": [40.0, 60.0], "duration_s": [0.1, 0.3], "direction": "any"}
+P_VALUE = 1e-3
+
+
+@pytest.fixture
+def scenario(config: dict[str, Any]) -> Callable[..., None]:
+    """A function (name, **row) that adds a random walk over all terrains, changed by what is given."""
+
+    def add(name: str, **row: Any) -> None:
+        config["scenarios"][name] = {"terrain": TERRAINS, "commands": "random", "random_torque": False, **row}
+
+    return add
+
+
+def streams(simulator: Simulator) -> dict[str, Any]:
+    """Return the state of each stream of random numbers."""
+    return {name: rng.bit_generator.state["state"] for name, rng in simulator.rng.items()}
+
+
+def begun(simulator: Simulator) -> tuple[Any, ...]:
+    """Begin an episode; return its terrain, commands and start."""
+    simulator.start()
+    return simulator.setting.terrain, simulator.commands.tobytes(), simulator.plant.qpos.tobytes()
+
+
+@pytest.mark.parametrize("change", [{"pushes": ["shove"]}, {"random_torque": True}])
+def test_scenarios_that_draw_the_same_have_equal_episodes_but_for_their_pushes(
+    config: dict[str, Any], scenario: Callable, run: Callable, change: dict[str, Any]
+) -> None:
+    """Terrain, place, commands and noise are the same, to the bit until the first push or random torque."""
+    config["pushes"] = {"shove": {**PUSH, "shape": "half_sine"}}
+    scenario("alone")
+    scenario("disturbed", draws="alone", **change)
+    alone, disturbed = (Simulator(config, name, LEVEL, 7) for name in ("alone", "disturbed"))
+    for _ in range(4):
+        assert begun(alone) == begun(disturbed)
+    until = 1.5 if "pushes" in change else 0.0  # s after an episode's start
+    if until:
+        np.testing.assert_array_equal(run(alone, until).rows, run(disturbed, until).rows)
+    quiet, moved = run(alone, 0.3), run(disturbed, 0.3)
+    assert np.abs(quiet["q"] - moved["q"]).max() > 1e-4
+    ours, theirs = streams(alone), streams(disturbed)
+    theirs |= {name: ours[name] for name in ("torque", "pushes")}
+    assert theirs == ours
+
+
+def test_other_scenarios_and_other_seeds_draw_otherwise(config: dict[str, Any], scenario: Callable) -> None:
+    scenario("alone")
+    scenario("another")
+    first = begun(Simulator(config, "alone", LEVEL, 7))
+    for simulator in (Simulator(config, "another", LEVEL, 7), Simulator(config, "alone", LEVEL, 8)):
+        other = begun(simulator)
+        assert (other[1] != first[1], other[2] != first[2]) == (True, True)
+
+
+def test_streams_of_random_numbers_are_independent_of_each_other(config: dict[str, Any], scenario: Callable) -> None:
+    scenario("alone")
+    simulator = Simulator(config, "alone", LEVEL, 7)
+    assert set(simulator.rng) == set(STREAMS)
+    draws = np.array([rng.standard_normal(2000) for rng in simulator.rng.values()])
+    assert np.abs(np.corrcoef(draws) - np.eye(len(STREAMS))).max() < 0.1
+
+
+@pytest.mark.parametrize("seed", [1000, 1001])
+def test_kinds_of_episodes_take_turns_in_an_order_that_the_seed_decides(
+    config: dict[str, Any], scenario: Callable, seed: int
+) -> None:
+    kinds = ["stand", "random"]
+    scenario("both", terrain=["flat"], commands=kinds)
+    simulator = Simulator(config, "both", "ideal", seed)
+    seen = []
+    for _ in range(5):
+        simulator.start()
+        seen.append("stand" if simulator.state.standing else "random")
+    assert seen == [kinds[(seed + episode) % 2] for episode in range(5)]
+
+
+def test_narrowed_commands_replace_their_range_alone(config: dict[str, Any], scenario: Callable) -> None:
+    scenario("wide", terrain=["flat"])
+    scenario("narrow", terrain=["flat"], narrowed={"duration_s": [0.7], "foot_height_m": [0.055]})
+    wide, narrow = (Simulator(config, name, "ideal", 1) for name in ("wide", "narrow"))
+    wide.start()
+    narrow.start()
+    assert set(narrow.commands[:, DURATION]) == {0.7}
+    assert set(narrow.commands[:, FOOT_HEIGHT]) == {0.055}
+    for column in range(DURATION):
+        assert narrow.commands[:, column].min() == pytest.approx(wide.commands[:, column].min())
+        assert narrow.commands[:, column].max() == pytest.approx(wide.commands[:, column].max())
+
+
+def test_episodes_begin_anywhere_on_any_terrain_facing_anywhere(config: dict[str, Any], scenario: Callable) -> None:
+    """Yaw and place are uniform; a terrain is built once and comes as often as the others."""
+    scenario("walk", terrain=["flat", "checks"])
+    config["recording"]["episode_steps"] = 10
+    simulator = Simulator(config, "walk", "ideal", 1)
+    yaws, places, settings = [], [], []
+    for _ in range(80):
+        simulator.start()
+        yaws.append(simulator.state.yaw / np.pi)
+        places.append(simulator.plant.qpos[:2] / simulator.world.period)
+        settings.append(simulator.setting)
+    assert kstest(yaws, "uniform", args=(-1, 2)).pvalue > P_VALUE
+    names = [setting.terrain for setting in settings]
+    assert min(names.count("flat"), names.count("checks")) > 20
+    assert len({id(setting.world) for setting in settings}) == 2
+    assert (np.ptp(places, axis=0) > 0.9).all()
+
+
+def soles_over_ground(simulator: Simulator) -> list[float]:
+    """Return the least height of each sole over the ground under it [m], looked at every centimetre."""
+    model, data, heights = simulator.world.model, simulator.world.data, []
+    mujoco.mj_forward(model, data)
+    for side in SIDES:
+        sole = model.geom(sole_name(side)).id
+        half = model.geom_size[sole]
+        x, y = (np.linspace(-h, h, round(2 * h / 0.01) + 1) for h in half[:2])
+        grid = np.array([(a, b, -half[2]) for a in x for b in y])
+        points = data.geom_xpos[sole] + grid @ data.geom_xmat[sole].reshape(3, 3).T
+        heights.append((points[:, 2] - ground_height(simulator.world, points[:, :2])).min())
+    return heights
+
+
+@pytest.mark.sim
+@pytest.mark.parametrize("commands", ["stand", "random"])
+@pytest.mark.parametrize("terrain", TERRAINS)
+def test_start_stands_on_the_ground_wherever_it_is_and_faces(
+    config: dict[str, Any], scenario: Callable, run: Callable, terrain: str, commands: str
+) -> None:
+    """Just over the highest point under a sole, in no solid; the feet soon carry the weight, after a bump at most."""
+    scenario("begin", terrain=[terrain], commands=commands)
+    simulator = Simulator(config, "begin", "ideal", 3)
+    weight = simulator.robot.mass * config["plant"]["gravity_m_s2"]
+    for _ in range(8):
+        simulator.start()
+        over = soles_over_ground(simulator)
+        assert min(over) == pytest.approx(CLEARANCE_M, abs=2e-4)
+        assert max(over) < 0.015
+        assert simulator.world.data.ncon == 0
+        log = run(simulator, 0.4)
+        assert log.done == 400
+        force = log["wrench_left_foot"][:, 2] + log["wrench_right_foot"][:, 2]
+        assert force.max() < 6 * weight
+        assert force[200:].mean() == pytest.approx(weight, rel=0.15)
+        assert log["contact"][50:].any(axis=1).all()
+
+
+@pytest.fixture
+def motion() -> UpperBody:
+    """Twenty seconds of small sines of the 21 joints above the legs about zero, 50 knots a second."""
+    time, joint = np.arange(1000)[:, None] / 50.0, np.arange(21)
+    return UpperBody(0.05 * np.sin((1.0 + 0.1 * joint) * time + joint), 50.0, np.zeros(1))
+
+
+@pytest.mark.parametrize("motion_s", [0.0, 3.0, 7.25])
+def test_motion_is_where_it_should_be_when_the_first_sample_is_kept(
+    config: dict[str, Any], scenario: Callable, run: Callable, motion: UpperBody, motion_s: float
+) -> None:
+    """The episode begins the time to settle earlier, with the joints where the motion is then."""
+    scenario("move", terrain=["flat"], commands="stand")
+    simulator = Simulator(config, "move", "ideal", 1, motion)
+    simulator.start(motion_s)
+    settle, upper = config["recording"]["settle_s"], simulator.walker.upper
+    q, v = np.zeros(21), np.zeros(21)
+    follow(motion._replace(start=np.zeros(1)), motion_s - settle, q, v)
+    np.testing.assert_allclose(simulator.plant.qpos[7 + upper :], q, atol=1e-12)
+    np.testing.assert_allclose(simulator.plant.qvel[6 + upper :], v, atol=1e-12)
+    run(simulator, settle)
+    follow(motion._replace(start=np.zeros(1)), motion_s, q, v)
+    np.testing.assert_allclose(simulator.walker.posture, q, atol=1e-4)
+    np.testing.assert_allclose(simulator.plant.qpos[7 + upper :], q, atol=0.02)
+
+
+def test_motors_can_move_what_friction_holds_and_keep_the_table_s_limit(simulate: Callable) -> None:
+    simulator = simulate("flat_place", "all_uncertainty")
+    least, table = simulator.config["plant"]["motor_limit_min_nm"], simulator.robot.torque_limits
+    friction = simulator.config["plant"]["friction"]
+    limits = simulator.plant.limits
+    assert (limits >= least).all()
+    assert least > friction["coulomb_nm"] + friction["loss_others_nm"]
+    np.testing.assert_array_equal(limits[table >= least], table[table >= least])
+
+
+def test_nothing_of_an_episode_is_left_in_the_next(config: dict[str, Any], scenario: Callable, run: Callable) -> None:
+    config["pushes"] = {"shove": {**PUSH, "at_s": [-2.0], "duration_s": [90.0, 90.0], "shape": "step"}}
+    scenario("pushed", terrain=["flat"], pushes=["shove"])
+    simulator = Simulator(config, "pushed", "ideal", 1)
+    simulator.start()
+    run(simulator, 0.2)
+    assert np.abs(simulator.plant.xfrc_applied).max() > 20
+    simulator.start()
+    for left in (simulator.plant.xfrc_applied, simulator.sensors.wrenches, simulator.state.integral):
+        np.testing.assert_array_equal(left, 0)
+    assert simulator.setting.pushes.state["active"].tolist() == [0]
+    assert simulator.state.clock == -config["recording"]["settle_s"]
