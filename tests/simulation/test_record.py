@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -14,12 +15,15 @@ from mobnet.control.kinematics import update
 from mobnet.control.parameters import DURATION, STEP_X, STEP_Y, TURN
 from mobnet.core.config import load_layout
 from mobnet.core.errors import ConfigError, SimulationError
-from mobnet.core.recording import FEET, recording_width
+from mobnet.core.recording import FEET
 from mobnet.core.store import read_array, read_recording
 from mobnet.estimation.observe import observe
-from mobnet.simulation.record import Simulator, collect, record
+from mobnet.simulation.record import Course, collect, record
+from mobnet.simulation.simulator import Simulator
 
-SETTINGS = {"chunk_s": 1.0, "settle_s": 2.0, "dropped_before_fall_s": 3.0}
+SETTINGS = {"chunk_s": 1.0, "settle_s": 2.0, "dropped_before_fall_s": 3.0, "episode_s": 1000.0}
+RATE_HZ = 10.0
+TERRAINS = ("a", "b", "c")
 
 
 class Faller:
@@ -27,53 +31,109 @@ class Faller:
 
     def __init__(self, episodes: list[float]) -> None:
         self.episodes, self.at, self.episode = iter(episodes), 0, 0
-        self.length = 0.0
+        self.length, self.width, self.simulated = 0.0, 2, 0
+        self.motions: list[float] = []
 
-    def start(self) -> None:
+    @property
+    def setting(self) -> SimpleNamespace:
+        """The terrain of the episode; each has another."""
+        return SimpleNamespace(terrain=TERRAINS[(self.episode - 1) % len(TERRAINS)])
+
+    def start(self, motion_s: float) -> None:
         """Begin the next episode."""
         self.length, self.at, self.episode = next(self.episodes), 0, self.episode + 1
+        self.motions.append(motion_s)
 
     def run(self, rows: np.ndarray) -> int:
         """Write episode and time until the fall."""
         done = int(min(len(rows), self.length - self.at))
         rows[:done, 0], rows[:done, 1] = self.episode, self.at + np.arange(done)
         self.at += done
+        self.simulated += done
         return done
 
 
-def fill(episodes: list[float], seconds: int) -> tuple[np.ndarray, list[tuple[int, int]], int]:
-    """Return rows at 10 Hz, segments and falls of a planned sequence of episodes."""
-    rows = np.zeros((seconds * 10, 2), dtype=np.float32)
-    return rows, *record(Faller(episodes), rows, SETTINGS, 10.0)
+def fill(episodes: list[float], seconds: int, **settings: float) -> tuple[np.ndarray, Course, Faller]:
+    """Return rows at 10 Hz and how a planned sequence of episodes went."""
+    faller, kept = Faller(episodes), []
+    course = record(faller, seconds * 10, {**SETTINGS, **settings}, RATE_HZ, kept.append)  # type: ignore[arg-type]
+    return np.concatenate(kept), course, faller
 
 
 def test_walk_without_a_fall_is_one_segment_after_settling() -> None:
-    rows, segments, falls = fill([math.inf], 7)
-    assert (segments, falls) == ([(0, 70)], 0)
+    rows, course, _ = fill([math.inf], 7)
+    assert (course.segments, course.falls) == ([(0, 70)], 0)
     np.testing.assert_array_equal(rows[:, 1], 20 + np.arange(70))
 
 
 def test_what_came_before_a_fall_is_cut_out() -> None:
-    rows, segments, falls = fill([100, math.inf], 12)
-    assert (segments, falls) == ([(0, 50), (50, 120)], 1)
+    rows, course, _ = fill([100, math.inf], 12)
+    assert (course.segments, course.falls) == ([(0, 50), (50, 120)], 1)
     assert rows[49].tolist() == [1, 69]  # the fall came at 100, its last 30 samples went
     assert rows[50].tolist() == [2, 20]
 
 
 @pytest.mark.parametrize("length", [0, 10, 20, 35, 50])
 def test_episode_too_short_to_keep_leaves_nothing(length: int) -> None:
-    rows, segments, falls = fill([length, math.inf], 4)
-    assert (segments, falls) == ([(0, 40)], 1)
+    rows, course, _ = fill([length, math.inf], 4)
+    assert (course.segments, course.falls) == ([(0, 40)], 1)
     assert (rows[:, 0] == 2).all()
 
 
-def test_segments_cover_all_rows_in_order_and_are_contiguous_in_time() -> None:
-    rows, segments, falls = fill([87, 61, 30, 110, math.inf], 25)
-    assert falls == 4
+@pytest.mark.parametrize("episode_s", [3.3, 1000.0])
+def test_segments_cover_all_rows_in_order_and_are_contiguous_in_time(episode_s: float) -> None:
+    rows, course, _ = fill([87, 61, 30, 110, *[math.inf] * 9], 25, episode_s=episode_s)
+    segments = course.segments
     assert [start for start, _ in segments] == [0, *(end for _, end in segments[:-1])]
-    assert segments[-1][1] == len(rows)
+    assert segments[-1][1] == len(rows) == 250
     for start, end in segments:
         np.testing.assert_array_equal(np.diff(rows[start:end], axis=0), np.tile([0, 1], (end - start - 1, 1)))
+
+
+def test_terrain_of_each_segment_is_that_of_its_episode() -> None:
+    """Also where an episode between two left nothing."""
+    rows, course, _ = fill([87, 25, 61, math.inf], 15)
+    kept = [int(rows[start, 0]) for start, _ in course.segments]
+    assert kept == [1, 3, 4]
+    assert course.terrains == [TERRAINS[(episode - 1) % len(TERRAINS)] for episode in kept]
+
+
+def test_episode_ends_after_its_time_without_a_fall() -> None:
+    rows, course, _ = fill([math.inf] * 4, 17, episode_s=5.0)
+    assert (course.segments, course.falls) == ([(0, 50), (50, 100), (100, 150), (150, 170)], 0)
+    assert rows[::50, 1].tolist() == [20.0] * 4  # each settles
+
+
+def test_motion_goes_on_from_what_was_kept() -> None:
+    """What was dropped is moved again: the upper body's motion has no gap over the segments."""
+    _, course, faller = fill([100, 40, math.inf, math.inf], 17, episode_s=8.0)
+    starts = [start / RATE_HZ for start, _ in course.segments]
+    assert faller.motions == [starts[0], starts[1], starts[1], starts[2]]
+
+
+@pytest.mark.parametrize("chunk_s", [0.1, 0.7, 1.0, 50.0])
+def test_length_of_the_chunks_changes_nothing(chunk_s: float) -> None:
+    episodes = [100, 61, 20, 75, *[math.inf] * 5]
+    reference, course, _ = fill(episodes, 30, episode_s=9.0)
+    rows, other, _ = fill(episodes, 30, episode_s=9.0, chunk_s=chunk_s)
+    np.testing.assert_array_equal(rows, reference)
+    assert other == course
+
+
+def test_samples_are_handed_on_while_the_robot_walks() -> None:
+    """No more is ever held back than what a fall would drop and a chunk: memory does not grow with the duration."""
+    faller, handed, held = Faller([500, math.inf]), 0, []
+
+    def keep(rows: np.ndarray) -> None:
+        nonlocal handed
+        settled = 20 * faller.episode
+        held.append(faller.simulated - settled - handed)
+        handed += len(rows)
+
+    record(faller, 1000, SETTINGS, RATE_HZ, keep)  # type: ignore[arg-type]
+    dropped, chunk = 30, 10
+    assert max(held[:40]) <= dropped + chunk
+    assert len(held) > 90
 
 
 def test_setting_that_cannot_be_walked_is_refused() -> None:
@@ -81,22 +141,43 @@ def test_setting_that_cannot_be_walked_is_refused() -> None:
         fill([15] * 30, 5)
 
 
+def test_robot_that_keeps_falling_leaves_no_file(config: dict[str, Any], tmp_path: Path) -> None:
+    config["recording"]["fall_height_m"] = 5.0
+    with pytest.raises(SimulationError, match="21 falls in 0 s"):
+        collect(config, "flat_walk", "ideal", 1, 1.0, tmp_path / "s1")
+    assert not list(tmp_path.iterdir())
+
+
+def test_chunks_of_a_walk_are_what_one_long_run_gives(config: dict[str, Any]) -> None:
+    """The reference is a single call of the plant's loop over settling and all samples."""
+    settings = {**config["recording"], "settle_s": 0.2, "chunk_s": 0.13, "dropped_before_fall_s": 0.25}
+    streamed, once = (Simulator(config, "random_walk", "all_uncertainty", 1) for _ in range(2))
+    kept: list[np.ndarray] = []
+    course = record(streamed, 1000, settings, 1000.0, kept.append)
+    once.start(0.0)
+    rows = np.zeros((1200, once.width), dtype=np.float32)
+    assert once.run(rows) == 1200
+    np.testing.assert_array_equal(np.concatenate(kept), rows[200:])
+    assert (course.segments, course.terrains) == ([(0, 1000)], [once.setting.terrain])
+    assert {len(chunk) for chunk in kept[:-1]} == {130}
+
+
 def test_pushed_robot_falls_and_walks_again(simulate: Callable) -> None:
     """A shove of 2 kN for a whole episode; the next one is left alone."""
     simulator = simulate("flat_walk", "ideal")
-    layout, data, start = simulator.robot.layout, simulator.world.data, simulator.start
+    data, start = simulator.world.data, simulator.start
     body = simulator.world.model.body(simulator.robot.base).id
     starts = []
 
-    def push_first() -> None:
-        starts.append(len(starts))
+    def push_first(motion_s: float) -> None:
+        starts.append(motion_s)
+        start(motion_s)
         data.xfrc_applied[body, 1] = 2000.0 if len(starts) == 1 else 0.0
-        start()
 
-    simulator.start = push_first
-    rows = np.zeros((1000, recording_width(layout)), dtype=np.float32)
-    segments, falls = record(simulator, rows, {**SETTINGS, "settle_s": 0.5}, 1000.0)
-    assert (segments, falls, len(starts)) == ([(0, 1000)], 1, 2)
+    simulator.start, kept = push_first, []
+    course = record(simulator, 1000, {**SETTINGS, "settle_s": 0.5}, 1000.0, kept.append)
+    assert (course.segments, course.falls, len(starts)) == ([(0, 1000)], 1, 2)
+    rows = np.concatenate(kept)
     assert np.isfinite(rows).all()
     assert rows[:, 2].min() > 0.8
 
@@ -116,6 +197,31 @@ def test_file_says_what_it_holds(config: dict[str, Any], layout: Any, tmp_path: 
     assert (meta["scenario"], meta["level"], meta["seed"], meta["falls"]) == ("forward_walk", "sensor_noise", 4, 0)
     assert (recording.rate_hz, recording.segments, len(recording.sensed)) == (1000.0, ((0, 300),), 300)
     np.testing.assert_allclose(np.linalg.norm(recording.sensed.q[:, 3:7], axis=1), 1, atol=1e-6)
+
+
+def test_file_names_the_terrain_of_each_segment(config: dict[str, Any], layout: Any, tmp_path: Path) -> None:
+    config["recording"] |= {"episode_s": 0.2, "settle_s": 0.1}
+    collect(config, "random_walk", "all_uncertainty", 2, 1.5, tmp_path / "s2")
+    recording = read_recording(tmp_path / "s2", layout)
+    terrains = recording.meta["terrains"]
+    assert [end - start for start, end in recording.segments] == [200] * 7 + [100]
+    assert len(terrains) == len(recording.segments)
+    assert set(terrains) <= set(config["scenarios"]["random_walk"]["terrain"])
+    assert len(set(terrains)) > 1
+
+
+def test_command_is_that_of_the_step_being_made(config: dict[str, Any], layout: Any, tmp_path: Path) -> None:
+    """Table 2's five, zero while the robot stands."""
+    config["recording"] |= {"settle_s": 0.0}
+    config["scenarios"]["flat_stand"] = {"terrain": ["flat"], "commands": "stand", "random_torque": False}
+    for name in ("flat_walk", "flat_stand"):
+        collect(config, name, "ideal", 1, 4.0, tmp_path / name)
+    walk, still = (read_recording(tmp_path / name, layout).sensed.command for name in ("flat_walk", "flat_stand"))
+    in_place = [0.0, 0.0, 0.0, 0.7, 0.05]
+    np.testing.assert_allclose(walk[0], in_place, atol=1e-6)
+    np.testing.assert_allclose(walk[-1], [0.1, 0.05, np.deg2rad(8.0), 0.7, 0.05], atol=1e-6)
+    assert len(np.unique(walk, axis=0)) == 2
+    np.testing.assert_array_equal(still, 0)
 
 
 @pytest.mark.parametrize(
@@ -138,7 +244,7 @@ def test_errors_are_one_line_and_name_the_value(
 
 
 def test_unknown_terrain_of_a_scenario_is_named(config: dict[str, Any], tmp_path: Path) -> None:
-    config["scenarios"]["flat_walk"]["terrain"] = "stairs"
+    config["scenarios"]["flat_walk"]["terrain"] = ["stairs"]
     with pytest.raises(ConfigError, match="terrain: 'stairs' is not accepted; accepted: checks, flat"):
         collect(config, "flat_walk", "ideal", 1, 1.0, tmp_path / "s1")
 
