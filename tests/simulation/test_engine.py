@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -34,9 +36,98 @@ def contact_torque(simulator: Simulator) -> np.ndarray:
 
 def external(simulator: Simulator) -> np.ndarray:
     """Return the loop's external torque (nv,) of the step just taken."""
-    tau_ext = np.zeros(NV)
-    engine._add_external(simulator.plant, tau_ext)
-    return tau_ext
+    return external_and_touch(simulator)[0]
+
+
+def external_and_touch(simulator: Simulator) -> tuple[np.ndarray, np.ndarray]:
+    """Return the loop's external torque (nv,) and ground's force on each foot (2,) [N] of the step just taken."""
+    tau_ext, touch = np.zeros(NV), np.zeros(2)
+    engine._add_external(simulator.plant, simulator.walker, tau_ext, touch)
+    return tau_ext, touch
+
+
+def pushed_torque(simulator: Simulator) -> np.ndarray:
+    """Return what the wrenches on bodies of the step just taken do (nv,), by mj_jac at their centres of mass."""
+    model, data, torque = simulator.world.model, simulator.world.data, np.zeros(NV)
+    linear, angular = np.zeros((3, NV)), np.zeros((3, NV))
+    for body in np.flatnonzero(data.xfrc_applied.any(axis=1)):
+        mujoco.mj_jac(model, data, linear, angular, data.xipos[body], body)
+        torque += linear.T @ data.xfrc_applied[body, :3] + angular.T @ data.xfrc_applied[body, 3:]
+    return torque
+
+
+def sole_torque(simulator: Simulator) -> np.ndarray:
+    """Return the foot sensors' wrenches mapped through their Jacobian (nv,)."""
+    model, data, mapped = simulator.world.model, simulator.world.data, np.zeros(NV)
+    linear, angular = np.zeros((3, NV)), np.zeros((3, NV))
+    for k, side in enumerate(SIDES):
+        site = model.site(sole_name(side)).id
+        mujoco.mj_jacSite(model, data, linear, angular, site)
+        axes = data.site_xmat[site].reshape(3, 3)
+        wrench = simulator.sensors.wrenches[k]
+        mapped += linear.T @ axes @ wrench[:3] + angular.T @ axes @ wrench[3:]
+    return mapped
+
+
+@pytest.fixture
+def pushed_walk(config: dict[str, Any], simulate: Callable) -> Callable[[str, Any], Simulator]:
+    """A function (terrain, pushes) -> a random walk with random torque on a terrain, pushed again and again."""
+    law = {"pause_s": [0.01, 0.1], "force_n": [20.0, 60.0], "duration_s": [0.05, 0.2], "shape": "half_sine"}
+    points = {"left": "left_sole", "right": "right_sole", "torso": "torso", "hand": "right_hand"}
+    config["pushes"] = {name: {**law, "point": point, "direction": "any"} for name, point in points.items()}
+
+    def make(terrain: str, pushes: Any = tuple(points)) -> Simulator:
+        row = {"terrain": [terrain], "commands": "random", "random_torque": True, "pushes": list(pushes)}
+        config["scenarios"]["pushed_walk"] = row
+        return simulate("pushed_walk", "all_uncertainty")
+
+    return make
+
+
+@pytest.mark.parametrize("terrain", ["checks", "plates", "slope", "flat"])
+def test_contacts_and_pushes_are_the_external_torque_on_every_terrain(
+    pushed_walk: Callable, run: Callable, terrain: str
+) -> None:
+    """The reference is MuJoCo's contact forces and the wrenches on bodies, through mj_jac (equation (2))."""
+    simulator, pushed = pushed_walk(terrain), 0
+    for _ in range(60):
+        run(simulator, 0.023)
+        contact, push = contact_torque(simulator), pushed_torque(simulator)
+        expected = contact + push
+        np.testing.assert_allclose(external(simulator), expected, atol=1e-9 * max(1.0, np.abs(expected).max()))
+        pushed += np.abs(push).max() > 5
+    assert pushed > 40
+
+
+@pytest.mark.parametrize("terrain", ["checks", "plates", "slope", "flat"])
+def test_foot_sensors_feel_contacts_and_pushes_on_the_foot_and_no_others(
+    pushed_walk: Callable, run: Callable, terrain: str
+) -> None:
+    """Mapped through their Jacobian the foot wrenches are J^T F of contacts and of pushes on the massless soles."""
+    for pushes, felt in ((("left", "right"), True), (("torso", "hand"), False)):
+        simulator = pushed_walk(terrain, pushes)
+        for _ in range(30):
+            run(simulator, 0.023)
+            expected = contact_torque(simulator) + felt * pushed_torque(simulator)
+            np.testing.assert_allclose(sole_torque(simulator), expected, atol=1e-8 * max(1.0, np.abs(expected).max()))
+
+
+@pytest.mark.parametrize("terrain", ["checks", "slope"])
+def test_touch_is_the_normal_force_of_a_foot_s_own_contacts(pushed_walk: Callable, run: Callable, terrain: str) -> None:
+    """The reference is mj_contactForce; a pushed foot in the air touches nothing (order of the rows does not matter)."""
+    simulator, seen = pushed_walk(terrain), set()
+    model, data, wrench = simulator.world.model, simulator.world.data, np.zeros(6)
+    soles = [model.geom(sole_name(side)).id for side in SIDES]
+    for _ in range(60):
+        run(simulator, 0.023)
+        expected = np.zeros(2)
+        for index, contact in enumerate(data.contact):
+            mujoco.mj_contactForce(model, data, index, wrench)
+            expected[[sole in (contact.geom1, contact.geom2) for sole in soles].index(True)] += wrench[0]
+        touch = external_and_touch(simulator)[1]
+        np.testing.assert_allclose(touch, expected, atol=1e-9 * max(1.0, expected.max()))
+        seen.add(tuple(touch > engine.CONTACT_FORCE_N))
+    assert seen == {(True, False), (False, True), (True, True)}
 
 
 @pytest.mark.parametrize("level", ["ideal", "all_uncertainty"])
@@ -55,33 +146,20 @@ def test_contact_rows_equal_mujoco_s_contact_forces(simulate: Callable, run: Cal
 def test_applied_wrench_enters_through_its_jacobian(simulate: Callable, run: Callable) -> None:
     """The reference is mj_jac at the body's centre of mass."""
     simulator = simulate("flat_walk", "all_uncertainty")
-    model, data = simulator.world.model, simulator.world.data
-    hand = model.body(simulator.robot.hands["left"]).id
-    push = np.array([12.0, -7.0, 20.0, 1.0, 2.0, -0.5])
-    data.xfrc_applied[hand] = push
+    hand = simulator.world.model.body(simulator.robot.hands["left"]).id
+    simulator.world.data.xfrc_applied[hand] = [12.0, -7.0, 20.0, 1.0, 2.0, -0.5]
     run(simulator, 0.2)
-    linear, angular = np.zeros((3, NV)), np.zeros((3, NV))
-    mujoco.mj_jac(model, data, linear, angular, data.xipos[hand], hand)
-    expected = contact_torque(simulator) + linear.T @ push[:3] + angular.T @ push[3:]
+    expected = contact_torque(simulator) + pushed_torque(simulator)
     np.testing.assert_allclose(external(simulator), expected, atol=1e-9 * np.abs(expected).max())
 
 
 def test_foot_sensors_mapped_through_their_jacobian_are_the_contact_torque(simulate: Callable, run: Callable) -> None:
     """The sole is massless, so both are equivalent at any acceleration."""
     simulator = simulate("forward_walk", "all_uncertainty")
-    model, data = simulator.world.model, simulator.world.data
-    linear, angular = np.zeros((3, NV)), np.zeros((3, NV))
     for _ in range(30):
         run(simulator, 0.03)
-        mapped = np.zeros(NV)
-        for k, side in enumerate(SIDES):
-            site = model.site(sole_name(side)).id
-            mujoco.mj_jacSite(model, data, linear, angular, site)
-            axes = data.site_xmat[site].reshape(3, 3)
-            wrench = simulator.sensors.wrenches[k]
-            mapped += linear.T @ axes @ wrench[:3] + angular.T @ axes @ wrench[3:]
         expected = contact_torque(simulator)
-        np.testing.assert_allclose(mapped, expected, atol=1e-8 * max(1.0, np.abs(expected).max()))
+        np.testing.assert_allclose(sole_torque(simulator), expected, atol=1e-8 * max(1.0, np.abs(expected).max()))
 
 
 @pytest.mark.sim
@@ -176,10 +254,50 @@ def test_random_torque_never_acts_on_a_support_leg(simulate: Callable, side: flo
     assert (tau[12:] == 1).all()
 
 
+def tick(simulator: Simulator, run: Callable, torque: np.ndarray) -> Any:
+    """Return what a tick from here would log under an exploration (nu,) [N m], and go back to where it began."""
+    model, data, sensors = simulator.world.model, simulator.world.data, simulator.sensors
+    kept = copy.copy(data), simulator.state.copy(), simulator.rng["noise"].bit_generator.state
+    arrays = [value for value in sensors if isinstance(value, np.ndarray)]
+    values = [value.copy() for value in arrays]
+    simulator.torque.value[:] = torque
+    log = run(simulator, 0.001)
+    mujoco.mj_copyData(data, model, kept[0])
+    simulator.state, simulator.rng["noise"].bit_generator.state = kept[1:]
+    for array, value in zip(arrays, values, strict=True):
+        array[:] = value
+    return log
+
+
+@pytest.mark.sim
+def test_random_torque_is_part_of_the_desired_torque_and_zero_on_every_leg_that_carries(
+    simulate: Callable, run: Callable
+) -> None:
+    """The same tick with and without it, in every phase of a walk (section 4.3: never on the support leg, 0 samples)."""
+    simulator, added, phases = simulate("random_walk_plain", "all_uncertainty"), np.linspace(4.0, 8.0, 33), set()
+    simulator.torque.left[:] = np.inf  # nothing new is drawn
+    each, once = simulator.plant, simulator.plant._replace(every=1)
+    half_weight = simulator.robot.mass * 9.81 / 2
+    for _ in range(250):
+        simulator.setting = simulator.setting._replace(plant=each)
+        simulator.torque.value[:] = 0.0
+        run(simulator, 0.012)
+        simulator.setting = simulator.setting._replace(plant=once)
+        quiet, moved = tick(simulator, run, np.zeros(33)), tick(simulator, run, added)
+        expected = added.copy()
+        for k, foot in enumerate(("left", "right")):
+            carries = not moved["swing"][0, k]
+            assert carries or moved[f"wrench_{foot}_foot"][0, 2] < half_weight
+            expected[6 * k : 6 * k + 6] *= not carries
+        np.testing.assert_allclose(moved["tau_des"][0] - quiet["tau_des"][0], expected, atol=2e-4)
+        phases.add(tuple(moved["swing"][0]))
+    assert phases == {(0, 0), (0, 1), (1, 0)}
+
+
 @pytest.mark.sim
 def test_motor_torque_is_the_desired_one_within_the_limits(simulate: Callable, run: Callable) -> None:
     log = run(simulator := simulate("random_walk", "all_uncertainty"), 2.0)
-    limits = simulator.robot.torque_limits.astype(np.float32)
+    limits = simulator.plant.limits.astype(np.float32)
     assert (np.abs(log["tau_motor"]) <= limits * (1 + 1e-6)).all()
     inside = (np.abs(log["tau_des"]) < 0.5 * limits).all(axis=0)
     np.testing.assert_array_equal(log["tau_des"][:, inside], log["tau_motor"][:, inside])

@@ -18,7 +18,9 @@ from mobnet.core.errors import ConfigError, SimulationError
 from mobnet.core.recording import FEET
 from mobnet.core.store import read_array, read_recording
 from mobnet.estimation.observe import observe
+from mobnet.robot.description import RobotDescription
 from mobnet.simulation.record import Course, collect, record
+from mobnet.simulation.self_collision import Clearance
 from mobnet.simulation.simulator import Simulator
 
 SETTINGS = {"chunk_s": 1.0, "settle_s": 2.0, "dropped_before_fall_s": 3.0, "episode_s": 1000.0}
@@ -208,6 +210,22 @@ def test_file_names_the_terrain_of_each_segment(config: dict[str, Any], layout: 
     assert len(terrains) == len(recording.segments)
     assert set(terrains) <= set(config["scenarios"]["random_walk"]["terrain"])
     assert len(set(terrains)) > 1
+
+
+@pytest.mark.parametrize("hits", [False, True])
+def test_file_says_how_near_the_robot_came_to_itself(
+    config: dict[str, Any], robot: RobotDescription, layout: Any, tmp_path: Path, hits: bool
+) -> None:
+    """The reference is the clearance of the stored poses; a hand held in the chest is a collision."""
+    if hits:
+        config["walking"]["posture_rad"][3:10] = [0.0, 0.1, 1.6, -0.5, -2.1, 0.2, -1.1]
+    config["recording"] |= {"settle_s": 0.1}
+    collect(config, "stand", "ideal", 1, 0.5, tmp_path / "s1")
+    recording = read_recording(tmp_path / "s1", layout)
+    nearest = Clearance(robot).nearest(recording.sensed.q[::20].astype(float))
+    assert recording.meta["clearance_min_m"] == pytest.approx(nearest.min(), abs=1e-3)
+    looked = 0.5 * config["recording"]["clearance_hz"]
+    assert recording.meta["self_collisions"] == (looked if hits else 0)
 
 
 def test_command_is_that_of_the_step_being_made(config: dict[str, Any], layout: Any, tmp_path: Path) -> None:
