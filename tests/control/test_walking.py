@@ -133,6 +133,18 @@ def test_step_after_a_stumble_is_made_in_place_and_later_ones_as_commanded(
     np.testing.assert_array_equal(swinging.s.command, COMMANDS[-1])
 
 
+@pytest.mark.parametrize(("share", "sinks"), [(0.99, False), (1.01, True)])
+def test_step_of_a_robot_that_sinks_is_made_in_place(swinging: Walk, share: float, sinks: bool) -> None:
+    """The pelvis is lower than wanted: knees at their limits straighten only in place."""
+    swinging.wrenches[RIGHT, 2] = WEIGHT_N
+    swinging.s.error = [0.0, 0.0]
+    swinging.s.height = swinging.q[2] + share * swinging.walker.par.stumble_sunk_m
+    swinging.tick()
+    expected = COMMANDS[1].copy()
+    expected[:DURATION] *= not sinks
+    np.testing.assert_array_equal(swinging.s.command, expected)
+
+
 @pytest.mark.parametrize("lacks", [-120.0, 0.0, 200.0])
 def test_load_error_converges_to_what_a_foot_lacks_of_its_share(walker: Walker, stepping: State, lacks: float) -> None:
     load_feet(walker, stepping, lacks)
