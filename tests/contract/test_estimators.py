@@ -50,6 +50,7 @@ def stepped(estimator: Estimator, sensed: Sensed) -> tuple[NDArray[Any], NDArray
 
 
 def test_step_equals_estimate(estimator: Estimator, sensed: Sensed) -> None:
+    """Sample by sample and all at once are equivalent."""
     whole = estimator.estimate(sensed)
     tau, std = stepped(estimator, sensed)
     np.testing.assert_allclose(tau, whole.tau_ext, atol=RELATIVE * np.abs(whole.tau_ext).max())
@@ -59,6 +60,7 @@ def test_step_equals_estimate(estimator: Estimator, sensed: Sensed) -> None:
 
 
 def test_the_future_does_not_matter(estimator: Estimator, sensed: Sensed) -> None:
+    """An estimate is invariant to samples that come after it."""
     cut = len(sensed) // 2
     changed = {}
     for field in fields(Sensed):

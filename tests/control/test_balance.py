@@ -55,6 +55,7 @@ def test_omega_stays_finite_while_the_robot_lies(walker: Walker, stepping: State
 
 
 def test_no_error_means_the_nominal_zmp_and_the_weight(walker: Walker, swinging: State, random_pose: Callable) -> None:
+    """A zero DCM error moves no ZMP; the force is the pendulum's closed form."""
     random_pose(1)
     pose, mass = walker.pose, walker.pose.weight[0]
     swinging.height_rate = pose.com_velocity[2]
@@ -90,6 +91,7 @@ def test_zmp_shift_on_two_feet_is_limited(
 
 
 def test_foothold_stays_without_an_error(par: WalkingParameters, swinging: State) -> None:
+    """A zero DCM error moves no foothold."""
     adapt_foothold(par, swinging, ANKLE, TICK_S, np.zeros(3))
     np.testing.assert_allclose(swinging.target, swinging.next_ankle, atol=1e-15)
     np.testing.assert_allclose(swinging.target_velocity, 0, atol=1e-12)
@@ -127,6 +129,7 @@ def test_foothold_is_frozen_just_before_landing_and_free_when_late(par: WalkingP
 
 
 def test_duration_stays_without_an_error(par: WalkingParameters, swinging: State) -> None:
+    """A zero DCM error changes no duration."""
     swinging.lift = [*swinging.target, 0.158]  # no way to go
     adapt_duration(par, swinging, double_support(par, swinging), TICK_S, np.zeros(3))
     assert swinging.total == swinging.commanded

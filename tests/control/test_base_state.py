@@ -34,6 +34,7 @@ def standing(robot: RobotDescription) -> tuple[np.ndarray, np.ndarray]:
 
 @pytest.mark.parametrize("loads", [[500.0, 500.0], [900.0, 0.0]])
 def test_error_decays_with_the_time_constant_on_loaded_feet(walker: Walker, standing: tuple, loads: list) -> None:
+    """The reference is the closed form of a first-order decay."""
     q, v = standing
     run(walker, q, v, loads, np.array([0, 0, walker.gravity]), 0.5)
     left = np.exp(-0.5 / walker.par.base_time_constant_s)
@@ -43,12 +44,14 @@ def test_error_decays_with_the_time_constant_on_loaded_feet(walker: Walker, stan
 
 @pytest.mark.parametrize("loads", [[0.0, 0.0], [-30.0, -1.0]])
 def test_free_fall_is_integrated_without_feet(walker: Walker, standing: tuple, loads: list) -> None:
+    """The closed form is -g t."""
     q, v = standing
     run(walker, q, v, loads, np.zeros(3), 0.2)
     np.testing.assert_allclose(v[:3], DRIFT + [0, 0, -walker.gravity * 0.2], atol=1e-10)
 
 
 def test_acceleration_is_turned_into_the_world(walker: Walker, standing: tuple) -> None:
+    """The closed form is the rotated acceleration times t."""
     q, v = standing
     run(walker, q, v, [0.0, 0.0], np.array([1.0, 0, walker.gravity]), 0.1)
     np.testing.assert_allclose(v[:3] - DRIFT, [0.1 * np.cos(0.8), 0.1 * np.sin(0.8), 0], atol=1e-10)

@@ -25,6 +25,7 @@ def test_decay_is_one_for_past_times() -> None:
 
 
 def test_dcm_runs_from_its_planned_end_to_the_midpoint_of_the_last_feet(planned: State) -> None:
+    """The reference is the closed form of the DCM over a ZMP that stands still."""
     dcm = np.array(planned.dcm_end)
     for k in (1, 2, 3):  # the ZMP stays on plan[k] for a step
         z = planned.plan[k]
@@ -119,6 +120,7 @@ def test_plan_is_symmetric_under_reflection(par: WalkingParameters, stepping: St
 
 
 def test_steps_in_place_repeat_after_two(par: WalkingParameters, stepping: State) -> None:
+    """Steps in place are invariant to a shift by two."""
     stepping.command[:DURATION] = 0.0
     plan_steps(par, stepping, ANKLE)
     np.testing.assert_allclose(stepping.plan[2:4], stepping.plan[:2], atol=1e-14)

@@ -38,6 +38,7 @@ def test_quintic_has_zero_slope_and_curvature_at_both_ends() -> None:
 
 @pytest.mark.parametrize("x", np.linspace(0.01, 0.99, 9))
 def test_slope_is_the_derivative_of_the_quintic(x: float) -> None:
+    """The reference is a central difference."""
     assert rise_slope(x) == pytest.approx((rise(x + SMALL) - rise(x - SMALL)) / (2 * SMALL), abs=1e-8)
 
 
@@ -49,6 +50,7 @@ def test_quintic_and_cubic_are_symmetric_about_the_middle() -> None:
 
 
 def test_dead_band_is_odd_and_clip_keeps_inside() -> None:
+    """The dead band is symmetric and leaves what the clip takes; numpy's clip is the reference."""
     for x in np.linspace(-0.5, 0.5, 11):
         assert dead(-x, 0.2) == -dead(x, 0.2)
         assert x - dead(x, 0.2) == clip(x, -0.2, 0.2) == pytest.approx(np.clip(x, -0.2, 0.2), abs=1e-15)
@@ -85,6 +87,7 @@ def test_rotation_matrices_equal_mujoco_s() -> None:
 
 
 def test_yaw_pitch_roll_is_the_product_of_three_turns() -> None:
+    """The reference is the product of the turns about each axis."""
     yaw, roll, pitch = 0.4, -0.3, 0.7
     turns = [np.zeros((3, 3)) for _ in range(3)]
     for axis, angle, out in zip(np.eye(3), (roll, pitch, yaw), turns, strict=True):

@@ -35,6 +35,7 @@ def periods(torque: np.ndarray) -> list[tuple[bool, int, float]]:
 
 
 def test_on_and_off_periods_are_uniform(history: tuple[RandomTorque, np.ndarray]) -> None:
+    """The reference is U(0.1, 0.5) s of section 4.3, by a Kolmogorov-Smirnov test."""
     law, rows = history
     drawn = [period for column in rows.T for period in periods(column)]
     for state in (True, False):
@@ -45,6 +46,7 @@ def test_on_and_off_periods_are_uniform(history: tuple[RandomTorque, np.ndarray]
 
 
 def test_torque_is_uniform_up_to_each_joint_s_amplitude(history: tuple[RandomTorque, np.ndarray]) -> None:
+    """The reference is U(-a, a) of section 4.3, by a Kolmogorov-Smirnov test."""
     law, rows = history
     sizes = [value / law.amplitude[j] for j, column in enumerate(rows.T) for on, _, value in periods(column) if on]
     assert kstest(sizes, "uniform", args=(-1, 2)).pvalue > P_VALUE

@@ -69,6 +69,7 @@ def test_apex_is_the_commanded_height_over_the_higher_foot(par: WalkingParameter
 
 @pytest.mark.parametrize("t", [0.2, 0.3, 0.44, 0.6, 0.75, 0.82, 0.85])
 def test_velocity_is_the_derivative_of_the_position(par: WalkingParameters, swinging: State, t: float) -> None:
+    """The reference is a central difference."""
     difference = (at(par, swinging, t + STEP).foot - at(par, swinging, t - STEP).foot) / (2 * STEP)
     s = at(par, swinging, t)
     np.testing.assert_allclose(s.foot_velocity, difference, atol=1e-6)
@@ -77,6 +78,7 @@ def test_velocity_is_the_derivative_of_the_position(par: WalkingParameters, swin
 
 
 def test_moving_target_enters_the_velocity(par: WalkingParameters, swinging: State) -> None:
+    """The reference is a difference along the target's own motion."""
     swinging.target_velocity = [0.5, -0.2]
     moved = swinging.copy()
     moved.target = swinging.target + STEP * swinging.target_velocity

@@ -30,6 +30,7 @@ def test_reference_meets_every_knot(upper: UpperBody) -> None:
 
 
 def test_velocity_is_the_derivative_of_position_and_continuous(upper: UpperBody) -> None:
+    """The reference is a central difference."""
     clocks, small = np.linspace(-0.45, 0.45, 333), 1e-6
     for clock in clocks:
         slope = (at(upper, clock + small)[0] - at(upper, clock - small)[0]) / (2 * small)
@@ -40,6 +41,7 @@ def test_velocity_is_the_derivative_of_position_and_continuous(upper: UpperBody)
 
 
 def test_line_is_followed_exactly_and_a_constant_stays(upper: UpperBody) -> None:
+    """Linear motion is a cubic's closed form; a constant has zero velocity."""
     for clock in np.linspace(-0.48, 0.48, 77):
         q, v = at(upper, clock)
         np.testing.assert_allclose([q[1], v[1], q[2], v[2]], [clock + 0.5, 1.0, 0.7, 0.0], atol=1e-12)

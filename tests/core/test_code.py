@@ -34,6 +34,7 @@ def hash_after(package: Path, name: str, text: str) -> str:
 
 
 def test_docstrings_comments_and_layout_do_not_count(package: Path) -> None:
+    """The hash is invariant to what does not run."""
     before = code_hash(package.parent / "script.py")
     text = '"""Other."""\n# a comment\nfrom mobnet.two import f\n\ndef g():\n    "New text."\n    return f(  )\n'
     assert hash_after(package, "one.py", text) == before

@@ -181,6 +181,7 @@ def stream(
 
 
 def test_streamed_array_is_the_same_file_as_a_whole_one(tmp_path: Path) -> None:
+    """Writing in pieces and at once are equivalent to the byte."""
     rng = np.random.default_rng(3)
     array = rng.normal(size=(2 * GROUP_ROWS + 17, 2)).astype(np.float32)
     write_array(tmp_path / "whole", array, COLUMNS, META, [(0, 5), (5, len(array))])
@@ -194,6 +195,7 @@ def test_streamed_array_is_the_same_file_as_a_whole_one(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("rows", [0, 1, GROUP_ROWS - 1, GROUP_ROWS, GROUP_ROWS + 1])
 def test_any_number_of_rows_comes_back(tmp_path: Path, rows: int) -> None:
+    """Writing and reading are a round trip."""
     array = np.arange(rows, dtype=np.float32)[:, None] * np.float32([1, -2])
     write_array(tmp_path / "s1", array, COLUMNS, META)
     read, meta = read_array(tmp_path / "s1")

@@ -94,6 +94,7 @@ def test_all_joints_and_the_base_follow_the_low_passed_truth(observer: MomentumO
 def test_batch_equals_the_recursion_and_stepping(
     nominal: NominalModel, observer: MomentumObserver, pushed: Callable
 ) -> None:
+    """Three forms of the observer are equivalent; the recursion of (7) is the reference."""
     sensed, _ = pushed(RATE_HZ)
     batch = observer.residual(sensed)
     np.testing.assert_allclose(recursion(nominal, sensed, observer.pole), batch, atol=1e-9)
@@ -117,6 +118,7 @@ def test_single_precision_logs_lose_nothing_that_matters(observer: MomentumObser
 
 
 def test_is_linear_in_the_torque(observer: MomentumObserver, pushed: Callable) -> None:
+    """More motor torque is its closed form, low-passed and subtracted."""
     sensed, _ = pushed(RATE_HZ)
     extra = np.random.default_rng(0).normal(size=sensed.tau_motor.shape)
     heavier = replace(sensed, tau_motor=sensed.tau_motor + 2 * extra)
@@ -125,6 +127,7 @@ def test_is_linear_in_the_torque(observer: MomentumObserver, pushed: Callable) -
 
 
 def test_yaw_of_the_world_turns_the_linear_part_only(observer: MomentumObserver, pushed: Callable) -> None:
+    """The joints' residual is invariant to the robot's heading."""
     sensed, _ = pushed(RATE_HZ)
     turn = rotation(np.array([np.cos(0.35), 0, 0, np.sin(0.35)]))
     q, v = sensed.q.copy(), sensed.v.copy()
@@ -137,6 +140,7 @@ def test_yaw_of_the_world_turns_the_linear_part_only(observer: MomentumObserver,
 
 
 def test_noise_of_velocity_obeys_its_law(nominal: NominalModel, observer: MomentumObserver) -> None:
+    """The reference is the closed form of a first-order filter's noise."""
     rng, count, layout = np.random.default_rng(1), 20_000, nominal.robot.layout
     q = np.zeros(layout.nq)
     q[3] = 1.0
@@ -152,6 +156,7 @@ def test_noise_of_velocity_obeys_its_law(nominal: NominalModel, observer: Moment
 
 
 def test_low_pass_has_the_observer_s_pole(observer: MomentumObserver) -> None:
+    """The step's answer is the closed form 1 - pole^k."""
     answer = low_pass(np.ones((20, 2)), GAIN_HZ, RATE_HZ)
     np.testing.assert_allclose(answer[:, 0], 1 - observer.pole ** np.arange(20), atol=1e-12)
     assert exact_pole(GAIN_HZ, RATE_HZ) == observer.pole == pytest.approx(0.904837, abs=1e-6)

@@ -38,6 +38,7 @@ def observer(nominal: NominalModel) -> MomentumObserver:
 
 
 def test_without_a_model_it_is_the_observer(observer: MomentumObserver, made_up: Callable[..., Recording]) -> None:
+    """With no model it is equivalent to the observer alone, to the bit."""
     sensed = made_up(0, 0.1).sensed
     estimator = ResidualEstimator(observer)
     result = estimator.estimate(sensed)

@@ -40,6 +40,7 @@ def test_same_seed_same_interval(config: dict[str, Any], rng: np.random.Generato
 
 
 def test_interval_has_the_width_of_the_normal_law(config: dict[str, Any], rng: np.random.Generator) -> None:
+    """The reference is the normal law's closed form."""
     runs = rng.normal(size=(1, 400))
     config["evaluation"]["bootstrap_draws"] = 4000
     summary = summarise([runs], config)

@@ -7,6 +7,7 @@ from mobnet.evaluation.metrics import METRICS, rmse, roughness
 
 
 def test_rmse_of_a_constant_error_is_that_constant(rng: np.random.Generator) -> None:
+    """A closed form."""
     truth = rng.normal(size=(500, 3))
     error = np.array([-2.0, 0.0, 0.5])
     np.testing.assert_allclose(rmse(truth + error, truth), np.abs(error), atol=1e-12)
@@ -29,6 +30,7 @@ def test_rmse_loses_no_digits_on_float32_with_a_large_offset() -> None:
 
 
 def test_roughness_of_a_ramp_is_its_slope() -> None:
+    """A closed form."""
     ramp = (3.0 * np.arange(100) / 1000.0)[:, None]
     np.testing.assert_allclose(roughness(ramp, ((0, 100),), 1000.0), 3.0, rtol=1e-9)
 

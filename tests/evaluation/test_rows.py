@@ -18,6 +18,7 @@ def test_rows_survive_a_round_trip(tmp_path: Path, make_scores: Callable[..., li
 
 
 def test_none_is_an_empty_field_and_comes_back_as_none(tmp_path: Path) -> None:
+    """Writing and reading are a round trip."""
     cell = Cell("walk", "ideal", "MOB", "LL1", 1, "rmse", 0.25, None, None, "N m", None)
     write_rows(tmp_path / "a.csv", Cell, [cell])
     assert (tmp_path / "a.csv").read_text().splitlines()[1] == "walk,ideal,MOB,LL1,1,rmse,0.25,,,N m,"

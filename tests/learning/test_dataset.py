@@ -36,6 +36,7 @@ def load(stems: list[tuple[Path, Path]], full_config: dict[str, Any], layout: Jo
 def test_uncertainty_and_external_torque_add_up_to_the_residual(
     load: Callable[..., LimbData], stems: list[tuple[Path, Path]], layout: JointLayout
 ) -> None:
+    """The identity of (15): the residual is conserved."""
     total = load("uncertainty").targets + load("external").targets
     residual = np.concatenate([read_array(stem)[0][:, layout.columns(layout.limb("LL"))] for _, stem in stems])
     np.testing.assert_allclose(total, residual, atol=1e-5)

@@ -32,6 +32,7 @@ def test_tanh_is_within_a_few_roundings() -> None:
 
 
 def test_states_are_those_of_torch(cell: nn.GRU, stretch: tuple[Tensor, Tensor]) -> None:
+    """Torch's own GRU is the reference."""
     states, last = run_gru(cell, *stretch)
     expected, expected_last = cell(*stretch)
     torch.testing.assert_close(states, expected, rtol=1e-5, atol=2e-6)
@@ -39,6 +40,7 @@ def test_states_are_those_of_torch(cell: nn.GRU, stretch: tuple[Tensor, Tensor])
 
 
 def test_gradients_are_those_of_torch(cell: nn.GRU, stretch: tuple[Tensor, Tensor]) -> None:
+    """Torch's own GRU is the reference."""
     weight = torch.randn(STEPS, LANES, HIDDEN, generator=torch.Generator().manual_seed(2))
     gradients = []
     for run in (lambda: run_gru(cell, *stretch), lambda: cell(*stretch)):

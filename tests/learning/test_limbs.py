@@ -27,6 +27,7 @@ def folder(small: object, tmp_path: Path) -> Path:
 def test_together_they_predict_what_each_predicts(
     folder: Path, layout: JointLayout, made_up: Callable[..., Recording]
 ) -> None:
+    """Limbs together and each alone are equivalent."""
     network, sensed = load_network(folder), made_up(3, 0.1).sensed
     x = limb_inputs(layout, {"Q": ["LL"], "T": ["LL"]})(sensed)
     both = LimbNetworks([network, network], layout).run(sensed)

@@ -36,6 +36,7 @@ def x() -> np.ndarray:
 
 
 def test_run_agrees_with_torch(pair: tuple[LimbNetwork, Network], x: np.ndarray) -> None:
+    """Torch is the reference."""
     model, network = pair
     zscored = torch.from_numpy((x - network._input_mean) / network._input_std)
     with torch.no_grad():
@@ -47,6 +48,7 @@ def test_run_agrees_with_torch(pair: tuple[LimbNetwork, Network], x: np.ndarray)
 
 
 def test_step_agrees_with_run(pair: tuple[LimbNetwork, Network], x: np.ndarray) -> None:
+    """Sample by sample and all at once are equivalent."""
     _, network = pair
     whole, state = network.run(x), network.init()
     for k in range(STEPS):

@@ -28,6 +28,7 @@ def samples() -> Samples:
 
 
 def test_validation_in_horizons_equals_one_run_through_each_stream(network: LimbNetwork, samples: Samples) -> None:
+    """Horizon by horizon and in one run are equivalent."""
     streams = [(0, 200), (200, 400), (400, 600)]
     loss, rmse = validate(network, samples, deal(streams, 3, HORIZON), HORIZON)
     x, target = (tensor.view(3, 200, -1).transpose(0, 1) for tensor in (samples.inputs, samples.targets))

@@ -44,6 +44,7 @@ def with_composite_root(model: pin.Model) -> pin.Model:
 def test_coriolis_and_its_transpose_sum_to_the_rate_of_inertia(
     nominal: NominalModel, random_state: Callable, seed: int
 ) -> None:
+    """The identity C + C^T = dM/dt."""
     q, v = random_state(seed)
     matrix = dynamics.coriolis(nominal, q, v)
     rate = mass_matrix_rate(nominal.model, to_pinocchio(q), v)
@@ -99,6 +100,7 @@ def test_rate_of_momentum_is_torque_plus_beta(nominal: NominalModel, random_stat
 
 
 def test_batch_equals_one_by_one(nominal: NominalModel, random_state: Callable) -> None:
+    """A batch and its samples one by one are equivalent."""
     states = [random_state(seed) for seed in range(4)]
     q, v = (np.stack(part) for part in zip(*states, strict=True))
     p, beta = dynamics.momentum_and_beta(nominal, q, v)
@@ -107,6 +109,7 @@ def test_batch_equals_one_by_one(nominal: NominalModel, random_state: Callable) 
 
 
 def test_yaw_of_the_world_turns_the_linear_part_only(nominal: NominalModel, random_state: Callable) -> None:
+    """The joints' dynamics are invariant to the robot's heading."""
     q, v = random_state(7)
     turn = rotation(np.array([np.cos(0.35), 0, 0, np.sin(0.35)]))
     turned_q, turned_v = q.copy(), v.copy()

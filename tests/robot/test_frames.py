@@ -27,6 +27,7 @@ def test_conversion_leaves_its_argument_alone_and_normalises(random_state: Calla
 
 
 def test_rotation_matches_both_libraries(nominal: NominalModel, random_state: Callable) -> None:
+    """MuJoCo and Pinocchio are the reference."""
     q, _ = random_state(1)
     matrix = np.empty(9)
     mujoco.mju_quat2Mat(matrix, q[3:7])

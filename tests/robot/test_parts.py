@@ -12,6 +12,7 @@ TONES = {"light": [1.0, 1.0, 1.0, 1.0]}
 
 
 def test_right_side_is_the_mirror_image_of_the_left() -> None:
+    """Left and right are symmetric in y."""
     left, right = with_mirrored([ROW])
     assert left is ROW
     assert (right["name"], right["body"]) == ("right_hand", "R_Wrist2_Link")

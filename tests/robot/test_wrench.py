@@ -21,6 +21,7 @@ WRENCH = np.array([10.0, -20.0, 300.0, 4.0, -5.0, 6.0])
 def test_torque_of_a_foot_equals_the_plant_s(
     nominal: NominalModel, plant: mujoco.MjModel, random_state: Callable, side: str
 ) -> None:
+    """MuJoCo's mj_applyFT is the reference."""
     q, _ = random_state(0)
     data = mujoco.MjData(plant)
     data.qpos[:] = q
@@ -33,6 +34,7 @@ def test_torque_of_a_foot_equals_the_plant_s(
 
 
 def test_power_of_the_wrench_is_power_of_the_torque(nominal: NominalModel, random_state: Callable) -> None:
+    """Power is conserved by the Jacobian's transpose."""
     q, v = random_state(1)
     twist = foot_jacobian(nominal, q, "left") @ v
     assert foot_torque(nominal, q, "left", WRENCH) @ v == pytest.approx(WRENCH @ twist, rel=1e-12)

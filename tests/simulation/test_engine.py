@@ -114,7 +114,7 @@ def test_foot_sensors_feel_contacts_and_pushes_on_the_foot_and_no_others(
 
 @pytest.mark.parametrize("terrain", ["checks", "slope"])
 def test_touch_is_the_normal_force_of_a_foot_s_own_contacts(pushed_walk: Callable, run: Callable, terrain: str) -> None:
-    """The reference is mj_contactForce; a pushed foot in the air touches nothing (order of the rows does not matter)."""
+    """The reference is mj_contactForce; a pushed foot in the air touches nothing."""
     simulator, seen = pushed_walk(terrain), set()
     model, data, wrench = simulator.world.model, simulator.world.data, np.zeros(6)
     soles = [model.geom(sole_name(side)).id for side in SIDES]
@@ -214,6 +214,7 @@ def put(simulator: Simulator, q: np.ndarray, v: np.ndarray, s: np.record) -> Non
 
 
 def test_wrap_over_a_period_keeps_torques(simulate: Callable, run: Callable) -> None:
+    """The controller is invariant to a shift by a period."""
     simulator = simulate("flat_walk", "all_uncertainty")
     run(simulator, 1.0)
     plant, sensors, s = simulator.plant, simulator.sensors, simulator.state
@@ -273,7 +274,7 @@ def tick(simulator: Simulator, run: Callable, torque: np.ndarray) -> Any:
 def test_random_torque_is_part_of_the_desired_torque_and_zero_on_every_leg_that_carries(
     simulate: Callable, run: Callable
 ) -> None:
-    """The same tick with and without it, in every phase of a walk (section 4.3: never on the support leg, 0 samples)."""
+    """The reference is the same tick without it; section 4.3: never on the support leg, here 0 samples."""
     simulator, added, phases = simulate("random_walk_plain", "all_uncertainty"), np.linspace(4.0, 8.0, 33), set()
     simulator.torque.left[:] = np.inf  # nothing new is drawn
     each, once = simulator.plant, simulator.plant._replace(every=1)

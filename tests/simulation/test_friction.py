@@ -32,6 +32,7 @@ def test_arm_friction_has_less_damping_and_no_load_term(friction: Friction) -> N
 
 @pytest.mark.parametrize("rate", [1e-3, 0.02, 0.5, 5.0])
 def test_friction_is_odd_in_the_rate_and_takes_energy(friction: Friction, rate: float) -> None:
+    """Forward and back are symmetric."""
     for torque in (-80.0, 20.0):
         forward, back = (friction_torque(friction, LEG, sign * rate, torque) for sign in (1, -1))
         assert forward == -back
@@ -46,6 +47,7 @@ def test_friction_is_zero_at_rest_and_rises_smoothly(friction: Friction) -> None
 
 
 def test_fast_joint_tends_to_coulomb_and_viscous_friction(friction: Friction) -> None:
+    """The closed form of (23) far from the Stribeck velocity."""
     assert friction_torque(friction, LEG, 100.0, 0.0) == pytest.approx(-5.0 - 400.0, rel=1e-12)
 
 

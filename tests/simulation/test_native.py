@@ -28,6 +28,7 @@ def world(full_config: dict, robot: RobotDescription) -> World:
 
 
 def test_struct_offsets_read_what_python_s_views_hold(world: World) -> None:
+    """Python's own views are the reference."""
     raw, data = c_struct("mjData").from_address(world.data._address), world.data
     assert data.nefc > 0
     for field in ("nefc", "ncon", "ne", "nf"):
@@ -38,6 +39,8 @@ def test_struct_offsets_read_what_python_s_views_hold(world: World) -> None:
 
 
 def test_compiled_code_reads_the_constraint_rows(world: World) -> None:
+    """Python's own views are the reference."""
+
     @njit
     def read(data: int, nefc: int, kind: int, force: int, row: int) -> tuple[int, int, float]:
         kinds, forces = ints_at(addresses_at(data + kind)[0]), doubles_at(addresses_at(data + force)[0])

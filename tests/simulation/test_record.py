@@ -115,6 +115,7 @@ def test_motion_goes_on_from_what_was_kept() -> None:
 
 @pytest.mark.parametrize("chunk_s", [0.1, 0.7, 1.0, 50.0])
 def test_length_of_the_chunks_changes_nothing(chunk_s: float) -> None:
+    """What is kept is invariant to how it is cut into chunks."""
     episodes = [100, 61, 20, 75, *[math.inf] * 5]
     reference, course, _ = fill(episodes, 30, episode_s=9.0)
     rows, other, _ = fill(episodes, 30, episode_s=9.0, chunk_s=chunk_s)

@@ -78,6 +78,7 @@ def test_nothing_is_near_in_the_posture_however_a_leg_walks(
 
 
 def test_where_the_robot_is_does_not_matter(clearance: Clearance, robot: RobotDescription, standing: Array) -> None:
+    """The distance is invariant to the base's pose."""
     hit = with_angles(robot, standing, {"LL2": -0.15})
     moved = hit.copy()
     moved[:7] = 3.0, -2.0, 1.0, 0.5, -0.5, 0.5, 0.5
