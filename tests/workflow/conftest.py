@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -34,6 +35,7 @@ def snakemake() -> Snakemake:
 def outputs(snakemake: Snakemake) -> Callable[[str], dict[str, str]]:
     """Return a function of a scale that returns file -> rule of everything the workflow makes."""
 
+    @cache
     def listing(scale: str) -> dict[str, str]:
         done = snakemake("--summary", "--config", f"scale={scale}")
         assert done.returncode == 0, done.stderr

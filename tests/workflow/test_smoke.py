@@ -13,7 +13,9 @@ from pathlib import Path
 
 import pytest
 
-from .conftest import Snakemake
+from mobnet.core.config import load_config
+
+from .conftest import ROOT, Snakemake
 
 SMOKE = ("--config", "scale=smoke")
 NO_OP_S = 15.0
@@ -41,6 +43,13 @@ def products(folder: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in found}
 
 
+def recordings_of_the_smoke_scale() -> int:
+    """Return the number of training and test recordings, as the configuration has them."""
+    config = load_config(ROOT / "configs" / "config.yaml", "smoke")
+    training = sum(row["shards"] for row in config["sizes"]["train"].values())
+    return training + config["sizes"]["test"]["shards"] * sum(map(len, config["tests"].values()))
+
+
 @pytest.fixture(scope="module")
 def unbroken(make_project: Callable[..., Path]) -> Path:
     """A project in which the smoke scale ran on two cores."""
@@ -52,6 +61,7 @@ def unbroken(make_project: Callable[..., Path]) -> Path:
 def test_smoke_makes_tables_figures_and_networks(unbroken: Path) -> None:
     made = products(unbroken)
     assert {"table_05.csv", "table_05.tex", "table_05.md", "claims.csv", "figure_05.csv"} <= set(made)
+    assert {"data.csv", "steps.csv", "coverage.csv", "uncertainty.csv", "figure_19.csv", "commands.csv"} <= set(made)
     assert all(made.values())
     assert (unbroken / "figures" / "smoke" / "figure_05.pdf").read_bytes().startswith(b"%PDF")
     assert len(list((unbroken / "results" / "smoke" / "networks").glob("*/weights.safetensors"))) == 4
@@ -60,7 +70,7 @@ def test_smoke_makes_tables_figures_and_networks(unbroken: Path) -> None:
 def test_every_job_left_a_log_and_a_benchmark(unbroken: Path) -> None:
     logs = {path.stem for path in (unbroken / "results" / "smoke" / "logs" / "collect").iterdir()}
     assert logs == {path.stem for path in (unbroken / "results" / "smoke" / "bench" / "collect").iterdir()}
-    assert len(logs) == 5
+    assert len(logs) == recordings_of_the_smoke_scale()
 
 
 def test_second_call_does_nothing(unbroken: Path) -> None:
