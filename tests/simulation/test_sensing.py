@@ -51,13 +51,17 @@ def test_base_orientation_is_never_noisy(simulate: Callable, run: Callable) -> N
 def test_sensed_base_velocity_stays_near_the_truth(
     simulate: Callable, run: Callable, scenario: str, bound: float
 ) -> None:
-    """Root mean square over 8 s with all uncertainty [m/s]; a support foot that slips in a hard turn costs most."""
-    simulator = simulate(scenario, "all_uncertainty")
-    run(simulator, 2.0)
+    """Root mean square of seven walks of 8 s with all uncertainty [m/s]; single ones lie between 1.5 and 5 mm/s.
+
+    A support foot that slips in a hard turn costs most.
+    """
     errors = []
-    for _ in range(800):
-        run(simulator, 0.01)
-        errors.append(simulator.sensors.v[:3] - simulator.plant.qvel[:3])
+    for seed in range(1, 8):
+        simulator = simulate(scenario, "all_uncertainty", seed)
+        assert run(simulator, 2.0).done == 2000
+        for _ in range(800):
+            run(simulator, 0.01)
+            errors.append(simulator.sensors.v[:3] - simulator.plant.qvel[:3])
     assert np.sqrt(np.mean(np.square(errors), axis=0)).max() < bound
     assert np.median(np.abs(errors)) < 2e-3
 
