@@ -287,7 +287,7 @@ def test_residual_of_the_ideal_level_meets_the_row_of_table_5(
 @pytest.mark.sim
 @pytest.mark.slow
 def test_unpushed_robot_steps_where_it_should(config: dict[str, Any], simulate: Callable, run: Callable) -> None:
-    """Uneven ground, random torque and all uncertainty move footfalls by less than 2 cm and 2 deg (root mean square)."""
+    """Uneven ground, random torque and all uncertainty move footfalls by less than 2 cm and 2 deg, root mean square."""
     config["scenarios"]["random_walk"]["pushes"] = []
     simulator = simulate("random_walk", "all_uncertainty")
     log = run(simulator, 20.0)
