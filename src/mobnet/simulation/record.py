@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import time
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -148,7 +148,7 @@ def record(
 
 def _episode(
     simulator: Simulator, longest: int, settings: Mapping[str, Any], rate_hz: float, begin: int, course: Course
-) -> Any:
+) -> Iterator[Rows]:
     """Yield the samples worth keeping of an episode of at most `longest` samples; count its fall.
 
     The last seconds are held back until it is known that no fall follows them.
