@@ -85,8 +85,7 @@ def config() -> dict[str, Any]:
         "sizes": {
             "train": {"walk": {"shards": 6, "shard_s": 300.0}},
             "test": {"shards": 3, "shard_s": 60.0},
-            "network_seeds": [0, 1, 2],
-            "epochs": 20,
+            "experiments": {"left_leg": {"epochs": 20, "seeds": [0, 1, 2]}},
         },
     }
 

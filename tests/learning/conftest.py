@@ -30,7 +30,7 @@ def small(
 ) -> Small:
     networks = full_config["networks"] | {"LL": full_config["networks"]["LL"] | {"hidden": 16, "horizon_steps": 25}}
     learning = full_config["learning"] | {"batch_size": 4, "stream_s": 0.5}
-    sizes = {"epochs": 5}
+    sizes = {"experiments": {"left_leg": {"epochs": 5, "seeds": [0]}}}
     stems = [write_pair(tmp_path / "data", made_up(seed, 4.0, segments=2)) for seed in (0, 1)]
     config = full_config | {"networks": networks, "learning": learning, "sizes": sizes}
     return Small(config, [a for a, _ in stems], [b for _, b in stems])

@@ -12,6 +12,7 @@ import pytest
 
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.joints import JointLayout
+from mobnet.core.methods import network_row
 from mobnet.core.recording import Recording
 from mobnet.core.store import read_array, write_array
 from mobnet.learning.dataset import LimbData, load_limb_data, read_target, scale_of
@@ -28,7 +29,7 @@ def stems(tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write) 
 def load(stems: list[tuple[Path, Path]], full_config: dict[str, Any], layout: JointLayout) -> Callable[..., LimbData]:
     def load(target: str) -> LimbData:
         recordings, residuals = zip(*stems, strict=True)
-        return load_limb_data(layout, full_config["networks"]["LL"], "LL", target, recordings, residuals)
+        return load_limb_data(layout, network_row(full_config, "MOB-Net", "LL"), target, recordings, residuals)
 
     return load
 
@@ -84,7 +85,7 @@ def test_a_residual_of_another_recording_is_refused(
     stems: list[tuple[Path, Path]], full_config: dict[str, Any], layout: JointLayout
 ) -> None:
     with pytest.raises(DataError, match=r"2000 rows, but its recording .* has 1000"):
-        load_limb_data(layout, full_config["networks"]["LL"], "LL", "external", [stems[0][0]], [stems[1][1]])
+        load_limb_data(layout, network_row(full_config, "MOB-Net", "LL"), "external", [stems[0][0]], [stems[1][1]])
 
 
 def test_recordings_at_two_rates_are_refused(stems: list[tuple[Path, Path]], load: Callable[..., LimbData]) -> None:

@@ -38,7 +38,8 @@ def test_one_epoch_trains_at_the_first_rate(job: Job) -> None:
 
 
 def test_sizes_of_the_scale_lie_over_the_settings(full_config: dict[str, Any]) -> None:
-    job = job_of(full_config | {"sizes": {"epochs": 3, "batch_size": 2}}, "MOB-Net", "LL", 0)
+    sizes = {"experiments": {"left_leg": {"epochs": 3, "seeds": [0]}}, "batch_size": 2}
+    job = job_of(full_config | {"sizes": sizes}, "MOB-Net", "LL", 0)
     assert (job.epochs, job.settings["batch_size"]) == (3, 2)
     assert job.settings["stream_s"] == full_config["learning"]["stream_s"]
 

@@ -19,7 +19,7 @@ from mobnet.learning.train import train
 
 @pytest.fixture
 def folder(small: object, tmp_path: Path) -> Path:
-    small.config["sizes"]["epochs"] = 1
+    small.config["sizes"]["experiments"]["left_leg"]["epochs"] = 1
     train(small.config, "FTS-e2e", "LL", 0, small.recordings, small.residuals, tmp_path / "LL", tmp_path / "state")
     return tmp_path / "LL"
 

@@ -63,7 +63,7 @@ def test_it_leaves_weights_metrics_and_a_note(small: object, tmp_path: Path) -> 
 
 @pytest.mark.slow
 def test_a_killed_training_goes_on_to_the_same_bytes(small: object, tmp_path: Path) -> None:
-    small.config["sizes"]["epochs"] = 12
+    small.config["sizes"]["experiments"]["left_leg"]["epochs"] = 12
     unbroken = run(small, tmp_path / "unbroken")
     kill_after(small, tmp_path / "killed", epochs=2)
     assert (tmp_path / "killed" / "state" / CHECKPOINT).exists()

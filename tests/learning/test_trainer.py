@@ -23,7 +23,7 @@ Setting = tuple[Job, LimbData]
 def setting(small: object) -> Setting:
     job = job_of(small.config, "MOB-Net", "LL", 0)
     layout = load_layout(Path(small.config["robot"]))
-    return job, load_limb_data(layout, job.row, "LL", job.target, small.recordings, small.residuals)
+    return job, load_limb_data(layout, job.row, job.target, small.recordings, small.residuals)
 
 
 def test_it_learns_and_keeps_the_best_epoch(setting: Setting, tmp_path: Path) -> None:

@@ -8,6 +8,7 @@ from mobnet.core.config import FIRST_TRAINING_SEED, config_hash, read_yaml, reso
 from mobnet.core.config import check_config as validate
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
+from mobnet.core.methods import SCALE_SIZES, experiment_row, network_row
 
 ROOT = Path(workflow.basedir)
 quieten(ROOT)
@@ -32,7 +33,6 @@ TABLE_05, FIGURE_05 = (
     settings["evaluation"]["table_05"],
     settings["evaluation"]["figure_05"],
 )
-TARGET_SETS = list(dict.fromkeys(row["data"] for row in settings["networks"].values()))  # those that networks learn
 
 
 wildcard_constraints:
@@ -63,6 +63,13 @@ def sizes(*names):
     return {"sizes": {name: SIZES[name] for name in names if name in SIZES}}
 
 
+def training_sizes(method, limb):
+    """Return the sizes of the scale that a training depends on."""
+    name = network_row(settings, method, limb)["experiment"]
+    picked = sizes(*SCALE_SIZES)
+    return {"sizes": {**picked["sizes"], "experiments": {name: SIZES["experiments"][name]}}}
+
+
 def files(kind, ending="parquet"):
     """Return the pattern of a kind's files of one recording."""
     return f"{RESULTS}/{kind}/{{scenario}}/{{level}}/s{{seed}}.{ending}"
@@ -75,9 +82,9 @@ def training(kind, name):
     return expand(files(kind), seed=seeds, scenario=row["scenario"], level=row["level"])
 
 
-def data_of(limb):
-    """Return the training set that a limb's network learns from."""
-    return settings["networks"][limb]["data"]
+def data_of(method, limb):
+    """Return the training set that a method's network learns from."""
+    return network_row(settings, method, limb)["data"]
 
 
 def duration_s(scenarios, seed):
@@ -112,14 +119,26 @@ def limbs_of(method):
     return settings["methods"][method].get("limbs", [])
 
 
+def network_seeds(method, limb=None):
+    """Return the seeds of the networks of a method's limb, or, without one, of the limb that has the most; 0 if none."""
+    limbs = [limb] if limb else limbs_of(method)
+    return max((experiment_row(settings, method, name)["seeds"] for name in limbs), key=len, default=[0])
+
+
 def network(method, limb, seed, name="weights.safetensors"):
-    """Return a file of a trained network."""
-    return f"{RESULTS}/networks/{method}-{limb}-s{seed}/{name}"
+    """Return a file of a trained network; a limb with fewer seeds than others lends its networks in turn."""
+    seeds = network_seeds(method, limb)
+    return f"{RESULTS}/networks/{method}-{limb}-s{seeds[int(seed) % len(seeds)]}/{name}"
 
 
-def network_seeds(method):
-    """Return the seeds of a method's networks; 0 where it has none."""
-    return SIZES["network_seeds"] if limbs_of(method) else [0]
+def networks(name):
+    """Return a file of every network that is trained."""
+    return [
+        network(method, limb, seed, name)
+        for method in settings["methods"]
+        for limb in limbs_of(method)
+        for seed in network_seeds(method, limb)
+    ]
 
 
 def entry(scenario, level, method, network_seed, test_seed):
@@ -204,15 +223,9 @@ def products():
     """Return every file worth keeping, also those that later ones could be made without."""
     scenarios = dict.fromkeys([TABLE_05["scenario"], FIGURE_05["scenario"]])
     runs = [run for scenario in scenarios for run in runs_of(scenario)]
-    networks = [
-        network(method, limb, seed, name)
-        for method in settings["methods"]
-        for limb in limbs_of(method)
-        for seed in network_seeds(method)
-        for name in ("weights.safetensors", "metrics.csv", "run.json")
-    ]
+    trained = [file for name in ("weights.safetensors", "metrics.csv", "run.json") for file in networks(name)]
     stored = [name for row in SIZES["train"] for name in training("recordings", row)]
-    stored += [name for row in TARGET_SETS for name in training("residuals", row)]
+    stored += [name for row in SIZES["train"] for name in training("residuals", row)]
     tests = test_recordings() + coverage_recordings()
     stored += list(dict.fromkeys(tests + arrays(runs, "recording", "residual", "estimate")))
     notes = [str(Path(name).with_suffix(".json")) for name in stored]
@@ -228,7 +241,7 @@ def products():
     )
     scores = expand(f"{RESULTS}/scores/{{scenario}}.csv", scenario=scenarios)
     texts = [f"{TABLES}/numbers.tex", f"{TABLES}/deviations.tex", f"{PAPER}/build.json"]
-    return stored + notes + networks + scores + tables + figures + texts
+    return stored + notes + trained + scores + tables + figures + texts
 
 
 PRODUCTS = products()

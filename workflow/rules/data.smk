@@ -124,7 +124,7 @@ rule commands:
 
 rule uncertainty:
     input:
-        [training("residuals", name) for name in TARGET_SETS],
+        [training("residuals", row["data"]) for row in settings["networks"].values()],
     output:
         ensure(
             expand(f"{TABLES}/uncertainty.{{ending}}", ending=["csv", "tex", "md"]),
@@ -137,7 +137,7 @@ rule uncertainty:
     threads: 1
     params:
         config=part("robot", "published", "networks", evaluation=["uncertainty"]),
-        sets=training_stems("residuals", *TARGET_SETS),
+        sets=training_stems("residuals", *(row["data"] for row in settings["networks"].values())),
         robot=CONTENT["robot"],
         published=CONTENT["published"],
         code=code_of("uncertainty"),

@@ -3,12 +3,12 @@
 
 rule train:
     input:
-        recordings=lambda w: training("recordings", data_of(w.limb)),
-        residuals=lambda w: training("residuals", data_of(w.limb)),
+        recordings=lambda w: training("recordings", data_of(w.method, w.limb)),
+        residuals=lambda w: training("residuals", data_of(w.method, w.limb)),
     output:
-        weights=ensure(network("{method}", "{limb}", "{seed}"), non_empty=True),
-        metrics=ensure(network("{method}", "{limb}", "{seed}", "metrics.csv"), non_empty=True),
-        note=ensure(network("{method}", "{limb}", "{seed}", "run.json"), non_empty=True),
+        weights=ensure(f"{RESULTS}/networks/{{method}}-{{limb}}-s{{seed}}/weights.safetensors", non_empty=True),
+        metrics=ensure(f"{RESULTS}/networks/{{method}}-{{limb}}-s{{seed}}/metrics.csv", non_empty=True),
+        note=ensure(f"{RESULTS}/networks/{{method}}-{{limb}}-s{{seed}}/run.json", non_empty=True),
     log:
         f"{RESULTS}/logs/train/{{method}}-{{limb}}-s{{seed}}.log",
     benchmark:
@@ -17,7 +17,7 @@ rule train:
     threads: 1
     params:
         config=lambda w: part("seed", "robot", "learning", methods=[w.method], networks=[w.limb])
-        | sizes("epochs", "batch_size", "stream_s", "rate_decay_share"),
+        | training_sizes(w.method, w.limb),
         state=f"{RESULTS}/state/{{method}}-{{limb}}-s{{seed}}",
         wandb=f"{RESULTS}/wandb",
         robot=CONTENT["robot"],

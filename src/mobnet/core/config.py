@@ -13,6 +13,7 @@ from jsonschema import ValidationError, validate
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout, layout_of
+from mobnet.core.methods import with_sweeps
 from mobnet.core.names import check_names
 
 SCHEMA = Path(__file__).parents[3] / "workflow" / "schemas" / "config.schema.yaml"
@@ -76,8 +77,9 @@ def _accepted(error: ValidationError) -> str:
 
 
 def resolve(config: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the configuration with `sizes` set to the chosen scale's entry."""
-    return {**config, "sizes": config["scales"][config["scale"]]}
+    """Return the configuration with `sizes` set to the chosen scale's entry and `sweeps` turned into methods."""
+    methods = with_sweeps(config["methods"], config["sweeps"])
+    return {**config, "sizes": config["scales"][config["scale"]], "methods": methods}
 
 
 def load_layout(robot: Path) -> JointLayout:

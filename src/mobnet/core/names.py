@@ -25,12 +25,19 @@ def check_names(config: Mapping[str, Any], layout: JointLayout, where: str = "co
 
 def network_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
     """Yield the limbs that networks (Table 1) and methods name."""
+    experiments = set.intersection(*(set(sizes["experiments"]) for sizes in config["scales"].values()))
     for limb, row in config["networks"].items():
-        yield "networks", limb, layout.groups
-        for inputs in ("Q", "T"):
-            yield from ((f"networks.{limb}.{inputs}", group, layout.groups) for group in row[inputs])
+        yield f"networks.{limb}.experiment", row["experiment"], experiments
+        for key in ("joints", "Q", "T"):
+            yield from ((f"networks.{limb}.{key}", group, layout.groups) for group in row.get(key, [limb]))
     for method, row in config["methods"].items():
         yield from ((f"methods.{method}.limbs", limb, config["networks"]) for limb in row.get("limbs", []))
+        if "experiment" in row.get("network", {}):
+            yield f"methods.{method}.network.experiment", row["network"]["experiment"], experiments
+    for name, sweep in config["sweeps"].items():
+        yield from ((f"sweeps.{name}.of", method, config["methods"]) for method in sweep["of"])
+        yield f"sweeps.{name}.limb", sweep["limb"], config["networks"]
+        yield f"sweeps.{name}.experiment", sweep["experiment"], experiments
 
 
 def scenario_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:

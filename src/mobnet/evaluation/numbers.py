@@ -59,13 +59,13 @@ def tex_definition(item: tuple[str, str]) -> str:
 def size_texts(config: Mapping[str, Any]) -> dict[str, str]:
     """Return the sizes of the chosen scale as texts: minutes [min], million samples, epochs, seeds."""
     sizes = config["sizes"]
-    train, test = sizes["train"]["walk"], sizes["test"]
+    train, test, legs = sizes["train"]["walk"], sizes["test"], sizes["experiments"]["left_leg"]
     return {
         "scale": tex_escape(config["scale"]),
         "train minutes": f"{train['shards'] * train['shard_s'] / MINUTE_S:g}",
         "train samples": f"{train['shards'] * train['shard_s'] * config['rates']['data_hz'] / MILLION:.2g}",
         "test runs": str(test["shards"]),
         "test seconds": f"{test['shard_s']:g}",
-        "network runs": str(len(sizes["network_seeds"])),
-        "epochs": str(sizes["epochs"]),
+        "network runs": str(len(legs["seeds"])),
+        "epochs": str(legs["epochs"]),
     }

@@ -65,8 +65,9 @@ def uncertainty(config: Mapping[str, Any], sets: Mapping[str, Sequence[str]], ou
     layout = load_layout(Path(config["robot"]))
     settings, entry = config["evaluation"]["uncertainty"], read_sizes(Path(config["published"]), layout)
     rows: list[Size] = []
-    for limb, network in config["networks"].items():
-        name, joints = network["data"], layout.limb(limb)
+    limbs = [name for name in config["networks"] if name in layout.groups]  # not those that hold several
+    for limb in limbs:
+        name, joints = config["networks"][limb]["data"], layout.limb(limb)
         values = target_std(list(map(Path, sets[name])), joints)
         known = entry["std"].get(limb, [None] * len(joints))
         for joint, value, theirs in zip(joints, values.tolist(), known, strict=True):

@@ -33,11 +33,13 @@ class Progress:
         rows: metrics of the finished epochs.
         best: weights at the epoch of the smallest validation loss.
         seconds: time spent so far [s], over all its starts.
+        diverged: True if the loss ran away and the training stopped there; it is never resumed.
     """
 
     rows: list[Row] = field(default_factory=list)
     best: dict[str, Tensor] = field(default_factory=dict)
     seconds: float = 0.0
+    diverged: bool = False
 
     @property
     def epoch(self) -> int:

@@ -60,7 +60,6 @@ class LimbData:
 def load_limb_data(
     layout: JointLayout,
     row: Mapping[str, Any],
-    limb: str,
     target: str,
     recording_stems: Sequence[Path],
     residual_stems: Sequence[Path],
@@ -69,17 +68,16 @@ def load_limb_data(
 
     Args:
         layout: the robot's joints.
-        row: the limb's row of Table 1.
-        limb: name of the limb.
+        row: a row of Table 1; `joints` names the limbs whose joints it learns.
         target: `uncertainty`, r - tau_e of section 4.2.3, or `external`, tau_e, both low-passed alike.
         recording_stems: recordings.
         residual_stems: residual file of each recording, in the same order.
 
     Raises:
-        ConfigError: the limb or the target is not known.
+        ConfigError: a limb or the target is not known.
         DataError: a file is damaged, or a residual does not belong to its recording.
     """
-    inputs, joints = limb_inputs(layout, row), layout.limb(limb)
+    inputs, joints = limb_inputs(layout, row), joints_of(layout, row)
     parts: list[tuple[NDArray[np.float32], NDArray[np.float32]]] = []
     segments: list[Span] = []
     rates: set[float] = set()
@@ -93,6 +91,15 @@ def load_limb_data(
         raise DataError(f"recordings at {sorted(rates)} Hz cannot be mixed; accepted: one or more at a single rate")
     xs, ys = (np.concatenate(column) for column in zip(*parts, strict=True))
     return LimbData(xs, ys, tuple(segments), inputs.names, joints, rates.pop())
+
+
+def joints_of(layout: JointLayout, row: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return the joints that a network of Table 1 learns, limb by limb, (n,).
+
+    Raises:
+        ConfigError: a limb is not known.
+    """
+    return tuple(joint for limb in row["joints"] for joint in layout.limb(limb))
 
 
 def _load_one(

@@ -13,6 +13,7 @@ import torch
 
 from mobnet.core.config import config_hash
 from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.core.methods import experiment_row, learning_row, network_row
 
 
 @dataclass(frozen=True)
@@ -26,8 +27,9 @@ class Job:
         root_seed: root of every random number.
         target: what is learned, `uncertainty` or `external`.
         row: the limb's row of Table 1.
-        settings: section `learning` of the configuration, the scale's sizes laid over it.
+        settings: section `learning` of the configuration, the scale's sizes and the method's changes laid over it.
         epochs: number of epochs.
+        epoch_samples: training samples of an epoch [samples]; None for all, once.
     """
 
     method: str
@@ -38,6 +40,7 @@ class Job:
     row: Mapping[str, Any]
     settings: Mapping[str, Any]
     epochs: int
+    epoch_samples: int | None = None
 
     @property
     def name(self) -> str:
@@ -76,13 +79,11 @@ def job_of(config: Mapping[str, Any], method: str, limb: str, seed: int) -> Job:
     Raises:
         ConfigError: the method or the limb is unknown, or the method learns nothing.
     """
-    learned = {name: row for name, row in config["methods"].items() if "target" in row}
+    learned = [name for name, row in config["methods"].items() if "target" in row]
     if method not in learned:
         raise ConfigError(not_accepted("method to train", method, learned))
-    if limb not in config["networks"]:
-        raise ConfigError(not_accepted("limb to train", limb, config["networks"]))
-    sizes = config["sizes"]
-    settings = dict(config["learning"])
-    settings |= {key: sizes[key] for key in ("batch_size", "stream_s", "rate_decay_share") if key in sizes}
-    row = config["networks"][limb]
-    return Job(method, limb, seed, config["seed"], learned[method]["target"], row, settings, sizes["epochs"])
+    row, sizes = network_row(config, method, limb), experiment_row(config, method, limb)
+    return Job(
+        method, limb, seed, config["seed"], config["methods"][method]["target"], row, learning_row(config, method),
+        sizes["epochs"], sizes.get("epoch_samples"),
+    )  # fmt: skip

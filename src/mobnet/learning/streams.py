@@ -104,9 +104,47 @@ def deal(streams: Sequence[Span], lanes: int, horizon: int) -> Plan:
     return Plan(rows[: lanes * updates].reshape(shape).T.copy(), fresh.T.copy())
 
 
-def epoch_plan(blocks: Sequence[Span], stream: int, horizon: int, lanes: int, rng: np.random.Generator) -> Plan:
-    """Return the course of a training epoch: new cuts, new order; arrays (updates, lanes) of rows [samples]."""
-    return deal(cut_streams(blocks, stream, horizon, rng), lanes, horizon)
+def some_of(blocks: Sequence[Span], stream: int, parts: int, rng: np.random.Generator) -> list[Span]:
+    """Return one of so many parts of some blocks: streams drawn at random, as section 6.3 draws samples.
+
+    Args:
+        blocks: contiguous stretches (start, end) of rows.
+        stream: length of a stream [samples].
+        parts: how many times less to keep; 1 keeps the blocks as they are.
+        rng: draws the streams.
+    """
+    if parts == 1:
+        return list(blocks)
+    streams = [(a, min(a + stream, end)) for start, end in blocks for a in range(start, end, stream)]
+    kept = rng.permutation(len(streams))[: max(1, round(len(streams) / parts))]
+    return [streams[i] for i in np.sort(kept)]
+
+
+def epoch_plan(
+    blocks: Sequence[Span], stream: int, horizon: int, lanes: int, rng: np.random.Generator, samples: int | None = None
+) -> Plan:
+    """Return the course of a training epoch: new cuts, new order; arrays (updates, lanes) of rows [samples].
+
+    Args:
+        blocks: contiguous stretches (start, end) of rows.
+        stream: length of a stream [samples].
+        horizon: steps of one update [samples].
+        lanes: streams run side by side.
+        rng: draws cuts and order.
+        samples: samples of the epoch [samples], however often the blocks are gone through; None for once, all of them.
+
+    Raises:
+        DataError: the streams hold fewer horizons than there are lanes.
+    """
+    streams = cut_streams(blocks, stream, horizon, rng)
+    if samples is None:
+        return deal(streams, lanes, horizon)
+    held = sum(b - a for a, b in streams)
+    while 0 < held < samples:
+        more = cut_streams(blocks, stream, horizon, rng)
+        streams, held = streams + more, held + sum(b - a for a, b in more)
+    enough = int(np.searchsorted(np.cumsum([b - a for a, b in streams]), samples)) + 1
+    return deal(streams[:enough], lanes, horizon)
 
 
 def validation_plan(blocks: Sequence[Span], stream: int, horizon: int, lanes: int) -> Plan:

@@ -55,22 +55,22 @@ def train(
     Raises:
         ConfigError: method or limb is unknown.
         DataError: a recording or a residual is damaged or too short.
-        TrainingError: the loss diverged.
+        TrainingError: the loss diverged, where `learning.may_diverge` does not allow it.
     """
     torch.set_num_threads(1)  # more are slower beside another training, and give other weights
     job = job_of(config, method, limb, seed)
     layout = load_layout(Path(config["robot"]))
-    data = load_limb_data(layout, job.row, limb, job.target, recording_stems, residual_stems)
+    data = load_limb_data(layout, job.row, job.target, recording_stems, residual_stems)
     trainer = Trainer(job, data)
     done = trainer.run(state_dir)
-    note = run_note(config, trainer, data, done)
+    note = run_note(config, trainer, done)
     write_weights(out_dir / WEIGHTS, trainer, data, done)
     write_metrics(out_dir / METRICS, done.rows)
     if wandb_dir is not None:
-        write_wandb(wandb_dir, job.name, note["settings"], done.rows)
+        write_wandb(wandb_dir, note, done.rows)
     write_json(out_dir / RUN, note)
     (state_dir / CHECKPOINT).unlink(missing_ok=True)
-    log.info("%s: done, epoch %d validated best", job.name, int(done.best_row()["epoch"]))
+    log.info("%s: done after epoch %d", job.name, done.epoch)
 
 
 def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress) -> None:
@@ -88,7 +88,7 @@ def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress) 
         save_file(tensors, temporary, {NOTE: json.dumps(note)})
 
 
-def run_note(config: Mapping[str, Any], trainer: Trainer, data: LimbData, done: Progress) -> dict[str, Any]:
+def run_note(config: Mapping[str, Any], trainer: Trainer, done: Progress) -> dict[str, Any]:
     """Return what `run.json` tells of a training: settings, sizes, the best epoch, time [s] and provenance."""
     job = trainer.job
     return {
@@ -97,10 +97,11 @@ def run_note(config: Mapping[str, Any], trainer: Trainer, data: LimbData, done: 
         "limb": job.limb,
         "seed": job.seed,
         "target": job.target,
-        "settings": {**job.settings, "epochs": job.epochs, "network": dict(job.row)},
+        "settings": {**job.settings, "epochs": job.epochs, "epoch_samples": job.epoch_samples, "network": dict(job.row)},
         "parameters": parameter_count(trainer.network),
-        "samples": len(data.inputs),
-        "best": dict(done.best_row()),
+        "samples": trainer.samples,
+        "diverged": done.diverged,
+        "best": dict(done.best_row()) if done.rows else None,
         "seconds": round(done.seconds, 1),
         "device": trainer.device.type,
         "fingerprint": trainer.fingerprint,

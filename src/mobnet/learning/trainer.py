@@ -19,7 +19,7 @@ from mobnet.learning.dataset import LimbData, Scale, scale_of
 from mobnet.learning.job import Job
 from mobnet.learning.model import build_network
 from mobnet.learning.optimisation import Samples, train_epoch, validate
-from mobnet.learning.streams import epoch_plan, split, validation_plan
+from mobnet.learning.streams import epoch_plan, some_of, split, validation_plan
 from mobnet.learning.tracking import METRICS, write_metrics
 
 log = logging.getLogger(__name__)
@@ -49,17 +49,24 @@ class Trainer:
         self.job = job
         self.device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
         self.fingerprint = job.fingerprint(data.digest(), self.device)
-        self._blocks, held_out = split(data.segments, job.settings["validation_share"])
+        blocks, held_out = split(data.segments, job.settings["validation_share"])
+        stream, parts = job.stream(data.rate_hz), job.settings.get("data_parts", 1)
+        self._blocks = some_of(blocks, stream, parts, job.generator("data"))
         self.scales = scale_of(data.inputs, self._blocks), scale_of(data.targets, self._blocks)
         arrays = (data.inputs, data.targets)
         self._samples = Samples(*(self._scaled(*pair) for pair in zip(arrays, self.scales, strict=True)))
-        self._shape = (job.stream(data.rate_hz), job.horizon, job.settings["batch_size"])
+        self._shape = (stream, job.horizon, job.settings["batch_size"])
         self._validation = validation_plan(held_out, *self._shape)
         seed = int(job.generator("weights").integers(np.iinfo(np.int64).max))
         sizes = len(data.input_names), len(data.joints)
         self.network = build_network(job.row, *sizes, job.settings["std_min"], seed).to(self.device)
         betas = tuple(job.settings["optimizer_betas"])
         self._optimizer = torch.optim.Adam(self.network.parameters(), lr=job.rate(0), betas=betas)
+
+    @property
+    def samples(self) -> int:
+        """Number of samples that the weights are learned from."""
+        return sum(end - start for start, end in self._blocks)
 
     def _scaled(self, array: NDArray[np.float32], scale: Scale) -> Tensor:
         """Return z-scored columns on the device."""
@@ -74,13 +81,21 @@ class Trainer:
             state_dir: gets a checkpoint and `metrics.csv` at each epoch.
 
         Raises:
-            TrainingError: the loss is not finite or above `divergence_loss`.
+            TrainingError: the loss is not finite or above `divergence_loss`, and the job may not diverge.
         """
         path = state_dir / CHECKPOINT
+        first = checkpoint.copy_weights(self.network)
         done = checkpoint.resume(path, self.fingerprint, self.network, self._optimizer)
         while done.epoch < self.job.epochs:
             started = time.monotonic()
-            row = self._epoch(done.epoch)
+            try:
+                row = self._epoch(done.epoch)
+            except TrainingError as error:
+                if not self.job.settings["may_diverge"]:
+                    raise
+                log.warning("%s", error)
+                done.diverged = True
+                break
             done.rows.append(row)
             if done.best_row() is row:
                 done.best = checkpoint.copy_weights(self.network)
@@ -88,6 +103,7 @@ class Trainer:
             checkpoint.save(path, self.fingerprint, self.network, self._optimizer, done)
             write_metrics(state_dir / METRICS, done.rows)
             self._report(row, done)
+        done.best = done.best or first
         return done
 
     def _epoch(self, epoch: int) -> Row:
@@ -95,7 +111,7 @@ class Trainer:
         job, rate = self.job, self.job.rate(epoch)
         for group in self._optimizer.param_groups:
             group["lr"] = rate
-        plan = epoch_plan(self._blocks, *self._shape, job.generator("epoch", epoch))
+        plan = epoch_plan(self._blocks, *self._shape, job.generator("epoch", epoch), job.epoch_samples)
         clip = job.settings["gradient_norm"]
         loss, norm = train_epoch(self.network, self._optimizer, self._samples, plan, job.horizon, clip)
         self._check("training", epoch, loss, rate)
