@@ -1,0 +1,159 @@
+"""Figures of the ablations: losses over epochs and sizes, errors of limbs by method. Drawing only."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+from mobnet.evaluation.figures import COLUMN_INCH, STYLE
+
+PANEL_INCH, LEGEND_INCH = 1.6, 0.45  # height of a panel and of the legend above all
+# Okabe and Ito's colours; dashes and markers tell the lines apart in print without colour too.
+COLOURS = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "black", "#56B4E9")
+DASHES: Sequence[Any] = ("-", (0, (5, 1.5)), (0, (1, 1)), (0, (5, 1, 1, 1)), (0, (3, 1, 1, 1, 1, 1)), (0, (8, 2)), "-")
+MARKERS = "osD^vPX"
+HATCHES = ("", "////", "xxxx", "....")
+SHADES = ("#D55E00", "#56B4E9", "#E69F00", "#009E73")
+BAR_SHARE = 0.8  # of the distance between two groups of bars
+
+
+@dataclass(frozen=True)
+class Line:
+    """A number over epochs or sizes: mean of some runs, and what they spread over.
+
+    Attributes:
+        label: name in the legend; the same name has the same colour in every panel.
+        x: places (n,) [unit of the panel].
+        mean: mean over runs (n,) [unit of the panel].
+        low: lowest run (n,) [unit of the panel].
+        high: highest run (n,) [unit of the panel].
+    """
+
+    label: str
+    x: NDArray[Any]
+    mean: NDArray[Any]
+    low: NDArray[Any]
+    high: NDArray[Any]
+
+
+@dataclass(frozen=True)
+class LinePanel:
+    """One panel of Figures 17 and 20.
+
+    Attributes:
+        title: what is shown.
+        x_label: name and unit of the places.
+        y_label: name and unit of the numbers.
+        lines: what is drawn.
+        sizes: whether x is a size: few places, marked, on a logarithmic axis.
+    """
+
+    title: str
+    x_label: str
+    y_label: str
+    lines: Sequence[Line]
+    sizes: bool = False
+
+
+@dataclass(frozen=True)
+class BarPanel:
+    """One panel of Figure 18.
+
+    Attributes:
+        title: the test.
+        groups: names of the groups of bars (n,).
+        heights: method -> height of its bar in each group (n,) [N m].
+        spans: method -> ends of the intervals (2, n) [N m]; equal to the height where there is none.
+    """
+
+    title: str
+    groups: Sequence[str]
+    heights: Mapping[str, NDArray[Any]]
+    spans: Mapping[str, NDArray[Any]]
+
+
+def draw_lines(panels: Sequence[LinePanel]) -> Figure:
+    """Draw panels of lines with the spread of their runs below one another (Figures 17 and 20).
+
+    Args:
+        panels: arrays (n,), unit as in each panel's labels.
+    """
+    labels = list(dict.fromkeys(line.label for panel in panels for line in panel.lines))
+    with mpl.rc_context(STYLE):
+        figure, axes = _stacked(len(panels))
+        for letter, axis, panel in zip("abcdefgh", axes, panels, strict=False):
+            for line in panel.lines:
+                _line(axis, line, labels.index(line.label) % len(COLOURS), panel.sizes)
+            axis.set(xlabel=panel.x_label, ylabel=panel.y_label)
+            axis.set_title(f"({letter}) {panel.title}", loc="left", pad=3)
+            if panel.sizes:
+                axis.set_xscale("log")
+            else:
+                axis.xaxis.set_major_locator(MaxNLocator(integer=True))
+        _legend(figure, axes)
+    return figure
+
+
+def _line(axis: Axes, line: Line, style: int, marked: bool) -> None:
+    """Draw a line (n,) and, behind it, the band from its lowest to its highest run."""
+    marker = MARKERS[style] if marked or len(line.x) == 1 else ""
+    axis.plot(
+        line.x, line.mean, color=COLOURS[style], linestyle=DASHES[style], marker=marker, markersize=3.5,
+        label=line.label, zorder=3,
+    )  # fmt: skip
+    axis.fill_between(line.x, line.low, line.high, color=COLOURS[style], alpha=0.18, linewidth=0.0)
+
+
+def draw_bars(panels: Sequence[BarPanel], y_label: str) -> Figure:
+    """Draw groups of bars, a bar a method with its interval, a panel a test (Figure 18).
+
+    Args:
+        panels: heights (n,) [N m] and intervals (2, n) [N m].
+        y_label: name and unit of the heights.
+    """
+    with mpl.rc_context({**STYLE, "hatch.linewidth": 0.5}):
+        figure, axes = _stacked(len(panels))
+        for letter, axis, panel in zip("abcdefgh", axes, panels, strict=False):
+            _bars(axis, panel)
+            axis.set(ylabel=y_label)
+            axis.set_title(f"({letter}) {panel.title}", loc="left", pad=3)
+        _legend(figure, axes)
+    return figure
+
+
+def _bars(axis: Axes, panel: BarPanel) -> None:
+    """Draw a panel's bars (n,) [N m] side by side in their groups."""
+    places, width = np.arange(len(panel.groups)), BAR_SHARE / len(panel.heights)
+    for k, (method, heights) in enumerate(panel.heights.items()):
+        low, high = panel.spans[method]
+        axis.bar(
+            places + (k - (len(panel.heights) - 1) / 2) * width, heights, width, label=method,
+            color=SHADES[k % len(SHADES)], hatch=HATCHES[k % len(HATCHES)], edgecolor="black", linewidth=0.4,
+            yerr=[heights - low, high - heights], error_kw={"linewidth": 0.8, "capsize": 2.0},
+        )  # fmt: skip
+    axis.set_xticks(places, panel.groups)
+    axis.tick_params(axis="x", length=0.0)
+
+
+def _stacked(count: int) -> tuple[Figure, list[Axes]]:
+    """Return a figure of one column's width with panels below one another."""
+    figure = Figure(figsize=(COLUMN_INCH, PANEL_INCH * count + LEGEND_INCH), layout="constrained")
+    return figure, figure.subplots(count, 1, squeeze=False)[:, 0].tolist()
+
+
+def _legend(figure: Figure, axes: Sequence[Axes]) -> None:
+    """Put one legend of everything drawn above all panels, in rows of three."""
+    found: dict[str, Any] = {}
+    for axis in axes:
+        handles, labels = axis.get_legend_handles_labels()
+        found |= dict(zip(labels, handles, strict=True))
+    figure.legend(found.values(), found.keys(), loc="outside upper center", ncols=min(3, len(found)), frameon=False,
+                  handlelength=2.6, columnspacing=1.2, handletextpad=0.5)  # fmt: skip

@@ -1,0 +1,144 @@
+"""Table of the kinds of networks (section 6.1): losses, errors, sizes and times, beside the paper's order."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mobnet.core.config import read_yaml
+from mobnet.core.files import write_text
+from mobnet.evaluation.intervals import summarise
+from mobnet.evaluation.markup import GAP, RULE, Line, markdown_table, number, span, tex_escape, tex_table
+from mobnet.evaluation.rows import write_rows
+from mobnet.evaluation.trainings import Training, read_trainings, sound
+
+log = logging.getLogger(__name__)
+
+ORDERED_BY = "validation loss"
+MEASURES: Mapping[str, tuple[Callable[[Training], float], str]] = {  # name -> (of a training, unit)
+    "validation loss": (lambda training: training.kept.validation_loss, "-"),
+    "validation RMSE": (lambda training: training.kept.validation_rmse, "N m"),
+    "training loss at the end": (lambda training: training.last.train_loss, "-"),
+    "validation loss at the end": (lambda training: training.last.validation_loss, "-"),
+    "training time": (lambda training: training.seconds, "s"),
+}
+DIGITS = {"training time": 0}
+HEADER = ["Order", "Paper", "Network", "Parameters", "Paper", "Runs", "Val. loss", "Val. RMSE [N m]",
+          "Train. loss, end", "Val. loss, end", "Time [s]"]  # fmt: skip
+LEFT = 3  # columns of text
+
+
+@dataclass(frozen=True)
+class Trait:
+    """One number of a kind of network: a row of kinds.csv.
+
+    Attributes:
+        method: row of the configuration's methods.
+        quantity: `parameters`, `order`, `runs`, `diverged` or a name of `MEASURES`.
+        value: the number, a mean over the runs that did not diverge [unit]; None where there is none.
+        low: lower end of its interval [unit]; None where there is none.
+        high: upper end of its interval [unit]; None where there is none.
+        unit: unit of the numbers.
+        published: the paper's number [unit]; None where it prints none.
+    """
+
+    method: str
+    quantity: str
+    value: float | None
+    low: float | None
+    high: float | None
+    unit: str
+    published: float | None
+
+
+def kinds(config: Mapping[str, Any], folders: Sequence[str], out_dir: Path) -> None:
+    """Write kinds.csv, .tex and .md: mean over runs of loss (22) [-], RMSE [N m] and time [s], best kind first.
+
+    Args:
+        config: resolved configuration: `seed`, `published`, `evaluation.figure_17` (`methods`, the paper's kinds),
+            `evaluation.kinds` (`variants`, our own, shown below) and what intervals need.
+        folders: of the trained networks of all of them.
+        out_dir: gets the three files.
+
+    Raises:
+        DataError: a file is missing or damaged.
+    """
+    found, settings = read_trainings(folders), config["evaluation"]
+    papers, variants = settings["figure_17"]["methods"], settings["kinds"]["variants"]
+    published = read_yaml(Path(config["published"]))["kinds"]
+    numbers = {method: measured(config, found[method]) for method in (*papers, *variants)}
+    ranks = {method: rank for rank, method in enumerate(ordered(papers, numbers), start=1)}
+    traits = [
+        trait
+        for method in (*ranks, *variants)
+        for trait in traits_of(method, found[method], numbers[method], ranks.get(method), published)
+    ]
+    write_rows(out_dir / "kinds.csv", Trait, traits)
+    lines = kind_lines(traits, settings["confidence"])
+    escaped = [line if isinstance(line, str) else list(map(tex_escape, line)) for line in lines]
+    columns = "rrl" + "r" * (len(HEADER) - LEFT)
+    write_text(out_dir / "kinds.tex", tex_table(columns, list(map(tex_escape, HEADER)), escaped))
+    write_text(out_dir / "kinds.md", markdown_table(HEADER, lines, left=LEFT))
+    log.info("%s: %s", out_dir / "kinds.csv", ", ".join(numbers))
+
+
+Numbers = dict[str, tuple[float, float | None, float | None]]  # measure -> mean and ends of its interval
+
+
+def measured(config: Mapping[str, Any], trainings: Sequence[Training]) -> Numbers:
+    """Return the measures of the trainings that did not diverge: mean and interval [-, N m, s]; empty if all did."""
+    good = sound(trainings)
+    if not good:
+        return {}
+    grids = {name: np.array([[measure(run)] for run in good]) for name, (measure, _) in MEASURES.items()}
+    summaries = {name: summarise([grid], config) for name, grid in grids.items()}
+    return {name: (summary.value, summary.low, summary.high) for name, summary in summaries.items()}
+
+
+def ordered(methods: Sequence[str], numbers: Mapping[str, Numbers]) -> list[str]:
+    """Return methods by their mean validation loss [-], lowest first; those that always diverged come last."""
+    return sorted(methods, key=lambda method: numbers[method].get(ORDERED_BY, (float("inf"), None, None))[0])
+
+
+def traits_of(
+    method: str, trainings: Sequence[Training], numbers: Numbers, rank: int | None, published: Mapping[str, Any]
+) -> Iterator[Trait]:
+    """Yield all numbers of a kind; `rank` is its place [-] among the paper's kinds, None for our own."""
+    printed = published["order"].get(method)
+    yield Trait(method, "order", rank, None, None, "-", printed)
+    yield Trait(method, "parameters", trainings[0].parameters, None, None, "-", published["parameters"].get(method))
+    yield Trait(method, "runs", len(trainings), None, None, "-", None)
+    yield Trait(method, "diverged", len(trainings) - len(sound(trainings)), None, None, "-", None)
+    for name, (_, unit) in MEASURES.items():
+        yield Trait(method, name, *numbers.get(name, (None, None, None)), unit, None)
+
+
+def kind_lines(traits: Sequence[Trait], confidence: float) -> list[Line]:
+    """Return the rows of text, two a kind where there are intervals; `confidence` is a share [-]."""
+    lines: list[Line] = []
+    ranked = True
+    for method in dict.fromkeys(trait.method for trait in traits):
+        own = {trait.quantity: trait for trait in traits if trait.method == method}
+        if lines:
+            lines.append(RULE if ranked and own["order"].value is None else GAP)
+        ranked = own["order"].value is not None
+        lines += method_lines(own, confidence)
+    return lines
+
+
+def method_lines(own: Mapping[str, Trait], confidence: float) -> list[Line]:
+    """Return a kind's row of text and that of its intervals; `confidence` is a share [-]."""
+    order, size, runs, diverged = (own[name] for name in ("order", "parameters", "runs", "diverged"))
+    count = number(runs.value, 0) + (f", {number(diverged.value, 0)} diverged" if diverged.value else "")
+    names = [number(order.value, 0), number(order.published, 0), order.method]
+    sizes = [number(size.value, 0), number(size.published, 0), count]
+    lines: list[Line] = [[*names, *sizes, *(number(own[name].value, DIGITS.get(name, 2)) for name in MEASURES)]]
+    if any(own[name].low is not None for name in MEASURES):
+        spans = [span(own[name].low, own[name].high, DIGITS.get(name, 2)) for name in MEASURES]
+        lines.append(["", "", "", "", "", f"{confidence:.0%}", *spans])
+    return lines

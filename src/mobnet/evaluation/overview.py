@@ -1,0 +1,110 @@
+"""Table of all methods side by side: errors of the left leg in walking, of waist and arm in motion."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from mobnet.core.files import write_text
+from mobnet.evaluation.intervals import summarise
+from mobnet.evaluation.markup import GAP, Line, markdown_table, number, span, tex_escape, tex_table
+from mobnet.evaluation.rows import Score, read_rows, write_rows
+from mobnet.evaluation.runs import Wanted, run_grid, unit_of
+from mobnet.evaluation.scores import AVERAGE
+
+log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class Error:
+    """One error of a method: a row of methods.csv.
+
+    Attributes:
+        scenario: the test.
+        level: uncertainty level.
+        method: estimator.
+        limb: limb of section 4.1.
+        joint: joint of the limb, or `avg`.
+        metric: a name of `metrics.METRICS`.
+        runs: network seeds times test seeds.
+        value: mean over runs [unit].
+        low: lower end of its interval [unit]; None with a single run.
+        high: upper end of its interval [unit]; None with a single run.
+        unit: unit of the numbers.
+    """
+
+    scenario: str
+    level: str
+    method: str
+    limb: str
+    joint: str
+    metric: str
+    runs: int
+    value: float
+    low: float | None
+    high: float | None
+    unit: str
+
+
+def methods(config: Mapping[str, Any], scores: Mapping[str, Path], out_dir: Path) -> None:
+    """Write methods.csv, .tex and .md: RMSE [N m] of every method, a column a joint or a limb's average.
+
+    Args:
+        config: resolved configuration: `seed`, `evaluation.methods` (tests, each with scenario, level, columns: limb ->
+            joints, and methods) and what intervals need.
+        scores: scenario -> its scores.
+        out_dir: gets the three files.
+
+    Raises:
+        DataError: a run that the table needs is missing.
+    """
+    tests, confidence = config["evaluation"]["methods"], config["evaluation"]["confidence"]
+    errors = [error for test in tests for error in errors_of(config, test, read_rows(scores[test["scenario"]], Score))]
+    header, lines = overview_lines(errors, confidence)
+    escaped = [line if isinstance(line, str) else list(map(tex_escape, line)) for line in lines]
+    write_rows(out_dir / "methods.csv", Error, errors)
+    write_text(
+        out_dir / "methods.tex", tex_table("l" + "r" * (len(header) - 1), list(map(tex_escape, header)), escaped)
+    )
+    write_text(out_dir / "methods.md", markdown_table(header, lines))
+    log.info("%s: %d errors", out_dir / "methods.csv", len(errors))
+
+
+def errors_of(config: Mapping[str, Any], test: Mapping[str, Any], scores: Sequence[Score]) -> Iterator[Error]:
+    """Yield the errors [N m] that a test asks for, method by method.
+
+    Raises:
+        DataError: a run is missing.
+    """
+    for method in test["methods"]:
+        for limb, joints in test["columns"].items():
+            for joint in joints:
+                wanted = Wanted(test["scenario"], limb, test["level"], method, joint)
+                ours = summarise([run_grid(scores, wanted)], config)
+                yield Error(
+                    wanted.scenario, wanted.level, method, limb, joint, wanted.metric, ours.count,
+                    ours.value, ours.low, ours.high, unit_of(scores, wanted),
+                )  # fmt: skip
+
+
+def overview_lines(errors: Sequence[Error], confidence: float) -> tuple[list[str], list[Line]]:
+    """Return the header and the rows of text, a method's errors [N m] above their intervals.
+
+    Args:
+        errors: of all tests; a method that a test leaves out gets dashes there.
+        confidence: of the intervals, a share [-].
+    """
+    places = list(dict.fromkeys((error.scenario, error.limb, error.joint) for error in errors))
+    header = ["Method", *(f"{limb} {joint}" if joint == AVERAGE else joint for _, limb, joint in places)]
+    lines: list[Line] = []
+    for method in dict.fromkeys(error.method for error in errors):
+        own = {(error.scenario, error.limb, error.joint): error for error in errors if error.method == method}
+        found = [own.get(place) for place in places]
+        lines += [GAP] if lines else []
+        lines.append([method, *(number(error and error.value) for error in found)])
+        if any(error and error.low is not None for error in found):
+            lines.append([f"{confidence:.0%}", *(span(error.low, error.high) if error else "" for error in found)])
+    return header, lines

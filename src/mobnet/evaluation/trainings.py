@@ -1,0 +1,96 @@
+"""What trainings left: sizes from run.json, losses from metrics.csv."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from mobnet.core.errors import DataError
+from mobnet.core.files import read_json
+from mobnet.evaluation.rows import read_rows
+
+RUN, METRICS = "run.json", "metrics.csv"
+
+
+@dataclass(frozen=True)
+class Epoch:
+    """One epoch of a training: a line of metrics.csv.
+
+    Attributes:
+        epoch: counted from 1.
+        train_loss: mean of (22) over the training samples [-].
+        validation_loss: mean of (22) over the samples held out [-].
+        validation_rmse: mean over the joints of their root-mean-square errors [N m], V1..V3 [N].
+    """
+
+    epoch: int
+    train_loss: float
+    validation_loss: float
+    validation_rmse: float
+
+
+@dataclass(frozen=True)
+class Training:
+    """One trained network.
+
+    Attributes:
+        method: row of the configuration's methods.
+        seed: number of the repetition.
+        parameters: trained parameters, column `Network Size` of Table 1.
+        samples: samples learned from, those held out apart.
+        seconds: time that the training took [s].
+        diverged: whether it was stopped because its loss grew; its epochs end there.
+        epochs: its course.
+    """
+
+    method: str
+    seed: int
+    parameters: int
+    samples: int
+    seconds: float
+    diverged: bool
+    epochs: tuple[Epoch, ...]
+
+    @property
+    def last(self) -> Epoch:
+        """The last epoch."""
+        return self.epochs[-1]
+
+    @property
+    def kept(self) -> Epoch:
+        """The epoch that validated best, whose weights are kept."""
+        return min(self.epochs, key=lambda epoch: epoch.validation_loss)
+
+
+def read_training(folder: Path) -> Training:
+    """Read a network's folder.
+
+    Raises:
+        DataError: a file is missing or damaged, or a training that did not diverge has no epoch.
+    """
+    note, epochs = read_json(folder / RUN), tuple(read_rows(folder / METRICS, Epoch))
+    diverged = bool(note.get("diverged", False))
+    if not epochs and not diverged:
+        raise DataError(f"{folder / METRICS}: no epoch, though {RUN} does not say that the training diverged")
+    sizes: Mapping[str, Any] = {name: note[name] for name in ("method", "seed", "parameters", "samples", "seconds")}
+    return Training(**sizes, diverged=diverged, epochs=epochs)
+
+
+def read_trainings(folders: Iterable[str]) -> dict[str, list[Training]]:
+    """Return method -> its trainings, in the order given.
+
+    Raises:
+        DataError: a file is missing or damaged.
+    """
+    found: dict[str, list[Training]] = {}
+    for folder in folders:
+        training = read_training(Path(folder))
+        found.setdefault(training.method, []).append(training)
+    return found
+
+
+def sound(trainings: Sequence[Training]) -> list[Training]:
+    """Return the trainings that did not diverge."""
+    return [training for training in trainings if not training.diverged]
