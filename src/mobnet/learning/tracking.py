@@ -16,6 +16,8 @@ from mobnet.learning.checkpoint import Row
 
 METRICS = "metrics.csv"
 COLUMNS = ("epoch", "train_loss", "validation_loss", "validation_rmse", "rate", "gradient_norm")
+RESULTS = ("parameters", "samples", "diverged", "best", "seconds", "device", "precision")  # other keys are settings
+DATED = "run-00000000_000000-"  # `wandb leet` opens only folders named by date; none, so that a rerun takes its place
 WANDB_PLACES = ("WANDB_CACHE_DIR", "WANDB_DATA_DIR", "WANDB_CONFIG_DIR")
 
 
@@ -28,38 +30,44 @@ def write_metrics(path: Path, rows: Sequence[Row]) -> None:
     write_text(path, text.getvalue())
 
 
-def write_wandb(folder: Path, name: str, settings: Mapping[str, Any], rows: Sequence[Row]) -> Path:
+def write_wandb(folder: Path, note: Mapping[str, Any], rows: Sequence[Row]) -> Path:
     """Write an offline wandb run of a finished training; nothing leaves the machine.
 
     A run is written at the end in one go: offline runs cannot be resumed, and a training can.
 
     Args:
         folder: where the runs lie.
-        name: experiment and seed, such as `MOB-Net-LL-s0`.
-        settings: shown as the run's configuration.
+        note: what `run.json` tells. Its results (RESULTS) become the run's summary, the rest its configuration; runs
+            are grouped by method, and the limb is their type of job.
         rows: metrics of each epoch.
 
     Returns:
-        The run's folder, `folder/offline-run-<name>`.
+        The run's folder, which ends in the run's name.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    target = folder / f"offline-run-{name}"
+    target = folder / f"{DATED}{note['name']}"
     with tempfile.TemporaryDirectory(prefix=".scratch-", dir=folder) as scratch:
-        _log_run(scratch, name, settings, rows)
+        _log_run(scratch, note, rows)
         (run,) = (Path(scratch) / "wandb").glob("offline-run-*")
         shutil.rmtree(target, ignore_errors=True)
         os.replace(run, target)
     return target
 
 
-def _log_run(scratch: str, name: str, settings: Mapping[str, Any], rows: Sequence[Row]) -> None:
-    """Log the epochs into a run below the scratch folder."""
+def _log_run(scratch: str, note: Mapping[str, Any], rows: Sequence[Row]) -> None:
+    """Log settings, epochs and results into a run below the scratch folder."""
     os.environ |= dict.fromkeys(WANDB_PLACES, scratch) | {"WANDB_ERROR_REPORTING": "false"}
     import wandb  # reads its environment when imported
 
-    quiet = wandb.Settings(x_disable_stats=True, x_disable_meta=True, console="off", silent=True, disable_git=True)
+    quiet = wandb.Settings(
+        x_disable_stats=True, x_disable_meta=True, x_disable_machine_info=True, x_save_requirements=False,
+        console="off", silent=True, disable_git=True, disable_code=True,
+    )  # fmt: skip
     with wandb.init(
-        project="mobnet", id=name, name=name, dir=scratch, mode="offline", config=dict(settings), settings=quiet
-    ) as run:
+        project="mobnet", id=note["name"], name=note["name"], group=note["method"], job_type=note["limb"],
+        config={key: value for key, value in note.items() if key not in RESULTS},
+        dir=scratch, mode="offline", settings=quiet,
+    ) as run:  # fmt: skip
         for row in rows:
             run.log(dict(row), step=int(row["epoch"]))
+        run.summary.update({key: note[key] for key in RESULTS if key in note})
