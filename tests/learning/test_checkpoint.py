@@ -9,6 +9,7 @@ import pytest
 import torch
 
 from mobnet.learning import checkpoint
+from mobnet.learning.cells import Gru
 from mobnet.learning.checkpoint import Progress
 from mobnet.learning.model import LimbNetwork
 
@@ -18,7 +19,7 @@ Pair = tuple[LimbNetwork, torch.optim.Adam]
 def trained(steps: int) -> Pair:
     """Return a small network and its optimizer after some updates."""
     torch.manual_seed(0)
-    network = LimbNetwork(3, 8, 2, 1e-6)
+    network = LimbNetwork(Gru(3, 8), 2, 1e-6)
     optimizer = torch.optim.Adam(network.parameters(), lr=1e-2)
     for _ in range(steps):
         advance((network, optimizer))

@@ -9,11 +9,13 @@ import torch
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
+from mobnet.learning.cells import Gru
 from mobnet.learning.features import limb_inputs
-from mobnet.learning.model import LimbNetwork, build_network, parameter_count
+from mobnet.learning.model import LimbNetwork, build_network, parameter_count, seeded
 
 SIZES = {"LL": 83712, "RL": 83712, "RA": 144816, "LA": 144816, "W": 152406, "V": 168012}  # Table 1
 STD_MIN = 1e-6
+SPECTRAL = {"cell": "GRU", "hidden": 24, "spectral": True, "input_gain": 16.0}
 
 
 @pytest.mark.parametrize("limb", SIZES)
@@ -23,18 +25,8 @@ def test_size_is_the_published_one(limb: str, full_config: dict[str, Any], layou
     assert parameter_count(network) == SIZES[limb]
 
 
-def test_state_carries_the_past_over_a_cut() -> None:
-    network = LimbNetwork(3, 8, 2, STD_MIN)
-    x = torch.randn(20, 4, 3, generator=torch.Generator().manual_seed(0))
-    whole, whole_std, _ = network(x, network.fresh_state(4))
-    first, _, state = network(x[:9], network.fresh_state(4))
-    second, second_std, _ = network(x[9:], state)
-    torch.testing.assert_close(torch.cat([first, second]), whole)
-    torch.testing.assert_close(second_std, whole_std[9:])
-
-
 def test_std_never_falls_below_its_clip() -> None:
-    network = LimbNetwork(3, 8, 2, STD_MIN)
+    network = LimbNetwork(Gru(3, 8), 2, STD_MIN)
     torch.nn.init.constant_(network.head.bias, -100.0)
     _, std, _ = network(torch.zeros(5, 1, 3), network.fresh_state(1))
     assert torch.all(std == STD_MIN)
@@ -49,6 +41,47 @@ def test_initial_weights_depend_on_the_seed_alone() -> None:
     assert torch.equal(torch.get_rng_state(), before)
 
 
-def test_an_unknown_cell_is_refused() -> None:
-    with pytest.raises(ConfigError, match="'CfC' is not accepted; accepted: GRU"):
-        LimbNetwork(3, 8, 2, STD_MIN, cell="CfC")
+def test_torch_draws_on_as_if_nothing_had_been_drawn_in_between() -> None:
+    torch.manual_seed(0)
+    expected = torch.rand(2)
+    torch.manual_seed(0)
+    first = torch.rand(1)
+    with seeded(5):
+        inside = torch.rand(1)
+    with seeded(5):
+        assert torch.equal(torch.rand(1), inside)
+    assert torch.equal(torch.cat([first, torch.rand(1)]), expected)
+
+
+def test_spectral_norm_adds_no_parameters_and_keeps_the_largest_singular_values_at_one() -> None:
+    network = build_network(SPECTRAL, 6, 2, STD_MIN, seed=0)
+    assert parameter_count(network) == parameter_count(build_network({**SPECTRAL, "spectral": False}, 6, 2, STD_MIN, 0))
+    for _ in range(200):  # a step of the power iteration each
+        network(torch.zeros(1, 1, 6), network.fresh_state(1))
+    tensors = network.deployable()
+    assert float(torch.linalg.matrix_norm(tensors["cell.weight_hh_l0"], 2)) == pytest.approx(1.0, rel=1e-3)
+    assert float(torch.linalg.matrix_norm(tensors["head.weight"], 2)) == pytest.approx(1.0, rel=1e-3)
+    assert float(torch.linalg.matrix_norm(tensors["cell.weight_ih_l0"], 2)) == pytest.approx(16.0, rel=1e-3)
+
+
+def test_deployed_weights_are_plain_and_predict_the_same() -> None:
+    network, plain = build_network(SPECTRAL, 6, 2, STD_MIN, 0), LimbNetwork(Gru(6, 24), 2, STD_MIN)
+    x = torch.randn(40, 3, 6, generator=torch.Generator().manual_seed(0))
+    for parameter in network.parameters():  # as if trained
+        torch.nn.init.normal_(parameter, std=0.3)
+    plain.load_state_dict(network.deployable())
+    with torch.no_grad():
+        for ours, theirs in zip(network(x, network.fresh_state(3)), plain(x, plain.fresh_state(3)), strict=True):
+            torch.testing.assert_close(ours, theirs, rtol=1e-5, atol=1e-5)
+
+
+def test_every_weight_of_a_normalised_network_is_trained() -> None:
+    network = build_network(SPECTRAL, 6, 2, STD_MIN, seed=0)
+    mean, std, _ = network(torch.randn(5, 3, 6), network.fresh_state(3))
+    (mean + std).square().sum().backward()
+    assert all(p.grad is not None and p.grad.abs().sum() > 0 for p in network.parameters())
+
+
+def test_only_a_gru_can_be_normalised() -> None:
+    with pytest.raises(ConfigError, match="cell of a network with `spectral`: 'LSTM' is not accepted; accepted: GRU"):
+        build_network({**SPECTRAL, "cell": "LSTM"}, 6, 2, STD_MIN, seed=0)

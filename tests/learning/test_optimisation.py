@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import torch
 
+from mobnet.learning.cells import Gru
 from mobnet.learning.loss import gaussian_loss
 from mobnet.learning.model import LimbNetwork
 from mobnet.learning.optimisation import Samples, train_epoch, validate
@@ -17,7 +18,7 @@ HORIZON = 10
 @pytest.fixture
 def network() -> LimbNetwork:
     torch.manual_seed(0)
-    return LimbNetwork(3, 8, 2, 1e-6)
+    return LimbNetwork(Gru(3, 8), 2, 1e-6)
 
 
 @pytest.fixture

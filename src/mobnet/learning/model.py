@@ -1,70 +1,115 @@
-"""The limb network as it is trained: GRU, linear layer, softplus (section 4.1, Table 1)."""
+"""The limb network as it is trained: cell, linear layer, softplus (section 4.1, Table 1)."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
 import torch
 from torch import Tensor, nn
+from torch.nn.utils import parametrize
+from torch.nn.utils.parametrizations import spectral_norm
 
 from mobnet.core.errors import ConfigError, not_accepted
-from mobnet.learning.gru import run_gru
-
-CELLS = {"GRU": nn.GRU}
+from mobnet.learning.cells import Cell, build_cell
 
 
 class LimbNetwork(nn.Module):
-    """GRU[n_in, hidden]-Linear[hidden, 2 n] of Table 1; inputs and outputs are z-scored, unitless.
+    """A cell and a linear layer, GRU[n_in, hidden]-Linear[hidden, 2 n] in Table 1; all numbers z-scored, unitless.
 
     The paper gives the variance outputs a softplus and clips the standard deviation (section 4.4); here the softplus
     is the standard deviation itself, so that one clip serves both.
     """
 
-    def __init__(self, inputs: int, hidden: int, joints: int, std_min: float, cell: str = "GRU") -> None:
-        """Build the network with torch's default initial weights.
+    def __init__(self, cell: Cell, joints: int, std_min: float) -> None:
+        """Put a linear layer with torch's default initial weights on a cell.
 
         Args:
-            inputs: number of inputs n_in.
-            hidden: size of the recurrent state.
+            cell: turns inputs into features.
             joints: number of joints n.
             std_min: smallest standard deviation, z-scored [-].
-            cell: recurrent cell.
-
-        Raises:
-            ConfigError: the cell is unknown.
         """
         super().__init__()
-        if cell not in CELLS:
-            raise ConfigError(not_accepted("cell", cell, CELLS))
-        self.cell = CELLS[cell](inputs, hidden)
-        self.head = nn.Linear(hidden, 2 * joints)
+        self.cell: Cell = cell
+        with warnings.catch_warnings():  # torch warns that a layer without inputs has no weights to start from
+            warnings.filterwarnings("ignore", "Initializing zero-element tensors")
+            self.head = nn.Linear(cell.width, 2 * joints)
         self.std_min = std_min
+        self.input_gain = 1.0
 
     def forward(self, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor, Tensor]:
         """Run over a stretch of time, eq. (18).
 
         Args:
             x: z-scored inputs (h, B, n_in).
-            state: recurrent state (1, B, hidden).
+            state: state of the cell (rows, B, columns).
 
         Returns:
             Mean (h, B, n), standard deviation (h, B, n), both z-scored, and the state after the stretch.
         """
-        hidden, state = run_gru(self.cell, x, state)
-        mean, raw = self.head(hidden).chunk(2, dim=-1)
+        features, state = self.cell.run(x if self.input_gain == 1.0 else self.input_gain * x, state)
+        mean, raw = self.head(features).chunk(2, dim=-1)
         return mean, nn.functional.softplus(raw).clamp_min(self.std_min), state
 
     def fresh_state(self, lanes: int, device: torch.device | None = None) -> Tensor:
-        """Return the zero state (1, B, hidden) of some lanes."""
-        return torch.zeros(1, lanes, self.cell.hidden_size, device=device)
+        """Return the zero state (rows, B, columns) of some lanes, such as (1, B, hidden) of a GRU."""
+        rows, columns = self.cell.state_size
+        return torch.zeros(rows, lanes, columns, device=device)
+
+    def normalise(self, input_gain: float) -> None:
+        """Keep the largest singular value of both matrices of the GRU and of the linear layer at 1 (authors' code).
+
+        Args:
+            input_gain: z-scored inputs are multiplied with this.
+        """
+        for name in ("weight_ih_l0", "weight_hh_l0"):
+            spectral_norm(self.get_submodule("cell"), name)
+        spectral_norm(self.head)
+        self.input_gain = input_gain
+
+    def deployable(self) -> dict[str, Tensor]:
+        """Return copies of the plain weights on the CPU, any norm and gain of `normalise` multiplied in."""
+        self.eval()  # a norm moves in training
+        tensors = {name: tensor for name, tensor in self.state_dict().items() if ".parametrizations." not in name}
+        for path, module in self.named_modules():
+            if parametrize.is_parametrized(module):
+                names = [name for name, _ in module.get_submodule("parametrizations").named_children()]
+                tensors |= {f"{path}.{name}": getattr(module, name) for name in names}
+        if self.input_gain != 1.0:
+            tensors["cell.weight_ih_l0"] = self.input_gain * tensors["cell.weight_ih_l0"]
+        return {name: tensor.detach().cpu().clone() for name, tensor in tensors.items()}
+
+
+@contextmanager
+def seeded(seed: int) -> Iterator[None]:
+    """Let torch draw from a seed inside, initial weights or dropout; its own stream goes on untouched after."""
+    with torch.random.fork_rng(devices=[]):
+        torch.manual_seed(seed)
+        yield
 
 
 def build_network(row: Mapping[str, Any], inputs: int, joints: int, std_min: float, seed: int) -> LimbNetwork:
-    """Build the network of a row of Table 1, its initial weights drawn from a seed; torch's own stream is untouched."""
-    with torch.random.fork_rng(devices=[]):
-        torch.manual_seed(seed)
-        return LimbNetwork(inputs, row["hidden"], joints, std_min, row["cell"])
+    """Build the network of a row of Table 1 or section 6.1, its initial weights drawn from a seed.
+
+    Args:
+        row: names the `cell` and its sizes; `spectral` and `input_gain` for the norm of the authors' code.
+        inputs: number of inputs n_in.
+        joints: number of joints n.
+        std_min: smallest standard deviation, z-scored [-].
+        seed: of the initial weights; torch's own stream is untouched.
+
+    Raises:
+        ConfigError: the cell is unknown, or cannot be normalised.
+    """
+    with seeded(seed):
+        network = LimbNetwork(build_cell(row, inputs), joints, std_min)
+        if row.get("spectral", False):
+            if row["cell"] != "GRU":
+                raise ConfigError(not_accepted("cell of a network with `spectral`", row["cell"], ["GRU"]))
+            network.normalise(row["input_gain"])
+    return network
 
 
 def parameter_count(network: nn.Module) -> int:

@@ -1,0 +1,197 @@
+"""Cells of section 6.1: what stands before the linear layer, the GRU of Table 1 or one of its rivals.
+
+Every cell runs over a stretch of time with a state that is carried: a recurrent one carries its hidden state, one that
+looks at a window its last inputs. So all kinds train on streams, run on a robot and start afresh in the same way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Protocol
+
+import torch
+from torch import Tensor, nn
+
+from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.learning.gru import run_gru
+
+
+class Cell(Protocol):
+    """What a network needs of its cell; each one is an `nn.Module` too."""
+
+    @property
+    def width(self) -> int:
+        """Number of features per sample."""
+        ...
+
+    @property
+    def state_size(self) -> tuple[int, int]:
+        """Rows and columns of a lane's state."""
+        ...
+
+    def run(self, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
+        """Return features (h, B, width) of inputs (h, B, n_in), unitless, and the state (rows, B, columns) after."""
+        ...
+
+
+class Carried:
+    """What torch's recurrent modules share here: the hidden state is both the features and what is carried."""
+
+    hidden_size: int
+    rows = 1
+
+    @property
+    def width(self) -> int:
+        """Number of features per sample."""
+        return self.hidden_size
+
+    @property
+    def state_size(self) -> tuple[int, int]:
+        """Rows and columns of a lane's state."""
+        return self.rows, self.hidden_size
+
+
+class Gru(Carried, nn.GRU):
+    """GRU of Table 1; state (1, B, hidden)."""
+
+    def run(self, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
+        """Return hidden states (h, B, hidden) for inputs (h, B, n_in), unitless, and the last (1, B, hidden)."""
+        return run_gru(self, x, state)
+
+
+class Lstm(Carried, nn.LSTM):
+    """LSTM, Hochreiter and Schmidhuber (1997); its state (2, B, hidden) is hidden and cell state, stacked."""
+
+    rows = 2
+
+    def run(self, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
+        """Return hidden states (h, B, hidden) for inputs (h, B, n_in), unitless, and the state (2, B, hidden)."""
+        states, after = self(x, tuple(state.chunk(2)))
+        return states, torch.cat(after)
+
+
+class Rnn(Carried, nn.RNN):
+    """Vanilla recurrent network with tanh; state (1, B, hidden)."""
+
+    def run(self, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
+        """Return hidden states (h, B, hidden) for inputs (h, B, n_in), unitless, and the last (1, B, hidden)."""
+        return self(x, state)
+
+
+class Block(nn.Module):
+    """Residual block of a TCN, Bai et al. (2018): two causal dilated convolutions, each with ReLU and dropout.
+
+    Attributes:
+        width: channels that go out.
+        past: samples before that of an output that it looks at [samples].
+    """
+
+    def __init__(self, inputs: int, width: int, kernel: int, dilation: int, dropout: float) -> None:
+        """Build the block; without padding, its output is shorter than its input by `past`.
+
+        Args:
+            inputs: channels that come in.
+            width: channels that go out; where they differ, the shortcut is a 1x1 convolution.
+            kernel: taps of a convolution [samples].
+            dilation: distance of the taps [samples].
+            dropout: share of features dropped in training.
+        """
+        super().__init__()
+        self.first = nn.Conv2d(inputs, width, (kernel, 1), dilation=(dilation, 1))
+        self.second = nn.Conv2d(width, width, (kernel, 1), dilation=(dilation, 1))
+        self.shortcut = nn.Identity() if inputs == width else nn.Conv2d(inputs, width, 1)
+        self.dropout = nn.Dropout(dropout)
+        self.width, self.past = width, 2 * (kernel - 1) * dilation
+
+    def forward(self, x: Tensor) -> Tensor:
+        """Return (1, width, T - past, B) of (1, inputs, T, B), unitless."""
+        inner = self.dropout(self.first(x).relu())
+        inner = self.dropout(self.second(inner).relu())
+        return (inner + self.shortcut(x[:, :, self.past :])).relu()
+
+
+class Window(nn.Module):
+    """One hidden tanh layer over the last samples: of the inputs (MLP), or of what blocks make of them (TCN).
+
+    The state is the last inputs (past, B, n_in), zeros at a fresh start.
+
+    Attributes:
+        width: number of features per sample.
+        state_size: rows and columns of a lane's state.
+    """
+
+    def __init__(self, inputs: int, hidden: int, steps: int, blocks: Sequence[Block] = ()) -> None:
+        """Build the layer.
+
+        Args:
+            inputs: number of inputs n_in.
+            hidden: units of the layer.
+            steps: samples in a window [samples].
+            blocks: what comes before the layer.
+        """
+        super().__init__()
+        self.blocks = nn.Sequential(*blocks)
+        self.layer = nn.Conv2d(blocks[-1].width if blocks else inputs, hidden, (steps, 1))
+        self.width = hidden
+        self.state_size = steps - 1 + sum(block.past for block in blocks), inputs
+
+    def run(self, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
+        """Return features (h, B, width) for inputs (h, B, n_in), unitless, and the last inputs (past, B, n_in).
+
+        Time and lanes are the sides of a picture, the inputs its channels: such a convolution reads the samples as
+        they lie in memory, channels last, once for all windows that they stand in.
+        """
+        samples = torch.cat([state, x])
+        features = self.layer(self.blocks(samples[None].permute(0, 3, 1, 2))).tanh()
+        return features[0].permute(1, 2, 0), samples[len(x) :]
+
+
+class Constant(nn.Module):
+    """No features at all: what is left of a network is the bias of its linear layer, a learned mean and deviation.
+
+    Attributes:
+        width: number of features per sample, 0.
+        state_size: rows and columns of a lane's state.
+    """
+
+    width = 0
+    state_size = (1, 0)
+
+    def run(self, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
+        """Return nothing (h, B, 0) for any inputs (h, B, n_in), and the state (1, B, 0)."""
+        return x[..., :0], state
+
+
+def _tcn(inputs: int, row: Mapping[str, Any]) -> Cell:
+    """Return the TCN of a row: blocks of `hidden` channels, one per dilation, then a layer of `head` units."""
+    width, kernel, dropout = row["hidden"], row["kernel_steps"], row["dropout"]
+    blocks = [
+        Block(inputs if i == 0 else width, width, kernel, dilation, dropout)
+        for i, dilation in enumerate(row["dilations"])
+    ]
+    return Window(inputs, row["head"], row["window_steps"], blocks)
+
+
+CELLS: Mapping[str, Callable[[int, Mapping[str, Any]], Cell]] = {
+    "GRU": lambda inputs, row: Gru(inputs, row["hidden"]),
+    "LSTM": lambda inputs, row: Lstm(inputs, row["hidden"]),
+    "RNN": lambda inputs, row: Rnn(inputs, row["hidden"]),
+    "MLP": lambda inputs, row: Window(inputs, row["hidden"], row["window_steps"]),
+    "TCN": _tcn,
+    "constant": lambda inputs, row: Constant(),
+}
+
+
+def build_cell(row: Mapping[str, Any], inputs: int) -> Cell:
+    """Build the cell of a row of Table 1 or section 6.1 with torch's default initial weights.
+
+    Args:
+        row: names the `cell` and its sizes.
+        inputs: number of inputs n_in.
+
+    Raises:
+        ConfigError: the cell is unknown.
+    """
+    if row["cell"] not in CELLS:
+        raise ConfigError(not_accepted("cell", row["cell"], CELLS))
+    return CELLS[row["cell"]](inputs, row)
