@@ -8,12 +8,14 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import torch
 from safetensors.torch import save_file
 
 from mobnet.core.config import load_layout
 from mobnet.core.files import atomic_path, write_json
 from mobnet.core.provenance import provenance
+from mobnet.learning.calibration import STD_SCALE, Calibration
 from mobnet.learning.checkpoint import CHECKPOINT, Progress
 from mobnet.learning.dataset import LimbData, load_limb_data
 from mobnet.learning.job import job_of
@@ -63,8 +65,9 @@ def train(
     data = load_limb_data(layout, job.row, job.target, recording_stems, residual_stems)
     trainer = Trainer(job, data)
     done = trainer.run(state_dir)
-    note = run_note(config, trainer, done)
-    write_weights(out_dir / WEIGHTS, trainer, data, done)
+    calibration = trainer.calibrate(done)
+    note = run_note(config, trainer, data, done, calibration)
+    write_weights(out_dir / WEIGHTS, trainer, data, done, calibration)
     write_metrics(out_dir / METRICS, done.rows)
     if wandb_dir is not None:
         write_wandb(wandb_dir, note, done.rows)
@@ -73,11 +76,13 @@ def train(
     log.info("%s: done after epoch %d", job.name, done.epoch)
 
 
-def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress) -> None:
-    """Write the best weights with their z-scores, (n_in,) and (n,) [N, N m], atomically."""
+def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress, calibration: Calibration) -> None:
+    """Write the best weights with z-scores, (n_in,) and (n,) [N, N m], and factors on std (n,) [-], atomically."""
     tensors = dict(done.best)
     for name, scale in zip(("input", "target"), trainer.scales, strict=True):
         tensors |= {f"{name}.mean": torch.from_numpy(scale.mean), f"{name}.std": torch.from_numpy(scale.std)}
+    if trainer.job.settings["calibrate"]:
+        tensors[STD_SCALE] = torch.from_numpy(calibration.scale.astype(np.float32))
     note = {
         "limb": trainer.job.limb,
         "joints": data.joints,
@@ -88,8 +93,10 @@ def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress) 
         save_file(tensors, temporary, {NOTE: json.dumps(note)})
 
 
-def run_note(config: Mapping[str, Any], trainer: Trainer, done: Progress) -> dict[str, Any]:
-    """Return what `run.json` tells of a training: settings, sizes, the best epoch, time [s] and provenance."""
+def run_note(
+    config: Mapping[str, Any], trainer: Trainer, data: LimbData, done: Progress, calibration: Calibration
+) -> dict[str, Any]:
+    """Return what `run.json` tells of a training: settings, sizes, the best epoch, calibration, time [s], provenance."""
     job = trainer.job
     return {
         "name": job.name,
@@ -97,11 +104,17 @@ def run_note(config: Mapping[str, Any], trainer: Trainer, done: Progress) -> dic
         "limb": job.limb,
         "seed": job.seed,
         "target": job.target,
-        "settings": {**job.settings, "epochs": job.epochs, "epoch_samples": job.epoch_samples, "network": dict(job.row)},
+        "settings": {
+            **job.settings,
+            "epochs": job.epochs,
+            "epoch_samples": job.epoch_samples,
+            "network": dict(job.row),
+        },
         "parameters": parameter_count(trainer.network),
         "samples": trainer.samples,
         "diverged": done.diverged,
         "best": dict(done.best_row()) if done.rows else None,
+        "calibration": calibration.note(data.joints, job.settings["calibration_levels"]),
         "seconds": round(done.seconds, 1),
         "device": trainer.device.type,
         "fingerprint": trainer.fingerprint,

@@ -14,6 +14,7 @@ from torch import Tensor
 
 from mobnet.core.errors import TrainingError
 from mobnet.learning import checkpoint
+from mobnet.learning.calibration import Calibration, calibrate, predict
 from mobnet.learning.checkpoint import CHECKPOINT, Progress, Row
 from mobnet.learning.dataset import LimbData, Scale, scale_of
 from mobnet.learning.job import Job
@@ -105,6 +106,13 @@ class Trainer:
             self._report(row, done)
         done.best = done.best or first
         return done
+
+    def calibrate(self, done: Progress) -> Calibration:
+        """Return how far off the best weights' standard deviations (n,) [N, N m] are on the validation blocks."""
+        self.network.load_state_dict(done.best)
+        error, std = predict(self.network, self._samples, self._validation, self.job.horizon)
+        unit, settings = self.scales[1].std.astype(np.float64), self.job.settings
+        return calibrate(error * unit, std * unit, settings["calibration_share"], settings["calibration_levels"])
 
     def _epoch(self, epoch: int) -> Row:
         """Train and validate once; return the epoch's metrics."""

@@ -1,0 +1,104 @@
+"""A factor per joint on the predicted standard deviation, learned on validation data alone, after the training.
+
+The likelihood (22) asks for the right mean square of error / sigma, so a few large errors, at touch-downs, widen sigma
+everywhere. The factor asks for the right share of errors inside +- 1 sigma instead, which a quantile of |error| / sigma
+gives whatever the tails are like (docs/notes/0017-calibration.md).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from mobnet.learning.gaussian import Fit, fit_of, half_width
+from mobnet.learning.model import LimbNetwork
+from mobnet.learning.optimisation import Samples
+from mobnet.learning.streams import Plan
+
+STD_SCALE = "std.scale"  # name of the factors among a network's tensors; without it they are 1
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """How far off the standard deviations of n joints are, and what corrects them.
+
+    Attributes:
+        scale: factor on the standard deviation (n,) [-].
+        likelihood_scale: factor that would make the data most likely (n,) [-]; for comparison only.
+        before: fit of the standard deviations as learned.
+        after: fit of the scaled ones, each half of the data scaled by what the other half gives.
+    """
+
+    scale: Array
+    likelihood_scale: Array
+    before: Fit
+    after: Fit
+
+    def note(self, joints: Sequence[str], shares: Sequence[float]) -> dict[str, Any]:
+        """Return it for `run.json`, joints (n,) and nominal shares (k,) [-] named."""
+        return {
+            "joints": list(joints),
+            "shares": list(shares),
+            "scale": self.scale.tolist(),
+            "likelihood_scale": self.likelihood_scale.tolist(),
+            **{
+                when: {name: values.tolist() for name, values in vars(fit).items()}
+                for when, fit in (("before", self.before), ("after", self.after))
+            },
+        }
+
+
+def calibrate(error: NDArray[Any], std: NDArray[Any], share: float, shares: Sequence[float]) -> Calibration:
+    """Learn the factors, and tell how well they hold where they were not learned.
+
+    Args:
+        error: prediction minus target in the order of time (T, n) [N m].
+        std: predicted standard deviation (T, n) [N m].
+        share: errors inside its central interval shall be this share [-].
+        shares: nominal shares of the coverage told (k,) [-].
+    """
+    cut = len(error) // 2
+    first, second = slice(None, cut), slice(cut, None)
+    crossed = [std[here] * scale_for(error[other], std[other], share) for here, other in
+               ((first, second), (second, first))]  # fmt: skip
+    return Calibration(
+        scale_for(error, std, share),
+        np.sqrt(np.square(error / std).mean(axis=0)),
+        fit_of(error, std, shares),
+        fit_of(error, np.concatenate(crossed), shares),
+    )
+
+
+def scale_for(error: NDArray[Any], std: NDArray[Any], share: float) -> Array:
+    """Return the factor (n,) [-] on std (T, n) [N m] that puts a share [-] of errors (T, n) [N m] into its interval."""
+    return np.quantile(np.abs(error) / std, share, axis=0) / half_width(share)
+
+
+@torch.no_grad()
+def predict(network: LimbNetwork, samples: Samples, plan: Plan, horizon: int) -> tuple[Array, Array]:
+    """Run a validation with carried state.
+
+    Args:
+        network: trained.
+        samples: z-scored inputs (N, n_in) and targets (N, n).
+        plan: fixed course, rows (updates, lanes).
+        horizon: steps looked at together [samples].
+
+    Returns:
+        Error and standard deviation, z-scored, (T, n) each, lane after lane: in the order of time.
+    """
+    network.eval()
+    errors, stds = [], []
+    state = network.fresh_state(plan.rows.shape[1], samples.inputs.device)
+    for x, target, keep in samples.horizons(plan, horizon):
+        mean, std, state = network(x, state * keep)
+        errors.append((mean - target).cpu())
+        stds.append(std.cpu())
+    error, std = (torch.cat(parts).transpose(0, 1).flatten(0, 1).double().numpy() for parts in (errors, stds))
+    return error, std

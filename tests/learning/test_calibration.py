@@ -1,0 +1,93 @@
+"""The factor puts the share it is asked for inside, and is measured where it was not learned."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+from numpy.typing import NDArray
+from safetensors import safe_open
+
+from mobnet.learning.calibration import STD_SCALE, calibrate, predict, scale_for
+from mobnet.learning.gaussian import coverage
+from mobnet.learning.networks import WEIGHTS
+from mobnet.learning.optimisation import Samples
+from mobnet.learning.streams import deal
+from mobnet.learning.train import RUN, train
+
+Array = NDArray[np.float64]
+HORIZON = 10
+
+
+@pytest.fixture
+def rng() -> np.random.Generator:
+    return np.random.default_rng(0)
+
+
+def test_scaled_deviations_cover_the_share_whatever_the_tails(rng: np.random.Generator) -> None:
+    error, std = rng.standard_t(2, (9000, 2)), rng.uniform(0.2, 3.0, (9000, 2))
+    for share in (0.5, 0.68):
+        scaled = std * scale_for(error, std, share)
+        np.testing.assert_allclose(coverage(error, scaled, [share])[0], share, atol=1e-3)
+
+
+def test_true_deviations_stay_and_wrong_ones_are_corrected(rng: np.random.Generator) -> None:
+    std = rng.uniform(0.2, 3.0, (20000, 2))
+    found = calibrate(std * rng.normal(size=std.shape), std * [0.5, 2.0], 0.68, [0.68])
+    np.testing.assert_allclose(found.scale, [2.0, 0.5], rtol=0.03)
+    np.testing.assert_allclose(found.likelihood_scale, [2.0, 0.5], rtol=0.03)
+    np.testing.assert_allclose(found.after.coverage, 0.68, atol=0.02)
+    assert found.before.coverage[0, 0] < 0.5
+    assert found.before.coverage[0, 1] > 0.9
+    assert (found.after.nll < found.before.nll).all()
+    assert (found.after.crps < found.before.crps).all()
+
+
+def test_large_errors_widen_the_likely_factor_alone(rng: np.random.Generator) -> None:
+    error = rng.normal(size=(5000, 1))
+    error[::100] *= 50.0
+    found = calibrate(error, np.ones_like(error), 0.68, [0.68])
+    assert found.scale[0] == pytest.approx(1.0, abs=0.05)
+    assert found.likelihood_scale[0] > 4.0
+
+
+def test_each_half_is_scaled_by_the_other(rng: np.random.Generator) -> None:
+    """Errors that double half way: the first half's interval comes out twice too wide, the second's half too wide."""
+    error = rng.normal(size=(20000, 1)) * np.repeat([1.0, 2.0], 10000)[:, None]
+    after = calibrate(error, np.ones_like(error), 0.68, [0.68]).after.coverage[0, 0]
+    assert after == pytest.approx(np.mean([0.953, 0.381]), abs=0.02)
+
+
+def test_predictions_come_in_the_order_of_time() -> None:
+    class Echo(torch.nn.Module):
+        """Predicts zero with the input as its deviation, so that samples can be told apart."""
+
+        def forward(self, x: torch.Tensor, state: torch.Tensor) -> tuple[torch.Tensor, ...]:
+            return torch.zeros_like(x), x, state
+
+        def fresh_state(self, lanes: int, device: object = None) -> torch.Tensor:
+            return torch.zeros(1, lanes, 1)
+
+    rows = torch.arange(1.0, 121.0)[:, None]
+    error, std = predict(Echo(), Samples(rows, -rows), deal([(0, 60), (60, 120)], 3, HORIZON), HORIZON)
+    np.testing.assert_array_equal(std[:, 0], np.arange(1.0, 121.0))
+    np.testing.assert_array_equal(error, std)
+
+
+@pytest.mark.parametrize("wanted", [True, False])
+def test_factors_are_stored_where_they_are_declared_and_told_in_any_case(
+    small: object, tmp_path: Path, wanted: bool
+) -> None:
+    small.config["learning"]["calibrate"] = wanted
+    train(small.config, "MOB-Net", "LL", 0, small.recordings, small.residuals, tmp_path / "out", tmp_path / "state")
+    note = json.loads((tmp_path / "out" / RUN).read_text())["calibration"]
+    with safe_open(tmp_path / "out" / WEIGHTS, framework="numpy") as file:
+        assert (STD_SCALE in file.keys()) == wanted  # noqa: SIM118, not a dict
+        if wanted:
+            np.testing.assert_allclose(file.get_tensor(STD_SCALE), note["scale"], rtol=1e-6)
+    assert note["joints"] == [f"LL{i}" for i in range(1, 7)]
+    assert np.shape(note["before"]["coverage"]) == (len(note["shares"]), 6)
+    assert np.shape(note["after"]["crps"]) == (6,)
