@@ -43,7 +43,7 @@ def test_every_scale_is_accepted(scale: str) -> None:
         ("observer.gain", 3.0, r"observer: .*'gain' was unexpected.*accepted keys: gain_hz"),
         ("colour", "red", r"top level: .*'colour' was unexpected.*accepted keys: claims"),
         ("scales.smoke.test.shard_s", -10.0, r"scales\.smoke\.test\.shard_s: -10\.0 .*exclusiveMinimum"),
-        ("scales.smoke.experiments.sweep.epochs", 0, r"scales\.smoke\.experiments\.sweep\.epochs: 0 .*minimum"),
+        ("scales.default.experiments.sweep.epochs", 0, r"scales\.default\.experiments\.sweep\.epochs: 0 .*minimum"),
         ("scenarios.walk_test.commands", "sprint", r"walk_test\.commands: 'sprint' does not match '\^\(random"),
         ("scenarios.knee_swing.commands", {"duration_s": 0.7}, r"knee_swing\.commands: 'step_x_m' is a required"),
         ("scenarios.forward_walk.commands.duration_s", -0.7, r"\.commands\.duration_s: -0\.7 .*exclusiveMinimum"),

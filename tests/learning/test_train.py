@@ -57,7 +57,7 @@ def test_it_leaves_weights_metrics_and_a_note(small: object, tmp_path: Path) -> 
     assert {path.name for path in out.iterdir()} == {WEIGHTS, METRICS, RUN}
     assert not (tmp_path / "state" / CHECKPOINT).exists()
     note = json.loads((out / RUN).read_text())
-    assert (note["limb"], note["target"], note["samples"]) == ("LL", "uncertainty", 8000)
+    assert (note["limb"], note["target"], note["samples"]) == ("LL", "uncertainty", 7200)  # nine tenths
     assert load_network(out).joints == ("LL1", "LL2", "LL3", "LL4", "LL5", "LL6")
 
 
