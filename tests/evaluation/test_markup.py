@@ -14,6 +14,11 @@ def test_numbers_stay_with_their_unit() -> None:
     assert tex_escape("10 to 30 N m") == r"10 to 30~N\,m"
 
 
+def test_a_minus_is_set_as_one_and_a_hyphen_as_one() -> None:
+    assert tex_escape("-4.5, [-1.20, 2-3]") == "$-$4.5, [$-$1.20, 2-3]"
+    assert tex_escape("MOB-Net-hidden-44, -") == "MOB-Net-hidden-44, -"
+
+
 def test_every_row_has_as_many_separators_as_the_header() -> None:
     text = tex_table("lr", ["a", "b"], [["x", "1"], RULE, ["y", "2"], GAP])
     rows = [line for line in text.splitlines() if line.endswith(r"\\")]

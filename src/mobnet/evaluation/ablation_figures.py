@@ -94,22 +94,31 @@ def draw_lines(panels: Sequence[LinePanel]) -> Figure:
                 _line(axis, line, labels.index(line.label) % len(COLOURS), panel.sizes)
             axis.set(xlabel=panel.x_label, ylabel=panel.y_label)
             axis.set_title(f"({letter}) {panel.title}", loc="left", pad=3)
-            if panel.sizes:
-                axis.set_xscale("log")
-            else:
-                axis.xaxis.set_major_locator(MaxNLocator(integer=True))
+            _places(axis, panel)
         _legend(figure, axes)
     return figure
 
 
 def _line(axis: Axes, line: Line, style: int, marked: bool) -> None:
-    """Draw a line (n,) and, behind it, the band from its lowest to its highest run."""
-    marker = MARKERS[style] if marked or len(line.x) == 1 else ""
-    axis.plot(
-        line.x, line.mean, color=COLOURS[style], linestyle=DASHES[style], marker=marker, markersize=3.5,
-        label=line.label, zorder=3,
-    )  # fmt: skip
+    """Draw a line (n,) and what its runs spread over: bars at marked places, else a band behind it."""
+    look: dict[str, Any] = {"color": COLOURS[style], "linestyle": DASHES[style], "label": line.label, "zorder": 3}
+    if marked:
+        spread = [line.mean - line.low, line.high - line.mean]
+        axis.errorbar(line.x, line.mean, spread, marker=MARKERS[style], markersize=3.5, capsize=2.0, **look)
+        return
+    axis.plot(line.x, line.mean, marker=MARKERS[style] if len(line.x) == 1 else "", **look)
     axis.fill_between(line.x, line.low, line.high, color=COLOURS[style], alpha=0.18, linewidth=0.0)
+
+
+def _places(axis: Axes, panel: LinePanel) -> None:
+    """Mark whole epochs, or the sizes there are."""
+    if not panel.sizes:
+        axis.xaxis.set_major_locator(MaxNLocator(integer=True))
+        return
+    places = np.unique(np.concatenate([line.x for line in panel.lines]))
+    axis.set_xscale("log")
+    axis.minorticks_off()
+    axis.set_xticks(places, [f"{place:.0f}" for place in places])
 
 
 def draw_bars(panels: Sequence[BarPanel], y_label: str) -> Figure:
@@ -144,9 +153,9 @@ def _bars(axis: Axes, panel: BarPanel) -> None:
 
 
 def _stacked(count: int) -> tuple[Figure, list[Axes]]:
-    """Return a figure of one column's width with panels below one another."""
+    """Return a figure of one column's width with panels of one scale below one another."""
     figure = Figure(figsize=(COLUMN_INCH, PANEL_INCH * count + LEGEND_INCH), layout="constrained")
-    return figure, figure.subplots(count, 1, squeeze=False)[:, 0].tolist()
+    return figure, figure.subplots(count, 1, squeeze=False, sharey=True)[:, 0].tolist()
 
 
 def _legend(figure: Figure, axes: Sequence[Axes]) -> None:

@@ -18,7 +18,9 @@ from mobnet.evaluation.trainings import Training, read_trainings, sound
 log = logging.getLogger(__name__)
 
 TITLES = {"parameters": "size of the network", "samples": "size of the training data"}
-X_LABELS = {"parameters": "parameters [-]", "samples": "samples [-]"}
+X_LABELS = {"parameters": "parameters [thousand]", "samples": "samples learned from [thousand]"}
+LOSSES = ("loss", "loss_low", "loss_high")
+THOUSAND = 1e3
 
 
 @dataclass(frozen=True)
@@ -105,5 +107,5 @@ def size_of(panel: str, base: str, trainings: Sequence[Training]) -> Size:
 
 def growth_line(own: Sequence[Size], base: str) -> Line:
     """Return the losses (n,) [-] of an estimator's variations over the size that their panel varies."""
-    columns = [[getattr(row, name) for row in own] for name in (own[0].panel, "loss", "loss_low", "loss_high")]
-    return Line(base, *map(np.array, columns))
+    sizes = np.array([getattr(row, row.panel) for row in own]) / THOUSAND
+    return Line(base, sizes, *(np.array([getattr(row, name) for row in own]) for name in LOSSES))

@@ -72,14 +72,15 @@ def kinds(config: Mapping[str, Any], folders: Sequence[str], out_dir: Path) -> N
     papers, variants = settings["figure_17"]["methods"], settings["kinds"]["variants"]
     published = read_yaml(Path(config["published"]))["kinds"]
     numbers = {method: measured(config, found[method]) for method in (*papers, *variants)}
-    ranks = {method: rank for rank, method in enumerate(ordered(papers, numbers), start=1)}
+    shown = ordered(papers, numbers)
+    ranks = {name: k for k, name in enumerate([name for name in shown if name in published["order"]], start=1)}
     traits = [
         trait
-        for method in (*ranks, *variants)
+        for method in (*shown, *variants)
         for trait in traits_of(method, found[method], numbers[method], ranks.get(method), published)
     ]
     write_rows(out_dir / "kinds.csv", Trait, traits)
-    lines = kind_lines(traits, settings["confidence"])
+    lines = kind_lines(traits, variants, settings["confidence"])
     escaped = [line if isinstance(line, str) else list(map(tex_escape, line)) for line in lines]
     columns = "rrl" + "r" * (len(HEADER) - LEFT)
     write_text(out_dir / "kinds.tex", tex_table(columns, list(map(tex_escape, HEADER)), escaped))
@@ -108,7 +109,7 @@ def ordered(methods: Sequence[str], numbers: Mapping[str, Numbers]) -> list[str]
 def traits_of(
     method: str, trainings: Sequence[Training], numbers: Numbers, rank: int | None, published: Mapping[str, Any]
 ) -> Iterator[Trait]:
-    """Yield all numbers of a kind; `rank` is its place [-] among the paper's kinds, None for our own."""
+    """Yield all numbers of a kind; `rank` is its place [-] among the kinds that the paper orders, None for others."""
     printed = published["order"].get(method)
     yield Trait(method, "order", rank, None, None, "-", printed)
     yield Trait(method, "parameters", trainings[0].parameters, None, None, "-", published["parameters"].get(method))
@@ -118,16 +119,19 @@ def traits_of(
         yield Trait(method, name, *numbers.get(name, (None, None, None)), unit, None)
 
 
-def kind_lines(traits: Sequence[Trait], confidence: float) -> list[Line]:
-    """Return the rows of text, two a kind where there are intervals; `confidence` is a share [-]."""
+def kind_lines(traits: Sequence[Trait], variants: Sequence[str], confidence: float) -> list[Line]:
+    """Return the rows of text, two a kind where there are intervals, a rule above our own variants.
+
+    Args:
+        traits: all numbers, kind by kind.
+        variants: kinds below the rule.
+        confidence: of the intervals, a share [-].
+    """
     lines: list[Line] = []
-    ranked = True
     for method in dict.fromkeys(trait.method for trait in traits):
-        own = {trait.quantity: trait for trait in traits if trait.method == method}
         if lines:
-            lines.append(RULE if ranked and own["order"].value is None else GAP)
-        ranked = own["order"].value is not None
-        lines += method_lines(own, confidence)
+            lines.append(RULE if method in variants[:1] else GAP)
+        lines += method_lines({trait.quantity: trait for trait in traits if trait.method == method}, confidence)
     return lines
 
 

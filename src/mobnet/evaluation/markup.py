@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 TEX_SPECIAL = {
@@ -9,6 +10,7 @@ TEX_SPECIAL = {
     "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "<": r"\textless{}", ">": r"\textgreater{}",
     "|": r"\textbar{}",
 }  # fmt: skip
+MINUS = re.compile(r"(?<![\w-])-(?=\d)")
 RULE = r"\midrule"
 GAP = r"\addlinespace"
 
@@ -16,8 +18,9 @@ Line = Sequence[str] | str  # cells of a row, or a rule or a gap between rows
 
 
 def tex_escape(text: str) -> str:
-    """Return plain text with TeX's special characters escaped and N m kept together."""
-    return "".join(TEX_SPECIAL.get(character, character) for character in text).replace(" N m", r"~N\,m")
+    """Return plain text with TeX's special characters escaped, N m kept together and a number's minus as one."""
+    escaped = "".join(TEX_SPECIAL.get(character, character) for character in text).replace(" N m", r"~N\,m")
+    return MINUS.sub("$-$", escaped)
 
 
 def tex_table(columns: str, header: Sequence[str], lines: Sequence[Line]) -> str:
