@@ -77,6 +77,7 @@ class Simulator:
         self.episode = seed  # the first of the scenario's kinds of episodes depends on the seed
         self.commands: Array = np.zeros((0, 0))
         self.terrains: dict[str, Setting] = {}
+        self.coming: list[str] = []  # terrains until all have been walked once more
         self.setting = self._setting(self.settings["terrain"][0])
 
     @property
@@ -115,11 +116,13 @@ class Simulator:
         return self.terrains[terrain]
 
     def start(self, motion_s: float = 0.0) -> None:
-        """Begin an episode on one of the scenario's terrains, amid a step or standing, anywhere, facing anywhere.
+        """Begin an episode on a terrain drawn from those of the scenario not yet walked in this round, amid a step or standing, anywhere, facing anywhere.
 
         The upper body begins where its motion is at motion_s [s] less the time to settle.
         """
-        self.setting = self._setting(str(self.rng["place"].choice(self.settings["terrain"])))
+        if not self.coming:
+            self.coming = self.rng["place"].permutation(self.settings["terrain"]).tolist()
+        self.setting = self._setting(self.coming.pop())
         wanted = self.settings["commands"]
         kind = wanted[self.episode % len(wanted)] if isinstance(wanted, list) else wanted
         self.episode += 1
