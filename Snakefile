@@ -7,6 +7,7 @@ configfile: "configs/config.yaml"
 
 include: "workflow/rules/common.smk"
 include: "workflow/rules/collect.smk"
+include: "workflow/rules/fit.smk"
 include: "workflow/rules/learn.smk"
 include: "workflow/rules/data.smk"
 include: "workflow/rules/evaluate.smk"

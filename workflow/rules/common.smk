@@ -8,7 +8,7 @@ from mobnet.core.config import FIRST_TRAINING_SEED, config_hash, read_yaml, reso
 from mobnet.core.config import check_config as validate
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
-from mobnet.core.methods import SCALE_SIZES, experiment_row, network_row
+from mobnet.core.methods import SCALE_SIZES, experiment_row, network_row, source_of
 
 ROOT = Path(workflow.basedir)
 quieten(ROOT)
@@ -44,9 +44,17 @@ wildcard_constraints:
     seed=r"\d+",
 
 
-def code_of(*rules):
-    """Return the hash of the code behind rules' scripts."""
-    return code_hash(*(ROOT / "workflow" / "scripts" / f"{rule}.py" for rule in rules))
+def code_of(*rules, method=None):
+    """Return the hash of the code behind rules' scripts and, as that is imported by name, behind a method's kind."""
+    kinds = [settings["methods"][name]["kind"] for name in method_and_source(method)] if method else []
+    modules = [ROOT / "src" / "mobnet" / "estimation" / f"{kind}.py" for kind in kinds]
+    scripts = [ROOT / "workflow" / "scripts" / f"{rule}.py" for rule in rules]
+    return code_hash(*scripts, *(module for module in modules if module.is_file()))  # the job tells of a missing kind
+
+
+def method_and_source(method):
+    """Return a method and the one that it runs on, if that is another: rows that its estimates depend on."""
+    return list(dict.fromkeys([method, source_of(settings, method)]))
 
 
 def part(*sections, **picked):
@@ -121,7 +129,7 @@ def limbs_of(method):
 
 def network_seeds(method, limb=None):
     """Return the seeds of the networks of a method's limb, or, without one, of the limb that has the most; 0 if none."""
-    limbs = [limb] if limb else limbs_of(method)
+    limbs = [limb] if limb else limbs_of(source_of(settings, method))
     return max((experiment_row(settings, method, name)["seeds"] for name in limbs), key=len, default=[0])
 
 
@@ -139,6 +147,23 @@ def networks(name):
         for limb in limbs_of(method)
         for seed in network_seeds(method, limb)
     ]
+
+
+def fit_of(method):
+    """Return the file that rule `fit` writes for a method, none if it is not fitted without networks."""
+    source = source_of(settings, method)
+    return [f"{RESULTS}/fits/{source}.json"] if "fitted" in settings["methods"][source] else []
+
+
+def fitted_to(method, kind):
+    """Return limb -> files of a kind of the training set that a method is fitted to."""
+    return {limb: training(kind, data_of(method, limb)) for limb in settings["methods"][method].get("fitted", [])}
+
+
+def fitted_pairs(method):
+    """Return limb -> stems of a recording and of its residual, for each of that training set."""
+    sets = [fitted_to(method, kind) for kind in ("recordings", "residuals")]
+    return {limb: list(zip(*(stems(one[limb]) for one in sets))) for limb in sets[0]}
 
 
 def entry(scenario, level, method, network_seed, test_seed):

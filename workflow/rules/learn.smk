@@ -30,7 +30,11 @@ rule estimate:
     input:
         array=files("recordings"),
         note=files("recordings", "json"),
-        networks=lambda w: [network(w.method, limb, w.network_seed) for limb in limbs_of(w.method)],
+        networks=lambda w: [
+            network(source_of(settings, w.method), limb, w.network_seed)
+            for limb in limbs_of(source_of(settings, w.method))
+        ],
+        fit=lambda w: fit_of(w.method),
     output:
         array=ensure(files("estimates/{method}/n{network_seed}"), non_empty=True),
         note=ensure(files("estimates/{method}/n{network_seed}", "json"), non_empty=True),
@@ -42,9 +46,11 @@ rule estimate:
         network_seed=r"\d+",
     threads: 1
     params:
-        config=lambda w: part("robot", "rates", "plant", "observer", levels=[w.level], methods=[w.method]),
-        limbs=lambda w: limbs_of(w.method),
+        config=lambda w: part(
+            "robot", "rates", "plant", "observer", levels=[w.level], methods=method_and_source(w.method)
+        ),
+        limbs=lambda w: limbs_of(source_of(settings, w.method)),
         robot=CONTENT["robot"],
-        code=code_of("estimate"),
+        code=lambda w: code_of("estimate", method=w.method),
     script:
         "../scripts/estimate.py"

@@ -13,4 +13,5 @@ with job(snakemake.log[0]):
         Path(snakemake.input.array).with_suffix(""),
         {limb: Path(weights).parent for limb, weights in networks.items()},
         Path(snakemake.output.array).with_suffix(""),
+        next(map(Path, snakemake.input.fit), None),
     )

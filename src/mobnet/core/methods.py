@@ -45,6 +45,15 @@ def method_row(config: Row, method: str) -> Row:
     return config["methods"][method]
 
 
+def source_of(config: Row, method: str) -> str:
+    """Return the method whose networks or fit a method runs on: the one that `of` names, or itself.
+
+    Raises:
+        ConfigError: the method is unknown.
+    """
+    return method_row(config, method).get("of", method)
+
+
 def network_row(config: Row, method: str, limb: str) -> Row:
     """Return the row of Table 1 of a method's limb; `joints` names its groups of joints.
 

@@ -17,27 +17,40 @@ def check_names(config: Mapping[str, Any], layout: JointLayout, where: str = "co
     Raises:
         ConfigError: one line with the key, the name and the accepted names.
     """
-    for uses in (network_uses, scenario_uses, size_uses, evaluation_uses):
+    for uses in (network_uses, method_uses, scenario_uses, size_uses, evaluation_uses):
         for key, name, accepted in uses(config, layout):
             if name not in accepted:
                 raise ConfigError(f"{where}: {not_accepted(key, name, accepted)}")
 
 
 def network_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
-    """Yield the limbs that networks (Table 1) and methods name."""
-    experiments = set.intersection(*(set(sizes["experiments"]) for sizes in config["scales"].values()))
+    """Yield the limbs and experiments that networks (Table 1) name."""
+    experiments = common_experiments(config)
     for limb, row in config["networks"].items():
         yield f"networks.{limb}.experiment", row["experiment"], experiments
         for key in ("joints", "Q", "T"):
             yield from ((f"networks.{limb}.{key}", group, layout.groups) for group in row.get(key, [limb]))
+
+
+def method_uses(config: Mapping[str, Any], _: JointLayout) -> Iterator[Use]:
+    """Yield the limbs, methods and experiments that methods and sweeps (section 6.3) name."""
+    experiments = common_experiments(config)
+    sources = [name for name, row in config["methods"].items() if "of" not in row]
     for method, row in config["methods"].items():
-        yield from ((f"methods.{method}.limbs", limb, config["networks"]) for limb in row.get("limbs", []))
+        for key in ("limbs", "fitted"):
+            yield from ((f"methods.{method}.{key}", limb, config["networks"]) for limb in row.get(key, []))
+        yield from ((f"methods.{method}.of", row[key], sources) for key in ("of",) if key in row)
         if "experiment" in row.get("network", {}):
             yield f"methods.{method}.network.experiment", row["network"]["experiment"], experiments
     for name, sweep in config["sweeps"].items():
         yield from ((f"sweeps.{name}.of", method, config["methods"]) for method in sweep["of"])
         yield f"sweeps.{name}.limb", sweep["limb"], config["networks"]
         yield f"sweeps.{name}.experiment", sweep["experiment"], experiments
+
+
+def common_experiments(config: Mapping[str, Any]) -> set[str]:
+    """Return the names of the experiments that every scale has."""
+    return set.intersection(*(set(sizes["experiments"]) for sizes in config["scales"].values()))
 
 
 def scenario_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from mobnet.core.errors import ConfigError
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Sensed
+from mobnet.estimation.recipe import Recipe
 from mobnet.learning.limbs import LimbNetworks, State
 
 
@@ -36,3 +38,16 @@ class DirectEstimator:
         """Return tau_e of one contiguous recording, (T, n) [N, N m], from a fresh state."""
         prediction = self._networks.run(sensed)
         return Estimate(prediction.mean, prediction.std)
+
+
+def build(recipe: Recipe) -> DirectEstimator:
+    """Build FTS-e2e of the row's limbs.
+
+    Raises:
+        ConfigError: the row names no limbs.
+        DataError: weights are missing or damaged.
+    """
+    networks = recipe.limb_networks()
+    if networks is None:
+        raise ConfigError(f"method {recipe.method!r} of kind 'direct' names no limbs; accepted: one or more networks")
+    return DirectEstimator(networks)

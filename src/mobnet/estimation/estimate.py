@@ -22,7 +22,12 @@ log = logging.getLogger(__name__)
 
 
 def estimate(
-    config: Mapping[str, Any], method: str, recording_stem: Path, network_dirs: Mapping[str, Path], out_stem: Path
+    config: Mapping[str, Any],
+    method: str,
+    recording_stem: Path,
+    network_dirs: Mapping[str, Path],
+    out_stem: Path,
+    fitted: Path | None = None,
 ) -> None:
     """Write a method's external torque for a recording, as Table 5 scores it.
 
@@ -35,15 +40,16 @@ def estimate(
         recording_stem: the recording, path without a suffix.
         network_dirs: limb -> folder of its trained network; empty for MOB.
         out_stem: where to write, path without a suffix.
+        fitted: what rule `fit` wrote, for a method that is fitted without networks.
 
     Raises:
         ConfigError: method or level is unknown, or networks do not match the method's limbs.
-        DataError: the recording or a network is damaged.
+        DataError: the recording, a network or the fit is damaged.
     """
     layout = load_layout(Path(config["robot"]))
     recording = read_sensed(recording_stem, layout)
     level = level_of(recording, recording_stem)
-    estimator = build_estimator(config, method, network_dirs, level, recording.rate_hz)
+    estimator = build_estimator(config, method, network_dirs, level, recording.rate_hz, fitted)
     array, columns = table_of(run_segments(estimator, recording), estimator.joints, layout)
     meta = {
         "rate_hz": recording.rate_hz,

@@ -1,24 +1,33 @@
-"""From a row of the configuration's methods to an estimator."""
+"""From a row of the configuration's methods to an estimator; its `kind` names a module of this package.
+
+A module is a kind if it has a function `build(recipe) -> Estimator`. A kind that must be fitted to the training sets
+without networks has `fit(config, method, training)` too, and its rows name the limbs that are `fitted`.
+"""
 
 from __future__ import annotations
 
+import importlib
+import pkgutil
 from collections.abc import Mapping
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.estimator import Estimator
-from mobnet.estimation.direct import DirectEstimator
-from mobnet.estimation.observe import observer_of
-from mobnet.estimation.residual import ResidualEstimator
-from mobnet.learning.limbs import load_limb_networks
-from mobnet.robot.description import load_robot
+from mobnet.core.methods import method_row
+from mobnet.estimation.recipe import Recipe
 
-KINDS = ("residual", "direct")
+PACKAGE = importlib.import_module("mobnet.estimation")
 
 
 def build_estimator(
-    config: Mapping[str, Any], method: str, network_dirs: Mapping[str, Path], level: str, rate_hz: float
+    config: Mapping[str, Any],
+    method: str,
+    network_dirs: Mapping[str, Path],
+    level: str,
+    rate_hz: float,
+    fitted: Path | None = None,
 ) -> Estimator:
     """Build the estimator of a method, one row of Table 5.
 
@@ -28,33 +37,49 @@ def build_estimator(
         network_dirs: limb -> folder of its trained network, for each of the method's limbs; empty for MOB.
         level: uncertainty level of section 5.1, which says how wrong the observer's nominal model is.
         rate_hz: samples per second [Hz].
+        fitted: what rule `fit` wrote, for a method whose row names `fitted` limbs.
 
     Raises:
-        ConfigError: the method, its kind or the level is unknown, or networks do not match its limbs.
-        DataError: weights are missing or damaged.
+        ConfigError: the method, its kind or the level is unknown, or files do not match its row.
+        DataError: a file is missing or damaged.
+    """
+    recipe = Recipe(config, method, level, rate_hz, network_dirs, fitted)
+    return kind_of(recipe.row, method).build(recipe)
+
+
+def kind_of(row: Mapping[str, Any], method: str) -> ModuleType:
+    """Return the module that a method's row names as its kind.
+
+    Raises:
+        ConfigError: no module of this package has the name and a function `build`.
+    """
+    if row["kind"] in _modules():
+        module = _module(row["kind"])
+        if hasattr(module, "build"):
+            return module
+    accepted = [name for name in _modules() if hasattr(_module(name), "build")]
+    raise ConfigError(not_accepted(f"kind of method {method}", row["kind"], accepted))
+
+
+def fitted_kind(config: Mapping[str, Any], method: str) -> ModuleType:
+    """Return the kind of a method that is fitted without networks.
+
+    Raises:
+        ConfigError: the method or its kind is unknown, or it is not one that is fitted.
     """
     row = method_row(config, method)
-    limbs = row.get("limbs", [])
-    if set(limbs) != set(network_dirs):
-        raise ConfigError(not_accepted(f"networks of method {method}", sorted(network_dirs), [sorted(limbs)]))
-    robot = load_robot(Path(config["robot"]))
-    networks = load_limb_networks({limb: network_dirs[limb] for limb in limbs}, robot.layout) if limbs else None
-    if row["kind"] == "residual":
-        return ResidualEstimator(observer_of(config, robot, level, rate_hz), networks)
-    if networks is None:
-        raise ConfigError(f"method {method!r} of kind 'direct' names no limbs; accepted: one or more of its networks")
-    return DirectEstimator(networks)
+    module = kind_of(row, method)
+    if "fitted" not in row or not hasattr(module, "fit"):
+        accepted = [name for name, other in config["methods"].items() if "fitted" in other and name != method]
+        raise ConfigError(not_accepted("method to fit", method, accepted))
+    return module
 
 
-def method_row(config: Mapping[str, Any], method: str) -> Mapping[str, Any]:
-    """Return a method's row of the configuration, such as the rows of Table 5.
+def _modules() -> list[str]:
+    """Return the names of this package's modules."""
+    return [module.name for module in pkgutil.iter_modules(PACKAGE.__path__)]
 
-    Raises:
-        ConfigError: the method or its kind is unknown.
-    """
-    if method not in config["methods"]:
-        raise ConfigError(not_accepted("method", method, config["methods"]))
-    row = config["methods"][method]
-    if row["kind"] not in KINDS:
-        raise ConfigError(not_accepted(f"kind of method {method}", row["kind"], KINDS))
-    return row
+
+def _module(name: str) -> ModuleType:
+    """Return a module of this package."""
+    return importlib.import_module(f"{PACKAGE.__name__}.{name}")

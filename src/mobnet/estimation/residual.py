@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Sensed
 from mobnet.estimation.observer import MomentumObserver, ObserverState
+from mobnet.estimation.recipe import Recipe
 from mobnet.learning.networks import Prediction
 
 State = tuple[ObserverState, Any]  # of the observer and of the uncertainty model
@@ -76,3 +77,13 @@ class ResidualEstimator:
         """Return eq. (15) for the estimated joints, (..., n) [N, N m]."""
         tau = residual[..., self._columns]
         return Estimate(tau) if prediction is None else Estimate(tau - prediction.mean, prediction.std)
+
+
+def build(recipe: Recipe) -> ResidualEstimator:
+    """Build MOB, or MOB-Net of the row's limbs.
+
+    Raises:
+        ConfigError: the level is not configured.
+        DataError: weights are missing or damaged.
+    """
+    return ResidualEstimator(recipe.observer(), recipe.limb_networks())

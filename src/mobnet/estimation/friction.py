@@ -1,0 +1,135 @@
+"""MOB-fric of section 5.2: the residual less a joint friction model, regressed on r - tau_e of the training data.
+
+In the form of (23), with every number of a joint regressed and none below zero, so that friction takes energy:
+
+    tau_f = -tanh(v / smoothing) (coulomb (1 - fade) + static fade + load tau_m^2) - viscous v
+    fade = exp(-|v| / stribeck)
+
+v and tau_m are the sensed joint velocity and the motor's torque. Regressors pass through the low-pass of (11), as what
+they explain has.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.files import read_json
+from mobnet.core.joints import N_VIRTUAL, JointLayout
+from mobnet.core.recording import Sensed
+from mobnet.estimation.observer import exact_pole, low_pass
+from mobnet.estimation.recipe import Recipe
+from mobnet.estimation.regression import TERMS, fit, regressors
+from mobnet.estimation.residual import ResidualEstimator
+from mobnet.learning.networks import Prediction
+
+__all__ = ["Friction", "FrictionModel", "build", "fit", "read_friction"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Friction:
+    """Numbers of (23) of every actuated joint; zero for a joint that was not fitted.
+
+    Attributes:
+        terms: term of `TERMS` -> its factor (nu,): `coulomb`, `static` [N m], `viscous` [N m s], `load` [1/(N m)].
+        stribeck: velocity over which static turns into Coulomb friction (nu,) [rad/s].
+        smoothing: width of the sign function [rad/s].
+    """
+
+    terms: Mapping[str, Array]
+    stribeck: Array
+    smoothing: float
+
+    def torque(self, velocity: NDArray[Any], torque: NDArray[Any]) -> Array:
+        """Return tau_f of (23), (..., nu) [N m], from joint velocity [rad/s] and motor torque [N m], (..., nu) each."""
+        columns = regressors(velocity, torque, self.smoothing, self.stribeck)
+        return -sum((self.terms[term] * columns[term] for term in TERMS), start=np.zeros(self.stribeck.shape))
+
+
+class FrictionModel:
+    """The filtered friction torque as an uncertainty model of (15); the base has none.
+
+    Attributes:
+        joints: names of all generalized velocities, (nv,).
+    """
+
+    def __init__(self, layout: JointLayout, friction: Friction, gain_hz: float, rate_hz: float) -> None:
+        """Take a fitted friction model.
+
+        Args:
+            layout: the robot's joints.
+            friction: numbers of (23).
+            gain_hz: K_0 of (7) [1/s].
+            rate_hz: samples per second [Hz].
+        """
+        self.joints = layout.names
+        self._friction = friction
+        self._gain_hz, self._rate_hz, self._pole = gain_hz, rate_hz, exact_pole(gain_hz, rate_hz)
+
+    def init(self) -> Array | None:
+        """Return the state before the first sample: none."""
+        return None
+
+    def step(self, state: Array | None, sample: Sensed) -> tuple[Array, Prediction]:
+        """Take one sample (1-D arrays); return the filtered friction as new state and as prediction (nv,) [N, N m]."""
+        now = self._torque(sample)
+        filtered = np.zeros_like(now) if state is None else self._pole * state + (1 - self._pole) * now
+        return filtered, _prediction(filtered)
+
+    def run(self, sensed: Sensed) -> Prediction:
+        """Run over one contiguous recording; return the filtered friction (T, nv) [N, N m]."""
+        return _prediction(low_pass(self._torque(sensed), self._gain_hz, self._rate_hz))
+
+    def _torque(self, sensed: Sensed) -> Array:
+        """Return the friction torque before the filter, (..., nv) [N, N m]."""
+        friction = self._friction.torque(sensed.v[..., N_VIRTUAL:], sensed.tau_motor)
+        return np.concatenate([np.zeros((*friction.shape[:-1], N_VIRTUAL)), friction], axis=-1)
+
+
+def build(recipe: Recipe) -> ResidualEstimator:
+    """Build MOB-fric: the residual less the fitted friction.
+
+    Raises:
+        ConfigError: the level is not configured.
+        DataError: the fit is missing or damaged, or of another robot.
+    """
+    layout, gain_hz = recipe.robot.layout, recipe.config["observer"]["gain_hz"]
+    if recipe.fitted is None:
+        raise DataError(f"method {recipe.method!r} has no fitted friction; accepted: a row that names `fitted` limbs")
+    friction = read_friction(recipe.fitted, layout.actuated)
+    return ResidualEstimator(recipe.observer(), FrictionModel(layout, friction, gain_hz, recipe.rate_hz))
+
+
+def read_friction(path: Path, joints: Sequence[str]) -> Friction:
+    """Read what `fit` found, for a robot's actuated joints (nu,); joints that it does not name have no friction.
+
+    Raises:
+        DataError: the file is missing, damaged, or names a joint that the robot does not have.
+    """
+    found = read_json(path)
+    try:
+        rows, smoothing = found["joints"], float(found["smoothing_rad_s"])
+        unknown = [name for name in rows if name not in joints]
+        if unknown:
+            raise DataError(f"{path}: {not_accepted('joint', unknown[0], joints)}")
+        terms = {
+            term: np.array([rows[joint][key] if joint in rows else 0.0 for joint in joints], dtype=np.float64)
+            for term, key in TERMS.items()
+        }
+        stribeck = np.array([rows[joint]["stribeck_rad_s"] if joint in rows else 1.0 for joint in joints])
+    except (KeyError, TypeError) as error:
+        raise DataError(f"{path}: not a fitted friction model ({error!r})") from None
+    return Friction(terms, stribeck, smoothing)
+
+
+def _prediction(torque: NDArray[Any]) -> Prediction:
+    """Return a prediction without a standard deviation: the regression gives none."""
+    return Prediction(torque)
