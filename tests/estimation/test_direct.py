@@ -11,7 +11,7 @@ from mobnet.core.recording import Recording
 from mobnet.estimation.direct import DirectEstimator
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.limbs import LimbNetworks
-from mobnet.learning.networks import TENSORS, Network
+from mobnet.learning.networks import GRU_TENSORS, Z_SCORES, Network
 
 HIDDEN = 5
 
@@ -22,7 +22,8 @@ def network(limb: str, layout: JointLayout, rng: np.random.Generator) -> Network
     gates, n_in, n_out = 3 * HIDDEN, len(inputs), len(joints)
     shapes = [(gates, n_in), (gates, HIDDEN), (gates,), (gates,), (2 * n_out, HIDDEN), (2 * n_out,)]
     shapes += [(n_in,), (n_in,), (n_out,), (n_out,)]
-    tensors = {name: rng.uniform(0.1, 1.0, shape) for name, shape in zip(TENSORS, shapes, strict=True)}
+    names = (*GRU_TENSORS, *Z_SCORES)
+    tensors = {name: rng.uniform(0.1, 1.0, shape) for name, shape in zip(names, shapes, strict=True)}
     return Network(tensors, limb, joints, inputs, 1e-6)
 
 

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
+from safetensors import safe_open
+from safetensors.numpy import save_file
 
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.limbs import LimbNetworks, load_limb_networks
-from mobnet.learning.networks import load_network
+from mobnet.learning.networks import NOTE, WEIGHTS, load_network
 from mobnet.learning.train import train
 
 
@@ -38,6 +41,29 @@ def test_together_they_predict_what_each_predicts(
 def test_a_network_of_another_limb_is_refused(folder: Path, layout: JointLayout) -> None:
     with pytest.raises(DataError, match=r"network of limb 'LL' with joints .* accepted: 'RL'"):
         load_limb_networks({"RL": folder}, layout)
+
+
+def whole(folder: Path, tmp_path: Path, joints: tuple[str, ...]) -> Path:
+    """Return the folder of a copy whose note says that it is a network WB of these joints."""
+    with safe_open(folder / WEIGHTS, framework="numpy") as file:
+        note = {**json.loads(file.metadata()[NOTE]), "limb": "WB", "joints": joints}
+        tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118, not a dict
+    (tmp_path / "WB").mkdir()
+    save_file(tensors, tmp_path / "WB" / WEIGHTS, {NOTE: json.dumps(note)})
+    return tmp_path / "WB"
+
+
+def test_a_network_over_several_limbs_says_its_joints_itself(folder: Path, layout: JointLayout, tmp_path: Path) -> None:
+    joints = layout.limb("LL")[:3] + layout.limb("RA")[:3]
+    assert load_limb_networks({"WB": whole(folder, tmp_path, joints)}, layout).joints == joints
+
+
+def test_a_network_with_joints_that_the_robot_lacks_is_refused(
+    folder: Path, layout: JointLayout, tmp_path: Path
+) -> None:
+    joints = (*layout.limb("LL")[:5], "tail")
+    with pytest.raises(DataError, match=r"network of limb 'WB' with joints .* tail; accepted: 'WB' with V1, "):
+        load_limb_networks({"WB": whole(folder, tmp_path, joints)}, layout)
 
 
 def test_an_input_that_the_robot_lacks_is_named(folder: Path, layout: JointLayout) -> None:

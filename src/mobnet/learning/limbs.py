@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +13,9 @@ from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
 from mobnet.learning.features import signal_names, signals
-from mobnet.learning.networks import Network, Prediction, load_network
+from mobnet.learning.networks import Deployed, Prediction, load_network
 
-State = tuple[NDArray[np.float32], ...]  # recurrent state of each network, (hidden,) each
+State = tuple[Any, ...]  # state of each network, such as (hidden,) of a GRU
 
 
 class LimbNetworks:
@@ -25,7 +26,7 @@ class LimbNetworks:
         joints: names of all their joints, (n,), in the networks' order.
     """
 
-    def __init__(self, networks: Sequence[Network], layout: JointLayout) -> None:
+    def __init__(self, networks: Sequence[Deployed], layout: JointLayout) -> None:
         """Find each network's inputs among the robot's signals.
 
         Args:
@@ -40,7 +41,7 @@ class LimbNetworks:
         self._columns = [_columns(network, layout) for network in networks]
 
     def init(self) -> State:
-        """Return the zero states, (hidden,) each."""
+        """Return the states before the first sample, such as (hidden,) of each GRU."""
         return tuple(network.init() for network in self.networks)
 
     def step(self, state: State, sample: Sensed) -> tuple[State, Prediction]:
@@ -72,13 +73,20 @@ def load_limb_networks(folders: Mapping[str, Path], layout: JointLayout) -> Limb
     """
     networks = [load_network(folder) for folder in folders.values()]
     for network, (limb, folder) in zip(networks, folders.items(), strict=True):
-        if (network.limb, network.joints) != (limb, layout.limb(limb)):
-            raise DataError(f"{folder}: network of limb {network.limb!r} with joints {', '.join(network.joints)}; "
-                            f"accepted: {limb!r} with {', '.join(layout.limb(limb))}")  # fmt: skip
+        _check(network, limb, folder, layout)
     return LimbNetworks(networks, layout)
 
 
-def _columns(network: Network, layout: JointLayout) -> NDArray[np.intp]:
+def _check(network: Deployed, limb: str, folder: Path, layout: JointLayout) -> None:
+    """Raise unless a network is of a limb, with the limb's joints, or, over several limbs, with joints of the robot."""
+    known = set(network.joints) <= set(layout.names)
+    expected = layout.groups.get(limb, network.joints if known else layout.names)
+    if (network.limb, network.joints) != (limb, expected):
+        raise DataError(f"{folder}: network of limb {network.limb!r} with joints {', '.join(network.joints)}; "
+                        f"accepted: {limb!r} with {', '.join(expected)}")  # fmt: skip
+
+
+def _columns(network: Deployed, layout: JointLayout) -> NDArray[np.intp]:
     """Return where a network's inputs stand in `signals`, (n_in,)."""
     where = {name: i for i, name in enumerate(signal_names(layout))}
     missing = [name for name in network.input_names if name not in where]

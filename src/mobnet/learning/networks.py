@@ -1,12 +1,13 @@
-"""Trained limb networks as they run on a robot: one sample at a time, NumPy only.
+"""Trained limb networks as they run on a robot: one sample at a time, the GRU by NumPy only.
 
 Small matrix-vector products at batch 1 cost less in NumPy than a call into torch; weights are laid out as
-`torch.nn.GRU` documents them.
+`torch.nn.GRU` documents them. Every other cell of section 6.1 runs by the module that was trained.
 """
 
 from __future__ import annotations
 
 import json
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,10 +21,12 @@ from mobnet.core.errors import DataError
 
 WEIGHTS = "weights.safetensors"
 NOTE = "note"  # one entry of the file's metadata: more would be written in an order that changes
-TENSORS = (
+GRU_TENSORS = (
     *(f"cell.{kind}_{source}_l0" for kind in ("weight", "bias") for source in ("ih", "hh")),
-    *("head.weight", "head.bias", "input.mean", "input.std", "target.mean", "target.std"),
+    *("head.weight", "head.bias"),
 )
+Z_SCORES = ("input.mean", "input.std", "target.mean", "target.std")
+STD_SCALE = "std.scale"  # factors on the standard deviations, learned after the training; absent means 1
 Array = NDArray[np.float32]
 
 
@@ -35,14 +38,55 @@ class Prediction:
     std: Array | None = None
 
 
-class Network:
-    """GRU-Linear of Table 1 with its z-scores: physical inputs in, torques [N, N m] out.
+class Deployed(ABC):
+    """A trained network: physical inputs in, torques [N, N m] out, its state carried by the caller.
 
     Attributes:
         limb: name of the limb.
         joints: names of the joints, (n,).
         input_names: names of the inputs, (n_in,).
     """
+
+    def __init__(
+        self, tensors: Mapping[str, Array], limb: str, joints: tuple[str, ...], input_names: tuple[str, ...]
+    ) -> None:
+        """Take the z-scores.
+
+        Args:
+            tensors: `input.mean|std` (n_in,), `target.mean|std` (n,) [N, N m] and perhaps `std.scale` (n,) [-].
+            limb: name of the limb.
+            joints: names of the joints.
+            input_names: names of the inputs.
+        """
+        self.limb, self.joints, self.input_names = limb, joints, input_names
+        self._input_mean, self._input_std, self._target_mean, self._target_std = (
+            np.asarray(tensors[name], dtype=np.float32) for name in Z_SCORES
+        )
+        self._std_unit: Array = self._target_std * tensors.get(STD_SCALE, np.float32(1.0))
+
+    @abstractmethod
+    def init(self) -> Any:
+        """Return the state before the first sample."""
+
+    @abstractmethod
+    def step(self, state: Any, x: Array) -> tuple[Any, Prediction]:
+        """Advance by one sample of inputs (n_in,); return the new state and the prediction (n,) [N, N m]."""
+
+    @abstractmethod
+    def run(self, x: Array) -> Prediction:
+        """Run over a contiguous recording of inputs (T, n_in) from a fresh state; return (T, n) [N, N m]."""
+
+    def _z_score(self, x: Array) -> Array:
+        """Return z-scored inputs."""
+        return (x - self._input_mean) / self._input_std
+
+    def _physical(self, mean: Array, std: Array) -> Prediction:
+        """Return a z-scored mean and standard deviation in physical units."""
+        return Prediction(mean * self._target_std + self._target_mean, std * self._std_unit)
+
+
+class Network(Deployed):
+    """GRU-Linear of Table 1 with its z-scores, by NumPy."""
 
     def __init__(
         self,
@@ -55,18 +99,17 @@ class Network:
         """Take weights by the names torch gives them.
 
         Args:
-            tensors: `cell.*`, `head.*` and the z-scores `input.mean|std` (n_in,), `target.mean|std` (n,).
+            tensors: `cell.*`, `head.*` and the z-scores of `Deployed`.
             limb: name of the limb.
             joints: names of the joints.
             input_names: names of the inputs.
             std_min: smallest standard deviation, z-scored [-].
         """
-        self.limb, self.joints, self.input_names = limb, joints, input_names
+        super().__init__(tensors, limb, joints, input_names)
         self.std_min = np.float32(std_min)
-        w_in, w_state, b_in, b_state, self._w_out, self._b_out, *scales = (
-            np.asarray(tensors[name], dtype=np.float32) for name in TENSORS
+        w_in, w_state, b_in, b_state, self._w_out, self._b_out = (
+            np.asarray(tensors[name], dtype=np.float32) for name in GRU_TENSORS
         )
-        self._input_mean, self._input_std, self._target_mean, self._target_std = scales
         self.hidden = w_state.shape[1]
         # sigmoid(x) = (1 + tanh(x / 2)) / 2: the halves go into the weights of the reset and update gates
         half = np.repeat(np.array([0.5, 0.5, 1.0], dtype=np.float32), self.hidden)
@@ -91,10 +134,6 @@ class Network:
             state = states[k] = self._advance(state, gate)
         return self._predict(states @ self._w_out.T + self._b_out)
 
-    def _z_score(self, x: Array) -> Array:
-        """Return z-scored inputs."""
-        return (x - self._input_mean) / self._input_std
-
     def _advance(self, state: Array, gates_in: NDArray[Any]) -> Array:
         """Return the GRU's next state from the input's share of the gates (3 hidden,): reset, update, new."""
         h = self.hidden
@@ -111,11 +150,10 @@ class Network:
         """Return the prediction in physical units from the linear layer's output (..., 2 n)."""
         n = len(self.joints)
         mean, raw = output[..., :n], output[..., n:]
-        std = np.maximum(np.logaddexp(raw, 0.0, dtype=np.float32), self.std_min)
-        return Prediction(mean * self._target_std + self._target_mean, std * self._target_std)
+        return self._physical(mean, np.maximum(np.logaddexp(raw, 0.0, dtype=np.float32), self.std_min))
 
 
-def load_network(folder: Path) -> Network:
+def load_network(folder: Path) -> Deployed:
     """Read a trained network from its folder.
 
     Raises:
@@ -125,9 +163,21 @@ def load_network(folder: Path) -> Network:
     try:
         with safe_open(path, framework="numpy") as file:
             note = json.loads(file.metadata()[NOTE])
-            tensors = {name: file.get_tensor(name) for name in TENSORS}
-        return Network(tensors, note["limb"], tuple(note["joints"]), tuple(note["inputs"]), note["std_min"])
+            tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118, not a dict
+        return _deployed(tensors, note)
     except FileNotFoundError:
         raise DataError(f"{path}: file is missing") from None
-    except (SafetensorError, KeyError, TypeError) as error:
-        raise DataError(f"{path}: not the weights of a limb network ({error})") from None
+    except (SafetensorError, KeyError, TypeError, RuntimeError) as error:
+        why = " ".join(str(error).split())  # torch lists all it misses line by line
+        raise DataError(f"{path}: not the weights of a limb network ({why})") from None
+
+
+def _deployed(tensors: Mapping[str, Array], note: Mapping[str, Any]) -> Deployed:
+    """Return the network that a file's tensors and note describe."""
+    names = note["limb"], tuple(note["joints"]), tuple(note["inputs"])
+    row = note.get("network", {"cell": "GRU"})  # files without it are older than the other cells
+    if row["cell"] == "GRU":
+        return Network(tensors, *names, note["std_min"])
+    from mobnet.learning.module_network import ModuleNetwork  # torch starts slowly, and the GRU does without
+
+    return ModuleNetwork(tensors, *names, note["std_min"], row)

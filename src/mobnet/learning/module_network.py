@@ -1,0 +1,67 @@
+"""Trained networks of any cell as they run on a robot, by the torch module that was trained (section 6.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from mobnet.learning.model import build_network
+from mobnet.learning.networks import Array, Deployed, Prediction
+
+CHUNK = 2000  # samples of a recording run at once, so that memory does not grow with its length
+
+
+class ModuleNetwork(Deployed):
+    """A network of any cell with its z-scores, dropout off; the state is the cell's, (rows, 1, columns)."""
+
+    def __init__(
+        self,
+        tensors: Mapping[str, Array],
+        limb: str,
+        joints: tuple[str, ...],
+        input_names: tuple[str, ...],
+        std_min: float,
+        row: Mapping[str, Any],
+    ) -> None:
+        """Build the module and load its weights.
+
+        Args:
+            tensors: `cell.*`, `head.*` and the z-scores of `Deployed`.
+            limb: name of the limb.
+            joints: names of the joints.
+            input_names: names of the inputs.
+            std_min: smallest standard deviation, z-scored [-].
+            row: row of Table 1 or section 6.1, its `cell` and sizes; norms are in the weights already.
+        """
+        super().__init__(tensors, limb, joints, input_names)
+        self._module = build_network({**row, "spectral": False}, len(input_names), len(joints), std_min, seed=0).eval()
+        weights = {name: tensor for name, tensor in tensors.items() if name.startswith(("cell.", "head."))}
+        self._module.load_state_dict({name: torch.from_numpy(np.array(tensor)) for name, tensor in weights.items()})
+
+    def init(self) -> Tensor:
+        """Return the zero state (rows, 1, columns)."""
+        return self._module.fresh_state(1)
+
+    def step(self, state: Tensor, x: Array) -> tuple[Tensor, Prediction]:
+        """Advance by one sample of inputs (n_in,); return the new state and the prediction (n,) [N, N m]."""
+        mean, std, state = self._advance(state, x[None])
+        return state, self._physical(mean[0], std[0])
+
+    def run(self, x: Array) -> Prediction:
+        """Run over a contiguous recording of inputs (T, n_in) from a fresh state; return (T, n) [N, N m]."""
+        state, means, stds = self.init(), [], []
+        for start in range(0, len(x), CHUNK):
+            mean, std, state = self._advance(state, x[start : start + CHUNK])
+            means.append(mean)
+            stds.append(std)
+        return self._physical(np.concatenate(means), np.concatenate(stds))
+
+    @torch.no_grad()
+    def _advance(self, state: Tensor, x: Array) -> tuple[Array, Array, Tensor]:
+        """Return z-scored mean and standard deviation (T, n) of physical inputs (T, n_in), and the state after."""
+        mean, std, state = self._module(torch.from_numpy(self._z_score(x))[:, None], state)
+        return mean[:, 0].numpy(), std[:, 0].numpy(), state
