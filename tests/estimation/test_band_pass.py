@@ -1,0 +1,87 @@
+"""The band-pass of MOB-fric-BPF: what it lets through, and what it cannot tell."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from mobnet.core.errors import ConfigError
+from mobnet.core.estimator import Estimate
+from mobnet.core.recording import Recording, Sensed
+from mobnet.estimation.band_pass import BandPassEstimator
+from mobnet.estimation.methods import build_estimator
+
+RATE_HZ, BAND_HZ, ORDER = 1000.0, (2.0, 15.0), 2
+
+
+class Given:
+    """Estimates a torque that the test gives, one value a sample; it counts samples as its state."""
+
+    joints = ("LL3", "LL4")
+
+    def __init__(self, torque: NDArray[np.float64]) -> None:
+        self.torque = np.stack([torque, -torque], axis=1)
+
+    def init(self) -> int:
+        return 0
+
+    def step(self, state: int, sample: Sensed) -> tuple[int, Estimate]:
+        return state + 1, Estimate(self.torque[state])
+
+    def estimate(self, sensed: Sensed) -> Estimate:
+        return Estimate(self.torque, np.ones_like(self.torque))
+
+
+def passed(torque: NDArray[np.float64], sensed: Sensed) -> NDArray[Any]:
+    """Return what comes out for the first joint."""
+    return BandPassEstimator(Given(torque), BAND_HZ, ORDER, RATE_HZ).estimate(sensed).tau_ext[:, 0]
+
+
+@pytest.mark.parametrize(
+    ("frequency_hz", "smallest", "largest"),
+    [(0.2, 0.0, 0.03), (2.0, 0.69, 0.72), (5.5, 0.97, 1.001), (15.0, 0.69, 0.72), (100.0, 0.0, 0.05)],
+)
+def test_gain_over_frequency(
+    frequency_hz: float, smallest: float, largest: float, made_up: Callable[..., Recording]
+) -> None:
+    """One inside the band, 1 / sqrt 2 at its edges, small outside."""
+    sensed = made_up(0, 15.0).sensed
+    time = np.arange(len(sensed)) / RATE_HZ
+    settled = passed(np.sin(2 * np.pi * frequency_hz * time), sensed)[-5000:]
+    assert smallest <= np.sqrt(2 * np.mean(settled**2)) <= largest
+
+
+def test_a_steady_load_fades(made_up: Callable[..., Recording]) -> None:
+    """It cannot estimate the constant part: a step shows, then tends to zero."""
+    sensed = made_up(0, 3.0).sensed
+    seen = passed(np.full(len(sensed), 30.0), sensed)
+    assert seen.max() > 15.0
+    assert np.abs(seen[-1000:]).max() < 0.05
+
+
+def test_it_has_no_std_and_steps_as_it_runs(made_up: Callable[..., Recording]) -> None:
+    sensed = made_up(0, 0.2).sensed
+    torque = np.random.default_rng(0).normal(0, 10, len(sensed))
+    estimator = BandPassEstimator(Given(torque), BAND_HZ, ORDER, RATE_HZ)
+    whole, state = estimator.estimate(sensed), estimator.init()
+    assert whole.std is None
+    assert estimator.joints == Given.joints
+    for k in range(len(sensed)):
+        state, one = estimator.step(state, sensed[k])
+        np.testing.assert_allclose(one.tau_ext, whole.tau_ext[k], rtol=1e-9, atol=1e-12)
+
+
+@pytest.mark.parametrize("band_hz", [(0.0, 15.0), (15.0, 2.0), (2.0, 500.0)])
+def test_bands_that_cannot_be_are_refused(band_hz: tuple[float, float]) -> None:
+    with pytest.raises(ConfigError, match=r"band_hz: .* accepted: 0 < low < high < 500"):
+        BandPassEstimator(Given(np.zeros(1)), band_hz, ORDER, RATE_HZ)
+
+
+def test_a_row_without_band_is_refused(full_config: dict[str, Any]) -> None:
+    config = full_config | {"methods": {"MOB": {"kind": "residual"}, "b": {"kind": "band_pass", "of": "MOB"}}}
+    with pytest.raises(ConfigError, match="method 'b' of kind 'band_pass': accepted: `of`, `band_hz` and `order`"):
+        build_estimator(config, "b", {}, "ideal", RATE_HZ)

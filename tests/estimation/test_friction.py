@@ -1,0 +1,111 @@
+"""The friction model of MOB-fric obeys (23) and corrects the residual by its filtered torque."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mobnet.core.errors import DataError
+from mobnet.core.joints import N_VIRTUAL, JointLayout
+from mobnet.core.recording import Recording
+from mobnet.estimation.friction import Friction, FrictionModel, build, read_friction
+from mobnet.estimation.observer import low_pass
+from mobnet.estimation.recipe import Recipe
+from mobnet.estimation.regression import TERMS
+from mobnet.simulation.friction import friction_torque, make_friction
+
+GAIN_HZ, RATE_HZ = 100.0, 1000.0
+KNEE = {"coulomb_nm": 12.0, "static_nm": 9.0, "viscous_nms": 3.0, "load_per_nm": 0.002, "stribeck_rad_s": 0.3}
+
+
+@pytest.fixture
+def fitted(tmp_path: Path) -> Path:
+    """A fit of the left knee alone."""
+    path = tmp_path / "fit.json"
+    path.write_text(json.dumps({"smoothing_rad_s": 0.02, "joints": {"LL4": KNEE}}))
+    return path
+
+
+@pytest.fixture
+def table_4(full_config: dict[str, Any], layout: JointLayout) -> Friction:
+    """Friction of the plant, in the form of the fit."""
+    plant = make_friction(full_config["plant"], np.array([joint[1] == "L" for joint in layout.actuated]), True)
+    dry = {"coulomb": np.full(layout.nu, plant.coulomb), "static": np.full(layout.nu, plant.static)}
+    terms = {**dry, "viscous": plant.viscous, "load": plant.load}
+    return Friction(terms, np.full(layout.nu, plant.stribeck), plant.smoothing)
+
+
+def test_it_has_the_form_of_the_plants_friction(
+    full_config: dict[str, Any], layout: JointLayout, table_4: Friction
+) -> None:
+    """Equivalent to the simulator's own formula of (23) with Table 4's numbers."""
+    plant = make_friction(full_config["plant"], np.array([joint[1] == "L" for joint in layout.actuated]), True)
+    rng = np.random.default_rng(0)
+    velocity, torque = rng.normal(0, 1, (20, layout.nu)), rng.normal(0, 50, (20, layout.nu))
+    expected = [
+        [friction_torque(plant, j, v, tau) for j, (v, tau) in enumerate(zip(vs, taus, strict=True))]
+        for vs, taus in zip(velocity, torque, strict=True)
+    ]
+    np.testing.assert_allclose(table_4.torque(velocity, torque), expected, rtol=1e-12)
+
+
+def test_friction_is_odd_in_the_velocity_and_takes_energy(table_4: Friction) -> None:
+    rng = np.random.default_rng(1)
+    velocity, torque = rng.normal(0, 1, (50, len(table_4.stribeck))), rng.normal(0, 50, (50, len(table_4.stribeck)))
+    forward, back = table_4.torque(velocity, torque), table_4.torque(-velocity, torque)
+    np.testing.assert_array_equal(forward, -back)
+    assert (forward * velocity < 0).all()
+
+
+def test_prediction_is_the_filtered_torque_and_the_base_has_none(
+    layout: JointLayout, table_4: Friction, made_up: Callable[..., Recording]
+) -> None:
+    sensed = made_up(2, 0.2).sensed
+    prediction = FrictionModel(layout, table_4, GAIN_HZ, RATE_HZ).run(sensed)
+    torque = table_4.torque(sensed.v[:, N_VIRTUAL:], sensed.tau_motor)
+    assert prediction.std is None
+    assert not prediction.mean[:, :N_VIRTUAL].any()
+    np.testing.assert_allclose(prediction.mean[:, N_VIRTUAL:], low_pass(torque, GAIN_HZ, RATE_HZ), rtol=1e-12)
+
+
+def test_joints_that_were_not_fitted_are_those_of_the_observer(
+    full_config: dict[str, Any], layout: JointLayout, fitted: Path, made_up: Callable[..., Recording]
+) -> None:
+    recipe = Recipe(full_config, "MOB-fric", "all_uncertainty", RATE_HZ, fitted=fitted)
+    sensed = made_up(2, 0.1).sensed
+    estimator = build(recipe)
+    difference = estimator.estimate(sensed).tau_ext - recipe.observer().residual(sensed)
+    changed = [joint for joint, column in zip(estimator.joints, difference.T, strict=True) if column.any()]
+    assert estimator.joints == layout.names
+    assert changed == ["LL4"]
+
+
+def test_numbers_are_read_by_name(fitted: Path, layout: JointLayout) -> None:
+    friction, knee = read_friction(fitted, layout.actuated), layout.actuated.index("LL4")
+    assert {key: friction.terms[term][knee] for term, key in TERMS.items()} == {
+        key: KNEE[key] for key in TERMS.values()
+    }
+    assert friction.stribeck[knee] == KNEE["stribeck_rad_s"]
+    assert sum(np.count_nonzero(factors) for factors in friction.terms.values()) == len(TERMS)
+
+
+@pytest.mark.parametrize(
+    ("found", "message"),
+    [
+        ({"smoothing_rad_s": 0.02, "joints": {"LL9": KNEE}}, "'LL9' is not accepted; accepted: LA1"),
+        ({"smoothing_rad_s": 0.02, "joints": {"LL4": {"coulomb_nm": 1.0}}}, "not a fitted friction model"),
+        ({"joints": {}}, "not a fitted friction model"),
+    ],
+)
+def test_files_that_are_no_fit_are_refused(
+    found: dict[str, Any], message: str, tmp_path: Path, layout: JointLayout
+) -> None:
+    path = tmp_path / "fit.json"
+    path.write_text(json.dumps(found))
+    with pytest.raises(DataError, match=message):
+        read_friction(path, layout.actuated)
