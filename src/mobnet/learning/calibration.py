@@ -20,7 +20,6 @@ from mobnet.learning.model import LimbNetwork
 from mobnet.learning.optimisation import Samples
 from mobnet.learning.streams import Plan
 
-STD_SCALE = "std.scale"  # name of the factors among a network's tensors; without it they are 1
 Array = NDArray[np.float64]
 
 
@@ -31,8 +30,8 @@ class Calibration:
     Attributes:
         scale: factor on the standard deviation (n,) [-].
         likelihood_scale: factor that would make the data most likely (n,) [-]; for comparison only.
-        before: fit of the standard deviations as learned.
-        after: fit of the scaled ones, each half of the data scaled by what the other half gives.
+        before: fit of the standard deviations as learned, on the second half of the data.
+        after: fit of the scaled ones there, with factors that the first half gives.
     """
 
     scale: Array
@@ -55,7 +54,7 @@ class Calibration:
 
 
 def calibrate(error: NDArray[Any], std: NDArray[Any], share: float, shares: Sequence[float]) -> Calibration:
-    """Learn the factors, and tell how well they hold where they were not learned.
+    """Learn the factors, and tell how well those of one half of the data hold on the other.
 
     Args:
         error: prediction minus target in the order of time (T, n) [N m].
@@ -64,14 +63,12 @@ def calibrate(error: NDArray[Any], std: NDArray[Any], share: float, shares: Sequ
         shares: nominal shares of the coverage told (k,) [-].
     """
     cut = len(error) // 2
-    first, second = slice(None, cut), slice(cut, None)
-    crossed = [std[here] * scale_for(error[other], std[other], share) for here, other in
-               ((first, second), (second, first))]  # fmt: skip
+    halved = scale_for(error[:cut], std[:cut], share)
     return Calibration(
         scale_for(error, std, share),
         np.sqrt(np.square(error / std).mean(axis=0)),
-        fit_of(error, std, shares),
-        fit_of(error, np.concatenate(crossed), shares),
+        fit_of(error[cut:], std[cut:], shares),
+        fit_of(error[cut:], std[cut:] * halved, shares),
     )
 
 

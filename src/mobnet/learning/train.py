@@ -15,12 +15,12 @@ from safetensors.torch import save_file
 from mobnet.core.config import load_layout
 from mobnet.core.files import atomic_path, write_json
 from mobnet.core.provenance import provenance
-from mobnet.learning.calibration import STD_SCALE, Calibration
+from mobnet.learning.calibration import Calibration
 from mobnet.learning.checkpoint import CHECKPOINT, Progress
 from mobnet.learning.dataset import LimbData, load_limb_data
 from mobnet.learning.job import job_of
 from mobnet.learning.model import parameter_count
-from mobnet.learning.networks import NOTE, WEIGHTS
+from mobnet.learning.networks import NOTE, STD_SCALE, WEIGHTS
 from mobnet.learning.tracking import METRICS, write_metrics, write_wandb
 from mobnet.learning.trainer import Trainer
 
