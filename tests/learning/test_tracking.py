@@ -23,11 +23,14 @@ NOTE: dict[str, Any] = {
     "name": "MOB-Net-LL-s0",
     "method": "MOB-Net",
     "limb": "LL",
+    "seed": 0,
+    "target": "uncertainty",
     "settings": {"epochs": 3, "network": {"cell": "GRU"}},
+    "fingerprint": "19d24124e221260e",
+    "provenance": {"commit": "21b3510"},
     "parameters": 83712,
     "best": ROWS[1],
     "seconds": 227.7,
-    "provenance": {"commit": "21b3510"},
 }
 TERMINAL_S = 20
 

@@ -16,7 +16,7 @@ from mobnet.learning.checkpoint import Row
 
 METRICS = "metrics.csv"
 COLUMNS = ("epoch", "train_loss", "validation_loss", "validation_rmse", "rate", "gradient_norm")
-RESULTS = ("parameters", "samples", "diverged", "best", "seconds", "device", "precision")  # other keys are settings
+SETTINGS = ("name", "method", "limb", "seed", "target", "settings", "fingerprint", "provenance")  # keys of run.json
 DATED = "run-00000000_000000-"  # `wandb leet` opens only folders named by date; none, so that a rerun takes its place
 WANDB_PLACES = ("WANDB_CACHE_DIR", "WANDB_DATA_DIR", "WANDB_CONFIG_DIR")
 
@@ -37,8 +37,8 @@ def write_wandb(folder: Path, note: Mapping[str, Any], rows: Sequence[Row]) -> P
 
     Args:
         folder: where the runs lie.
-        note: what `run.json` tells. Its results (RESULTS) become the run's summary, the rest its configuration; runs
-            are grouped by method, and the limb is their type of job.
+        note: what `run.json` tells; SETTINGS become the run's configuration, all else its summary. Runs are grouped by
+            method, and the limb is their type of job.
         rows: metrics of each epoch.
 
     Returns:
@@ -65,9 +65,9 @@ def _log_run(scratch: str, note: Mapping[str, Any], rows: Sequence[Row]) -> None
     )  # fmt: skip
     with wandb.init(
         project="mobnet", id=note["name"], name=note["name"], group=note["method"], job_type=note["limb"],
-        config={key: value for key, value in note.items() if key not in RESULTS},
+        config={key: note[key] for key in SETTINGS},
         dir=scratch, mode="offline", settings=quiet,
     ) as run:  # fmt: skip
         for row in rows:
             run.log(dict(row), step=int(row["epoch"]))
-        run.summary.update({key: note[key] for key in RESULTS if key in note})
+        run.summary.update({key: value for key, value in note.items() if key not in SETTINGS})

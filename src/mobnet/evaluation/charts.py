@@ -1,0 +1,90 @@
+"""Line charts of a web page as numbers: points on a grid and ticks; the page's template draws them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from matplotlib.ticker import MaxNLocator
+
+GRID = 1000  # steps of a drawing in each direction: finer than a screen shows, and few digits
+TICKS = 5
+DASH = GRID // 50  # half length of a curve of one point
+FLAT = 0.5  # half height given to a curve that is zero throughout
+
+
+@dataclass(frozen=True)
+class Tick:
+    """A mark on an axis: its place as share of the axis's length [-], and its text."""
+
+    place: float
+    text: str
+
+
+@dataclass(frozen=True)
+class Chart:
+    """A drawing of GRID x GRID, y downwards.
+
+    Attributes:
+        key: short name.
+        title: what is drawn, with its unit.
+        lines: name of a curve -> its SVG points.
+        marked: x of the marked place.
+        x_ticks: marks on the horizontal axis.
+        y_ticks: marks on the vertical axis.
+    """
+
+    key: str
+    title: str
+    lines: Mapping[str, str]
+    marked: int
+    x_ticks: Sequence[Tick]
+    y_ticks: Sequence[Tick]
+
+
+def line_chart(key: str, title: str, x: Sequence[float], lines: Mapping[str, Sequence[float]],
+               marked: float) -> Chart:  # fmt: skip
+    """Scale curves to the drawing.
+
+    Args:
+        key: short name.
+        title: what is drawn, with its unit.
+        x: places of the values (n,), whole numbers, at least one.
+        lines: name -> values (n,), all on one axis.
+        marked: the place to mark.
+    """
+    across = span(x)
+    up = span([value for values in lines.values() for value in values])
+    return Chart(
+        key, title,
+        {name: points(x, values, across, up) for name, values in lines.items()},
+        round(GRID * share(marked, across)),
+        ticks(across, whole=True), ticks(up),
+    )  # fmt: skip
+
+
+def span(values: Sequence[float]) -> tuple[float, float]:
+    """Return the smallest and largest value, drawn apart where they are equal."""
+    low, high = min(values), max(values)
+    apart = abs(low) / 2 or FLAT
+    return (low, high) if low < high else (low - apart, high + apart)
+
+
+def share(value: float, ends: tuple[float, float]) -> float:
+    """Return how far a value lies between two ends [-]."""
+    return (value - ends[0]) / (ends[1] - ends[0])
+
+
+def points(x: Sequence[float], y: Sequence[float], across: tuple[float, float], up: tuple[float, float]) -> str:
+    """Return a curve's points as SVG writes them; a single one as a dash."""
+    places = [(round(GRID * share(a, across)), round(GRID * (1 - share(b, up)))) for a, b in zip(x, y, strict=True)]
+    if len(places) == 1:
+        ((a, b),) = places
+        places = [(a - DASH, b), (a + DASH, b)]
+    return " ".join(f"{a},{b}" for a, b in places)
+
+
+def ticks(ends: tuple[float, float], *, whole: bool = False) -> list[Tick]:
+    """Return marks at round values between two ends, with no more digits than tell them apart."""
+    places = MaxNLocator(TICKS, integer=whole, min_n_ticks=1 if whole else 2).tick_values(*ends)
+    return [Tick(share(place, ends), f"{place + 0.0:.4g}") for place in places if ends[0] <= place <= ends[1]]
