@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from safetensors.numpy import save_file
 
 from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
 from mobnet.core.store import read_array
-from mobnet.estimation.estimate import estimate, run_segments, table_of
+from mobnet.estimation.estimate import estimate, run_segments, std_scales, table_of
 from mobnet.estimation.methods import build_estimator
+from mobnet.learning.networks import NOTE, STD_SCALE, WEIGHTS, Z_SCORES
 
 Write = Callable[[Path, Recording], tuple[Path, Path]]
 
@@ -49,6 +52,20 @@ def test_std_columns_follow_if_there_are_any(layout: JointLayout) -> None:
 def test_a_method_without_a_std_gets_none(full_config: dict[str, Any], made_up: Callable[..., Recording]) -> None:
     estimator = build_estimator(full_config, "MOB", {}, "ideal", 1000.0)
     assert run_segments(estimator, made_up(0, 0.1)).std is None
+
+
+def test_factors_are_told_joint_by_joint_and_are_one_where_none_are_stored(tmp_path: Path) -> None:
+    tensors = {f"cell.weight_{side}_l0": np.zeros((3, 1), np.float32) for side in ("ih", "hh")}
+    tensors |= {f"cell.bias_{side}_l0": np.zeros(3, np.float32) for side in ("ih", "hh")}
+    tensors |= {"head.weight": np.zeros((4, 1), np.float32), "head.bias": np.zeros(4, np.float32)}
+    tensors |= {name: np.ones(2 if name.startswith("target") else 1, np.float32) for name in Z_SCORES}
+    for limb, more in (("LA", {}), ("RA", {STD_SCALE: np.array([0.5, 2.0], np.float32)})):
+        (tmp_path / limb).mkdir()
+        note = {"limb": limb, "joints": [f"{limb}1", f"{limb}2"], "inputs": ["q.W1"], "std_min": 1e-6}
+        save_file(tensors | more, tmp_path / limb / WEIGHTS, {NOTE: json.dumps(note)})
+    told = std_scales({limb: tmp_path / limb for limb in ("LA", "RA")})
+    assert told == {"LA1": 1.0, "LA2": 1.0, "RA1": 0.5, "RA2": 2.0}
+    assert std_scales({}) == {}
 
 
 def test_a_recording_that_names_no_level_is_refused(

@@ -17,6 +17,7 @@ from mobnet.core.recording import Column, SensedRecording, recording_columns
 from mobnet.core.store import read_sensed, write_array
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.observe import CARRIED, level_of
+from mobnet.learning.networks import load_network
 
 log = logging.getLogger(__name__)
 
@@ -56,9 +57,20 @@ def estimate(
         **{key: recording.meta[key] for key in CARRIED if key in recording.meta},
         "method": method,
         "networks": {limb: folder.name for limb, folder in network_dirs.items()},
+        "std_scale": std_scales(network_dirs),
     }
     write_array(out_stem, array, columns, meta, recording.segments)
     log.info("%s: %s of %d samples, %d joints", out_stem, method, len(array), len(estimator.joints))
+
+
+def std_scales(network_dirs: Mapping[str, Path]) -> dict[str, float]:
+    """Return joint -> factor [-] that is in its networks' standard deviation, learned after their training."""
+    networks = [load_network(folder) for folder in network_dirs.values()]
+    return {
+        joint: factor
+        for network in networks
+        for joint, factor in zip(network.joints, network.std_scale.tolist(), strict=True)
+    }
 
 
 def run_segments(estimator: Estimator, recording: SensedRecording) -> Estimate:

@@ -45,6 +45,7 @@ class Deployed(ABC):
         limb: name of the limb.
         joints: names of the joints, (n,).
         input_names: names of the inputs, (n_in,).
+        std_scale: factors that are in its standard deviations, (n,) [-].
     """
 
     def __init__(
@@ -62,7 +63,8 @@ class Deployed(ABC):
         self._input_mean, self._input_std, self._target_mean, self._target_std = (
             np.asarray(tensors[name], dtype=np.float32) for name in Z_SCORES
         )
-        self._std_unit: Array = self._target_std * tensors.get(STD_SCALE, np.float32(1.0))
+        self.std_scale: Array = tensors.get(STD_SCALE, np.ones_like(self._target_std))
+        self._std_unit: Array = self._target_std * self.std_scale
 
     @abstractmethod
     def init(self) -> Any:
