@@ -1,0 +1,21 @@
+# The page of all trainings.
+
+
+rule runs:
+    input:
+        notes=networks("run.json"),
+        metrics=networks("metrics.csv"),
+        # code_of reads Python only
+        templates=expand("src/mobnet/evaluation/templates/runs.{ending}", ending=["html", "css", "js"]),
+    output:
+        ensure(f"{RESULTS}/runs.html", non_empty=True),
+    log:
+        f"{RESULTS}/logs/runs.log",
+    benchmark:
+        f"{RESULTS}/bench/runs.tsv"
+    threads: 1
+    params:
+        config=part("scale"),
+        code=code_of("runs"),
+    script:
+        "../scripts/runs.py"
