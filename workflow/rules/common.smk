@@ -265,7 +265,7 @@ def products():
         ending=["pdf", "png", "csv"],
     )
     scores = expand(f"{RESULTS}/scores/{{scenario}}.csv", scenario=scenarios)
-    texts = [f"{TABLES}/numbers.tex", f"{TABLES}/deviations.tex", f"{PAPER}/build.json"]
+    texts = [f"{TABLES}/numbers.tex", f"{TABLES}/deviations.tex", f"{PAPER}/build.json", f"{RESULTS}/runs.html"]
     return stored + notes + trained + scores + tables + figures + texts
 
 
