@@ -14,6 +14,7 @@ import torch
 from mobnet.core.config import config_hash
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.methods import experiment_row, learning_row, network_row
+from mobnet.learning.precision import precision_of
 
 
 @dataclass(frozen=True)
@@ -66,11 +67,15 @@ class Job:
         passed = min(1.0, epoch / max(1.0, self.settings["rate_decay_share"] * self.epochs))
         return self.settings["rate_first"] * (1.0 - (1.0 - self.settings["rate_last_ratio"]) * passed)
 
+    def precision(self, device: torch.device) -> torch.dtype:
+        """Return the number format of the products on a device."""
+        return precision_of(self.settings["precision"], device)
+
     def fingerprint(self, data_digest: str, device: torch.device) -> str:
         """Return a hash of all that the weights depend on: numbers, data, this package's code, torch, device."""
         code = [path.read_text(encoding="utf-8") for path in sorted(Path(__file__).parent.glob("*.py"))]
         return config_hash({**asdict(self), "data": data_digest, "code": code, "torch": torch.__version__,
-                            "device": device.type})  # fmt: skip
+                            "device": device.type, "precision": str(self.precision(device))})  # fmt: skip
 
 
 def job_of(config: Mapping[str, Any], method: str, limb: str, seed: int) -> Job:

@@ -21,6 +21,9 @@ class LimbNetwork(nn.Module):
 
     The paper gives the variance outputs a softplus and clips the standard deviation (section 4.4); here the softplus
     is the standard deviation itself, so that one clip serves both.
+
+    Attributes:
+        precision: number format of the cell's products in training; otherwise, as on the robot, float32.
     """
 
     def __init__(self, cell: Cell, joints: int, std_min: float) -> None:
@@ -38,6 +41,7 @@ class LimbNetwork(nn.Module):
             self.head = nn.Linear(cell.width, 2 * joints)
         self.std_min = std_min
         self.input_gain = 1.0
+        self.precision = torch.float32
 
     def forward(self, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor, Tensor]:
         """Run over a stretch of time, eq. (18).
@@ -49,9 +53,11 @@ class LimbNetwork(nn.Module):
         Returns:
             Mean (h, B, n), standard deviation (h, B, n), both z-scored, and the state after the stretch.
         """
-        features, state = self.cell.run(x if self.input_gain == 1.0 else self.input_gain * x, state)
-        mean, raw = self.head(features).chunk(2, dim=-1)
-        return mean, nn.functional.softplus(raw).clamp_min(self.std_min), state
+        rounded = self.training and self.precision != torch.float32
+        with torch.autocast(x.device.type, self.precision, enabled=rounded):
+            features, state = self.cell.run(x if self.input_gain == 1.0 else self.input_gain * x, state)
+        mean, raw = self.head(features.float()).chunk(2, dim=-1)  # rounded means would cost likelihood
+        return mean, nn.functional.softplus(raw).clamp_min(self.std_min), state.float()
 
     def fresh_state(self, lanes: int, device: torch.device | None = None) -> Tensor:
         """Return the zero state (rows, B, columns) of some lanes, such as (1, B, hidden) of a GRU."""

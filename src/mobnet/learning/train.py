@@ -21,6 +21,7 @@ from mobnet.learning.dataset import LimbData, load_limb_data
 from mobnet.learning.job import job_of
 from mobnet.learning.model import parameter_count
 from mobnet.learning.networks import NOTE, STD_SCALE, WEIGHTS
+from mobnet.learning.precision import precision_name
 from mobnet.learning.tracking import METRICS, write_metrics, write_wandb
 from mobnet.learning.trainer import Trainer
 
@@ -117,6 +118,7 @@ def run_note(
         "calibration": calibration.note(data.joints, job.settings["calibration_levels"]),
         "seconds": round(done.seconds, 1),
         "device": trainer.device.type,
+        "precision": precision_name(trainer.network.precision),
         "fingerprint": trainer.fingerprint,
         "provenance": provenance(config),
     }

@@ -61,6 +61,7 @@ class Trainer:
         seed = int(job.generator("weights").integers(np.iinfo(np.int64).max))
         sizes = len(data.input_names), len(data.joints)
         self.network = build_network(job.row, *sizes, job.settings["std_min"], seed).to(self.device)
+        self.network.precision = job.precision(self.device)
         betas = tuple(job.settings["optimizer_betas"])
         self._optimizer = torch.optim.Adam(self.network.parameters(), lr=job.rate(0), betas=betas)
 
