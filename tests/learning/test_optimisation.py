@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import copy
+
 import numpy as np
 import pytest
 import torch
 
 from mobnet.learning.cells import Gru
 from mobnet.learning.loss import gaussian_loss
-from mobnet.learning.model import LimbNetwork
-from mobnet.learning.optimisation import Samples, train_epoch, validate
-from mobnet.learning.streams import deal, epoch_plan
+from mobnet.learning.model import LimbNetwork, build_network
+from mobnet.learning.optimisation import LAST_STEP, SEQUENCES, Samples, train_epoch, validate
+from mobnet.learning.streams import deal, epoch_plan, window_plan
 
 HORIZON = 10
 
@@ -55,6 +57,45 @@ def test_training_lowers_the_loss(network: LimbNetwork, samples: Samples) -> Non
         for _ in range(20)
     ]
     assert losses[-1] < losses[0] - 0.3
+
+
+@pytest.mark.parametrize("row", [{"cell": "TCN"}, {"cell": "MLP"}, {"cell": "LSTM"}, {"cell": "constant"}], ids=str)
+def test_every_cell_learns_on_streams(row: dict[str, object], samples: Samples) -> None:
+    small = {"hidden": 8, "window_steps": 4, "kernel_steps": 2, "dilations": [1, 2], "dropout": 0.1, "head": 8}
+    network = build_network({**small, **row}, 3, 2, 1e-6, seed=0)
+    samples.targets.add_(1.0)  # what even a constant can learn
+    optimizer = torch.optim.Adam(network.parameters(), lr=1e-2)
+    plan = epoch_plan([(0, 600)], 100, HORIZON, 4, np.random.default_rng(0))
+    losses = [train_epoch(network, optimizer, samples, plan, HORIZON, 1.0)[0] for _ in range(20)]
+    assert losses[-1] < losses[0] - 0.3
+
+
+def test_windows_are_scored_at_their_last_step_from_a_zero_state(network: LimbNetwork, samples: Samples) -> None:
+    """Each window run by itself is the reference."""
+    plan = window_plan([(0, 600)], 100, HORIZON, 5, np.random.default_rng(0))
+    loss, rmse = validate(network, samples, plan, HORIZON, LAST_STEP)
+    with torch.no_grad():
+        runs = [network(samples.inputs[a : a + HORIZON, None], network.fresh_state(1)) for a in plan.rows.ravel()]
+    mean, std = (torch.stack([run[i][-1, 0] for run in runs]) for i in (0, 1))
+    target = samples.targets[torch.from_numpy(plan.rows.ravel() + HORIZON - 1)]
+    assert loss == pytest.approx(float(gaussian_loss(mean, std, target)), rel=1e-5)
+    torch.testing.assert_close(rmse, (mean - target).square().mean(dim=0).sqrt())
+
+
+@pytest.mark.parametrize("sequences", SEQUENCES)
+def test_steps_outside_the_loss_teach_nothing(sequences: str, network: LimbNetwork, samples: Samples) -> None:
+    """Targets of a window's first steps do not matter to training on windows, and do to training on streams."""
+    plan_of, scored = SEQUENCES[sequences]
+    plan = plan_of([(0, 600)], 100, HORIZON, 1, np.random.default_rng(0), HORIZON)
+    weights = []
+    for change in (0.0, 5.0):
+        learner, targets, first = copy.deepcopy(network), samples.targets.clone(), int(plan.rows[0, 0])
+        targets[first : first + HORIZON - 1] += change
+        optimizer = torch.optim.SGD(learner.parameters(), lr=1.0)
+        train_epoch(learner, optimizer, Samples(samples.inputs, targets), plan, HORIZON, 1.0, scored)
+        weights.append(learner.head.weight.detach())
+    assert not torch.equal(weights[0], network.head.weight)
+    assert torch.equal(*weights) == (sequences == "windows")
 
 
 def test_a_clip_of_zero_stops_learning(network: LimbNetwork, samples: Samples) -> None:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import DataError
-from mobnet.learning.streams import cut_streams, deal, epoch_plan, split, validation_plan
+from mobnet.learning.streams import cut_streams, deal, epoch_plan, split, validation_plan, window_plan
 
 SEGMENTS = [(0, 10_000), (10_000, 13_337), (13_337, 13_360), (13_360, 20_000)]
 STREAM, HORIZON, LANES = 1000, 50, 8
@@ -68,3 +68,20 @@ def test_too_few_samples_for_a_batch_are_refused() -> None:
         deal([(0, 100)], LANES, HORIZON)
     with pytest.raises(DataError, match="0 horizons"):
         deal([], LANES, HORIZON)
+
+
+def test_windows_lie_whole_inside_blocks_and_start_from_zero() -> None:
+    blocks = [(0, 30), (40, 45), (50, 65)]
+    plan = window_plan(blocks, 100, 10, 4, np.random.default_rng(0), samples=4000)
+    assert plan.rows.shape == (100, 4)
+    assert plan.fresh.all()
+    assert set(plan.rows.ravel()) == {*range(21), *range(50, 56)}
+
+
+def test_windows_of_an_epoch_have_as_many_samples_as_the_blocks() -> None:
+    assert len(window_plan([(0, 95)], 100, 10, 3, np.random.default_rng(0))) == 3
+
+
+def test_too_few_samples_for_a_batch_of_windows_are_refused() -> None:
+    with pytest.raises(DataError, match="11 windows of 10 samples cannot fill a batch of 4"):
+        window_plan([(0, 20)], 100, 10, 4, np.random.default_rng(0))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -59,6 +60,43 @@ def test_a_training_that_diverges_says_what_to_try(setting: Setting, how: str, t
     with pytest.raises(TrainingError, match=r"MOB-Net-LL-s0: epoch 1: training loss .* at rate 0.005 .*rate_first"):
         Trainer(job, data).run(tmp_path)
     assert not (tmp_path / CHECKPOINT).exists()
+
+
+def test_windows_give_other_weights_than_streams(setting: Setting, tmp_path: Path) -> None:
+    job, data = setting
+    streams = Trainer(job, data).run(tmp_path / "a")
+    job.settings["sequences"] = "windows"
+    windows = Trainer(job, data).run(tmp_path / "b")
+    assert windows.rows[-1]["train_loss"] < windows.rows[0]["train_loss"]
+    assert not torch.equal(streams.best["head.weight"], windows.best["head.weight"])
+
+
+def test_dropout_is_drawn_from_seed_and_epoch_alone(setting: Setting, tmp_path: Path) -> None:
+    job, data = setting
+    row = {
+        "cell": "TCN",
+        "hidden": 8,
+        "kernel_steps": 3,
+        "dilations": [1],
+        "dropout": 0.5,
+        "window_steps": 5,
+        "head": 8,
+    }
+    job = replace(job, row={**job.row, **row}, epochs=1)
+    results = []
+    for seed in (0, 1):
+        torch.manual_seed(seed)  # as whatever ran before in this process may have left it
+        results.append(Trainer(job, data).run(tmp_path / str(seed)).rows)
+    assert results[0] == results[1]
+
+
+def test_re_run_windows_are_scored_in_physical_units(setting: Setting, tmp_path: Path) -> None:
+    job, data = setting
+    trainer = Trainer(job, data)
+    done = trainer.run(tmp_path)
+    scored = trainer.on_windows(done)
+    assert scored == trainer.on_windows(done)
+    assert scored["rmse"] == pytest.approx(done.best_row()["validation_rmse"], rel=0.5)
 
 
 def test_every_epoch_is_on_disk(setting: Setting, tmp_path: Path) -> None:

@@ -1,4 +1,8 @@
-"""One epoch of training and of validation with carried state (section 4.4)."""
+"""One epoch of training and of validation (section 4.4).
+
+The robot carries the state from sample to sample, and so does training by default. The authors' code trains on
+independent windows instead, whose state starts from zero and whose last step alone is in the loss.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +14,10 @@ from torch import Tensor
 
 from mobnet.learning.loss import gaussian_loss
 from mobnet.learning.model import LimbNetwork
-from mobnet.learning.streams import Plan
+from mobnet.learning.streams import Plan, epoch_plan, window_plan
+
+EVERY_STEP, LAST_STEP = slice(None), slice(-1, None)  # of a horizon, in the loss
+SEQUENCES = {"carried": (epoch_plan, EVERY_STEP), "windows": (window_plan, LAST_STEP)}
 
 
 @dataclass(frozen=True)
@@ -52,8 +59,9 @@ def train_epoch(
     plan: Plan,
     horizon: int,
     gradient_norm: float,
+    scored: slice = EVERY_STEP,
 ) -> tuple[float, float]:
-    """Run one epoch of truncated back-propagation through time: state carried, detached every horizon.
+    """Run one epoch of truncated back-propagation through time: state detached every horizon, carried as planned.
 
     Args:
         network: trained in place.
@@ -62,6 +70,7 @@ def train_epoch(
         plan: course of the epoch, rows (updates, lanes).
         horizon: steps of one update [samples].
         gradient_norm: the gradient is clipped to this norm.
+        scored: steps of a horizon that are in the loss.
 
     Returns:
         Mean loss (22) and mean norm of the gradient before the clip.
@@ -71,7 +80,7 @@ def train_epoch(
     state = network.fresh_state(plan.rows.shape[1], samples.inputs.device)
     for x, target, keep in samples.horizons(plan, horizon):
         mean, std, after = network(x, state * keep)
-        loss = gaussian_loss(mean, std, target)
+        loss = gaussian_loss(mean[scored], std[scored], target[scored])
         optimizer.zero_grad()
         loss.backward()
         norms.append(torch.nn.utils.clip_grad_norm_(network.parameters(), gradient_norm))
@@ -82,14 +91,17 @@ def train_epoch(
 
 
 @torch.no_grad()
-def validate(network: LimbNetwork, samples: Samples, plan: Plan, horizon: int) -> tuple[float, Tensor]:
-    """Run a validation with carried state.
+def validate(
+    network: LimbNetwork, samples: Samples, plan: Plan, horizon: int, scored: slice = EVERY_STEP
+) -> tuple[float, Tensor]:
+    """Run a validation, its state carried as planned.
 
     Args:
         network: as trained so far.
         samples: z-scored inputs (N, n_in) and targets (N, n).
         plan: fixed course, rows (updates, lanes).
         horizon: steps looked at together [samples].
+        scored: steps of a horizon that count.
 
     Returns:
         Mean loss (22), and the root mean square error of each joint (n,), z-scored.
@@ -99,6 +111,6 @@ def validate(network: LimbNetwork, samples: Samples, plan: Plan, horizon: int) -
     state = network.fresh_state(plan.rows.shape[1], samples.inputs.device)
     for x, target, keep in samples.horizons(plan, horizon):
         mean, std, state = network(x, state * keep)
-        losses.append(gaussian_loss(mean, std, target))
-        squares.append((mean - target).square().mean(dim=(0, 1)))
+        losses.append(gaussian_loss(mean[scored], std[scored], target[scored]))
+        squares.append((mean - target)[scored].square().mean(dim=(0, 1)))
     return torch.stack(losses).mean().item(), torch.stack(squares).mean(dim=0).sqrt().cpu()

@@ -147,6 +147,33 @@ def epoch_plan(
     return deal(streams[:enough], lanes, horizon)
 
 
+def window_plan(
+    blocks: Sequence[Span], stream: int, horizon: int, lanes: int, rng: np.random.Generator, samples: int | None = None
+) -> Plan:
+    """Return an epoch of independent windows, each from a zero state; arrays (updates, lanes) of rows [samples].
+
+    Args:
+        blocks: contiguous stretches (start, end) of rows.
+        stream: without meaning here, for windows follow each other at random.
+        horizon: length of a window [samples].
+        lanes: windows looked at together.
+        rng: draws where windows start.
+        samples: samples of the epoch [samples]; None for as many as the blocks have.
+
+    Raises:
+        DataError: the blocks hold fewer windows than there are lanes.
+    """
+    starts = np.concatenate([np.arange(a, b - horizon + 1) for a, b in blocks] or [np.empty(0)]).astype(np.int64)
+    updates = (samples or sum(b - a for a, b in blocks)) // (horizon * lanes)
+    if min(updates, len(starts)) == 0:
+        raise DataError(
+            f"{len(starts)} windows of {horizon} samples cannot fill a batch of {lanes}; "
+            "accepted: longer recordings, a smaller batch_size"
+        )
+    rows = rng.choice(starts, (updates, lanes))
+    return Plan(rows, np.ones(rows.shape, dtype=bool))
+
+
 def validation_plan(blocks: Sequence[Span], stream: int, horizon: int, lanes: int) -> Plan:
     """Return the fixed course of a validation, at most `lanes` side by side; arrays (updates, lanes) of rows [samples].
 

@@ -79,7 +79,8 @@ def train(
 
 def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress, calibration: Calibration) -> None:
     """Write the best weights with z-scores, (n_in,) and (n,) [N, N m], and factors on std (n,) [-], atomically."""
-    tensors = dict(done.best)
+    trainer.network.load_state_dict(done.best)
+    tensors = trainer.network.deployable()
     for name, scale in zip(("input", "target"), trainer.scales, strict=True):
         tensors |= {f"{name}.mean": torch.from_numpy(scale.mean), f"{name}.std": torch.from_numpy(scale.std)}
     if trainer.job.settings["calibrate"]:
@@ -89,6 +90,7 @@ def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress, 
         "joints": data.joints,
         "inputs": data.input_names,
         "std_min": trainer.job.settings["std_min"],
+        "network": dict(trainer.job.row),
     }
     with atomic_path(path) as temporary:
         save_file(tensors, temporary, {NOTE: json.dumps(note)})
@@ -97,7 +99,7 @@ def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress, 
 def run_note(
     config: Mapping[str, Any], trainer: Trainer, data: LimbData, done: Progress, calibration: Calibration
 ) -> dict[str, Any]:
-    """Return what `run.json` tells of a training: settings, sizes, the best epoch, calibration, time [s], provenance."""
+    """Return what `run.json` tells: settings, sizes, the best epoch, calibration, time [s] and provenance."""
     job = trainer.job
     return {
         "name": job.name,
@@ -115,6 +117,7 @@ def run_note(
         "samples": trainer.samples,
         "diverged": done.diverged,
         "best": dict(done.best_row()) if done.rows else None,
+        "on_windows": trainer.on_windows(done),
         "calibration": calibration.note(data.joints, job.settings["calibration_levels"]),
         "seconds": round(done.seconds, 1),
         "device": trainer.device.type,

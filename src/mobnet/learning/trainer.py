@@ -18,9 +18,9 @@ from mobnet.learning.calibration import Calibration, calibrate, predict
 from mobnet.learning.checkpoint import CHECKPOINT, Progress, Row
 from mobnet.learning.dataset import LimbData, Scale, scale_of
 from mobnet.learning.job import Job
-from mobnet.learning.model import build_network
-from mobnet.learning.optimisation import Samples, train_epoch, validate
-from mobnet.learning.streams import epoch_plan, some_of, split, validation_plan
+from mobnet.learning.model import build_network, seeded
+from mobnet.learning.optimisation import LAST_STEP, SEQUENCES, Samples, train_epoch, validate
+from mobnet.learning.streams import some_of, split, validation_plan, window_plan
 from mobnet.learning.tracking import METRICS, write_metrics
 
 log = logging.getLogger(__name__)
@@ -58,10 +58,10 @@ class Trainer:
         self._samples = Samples(*(self._scaled(*pair) for pair in zip(arrays, self.scales, strict=True)))
         self._shape = (stream, job.horizon, job.settings["batch_size"])
         self._validation = validation_plan(held_out, *self._shape)
-        seed = int(job.generator("weights").integers(np.iinfo(np.int64).max))
+        lanes = self._validation.rows.shape[1]
+        self._windows = window_plan(held_out, stream, job.horizon, lanes, job.generator("windows"))
         sizes = len(data.input_names), len(data.joints)
-        self.network = build_network(job.row, *sizes, job.settings["std_min"], seed).to(self.device)
-        self.network.precision = job.precision(self.device)
+        self.network = build_network(job.row, *sizes, job.settings["std_min"], self._seed("weights")).to(self.device)
         betas = tuple(job.settings["optimizer_betas"])
         self._optimizer = torch.optim.Adam(self.network.parameters(), lr=job.rate(0), betas=betas)
 
@@ -69,6 +69,10 @@ class Trainer:
     def samples(self) -> int:
         """Number of samples that the weights are learned from."""
         return sum(end - start for start, end in self._blocks)
+
+    def _seed(self, *purpose: int | str) -> int:
+        """Return torch's seed for a purpose."""
+        return int(self.job.generator(*purpose).integers(np.iinfo(np.int64).max))
 
     def _scaled(self, array: NDArray[np.float32], scale: Scale) -> Tensor:
         """Return z-scored columns on the device."""
@@ -115,14 +119,22 @@ class Trainer:
         unit, settings = self.scales[1].std.astype(np.float64), self.job.settings
         return calibrate(error * unit, std * unit, settings["calibration_share"], settings["calibration_levels"])
 
+    def on_windows(self, done: Progress) -> dict[str, float]:
+        """Return the best weights' loss (22) and RMSE [N, N m] where every sample re-runs its window from zero."""
+        self.network.load_state_dict(done.best)
+        loss, rmse = validate(self.network, self._samples, self._windows, self.job.horizon, LAST_STEP)
+        return {"loss": loss, "rmse": float((rmse.numpy() * self.scales[1].std).mean())}
+
     def _epoch(self, epoch: int) -> Row:
         """Train and validate once; return the epoch's metrics."""
         job, rate = self.job, self.job.rate(epoch)
         for group in self._optimizer.param_groups:
             group["lr"] = rate
-        plan = epoch_plan(self._blocks, *self._shape, job.generator("epoch", epoch), job.epoch_samples)
+        plan_of, scored = SEQUENCES[job.settings["sequences"]]
+        plan = plan_of(self._blocks, *self._shape, job.generator("epoch", epoch), job.epoch_samples)
         clip = job.settings["gradient_norm"]
-        loss, norm = train_epoch(self.network, self._optimizer, self._samples, plan, job.horizon, clip)
+        with seeded(self._seed("dropout", epoch)):
+            loss, norm = train_epoch(self.network, self._optimizer, self._samples, plan, job.horizon, clip, scored)
         self._check("training", epoch, loss, rate)
         validation, rmse = validate(self.network, self._samples, self._validation, job.horizon)
         self._check("validation", epoch, validation, rate)
