@@ -11,6 +11,7 @@ include: "workflow/rules/fit.smk"
 include: "workflow/rules/learn.smk"
 include: "workflow/rules/data.smk"
 include: "workflow/rules/evaluate.smk"
+include: "workflow/rules/ablations.smk"
 include: "workflow/rules/runs.smk"
 include: "workflow/rules/report.smk"
 

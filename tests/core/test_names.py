@@ -8,7 +8,15 @@ import pytest
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
-from mobnet.core.names import check_names, evaluation_uses, network_uses, scenario_uses, size_uses
+from mobnet.core.names import (
+    ablation_uses,
+    check_names,
+    evaluation_uses,
+    method_uses,
+    network_uses,
+    scenario_uses,
+    size_uses,
+)
 
 
 def test_the_repository_names_only_what_exists(full_config: dict[str, Any], layout: JointLayout) -> None:
@@ -16,7 +24,7 @@ def test_the_repository_names_only_what_exists(full_config: dict[str, Any], layo
 
 
 def test_every_reference_is_looked_at(full_config: dict[str, Any], layout: JointLayout) -> None:
-    every = (network_uses, scenario_uses, size_uses, evaluation_uses)
+    every = (network_uses, method_uses, scenario_uses, size_uses, evaluation_uses, ablation_uses)
     keys = {key for uses in every for key, _, _ in uses(full_config, layout)}
     expected = {
         "networks.V.Q",
@@ -30,7 +38,19 @@ def test_every_reference_is_looked_at(full_config: dict[str, Any], layout: Joint
     expected |= {"evaluation.table_05.levels.ideal", "evaluation.figure_05.joint", "tests", "tests.walk_test"}
     expected |= {"scenarios.random_walk.pushes", "scenarios.random_motion.motion", "scenarios.hand_load_10.draws"}
     expected |= {"pushes.hip_pitch.joint", "scales.paper.train.walk.scenario", "scales.smoke.train.motion.level"}
+    expected |= {"evaluation.table_01.method", "evaluation.figure_17.methods", "evaluation.kinds.variants"}
+    expected |= {"evaluation.figure_18.scenario", "evaluation.figure_18.limbs", "evaluation.figure_20.samples"}
+    expected |= {"evaluation.methods.scenario", "evaluation.methods.level", "evaluation.methods.methods"}
     assert expected <= keys
+
+
+def test_a_sweep_that_a_figure_shows_must_exist(full_config: dict[str, Any], layout: JointLayout) -> None:
+    evaluation = full_config["evaluation"]
+    changed = {**evaluation, "figure_20": {**evaluation["figure_20"], "samples": "shares"}}
+    with pytest.raises(
+        ConfigError, match=r"figure_20\.samples: 'shares' is not accepted; accepted: data_parts, hidden"
+    ):
+        check_names({**full_config, "evaluation": changed}, layout)
 
 
 def test_unknown_method_of_a_table_is_named(full_config: dict[str, Any], layout: JointLayout) -> None:

@@ -11,10 +11,12 @@ import numpy as np
 import pytest
 import yaml
 
+from mobnet.core.files import write_json
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout, layout_of
 from mobnet.core.recording import Recording, Sensed, Truth
 from mobnet.core.store import write_array, write_recording
 from mobnet.evaluation.rows import Score, write_rows
+from mobnet.evaluation.trainings import Epoch
 
 REPO = Path(__file__).parents[2]
 RATE_HZ = 100.0
@@ -67,6 +69,28 @@ def config() -> dict[str, Any]:
             "commands": {"bins": 5},
             "steps": {"bins": 3, "tolerance": 0.15},
             "uncertainty": {"ratio": {"LL": [0.4, 2.5]}},
+            "figure_17": {"limb": "LL", "methods": ["GRU", "LSTM", "RNN", "TCN", "MLP", "MLP-500"]},
+            "figure_18": {
+                "level": "all_uncertainty",
+                "limbs": ["W", "RA"],
+                "methods": ["MOB-Net", "MOB-Net-Single"],
+                "panels": {"motion_test": "random motion (ID)", "hand_wrench": "wrench (OOD)"},
+            },
+            "kinds": {"variants": ["windows", "printed-rate"]},
+            "methods": [
+                {
+                    "scenario": "walk_test",
+                    "level": "all_uncertainty",
+                    "columns": {"LL": ["LL3", "avg"]},
+                    "methods": ["MOB", "MOB-Net", "FTS-e2e"],
+                },
+                {
+                    "scenario": "motion_test",
+                    "level": "all_uncertainty",
+                    "columns": {"W": ["avg"], "RA": ["avg"]},
+                    "methods": ["MOB", "MOB-Net"],
+                },
+            ],
         },
         "networks": {
             "LL": {"Q": ["LL"], "T": ["LL"], "data": "walk"},
@@ -104,6 +128,48 @@ def made_up_scores(networks: int = 2, tests: int = 3) -> list[Score]:
                 rows.append(Score(*run, "rmse", mean * factor * off, "N m"))
                 rows.append(Score(*run, "roughness", 50.0 * mean**0.1 * off, "N m/s"))
     return rows
+
+
+def limb_scores(layout: JointLayout, scenario: str, means: dict[str, float], networks: int = 2) -> list[Score]:
+    """Return scores of LL, W and RA on two tests: `means` of every joint and average [N m], up to a factor per run."""
+    rows = []
+    for method, mean in means.items():
+        for network, test in itertools.product(range(1 if method == "MOB" else networks), (1, 2)):
+            value = mean * (1 + 0.1 * (test - 1.5) + 0.04 * (network - (networks - 1) / 2) * (method != "MOB"))
+            for limb in ("LL", "W", "RA"):
+                for joint in (*layout.limb(limb), "avg"):
+                    run = (scenario, "all_uncertainty", method, network, test, limb, joint)
+                    rows.append(Score(*run, "rmse", value, "N m"))
+    return rows
+
+
+@pytest.fixture
+def write_limb_scores(tmp_path: Path, layout: JointLayout) -> Callable[..., Path]:
+    """Write scores of a scenario: write_limb_scores(scenario, means, networks=2) -> CSV."""
+
+    def write(scenario: str, means: dict[str, float], networks: int = 2) -> Path:
+        write_rows(tmp_path / f"{scenario}.csv", Score, limb_scores(layout, scenario, means, networks))
+        return tmp_path / f"{scenario}.csv"
+
+    return write
+
+
+@pytest.fixture
+def write_training(tmp_path: Path) -> Callable[..., str]:
+    """Write a made-up training: write_training(method, seed=0, loss=-4.0, epochs=3, **changes of run.json) -> folder.
+
+    Its validation loss falls by one an epoch to `loss` at the last but one, and ends half above it.
+    """
+
+    def write(method: str, seed: int = 0, loss: float = -4.0, epochs: int = 3, **changes: Any) -> str:
+        folder = tmp_path / f"{method}-LL-s{seed}"
+        course = [loss + epochs - 2 - k for k in range(epochs - 1)] + [loss + 0.5] * (epochs > 0)
+        write_rows(folder / "metrics.csv", Epoch, [Epoch(k + 1, x - 0.25, x, 10.0 + x) for k, x in enumerate(course)])
+        note = {"method": method, "seed": seed, "parameters": 83712, "samples": 1620000, "seconds": 100.0 + seed}
+        write_json(folder / "run.json", note | changes)
+        return str(folder)
+
+    return write
 
 
 @pytest.fixture

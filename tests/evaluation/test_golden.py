@@ -11,12 +11,18 @@ from typing import Any
 
 import pytest
 
+from mobnet.evaluation.architecture import table_01
 from mobnet.evaluation.claims import claims
 from mobnet.evaluation.commands import commands, steps
 from mobnet.evaluation.coverage import coverage
 from mobnet.evaluation.data_sets import data
 from mobnet.evaluation.gait import figure_05
+from mobnet.evaluation.growth import figure_20
+from mobnet.evaluation.kinds import kinds
+from mobnet.evaluation.losses import figure_17
 from mobnet.evaluation.numbers import numbers
+from mobnet.evaluation.overview import methods
+from mobnet.evaluation.single import figure_18
 from mobnet.evaluation.spread import figure_19
 from mobnet.evaluation.tables import table_05
 from mobnet.evaluation.uncertainty import uncertainty
@@ -75,4 +81,40 @@ def test_figure_19_and_coverage_are_the_golden_ones(
     figure_19(config, training, tests, tmp_path)
     coverage(config, training, tests, tmp_path)
     for name in ("figure_19.csv", "coverage.csv", "coverage.tex", "coverage.md"):
+        check(tmp_path / name)
+
+
+def test_table_01_is_the_golden_one(tmp_path: Path, full_config: dict[str, Any]) -> None:
+    table_01(full_config | {"published": str(REPO / "configs/published.yaml")}, tmp_path)
+    for ending in ("csv", "tex", "md"):
+        check(tmp_path / f"table_01.{ending}")
+
+
+def test_figures_and_tables_of_trainings_are_made_of_the_golden_numbers(
+    tmp_path: Path, config: dict[str, Any], write_training: Callable[..., str]
+) -> None:
+    losses = {"GRU": -4.0, "LSTM": -3.8, "RNN": -3.1, "TCN": -3.5, "MLP": -3.0, "MLP-500": -3.3, "windows": -3.9}
+    folders = [write_training(kind, seed, loss + 0.05 * seed) for kind, loss in losses.items() for seed in range(2)]
+    folders.append(write_training("printed-rate", epochs=1, diverged=True))
+    entries = [
+        {"panel": panel, "base": base, "folders": [write_training(f"{base}-{k}", 0, -3.0 - k, **{panel: 10000 * k})]}
+        for panel in ("parameters", "samples")
+        for base in ("MOB-Net", "FTS-e2e")
+        for k in (1, 2)
+    ]
+    figure_17(folders[:12], tmp_path)
+    kinds(config, folders, tmp_path)
+    figure_20(entries, tmp_path)
+    for name in ("figure_17.csv", "figure_20.csv", "kinds.csv", "kinds.tex", "kinds.md"):
+        check(tmp_path / name)
+
+
+def test_figures_and_tables_of_limbs_are_made_of_the_golden_numbers(
+    tmp_path: Path, config: dict[str, Any], write_limb_scores: Callable[..., Path]
+) -> None:
+    means = {"MOB": 9.0, "MOB-Net": 2.0, "MOB-Net-Single": 2.5, "FTS-e2e": 3.0}
+    scores = {name: write_limb_scores(name, means) for name in ("motion_test", "hand_wrench", "walk_test")}
+    figure_18(config, scores, tmp_path)
+    methods(config, scores, tmp_path)
+    for name in ("figure_18.csv", "methods.csv", "methods.tex", "methods.md"):
         check(tmp_path / name)

@@ -18,12 +18,17 @@ SCALE_SIZES = ("batch_size", "stream_s", "rate_decay_share")  # learning setting
 def with_sweeps(methods: Mapping[str, Row], sweeps: Mapping[str, Row]) -> dict[str, Row]:
     """Return the methods and those that sweeps stand for, such as `MOB-Net-hidden-44` (section 6.3)."""
     swept = {
-        f"{base}-{key.replace('_', '-')}-{value}": _laid_over(methods[base], sweep, {key: value})
+        swept_name(base, key, value): _laid_over(methods[base], sweep, {key: value})
         for key, sweep in sweeps.items()
         for base in sweep["of"]
         for value in sweep["values"]
     }
     return {**methods, **swept}
+
+
+def swept_name(base: str, key: str, value: int) -> str:
+    """Return the name of the method that stands for one value of a sweep."""
+    return f"{base}-{key.replace('_', '-')}-{value}"
 
 
 def _laid_over(base: Row, sweep: Row, change: Row) -> Row:

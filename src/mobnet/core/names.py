@@ -17,7 +17,7 @@ def check_names(config: Mapping[str, Any], layout: JointLayout, where: str = "co
     Raises:
         ConfigError: one line with the key, the name and the accepted names.
     """
-    for uses in (network_uses, method_uses, scenario_uses, size_uses, evaluation_uses):
+    for uses in (network_uses, method_uses, scenario_uses, size_uses, evaluation_uses, ablation_uses):
         for key, name, accepted in uses(config, layout):
             if name not in accepted:
                 raise ConfigError(f"{where}: {not_accepted(key, name, accepted)}")
@@ -100,3 +100,23 @@ def data_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
         yield "evaluation.coverage.tests.level", test["level"], config["levels"]
         yield "evaluation.coverage.tests.pushed", test.get("pushed", layout.actuated[0]), layout.actuated
     yield from (("evaluation.uncertainty.ratio", limb, config["networks"]) for limb in settings["uncertainty"]["ratio"])
+
+
+def ablation_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
+    """Yield what Table 1, Figures 17, 18 and 20 and the overview of methods name."""
+    settings = config["evaluation"]
+    panels = [{**settings["figure_18"], "scenario": name} for name in settings["figure_18"]["panels"]]
+    named = [("table_01.method", [settings["table_01"]["method"]]), ("kinds.variants", settings["kinds"]["variants"])]
+    for key, names in (*named, ("figure_17.methods", settings["figure_17"]["methods"])):
+        yield from ((f"evaluation.{key}", method, config["methods"]) for method in names)
+    for key in ("figure_17", "figure_20"):
+        yield f"evaluation.{key}.limb", settings[key]["limb"], config["networks"]
+    for key in ("parameters", "samples"):
+        yield f"evaluation.figure_20.{key}", settings["figure_20"][key], config["sweeps"]
+    for key, tests in (("figure_18", panels), ("methods", settings["methods"])):
+        for test in tests:
+            yield f"evaluation.{key}.scenario", test["scenario"], config["scenarios"]
+            yield f"evaluation.{key}.level", test["level"], config["levels"]
+            yield from ((f"evaluation.{key}.methods", method, config["methods"]) for method in test["methods"])
+            limbs = test.get("columns", test.get("limbs", ()))
+            yield from ((f"evaluation.{key}.limbs", limb, layout.groups) for limb in limbs)

@@ -1,0 +1,171 @@
+# Networks, their ablations and all methods side by side: Table 1, Figures 17, 18 and 20, section 6.1 in numbers.
+
+from mobnet.core.methods import swept_name
+
+FIGURE_17, FIGURE_20 = (settings["evaluation"][name] for name in ("figure_17", "figure_20"))
+VARIANTS = settings["evaluation"]["kinds"]["variants"]
+
+
+def folders(methods, limb):
+    """Return the folders of methods' trained networks of a limb."""
+    return [str(Path(network(method, limb, seed)).parent) for method in methods for seed in network_seeds(method, limb)]
+
+
+def courses(places):
+    """Return the files that say how trainings went."""
+    return [f"{folder}/{name}" for folder in places for name in ("run.json", "metrics.csv")]
+
+
+def sizes_of_networks():
+    """Return the variations of Figure 20; the network of all data is that of Table 1's size."""
+    limb, entries = FIGURE_20["limb"], []
+    for panel, other in (("parameters", "samples"), ("samples", "parameters")):
+        key, full = FIGURE_20[panel], FIGURE_20["parameters"]
+        for base in settings["sweeps"][key]["of"]:
+            names = [swept_name(base, key, value) for value in settings["sweeps"][key]["values"]]
+            if panel == "samples":
+                names.append(swept_name(base, full, network_row(settings, base, limb)[full]))
+            entries += [{"panel": panel, "base": base, "folders": folders([name], limb)} for name in names]
+    return entries
+
+
+rule table_01:
+    output:
+        ensure(
+            expand(f"{TABLES}/table_01.{{ending}}", ending=["csv", "tex", "md"]),
+            non_empty=True,
+        ),
+    log:
+        f"{RESULTS}/logs/table_01.log",
+    benchmark:
+        f"{RESULTS}/bench/table_01.tsv"
+    threads: 1
+    params:
+        config=part(
+            "seed",
+            "robot",
+            "published",
+            "learning",
+            "networks",
+            methods=[settings["evaluation"]["table_01"]["method"]],
+            evaluation=["table_01"],
+        ),
+        robot=CONTENT["robot"],
+        published=CONTENT["published"],
+        code=code_of("table_01"),
+    script:
+        "../scripts/table_01.py"
+
+
+rule figure_17:
+    input:
+        courses(folders(FIGURE_17["methods"], FIGURE_17["limb"])),
+    output:
+        ensure(
+            expand(f"{FIGURES}/figure_17.{{ending}}", ending=["pdf", "png", "csv"]),
+            non_empty=True,
+        ),
+    log:
+        f"{RESULTS}/logs/figure_17.log",
+    benchmark:
+        f"{RESULTS}/bench/figure_17.tsv"
+    threads: 1
+    params:
+        folders=folders(FIGURE_17["methods"], FIGURE_17["limb"]),
+        code=code_of("figure_17"),
+    script:
+        "../scripts/figure_17.py"
+
+
+rule kinds:
+    input:
+        courses(folders(FIGURE_17["methods"] + VARIANTS, FIGURE_17["limb"])),
+    output:
+        ensure(
+            expand(f"{TABLES}/kinds.{{ending}}", ending=["csv", "tex", "md"]),
+            non_empty=True,
+        ),
+    log:
+        f"{RESULTS}/logs/kinds.log",
+    benchmark:
+        f"{RESULTS}/bench/kinds.tsv"
+    threads: 1
+    params:
+        config=part(
+            "seed",
+            "published",
+            evaluation=["figure_17", "kinds", "confidence", "bootstrap_draws"],
+        ),
+        folders=folders(FIGURE_17["methods"] + VARIANTS, FIGURE_17["limb"]),
+        published=CONTENT["published"],
+        code=code_of("kinds"),
+    script:
+        "../scripts/kinds.py"
+
+
+rule figure_18:
+    input:
+        scores=expand(f"{RESULTS}/scores/{{name}}.csv", name=FIGURE_18["panels"]),
+    output:
+        ensure(
+            expand(f"{FIGURES}/figure_18.{{ending}}", ending=["pdf", "png", "csv"]),
+            non_empty=True,
+        ),
+    log:
+        f"{RESULTS}/logs/figure_18.log",
+    benchmark:
+        f"{RESULTS}/bench/figure_18.tsv"
+    threads: 1
+    params:
+        config=part(
+            "seed",
+            "robot",
+            evaluation=["figure_18", "confidence", "bootstrap_draws"],
+        ),
+        robot=CONTENT["robot"],
+        code=code_of("figure_18"),
+    script:
+        "../scripts/figure_18.py"
+
+
+rule figure_20:
+    input:
+        [name for size in sizes_of_networks() for name in courses(size["folders"])],
+    output:
+        ensure(
+            expand(f"{FIGURES}/figure_20.{{ending}}", ending=["pdf", "png", "csv"]),
+            non_empty=True,
+        ),
+    log:
+        f"{RESULTS}/logs/figure_20.log",
+    benchmark:
+        f"{RESULTS}/bench/figure_20.tsv"
+    threads: 1
+    params:
+        entries=sizes_of_networks(),
+        code=code_of("figure_20"),
+    script:
+        "../scripts/figure_20.py"
+
+
+rule methods:
+    input:
+        scores=expand(
+            f"{RESULTS}/scores/{{name}}.csv",
+            name=[test["scenario"] for test in settings["evaluation"]["methods"]],
+        ),
+    output:
+        ensure(
+            expand(f"{TABLES}/methods.{{ending}}", ending=["csv", "tex", "md"]),
+            non_empty=True,
+        ),
+    log:
+        f"{RESULTS}/logs/methods.log",
+    benchmark:
+        f"{RESULTS}/bench/methods.tsv"
+    threads: 1
+    params:
+        config=part("seed", evaluation=["methods", "confidence", "bootstrap_draws"]),
+        code=code_of("methods"),
+    script:
+        "../scripts/methods.py"
