@@ -29,10 +29,7 @@ TABLES, FIGURES = ("tables", "figures") if SCALE == MAIN else (f"tables/{SCALE}"
 PAPER = "paper" if SCALE == MAIN else f"{RESULTS}/paper"
 MANIFEST = "results/MANIFEST.sha256" if SCALE == MAIN else f"{RESULTS}/MANIFEST.sha256"
 TEST_SEEDS = [1 + i for i in range(SIZES["test"]["shards"])]
-TABLE_05, FIGURE_05 = (
-    settings["evaluation"]["table_05"],
-    settings["evaluation"]["figure_05"],
-)
+TABLE_05, FIGURE_05, FIGURE_18 = (settings["evaluation"][name] for name in ("table_05", "figure_05", "figure_18"))
 
 
 wildcard_constraints:
@@ -180,22 +177,22 @@ def entry(scenario, level, method, network_seed, test_seed):
     }
 
 
+def wanted():
+    """Return scenario, level and method of every run that a table or a figure asks for, each once."""
+    asked = settings["evaluation"]
+    found = [(TABLE_05["scenario"], level, TABLE_05["levels"][level]) for level in TABLE_05["levels"]]
+    found += [(FIGURE_05["scenario"], level, FIGURE_05["panels"][level]) for level in FIGURE_05["panels"]]
+    found += [(scenario, FIGURE_18["level"], FIGURE_18["methods"]) for scenario in FIGURE_18["panels"]]
+    found += [(test["scenario"], test["level"], test["methods"]) for test in asked["methods"]]
+    return list(dict.fromkeys((scenario, level, method) for scenario, level, names in found for method in names))
+
+
 def runs_of(scenario):
     """Return every run of a scenario that a table or a figure needs."""
-    wanted = [
-        (TABLE_05["scenario"], TABLE_05["levels"]),
-        (FIGURE_05["scenario"], FIGURE_05["panels"]),
-    ]
-    pairs = {
-        (level, method): None
-        for name, levels in wanted
-        if name == scenario
-        for level in levels
-        for method in levels[level]
-    }
     return [
         entry(scenario, level, method, seed, test)
-        for level, method in pairs
+        for name, level, method in wanted()
+        if name == scenario
         for seed in network_seeds(method)
         for test in TEST_SEEDS
     ]
@@ -246,7 +243,7 @@ def coverage_recordings():
 
 def products():
     """Return every file worth keeping, also those that later ones could be made without."""
-    scenarios = dict.fromkeys([TABLE_05["scenario"], FIGURE_05["scenario"]])
+    scenarios = dict.fromkeys(name for name, _, _ in wanted())
     runs = [run for scenario in scenarios for run in runs_of(scenario)]
     trained = [file for name in ("weights.safetensors", "metrics.csv", "run.json") for file in networks(name)]
     stored = [name for row in SIZES["train"] for name in training("recordings", row)]
@@ -256,12 +253,12 @@ def products():
     notes = [str(Path(name).with_suffix(".json")) for name in stored]
     tables = expand(
         f"{TABLES}/{{name}}.{{ending}}",
-        name=["table_05", "claims", "data", "steps", "coverage", "uncertainty"],
+        name=["table_01", "table_05", "claims", "data", "steps", "coverage", "uncertainty", "kinds", "methods"],
         ending=["csv", "tex", "md"],
     )
     figures = expand(
         f"{FIGURES}/{{name}}.{{ending}}",
-        name=["figure_05", "figure_19", "commands"],
+        name=["figure_05", "figure_17", "figure_18", "figure_19", "figure_20", "commands"],
         ending=["pdf", "png", "csv"],
     )
     scores = expand(f"{RESULTS}/scores/{{scenario}}.csv", scenario=scenarios)

@@ -35,20 +35,8 @@ rule paper:
     input:
         main="paper/main.tex",
         references="paper/refs.bib",
-        tables=expand(
-            f"{TABLES}/{{name}}.tex",
-            name=[
-                "table_05",
-                "claims",
-                "data",
-                "steps",
-                "coverage",
-                "uncertainty",
-                "numbers",
-                "deviations",
-            ],
-        ),
-        figures=expand(f"{FIGURES}/{{name}}.pdf", name=["figure_05", "figure_19", "commands"]),
+        tables=expand(f"{TABLES}/{{name}}.tex", name=[*TABLE_NAMES, "numbers", "deviations"]),
+        figures=expand(f"{FIGURES}/{{name}}.pdf", name=FIGURE_NAMES),
     output:
         ensure(f"{PAPER}/build.json", non_empty=True),
     log:

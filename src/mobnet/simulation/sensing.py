@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
@@ -17,6 +18,7 @@ from mobnet.robot.description import SIDES
 
 Array = NDArray[np.float64]
 BASE_STATES = ("true_state", "sensed")
+NOISE = {"none": lambda _: 0.0, "std": float, "variance": math.sqrt}  # how the numbers of Table 3 are read
 
 
 class Sensors(NamedTuple):
@@ -64,12 +66,12 @@ def make_sensors(config: Mapping[str, Any], level: str, model: mujoco.MjModel) -
     settings = config["levels"][level]
     if settings["base_state"] not in BASE_STATES:
         raise ConfigError(not_accepted(f"levels.{level}.base_state", settings["base_state"], BASE_STATES))
-    noise, scale = config["plant"]["noise_std"], float(settings["noise"])
+    noise, std = config["plant"]["noise_std"], NOISE[settings["noise"]]
     return Sensors(
-        q_std=scale * noise["joint_position_rad"],
-        v_std=scale * noise["joint_velocity_rad_s"],
-        acc_std=scale * noise["base_acceleration_m_s2"],
-        omega_std=scale * noise["base_angular_velocity_rad_s"],
+        q_std=std(noise["joint_position_rad"]),
+        v_std=std(noise["joint_velocity_rad_s"]),
+        acc_std=std(noise["base_acceleration_m_s2"]),
+        omega_std=std(noise["base_angular_velocity_rad_s"]),
         sensed_base=int(settings["base_state"] == "sensed"),
         gyro=int(model.sensor("imu_gyro").adr[0]),
         acc=int(model.sensor("imu_acc").adr[0]),
