@@ -62,6 +62,7 @@ class Trainer:
         self._windows = window_plan(held_out, stream, job.horizon, lanes, job.generator("windows"))
         sizes = len(data.input_names), len(data.joints)
         self.network = build_network(job.row, *sizes, job.settings["std_min"], self._seed("weights")).to(self.device)
+        self.network.precision = job.precision(self.device)
         betas = tuple(job.settings["optimizer_betas"])
         self._optimizer = torch.optim.Adam(self.network.parameters(), lr=job.rate(0), betas=betas)
 
