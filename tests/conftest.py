@@ -155,5 +155,5 @@ def _sines(time: Array, count: int, rng: np.random.Generator, size: float) -> tu
 
 def _uncertainty(sensed: Sensed, layout: JointLayout) -> Array:
     """Return friction-like torque (T, nv) that velocity and desired torque explain."""
-    friction = 8.0 * np.tanh(sensed.v[:, N_VIRTUAL:] / 0.1) + 0.2 * sensed.tau_des
+    friction = 0.2 * sensed.tau_des - 8.0 * np.tanh(sensed.v[:, N_VIRTUAL:] / 0.1)
     return np.concatenate([np.zeros((len(sensed), N_VIRTUAL)), friction], axis=1)
