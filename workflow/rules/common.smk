@@ -29,6 +29,8 @@ TABLES, FIGURES = ("tables", "figures") if SCALE == MAIN else (f"tables/{SCALE}"
 PAPER = "paper" if SCALE == MAIN else f"{RESULTS}/paper"
 MANIFEST = "results/MANIFEST.sha256" if SCALE == MAIN else f"{RESULTS}/MANIFEST.sha256"
 TEST_SEEDS = [1 + i for i in range(SIZES["test"]["shards"])]
+TABLE_NAMES = ["table_01", "table_05", "claims", "data", "steps", "coverage", "uncertainty", "kinds", "methods"]
+FIGURE_NAMES = ["figure_05", "figure_17", "figure_18", "figure_19", "figure_20", "commands"]
 TABLE_05, FIGURE_05, FIGURE_18 = (settings["evaluation"][name] for name in ("table_05", "figure_05", "figure_18"))
 
 
@@ -251,16 +253,8 @@ def products():
     tests = test_recordings() + coverage_recordings()
     stored += list(dict.fromkeys(tests + arrays(runs, "recording", "residual", "estimate")))
     notes = [str(Path(name).with_suffix(".json")) for name in stored]
-    tables = expand(
-        f"{TABLES}/{{name}}.{{ending}}",
-        name=["table_01", "table_05", "claims", "data", "steps", "coverage", "uncertainty", "kinds", "methods"],
-        ending=["csv", "tex", "md"],
-    )
-    figures = expand(
-        f"{FIGURES}/{{name}}.{{ending}}",
-        name=["figure_05", "figure_17", "figure_18", "figure_19", "figure_20", "commands"],
-        ending=["pdf", "png", "csv"],
-    )
+    tables = expand(f"{TABLES}/{{name}}.{{ending}}", name=TABLE_NAMES, ending=["csv", "tex", "md"])
+    figures = expand(f"{FIGURES}/{{name}}.{{ending}}", name=FIGURE_NAMES, ending=["pdf", "png", "csv"])
     scores = expand(f"{RESULTS}/scores/{{scenario}}.csv", scenario=scenarios)
     texts = [f"{TABLES}/numbers.tex", f"{TABLES}/deviations.tex", f"{PAPER}/build.json", f"{RESULTS}/runs.html"]
     return stored + notes + trained + scores + tables + figures + texts
