@@ -13,7 +13,7 @@ import yaml
 
 from mobnet.core.files import write_json
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout, layout_of
-from mobnet.core.recording import Recording, Sensed, Truth
+from mobnet.core.recording import FEET, Recording, Sensed, Truth
 from mobnet.core.store import write_array, write_recording
 from mobnet.evaluation.rows import Score, write_rows
 from mobnet.evaluation.trainings import Epoch
@@ -65,6 +65,13 @@ def config() -> dict[str, Any]:
                 "push_nm": 5.0,
                 "push_after_s": 0.1,
             },
+            "calibration": {
+                "levels": [0.5, 0.68, 0.9, 0.95],
+                "share": 0.68,
+                "tolerance": 0.05,
+                "points": 9,
+                "methods": ["MOB-Net"],
+            },
             "data": {"every": 10},
             "commands": {"bins": 5},
             "steps": {"bins": 3, "tolerance": 0.15},
@@ -109,7 +116,12 @@ def config() -> dict[str, Any]:
         "sizes": {
             "train": {"walk": {"shards": 6, "shard_s": 300.0}},
             "test": {"shards": 3, "shard_s": 60.0},
-            "experiments": {"left_leg": {"epochs": 20, "seeds": [0, 1, 2]}},
+            "experiments": {
+                "left_leg": {"epochs": 20, "seeds": [0, 1, 2]},
+                "kinds": {"epochs": 10, "seeds": [0, 1, 2, 3, 4]},
+                "sweep": {"epochs": 10, "seeds": [0]},
+                "upper_body": {"epochs": 8, "seeds": [0, 1, 2]},
+            },
         },
     }
 
@@ -261,6 +273,48 @@ def write_steps(stem: Path, layout: JointLayout, seed: int, size: float = 1.0, s
     residual = np.concatenate([size * 20.0 * rng.normal(size=v.shape), truth.tau_ext], axis=1)
     write_array(stem.with_name(f"{stem.name}_residual"), residual, columns, {"rate_hz": RATE_HZ}, spans)
     return str(stem)
+
+
+def write_told(folder: Path, layout: JointLayout, seed: int, scale: float | None) -> dict[str, Path]:
+    """Write an estimate of the left leg whose errors have the spread that it names, ten times that around pushes.
+
+    Args:
+        folder: gets recording (what tells pushes only), residual and estimate.
+        layout: joints.
+        seed: of the errors.
+        scale: factor that is in the standard deviations and told of them; None: not told.
+    """
+    rng, rows = np.random.default_rng(seed), 2000
+    air = (np.arange(rows) % (2 * STEP_ROWS) < STEP_ROWS).astype(float)
+    pushed = np.isin(np.arange(rows) % (10 * STEP_ROWS), range(30, 40))
+    names = [f"swing.{FEET[0]}", f"contact.{FEET[0]}", "tau_ext.LL3"]
+    array = np.stack([air, 1.0 - air, 30.0 * pushed], axis=1)
+    write_array(folder / "recording", array, [(name, "-", "-") for name in names], {"rate_hz": RATE_HZ})
+    truth, std = 20.0 * rng.normal(size=(rows, layout.nv)), rng.uniform(0.5, 3.0, (rows, len(JOINTS)))
+    columns = [(f"tau_ext_lp.{joint}", layout.unit(joint), "joint") for joint in layout.names]
+    write_array(folder / "residual", truth, columns, {"rate_hz": RATE_HZ})
+    near = np.convolve(pushed, np.ones(11))[:rows] > 0  # a push and the tenth of a second after it
+    error = std * rng.normal(size=std.shape) * np.where(near, 10.0, 1.0)[:, None]
+    columns = [(f"{kind}.{joint}", "N m", "joint") for kind in ("tau_ext", "std") for joint in JOINTS]
+    meta = {"rate_hz": RATE_HZ} | ({} if scale is None else {"std_scale": dict.fromkeys(JOINTS, scale)})
+    estimate = np.concatenate([truth[:, layout.columns(JOINTS)] + error, std], axis=1)
+    write_array(folder / "estimate", estimate, columns, meta)
+    return {name: folder / name for name in ("recording", "residual", "estimate")}
+
+
+@pytest.fixture
+def told(tmp_path: Path, layout: JointLayout) -> Callable[..., dict[str, Any]]:
+    """Write a run that tells its own spread: told(seed, scale=1.0, pushed=None, scenario="walk_test") -> test."""
+
+    def write(
+        seed: int, scale: float | None = 1.0, pushed: str | None = None, scenario: str = "walk_test"
+    ) -> dict[str, Any]:
+        stems = write_told(tmp_path / f"told{seed}-{pushed}", layout, seed, scale)
+        run = {"method": "MOB-Net", "network_seed": 0, "test_seed": 1, **stems}
+        test = {"scenario": scenario, "level": "all_uncertainty", "limbs": ["LL"], "runs": [run]}
+        return test | ({"pushed": pushed} if pushed else {})
+
+    return write
 
 
 @pytest.fixture(scope="session")
