@@ -68,4 +68,6 @@ def size_texts(config: Mapping[str, Any]) -> dict[str, str]:
         "test seconds": f"{test['shard_s']:g}",
         "network runs": str(len(legs["seeds"])),
         "epochs": str(legs["epochs"]),
+        **{f"{name} runs": str(len(row["seeds"])) for name, row in sizes["experiments"].items()},
+        **{f"{name} epochs": str(row["epochs"]) for name, row in sizes["experiments"].items()},
     }
