@@ -17,6 +17,10 @@ function named(key) {
   return heads.find((head) => head.dataset.key === key);
 }
 
+function opener(run) {
+  return run.querySelector("th a");
+}
+
 function value(run, head) {
   const cell = run.rows[0].cells[head.cellIndex];
   return cell.dataset.value === undefined ? cell.textContent.trim() : parseFloat(cell.dataset.value);
@@ -52,7 +56,8 @@ function unfold(names) {
   for (const run of runs) {
     const open = names.includes(run.dataset.name);
     run.classList.toggle("open", open);
-    run.querySelector("[aria-expanded]").setAttribute("aria-expanded", open);
+    opener(run).setAttribute("aria-expanded", open);
+    opener(run).setAttribute("aria-controls", run.rows[1].id);
   }
 }
 
@@ -69,7 +74,7 @@ function link(wanted) {
     if (!run.classList.contains("open")) open.push(run.dataset.name);
     next.delete("open");
     open.forEach((name) => next.append("open", name));
-    run.querySelector("[aria-expanded]").href = `#${next}`;
+    opener(run).href = `#${next}`;
   }
 }
 
