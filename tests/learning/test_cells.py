@@ -135,6 +135,21 @@ def test_dropout_acts_in_training_alone() -> None:
     assert not torch.equal(network(x, state)[0], network(x, state)[0])
 
 
+@pytest.mark.parametrize("kind", PUBLISHED)
+def test_gradients_in_bfloat16_are_those_of_float32(kind: str) -> None:
+    """At the published sizes: one of them met a NaN in torch's bfloat16 convolution."""
+    network = build_network({**PUBLISHED[kind][0], "dropout": 0.0}, 30, 6, STD_MIN, seed=0)
+    x, gradients = _inputs(50, 64, 30), {}
+    for precision in (torch.float32, torch.bfloat16):
+        network.precision = precision
+        network.zero_grad()
+        mean, std, _ = network(x, network.fresh_state(64))
+        (mean.square() + std).mean().backward()
+        gradients[precision] = [p.grad for p in network.parameters()]
+    for exact, rounded in zip(*gradients.values(), strict=True):
+        torch.testing.assert_close(rounded, exact, rtol=0.05, atol=0.02 * float(exact.abs().max()))
+
+
 def test_lstm_state_is_hidden_and_cell_state() -> None:
     """Torch's own LSTM is the reference."""
     torch.manual_seed(0)
