@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from mobnet.core.errors import ConfigError
-from mobnet.core.methods import experiment_row, learning_row, method_row, network_row, with_sweeps
+from mobnet.core.methods import experiment_row, learning_row, method_row, network_row, source_of, with_sweeps
 
 BASE = {"A": {"kind": "residual", "limbs": ["LL", "RL"], "network": {"cell": "GRU"}}}
 SWEEP = {"of": ["A"], "limb": "LL", "experiment": "sweep", "section": "network", "values": [1, 2]}
@@ -53,3 +53,8 @@ def test_unknown_names_are_refused(full_config: dict[str, Any]) -> None:
         method_row(full_config, "X")
     with pytest.raises(ConfigError, match="'tail' is not accepted"):
         network_row(full_config, "MOB-Net", "tail")
+
+
+def test_a_method_runs_on_the_files_of_the_one_it_names() -> None:
+    config = {"methods": {"A": {"kind": "residual"}, "B": {"kind": "band_pass", "of": "A"}}}
+    assert [source_of(config, method) for method in ("A", "B")] == ["A", "A"]

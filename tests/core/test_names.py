@@ -32,6 +32,8 @@ def test_every_reference_is_looked_at(full_config: dict[str, Any], layout: Joint
         "networks.LL.experiment",
         "sweeps.hidden.of",
         "methods.MOB-Net.limbs",
+        "methods.MOB-fric.fitted",
+        "methods.MOB-fric-BPF.of",
         "scale",
         "scenarios.random_walk.terrain",
     }
@@ -57,4 +59,13 @@ def test_unknown_method_of_a_table_is_named(full_config: dict[str, Any], layout:
     table = {**full_config["evaluation"]["table_05"], "levels": {"ideal": ["MOB", "magic"]}}
     config = {**full_config, "evaluation": {**full_config["evaluation"], "table_05": table}}
     with pytest.raises(ConfigError, match=r"table_05\.levels\.ideal: 'magic' is not accepted; accepted: FTS-e2e, "):
+        check_names(config, layout)
+
+
+@pytest.mark.parametrize(("key", "value"), [("fitted", ["tail"]), ("of", "magic"), ("of", "MOB-fric-BPF")])
+def test_a_method_names_limbs_and_a_method_that_runs_on_its_own(
+    key: str, value: Any, full_config: dict[str, Any], layout: JointLayout
+) -> None:
+    config = {**full_config, "methods": {**full_config["methods"], "M": {"kind": "band_pass", key: value}}}
+    with pytest.raises(ConfigError, match=rf"methods\.M\.{key}: .* is not accepted; accepted: "):
         check_names(config, layout)

@@ -52,7 +52,7 @@ def fit(config: Mapping[str, Any], method: str, training: Mapping[str, Sequence[
         for joint, products in sums.items():
             terms = [term for term in TERMS if term in row["terms"] and (term != "load" or joint in loaded)]
             joints[joint] = _solve(products, terms, row["stribeck_rad_s"])
-            log.info("%s: %s", joint, joints[joint])
+            log.info("%s: %.2f of %.2f N m left", joint, joints[joint]["left_rms_nm"], joints[joint]["target_rms_nm"])
     ordered = {joint: joints[joint] for joint in layout.actuated if joint in joints}
     return {"smoothing_rad_s": row["smoothing_rad_s"], "joints": ordered}
 
