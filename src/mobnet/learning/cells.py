@@ -142,7 +142,7 @@ class Window(nn.Module):
         they lie in memory, channels last, once for all windows that they stand in.
         """
         samples = torch.cat([state, x])
-        with torch.autocast(x.device.type, enabled=False):  # in bfloat16 a block's gradient comes out as NaN, torch 2.13
+        with torch.autocast(x.device.type, enabled=False):  # in bfloat16 a block's gradient is NaN, torch 2.13
             features = self.layer(self.blocks(samples[None].permute(0, 3, 1, 2))).tanh()
         return features[0].permute(1, 2, 0), samples[len(x) :]
 
