@@ -12,6 +12,7 @@ include: "workflow/rules/learn.smk"
 include: "workflow/rules/data.smk"
 include: "workflow/rules/evaluate.smk"
 include: "workflow/rules/ablations.smk"
+include: "workflow/rules/calibration.smk"
 include: "workflow/rules/runs.smk"
 include: "workflow/rules/report.smk"
 

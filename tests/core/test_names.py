@@ -10,6 +10,7 @@ from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
 from mobnet.core.names import (
     ablation_uses,
+    calibration_uses,
     check_names,
     evaluation_uses,
     method_uses,
@@ -24,7 +25,7 @@ def test_the_repository_names_only_what_exists(full_config: dict[str, Any], layo
 
 
 def test_every_reference_is_looked_at(full_config: dict[str, Any], layout: JointLayout) -> None:
-    every = (network_uses, method_uses, scenario_uses, size_uses, evaluation_uses, ablation_uses)
+    every = (network_uses, method_uses, scenario_uses, size_uses, evaluation_uses, ablation_uses, calibration_uses)
     keys = {key for uses in every for key, _, _ in uses(full_config, layout)}
     expected = {
         "networks.V.Q",
@@ -43,6 +44,8 @@ def test_every_reference_is_looked_at(full_config: dict[str, Any], layout: Joint
     expected |= {"evaluation.table_01.method", "evaluation.figure_17.methods", "evaluation.kinds.variants"}
     expected |= {"evaluation.figure_18.scenario", "evaluation.figure_18.limbs", "evaluation.figure_20.samples"}
     expected |= {"evaluation.methods.scenario", "evaluation.methods.level", "evaluation.methods.methods"}
+    expected |= {f"evaluation.calibration.tests.{key}" for key in ("scenario", "level", "pushed", "methods", "limbs")}
+    expected |= {"evaluation.calibration.methods", "evaluation.calibration.share"}
     assert expected <= keys
 
 

@@ -47,9 +47,11 @@ def test_a_push_is_torque_on_a_leg_that_touches_nothing(tmp_path: Path, layout: 
     array[35:50, where["contact.left_foot"]] = 1.0
     write_array(tmp_path / "r", array, columns, {"rate_hz": 100.0}, [(0, 100)])
     assert PUSHED.spans(tmp_path / "r") == ((10, 13),)
+    assert Pushed("LL3", 5.0, 0.02, leg=False).spans(tmp_path / "r") == ((10, 13), (40, 43))
 
 
 def test_only_a_test_that_names_a_joint_is_about_pushes() -> None:
-    settings = {"push_nm": 5.0, "push_after_s": 0.02}
+    settings = {"push_nm": 5.0, "push_after_s": 0.02, "limb": "LL"}
     assert pushed_of({"scenario": "walk_test"}, settings) is None
     assert pushed_of({"scenario": "knee_swing", "pushed": "LL3"}, settings) == PUSHED
+    assert pushed_of({"scenario": "hand_wrench", "pushed": "RA2"}, settings) == Pushed("RA2", 5.0, 0.02, leg=False)

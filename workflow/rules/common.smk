@@ -30,7 +30,8 @@ PAPER = "paper" if SCALE == MAIN else f"{RESULTS}/paper"
 MANIFEST = "results/MANIFEST.sha256" if SCALE == MAIN else f"{RESULTS}/MANIFEST.sha256"
 TEST_SEEDS = [1 + i for i in range(SIZES["test"]["shards"])]
 TABLE_NAMES = ["table_01", "table_05", "claims", "data", "steps", "coverage", "uncertainty", "kinds", "methods"]
-FIGURE_NAMES = ["figure_05", "figure_17", "figure_18", "figure_19", "figure_20", "commands"]
+TABLE_NAMES += ["calibration"]
+FIGURE_NAMES = ["figure_05", "figure_17", "figure_18", "figure_19", "figure_20", "commands", "calibration"]
 TABLE_05, FIGURE_05, FIGURE_18 = (settings["evaluation"][name] for name in ("table_05", "figure_05", "figure_18"))
 
 
@@ -186,6 +187,7 @@ def wanted():
     found += [(FIGURE_05["scenario"], level, FIGURE_05["panels"][level]) for level in FIGURE_05["panels"]]
     found += [(scenario, FIGURE_18["level"], FIGURE_18["methods"]) for scenario in FIGURE_18["panels"]]
     found += [(test["scenario"], test["level"], test["methods"]) for test in asked["methods"]]
+    found += [(test["scenario"], test["level"], test["methods"]) for test in asked["calibration"]["tests"]]
     return list(dict.fromkeys((scenario, level, method) for scenario, level, names in found for method in names))
 
 

@@ -17,7 +17,7 @@ def check_names(config: Mapping[str, Any], layout: JointLayout, where: str = "co
     Raises:
         ConfigError: one line with the key, the name and the accepted names.
     """
-    for uses in (network_uses, method_uses, scenario_uses, size_uses, evaluation_uses, ablation_uses):
+    for uses in (network_uses, method_uses, scenario_uses, size_uses, evaluation_uses, ablation_uses, calibration_uses):
         for key, name, accepted in uses(config, layout):
             if name not in accepted:
                 raise ConfigError(f"{where}: {not_accepted(key, name, accepted)}")
@@ -120,3 +120,17 @@ def ablation_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Us
             yield from ((f"evaluation.{key}.methods", method, config["methods"]) for method in test["methods"])
             limbs = test.get("columns", test.get("limbs", ()))
             yield from ((f"evaluation.{key}.limbs", limb, layout.groups) for limb in limbs)
+
+
+def calibration_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
+    """Yield what the calibration of the standard deviations names."""
+    settings = config["evaluation"]["calibration"]
+    yield "evaluation.calibration.share", settings["share"], settings["levels"]
+    yield from (("evaluation.calibration.methods", method, config["methods"]) for method in settings["methods"])
+    for test in settings["tests"]:
+        place = "evaluation.calibration.tests"
+        yield f"{place}.scenario", test["scenario"], config["scenarios"]
+        yield f"{place}.level", test["level"], config["levels"]
+        yield f"{place}.pushed", test.get("pushed", layout.actuated[0]), layout.actuated
+        yield from ((f"{place}.methods", method, settings["methods"]) for method in test["methods"])
+        yield from ((f"{place}.limbs", limb, layout.groups) for limb in test["limbs"])

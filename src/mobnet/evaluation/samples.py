@@ -19,17 +19,19 @@ FLAG = 0.5  # a stored flag above this is 1
 
 @dataclass(frozen=True)
 class Pushed:
-    """Where in a recording a swinging left leg is pushed: it has external torque though its foot touches nothing.
+    """Where in a recording a swinging left leg is pushed, or an arm: it has external torque though it touches nothing.
 
     Attributes:
-        joint: joint of the left leg that the push turns.
+        joint: joint that the push turns.
         torque_nm: external torque above this is a push [N m].
         after_s: how long after a push the robot is still looked at [s].
+        leg: whether the joint is the left leg's, which counts in swing and off the ground alone.
     """
 
     joint: str
     torque_nm: float
     after_s: float
+    leg: bool = True
 
     def spans(self, stem: Path) -> Spans:
         """Return the spans (start, end) of rows around the pushes of a recording, in order.
@@ -39,15 +41,23 @@ class Pushed:
         """
         names = [f"swing.{FEET[0]}", f"contact.{FEET[0]}", f"tau_ext.{self.joint}"]
         array, meta = read_array(stem, names)
-        free = (array[:, 0] > FLAG) & (array[:, 1] < FLAG)
+        free = (array[:, 0] > FLAG) & (array[:, 1] < FLAG) if self.leg else np.ones(len(array), dtype=bool)
         return runs(
             free & (np.abs(array[:, 2]) > self.torque_nm), meta["segments"], round(self.after_s * meta["rate_hz"])
         )
 
 
 def pushed_of(test: Mapping[str, Any], settings: Mapping[str, Any]) -> Pushed | None:
-    """Return which samples of a test count, None for all; `settings` has push_nm [N m] and push_after_s [s]."""
-    return Pushed(test["pushed"], settings["push_nm"], settings["push_after_s"]) if "pushed" in test else None
+    """Return which samples of a test count, None for all.
+
+    Args:
+        test: `pushed`, a joint, where only samples around pushes count.
+        settings: `evaluation.coverage`: push_nm [N m], push_after_s [s], and the leg's limb.
+    """
+    if "pushed" not in test:
+        return None
+    leg = test["pushed"].startswith(settings["limb"])
+    return Pushed(test["pushed"], settings["push_nm"], settings["push_after_s"], leg)
 
 
 def runs(flags: NDArray[np.bool_], segments: Spans, after: int) -> Spans:

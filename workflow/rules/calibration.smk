@@ -1,0 +1,44 @@
+# How far the networks' standard deviations can be trusted: held out, in tests, under collision.
+
+
+def calibration_tests():
+    """Return the tests of the networks' standard deviations, each with its runs."""
+    return [
+        {
+            **test,
+            "runs": [
+                entry(test["scenario"], test["level"], method, seed, number)
+                for method in test["methods"]
+                for seed in network_seeds(method)
+                for number in TEST_SEEDS
+            ],
+        }
+        for test in settings["evaluation"]["calibration"]["tests"]
+    ]
+
+
+rule calibration:
+    input:
+        [arrays(test["runs"], "recording", "residual", "estimate") for test in calibration_tests()],
+        notes=networks("run.json"),
+    output:
+        ensure(
+            expand(f"{TABLES}/calibration.{{ending}}", ending=["csv", "tex", "md"]),
+            non_empty=True,
+        ),
+        figure=ensure(
+            expand(f"{FIGURES}/calibration.{{ending}}", ending=["pdf", "png", "csv"]),
+            non_empty=True,
+        ),
+    log:
+        f"{RESULTS}/logs/calibration.log",
+    benchmark:
+        f"{RESULTS}/bench/calibration.tsv"
+    threads: 1
+    params:
+        config=part("seed", "robot", evaluation=["calibration", "coverage", "confidence", "bootstrap_draws"]),
+        tests=calibration_tests(),
+        robot=CONTENT["robot"],
+        code=code_of("calibration"),
+    script:
+        "../scripts/calibration.py"
