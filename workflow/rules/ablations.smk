@@ -1,32 +1,6 @@
 # Networks, their ablations and all methods side by side: Table 1, Figures 17, 18 and 20, section 6.1 in numbers.
 
-from mobnet.core.methods import swept_name
-
-FIGURE_17, FIGURE_20 = (settings["evaluation"][name] for name in ("figure_17", "figure_20"))
-VARIANTS = settings["evaluation"]["kinds"]["variants"]
-
-
-def folders(methods, limb):
-    """Return the folders of methods' trained networks of a limb."""
-    return [str(Path(network(method, limb, seed)).parent) for method in methods for seed in network_seeds(method, limb)]
-
-
-def courses(places):
-    """Return the files that say how trainings went."""
-    return [f"{folder}/{name}" for folder in places for name in ("run.json", "metrics.csv")]
-
-
-def sizes_of_networks():
-    """Return the variations of Figure 20; the network of all data is that of Table 1's size."""
-    limb, entries = FIGURE_20["limb"], []
-    for panel, other in (("parameters", "samples"), ("samples", "parameters")):
-        key, full = FIGURE_20[panel], FIGURE_20["parameters"]
-        for base in settings["sweeps"][key]["of"]:
-            names = [swept_name(base, key, value) for value in settings["sweeps"][key]["values"]]
-            if panel == "samples":
-                names.append(swept_name(base, full, network_row(settings, base, limb)[full]))
-            entries += [{"panel": panel, "base": base, "folders": folders([name], limb)} for name in names]
-    return entries
+FIGURE_17, VARIANTS = settings["evaluation"]["figure_17"], settings["evaluation"]["kinds"]["variants"]
 
 
 rule table_01:
@@ -59,7 +33,7 @@ rule table_01:
 
 rule figure_17:
     input:
-        courses(folders(FIGURE_17["methods"], FIGURE_17["limb"])),
+        courses(network_folders(FIGURE_17["methods"], FIGURE_17["limb"])),
     output:
         ensure(
             expand(f"{FIGURES}/figure_17.{{ending}}", ending=["pdf", "png", "csv"]),
@@ -71,7 +45,7 @@ rule figure_17:
         f"{RESULTS}/bench/figure_17.tsv"
     threads: 1
     params:
-        folders=folders(FIGURE_17["methods"], FIGURE_17["limb"]),
+        folders=network_folders(FIGURE_17["methods"], FIGURE_17["limb"]),
         code=code_of("figure_17"),
     script:
         "../scripts/figure_17.py"
@@ -79,7 +53,7 @@ rule figure_17:
 
 rule kinds:
     input:
-        courses(folders(FIGURE_17["methods"] + VARIANTS, FIGURE_17["limb"])),
+        courses(network_folders(FIGURE_17["methods"] + VARIANTS, FIGURE_17["limb"])),
     output:
         ensure(
             expand(f"{TABLES}/kinds.{{ending}}", ending=["csv", "tex", "md"]),
@@ -96,7 +70,7 @@ rule kinds:
             "published",
             evaluation=["figure_17", "kinds", "confidence", "bootstrap_draws"],
         ),
-        folders=folders(FIGURE_17["methods"] + VARIANTS, FIGURE_17["limb"]),
+        folders=network_folders(FIGURE_17["methods"] + VARIANTS, FIGURE_17["limb"]),
         published=CONTENT["published"],
         code=code_of("kinds"),
     script:

@@ -8,7 +8,7 @@ from mobnet.core.config import FIRST_TRAINING_SEED, config_hash, read_yaml, reso
 from mobnet.core.config import check_config as validate
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
-from mobnet.core.methods import SCALE_SIZES, experiment_row, network_row, source_of
+from mobnet.core.methods import SCALE_SIZES, experiment_row, network_row, source_of, swept_name
 
 ROOT = Path(workflow.basedir)
 quieten(ROOT)
@@ -164,6 +164,30 @@ def fitted_pairs(method):
     """Return limb -> stems of a recording and of its residual, for each of that training set."""
     sets = [fitted_to(method, kind) for kind in ("recordings", "residuals")]
     return {limb: list(zip(*(stems(one[limb]) for one in sets))) for limb in sets[0]}
+
+
+def network_folders(methods, limb):
+    """Return the folders of methods' trained networks of a limb."""
+    return [str(Path(network(method, limb, seed)).parent) for method in methods for seed in network_seeds(method, limb)]
+
+
+def courses(places):
+    """Return the files that say how trainings went."""
+    return [f"{folder}/{name}" for folder in places for name in ("run.json", "metrics.csv")]
+
+
+def sizes_of_networks():
+    """Return the variations of Figure 20; the network of all data is that of Table 1's size."""
+    figure, entries = settings["evaluation"]["figure_20"], []
+    limb, full = figure["limb"], figure["parameters"]
+    for panel in ("parameters", "samples"):
+        key = figure[panel]
+        for base in settings["sweeps"][key]["of"]:
+            names = [swept_name(base, key, value) for value in settings["sweeps"][key]["values"]]
+            if panel == "samples":
+                names.append(swept_name(base, full, network_row(settings, base, limb)[full]))
+            entries += [{"panel": panel, "base": base, "folders": network_folders([name], limb)} for name in names]
+    return entries
 
 
 def entry(scenario, level, method, network_seed, test_seed):
