@@ -328,6 +328,16 @@ def test_curves_are_drawn_large_where_a_run_is_opened(browse: Callable[[str], Br
 
 
 @with_browser
+def test_a_link_to_an_opened_run_shows_it_without_scrolling(browse: Callable[[str], Browser]) -> None:
+    browse("").tell("Emulation.setDeviceMetricsOverride", width=1000, height=300, deviceScaleFactor=1, mobile=False)
+    browser = browse("#open=LSTM-LL-s0")
+    try:
+        browser.until("document.querySelector('.open').getBoundingClientRect().top < innerHeight", True)
+    finally:
+        browser.tell("Emulation.clearDeviceMetricsOverride")
+
+
+@with_browser
 def test_without_scripts_every_run_is_open(browse: Callable[[str], Browser]) -> None:
     browser = browse("")
     browser.tell("Emulation.setScriptExecutionDisabled", value=True)

@@ -96,3 +96,4 @@ filter.addEventListener("input", () => {
 filter.form.addEventListener("submit", (event) => event.preventDefault());
 addEventListener("hashchange", show);
 show();
+document.querySelector(".open")?.scrollIntoView({ block: "nearest" });
