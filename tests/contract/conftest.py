@@ -21,7 +21,7 @@ from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network
 from mobnet.learning.networks import NOTE, WEIGHTS
 
-LEVEL, RATE_HZ, SECONDS, FIT_SECONDS = "all_uncertainty", 1000.0, 0.3, 0.5
+LEVEL, RATE_HZ, SECONDS, FIT_SECONDS = "all_uncertainty", 1000.0, 0.15, 0.3
 INPUT_STD, TARGET_STD = 2.0, 10.0
 Build = Callable[..., Estimator]
 
@@ -34,7 +34,7 @@ def build(
     write_pair: Callable[[Path, Recording], tuple[Path, Path]],
     tmp_path_factory: pytest.TempPathFactory,
 ) -> Build:
-    """Return a function of (method, zero) that builds it with random or zero networks, or fitted to half a second."""
+    """Return a function of (method, zero) that builds it with random or zero networks, or fitted to a third of a second."""
 
     def made(method: str, zero: bool = False) -> Estimator:
         folder = tmp_path_factory.mktemp(method)

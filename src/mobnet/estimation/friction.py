@@ -125,7 +125,7 @@ def read_friction(path: Path, joints: Sequence[str]) -> Friction:
             for term, key in TERMS.items()
         }
         stribeck = np.array([rows[joint]["stribeck_rad_s"] if joint in rows else 1.0 for joint in joints])
-    except (KeyError, TypeError) as error:
+    except (KeyError, TypeError, ValueError) as error:
         raise DataError(f"{path}: not a fitted friction model ({error!r})") from None
     return Friction(terms, stribeck, smoothing)
 
