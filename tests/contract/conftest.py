@@ -34,7 +34,7 @@ def build(
     write_pair: Callable[[Path, Recording], tuple[Path, Path]],
     tmp_path_factory: pytest.TempPathFactory,
 ) -> Build:
-    """Return a function of (method, zero) that builds it with random or zero networks, or fitted to a third of a second."""
+    """Return a function of (method, zero) that builds it with random or zero networks, or a fit to a few samples."""
 
     def made(method: str, zero: bool = False) -> Estimator:
         folder = tmp_path_factory.mktemp(method)
