@@ -37,7 +37,7 @@ class ModuleNetwork(Deployed):
             std_min: smallest standard deviation, z-scored [-].
             row: row of Table 1 or section 6.1, its `cell` and sizes; norms are in the weights already.
         """
-        super().__init__(tensors, limb, joints, input_names)
+        super().__init__(tensors, limb, joints, input_names, std_min)
         self._module = build_network({**row, "spectral": False}, len(input_names), len(joints), std_min, seed=0).eval()
         weights = {name: tensor for name, tensor in tensors.items() if name.startswith(("cell.", "head."))}
         self._module.load_state_dict({name: torch.from_numpy(np.array(tensor)) for name, tensor in weights.items()})

@@ -1,7 +1,7 @@
-"""Trained limb networks as they run on a robot: one sample at a time, the GRU by NumPy only.
+"""Trained limb networks as they run on a robot: one sample at a time, those of MOB-Net by NumPy only.
 
 Small matrix-vector products at batch 1 cost less in NumPy than a call into torch; weights are laid out as
-`torch.nn.GRU` documents them. Every other cell of section 6.1 runs by the module that was trained.
+`torch.nn.GRU` documents them. The other cells of section 6.1 run by the module that was trained.
 """
 
 from __future__ import annotations
@@ -49,17 +49,25 @@ class Deployed(ABC):
     """
 
     def __init__(
-        self, tensors: Mapping[str, Array], limb: str, joints: tuple[str, ...], input_names: tuple[str, ...]
+        self,
+        tensors: Mapping[str, Array],
+        limb: str,
+        joints: tuple[str, ...],
+        input_names: tuple[str, ...],
+        std_min: float,
     ) -> None:
-        """Take the z-scores.
+        """Take the z-scores; weights, by the names torch gives them, are what each kind takes besides.
 
         Args:
-            tensors: `input.mean|std` (n_in,), `target.mean|std` (n,) [N, N m] and perhaps `std.scale` (n,) [-].
+            tensors: `cell.*`, `head.*`, `input.mean|std` (n_in,), `target.mean|std` (n,) [N, N m] and, perhaps,
+                `std.scale` (n,) [-].
             limb: name of the limb.
             joints: names of the joints.
             input_names: names of the inputs.
+            std_min: smallest standard deviation, z-scored [-].
         """
         self.limb, self.joints, self.input_names = limb, joints, input_names
+        self.std_min = np.float32(std_min)
         self._input_mean, self._input_std, self._target_mean, self._target_std = (
             np.asarray(tensors[name], dtype=np.float32) for name in Z_SCORES
         )
@@ -86,29 +94,39 @@ class Deployed(ABC):
         """Return a z-scored mean and standard deviation in physical units."""
         return Prediction(mean * self._target_std + self._target_mean, std * self._std_unit)
 
+    def _predict(self, output: Array) -> Prediction:
+        """Return the prediction in physical units from the linear layer's output (..., 2 n)."""
+        n = len(self.joints)
+        mean, raw = output[..., :n], output[..., n:]
+        return self._physical(mean, np.maximum(np.logaddexp(raw, 0.0, dtype=np.float32), self.std_min))
+
+
+class ConstantNetwork(Deployed):
+    """The same mean and standard deviation at every sample: cell `constant`; there is no state."""
+
+    def __init__(self, tensors: Mapping[str, Array], *names: Any) -> None:
+        """Take all arguments of `Deployed`."""
+        super().__init__(tensors, *names)
+        self._output = np.asarray(tensors["head.bias"], dtype=np.float32)
+
+    def init(self) -> None:
+        """Return the state before the first sample, none."""
+
+    def step(self, state: None, x: Array) -> tuple[None, Prediction]:
+        """Return no state and the prediction (n,) [N, N m], whatever the inputs (n_in,)."""
+        return None, self._predict(self._output)
+
+    def run(self, x: Array) -> Prediction:
+        """Return the prediction (T, n) [N, N m] for as many samples as the inputs (T, n_in) have."""
+        return self._predict(np.tile(self._output, (len(x), 1)))
+
 
 class Network(Deployed):
     """GRU-Linear of Table 1 with its z-scores, by NumPy."""
 
-    def __init__(
-        self,
-        tensors: Mapping[str, Array],
-        limb: str,
-        joints: tuple[str, ...],
-        input_names: tuple[str, ...],
-        std_min: float,
-    ) -> None:
-        """Take weights by the names torch gives them.
-
-        Args:
-            tensors: `cell.*`, `head.*` and the z-scores of `Deployed`.
-            limb: name of the limb.
-            joints: names of the joints.
-            input_names: names of the inputs.
-            std_min: smallest standard deviation, z-scored [-].
-        """
-        super().__init__(tensors, limb, joints, input_names)
-        self.std_min = np.float32(std_min)
+    def __init__(self, tensors: Mapping[str, Array], *names: Any) -> None:
+        """Take all arguments of `Deployed`."""
+        super().__init__(tensors, *names)
         w_in, w_state, b_in, b_state, self._w_out, self._b_out = (
             np.asarray(tensors[name], dtype=np.float32) for name in GRU_TENSORS
         )
@@ -148,11 +166,8 @@ class Network(Deployed):
         new = np.tanh(gates_in[2 * h :] + gates_state[2 * h :])
         return new + opened[h:] * (state - new)
 
-    def _predict(self, output: Array) -> Prediction:
-        """Return the prediction in physical units from the linear layer's output (..., 2 n)."""
-        n = len(self.joints)
-        mean, raw = output[..., :n], output[..., n:]
-        return self._physical(mean, np.maximum(np.logaddexp(raw, 0.0, dtype=np.float32), self.std_min))
+
+WITHOUT_TORCH = {"GRU": Network, "constant": ConstantNetwork}
 
 
 def load_network(folder: Path) -> Deployed:
@@ -176,10 +191,10 @@ def load_network(folder: Path) -> Deployed:
 
 def _deployed(tensors: Mapping[str, Array], note: Mapping[str, Any]) -> Deployed:
     """Return the network that a file's tensors and note describe."""
-    names = note["limb"], tuple(note["joints"]), tuple(note["inputs"])
+    common = note["limb"], tuple(note["joints"]), tuple(note["inputs"]), note["std_min"]
     row = note.get("network", {"cell": "GRU"})  # files without it are older than the other cells
-    if row["cell"] == "GRU":
-        return Network(tensors, *names, note["std_min"])
-    from mobnet.learning.module_network import ModuleNetwork  # torch starts slowly, and the GRU does without
+    if row["cell"] in WITHOUT_TORCH:
+        return WITHOUT_TORCH[row["cell"]](tensors, *common)
+    from mobnet.learning.module_network import ModuleNetwork  # torch starts slowly, and MOB-Net does without
 
-    return ModuleNetwork(tensors, *names, note["std_min"], row)
+    return ModuleNetwork(tensors, *common, row)
