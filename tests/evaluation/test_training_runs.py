@@ -24,6 +24,7 @@ NOTE: dict[str, Any] = {
     "best": {"epoch": 99, "validation_loss": -99.0},
     "seconds": 12.5,
     "device": "cpu",
+    "precision": "bfloat16",
     "fingerprint": "f",
     "provenance": {"commit": "c"},
 }
@@ -41,17 +42,13 @@ def test_numbers_of_the_best_epoch_come_from_the_metrics(tmp_path: Path) -> None
     """The first of the smallest validation losses counts, whatever run.json says."""
     run = read_training_run(*files(tmp_path, "1,0,-1,4,.1,9\n2,-1,-3,2,.1,9\n3,-2,-3,1,.1,9\n"))
     assert (run.best_epoch, run.loss, run.rmse, run.epochs) == (2, -3.0, 2.0, 3)
-    assert (run.name, run.cell, run.parameters, run.seconds, run.state) == ("LSTM-LL-s3", "LSTM", 83468, 12.5, "done")
+    assert (run.name, run.cell, run.parameters) == ("LSTM-LL-s3", "LSTM", 83468)
+    assert (run.seconds, run.precision, run.state) == (12.5, "bfloat16", "done")
 
 
 def test_a_training_that_diverged_at_once_has_no_numbers(tmp_path: Path) -> None:
     run = read_training_run(*files(tmp_path, "", diverged=True, best=None))
     assert (run.best_epoch, run.loss, run.rmse, run.epochs, run.state) == (None, None, None, 0, "diverged")
-
-
-def test_precision_is_told_where_it_is_known(tmp_path: Path) -> None:
-    assert read_training_run(*files(tmp_path, "")).precision is None
-    assert read_training_run(*files(tmp_path, "", precision="bfloat16")).precision == "bfloat16"
 
 
 def test_settings_are_flat_and_whole(tmp_path: Path) -> None:

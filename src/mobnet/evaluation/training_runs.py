@@ -13,7 +13,8 @@ from mobnet.core.files import read_json
 from mobnet.evaluation.rows import read_rows
 
 SETTINGS = ("target", "settings", "fingerprint", "provenance")  # keys of run.json that say what was trained on what
-TOLD = ("name", "method", "limb", "seed", "parameters", "samples", "seconds", "device")  # keys shown as they are
+# Keys of run.json that are shown as they are
+TOLD = ("name", "method", "limb", "seed", "parameters", "samples", "seconds", "device", "precision")
 ENDED, DIVERGED = "done", "diverged"
 
 
@@ -50,7 +51,7 @@ class TrainingRun:
         samples: samples learned from.
         seconds: compute time [s].
         device: `cpu` or `cuda`.
-        precision: format of the products; None where run.json tells none.
+        precision: number format of the products.
         state: `done` or `diverged`.
         curves: finished epochs.
         settings: what was trained on what, dotted name -> text.
@@ -66,7 +67,7 @@ class TrainingRun:
     samples: int
     seconds: float
     device: str
-    precision: str | None
+    precision: str
     state: str
     curves: Sequence[Epoch]
     settings: Mapping[str, str]
@@ -107,13 +108,9 @@ def read_training_run(note: Path, metrics: Path) -> TrainingRun:
     told = read_json(note)
     try:
         return TrainingRun(
-            **{
-                key: told[key]
-                for key in ("name", "method", "limb", "seed", "parameters", "samples", "seconds", "device")
-            },
+            **{key: told[key] for key in TOLD},
             cell=told["settings"]["network"]["cell"],
-            precision=told.get("precision"),
-            state=DIVERGED if told.get("diverged") else ENDED,
+            state=DIVERGED if told["diverged"] else ENDED,
             curves=read_curves(metrics),
             settings=dict(pair for key in SETTINGS for pair in flattened(key, told[key])),
             metrics=metrics,
