@@ -23,13 +23,14 @@ ORDERED_BY = "validation loss"
 MEASURES: Mapping[str, tuple[Callable[[Training], float], str]] = {  # name -> (of a training, unit)
     "validation loss": (lambda training: training.kept.validation_loss, "-"),
     "validation RMSE": (lambda training: training.kept.validation_rmse, "N m"),
+    "validation loss on windows": (lambda training: training.windows_loss, "-"),
     "training loss at the end": (lambda training: training.last.train_loss, "-"),
     "validation loss at the end": (lambda training: training.last.validation_loss, "-"),
     "training time": (lambda training: training.seconds, "s"),
 }
 DIGITS = {"training time": 0}
-HEADER = ["Order", "Paper", "Network", "Parameters", "Paper", "Runs", "Val. loss", "Val. RMSE [N m]",
-          "Train. loss, end", "Val. loss, end", "Time [s]"]  # fmt: skip
+HEADER = ["Order", "Paper", "Network", "Parameters", "Paper", "Runs", "Val. loss", "RMSE [N m]",
+          "On windows", "Train. loss, end", "Val. loss, end", "Time [s]"]  # fmt: skip
 LEFT = 3  # columns of text
 
 

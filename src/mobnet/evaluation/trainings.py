@@ -42,6 +42,8 @@ class Training:
         samples: samples learned from, those held out apart.
         seconds: time that the training took [s].
         diverged: whether it was stopped because its loss grew; its epochs end there.
+        windows_loss: validation loss (22) of the epoch kept where every sample re-runs its window from zero [-];
+            elsewhere the state is carried.
         epochs: its course.
     """
 
@@ -51,6 +53,7 @@ class Training:
     samples: int
     seconds: float
     diverged: bool
+    windows_loss: float
     epochs: tuple[Epoch, ...]
 
     @property
@@ -75,7 +78,7 @@ def read_training(folder: Path) -> Training:
     if not epochs and not diverged:
         raise DataError(f"{folder / METRICS}: no epoch, though {RUN} does not say that the training diverged")
     sizes: Mapping[str, Any] = {name: note[name] for name in ("method", "seed", "parameters", "samples", "seconds")}
-    return Training(**sizes, diverged=diverged, epochs=epochs)
+    return Training(**sizes, diverged=diverged, windows_loss=note["on_windows"]["loss"], epochs=epochs)
 
 
 def read_trainings(folders: Iterable[str]) -> dict[str, list[Training]]:
