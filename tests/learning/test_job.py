@@ -58,12 +58,32 @@ def test_random_numbers_differ_by_purpose_and_repeat(job: Job) -> None:
     assert replace(job, seed=1).generator("epoch", 0).integers(1 << 60) != draws["epoch", 0]
 
 
-@pytest.mark.parametrize("change", [{"seed": 1}, {"epochs": 9}, {"settings": {}}, {"target": "external"}])
+@pytest.mark.parametrize(
+    "change", [{"seed": 1}, {"epochs": 9}, {"settings": {"precision": "auto"}}, {"target": "external"}]
+)
 def test_fingerprint_changes_with_the_job(job: Job, change: dict[str, Any]) -> None:
     cpu = torch.device("cpu")
     assert job.fingerprint("data", cpu) == job.fingerprint("data", cpu)
     assert job.fingerprint("data", cpu) != replace(job, **change).fingerprint("data", cpu)
     assert job.fingerprint("data", cpu) != job.fingerprint("other", cpu)
+
+
+def test_fingerprint_depends_on_the_number_format_in_use(job: Job, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same configuration, on a CPU with bfloat16 and on one without."""
+    found = []
+    for has in (True, False):
+        monkeypatch.setattr(torch.cpu, "get_capabilities", lambda has=has: {"avx512_bf16": has})
+        found.append((job.precision(torch.device("cpu")), job.fingerprint("data", torch.device("cpu"))))
+    assert [precision for precision, _ in found] == [torch.bfloat16, torch.float32]
+    assert found[0][1] != found[1][1]
+
+
+@pytest.mark.parametrize("cell", ["LSTM", "RNN", "TCN", "MLP", "constant"])
+def test_only_a_gru_has_bfloat16_products(job: Job, cell: str) -> None:
+    settings = {**job.settings, "precision": "bfloat16"}
+    assert replace(job, settings=settings).precision(torch.device("cpu")) == torch.bfloat16
+    other = replace(job, settings=settings, row={**job.row, "cell": cell})
+    assert other.precision(torch.device("cpu")) == torch.float32
 
 
 def test_unknown_names_are_refused(full_config: dict[str, Any]) -> None:

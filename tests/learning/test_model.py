@@ -85,3 +85,15 @@ def test_every_weight_of_a_normalised_network_is_trained() -> None:
 def test_only_a_gru_can_be_normalised() -> None:
     with pytest.raises(ConfigError, match="cell of a network with `spectral`: 'LSTM' is not accepted; accepted: GRU"):
         build_network({**SPECTRAL, "cell": "LSTM"}, 6, 2, STD_MIN, seed=0)
+
+
+def test_products_are_rounded_in_training_alone() -> None:
+    """What is validated is what runs on the robot, in float32."""
+    network = build_network({"cell": "GRU", "hidden": 24}, 6, 2, STD_MIN, seed=0)
+    x, state = torch.randn(20, 4, 6, generator=torch.Generator().manual_seed(0)), network.fresh_state(4)
+    exact = network(x, state)
+    network.precision = torch.bfloat16
+    assert not torch.equal(network(x, state)[0], exact[0])
+    assert all(tensor.dtype == torch.float32 for tensor in network(x, state))
+    network.eval()
+    assert all(torch.equal(a, b) for a, b in zip(network(x, state), exact, strict=True))

@@ -11,10 +11,12 @@ import time
 from pathlib import Path
 
 import pytest
+import torch
 
 from mobnet.core.errors import DataError, TrainingError
 from mobnet.learning.checkpoint import CHECKPOINT
 from mobnet.learning.networks import WEIGHTS, load_network
+from mobnet.learning.precision import precision_name, precision_of
 from mobnet.learning.tracking import METRICS
 from mobnet.learning.train import RUN, train
 
@@ -58,6 +60,7 @@ def test_it_leaves_weights_metrics_and_a_note(small: object, tmp_path: Path) -> 
     assert not (tmp_path / "state" / CHECKPOINT).exists()
     note = json.loads((out / RUN).read_text())
     assert (note["limb"], note["target"], note["samples"]) == ("LL", "uncertainty", 7200)  # nine tenths
+    assert note["precision"] == precision_name(precision_of("auto", torch.device(note["device"])))
     assert load_network(out).joints == ("LL1", "LL2", "LL3", "LL4", "LL5", "LL6")
 
 

@@ -14,6 +14,7 @@ from mobnet.core.errors import TrainingError
 from mobnet.learning.checkpoint import CHECKPOINT
 from mobnet.learning.dataset import LimbData, load_limb_data
 from mobnet.learning.job import Job, job_of
+from mobnet.learning.precision import PRECISIONS
 from mobnet.learning.tracking import METRICS
 from mobnet.learning.trainer import Trainer
 
@@ -44,8 +45,11 @@ def test_scales_do_not_see_the_validation_blocks(setting: Setting) -> None:
     np.testing.assert_array_equal(before[0].mean, after[0].mean)
 
 
-def test_two_runs_are_the_same_to_the_bit(setting: Setting, tmp_path: Path) -> None:
-    first, second = (Trainer(*setting).run(tmp_path / name) for name in "ab")
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_two_runs_are_the_same_to_the_bit(setting: Setting, precision: str, tmp_path: Path) -> None:
+    job, data = setting
+    job.settings["precision"] = precision
+    first, second = (Trainer(replace(job, epochs=2), data).run(tmp_path / name) for name in "ab")
     assert first.rows == second.rows
     assert all(torch.equal(first.best[name], tensor) for name, tensor in second.best.items())
 

@@ -68,8 +68,8 @@ class Job:
         return self.settings["rate_first"] * (1.0 - (1.0 - self.settings["rate_last_ratio"]) * passed)
 
     def precision(self, device: torch.device) -> torch.dtype:
-        """Return the number format of the products on a device."""
-        return precision_of(self.settings["precision"], device)
+        """Return the number format of a GRU's products on a device; in other cells torch would round states too."""
+        return precision_of(self.settings["precision"], device) if self.row["cell"] == "GRU" else torch.float32
 
     def fingerprint(self, data_digest: str, device: torch.device) -> str:
         """Return a hash of all that the weights depend on: numbers, data, this package's code, torch, device."""
