@@ -63,7 +63,7 @@ def draw_reliability(panels: Sequence[ReliabilityPanel]) -> Figure:
     with mpl.rc_context(STYLE):
         size = PANEL_INCH * max(1, len(titles)), PANEL_INCH * max(1, len(methods)) + LEGEND_INCH
         figure = Figure(figsize=size, layout="constrained")
-        axes = figure.subplots(max(1, len(methods)), max(1, len(titles)), sharex=True, sharey=True, squeeze=False)
+        axes = figure.subplots(max(1, len(methods)), max(1, len(titles)), squeeze=False)
         for axis in axes.flat:
             axis.set_visible(False)
         for panel in panels:
