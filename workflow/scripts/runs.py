@@ -6,5 +6,5 @@ from mobnet.core.logs import job
 from mobnet.evaluation.runs_page import runs_page
 
 with job(snakemake.log[0]):
-    notes, metrics = ([Path(name) for name in names] for names in (snakemake.input.notes, snakemake.input.metrics))
-    runs_page(snakemake.params.config, notes, metrics, Path(snakemake.output[0]))
+    folders = [Path(name).parent for name in snakemake.input.notes]
+    runs_page(snakemake.params.config, folders, Path(snakemake.output[0]))

@@ -51,7 +51,7 @@ COLUMNS = (
     Column("cell", "cell"),
     Column("parameters", "parameters", layout=",d"),
     Column("samples", "samples", layout=",d"),
-    Column("epochs", "epochs", layout="d"),
+    Column("epoch_count", "epochs", layout="d"),
     Column("best_epoch", "best epoch", layout="d"),
     Column("loss", "best validation loss", layout=".3f"),
     Column("rmse", "RMSE", "N m", ".2f"),
@@ -62,20 +62,18 @@ COLUMNS = (
 )
 
 
-def runs_page(config: Mapping[str, Any], notes: Sequence[Path], metrics: Sequence[Path], page: Path) -> None:
+def runs_page(config: Mapping[str, Any], folders: Sequence[Path], page: Path) -> None:
     """Write the page of all trainings.
 
     Args:
         config: resolved configuration; its scale is named.
-        notes: each training's `run.json`.
-        metrics: each training's `metrics.csv`, in the same order.
+        folders: each training's, with its `run.json` and `metrics.csv`.
         page: HTML file; links to the metrics are relative to it.
 
     Raises:
         DataError: a file is missing or damaged.
     """
-    runs = [read_training_run(*files) for files in zip(notes, metrics, strict=True)]
-    runs.sort(key=lambda run: (run.method, run.limb, run.seed))
+    runs = sorted(map(read_training_run, folders), key=lambda run: (run.method, run.limb, run.seed))
     settings = Environment(
         loader=FileSystemLoader(TEMPLATES), autoescape=True, undefined=StrictUndefined,
         trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True,
@@ -92,10 +90,10 @@ def charts(run: TrainingRun) -> list[Chart]:
     """Return a training's curves over its epochs: loss (22) [-], RMSE [N m] and learning rate [-]; none without one."""
     if run.best is None:
         return []
-    x, best = [row.epoch for row in run.curves], run.best.epoch
-    training, validation = ([getattr(row, name) for row in run.curves] for name in ("train_loss", "validation_loss"))
+    x, best = [row.epoch for row in run.epochs], run.best.epoch
+    training, validation = ([getattr(row, name) for row in run.epochs] for name in ("train_loss", "validation_loss"))
     return [
         line_chart("loss", "loss [-]", x, {"training": training, "validation": validation}, best),
-        line_chart("rmse", "RMSE [N m]", x, {"validation": [row.validation_rmse for row in run.curves]}, best),
-        line_chart("rate", "learning rate [-]", x, {"rate": [row.rate for row in run.curves]}, best),
+        line_chart("rmse", "RMSE [N m]", x, {"validation": [row.validation_rmse for row in run.epochs]}, best),
+        line_chart("rate", "learning rate [-]", x, {"rate": [row.rate for row in run.epochs]}, best),
     ]

@@ -23,12 +23,14 @@ class Epoch:
         train_loss: mean of (22) over the training samples [-].
         validation_loss: mean of (22) over the samples held out [-].
         validation_rmse: mean over the joints of their root-mean-square errors [N m], V1..V3 [N].
+        rate: learning rate [-].
     """
 
     epoch: int
     train_loss: float
     validation_loss: float
     validation_rmse: float
+    rate: float
 
 
 @dataclass(frozen=True)
