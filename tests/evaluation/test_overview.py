@@ -1,4 +1,4 @@
-"""The overview holds every method once, with dashes where a test leaves it out."""
+"""The overview holds every method of every test, with dashes where the test does not ask for a column."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from mobnet.evaluation.overview import Error, methods
-from mobnet.evaluation.rows import read_rows
+from mobnet.evaluation.rows import Score, read_rows, write_rows
 
 MEANS = {"MOB": 9.0, "MOB-Net": 2.0, "FTS-e2e": 3.0}
 
@@ -32,9 +32,27 @@ def test_errors_are_those_asked_for_test_by_test(table: Path) -> None:
         assert error.unit == "N m"
 
 
-def test_a_method_has_one_row_and_dashes_where_it_is_not_tested(table: Path) -> None:
+def test_tests_stand_below_one_another_with_dashes_where_a_column_is_not_theirs(table: Path) -> None:
     lines = table.with_suffix(".md").read_text().splitlines()
-    assert lines[0] == "| Method | LL3 | LL avg | W avg | RA avg |"
-    assert [line.split("|")[1].strip() for line in lines[2:]] == ["MOB", "95%", "MOB-Net", "95%", "FTS-e2e", "95%"]
-    assert lines[6] == "| FTS-e2e | 3.00 | 3.00 | - | - |"
-    assert lines[7].endswith("|  |  |")
+    assert lines[0] == "| Test | Method | LL3 | LL avg | W avg | RA avg |"
+    assert lines[2] == "| walk test, all uncertainty | MOB | 9.00 | 9.00 | - | - |"
+    assert lines[3].endswith("|  |  |")
+    assert lines[8] == "| motion test, all uncertainty | MOB | - | - | 9.00 | 9.00 |"
+    methods_of_lines = [line.split("|")[2].strip() for line in lines[2:]]
+    assert methods_of_lines[::2] == ["MOB", "MOB-Net", "FTS-e2e", "MOB", "MOB-Net"]
+    assert set(methods_of_lines[1::2]) == {"95%"}
+    assert table.with_suffix(".tex").read_text().count(r"\midrule") == 2
+
+
+def test_a_scenario_at_two_levels_is_two_tests(
+    tmp_path: Path, config: dict[str, Any], write_limb_scores: Callable[..., Path]
+) -> None:
+    path = write_limb_scores("walk_test", {"MOB": 9.0})
+    rows = read_rows(path, Score)
+    clean = [Score(**{**vars(row), "level": "ideal", "value": row.value / 9}) for row in rows]
+    write_rows(path, Score, [*rows, *clean])
+    test = {"scenario": "walk_test", "columns": {"LL": ["avg"]}, "methods": ["MOB"]}
+    config["evaluation"]["methods"] = [{**test, "level": level} for level in ("all_uncertainty", "ideal")]
+    methods(config, {"walk_test": path}, tmp_path)
+    lines = (tmp_path / "methods.md").read_text().splitlines()
+    assert lines[2::2] == ["| walk test, all uncertainty | MOB | 9.00 |", "| walk test, ideal | MOB | 1.00 |"]

@@ -1,4 +1,4 @@
-"""Table of all methods side by side: errors of the left leg in walking, of waist and arm in motion."""
+"""Table of all methods, test by test: errors of the left leg in walking, of waist and arm in motion."""
 
 from __future__ import annotations
 
@@ -10,12 +10,14 @@ from typing import Any
 
 from mobnet.core.files import write_text
 from mobnet.evaluation.intervals import summarise
-from mobnet.evaluation.markup import GAP, Line, markdown_table, number, span, tex_escape, tex_table
+from mobnet.evaluation.markup import GAP, RULE, Line, markdown_table, number, span, tex_escape, tex_table
 from mobnet.evaluation.rows import Score, read_rows, write_rows
 from mobnet.evaluation.runs import Wanted, run_grid, unit_of
 from mobnet.evaluation.scores import AVERAGE
 
 log = logging.getLogger(__name__)
+
+LEFT = 2  # columns of text
 
 
 @dataclass(frozen=True)
@@ -67,9 +69,9 @@ def methods(config: Mapping[str, Any], scores: Mapping[str, Path], out_dir: Path
     escaped = [line if isinstance(line, str) else list(map(tex_escape, line)) for line in lines]
     write_rows(out_dir / "methods.csv", Error, errors)
     write_text(
-        out_dir / "methods.tex", tex_table("l" + "r" * (len(header) - 1), list(map(tex_escape, header)), escaped)
+        out_dir / "methods.tex", tex_table("ll" + "r" * (len(header) - LEFT), list(map(tex_escape, header)), escaped)
     )
-    write_text(out_dir / "methods.md", markdown_table(header, lines))
+    write_text(out_dir / "methods.md", markdown_table(header, lines, left=LEFT))
     log.info("%s: %d errors", out_dir / "methods.csv", len(errors))
 
 
@@ -91,20 +93,28 @@ def errors_of(config: Mapping[str, Any], test: Mapping[str, Any], scores: Sequen
 
 
 def overview_lines(errors: Sequence[Error], confidence: float) -> tuple[list[str], list[Line]]:
-    """Return the header and the rows of text, a method's errors [N m] above their intervals.
+    """Return the header and the rows of text, test by test, a method's errors [N m] above their intervals.
 
     Args:
-        errors: of all tests; a method that a test leaves out gets dashes there.
+        errors: of all tests; a test that does not ask for a column gets dashes there.
         confidence: of the intervals, a share [-].
     """
-    places = list(dict.fromkeys((error.scenario, error.limb, error.joint) for error in errors))
-    header = ["Method", *(f"{limb} {joint}" if joint == AVERAGE else joint for _, limb, joint in places)]
+    places = list(dict.fromkeys((error.limb, error.joint) for error in errors))
+    header = ["Test", "Method", *(f"{limb} {joint}" if joint == AVERAGE else joint for limb, joint in places)]
     lines: list[Line] = []
-    for method in dict.fromkeys(error.method for error in errors):
-        own = {(error.scenario, error.limb, error.joint): error for error in errors if error.method == method}
+    before = ""
+    for test, method in dict.fromkeys((name_of_test(error), error.method) for error in errors):
+        own = {(e.limb, e.joint): e for e in errors if (name_of_test(e), e.method) == (test, method)}
         found = [own.get(place) for place in places]
-        lines += [GAP] if lines else []
-        lines.append([method, *(number(error and error.value) for error in found)])
+        if lines:
+            lines.append(GAP if test == before else RULE)
+        lines.append(["" if test == before else test, method, *(number(error and error.value) for error in found)])
         if any(error and error.low is not None for error in found):
-            lines.append([f"{confidence:.0%}", *(span(error.low, error.high) if error else "" for error in found)])
+            lines.append(["", f"{confidence:.0%}", *(span(error.low, error.high) if error else "" for error in found)])
+        before = test
     return header, lines
+
+
+def name_of_test(error: Error) -> str:
+    """Return a test's name as text, such as `walk test, all uncertainty`."""
+    return f"{error.scenario}, {error.level}".replace("_", " ")
