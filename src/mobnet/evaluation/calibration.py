@@ -120,7 +120,7 @@ def in_tests(config: Mapping[str, Any], tests: Sequence[Mapping[str, Any]], shar
             for key, cell in run_cells(config, layout, test, run, shares):
                 cells.setdefault(key, {})[run["network_seed"], run["test_seed"]] = cell
         if not cells:
-            log.warning("%s: no push is found in its %d runs", test["scenario"], len(test["runs"]))
+            log.warning("%s: no push or no such limb in its %d runs", test["scenario"], len(test["runs"]))
         head = test["scenario"], test["level"], test.get("pushed", "")
         grids += [Grid(*head, *key, grid_of(runs)) for key, runs in cells.items()]
     return grids
