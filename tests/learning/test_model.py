@@ -82,6 +82,17 @@ def test_every_weight_of_a_normalised_network_is_trained() -> None:
     assert all(p.grad is not None and p.grad.abs().sum() > 0 for p in network.parameters())
 
 
+def test_torch_runs_a_normalised_gru_too() -> None:
+    """On a GPU torch's own forward runs the cell: it must see the norm and weights that have moved."""
+    network = build_network(SPECTRAL, 6, 2, STD_MIN, seed=0).eval()
+    x, state = torch.randn(10, 3, 6), network.fresh_state(3)
+    with torch.no_grad():
+        for parameter in network.parameters():
+            parameter += torch.randn_like(parameter)
+        ours, theirs = network.cell.run(x, state)[0], torch.nn.GRU.forward(network.cell, x, state)[0]
+    torch.testing.assert_close(ours, theirs, rtol=1e-5, atol=1e-5)
+
+
 def test_only_a_gru_can_be_normalised() -> None:
     with pytest.raises(ConfigError, match="cell of a network with `spectral`: 'LSTM' is not accepted; accepted: GRU"):
         build_network({**SPECTRAL, "cell": "LSTM"}, 6, 2, STD_MIN, seed=0)
