@@ -12,9 +12,13 @@ import torch
 from safetensors.torch import save_file
 
 from mobnet.core.errors import DataError
+from mobnet.core.joints import JointLayout
+from mobnet.learning.dataset import load_limb_data
 from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.learning.module_network import CHUNK, ModuleNetwork
 from mobnet.learning.networks import NOTE, STD_SCALE, WEIGHTS, ConstantNetwork, Deployed, Network, load_network
+from mobnet.learning.streams import split
+from mobnet.learning.train import train
 
 INPUTS, JOINTS, STEPS, STD_MIN = 5, 2, 300, 1e-6
 WINDOW = {"window_steps": 10, "kernel_steps": 3, "dilations": [2, 4], "dropout": 0.2, "head": 12}
@@ -97,3 +101,23 @@ def test_a_recording_longer_than_a_chunk_has_no_seam(x: np.ndarray, tmp_path: Pa
 def test_weights_of_another_size_are_refused(tmp_path: Path) -> None:
     with pytest.raises(DataError, match=f"{WEIGHTS}: not the weights of a limb network .*size mismatch"):
         _save(tmp_path, _model(ROWS["LSTM"]), {**ROWS["LSTM"], "hidden": 8})
+
+
+@pytest.mark.parametrize(
+    ("method", "limb", "kind"),
+    [("TCN", "LL", ModuleNetwork), ("GRU-spectral", "LL", Network), ("MOB-Net", "N", ConstantNetwork)],
+)
+def test_what_a_training_leaves_predicts_what_it_was_validated_to(
+    method: str, limb: str, kind: type, small: object, layout: JointLayout, tmp_path: Path
+) -> None:
+    """From recordings to a network on a robot, whose error on the recordings is that of the last validation."""
+    small.config["sizes"]["experiments"] = {name: {"epochs": 1, "seeds": [0]} for name in ("kinds", "neck")}
+    train(small.config, method, limb, 0, small.recordings, small.residuals, tmp_path / limb, tmp_path / "state")
+    network, note = load_network(tmp_path / limb), json.loads((tmp_path / limb / "run.json").read_text())
+    row = note["settings"]["network"]
+    assert type(network) is kind
+    data = load_limb_data(layout, row, "uncertainty", small.recordings, small.residuals)
+    _, held_out = split(data.segments, small.config["learning"]["validation_share"])
+    errors = [(network.run(data.inputs[a:b]).mean - data.targets[a:b]) for a, b in held_out]
+    rmse = np.sqrt(np.square(np.concatenate(errors)).mean(axis=0)).mean()
+    assert rmse == pytest.approx(note["best"]["validation_rmse"], rel=0.1)  # lanes and ends of streams differ
