@@ -38,7 +38,8 @@ def main() -> list[Row]:
     config = load_config(CONFIG, "default")
     config["robot"] = str(CONFIG.parents[1] / config["robot"])
     layout = load_layout(Path(config["robot"]))
-    models = {limb: _model(config, layout, limb) for limb in config["networks"]}
+    six = [limb for limb in config["methods"]["MOB-Net"]["limbs"] if config["networks"][limb]["cell"] == "GRU"]
+    models = {limb: _model(config, layout, limb) for limb in six}
     networks = LimbNetworks([_network(config, layout, limb, model) for limb, model in models.items()], layout)
     observer = observer_of(config, load_robot(Path(config["robot"])), "all_uncertainty", config["rates"]["data_hz"])
     ticks = [_stepper(networks), _stepper(ResidualEstimator(observer, networks)), _eager(config, layout, models)]
