@@ -64,13 +64,14 @@ def test_gradients_are_those_of_torch(cell: nn.GRU, stretch: Stretch) -> None:
 
 
 def test_bfloat16_is_within_its_rounding_of_float32(cell: nn.GRU, stretch: Stretch) -> None:
-    """What enters and leaves a product is rounded by at most 1/256 of it; no more than .5 % of that is left at the end.
+    """What enters and leaves a product is rounded by at most 1/256 of it; half of that is left in the gradients.
 
-    Sums, gates and states in bfloat16, as torch's own autocast has them, break that bound.
+    Inputs, gates and states stay exact: rounded too, as by torch's own autocast, they put states off by .4 %.
     """
     found, expected = (outcome(cell, run(cell, stretch, p)[0]) for p in (torch.bfloat16, torch.float32))
-    assert all(1e-5 < distance(ours, theirs) < 0.005 for ours, theirs in zip(found, expected, strict=True))
+    assert 1e-5 < distance(found[0], expected[0]) < 0.0015
     torch.testing.assert_close(found[0], expected[0], rtol=0, atol=0.01)
+    assert all(1e-5 < distance(ours, theirs) < 0.005 for ours, theirs in zip(found[1:], expected[1:], strict=True))
 
 
 def test_states_keep_more_than_the_products_have(cell: nn.GRU, stretch: Stretch) -> None:

@@ -55,7 +55,7 @@ def write(array: Products, j: int, value: np.float32) -> None:
 
 @compiled
 def step_forward(
-    inputs: Products, recurrent: Products, bias: Array, before: Array, gates: Array, after: Array, rounded: Products
+    inputs: Array, recurrent: Products, bias: Array, before: Array, gates: Array, after: Array, rounded: Products
 ) -> None:
     """Open the gates and write the next state (B, H), unitless.
 
@@ -75,11 +75,11 @@ def step_forward(
         opened, update, new, inner = gates[i, : 2 * n], gates[i, n : 2 * n], gates[i, 2 * n : 3 * n], gates[i, 3 * n :]
         last, state, low = before[i], after[i], rounded[i]
         for j in range(2 * n):
-            opened[j] = half + half * rational_tanh(half * (read(x, j) + read(h, j) + bias[j]))
+            opened[j] = half + half * rational_tanh(half * (x[j] + read(h, j) + bias[j]))
         for j in range(n):
             inner[j] = read(h_new, j) + bias[3 * n + j]
         for j in range(n):
-            new[j] = rational_tanh(read(x_new, j) + bias[2 * n + j] + opened[j] * inner[j])
+            new[j] = rational_tanh(x_new[j] + bias[2 * n + j] + opened[j] * inner[j])
         for j in range(n):
             state[j] = new[j] + update[j] * (last[j] - new[j])
         for j in range(n):

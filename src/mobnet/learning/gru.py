@@ -24,12 +24,11 @@ class FusedGru(torch.autograd.Function):
     def forward(ctx: Any, x: Tensor, state: Tensor, precision: torch.dtype, *weights: Tensor) -> Tensor:
         """Return the states (h, B, H) after each of the inputs (h, B, n_in), from a state (B, H), unitless."""
         steps, lanes, hidden = len(x), *state.shape
-        w_in, w_state = (weight.detach().to(precision) for weight in weights[:2])
-        b_in, b_state = (weight.detach() for weight in weights[2:])
+        w_in, w_state, b_in, b_state = (weight.detach() for weight in weights)
         bias = torch.cat([b_in, b_state[2 * hidden :]])
         bias[: 2 * hidden] += b_state[: 2 * hidden]
-        inputs = x.detach().to(precision).flatten(0, 1)
-        sums = memory(product(inputs, w_in.T)).reshape(steps, lanes, -1)
+        inputs, w_state = x.detach().flatten(0, 1), w_state.to(precision)
+        sums = product(inputs, w_in.T).numpy().reshape(steps, lanes, -1)  # rounded inputs would cost likelihood
         recurrent = torch.empty(lanes, 3 * hidden, dtype=precision)
         gates = torch.empty(steps, lanes, 4 * hidden).numpy()
         states = torch.empty(steps + 1, lanes, hidden)
@@ -55,7 +54,7 @@ class FusedGru(torch.autograd.Function):
         for k in reversed(range(steps)):
             step_backward(gates[k], states[k], given[k], after, carried, sums[k], new[k], d_bias.numpy())
             product(d_sums[k], w_state, out=fed)
-        d_sums, d_new = d_sums.flatten(0, 1).T, d_new.flatten(0, 1).T
+        d_sums, d_new, inputs = d_sums.flatten(0, 1).T, d_new.flatten(0, 1).T, inputs.to(rounded.dtype)
         d_in = torch.cat([product(d_sums[: 2 * hidden], inputs), product(d_new, inputs)])
         d_state = product(d_sums, rounded.flatten(0, 1))
         reset_update, inner, last = d_bias.split([2 * hidden, hidden, hidden])
