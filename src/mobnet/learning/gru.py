@@ -1,9 +1,9 @@
 """The GRU of Table 1 on a CPU, forward and back through time: what `torch.nn.GRU` computes, in less time.
 
-Per step only the recurrent product and the compiled loops over the gates remain; the products with the inputs and all
-gradients of the weights are one large product each, before and after. Products are in float32, or in bfloat16 from
-float32 weights and into float32 gates and states (docs/notes/0014). Gates and weights are laid out as `torch.nn.GRU`
-documents them: reset, update, new.
+Per step only two products forward, one back and the compiled loops over the gates remain, on memory that stays in the
+cache; the gradients of the weights are one large product each, after the loop. All products but those of the inputs are
+in float32, or in bfloat16 from float32 weights and into float32 gates and states (docs/notes/0014). Gates and weights
+are laid out as `torch.nn.GRU` documents them: reset, update, new.
 """
 
 from __future__ import annotations
@@ -27,17 +27,17 @@ class FusedGru(torch.autograd.Function):
         w_in, w_state, b_in, b_state = (weight.detach() for weight in weights)
         bias = torch.cat([b_in, b_state[2 * hidden :]])
         bias[: 2 * hidden] += b_state[: 2 * hidden]
-        inputs, w_state = x.detach().flatten(0, 1), w_state.to(precision)
-        sums = product(inputs, w_in.T).numpy().reshape(steps, lanes, -1)  # rounded inputs would cost likelihood
-        recurrent = torch.empty(lanes, 3 * hidden, dtype=precision)
+        inputs, w_state = x.detach(), w_state.to(precision)
+        sums, recurrent = torch.empty(lanes, 3 * hidden), torch.empty(lanes, 3 * hidden, dtype=precision)
         gates = torch.empty(steps, lanes, 4 * hidden).numpy()
         states = torch.empty(steps + 1, lanes, hidden)
         rounded = torch.empty(steps + 1, lanes, hidden, dtype=precision)
         states[0] = rounded[0] = state.detach()
-        found, after, low = states.numpy(), memory(recurrent), memory(rounded)
-        for k, before in enumerate(rounded[:-1].unbind()):
+        found, given, fed, low = states.numpy(), sums.numpy(), memory(recurrent), memory(rounded)
+        for k, (new, before) in enumerate(zip(inputs.unbind(), rounded[:-1].unbind(), strict=True)):
+            product(new, w_in.T, out=sums)  # in float32: rounded inputs would cost likelihood
             product(before, w_state.T, out=recurrent)
-            step_forward(sums[k], after, bias.numpy(), found[k], gates[k], found[k + 1], low[k + 1])
+            step_forward(given, fed, bias.numpy(), found[k], gates[k], found[k + 1], low[k + 1])
         ctx.kept = inputs, w_state, gates, found, rounded[:-1]
         return states[1:]
 
@@ -54,7 +54,7 @@ class FusedGru(torch.autograd.Function):
         for k in reversed(range(steps)):
             step_backward(gates[k], states[k], given[k], after, carried, sums[k], new[k], d_bias.numpy())
             product(d_sums[k], w_state, out=fed)
-        d_sums, d_new, inputs = d_sums.flatten(0, 1).T, d_new.flatten(0, 1).T, inputs.to(rounded.dtype)
+        d_sums, d_new, inputs = d_sums.flatten(0, 1).T, d_new.flatten(0, 1).T, inputs.flatten(0, 1).to(rounded.dtype)
         d_in = torch.cat([product(d_sums[: 2 * hidden], inputs), product(d_new, inputs)])
         d_state = product(d_sums, rounded.flatten(0, 1))
         reset_update, inner, last = d_bias.split([2 * hidden, hidden, hidden])
