@@ -1,6 +1,6 @@
 """The number format of a GRU's matrix products on a CPU: float32, or bfloat16 with float32's range and 8 bits.
 
-Weights, gates, states and sums of gradients stay float32; only what goes into a product and comes out of it is rounded.
+Weights, gates and states stay float32; only what goes into a product and comes out of it is rounded.
 """
 
 from __future__ import annotations
