@@ -82,7 +82,7 @@ def test_every_segment_starts_anew(
 
 def test_level_picks_the_nominal_model(config: dict[str, Any], robot: RobotDescription) -> None:
     ratios = {level: observer_of(config, robot, level, RATE_HZ).nominal.mass_ratio for level in config["levels"]}
-    assert ratios == {"ideal": 1.0, "sensor_noise": 1.0, "all_uncertainty": 0.9}
+    assert ratios == {"ideal": 1.0, "sensor_noise": 1.0, "all_uncertainty": 0.9, "printed_noise": 1.0}
 
 
 def test_lighter_nominal_model_leaves_a_share_of_what_is_needed_in_the_residual(

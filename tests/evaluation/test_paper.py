@@ -1,6 +1,8 @@
 """The paper builds where TeX exists, says what is missing where it does not, and never changes on its own."""
 
 import json
+import re
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -81,6 +83,9 @@ def test_the_paper_itself_builds_from_the_golden_tables(
     figure_05(config, [walk(1.0, method="MOB"), walk(2.0)], tmp_path)
     figure_19(config, {"with RTE": data_sets["walk"]}, [{"scenario": "t", "recordings": data_sets["test"]}], tmp_path)
     commands(config, {"walk": data_sets["walk"]}, tmp_path)
+    for name in re.findall(r"\\figures/(\w+)", (REPO / "paper/main.tex").read_text()):
+        if not (tmp_path / f"{name}.pdf").exists():  # one that needs trained networks: any picture in its place
+            shutil.copy(tmp_path / "figure_05.pdf", tmp_path / f"{name}.pdf")
     build(config, REPO / "paper/main.tex", tmp_path, tmp_path, tmp_path / "out/main.pdf")
     assert (tmp_path / "out/main.pdf").stat().st_size > 50_000
 

@@ -1,22 +1,6 @@
 # How far the networks' standard deviations can be trusted: held out, in tests, under collision.
 
 
-def calibration_tests():
-    """Return the tests of the networks' standard deviations, each with its runs."""
-    return [
-        {
-            **test,
-            "runs": [
-                entry(test["scenario"], test["level"], method, seed, number)
-                for method in test["methods"]
-                for seed in network_seeds(method)
-                for number in TEST_SEEDS
-            ],
-        }
-        for test in settings["evaluation"]["calibration"]["tests"]
-    ]
-
-
 rule calibration:
     input:
         [arrays(test["runs"], "recording", "residual", "estimate") for test in calibration_tests()],

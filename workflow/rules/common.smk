@@ -226,6 +226,22 @@ def runs_of(scenario):
     ]
 
 
+def calibration_tests():
+    """Return the tests of the networks' standard deviations, each with its runs."""
+    return [
+        {
+            **test,
+            "runs": [
+                entry(test["scenario"], test["level"], method, seed, number)
+                for method in test["methods"]
+                for seed in network_seeds(method)
+                for number in TEST_SEEDS
+            ],
+        }
+        for test in settings["evaluation"]["calibration"]["tests"]
+    ]
+
+
 def panels_of(figure):
     """Return the runs that a figure of one recording shows: first network, first test."""
     return [

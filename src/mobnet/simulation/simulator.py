@@ -116,9 +116,10 @@ class Simulator:
         return self.terrains[terrain]
 
     def start(self, motion_s: float = 0.0) -> None:
-        """Begin an episode on a terrain drawn from those of the scenario not yet walked in this round, amid a step or standing, anywhere, facing anywhere.
+        """Begin an episode on one of the scenario's terrains, amid a step or standing, anywhere, facing anywhere.
 
-        The upper body begins where its motion is at motion_s [s] less the time to settle.
+        Terrains come in rounds: each once, in random order, before any comes again. The upper body
+        begins where its motion is at motion_s [s] less the time to settle.
         """
         if not self.coming:
             self.coming = self.rng["place"].permutation(self.settings["terrain"]).tolist()
