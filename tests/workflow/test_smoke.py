@@ -50,6 +50,12 @@ def recordings_of_the_smoke_scale() -> int:
     return training + config["sizes"]["test"]["shards"] * sum(map(len, config["tests"].values()))
 
 
+def networks_of_smoke() -> int:
+    """Return the number of networks of the smoke scale: one seed of every method's limbs."""
+    methods = load_config(ROOT / "configs" / "config.yaml", "smoke")["methods"]
+    return sum(len(row.get("limbs", [])) for row in methods.values())
+
+
 @pytest.fixture(scope="module")
 def unbroken(make_project: Callable[..., Path]) -> Path:
     """A project in which the smoke scale ran on two cores."""
@@ -62,9 +68,12 @@ def test_smoke_makes_tables_figures_and_networks(unbroken: Path) -> None:
     made = products(unbroken)
     assert {"table_05.csv", "table_05.tex", "table_05.md", "claims.csv", "figure_05.csv"} <= set(made)
     assert {"data.csv", "steps.csv", "coverage.csv", "uncertainty.csv", "figure_19.csv", "commands.csv"} <= set(made)
+    assert {"table_01.csv", "kinds.csv", "methods.csv", "calibration.csv"} <= set(made)
+    assert {"figure_17.csv", "figure_18.csv", "figure_20.csv"} <= set(made)
     assert all(made.values())
     assert (unbroken / "figures" / "smoke" / "figure_05.pdf").read_bytes().startswith(b"%PDF")
-    assert len(list((unbroken / "results" / "smoke" / "networks").glob("*/weights.safetensors"))) == 4
+    assert len(list((unbroken / "results" / "smoke" / "networks").glob("*/weights.safetensors"))) == networks_of_smoke()
+    assert "MOB-Net-LL-s0" in (unbroken / "results" / "smoke" / "runs.html").read_text()
 
 
 def test_every_job_left_a_log_and_a_benchmark(unbroken: Path) -> None:
