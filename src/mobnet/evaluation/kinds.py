@@ -1,4 +1,7 @@
-"""Table of the kinds of networks (section 6.1): losses, errors, sizes and times, beside the paper's order."""
+"""Table of the kinds of networks (section 6.1): losses, errors and sizes, beside the paper's order.
+
+The time that a training takes is in the page of runs: tables come out the same each time.
+"""
 
 from __future__ import annotations
 
@@ -26,11 +29,10 @@ MEASURES: Mapping[str, tuple[Callable[[Training], float], str]] = {  # name -> (
     "validation loss on windows": (lambda training: training.windows_loss, "-"),
     "training loss at the end": (lambda training: training.last.train_loss, "-"),
     "validation loss at the end": (lambda training: training.last.validation_loss, "-"),
-    "training time": (lambda training: training.seconds, "s"),
 }
-DIGITS = {"training time": 0}
+DIGITS = 2
 HEADER = ["Order", "Paper", "Network", "Parameters", "Paper", "Runs", "Val. loss", "RMSE [N m]",
-          "On windows", "Train. loss, end", "Val. loss, end", "Time [s]"]  # fmt: skip
+          "On windows", "Train. loss, end", "Val. loss, end"]  # fmt: skip
 LEFT = 3  # columns of text
 
 
@@ -58,7 +60,7 @@ class Trait:
 
 
 def kinds(config: Mapping[str, Any], folders: Sequence[str], out_dir: Path) -> None:
-    """Write kinds.csv, .tex and .md: mean over runs of loss (22) [-], RMSE [N m] and time [s], best kind first.
+    """Write kinds.csv, .tex and .md: mean over runs of loss (22) [-] and RMSE [N m], best kind first.
 
     Args:
         config: resolved configuration: `seed`, `published`, `evaluation.figure_17` (`methods`, the paper's kinds),
@@ -93,7 +95,7 @@ Numbers = dict[str, tuple[float, float | None, float | None]]  # measure -> mean
 
 
 def measured(config: Mapping[str, Any], trainings: Sequence[Training]) -> Numbers:
-    """Return the measures of the trainings that did not diverge: mean and interval [-, N m, s]; empty if all did."""
+    """Return the measures of the trainings that did not diverge: mean and interval [-, N m]; empty if all did."""
     good = sound(trainings)
     if not good:
         return {}
@@ -142,8 +144,8 @@ def method_lines(own: Mapping[str, Trait], confidence: float) -> list[Line]:
     count = number(runs.value, 0) + (f", {number(diverged.value, 0)} diverged" if diverged.value else "")
     names = [number(order.value, 0), number(order.published, 0), order.method]
     sizes = [number(size.value, 0), number(size.published, 0), count]
-    lines: list[Line] = [[*names, *sizes, *(number(own[name].value, DIGITS.get(name, 2)) for name in MEASURES)]]
+    lines: list[Line] = [[*names, *sizes, *(number(own[name].value, DIGITS) for name in MEASURES)]]
     if any(own[name].low is not None for name in MEASURES):
-        spans = [span(own[name].low, own[name].high, DIGITS.get(name, 2)) for name in MEASURES]
+        spans = [span(own[name].low, own[name].high, DIGITS) for name in MEASURES]
         lines.append(["", "", "", "", "", f"{confidence:.0%}", *spans])
     return lines
