@@ -58,6 +58,14 @@ def test_random_numbers_differ_by_purpose_and_repeat(job: Job) -> None:
     assert replace(job, seed=1).generator("epoch", 0).integers(1 << 60) != draws["epoch", 0]
 
 
+def test_methods_share_which_data_they_learn_from(job: Job) -> None:
+    other = replace(job, method="FTS-e2e")
+    assert job.shared_generator("data").integers(1 << 60) == other.shared_generator("data").integers(1 << 60)
+    assert job.generator("data").integers(1 << 60) != other.generator("data").integers(1 << 60)
+    again = replace(job, seed=1)
+    assert again.shared_generator("data").integers(1 << 60) != job.shared_generator("data").integers(1 << 60)
+
+
 @pytest.mark.parametrize(
     "change", [{"seed": 1}, {"epochs": 9}, {"settings": {"precision": "auto"}}, {"target": "external"}]
 )

@@ -59,8 +59,11 @@ class Job:
 
     def generator(self, *purpose: int | str) -> np.random.Generator:
         """Return the random numbers of a purpose, such as an epoch's; independent of all others."""
-        words = hashlib.sha256(repr((self.root_seed, self.name, *purpose)).encode()).digest()
-        return np.random.default_rng(list(words))
+        return _generator(self.root_seed, self.name, *purpose)
+
+    def shared_generator(self, *purpose: int | str) -> np.random.Generator:
+        """Return the random numbers of a purpose that all methods share, such as which data they learn from."""
+        return _generator(self.root_seed, self.limb, self.seed, *purpose)
 
     def rate(self, epoch: int) -> float:
         """Return the learning rate of an epoch: linear to its last value, then constant (section 4.4); unitless."""
@@ -76,6 +79,11 @@ class Job:
         code = [path.read_text(encoding="utf-8") for path in sorted(Path(__file__).parent.glob("*.py"))]
         return config_hash({**asdict(self), "data": data_digest, "code": code, "torch": torch.__version__,
                             "device": device.type, "precision": str(self.precision(device))})  # fmt: skip
+
+
+def _generator(*words: int | str) -> np.random.Generator:
+    """Return the random numbers that belong to some words."""
+    return np.random.default_rng(list(hashlib.sha256(repr(words).encode()).digest()))
 
 
 def job_of(config: Mapping[str, Any], method: str, limb: str, seed: int) -> Job:

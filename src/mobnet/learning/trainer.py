@@ -52,7 +52,7 @@ class Trainer:
         self.fingerprint = job.fingerprint(data.digest(), self.device)
         blocks, held_out = split(data.segments, job.settings["validation_share"])
         stream, parts = job.stream(data.rate_hz), job.settings.get("data_parts", 1)
-        self._blocks = some_of(blocks, stream, parts, job.generator("data"))
+        self._blocks = some_of(blocks, stream, parts, job.shared_generator("data"))
         self.scales = scale_of(data.inputs, self._blocks), scale_of(data.targets, self._blocks)
         arrays = (data.inputs, data.targets)
         self._samples = Samples(*(self._scaled(*pair) for pair in zip(arrays, self.scales, strict=True)))
