@@ -37,14 +37,15 @@ class LimbInputs:
 
     def __call__(self, sensed: Sensed) -> NDArray[np.float32]:
         """Return the inputs x^g of eq. (17), (T, n_in), or (n_in,) for one sample."""
-        return signals(sensed)[..., self.columns]
+        return signals(sensed, self.columns)
 
 
-def signals(sensed: Sensed) -> NDArray[np.float32]:
+def signals(sensed: Sensed, columns: NDArray[np.intp] | None = None) -> NDArray[np.float32]:
     """Return all that any limb network may see, in float32: the one place where physics turns into network numbers.
 
     Args:
         sensed: a recording or one sample.
+        columns: those wanted, (n,), in their order; None for all.
 
     Returns:
         Columns of `signal_names`, (T, 3 nu + 12), or (3 nu + 12,) for one sample; units of `LimbInputs`.
@@ -58,7 +59,15 @@ def signals(sensed: Sensed) -> NDArray[np.float32]:
         sensed.v[..., OMEGA],
         sensed.acc_base_in_base,
     ]
-    return np.concatenate(parts, axis=-1, dtype=np.float32, casting="same_kind")
+    if columns is None:
+        return np.concatenate(parts, axis=-1, dtype=np.float32, casting="same_kind")
+    picked = np.empty((*sensed.q.shape[:-1], len(columns)), dtype=np.float32)
+    start = 0
+    for part in parts:  # an hour of all signals would be copied for a third of them
+        inside = (columns >= start) & (columns < start + part.shape[-1])
+        picked[..., inside] = part[..., columns[inside] - start]
+        start += part.shape[-1]
+    return picked
 
 
 def signal_names(layout: JointLayout) -> tuple[str, ...]:
