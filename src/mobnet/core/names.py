@@ -96,9 +96,7 @@ def data_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
     yield from (("evaluation.figure_19.joints", joint, layout.actuated) for joint in settings["figure_19"]["joints"])
     yield "evaluation.coverage.limb", settings["coverage"]["limb"], config["networks"]
     for test in settings["coverage"]["tests"]:
-        yield "evaluation.coverage.tests.scenario", test["scenario"], config["scenarios"]
-        yield "evaluation.coverage.tests.level", test["level"], config["levels"]
-        yield "evaluation.coverage.tests.pushed", test.get("pushed", layout.actuated[0]), layout.actuated
+        yield from test_uses("evaluation.coverage.tests", test, config, layout)
     yield from (("evaluation.uncertainty.ratio", limb, config["networks"]) for limb in settings["uncertainty"]["ratio"])
 
 
@@ -115,8 +113,7 @@ def ablation_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Us
         yield f"evaluation.figure_20.{key}", settings["figure_20"][key], config["sweeps"]
     for key, tests in (("figure_18", panels), ("methods", settings["methods"])):
         for test in tests:
-            yield f"evaluation.{key}.scenario", test["scenario"], config["scenarios"]
-            yield f"evaluation.{key}.level", test["level"], config["levels"]
+            yield from test_uses(f"evaluation.{key}", test, config, layout)
             yield from ((f"evaluation.{key}.methods", method, config["methods"]) for method in test["methods"])
             limbs = test.get("columns", test.get("limbs", ()))
             yield from ((f"evaluation.{key}.limbs", limb, layout.groups) for limb in limbs)
@@ -129,8 +126,14 @@ def calibration_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator
     yield from (("evaluation.calibration.methods", method, config["methods"]) for method in settings["methods"])
     for test in settings["tests"]:
         place = "evaluation.calibration.tests"
-        yield f"{place}.scenario", test["scenario"], config["scenarios"]
-        yield f"{place}.level", test["level"], config["levels"]
-        yield f"{place}.pushed", test.get("pushed", layout.actuated[0]), layout.actuated
+        yield from test_uses(place, test, config, layout)
         yield from ((f"{place}.methods", method, settings["methods"]) for method in test["methods"])
         yield from ((f"{place}.limbs", limb, layout.groups) for limb in test["limbs"])
+
+
+def test_uses(place: str, test: Mapping[str, Any], config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
+    """Yield what a test at a dotted key names: scenario, level and, where one is, the joint that is pushed."""
+    yield f"{place}.scenario", test["scenario"], config["scenarios"]
+    yield f"{place}.level", test["level"], config["levels"]
+    if "pushed" in test:
+        yield f"{place}.pushed", test["pushed"], layout.actuated

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from mobnet.learning.gaussian import Fit, fit_of, half_width
 from mobnet.learning.model import LimbNetwork
-from mobnet.learning.optimisation import Samples
+from mobnet.learning.optimisation import Samples, predictions
 from mobnet.learning.streams import Plan
 
 Array = NDArray[np.float64]
@@ -77,7 +77,6 @@ def scale_for(error: NDArray[Any], std: NDArray[Any], share: float) -> Array:
     return np.quantile(np.abs(error) / std, share, axis=0) / half_width(share)
 
 
-@torch.no_grad()
 def predict(network: LimbNetwork, samples: Samples, plan: Plan, horizon: int) -> tuple[Array, Array]:
     """Run a validation with carried state.
 
@@ -90,11 +89,8 @@ def predict(network: LimbNetwork, samples: Samples, plan: Plan, horizon: int) ->
     Returns:
         Error and standard deviation, z-scored, (T, n) each, lane after lane: in the order of time.
     """
-    network.eval()
     errors, stds = [], []
-    state = network.fresh_state(plan.rows.shape[1], samples.inputs.device)
-    for x, target, keep in samples.horizons(plan, horizon):
-        mean, std, state = network(x, state * keep)
+    for mean, std, target in predictions(network, samples, plan, horizon):
         errors.append((mean - target).cpu())
         stds.append(std.cpu())
     error, std = (torch.cat(parts).transpose(0, 1).flatten(0, 1).double().numpy() for parts in (errors, stds))

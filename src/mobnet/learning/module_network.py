@@ -18,27 +18,17 @@ CHUNK = 2000  # samples of a recording run at once, so that memory does not grow
 class ModuleNetwork(Deployed):
     """A network of any cell with its z-scores, dropout off; the state is the cell's, (rows, 1, columns)."""
 
-    def __init__(
-        self,
-        tensors: Mapping[str, Array],
-        limb: str,
-        joints: tuple[str, ...],
-        input_names: tuple[str, ...],
-        std_min: float,
-        row: Mapping[str, Any],
-    ) -> None:
+    def __init__(self, tensors: Mapping[str, Array], *names: Any, row: Mapping[str, Any]) -> None:
         """Build the module and load its weights.
 
         Args:
             tensors: `cell.*`, `head.*` and the z-scores of `Deployed`.
-            limb: name of the limb.
-            joints: names of the joints.
-            input_names: names of the inputs.
-            std_min: smallest standard deviation, z-scored [-].
+            names: the other arguments of `Deployed`.
             row: row of Table 1 or section 6.1, its `cell` and sizes; norms are in the weights already.
         """
-        super().__init__(tensors, limb, joints, input_names, std_min)
-        self._module = build_network({**row, "spectral": False}, len(input_names), len(joints), std_min, seed=0).eval()
+        super().__init__(tensors, *names)
+        sizes = len(self.input_names), len(self.joints), float(self.std_min)
+        self._module = build_network({**row, "spectral": False}, *sizes, seed=0).eval()
         weights = {name: tensor for name, tensor in tensors.items() if name.startswith(("cell.", "head."))}
         self._module.load_state_dict({name: torch.from_numpy(np.array(tensor)) for name, tensor in weights.items()})
 

@@ -197,4 +197,4 @@ def _deployed(tensors: Mapping[str, Array], note: Mapping[str, Any]) -> Deployed
         return WITHOUT_TORCH[row["cell"]](tensors, *common)
     from mobnet.learning.module_network import ModuleNetwork  # torch starts slowly, and MOB-Net does without
 
-    return ModuleNetwork(tensors, *common, row)
+    return ModuleNetwork(tensors, *common, row=row)

@@ -91,6 +91,27 @@ def train_epoch(
 
 
 @torch.no_grad()
+def predictions(
+    network: LimbNetwork, samples: Samples, plan: Plan, horizon: int
+) -> Iterator[tuple[Tensor, Tensor, Tensor]]:
+    """Run a network that is not trained any further, its state carried as planned.
+
+    Args:
+        network: as trained so far.
+        samples: z-scored inputs (N, n_in) and targets (N, n).
+        plan: fixed course, rows (updates, lanes).
+        horizon: steps looked at together [samples].
+
+    Yields:
+        Mean, standard deviation and target of each horizon, (h, B, n) each, z-scored.
+    """
+    network.eval()
+    state = network.fresh_state(plan.rows.shape[1], samples.inputs.device)
+    for x, target, keep in samples.horizons(plan, horizon):
+        mean, std, state = network(x, state * keep)
+        yield mean, std, target
+
+
 def validate(
     network: LimbNetwork, samples: Samples, plan: Plan, horizon: int, scored: slice = EVERY_STEP
 ) -> tuple[float, Tensor]:
@@ -106,11 +127,8 @@ def validate(
     Returns:
         Mean loss (22), and the root mean square error of each joint (n,), z-scored.
     """
-    network.eval()
     losses, squares = [], []
-    state = network.fresh_state(plan.rows.shape[1], samples.inputs.device)
-    for x, target, keep in samples.horizons(plan, horizon):
-        mean, std, state = network(x, state * keep)
+    for mean, std, target in predictions(network, samples, plan, horizon):
         losses.append(gaussian_loss(mean[scored], std[scored], target[scored]))
         squares.append((mean - target)[scored].square().mean(dim=(0, 1)))
     return torch.stack(losses).mean().item(), torch.stack(squares).mean(dim=0).sqrt().cpu()
