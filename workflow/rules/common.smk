@@ -204,6 +204,11 @@ def entry(scenario, level, method, network_seed, test_seed):
     }
 
 
+def entries_of(scenario, level, method):
+    """Return the runs of a method on a test: every network on every recording."""
+    return [entry(scenario, level, method, seed, test) for seed in network_seeds(method) for test in TEST_SEEDS]
+
+
 def wanted():
     """Return scenario, level and method of every run that a table or a figure asks for, each once."""
     asked = settings["evaluation"]
@@ -217,13 +222,7 @@ def wanted():
 
 def runs_of(scenario):
     """Return every run of a scenario that a table or a figure needs."""
-    return [
-        entry(scenario, level, method, seed, test)
-        for name, level, method in wanted()
-        if name == scenario
-        for seed in network_seeds(method)
-        for test in TEST_SEEDS
-    ]
+    return [run for name, *rest in wanted() if name == scenario for run in entries_of(name, *rest)]
 
 
 def calibration_tests():
@@ -231,12 +230,7 @@ def calibration_tests():
     return [
         {
             **test,
-            "runs": [
-                entry(test["scenario"], test["level"], method, seed, number)
-                for method in test["methods"]
-                for seed in network_seeds(method)
-                for number in TEST_SEEDS
-            ],
+            "runs": [run for name in test["methods"] for run in entries_of(test["scenario"], test["level"], name)],
         }
         for test in settings["evaluation"]["calibration"]["tests"]
     ]

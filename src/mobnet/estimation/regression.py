@@ -102,10 +102,10 @@ def _halves(stem: Path, signals: tuple[str, str], joints: Sequence[str]) -> tupl
 
 def _columns(row: Mapping[str, Any], velocity: Array, torque: Array) -> Array:
     """Return what one joint's friction may be made of, (T, m - 1): sign, viscous, load, static for each velocity."""
-    smoothing = row["smoothing_rad_s"]
-    tried = [regressors(velocity, torque, smoothing, stribeck) for stribeck in row["stribeck_rad_s"]]
-    sign = tried[0]["coulomb"] + tried[0]["static"]
-    return np.column_stack([sign, tried[0]["viscous"], tried[0]["load"], *(one["static"] for one in tried)])
+    grid = np.array(row["stribeck_rad_s"])
+    tried = regressors(velocity[:, None], torque[:, None], row["smoothing_rad_s"], grid)
+    sign = tried["coulomb"][:, :1] + tried["static"][:, :1]
+    return np.column_stack([sign, tried["viscous"], tried["load"], tried["static"]])
 
 
 def _solve(products: Array, terms: Sequence[str], grid: Sequence[float]) -> dict[str, float]:

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from mobnet.evaluation.figures import COLUMN_INCH, STYLE
+from mobnet.evaluation.figures import COLUMN_INCH, STYLE, legend
 
 PANEL_INCH, LEGEND_INCH = 1.6, 0.45  # height of a panel and of the legend above all
 # Okabe and Ito's colours; dashes and markers tell the lines apart in print without colour too.
@@ -22,6 +22,7 @@ DASHES: Sequence[Any] = ("-", (0, (5, 1.5)), (0, (1, 1)), (0, (5, 1, 1, 1)), (0,
 MARKERS = "osD^vPX"
 HATCHES = ("", "////", "xxxx", "....")
 SHADES = ("#D55E00", "#56B4E9", "#E69F00", "#009E73")
+LEGEND: Mapping[str, Any] = {"columns": 3, "handlelength": 2.6, "columnspacing": 1.2, "handletextpad": 0.5}
 BAR_SHARE = 0.8  # of the distance between two groups of bars
 
 
@@ -95,7 +96,7 @@ def draw_lines(panels: Sequence[LinePanel]) -> Figure:
             axis.set(xlabel=panel.x_label, ylabel=panel.y_label)
             axis.set_title(f"({letter}) {panel.title}", loc="left", pad=3)
             _places(axis, panel)
-        _legend(figure, axes)
+        legend(figure, axes, **LEGEND)
     return figure
 
 
@@ -134,7 +135,7 @@ def draw_bars(panels: Sequence[BarPanel], y_label: str) -> Figure:
             _bars(axis, panel)
             axis.set(ylabel=y_label)
             axis.set_title(f"({letter}) {panel.title}", loc="left", pad=3)
-        _legend(figure, axes)
+        legend(figure, axes, **LEGEND)
     return figure
 
 
@@ -156,13 +157,3 @@ def _stacked(count: int) -> tuple[Figure, list[Axes]]:
     """Return a figure of one column's width with panels of one scale below one another."""
     figure = Figure(figsize=(COLUMN_INCH, PANEL_INCH * count + LEGEND_INCH), layout="constrained")
     return figure, figure.subplots(count, 1, squeeze=False, sharey=True)[:, 0].tolist()
-
-
-def _legend(figure: Figure, axes: Sequence[Axes]) -> None:
-    """Put one legend of everything drawn above all panels, in rows of three."""
-    found: dict[str, Any] = {}
-    for axis in axes:
-        handles, labels = axis.get_legend_handles_labels()
-        found |= dict(zip(labels, handles, strict=True))
-    figure.legend(found.values(), found.keys(), loc="outside upper center", ncols=min(3, len(found)), frameon=False,
-                  handlelength=2.6, columnspacing=1.2, handletextpad=0.5)  # fmt: skip

@@ -15,7 +15,7 @@ from mobnet.core.files import write_text
 from mobnet.evaluation.calibration import STAGES, Grid, held_out, in_tests
 from mobnet.evaluation.figures import save_figure
 from mobnet.evaluation.intervals import summarise
-from mobnet.evaluation.markup import RULE, Line, markdown_table, number, span, tex_escape, tex_table
+from mobnet.evaluation.markup import RULE, Line, markdown_table, number, span, text_table
 from mobnet.evaluation.reliability import Curve, ReliabilityPanel, curve_rows, draw_reliability
 from mobnet.evaluation.rows import csv_text, write_rows
 
@@ -103,9 +103,8 @@ def write_table(rows: Sequence[Trust], evaluation: Mapping[str, Any], out_dir: P
     """Write the rows as TeX and Markdown; `evaluation` holds the bar's share and the confidence [-]."""
     settings = evaluation["calibration"]
     header, lines = table_header(settings, evaluation["confidence"]), table_lines(rows, settings)
-    escaped = [line if isinstance(line, str) else list(map(tex_escape, line)) for line in lines]
     columns = "lll" + "r" * (len(header) - 4) + "l"
-    write_text(out_dir / "calibration.tex", tex_table(columns, list(map(tex_escape, header)), escaped))
+    write_text(out_dir / "calibration.tex", text_table(columns, header, lines))
     write_text(out_dir / "calibration.md", markdown_table(header, lines, left=3))
 
 

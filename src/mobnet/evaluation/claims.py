@@ -15,7 +15,7 @@ from mobnet.core.config import read_yaml
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.files import write_text
 from mobnet.evaluation.intervals import Summary, first, summarise
-from mobnet.evaluation.markup import markdown_table, number, span, tex_escape, tex_table
+from mobnet.evaluation.markup import markdown_table, number, span, text_table
 from mobnet.evaluation.rows import Score, read_rows, write_rows
 from mobnet.evaluation.runs import Wanted, run_grid
 
@@ -94,7 +94,7 @@ def claims(config: Mapping[str, Any], claims_yaml: Path, scores_csv: Path, out_d
     lines = [claim_line(verdict) for verdict in verdicts]
     write_rows(out_dir / "claims.csv", Verdict, verdicts)
     columns = r">{\raggedright\arraybackslash}p{.33\linewidth}>{\raggedright\arraybackslash}p{.15\linewidth}rrrll"
-    write_text(out_dir / "claims.tex", tex_table(columns, header, [list(map(tex_escape, line)) for line in lines]))
+    write_text(out_dir / "claims.tex", text_table(columns, header, lines))
     write_text(out_dir / "claims.md", markdown_table(header, lines, left=len(header)))
     for verdict in verdicts:
         log.info("%s: %s (%.3g, %s)", verdict.claim, verdict.verdict, verdict.value, verdict.rule)

@@ -16,7 +16,7 @@ from mobnet.core.files import write_text
 from mobnet.core.recording import COMMAND
 from mobnet.evaluation.data_figures import Bars, draw_bars
 from mobnet.evaluation.figures import save_figure
-from mobnet.evaluation.markup import RULE, Line, markdown_table, number, tex_escape, tex_table
+from mobnet.evaluation.markup import RULE, Line, markdown_table, number, text_table
 from mobnet.evaluation.rows import write_rows
 from mobnet.evaluation.steps import Steps, read_steps
 from mobnet.robot.description import load_robot
@@ -170,9 +170,8 @@ def steps(config: Mapping[str, Any], sets: Sets, out_dir: Path) -> None:
             rows += followed(config, name, found, column)
     header = ["Set", "Command", "from", "to", "Steps", "Commanded", "Measured", "Ratio", "Within"]
     lines = followed_lines(rows)
-    escaped = [line if isinstance(line, str) else list(map(tex_escape, line)) for line in lines]
     write_rows(out_dir / "steps.csv", Followed, rows)
-    write_text(out_dir / "steps.tex", tex_table("llrrrrrrr", header, escaped))
+    write_text(out_dir / "steps.tex", text_table("llrrrrrrr", header, lines))
     write_text(out_dir / "steps.md", markdown_table(header, lines, left=2))
     log.info("%s: %d bins", out_dir / "steps.csv", len(rows))
 

@@ -24,7 +24,7 @@ from mobnet.core.recording import FEET
 from mobnet.core.store import read_sensed
 from mobnet.evaluation.gait import foot_of
 from mobnet.evaluation.intervals import summarise
-from mobnet.evaluation.markup import RULE, Line, markdown_table, number, span, tex_escape, tex_table
+from mobnet.evaluation.markup import RULE, Line, markdown_table, number, span, text_table
 from mobnet.evaluation.rows import write_rows
 from mobnet.evaluation.samples import FLAG, Pushed, blocks_of, evenly, pushed_of
 from mobnet.learning.features import LimbInputs, limb_inputs
@@ -268,9 +268,8 @@ def write_coverage(rows: Sequence[Covered], confidence: float, out_dir: Path) ->
     """Write the rows as CSV and, joints together only, as TeX and Markdown; `confidence` is a share [-]."""
     header = ["Test", "Level", "Measure", "With RTE", "Without RTE", "Ratio", f"{confidence:.0%}"]
     lines = coverage_lines([row for row in rows if row.joint == ALL])
-    escaped = [line if isinstance(line, str) else list(map(tex_escape, line)) for line in lines]
     write_rows(out_dir / "coverage.csv", Covered, rows)
-    write_text(out_dir / "coverage.tex", tex_table("lllrrrr", list(map(tex_escape, header)), escaped))
+    write_text(out_dir / "coverage.tex", text_table("lllrrrr", header, lines))
     write_text(out_dir / "coverage.md", markdown_table(header, lines, left=3))
 
 

@@ -17,7 +17,7 @@ from mobnet.core.files import read_json, write_text
 from mobnet.core.recording import COMMAND, recording_columns
 from mobnet.core.store import read_array
 from mobnet.evaluation.commands import CHOICES, KEYS, UNITS, Sets, in_degrees
-from mobnet.evaluation.markup import markdown_table, tex_escape, tex_table
+from mobnet.evaluation.markup import markdown_table, text_table
 from mobnet.evaluation.rows import write_rows
 from mobnet.evaluation.steps import read_steps
 from mobnet.evaluation.upper_body import upper_body
@@ -88,9 +88,8 @@ def data(config: Mapping[str, Any], sets: Sets, out_dir: Path) -> None:
         rows += [Fact(name, *fact, _published(config, known, *fact[:2])) for fact in found]
     header = ["", *(name.replace("_", " ") for name in sets), "Paper"]
     lines = fact_lines([row for row in rows if row.part not in nominal.robot.layout.actuated], list(sets))
-    escaped = [list(map(tex_escape, line)) for line in lines]
     write_rows(out_dir / "data.csv", Fact, rows)
-    write_text(out_dir / "data.tex", tex_table("l" + "r" * len(header[1:]), header, escaped))
+    write_text(out_dir / "data.tex", text_table("l" + "r" * len(header[1:]), header, lines))
     write_text(out_dir / "data.md", markdown_table(header, lines))
     log.info("%s: %d facts", out_dir / "data.csv", len(rows))
 

@@ -85,14 +85,22 @@ def draw_panel(axis: Axes, panel: Panel) -> None:
     axis.plot(panel.time, panel.estimate, color=COLOURS.get(panel.method, OTHER), label=panel.method)
 
 
-def legend(figure: Figure, axes: Sequence[Axes]) -> None:
-    """Put one legend of everything drawn above the panels."""
+def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, **look: float) -> None:
+    """Put one legend of everything drawn above the panels.
+
+    Args:
+        figure: holds the panels.
+        axes: the panels.
+        columns: entries in a row at most [-]; None for all in one.
+        look: other lengths of Matplotlib's legend than here [font size].
+    """
     found: dict[str, Any] = {}
     for axis in axes:
         handles, labels = axis.get_legend_handles_labels()
         found.update(zip(labels, handles, strict=True))
-    figure.legend(found.values(), found.keys(), loc="outside upper center", ncols=len(found), frameon=False,
-                  handlelength=1.4, columnspacing=0.9, handletextpad=0.4)  # fmt: skip
+    look = {"handlelength": 1.4, "columnspacing": 0.9, "handletextpad": 0.4, **look}
+    ncols = min(columns or len(found), len(found))
+    figure.legend(found.values(), found.keys(), loc="outside upper center", ncols=ncols, frameon=False, **look)
 
 
 def save_figure(figure: Figure, stem: Path) -> None:

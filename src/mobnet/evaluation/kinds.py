@@ -16,7 +16,7 @@ import numpy as np
 from mobnet.core.config import read_yaml
 from mobnet.core.files import write_text
 from mobnet.evaluation.intervals import summarise
-from mobnet.evaluation.markup import GAP, RULE, Line, markdown_table, number, span, tex_escape, tex_table
+from mobnet.evaluation.markup import GAP, RULE, Line, markdown_table, number, span, text_table
 from mobnet.evaluation.rows import write_rows
 from mobnet.evaluation.trainings import Training, read_trainings, sound
 
@@ -84,9 +84,8 @@ def kinds(config: Mapping[str, Any], folders: Sequence[str], out_dir: Path) -> N
     ]
     write_rows(out_dir / "kinds.csv", Trait, traits)
     lines = kind_lines(traits, variants, settings["confidence"])
-    escaped = [line if isinstance(line, str) else list(map(tex_escape, line)) for line in lines]
     columns = "rrl" + "r" * (len(HEADER) - LEFT)
-    write_text(out_dir / "kinds.tex", tex_table(columns, list(map(tex_escape, HEADER)), escaped))
+    write_text(out_dir / "kinds.tex", text_table(columns, HEADER, lines))
     write_text(out_dir / "kinds.md", markdown_table(HEADER, lines, left=LEFT))
     log.info("%s: %s", out_dir / "kinds.csv", ", ".join(numbers))
 

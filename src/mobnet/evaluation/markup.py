@@ -36,6 +36,12 @@ def tex_table(columns: str, header: Sequence[str], lines: Sequence[Line]) -> str
     return "\n".join([*parts, r"\end{tabular}"]) + "\n"
 
 
+def text_table(columns: str, header: Sequence[str], lines: Sequence[Line]) -> str:
+    """Return a tabular environment of plain text; `columns` is a TeX column specification."""
+    escaped = [line if isinstance(line, str) else list(map(tex_escape, line)) for line in lines]
+    return tex_table(columns, list(map(tex_escape, header)), escaped)
+
+
 def tex_row(cells: Sequence[str]) -> str:
     """Return a row of TeX cells."""
     return " & ".join(cells) + r" \\"

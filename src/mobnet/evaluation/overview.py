@@ -10,7 +10,7 @@ from typing import Any
 
 from mobnet.core.files import write_text
 from mobnet.evaluation.intervals import summarise
-from mobnet.evaluation.markup import GAP, RULE, Line, markdown_table, number, span, tex_escape, tex_table
+from mobnet.evaluation.markup import GAP, RULE, Line, markdown_table, number, span, text_table
 from mobnet.evaluation.rows import Score, read_rows, write_rows
 from mobnet.evaluation.runs import Wanted, run_grid, unit_of
 from mobnet.evaluation.scores import AVERAGE
@@ -66,11 +66,8 @@ def methods(config: Mapping[str, Any], scores: Mapping[str, Path], out_dir: Path
     tests, confidence = config["evaluation"]["methods"], config["evaluation"]["confidence"]
     errors = [error for test in tests for error in errors_of(config, test, read_rows(scores[test["scenario"]], Score))]
     header, lines = overview_lines(errors, confidence)
-    escaped = [line if isinstance(line, str) else list(map(tex_escape, line)) for line in lines]
     write_rows(out_dir / "methods.csv", Error, errors)
-    write_text(
-        out_dir / "methods.tex", tex_table("ll" + "r" * (len(header) - LEFT), list(map(tex_escape, header)), escaped)
-    )
+    write_text(out_dir / "methods.tex", text_table("ll" + "r" * (len(header) - LEFT), header, lines))
     write_text(out_dir / "methods.md", markdown_table(header, lines, left=LEFT))
     log.info("%s: %d errors", out_dir / "methods.csv", len(errors))
 

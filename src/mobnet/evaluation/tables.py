@@ -9,7 +9,7 @@ from typing import Any
 
 from mobnet.core.files import write_text
 from mobnet.evaluation.intervals import summarise
-from mobnet.evaluation.markup import GAP, RULE, Line, markdown_table, number, span, tex_escape, tex_table
+from mobnet.evaluation.markup import GAP, RULE, Line, markdown_table, number, span, text_table
 from mobnet.evaluation.published import published_value, read_published
 from mobnet.evaluation.rows import Cell, Score, read_rows, write_rows
 from mobnet.evaluation.runs import Wanted, run_grid, unit_of
@@ -68,10 +68,8 @@ def table_cells(
 
 def table_tex(cells: Sequence[Cell], entry: Mapping[str, Any], confidence: float) -> str:
     """Return the table [N m] as a TeX tabular, laid out as in the paper; `confidence` is a share [-]."""
-    header = ["Uncertainty level", "Method", "", *map(tex_escape, entry["joints"])]
-    lines = _lines(cells, entry, confidence)
-    lines = [line if isinstance(line, str) else list(map(tex_escape, line)) for line in lines]
-    return tex_table("lll" + "r" * len(entry["joints"]), header, lines)
+    header = ["Uncertainty level", "Method", "", *entry["joints"]]
+    return text_table("lll" + "r" * len(entry["joints"]), header, _lines(cells, entry, confidence))
 
 
 def table_markdown(cells: Sequence[Cell], entry: Mapping[str, Any], confidence: float) -> str:

@@ -16,7 +16,7 @@ from mobnet.core.errors import ConfigError
 from mobnet.core.files import write_text
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
-from mobnet.evaluation.markup import RULE, Line, markdown_table, number, tex_escape, tex_table
+from mobnet.evaluation.markup import RULE, Line, markdown_table, number, tex_escape, text_table
 from mobnet.evaluation.rows import write_rows
 
 log = logging.getLogger(__name__)
@@ -76,9 +76,8 @@ def uncertainty(config: Mapping[str, Any], sets: Mapping[str, Sequence[str]], ou
             rows.append(Size(limb, joint, name, value, layout.unit(joint), theirs, ratio, within))
     header = ["Limb", "Joint", "Set", "Unit", "Simulated", "Robot", "Ratio", "In bounds"]
     lines, note = size_lines(rows), entry["note"]
-    escaped = [line if isinstance(line, str) else list(map(tex_escape, line)) for line in lines]
     write_rows(out_dir / "uncertainty.csv", Size, rows)
-    write_text(out_dir / "uncertainty.tex", tex_table("llllrrrl", header, escaped) + note_tex(note))
+    write_text(out_dir / "uncertainty.tex", text_table("llllrrrl", header, lines) + note_tex(note))
     write_text(out_dir / "uncertainty.md", markdown_table(header, lines, left=4) + f"\n{note}\n")
     log.info("%s: %d joints", out_dir / "uncertainty.csv", len(rows))
 

@@ -19,8 +19,8 @@ from mobnet.learning.checkpoint import CHECKPOINT, Progress, Row
 from mobnet.learning.dataset import LimbData, Scale, scale_of
 from mobnet.learning.job import Job
 from mobnet.learning.model import build_network, seeded
-from mobnet.learning.optimisation import LAST_STEP, SEQUENCES, Samples, train_epoch, validate
-from mobnet.learning.streams import some_of, split, validation_plan, window_plan
+from mobnet.learning.optimisation import EVERY_STEP, LAST_STEP, SEQUENCES, Samples, train_epoch, validate
+from mobnet.learning.streams import Plan, some_of, split, validation_plan, window_plan
 from mobnet.learning.tracking import METRICS, write_metrics
 
 log = logging.getLogger(__name__)
@@ -123,8 +123,13 @@ class Trainer:
     def on_windows(self, done: Progress) -> dict[str, float]:
         """Return the best weights' loss (22) and RMSE [N, N m] where every sample re-runs its window from zero."""
         self.network.load_state_dict(done.best)
-        loss, rmse = validate(self.network, self._samples, self._windows, self.job.horizon, LAST_STEP)
-        return {"loss": loss, "rmse": float((rmse.numpy() * self.scales[1].std).mean())}
+        loss, rmse = self._validate(self._windows, LAST_STEP)
+        return {"loss": loss, "rmse": rmse}
+
+    def _validate(self, plan: Plan, scored: slice = EVERY_STEP) -> tuple[float, float]:
+        """Return mean loss (22) and RMSE [N, N m] of a validation."""
+        loss, rmse = validate(self.network, self._samples, plan, self.job.horizon, scored)
+        return loss, float((rmse.numpy() * self.scales[1].std).mean())
 
     def _epoch(self, epoch: int) -> Row:
         """Train and validate once; return the epoch's metrics."""
@@ -137,13 +142,13 @@ class Trainer:
         with seeded(self._seed("dropout", epoch)):
             loss, norm = train_epoch(self.network, self._optimizer, self._samples, plan, job.horizon, clip, scored)
         self._check("training", epoch, loss, rate)
-        validation, rmse = validate(self.network, self._samples, self._validation, job.horizon)
+        validation, rmse = self._validate(self._validation)
         self._check("validation", epoch, validation, rate)
         return {
             "epoch": epoch + 1,
             "train_loss": loss,
             "validation_loss": validation,
-            "validation_rmse": float((rmse.numpy() * self.scales[1].std).mean()),
+            "validation_rmse": rmse,
             "rate": rate,
             "gradient_norm": norm,
         }
