@@ -176,7 +176,7 @@ def write_training(tmp_path: Path) -> Callable[..., str]:
     def write(method: str, seed: int = 0, loss: float = -4.0, epochs: int = 3, **changes: Any) -> str:
         folder = tmp_path / f"{method}-LL-s{seed}"
         course = [loss + epochs - 2 - k for k in range(epochs - 1)] + [loss + 0.5] * (epochs > 0)
-        epochs_done = [Epoch(k + 1, x - 0.25, x, 10.0 + x, 0.005) for k, x in enumerate(course)]
+        epochs_done = [Epoch(k + 1, x - 0.25, x, 10.0 + x, 0.005, 1.5) for k, x in enumerate(course)]
         write_rows(folder / "metrics.csv", Epoch, epochs_done)
         note = {"method": method, "seed": seed, "parameters": 83712, "samples": 1620000, "seconds": 100.0 + seed}
         note["on_windows"] = {"loss": loss + 0.125}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Recording
+from mobnet.core.store import read_array, read_sensed, write_recording
 from mobnet.learning.features import limb_inputs, signal_names, signals
 from mobnet.robot.frames import rotation
 
@@ -48,6 +50,16 @@ def test_arm_sees_the_waist_and_no_torque(full_config: dict[str, Any], layout: J
     names = limb_inputs(layout, full_config["networks"]["LA"]).names
     assert [name for name in names if name.startswith("q.")] == [f"q.{j}" for j in layout.limb("LA") + layout.limb("W")]
     assert not any(name.startswith("tau_des") for name in names)
+
+
+@pytest.mark.parametrize("limb", ["LL", "V"])
+def test_few_columns_give_the_inputs_of_the_whole_recording(
+    limb: str, full_config: dict[str, Any], layout: JointLayout, made_up: Callable[..., Recording], tmp_path: Path
+) -> None:
+    recording, inputs = made_up(), limb_inputs(layout, full_config["networks"][limb])
+    write_recording(tmp_path / "walk", recording, layout)
+    few, _ = read_array(tmp_path / "walk", inputs.recorded)
+    np.testing.assert_array_equal(inputs.from_recorded(few), inputs(read_sensed(tmp_path / "walk", layout).sensed))
 
 
 def test_a_sample_gives_its_row_of_the_recording(made_up: Callable[..., Recording], layout: JointLayout) -> None:

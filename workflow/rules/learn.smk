@@ -19,7 +19,6 @@ rule train:
         config=lambda w: part("seed", "robot", "learning", methods=[w.method], networks=[w.limb])
         | training_sizes(w.method, w.limb),
         state=f"{RESULTS}/state/{{method}}-{{limb}}-s{{seed}}",
-        wandb=f"{RESULTS}/wandb",
         robot=CONTENT["robot"],
         code=code_of("train"),
     script:

@@ -1,4 +1,4 @@
-# The page of all trainings.
+# All trainings to look at: a page, and offline wandb runs.
 
 
 rule runs:
@@ -19,3 +19,20 @@ rule runs:
         code=code_of("runs"),
     script:
         "../scripts/runs.py"
+
+
+rule wandb_runs:
+    input:
+        notes=networks("run.json"),
+        metrics=networks("metrics.csv"),
+    output:
+        directory(f"{RESULTS}/wandb"),
+    log:
+        f"{RESULTS}/logs/wandb_runs.log",
+    benchmark:
+        f"{RESULTS}/bench/wandb_runs.tsv"
+    threads: 1
+    params:
+        code=code_of("wandb_runs"),
+    script:
+        "../scripts/wandb_runs.py"

@@ -15,5 +15,4 @@ with job(snakemake.log[0]):
         [Path(name).with_suffix("") for name in snakemake.input.residuals],
         Path(snakemake.output.weights).parent,
         Path(snakemake.params.state),
-        Path(snakemake.params.wandb),
     )

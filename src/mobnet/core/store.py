@@ -235,7 +235,7 @@ def read_sensed(stem: Path, layout: JointLayout) -> SensedRecording:
         DataError: a file is missing or damaged, or a column is missing.
     """
     values, meta = _read_fields(stem, layout, list(Sensed.__dataclass_fields__))
-    return SensedRecording(Sensed(**values), *_spans_and_rate(meta), meta)
+    return SensedRecording(Sensed(**values), *spans_and_rate(meta), meta)
 
 
 def read_recording(stem: Path, layout: JointLayout) -> Recording:
@@ -246,7 +246,7 @@ def read_recording(stem: Path, layout: JointLayout) -> Recording:
     """
     values, meta = _read_fields(stem, layout, [*Sensed.__dataclass_fields__, *Truth.__dataclass_fields__])
     sensed, truth = ({name: values[name] for name in part.__dataclass_fields__} for part in (Sensed, Truth))
-    return Recording(Sensed(**sensed), *_spans_and_rate(meta), meta, Truth(**truth))
+    return Recording(Sensed(**sensed), *spans_and_rate(meta), meta, Truth(**truth))
 
 
 def _read_fields(
@@ -259,6 +259,6 @@ def _read_fields(
     return dict(zip(fields, np.split(array, ends[:-1], axis=1), strict=True)), meta
 
 
-def _spans_and_rate(meta: Mapping[str, Any]) -> tuple[tuple[tuple[int, int], ...], float]:
-    """Return segments and rate [Hz] of a file's description."""
+def spans_and_rate(meta: Mapping[str, Any]) -> tuple[tuple[tuple[int, int], ...], float]:
+    """Return segments, (start, end) each, and rate [Hz] of an array's description."""
     return tuple((int(start), int(end)) for start, end in meta["segments"]), float(meta["rate_hz"])

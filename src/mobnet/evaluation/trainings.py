@@ -24,6 +24,7 @@ class Epoch:
         validation_loss: mean of (22) over the samples held out [-].
         validation_rmse: mean over the joints of their root-mean-square errors [N m], V1..V3 [N].
         rate: learning rate [-].
+        gradient_norm: mean norm of the gradient before the clip [-].
     """
 
     epoch: int
@@ -31,6 +32,7 @@ class Epoch:
     validation_loss: float
     validation_rmse: float
     rate: float
+    gradient_norm: float
 
 
 @dataclass(frozen=True)

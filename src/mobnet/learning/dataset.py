@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.joints import JointLayout
-from mobnet.core.store import read_array, read_sensed
+from mobnet.core.store import read_array, spans_and_rate
 from mobnet.learning.features import LimbInputs, limb_inputs
 from mobnet.learning.streams import Span
 
@@ -83,7 +83,7 @@ def load_limb_data(
     rates: set[float] = set()
     for recording_stem, residual_stem in zip(recording_stems, residual_stems, strict=True):
         offset = sum(len(x) for x, _ in parts)
-        x, y, spans, rate_hz = _load_one(layout, inputs, joints, target, recording_stem, residual_stem)
+        x, y, spans, rate_hz = _load_one(inputs, joints, target, recording_stem, residual_stem)
         parts.append((x, y))
         segments += [(offset + start, offset + end) for start, end in spans]
         rates.add(rate_hz)
@@ -103,7 +103,6 @@ def joints_of(layout: JointLayout, row: Mapping[str, Any]) -> tuple[str, ...]:
 
 
 def _load_one(
-    layout: JointLayout,
     inputs: LimbInputs,
     joints: Sequence[str],
     target: str,
@@ -111,14 +110,14 @@ def _load_one(
     residual_stem: Path,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], tuple[Span, ...], float]:
     """Return inputs, targets, segments and rate of one recording."""
-    recording = read_sensed(recording_stem, layout)
+    recorded, meta = read_array(recording_stem, inputs.recorded)
     torque = read_target(residual_stem, joints, target)
-    if len(torque) != len(recording.sensed):
+    if len(torque) != len(recorded):
         raise DataError(
             f"{residual_stem}.parquet: {len(torque)} rows, but its recording {recording_stem}.parquet has "
-            f"{len(recording.sensed)}"
+            f"{len(recorded)}"
         )
-    return inputs(recording.sensed), torque, recording.segments, recording.rate_hz
+    return inputs.from_recorded(recorded), torque, *spans_and_rate(meta)
 
 
 def read_target(residual_stem: Path, joints: Sequence[str], target: str) -> NDArray[np.float32]:

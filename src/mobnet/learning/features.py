@@ -15,10 +15,10 @@ from mobnet.core.recording import Sensed
 from mobnet.robot.frames import QUATERNION, rotation
 
 OMEGA = slice(3, N_VIRTUAL)  # of the generalized velocity, base axes
-BASE_NAMES = (
-    *(f"R.{row}{column}" for column in (1, 2) for row in (1, 2, 3)),
-    *(f"{signal}.{axis}" for signal in ("omega", "acc") for axis in "xyz"),
-)
+ROTATION_NAMES = tuple(f"R.{row}{column}" for column in (1, 2) for row in (1, 2, 3))
+# as columns of a recording, of which all but the rotation are read as they are
+BASE_NAMES = (*ROTATION_NAMES, *(f"{signal}{axis}" for signal in ("v.omega_", "acc.") for axis in "xyz"))
+QUATERNION_NAMES = tuple(f"q.quat_{axis}" for axis in "wxyz")
 
 
 @dataclass(frozen=True)
@@ -37,37 +37,46 @@ class LimbInputs:
 
     def __call__(self, sensed: Sensed) -> NDArray[np.float32]:
         """Return the inputs x^g of eq. (17), (T, n_in), or (n_in,) for one sample."""
-        return signals(sensed, self.columns)
+        return signals(sensed)[..., self.columns]
+
+    @property
+    def recorded(self) -> tuple[str, ...]:
+        """Columns of a recording that the inputs are made of: the quaternion, then those that are read as they are."""
+        return (*QUATERNION_NAMES, *(name for name in self.names if name not in ROTATION_NAMES))
+
+    def from_recorded(self, values: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Return the inputs (T, n_in) from the columns `recorded` (T, n_in - 2), the same as from a whole recording."""
+        inputs = np.empty((len(values), len(self.names)), dtype=np.float32)
+        turned = np.isin(self.names, ROTATION_NAMES)
+        inputs[:, turned] = _first_columns(values[:, : len(QUATERNION_NAMES)])
+        inputs[:, ~turned] = values[:, len(QUATERNION_NAMES) :]
+        return inputs
 
 
-def signals(sensed: Sensed, columns: NDArray[np.intp] | None = None) -> NDArray[np.float32]:
+def signals(sensed: Sensed) -> NDArray[np.float32]:
     """Return all that any limb network may see, in float32: the one place where physics turns into network numbers.
 
     Args:
         sensed: a recording or one sample.
-        columns: those wanted, (n,), in their order; None for all.
 
     Returns:
         Columns of `signal_names`, (T, 3 nu + 12), or (3 nu + 12,) for one sample; units of `LimbInputs`.
     """
-    first_columns = rotation(sensed.q[..., QUATERNION])[..., :2]
     parts = [
         sensed.q[..., NQ_BASE:],
         sensed.v[..., N_VIRTUAL:],
         sensed.tau_des,
-        np.swapaxes(first_columns, -1, -2).reshape(*first_columns.shape[:-2], -1),
+        _first_columns(sensed.q[..., QUATERNION]),
         sensed.v[..., OMEGA],
         sensed.acc_base_in_base,
     ]
-    if columns is None:
-        return np.concatenate(parts, axis=-1, dtype=np.float32, casting="same_kind")
-    picked = np.empty((*sensed.q.shape[:-1], len(columns)), dtype=np.float32)
-    start = 0
-    for part in parts:  # an hour of all signals would be copied for a third of them
-        inside = (columns >= start) & (columns < start + part.shape[-1])
-        picked[..., inside] = part[..., columns[inside] - start]
-        start += part.shape[-1]
-    return picked
+    return np.concatenate(parts, axis=-1, dtype=np.float32, casting="same_kind")
+
+
+def _first_columns(quaternion: NDArray[Any]) -> NDArray[np.float64]:
+    """Return the first two columns of the rotations (..., 6) [-] of quaternions w x y z (..., 4)."""
+    columns = rotation(quaternion)[..., :2]
+    return np.swapaxes(columns, -1, -2).reshape(*columns.shape[:-2], -1)
 
 
 def signal_names(layout: JointLayout) -> tuple[str, ...]:

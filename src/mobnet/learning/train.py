@@ -22,7 +22,7 @@ from mobnet.learning.job import job_of
 from mobnet.learning.model import parameter_count
 from mobnet.learning.networks import NOTE, STD_SCALE, WEIGHTS
 from mobnet.learning.precision import precision_name
-from mobnet.learning.tracking import METRICS, write_metrics, write_wandb
+from mobnet.learning.tracking import METRICS, write_metrics
 from mobnet.learning.trainer import Trainer
 
 RUN = "run.json"
@@ -39,7 +39,6 @@ def train(
     residual_stems: Sequence[Path],
     out_dir: Path,
     state_dir: Path,
-    wandb_dir: Path | None = None,
 ) -> None:
     """Train one limb network of Table 1 by (22) and keep the epoch that validates best.
 
@@ -53,7 +52,6 @@ def train(
         out_dir: gets `weights.safetensors`, `metrics.csv` and, last, `run.json`; nothing before the training is done.
         state_dir: gets a checkpoint and `metrics.csv` at each epoch; a killed training goes on from there to the same
             weights. The checkpoint goes when the training is done.
-        wandb_dir: gets an offline wandb run, if given.
 
     Raises:
         ConfigError: method or limb is unknown.
@@ -70,8 +68,6 @@ def train(
     note = run_note(config, trainer, data, done, calibration)
     write_weights(out_dir / WEIGHTS, trainer, data, done, calibration)
     write_metrics(out_dir / METRICS, done.rows)
-    if wandb_dir is not None:
-        write_wandb(wandb_dir, note, done.rows)
     write_json(out_dir / RUN, note)
     (state_dir / CHECKPOINT).unlink(missing_ok=True)
     log.info("%s: done after epoch %d", job.name, done.epoch)
