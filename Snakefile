@@ -22,3 +22,4 @@ rule all:
     input:
         PRODUCTS,
         MANIFEST,
+        WANDB,

@@ -220,7 +220,9 @@ def write_walk(
     sensed = Sensed(zeros((rows, layout.nq)), zeros((rows, layout.nv)), zeros((rows, 3)), zeros((rows, layout.nu)),
                     zeros((rows, layout.nu)), np.stack([air, 1 - air], axis=1), zeros((rows, 5)))  # fmt: skip
     wrench = zeros((rows, 6))
-    recording = Recording(sensed, ((0, rows),), RATE_HZ, {}, Truth(truth, wrench, wrench, zeros((rows, 2))))
+    recording = Recording(
+        sensed, ((0, rows),), RATE_HZ, {}, Truth(truth, wrench, wrench, zeros((rows, 2)), zeros((rows, 1)))
+    )
     write_recording(folder / "recording", recording, layout)
     lp = [(f"tau_ext_lp.{joint}", layout.unit(joint), "joint") for joint in layout.names]
     r = [(f"r.{joint}", layout.unit(joint), "joint") for joint in layout.names]
@@ -265,7 +267,7 @@ def write_steps(stem: Path, layout: JointLayout, seed: int, size: float = 1.0, s
         command[rows // 2 :], swing[rows // 2 :] = 0.0, False
     torque = 40.0 * size * rng.normal(size=(rows, layout.nu))
     sensed = Sensed(q, v, rng.normal(size=(rows, 3)), torque, torque, swing.astype(float), command)
-    truth = Truth(rng.normal(size=v.shape), np.zeros((rows, 6)), np.zeros((rows, 6)), 1.0 - swing)
+    truth = Truth(rng.normal(size=v.shape), np.zeros((rows, 6)), np.zeros((rows, 6)), 1.0 - swing, np.zeros((rows, 1)))
     meta = {"falls": seed % 2, "terrains": ["checks", "flat"]}
     spans = ((0, rows // 2), (rows // 2, rows))
     write_recording(stem, Recording(sensed, spans, RATE_HZ, meta, truth), layout)

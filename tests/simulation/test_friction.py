@@ -14,7 +14,7 @@ LEG, ARM = 0, 1
 
 @pytest.fixture
 def friction(full_config: dict[str, Any]) -> Friction:
-    return make_friction(full_config["plant"], np.array([True, False]), True)
+    return make_friction(full_config["plant"], np.array([True, False]), ["stribeck", "load"])
 
 
 @pytest.mark.parametrize("rate", [-3.0, -0.2, 0.2, 1.51, 6.0])
@@ -52,5 +52,5 @@ def test_fast_joint_tends_to_coulomb_and_viscous_friction(friction: Friction) ->
 
 
 def test_absent_friction_is_zero(full_config: dict[str, Any]) -> None:
-    absent = make_friction(full_config["plant"], np.array([True, False]), False)
+    absent = make_friction(full_config["plant"], np.array([True, False]), [])
     assert [friction_torque(absent, joint, 2.0, 100.0) for joint in (LEG, ARM)] == [0.0, 0.0]

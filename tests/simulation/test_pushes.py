@@ -38,7 +38,7 @@ def watch(simulator: Simulator, run: Callable, seconds: float) -> list[dict[str,
             "clock": s.clock, "swinging": s.swinging, "side": s.side, "share": s.t / s.total,
             "state": simulator.setting.pushes.state.copy(), "tau_ext": log["tau_ext"][0].copy(),
             "wrench": np.concatenate([log["wrench_left_foot"][0], log["wrench_right_foot"][0]]),
-            "contact": log["contact"][0].copy(),
+            "contact": log["contact"][0].copy(), "pushed": log["pushed"][0, 0],
         })  # fmt: skip
     return seen
 
@@ -79,6 +79,8 @@ def test_torque_on_a_joint_is_external_torque_of_that_joint_alone(
     on = np.array([moment["state"]["active"][0] for moment in seen]) > 0
     assert on.sum() == pytest.approx(100, abs=2)
     middle = np.flatnonzero(on)[5:-5]
+    assert all(moment["pushed"] == 1 for moment in np.array(seen)[middle])
+    assert sum(moment["pushed"] for moment in seen) == pytest.approx(100, abs=2)
     np.testing.assert_allclose(torque[middle, LL3], 30.0, atol=1e-4)
     np.testing.assert_allclose(np.delete(torque[middle, 6:12], 2, axis=1), 0, atol=1e-4)
     first = seen[np.flatnonzero(on)[0]]

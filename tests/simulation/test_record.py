@@ -247,7 +247,7 @@ def test_command_is_that_of_the_step_being_made(config: dict[str, Any], layout: 
     ("scenario", "level", "seconds", "message"),
     [
         ("moon_walk", "ideal", 1.0, "scenario: 'moon_walk' is not accepted; accepted: "),
-        ("forward_walk", "perfect", 1.0, "level: 'perfect' is not accepted; accepted: all_uncertainty, ideal, "),
+        ("forward_walk", "perfect", 1.0, "level: 'perfect' is not accepted; accepted: all_uncertainty, "),
         ("forward_walk", "ideal", -1.0, "duration_s: -1.0 is not accepted; accepted: > 0"),
         ("forward_walk", "ideal", 0.0, "duration_s: 0.0 is not accepted"),
         ("forward_walk", "ideal", math.nan, "duration_s: nan is not accepted"),

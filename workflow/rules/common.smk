@@ -292,7 +292,7 @@ def products():
     tables = expand(f"{TABLES}/{{name}}.{{ending}}", name=TABLE_NAMES, ending=["csv", "tex", "md"])
     figures = expand(f"{FIGURES}/{{name}}.{{ending}}", name=FIGURE_NAMES, ending=["pdf", "png", "csv"])
     scores = expand(f"{RESULTS}/scores/{{scenario}}.csv", scenario=scenarios)
-    texts = [f"{TABLES}/numbers.tex", f"{TABLES}/deviations.tex", f"{PAPER}/build.json", f"{RESULTS}/runs.html", f"{RESULTS}/wandb"]
+    texts = [f"{TABLES}/numbers.tex", f"{TABLES}/deviations.tex", f"{PAPER}/build.json", f"{RESULTS}/runs.html"]
     return stored + notes + trained + scores + tables + figures + texts
 
 

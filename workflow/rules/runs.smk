@@ -1,4 +1,6 @@
-# All trainings to look at: a page, and offline wandb runs.
+# All trainings to look at: a page, and offline wandb runs, whose files tell the time and so differ each time.
+
+WANDB = f"{RESULTS}/wandb"
 
 
 rule runs:
@@ -26,7 +28,7 @@ rule wandb_runs:
         notes=networks("run.json"),
         metrics=networks("metrics.csv"),
     output:
-        directory(f"{RESULTS}/wandb"),
+        directory(WANDB),
     log:
         f"{RESULTS}/logs/wandb_runs.log",
     benchmark:

@@ -57,12 +57,14 @@ class Truth:
             sensor reads it: foot axes, about the sensor.
         wrench_right_foot: the same of the right foot (T, 6).
         contact: 1 where the left, right foot touches the ground (T, 2).
+        pushed: 1 where a push of the scenario acts (T, 1).
     """
 
     tau_ext: NDArray[Any]
     wrench_left_foot: NDArray[Any]
     wrench_right_foot: NDArray[Any]
     contact: NDArray[Any]
+    pushed: NDArray[Any]
 
     def __getitem__(self, rows: int | slice) -> Truth:
         """Return one sample (1-D arrays) or a span of samples."""
@@ -123,6 +125,7 @@ def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:
             for foot in FEET
         },
         "contact": [(f"contact.{foot}", "-", "ground") for foot in FEET],
+        "pushed": [("pushed", "-", "scenario")],
     }
 
 

@@ -98,6 +98,7 @@ def run(
     tau, tau_des, tau_motor, tau_ext = np.zeros(nu), np.zeros(nu), np.zeros(nu), np.zeros(nv)
     wrenches, touch = np.zeros((2, 6)), np.zeros(2)
     for row in range(len(log)):
+        pushed = 0
         tau_des[:] = 0.0
         tau_motor[:] = 0.0
         tau_ext[:] = 0.0
@@ -112,13 +113,14 @@ def run(
                 pushes, s, plant.xfrc_applied, plant.qfrc_applied, plant.site_xpos, plant.xipos, plant.xmat, rng_pushes,
                 tau_ext,
             )  # fmt: skip
+            pushed += pushes.state.active.sum()
             s.clock += plant.dt
             call_step(plant.native.step, plant.native.model, plant.native.data)
             _add_external(plant, walker, tau_ext, touch)
             read_sensors(sensors, walker, plant.qpos, plant.qvel, plant.sensordata, rng_noise, plant.dt)
             wrenches += sensors.wrenches
             _wrap(plant, sensors, s)
-        _write(log[row], sensors, s, tau_des, tau_motor, tau_ext, wrenches, touch, plant.every)
+        _write(log[row], sensors, s, tau_des, tau_motor, tau_ext, wrenches, touch, pushed, plant.every)
         if not plant.qpos[2] > plant.fall_height:  # a state that is not finite is a fall too
             return row
     return len(log)
@@ -195,7 +197,7 @@ def _wrap(plant: Plant, sensors: Sensors, s: State) -> None:
 @compiled
 def _write(
     row: NDArray[np.float32], sensors: Sensors, s: State, tau_des: Array, tau_motor: Array, tau_ext: Array,
-    wrenches: Array, touch: Array, every: int,
+    wrenches: Array, touch: Array, pushed: int, every: int,
 ) -> None:  # fmt: skip
     """Write one sample in the order of `recording_columns`; sums over the sample's steps become means."""
     at = _put(row, 0, sensors.q, 1.0)
@@ -211,6 +213,7 @@ def _write(
         at = _put(row, at, wrenches[k], 1.0 / every)
     for k in range(2):
         row[at + k] = touch[k] > every * CONTACT_FORCE_N
+    row[at + 2] = pushed > 0
 
 
 @compiled

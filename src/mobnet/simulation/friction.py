@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -33,16 +33,22 @@ class Friction(NamedTuple):
     load: Array
 
 
-def make_friction(plant: Mapping[str, Any], legs: NDArray[np.bool_], present: bool) -> Friction:
-    """Build the friction of a plant; all zero when it is not present. legs (nu,) tells the leg joints."""
-    figures, scale = plant["friction"], float(present)
+def make_friction(plant: Mapping[str, Any], legs: NDArray[np.bool_], terms: Collection[str]) -> Friction:
+    """Build the friction of a plant.
+
+    Args:
+        plant: the configuration's `plant`.
+        legs: which joints are a leg's (nu,).
+        terms: those of (23) that are there: `stribeck`, viscous friction with it, and `load`; others play no part here.
+    """
+    figures, speed, load = plant["friction"], float("stribeck" in terms), float("load" in terms)
     return Friction(
-        coulomb=scale * figures["coulomb_nm"],
-        static=scale * figures["static_nm"],
+        coulomb=speed * figures["coulomb_nm"],
+        static=speed * figures["static_nm"],
         stribeck=figures["stribeck_rad_s"],
         smoothing=plant["friction_smoothing_rad_s"],
-        viscous=scale * np.where(legs, figures["viscous_legs_nms"], figures["viscous_others_nms"]),
-        load=scale * np.where(legs, figures["load_legs_per_nm"], 0.0),
+        viscous=speed * np.where(legs, figures["viscous_legs_nms"], figures["viscous_others_nms"]),
+        load=load * np.where(legs, figures["load_legs_per_nm"], 0.0),
     )
 
 

@@ -62,7 +62,7 @@ def make_world(
     add_terrain(spec, drawn)
     _set_options(spec, plant, config["rates"]["plant_hz"])
     model = spec.compile()
-    if config["levels"][level]["friction"]:
+    if "loss" in config["levels"][level]["friction"]:
         legs = leg_mask(robot)
         loss = np.where(legs, plant["friction"]["loss_legs_nm"], plant["friction"]["loss_others_nm"])
         model.dof_frictionloss[-robot.layout.nu :] = loss
