@@ -209,14 +209,24 @@ def entries_of(scenario, level, method):
     return [entry(scenario, level, method, seed, test) for seed in network_seeds(method) for test in TEST_SEEDS]
 
 
+def asked_in(node):
+    """Return scenario, level and methods wherever a section of the configuration names these three, at any depth."""
+    if isinstance(node, list):
+        return [found for item in node for found in asked_in(item)]
+    if not isinstance(node, dict):
+        return []
+    own = (
+        [(node["scenario"], node["level"], node["methods"])] if {"scenario", "level", "methods"} <= node.keys() else []
+    )
+    return own + [found for item in node.values() for found in asked_in(item)]
+
+
 def wanted():
     """Return scenario, level and method of every run that a table or a figure asks for, each once."""
-    asked = settings["evaluation"]
     found = [(TABLE_05["scenario"], level, TABLE_05["levels"][level]) for level in TABLE_05["levels"]]
     found += [(FIGURE_05["scenario"], level, FIGURE_05["panels"][level]) for level in FIGURE_05["panels"]]
     found += [(scenario, FIGURE_18["level"], FIGURE_18["methods"]) for scenario in FIGURE_18["panels"]]
-    found += [(test["scenario"], test["level"], test["methods"]) for test in asked["methods"]]
-    found += [(test["scenario"], test["level"], test["methods"]) for test in asked["calibration"]["tests"]]
+    found += asked_in(settings["evaluation"])
     return list(dict.fromkeys((scenario, level, method) for scenario, level, names in found for method in names))
 
 
