@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mobnet.evaluation.metrics import METRICS, rmse, roughness
+from mobnet.evaluation.metrics import METRICS, relative_rmse_in_spans, rmse, roughness
 
 
 def test_rmse_of_a_constant_error_is_that_constant(rng: np.random.Generator) -> None:
@@ -51,3 +51,20 @@ def test_samples_between_segments_do_not_count() -> None:
     estimate = np.array([[1.0], [1.0], [50.0], [1.0], [1.0]])
     measure, _ = METRICS["rmse"]
     np.testing.assert_allclose(measure(estimate, np.zeros((5, 1)), ((0, 2), (3, 5)), 1000.0), 1.0)
+
+
+def test_relative_rmse_is_a_percentage_of_the_largest_truth_and_has_no_unit_of_its_own(
+    rng: np.random.Generator,
+) -> None:
+    truth = rng.normal(size=(300, 2))
+    truth[7] = [-20.0, 50.0]
+    spans = ((0, 200),)
+    np.testing.assert_allclose(relative_rmse_in_spans(truth + 2.0, truth, spans, 1.0), [10.0, 4.0], rtol=1e-12)
+    np.testing.assert_allclose(relative_rmse_in_spans(3 * truth + 6.0, 3 * truth, spans, 1.0), [10.0, 4.0], rtol=1e-12)
+
+
+def test_a_joint_that_nothing_touches_has_no_relative_rmse() -> None:
+    truth = np.array([[0.0, 1.0], [0.0, -4.0]])
+    numbers = relative_rmse_in_spans(truth + 1.0, truth, ((0, 2),), 1.0)
+    assert np.isnan(numbers[0])
+    assert numbers[1] == pytest.approx(25.0)

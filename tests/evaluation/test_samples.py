@@ -7,10 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import recording_columns
 from mobnet.core.store import write_array
-from mobnet.evaluation.samples import Pushed, blocks_of, evenly, pushed_of, runs
+from mobnet.evaluation.samples import Pushed, blocks_of, evenly, push_windows, pushed_of, runs
 
 PUSHED = Pushed("LL3", 5.0, 0.02)
 
@@ -55,3 +56,14 @@ def test_only_a_test_that_names_a_joint_is_about_pushes() -> None:
     assert pushed_of({"scenario": "walk_test"}, settings) is None
     assert pushed_of({"scenario": "knee_swing", "pushed": "LL3"}, settings) == PUSHED
     assert pushed_of({"scenario": "hand_wrench", "pushed": "RA2"}, settings) == Pushed("RA2", 5.0, 0.02, leg=False)
+
+
+def test_a_window_is_a_push_with_what_is_before_and_after_it_in_its_segment(tmp_path: Path) -> None:
+    pushed = np.isin(np.arange(100), [1, 2, 40, 41, 42, 58, 59, 99]).astype(float)
+    write_array(
+        tmp_path / "r", pushed[:, None], [("pushed", "-", "scenario")], {"rate_hz": 100.0}, [(0, 60), (60, 100)]
+    )
+    assert push_windows(tmp_path / "r", 100, 0.0, 0.0) == ((1, 3), (40, 43), (58, 60), (99, 100))
+    assert push_windows(tmp_path / "r", 100, 0.03, 0.05) == ((0, 8), (37, 48), (55, 60), (96, 100))
+    with pytest.raises(DataError, match="rows is 100, but its estimates have 90"):
+        push_windows(tmp_path / "r", 90, 0.0, 0.0)

@@ -9,7 +9,7 @@ import pytest
 
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
-from mobnet.core.store import write_array
+from mobnet.core.store import read_array, write_array
 from mobnet.evaluation.rows import Score, read_rows
 from mobnet.evaluation.scores import limb_values, score, score_run
 
@@ -66,3 +66,40 @@ def test_a_residual_without_the_truth_is_refused(tmp_path: Path, walk: Walk, lay
     write_array(tmp_path / "r", np.ones((560, 1)), [("r.LL1", "N m", "joint")], {"rate_hz": 100.0})
     with pytest.raises(DataError, match=r"column 'tau_ext_lp\.LL1' is missing"):
         score_run(layout, "walk", {**walk(1.0), "residual": tmp_path / "r"})
+
+
+def test_pushes_are_scored_each_and_together(tmp_path: Path, walk: Walk, layout: JointLayout) -> None:
+    entry = walk(2.0)
+    rows = np.arange(560)
+    pushed = np.isin(rows, [*range(100, 110), *range(300, 330)])
+    error = np.where(rows < 200, 1.0, 3.0) * pushed
+    write_array(tmp_path / "recording", pushed[:, None].astype(float), [("pushed", "-", "-")], {"rate_hz": 100.0})
+    truth, _ = read_array(Path(entry["residual"]), ["tau_ext_lp.LL3"])
+    write_array(tmp_path / "e", truth + error[:, None], [("tau_ext.LL3", "N m", "joint")], {"rate_hz": 100.0})
+    entry |= {"recording": tmp_path / "recording", "estimate": tmp_path / "e"}
+    at_once = {"before_s": 0.0, "after_s": 0.0}
+    values = {row.metric: row.value for row in score_run(layout, "knee", entry, at_once) if row.joint == "LL3"}
+    expected = {"rmse_push_1": 1.0, "rmse_push_2": 3.0, "rmse_pushed": 7.0**0.5, "rmse": (280 / 560) ** 0.5}
+    assert {name: values[name] for name in expected} == pytest.approx(expected, rel=1e-5)
+    wide = score_run(layout, "knee", entry, {"before_s": 0.1, "after_s": 0.2})
+    assert next(row.value for row in wide if row.metric == "rmse_push_1") == pytest.approx(0.5, rel=1e-5)
+    assert not [row for row in score_run(layout, "knee", entry) if "push" in row.metric]
+
+
+def test_a_run_without_a_push_has_no_row_of_pushes(walk: Walk, layout: JointLayout) -> None:
+    rows = score_run(layout, "knee", walk(2.0), {"before_s": 0.1, "after_s": 0.2})
+    assert {row.metric for row in rows} == {"rmse", "roughness", "r_rmse"}
+
+
+def test_relative_error_is_a_percentage_and_left_out_where_there_is_no_torque(
+    tmp_path: Path, walk: Walk, layout: JointLayout
+) -> None:
+    entry = walk(3.0)
+    residual, _ = read_array(Path(entry["residual"]), [f"tau_ext_lp.LL{k}" for k in range(1, 7)])
+    residual[:, 2] = 0.0
+    columns = [(f"tau_ext_lp.LL{k}", "N m", "joint") for k in range(1, 7)]
+    write_array(tmp_path / "r", residual, columns, {"rate_hz": 100.0})
+    rows = [row for row in score_run(layout, "walk", entry | {"residual": tmp_path / "r"}) if row.metric == "r_rmse"]
+    assert [row.joint for row in rows] == ["LL1", "LL2", "LL4", "LL5", "LL6", "avg"]
+    assert {row.unit for row in rows} == {"%"}
+    assert rows[0].value == pytest.approx(300.0 / np.abs(residual[:, 0]).max(), rel=1e-5)

@@ -1,9 +1,12 @@
 # Scores of all runs of a scenario; then one rule for each table and figure of the paper, under its own number.
 
+WINDOWS = settings["evaluation"]["windows"]  # around pushes: only there are recordings read
+
 
 rule score:
     input:
         lambda w: arrays(runs_of(w.scenario), "residual", "estimate"),
+        lambda w: arrays(runs_of(w.scenario), "recording") if w.scenario in WINDOWS else [],
     output:
         ensure(f"{RESULTS}/scores/{{scenario}}.csv", non_empty=True),
     log:
@@ -14,6 +17,7 @@ rule score:
     params:
         config=part("robot"),
         entries=lambda w: runs_of(w.scenario),
+        window=lambda w: WINDOWS.get(w.scenario),
         robot=CONTENT["robot"],
         code=code_of("score"),
     script:

@@ -6,4 +6,10 @@ from mobnet.core.logs import job
 from mobnet.evaluation.scores import score
 
 with job(snakemake.log[0]):
-    score(snakemake.params.config, snakemake.wildcards.scenario, snakemake.params.entries, Path(snakemake.output[0]))
+    score(
+        snakemake.params.config,
+        snakemake.wildcards.scenario,
+        snakemake.params.entries,
+        Path(snakemake.output[0]),
+        snakemake.params.window,
+    )

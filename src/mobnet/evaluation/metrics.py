@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Spans = tuple[tuple[int, int], ...]
+PERCENT = 100.0
 
 
 def rmse(estimate: NDArray[Any], truth: NDArray[Any]) -> NDArray[np.float64]:
@@ -57,9 +58,23 @@ def roughness_in_spans(
     return roughness(estimate, spans, rate_hz)
 
 
+def relative_rmse_in_spans(
+    estimate: NDArray[Any], truth: NDArray[Any], spans: Spans, rate_hz: float
+) -> NDArray[np.float64]:
+    """Return `rmse` over the largest true torque of each joint (n,) [%], the r-RMSE of Table 7; the rate plays no part.
+
+    A joint without any external torque has none: nan.
+    """
+    largest = np.abs(np.concatenate(parts(truth, spans)), dtype=np.float64).max(axis=0)
+    largest[largest == 0.0] = np.nan
+    return PERCENT * rmse_in_spans(estimate, truth, spans, rate_hz) / largest
+
+
 Measure = Callable[[NDArray[Any], NDArray[Any], Spans, float], NDArray[np.float64]]
 
-METRICS: Mapping[str, tuple[Measure, str]] = {  # name -> (estimate, truth, spans, rate -> (n,)), suffix of the unit
-    "rmse": (rmse_in_spans, ""),
-    "roughness": (roughness_in_spans, "/s"),
+METRICS: Mapping[str, tuple[Measure, str]] = {  # name -> (estimate, truth, spans, rate -> (n,)), unit of a joint's
+    "rmse": (rmse_in_spans, "{}"),
+    "roughness": (roughness_in_spans, "{}/s"),
+    "r_rmse": (relative_rmse_in_spans, "%"),
 }
+PUSHED, PUSH = "rmse_pushed", "rmse_push_{}"  # `rmse` of all windows around pushes, and of the window of each

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.core.errors import DataError
 from mobnet.core.recording import FEET
 from mobnet.core.store import read_array
 from mobnet.evaluation.metrics import Spans
@@ -45,6 +46,29 @@ class Pushed:
         return runs(
             free & (np.abs(array[:, 2]) > self.torque_nm), meta["segments"], round(self.after_s * meta["rate_hz"])
         )
+
+
+def push_windows(stem: Path, rows: int, before_s: float, after_s: float) -> Spans:
+    """Return the spans (start, end) of rows around each push of a recording, in order, each within its segment.
+
+    Args:
+        stem: a recording.
+        rows: samples that it must have.
+        before_s: looked at before a push [s].
+        after_s: looked at after it [s]; the truth behind the observer's low-pass outlasts a push.
+
+    Raises:
+        DataError: a file or a column is missing, or the samples are not as many.
+    """
+    pushed, meta = read_array(stem, ["pushed"])
+    if len(pushed) != rows:
+        raise DataError(f"{stem}.json: rows is {len(pushed)}, but its estimates have {rows}")
+    before, after = (round(time_s * meta["rate_hz"]) for time_s in (before_s, after_s))
+    return tuple(
+        (max(start - before, first), min(end + after, last))
+        for first, last in meta["segments"]
+        for start, end in runs(pushed[:, 0] > FLAG, ((first, last),), 0)
+    )
 
 
 def pushed_of(test: Mapping[str, Any], settings: Mapping[str, Any]) -> Pushed | None:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
+from math import isnan
 from pathlib import Path
 from typing import Any
 
@@ -17,8 +18,9 @@ from mobnet.core.errors import DataError
 from mobnet.core.files import read_json
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import NOTE, read_array
-from mobnet.evaluation.metrics import METRICS, Spans
+from mobnet.evaluation.metrics import METRICS, PUSH, PUSHED, Spans
 from mobnet.evaluation.rows import Score, write_rows
+from mobnet.evaluation.samples import push_windows
 
 log = logging.getLogger(__name__)
 
@@ -27,7 +29,13 @@ ESTIMATE = "tau_ext."  # columns of an estimate file
 TRUTH = "tau_ext_lp."  # columns of a residual file
 
 
-def score(config: Mapping[str, Any], scenario: str, entries: Sequence[Mapping[str, Any]], out_csv: Path) -> None:
+def score(
+    config: Mapping[str, Any],
+    scenario: str,
+    entries: Sequence[Mapping[str, Any]],
+    out_csv: Path,
+    window: Mapping[str, float] | None = None,
+) -> None:
     """Score every run of a scenario and write one CSV.
 
     The error is `tau_ext` of the estimate minus `tau_ext_lp` of the residual file, the truth behind the observer's
@@ -37,33 +45,48 @@ def score(config: Mapping[str, Any], scenario: str, entries: Sequence[Mapping[st
         config: resolved configuration; names the robot.
         scenario: name that the rows carry.
         entries: one mapping a run: level, method, network_seed, test_seed, and the stems of the files `residual`
-            and `estimate`.
+            and `estimate`, and `recording` where pushes count.
         out_csv: rows of `rows.Score`.
+        window: around pushes, where they count: `before_s` and `after_s` [s].
 
     Raises:
         DataError: a file is missing or damaged, or estimate and residual do not belong together.
     """
     layout = load_layout(Path(config["robot"]))
-    rows = [row for entry in entries for row in score_run(layout, scenario, entry)]
+    rows = [row for entry in entries for row in score_run(layout, scenario, entry, window)]
     write_rows(out_csv, Score, rows)
     log.info("%s: %d runs, %d rows", out_csv, len(entries), len(rows))
 
 
-def score_run(layout: JointLayout, scenario: str, entry: Mapping[str, Any]) -> list[Score]:
+def score_run(
+    layout: JointLayout, scenario: str, entry: Mapping[str, Any], window: Mapping[str, float] | None = None
+) -> list[Score]:
     """Return the rows of one run: each joint, then the average of each limb, for each metric.
 
+    A metric has no row of a joint that it says nothing about, and none of a push that the run is too short for.
+
     Raises:
-        DataError: a file is missing or damaged, or estimate and residual do not belong together.
+        DataError: a file is missing or damaged, or estimate, residual and recording do not belong together.
     """
     pair = read_pair(Path(entry["estimate"]), Path(entry["residual"]), layout)
     run = (scenario, entry["level"], entry["method"], int(entry["network_seed"]), int(entry["test_seed"]))
     rows: list[Score] = []
-    for metric, (measure, per) in METRICS.items():
-        numbers = measure(pair.estimate, pair.truth, pair.spans, pair.rate_hz)
-        values = dict(zip(pair.joints, numbers.tolist(), strict=True))
+    windows = push_windows(Path(entry["recording"]), len(pair.truth), **window) if window else ()
+    for metric, numbers, pattern in measured(pair, windows):
+        values = {joint: value for joint, value in zip(pair.joints, numbers.tolist(), strict=True) if not isnan(value)}
         for limb, joint, value, unit in limb_values(layout, values):
-            rows.append(Score(*run, limb, joint, metric, value, unit + per))
+            rows.append(Score(*run, limb, joint, metric, value, pattern.format(unit)))
     return rows
+
+
+def measured(pair: Pair, windows: Spans) -> Iterator[tuple[str, NDArray[np.float64], str]]:
+    """Yield metric, numbers (n,) [N m, or the metric's unit] and the unit's pattern: of a run, then of its pushes."""
+    for metric, (measure, pattern) in METRICS.items():
+        yield metric, measure(pair.estimate, pair.truth, pair.spans, pair.rate_hz), pattern
+    pushes = {PUSH.format(k): (window,) for k, window in enumerate(windows, start=1)}
+    measure, pattern = METRICS["rmse"]
+    for metric, spans in ({PUSHED: windows} | pushes if windows else {}).items():
+        yield metric, measure(pair.estimate, pair.truth, spans, pair.rate_hz), pattern
 
 
 def limb_values(layout: JointLayout, values: Mapping[str, float]) -> list[tuple[str, str, float, str]]:
