@@ -42,6 +42,11 @@ def first(means: NDArray[np.float64]) -> NDArray[np.float64]:
     return means[0]
 
 
+def mean(means: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the mean of the means (K, ...), (...), such as that over joints [N m]."""
+    return means.mean(axis=0)
+
+
 def summarise(grids: Sequence[NDArray[Any]], config: Mapping[str, Any], combine: Combine = first) -> Summary:
     """Return a number made of the means of grids of runs, and its bootstrap interval, e.g. [N m].
 
