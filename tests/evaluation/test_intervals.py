@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import DataError
-from mobnet.evaluation.intervals import stack, summarise
+from mobnet.evaluation.intervals import summarise
 
 
 @pytest.mark.parametrize("shape", [(1, 2), (3, 1), (2, 3), (5, 5)])
@@ -63,12 +63,33 @@ def test_ratio_of_a_grid_and_its_multiple_is_exact_since_draws_are_shared(
     assert (summary.value, summary.low, summary.high) == pytest.approx((2.0, 2.0, 2.0))
 
 
-def test_a_method_without_networks_stands_for_all() -> None:
-    cells = stack([np.ones((1, 3)), np.arange(6.0).reshape(2, 3)])
-    assert cells.shape == (2, 2, 3)
-    np.testing.assert_array_equal(cells[0], 1.0)
+def test_a_method_without_networks_stands_for_all(config: dict[str, Any], rng: np.random.Generator) -> None:
+    alone, many = rng.uniform(1.0, 2.0, (1, 3)), rng.uniform(1.0, 2.0, (2, 3))
+    one, other = (summarise([grid, many], config, lambda m: m[0] / m[1]) for grid in (alone, np.tile(alone, (2, 1))))
+    assert (one.value, one.low, one.high, one.count) == pytest.approx((other.value, other.low, other.high, 6))
 
 
-def test_runs_on_other_tests_do_not_fit() -> None:
+@pytest.mark.parametrize("networks", [(2, 3), (1, 2), (3, 3)])
+def test_networks_of_unlike_number_are_drawn_apart_and_tests_together(
+    networks: tuple[int, int], config: dict[str, Any]
+) -> None:
+    """Runs that differ from test to test alone give an exact ratio, however many networks each method has."""
+    tests = np.array([1.0, 2.0, 4.0])
+    grids = [np.tile(tests * factor, (count, 1)) for count, factor in zip(networks, (3.0, 1.0), strict=True)]
+    summary = summarise(grids, config, lambda means: means[0] / means[1])
+    assert (summary.value, summary.low, summary.high) == pytest.approx((3.0, 3.0, 3.0))
+
+
+def test_unlike_networks_widen_a_ratio_that_like_ones_leave_exact(config: dict[str, Any]) -> None:
+    runs = np.array([[1.0], [2.0], [3.0]])
+    like = summarise([runs, runs], config, lambda means: means[0] / means[1])
+    unlike = summarise([runs, runs[:2]], config, lambda means: means[0] / means[1])
+    assert like.low == like.high == pytest.approx(1.0)
+    assert unlike.low is not None
+    assert unlike.high is not None
+    assert unlike.low < 4 / 3 < unlike.high
+
+
+def test_runs_on_other_tests_do_not_fit(config: dict[str, Any]) -> None:
     with pytest.raises(DataError, match=r"\(2, 3\), \(2, 4\)"):
-        stack([np.ones((2, 3)), np.ones((2, 4))])
+        summarise([np.ones((2, 3)), np.ones((2, 4))], config)

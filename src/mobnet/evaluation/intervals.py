@@ -17,6 +17,7 @@ from scipy.stats import bootstrap
 
 from mobnet.core.errors import DataError
 
+ALONE = np.zeros(1, dtype=np.intp)  # a single network or test is never drawn
 Combine = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 
@@ -50,54 +51,52 @@ def mean(means: NDArray[np.float64]) -> NDArray[np.float64]:
 def summarise(grids: Sequence[NDArray[Any]], config: Mapping[str, Any], combine: Combine = first) -> Summary:
     """Return a number made of the means of grids of runs, and its bootstrap interval, e.g. [N m].
 
-    A network is drawn for all grids at once, and so is a test recording: seeds are shared, so a ratio is paired.
+    A test recording is drawn for all grids at once, and so is a network for all that have as many: seeds are shared, so
+    a ratio is paired.
 
     Args:
-        grids: K grids (networks, tests); a method without networks has one row, which stands for all.
+        grids: K grids (networks, tests); a method without networks has one row.
         config: resolved configuration: `seed`, `evaluation.confidence` (0..1), `evaluation.bootstrap_draws`.
         combine: means (K, ...) -> number (...).
 
     Raises:
-        DataError: grids of different tests or networks.
+        DataError: grids of different tests.
     """
-    cells = stack(grids)
-    _, networks, tests = cells.shape
+    cells = [np.asarray(grid, dtype=np.float64) for grid in grids]
+    networks, tests = sorted({len(cell) for cell in cells} - {1}), tests_of(cells)
 
     def statistic(*drawn: NDArray[np.intp], axis: int = -1) -> NDArray[np.float64]:
-        rows, columns = _rows_and_columns(drawn, networks, tests)
-        return combine(cells[:, rows[..., :, None], columns[..., None, :]].mean(axis=(-2, -1)))
+        rows = {1: ALONE} | dict(zip(networks, drawn, strict=False))
+        columns = drawn[-1] if tests > 1 else ALONE
+        means = [mean_of(cell, rows[len(cell)], columns) for cell in cells]
+        return combine(np.stack(np.broadcast_arrays(*means)))
 
-    value = float(combine(cells.mean(axis=(-2, -1))))
-    samples = tuple(np.arange(n) for n in (networks, tests) if n > 1)
-    if not samples:
-        return Summary(value, None, None, networks * tests)
+    value = float(combine(np.array([cell.mean() for cell in cells])))
+    count = max([1, *networks]) * tests
+    drawn_from = [np.arange(n) for n in (*networks, tests) if n > 1]
+    if not drawn_from:
+        return Summary(value, None, None, count)
     settings = config["evaluation"]
     result = bootstrap(
-        samples, statistic, n_resamples=settings["bootstrap_draws"], confidence_level=settings["confidence"],
+        drawn_from, statistic, n_resamples=settings["bootstrap_draws"], confidence_level=settings["confidence"],
         vectorized=True, paired=False, method="percentile", rng=np.random.default_rng(config["seed"]),
     )  # fmt: skip
     low, high = result.confidence_interval
-    return Summary(value, float(low), float(high), networks * tests)
+    return Summary(value, float(low), float(high), count)
 
 
-def stack(grids: Sequence[NDArray[Any]]) -> NDArray[np.float64]:
-    """Return grids (networks, tests) as one array (K, networks, tests) [N m], a single row repeated for all.
+def tests_of(grids: Sequence[NDArray[Any]]) -> int:
+    """Return the number of tests of grids (networks, tests) of runs [N m].
 
     Raises:
-        DataError: the shapes do not fit.
+        DataError: they differ.
     """
-    try:
-        return np.array(np.broadcast_arrays(*grids), dtype=np.float64)
-    except ValueError:
+    if len({grid.shape[1] for grid in grids}) > 1:
         shapes = ", ".join(str(grid.shape) for grid in grids)
-        raise DataError(f"runs of shape (networks, tests) do not fit together: {shapes}") from None
+        raise DataError(f"runs of shape (networks, tests) do not fit together: {shapes}")
+    return grids[0].shape[1]
 
 
-def _rows_and_columns(
-    drawn: Sequence[NDArray[np.intp]], networks: int, tests: int
-) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return drawn rows (..., networks) and columns (..., tests); an axis of length one is never drawn."""
-    one = np.zeros(1, dtype=np.intp)
-    if networks > 1 and tests > 1:
-        return drawn[0], drawn[1]
-    return (drawn[0], one) if networks > 1 else (one, drawn[0])
+def mean_of(grid: NDArray[np.float64], rows: NDArray[np.intp], columns: NDArray[np.intp]) -> NDArray[np.float64]:
+    """Return the means (...) [N m] of a grid's runs in drawn rows (..., networks) and columns (..., tests)."""
+    return grid[rows[..., :, None], columns[..., None, :]].mean(axis=(-2, -1))
