@@ -52,6 +52,7 @@ def config() -> dict[str, Any]:
             "confidence": 0.95,
             "bootstrap_draws": 200,
             "table_05": {"scenario": "forward_walk", "limb": "LL", "levels": LEVELS},
+            "tables": yaml.safe_load((REPO / "configs/config.yaml").read_text())["evaluation"]["tables"],
             "figure_05": {"scenario": "forward_walk", "joint": "LL3", "start_s": 1.0},
             "figure_19": {"joints": ["LL2", "LL3"], "dots": 12, "test_dots": 8},
             "coverage": {

@@ -24,7 +24,7 @@ from mobnet.evaluation.numbers import numbers
 from mobnet.evaluation.overview import methods
 from mobnet.evaluation.single import figure_18
 from mobnet.evaluation.spread import figure_19
-from mobnet.evaluation.tables import table_05
+from mobnet.evaluation.tables import table
 from mobnet.evaluation.uncertainty import uncertainty
 
 REPO = Path(__file__).parents[2]
@@ -41,12 +41,12 @@ def check(produced: Path) -> None:
 
 @pytest.mark.parametrize("suffix", ["tex", "csv", "md"])
 def test_table_05_is_the_golden_one(suffix: str, tmp_path: Path, config: dict[str, Any]) -> None:
-    table_05(config, GOLDEN / "scores.csv", tmp_path)
+    table(config, "table_05", {"forward_walk": GOLDEN / "scores.csv"}, tmp_path)
     check(tmp_path / f"table_05.{suffix}")
 
 
 def test_claims_and_numbers_are_the_golden_ones(tmp_path: Path, config: dict[str, Any]) -> None:
-    table_05(config, GOLDEN / "scores.csv", tmp_path)
+    table(config, "table_05", {"forward_walk": GOLDEN / "scores.csv"}, tmp_path)
     claims(config, GOLDEN / "claims.yaml", GOLDEN / "scores.csv", tmp_path)
     numbers(config, tmp_path / "table_05.csv", tmp_path / "claims.csv", tmp_path / "numbers.tex")
     for name in ("claims.csv", "claims.tex", "claims.md", "numbers.tex"):

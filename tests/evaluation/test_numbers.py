@@ -8,7 +8,7 @@ import pytest
 from mobnet.evaluation.claims import Verdict, claims
 from mobnet.evaluation.numbers import numbers, size_texts
 from mobnet.evaluation.rows import Cell, read_rows
-from mobnet.evaluation.tables import table_05
+from mobnet.evaluation.tables import table
 
 REPO = Path(__file__).parents[2]
 
@@ -16,7 +16,7 @@ REPO = Path(__file__).parents[2]
 @pytest.fixture
 def tex(tmp_path: Path, config: dict[str, Any], scores_csv: Path) -> str:
     """Macros of the made-up results."""
-    table_05(config, scores_csv, tmp_path)
+    table(config, "table_05", {"forward_walk": scores_csv}, tmp_path)
     claims(config, REPO / "configs/claims.yaml", scores_csv, tmp_path)
     numbers(config, tmp_path / "table_05.csv", tmp_path / "claims.csv", tmp_path / "numbers.tex")
     return (tmp_path / "numbers.tex").read_text()

@@ -29,8 +29,8 @@ TABLES, FIGURES = ("tables", "figures") if SCALE == MAIN else (f"tables/{SCALE}"
 PAPER = "paper" if SCALE == MAIN else f"{RESULTS}/paper"
 MANIFEST = "results/MANIFEST.sha256" if SCALE == MAIN else f"{RESULTS}/MANIFEST.sha256"
 TEST_SEEDS = [1 + i for i in range(SIZES["test"]["shards"])]
-TABLE_NAMES = ["table_01", "table_05", "claims", "data", "steps", "coverage", "uncertainty", "kinds", "methods"]
-TABLE_NAMES += ["calibration"]
+TABLE_NAMES = ["table_01", *settings["evaluation"]["tables"], "claims", "data", "steps", "coverage", "uncertainty"]
+TABLE_NAMES += ["kinds", "methods", "calibration"]
 FIGURE_NAMES = ["figure_05", "figure_17", "figure_18", "figure_19", "figure_20", "commands", "calibration"]
 TABLE_05, FIGURE_05, FIGURE_18 = (settings["evaluation"][name] for name in ("table_05", "figure_05", "figure_18"))
 

@@ -1,6 +1,19 @@
-# Scores of all runs of a scenario; then one rule for each table and figure of the paper, under its own number.
+# Scores of all runs of a scenario; then the tables of errors, and a rule for each figure under its own number.
 
 WINDOWS = settings["evaluation"]["windows"]  # around pushes: only there are recordings read
+
+
+def scenarios_of_table(name):
+    """Return the scenarios whose scores a table shows, each once."""
+    return list(dict.fromkeys(row["scenario"] for row in settings["evaluation"]["tables"][name]["rows"]))
+
+
+def config_of_table(name):
+    """Return what a table reads of the configuration: of all tables only its own."""
+    picked = part(evaluation=["confidence", "bootstrap_draws"])["evaluation"]
+    return part("seed", "robot", "published") | {
+        "evaluation": picked | {"tables": {name: settings["evaluation"]["tables"][name]}}
+    }
 
 
 rule score:
@@ -24,25 +37,28 @@ rule score:
         "../scripts/score.py"
 
 
-rule table_05:
+rule table:
     input:
-        scores=f"{RESULTS}/scores/{TABLE_05['scenario']}.csv",
+        scores=lambda w: expand(f"{RESULTS}/scores/{{name}}.csv", name=scenarios_of_table(w.table)),
     output:
         ensure(
-            expand(f"{TABLES}/table_05.{{ending}}", ending=["csv", "tex", "md"]),
+            expand(f"{TABLES}/{{{{table}}}}.{{ending}}", ending=["csv", "tex", "md"]),
             non_empty=True,
         ),
     log:
-        f"{RESULTS}/logs/table_05.log",
+        f"{RESULTS}/logs/{{table}}.log",
     benchmark:
-        f"{RESULTS}/bench/table_05.tsv"
+        f"{RESULTS}/bench/{{table}}.tsv"
+    wildcard_constraints:
+        table="|".join(settings["evaluation"]["tables"]),
     threads: 1
     params:
-        config=part("seed", "published", "evaluation"),
+        config=lambda w: config_of_table(w.table),
+        robot=CONTENT["robot"],
         published=CONTENT["published"],
-        code=code_of("table_05"),
+        code=code_of("table"),
     script:
-        "../scripts/table_05.py"
+        "../scripts/table.py"
 
 
 rule figure_05:

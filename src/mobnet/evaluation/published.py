@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +11,7 @@ from mobnet.core.errors import ConfigError, not_accepted
 
 
 def read_published(path: Path, table: str) -> dict[str, Any]:
-    """Return a table of levels and methods as the paper prints it, its rows checked against its joints.
+    """Return a table as the paper prints it, every row checked against its joints.
 
     Args:
         path: YAML file of published results.
@@ -24,19 +24,41 @@ def read_published(path: Path, table: str) -> dict[str, Any]:
     if table not in tables:
         raise ConfigError(f"{path}: " + not_accepted("table", table, tables))
     entry = tables[table]
-    for level, methods in entry["rows"].items():
-        for method, numbers in methods.items():
-            if len(numbers) != len(entry["joints"]):
-                raise ConfigError(
-                    f"{path}: {table}.rows.{level}.{method}: {len(numbers)} numbers for "
-                    f"{len(entry['joints'])} joints ({', '.join(entry['joints'])})"
-                )
+    joints = entry["joints"]
+    for place, numbers in rows_of(entry, table):
+        if len(numbers) != len(joints):
+            raise ConfigError(f"{path}: {place}: {len(numbers)} numbers for {len(joints)} joints ({', '.join(joints)})")
     return entry
 
 
+def rows_of(node: Mapping[str, Any], place: str) -> Iterator[tuple[str, list[float | None]]]:
+    """Yield the dotted place of every row of numbers below a place, and the row [in the table's units]."""
+    for key, item in node.items():
+        if isinstance(item, dict):
+            yield from rows_of(item, f"{place}.{key}")
+        elif isinstance(item, list) and key != "joints":
+            yield f"{place}.{key}", item
+
+
+def published_row(entry: Mapping[str, Any], place: str, method: str) -> dict[str, float | None]:
+    """Return the paper's numbers of a method, column -> [N m], V1..V3 [N], or [%]; empty where it prints none.
+
+    Args:
+        entry: the table.
+        place: dotted keys of the table that lead to its methods, such as `rows.ideal`.
+        method: estimator.
+
+    Raises:
+        ConfigError: there is no such place.
+    """
+    node = entry
+    for key in place.split("."):
+        if key not in node:
+            raise ConfigError(not_accepted(f"{place}: key of a published table", key, node))
+        node = node[key]
+    return dict(zip(entry["joints"], node[method], strict=True)) if method in node else {}
+
+
 def published_value(entry: Mapping[str, Any], level: str, method: str, joint: str) -> float | None:
-    """Return the paper's number [N m], V1..V3 [N], or None where it prints none."""
-    row = entry["rows"].get(level, {}).get(method)
-    if row is None or joint not in entry["joints"]:
-        return None
-    return row[entry["joints"].index(joint)]
+    """Return the paper's number [N m], V1..V3 [N], in a table of levels; None where it prints none."""
+    return published_row(entry, f"rows.{level}", method).get(joint) if level in entry["rows"] else None

@@ -52,10 +52,10 @@ class Cell:
         scenario: what was walked.
         level: uncertainty level of section 5.1.
         method: estimator.
-        joint: joint, or `avg`.
+        joint: joint, or the name of a mean over some, such as `avg`.
         seed_count: runs behind the mean, network seeds times test seeds.
-        metric: a name of `metrics.METRICS`.
-        value: mean over runs [unit].
+        metric: a name of `metrics.METRICS`, or some joined by `+` whose mean it is.
+        value: mean over runs [unit]; None where a run is too short for the metric's pushes.
         low: lower end of the interval [unit]; None with a single run.
         high: upper end of the interval [unit]; None with a single run.
         unit: unit of the numbers.
@@ -68,7 +68,7 @@ class Cell:
     joint: str
     seed_count: int
     metric: str
-    value: float
+    value: float | None
     low: float | None
     high: float | None
     unit: str

@@ -1,118 +1,99 @@
-"""Tables of the paper, ours beside the printed numbers."""
+"""Tables of the paper, ours beside the printed numbers: a row is a method in a test, a column a joint or a mean."""
 
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from mobnet.core.config import load_layout
 from mobnet.core.files import write_text
-from mobnet.evaluation.intervals import summarise
-from mobnet.evaluation.markup import GAP, RULE, Line, markdown_table, number, span, text_table
-from mobnet.evaluation.published import published_value, read_published
+from mobnet.evaluation.columns import Column, columns_of
+from mobnet.evaluation.intervals import mean, summarise
+from mobnet.evaluation.published import published_row, read_published
 from mobnet.evaluation.rows import Cell, Score, read_rows, write_rows
 from mobnet.evaluation.runs import Wanted, run_grid, unit_of
-from mobnet.evaluation.scores import AVERAGE
+from mobnet.evaluation.table_text import TableRow, look_of, table_markdown, table_tex
 
 log = logging.getLogger(__name__)
 
+METRIC = "rmse"  # of a row that names none
 
-def table_05(config: Mapping[str, Any], scores_csv: Path, out_dir: Path) -> None:
-    """Write Table 5: RMSE [N m] of the left leg by uncertainty level and method, as CSV, TeX and Markdown.
+
+def table(config: Mapping[str, Any], name: str, scores: Mapping[str, Path], out_dir: Path) -> None:
+    """Write one of Tables 5, 6, 7, 10 and 11, errors by test, method and joint [N m], as CSV, TeX and Markdown.
 
     Args:
-        config: resolved configuration: `evaluation.table_05`, `published`.
-        scores_csv: scores of its scenario.
-        out_dir: gets table_05.csv, .tex and .md.
+        config: resolved configuration: `robot`, `published`, `evaluation.tables` and what intervals need.
+        name: the table's key in `evaluation.tables` and among the published ones; names the files.
+        scores: scenario -> its scores.
+        out_dir: gets the three files.
 
     Raises:
         DataError: a run that the table needs is missing.
-        ConfigError: the published numbers do not fit the table.
+        ConfigError: the published numbers do not fit the table, or a column is not well formed.
     """
-    entry = read_published(Path(config["published"]), "table_05")
-    cells = table_cells(config, config["evaluation"]["table_05"], entry, read_rows(scores_csv, Score))
-    write_rows(out_dir / "table_05.csv", Cell, cells)
-    write_text(out_dir / "table_05.tex", table_tex(cells, entry, config["evaluation"]["confidence"]))
-    write_text(out_dir / "table_05.md", table_markdown(cells, entry, config["evaluation"]["confidence"]))
-    log.info("%s: %d cells", out_dir / "table_05.csv", len(cells))
+    spec = config["evaluation"]["tables"][name]
+    entry = read_published(Path(config["published"]), name)
+    rows = table_rows(config, spec, entry, scores)
+    write_rows(out_dir / f"{name}.csv", Cell, [cell for row in rows for cell in row.cells])
+    look = look_of(spec, entry, config["evaluation"]["confidence"])
+    write_text(out_dir / f"{name}.tex", table_tex(rows, look))
+    write_text(out_dir / f"{name}.md", table_markdown(rows, look))
+    log.info("%s: %d rows", out_dir / f"{name}.csv", len(rows))
 
 
-def table_cells(
-    config: Mapping[str, Any], layout: Mapping[str, Any], entry: Mapping[str, Any], scores: Sequence[Score]
-) -> list[Cell]:
-    """Return the cells of a table of levels x methods x joints, in its order.
+def table_rows(
+    config: Mapping[str, Any], spec: Mapping[str, Any], entry: Mapping[str, Any], scores: Mapping[str, Path]
+) -> list[TableRow]:
+    """Return the rows of a table [N m], a row a method of a test, in its order.
 
     Args:
         config: resolved configuration.
-        layout: the table's `scenario`, `limb` and `levels` (level -> methods).
-        entry: what the paper prints; names the joints.
-        scores: rows of that scenario.
+        spec: the table's `columns` and `rows`.
+        entry: what the paper prints.
+        scores: scenario -> its scores.
+
+    Raises:
+        DataError: a run is missing.
+        ConfigError: as `table` says.
+    """
+    columns = columns_of(load_layout(Path(config["robot"])), spec["columns"])
+    read = {name: read_rows(scores[name], Score) for name in dict.fromkeys(test["scenario"] for test in spec["rows"])}
+    rows = []
+    for test in spec["rows"]:
+        for method in test["methods"]:
+            printed = published_row(entry, test["paper"], method) if "paper" in test else {}
+            cells = cells_of(config, columns, test, method, read[test["scenario"]], printed)
+            rows.append(TableRow(tuple(test["labels"]), tuple(cells)))
+    return rows
+
+
+def cells_of(
+    config: Mapping[str, Any],
+    columns: Sequence[Column],
+    test: Mapping[str, Any],
+    method: str,
+    scores: Sequence[Score],
+    printed: Mapping[str, float | None],
+) -> Iterator[Cell]:
+    """Yield the cells [N m] of a method in a test, column by column; without a number where a run has too few pushes.
 
     Raises:
         DataError: a run is missing.
     """
-    cells = []
-    for level, methods in layout["levels"].items():
-        for method in methods:
-            for joint in entry["joints"]:
-                wanted = Wanted(layout["scenario"], layout["limb"], level, method, joint, entry["metric"])
-                ours = summarise([run_grid(scores, wanted)], config)
-                known = published_value(entry, level, method, joint)
-                cells.append(Cell(
-                    wanted.scenario, level, method, joint, ours.count, wanted.metric,
-                    ours.value, ours.low, ours.high, unit_of(scores, wanted), known,
-                ))  # fmt: skip
-    return cells
-
-
-def table_tex(cells: Sequence[Cell], entry: Mapping[str, Any], confidence: float) -> str:
-    """Return the table [N m] as a TeX tabular, laid out as in the paper; `confidence` is a share [-]."""
-    header = ["Uncertainty level", "Method", "", *entry["joints"]]
-    return text_table("lll" + "r" * len(entry["joints"]), header, _lines(cells, entry, confidence))
-
-
-def table_markdown(cells: Sequence[Cell], entry: Mapping[str, Any], confidence: float) -> str:
-    """Return the table [N m] as Markdown, laid out as in the paper; `confidence` is a share [-]."""
-    header = ["Uncertainty level", "Method", "", *entry["joints"]]
-    return markdown_table(header, _lines(cells, entry, confidence), left=len(header) - len(entry["joints"]))
-
-
-def _lines(cells: Sequence[Cell], entry: Mapping[str, Any], confidence: float) -> list[Line]:
-    """Return the rows of text, level by level and method by method."""
-    lines: list[Line] = []
-    seen: list[str] = []
-    for level, method in dict.fromkeys((cell.level, cell.method) for cell in cells):
-        row = [cell for cell in cells if (cell.level, cell.method) == (level, method)]
-        first = level not in seen
-        if seen:
-            lines.append(RULE if first else GAP)
-        over = _floor(cells, entry) if entry["floor"]["level"] in seen and level != entry["floor"]["level"] else None
-        seen.append(level)
-        lines += _method_lines(row, entry["labels"].get(level, level) if first else "", over, confidence)
-    return lines
-
-
-def _method_lines(row: Sequence[Cell], label: str, over: Cell | None, confidence: float) -> list[Line]:
-    """Return a method's rows of text: ours, then its interval and the paper's numbers, if there are any."""
-    lines: list[Line] = [[label, row[0].method, "ours", *_values(row, over, "value")]]
-    if any(cell.low is not None for cell in row):
-        lines.append(["", "", f"{confidence:.0%}", *(span(cell.low, cell.high) for cell in row)])
-    if any(cell.published is not None for cell in row):
-        lines.append(["", "", "paper", *_values(row, over, "published")])
-    return lines
-
-
-def _values(row: Sequence[Cell], over: Cell | None, field: str) -> list[str]:
-    """Return the numbers of a row; the average carries its increase over a floor, as the paper prints it."""
-    texts = [number(getattr(cell, field)) for cell in row]
-    value, base = getattr(row[-1], field), getattr(over, field, None)
-    if row[-1].joint == AVERAGE and value is not None and base is not None:
-        texts[-1] += f" ({value - base:+.2f})"
-    return texts
-
-
-def _floor(cells: Sequence[Cell], entry: Mapping[str, Any]) -> Cell | None:
-    """Return the average that later rows are compared with, or None if the table lacks it."""
-    wanted = (entry["floor"]["level"], entry["floor"]["method"], AVERAGE)
-    return next((cell for cell in cells if (cell.level, cell.method, cell.joint) == wanted), None)
+    run = (test["scenario"], test["level"], method)
+    own = [score for score in scores if (score.scenario, score.level, score.method) == run]
+    held = {score.metric for score in own}
+    for column in columns:
+        metrics, known = column.metrics or (test.get("metric", METRIC),), printed.get(column.name)
+        what = (*run, column.name)
+        if held and not held.issuperset(metrics):
+            yield Cell(*what, 0, "+".join(metrics), None, None, None, column.unit, known)
+            continue
+        wanted = [Wanted(run[0], limb, *run[1:], joint, metric) for limb, joint in column.joints for metric in metrics]
+        ours = summarise([run_grid(own, each) for each in wanted], config, mean)
+        yield Cell(
+            *what, ours.count, "+".join(metrics), ours.value, ours.low, ours.high, unit_of(own, wanted[0]), known
+        )
