@@ -15,6 +15,8 @@ from mobnet.core.files import write_json
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout, layout_of
 from mobnet.core.recording import FEET, Recording, Sensed, Truth
 from mobnet.core.store import write_array, write_recording
+from mobnet.evaluation.claim import Claim
+from mobnet.evaluation.results import listed
 from mobnet.evaluation.rows import Score, write_rows
 from mobnet.evaluation.trainings import Epoch
 
@@ -183,6 +185,44 @@ def write_training(tmp_path: Path) -> Callable[..., str]:
         note["on_windows"] = {"loss": loss + 0.125}
         write_json(folder / "run.json", note | changes)
         return str(folder)
+
+    return write
+
+
+def claimed_scores(layout: JointLayout, claims: list[Claim], means: dict[str, float], pushes: bool) -> list[Score]:
+    """Return the scores that claims name, and the plain error: 0.01 where all is ideal, else a method's mean [N m]."""
+    networks = {"MOB": 1, "MOB-fric": 1, "MOB-Net-Single": 2}
+    rows = {}
+    for cell in (cell for claim in claims for cell in claim.cells if "joint" in cell):
+        metrics = {"rmse", *listed(cell.get("metric", "rmse"))}
+        kept = [name for name in sorted(metrics) if pushes or "push" not in name]
+        mean = 0.01 if cell["level"] == "ideal" else means[cell["method"]]
+        joints = [joint for name in listed(cell["joint"]) for joint in layout.groups.get(name, (name,))]
+        limbs = [next(limb for limb, own in layout.groups.items() if joint in own) for joint in joints]
+        seeds = range(networks.get(cell["method"], 3))
+        for (limb, joint), name, network, test in itertools.product(
+            zip(limbs, joints, strict=True), kept, seeds, (1, 2)
+        ):
+            run = (cell["scenario"], cell["level"], cell["method"], network, test, limb, joint, name)
+            rows[run] = Score(*run, mean * (1 + 0.1 * (test - 1.5)), "N m")
+    return list(rows.values())
+
+
+@pytest.fixture
+def write_results(tmp_path: Path, layout: JointLayout, write_training: Callable[..., str]) -> Callable[..., Any]:
+    """Write what claims name: write_results(claims, means, pushes=True) -> files of scores, folders of trainings.
+
+    Losses rise from method to method in the order in which claims name them.
+    """
+
+    def write(claims: list[Claim], means: dict[str, float], pushes: bool = True) -> tuple[list[Path], list[str]]:
+        write_rows(tmp_path / "claimed.csv", Score, claimed_scores(layout, claims, means, pushes))
+        named = [cell["method"] for claim in claims for cell in claim.cells if "joint" not in cell]
+        losses = {method: -4.0 + 0.1 * k for k, method in enumerate(dict.fromkeys(named))}
+        folders = [
+            write_training(method, seed, loss + 0.05 * seed) for method, loss in losses.items() for seed in (0, 1)
+        ]
+        return [tmp_path / "claimed.csv"], folders
 
     return write
 

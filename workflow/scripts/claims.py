@@ -6,5 +6,5 @@ from mobnet.core.logs import job
 from mobnet.evaluation.claims import claims
 
 with job(snakemake.log[0]):
-    config = snakemake.params.config
-    claims(config, Path(config["claims"]), Path(snakemake.input.scores), Path(snakemake.output[0]).parent)
+    config, scores = snakemake.params.config, [Path(name) for name in snakemake.input.scores]
+    claims(config, Path(config["claims"]), scores, snakemake.params.folders, Path(snakemake.output[0]).parent)
