@@ -5,16 +5,21 @@
 configfile: "configs/config.yaml"
 
 
+report: "workflow/report/workflow.rst"
+
+
 include: "workflow/rules/common.smk"
 include: "workflow/rules/collect.smk"
 include: "workflow/rules/fit.smk"
 include: "workflow/rules/learn.smk"
 include: "workflow/rules/data.smk"
 include: "workflow/rules/evaluate.smk"
+include: "workflow/rules/figures.smk"
 include: "workflow/rules/ablations.smk"
 include: "workflow/rules/calibration.smk"
 include: "workflow/rules/runs.smk"
 include: "workflow/rules/report.smk"
+include: "workflow/rules/pages.smk"
 
 
 rule all:
@@ -23,3 +28,5 @@ rule all:
         PRODUCTS,
         MANIFEST,
         WANDB,
+        COMPUTE,
+        rules.pages.output,

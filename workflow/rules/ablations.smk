@@ -35,10 +35,7 @@ rule figure_17:
     input:
         courses(network_folders(FIGURE_17["methods"], FIGURE_17["limb"])),
     output:
-        ensure(
-            expand(f"{FIGURES}/figure_17.{{ending}}", ending=["pdf", "png", "csv"]),
-            non_empty=True,
-        ),
+        ensure(figure_files("figure_17"), non_empty=True),
     log:
         f"{RESULTS}/logs/figure_17.log",
     benchmark:
@@ -81,10 +78,7 @@ rule figure_18:
     input:
         scores=expand(f"{RESULTS}/scores/{{name}}.csv", name=FIGURE_18["panels"]),
     output:
-        ensure(
-            expand(f"{FIGURES}/figure_18.{{ending}}", ending=["pdf", "png", "csv"]),
-            non_empty=True,
-        ),
+        ensure(figure_files("figure_18"), non_empty=True),
     log:
         f"{RESULTS}/logs/figure_18.log",
     benchmark:
@@ -106,10 +100,7 @@ rule figure_20:
     input:
         [name for size in sizes_of_networks() for name in courses(size["folders"])],
     output:
-        ensure(
-            expand(f"{FIGURES}/figure_20.{{ending}}", ending=["pdf", "png", "csv"]),
-            non_empty=True,
-        ),
+        ensure(figure_files("figure_20"), non_empty=True),
     log:
         f"{RESULTS}/logs/figure_20.log",
     benchmark:

@@ -10,10 +10,7 @@ rule calibration:
             expand(f"{TABLES}/calibration.{{ending}}", ending=["csv", "tex", "md"]),
             non_empty=True,
         ),
-        figure=ensure(
-            expand(f"{FIGURES}/calibration.{{ending}}", ending=["pdf", "png", "csv"]),
-            non_empty=True,
-        ),
+        figure=ensure(figure_files("calibration"), non_empty=True),
     log:
         f"{RESULTS}/logs/calibration.log",
     benchmark:

@@ -9,6 +9,7 @@ from mobnet.core.config import check_config as validate
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
 from mobnet.core.methods import SCALE_SIZES, experiment_row, network_row, source_of, swept_name
+from mobnet.evaluation.paper import missing_packages
 
 ROOT = Path(workflow.basedir)
 quieten(ROOT)
@@ -27,11 +28,14 @@ MAIN = "default"  # its tables stand where a reader looks for them; other scales
 RESULTS = f"results/{SCALE}"
 TABLES, FIGURES = ("tables", "figures") if SCALE == MAIN else (f"tables/{SCALE}", f"figures/{SCALE}")
 PAPER = "paper" if SCALE == MAIN else f"{RESULTS}/paper"
+PDF = [] if missing_packages() else [f"{PAPER}/main.pdf"]  # without TeX there is none
 MANIFEST = "results/MANIFEST.sha256" if SCALE == MAIN else f"{RESULTS}/MANIFEST.sha256"
 TEST_SEEDS = [1 + i for i in range(SIZES["test"]["shards"])]
 TABLE_NAMES = ["table_01", *settings["evaluation"]["tables"], "claims", "data", "steps", "coverage", "uncertainty"]
-TABLE_NAMES += ["kinds", "methods", "calibration"]
-FIGURE_NAMES = ["figure_05", "figure_17", "figure_18", "figure_19", "figure_20", "commands", "calibration"]
+TABLE_NAMES += ["kinds", "methods", "calibration", "error_budget"]
+FIGURE_NAMES = ["figure_05", "figure_06", "figure_07", "figure_08", "figure_09", "figure_10"]
+FIGURE_NAMES += ["figure_17", "figure_18", "figure_19", "figure_20", "commands", "calibration"]
+BAR_NAMES = ["figure_06", "figure_10"]  # figures whose bars have a file of their own
 TABLE_05, FIGURE_05, FIGURE_18 = (settings["evaluation"][name] for name in ("table_05", "figure_05", "figure_18"))
 
 
@@ -289,6 +293,20 @@ def coverage_recordings():
     return list(dict.fromkeys(f"{stem}.parquet" for test in coverage_tests() for stem in test["recordings"]))
 
 
+def shown(name, kind):
+    """Mark a file for Snakemake's report, in the category and with the caption of its kind and name."""
+    place = f"report/{kind}/{Path(name).stem}.rst"
+    title = (ROOT / "workflow" / place).read_text(encoding="utf-8").splitlines()[0]
+    return report(
+        name, caption=f"../{place}", category=kind.capitalize(), labels={"file": Path(name).stem, "shows": title}
+    )
+
+
+def figure_files(name):
+    """Return the files of a figure; the report shows its picture."""
+    return [f"{FIGURES}/{name}.pdf", shown(f"{FIGURES}/{name}.png", "figures"), f"{FIGURES}/{name}.csv"]
+
+
 def products():
     """Return every file worth keeping, also those that later ones could be made without."""
     scenarios = dict.fromkeys(name for name, _, _ in wanted())
@@ -301,8 +319,9 @@ def products():
     notes = [str(Path(name).with_suffix(".json")) for name in stored]
     tables = expand(f"{TABLES}/{{name}}.{{ending}}", name=TABLE_NAMES, ending=["csv", "tex", "md"])
     figures = expand(f"{FIGURES}/{{name}}.{{ending}}", name=FIGURE_NAMES, ending=["pdf", "png", "csv"])
+    figures += expand(f"{FIGURES}/{{name}}_bars.csv", name=BAR_NAMES)
     scores = expand(f"{RESULTS}/scores/{{scenario}}.csv", scenario=scenarios)
-    texts = [f"{TABLES}/numbers.tex", f"{TABLES}/deviations.tex", f"{PAPER}/build.json", f"{RESULTS}/runs.html"]
+    texts = [f"{TABLES}/numbers.tex", f"{TABLES}/deviations.tex", f"{PAPER}/build.json", *PDF, f"{RESULTS}/runs.html"]
     return stored + notes + trained + scores + tables + figures + texts
 
 

@@ -7,10 +7,7 @@ rule figure_19:
         training("recordings", "walk_plain"),
         coverage_recordings(),
     output:
-        ensure(
-            expand(f"{FIGURES}/figure_19.{{ending}}", ending=["pdf", "png", "csv"]),
-            non_empty=True,
-        ),
+        ensure(figure_files("figure_19"), non_empty=True),
     log:
         f"{RESULTS}/logs/figure_19.log",
     benchmark:
@@ -104,10 +101,7 @@ rule commands:
     input:
         [training("recordings", name) for name in SIZES["train"]],
     output:
-        ensure(
-            expand(f"{FIGURES}/commands.{{ending}}", ending=["pdf", "png", "csv"]),
-            non_empty=True,
-        ),
+        ensure(figure_files("commands"), non_empty=True),
     log:
         f"{RESULTS}/logs/commands.log",
     benchmark:

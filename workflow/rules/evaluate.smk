@@ -1,6 +1,7 @@
 # Scores of all runs of a scenario; then the tables of errors, and a rule for each figure under its own number.
 
 WINDOWS = settings["evaluation"]["windows"]  # around pushes: only there are recordings read
+BUDGET = settings["evaluation"]["error_budget"]["tests"]  # of one scenario
 
 
 def scenarios_of_table(name):
@@ -61,14 +62,32 @@ rule table:
         "../scripts/table.py"
 
 
+rule error_budget:
+    input:
+        scores=f"{RESULTS}/scores/{BUDGET[0]['scenario']}.csv",
+    output:
+        ensure(
+            expand(f"{TABLES}/error_budget.{{ending}}", ending=["csv", "tex", "md"]),
+            non_empty=True,
+        ),
+    log:
+        f"{RESULTS}/logs/error_budget.log",
+    benchmark:
+        f"{RESULTS}/bench/error_budget.tsv"
+    threads: 1
+    params:
+        config=part("seed", "robot", evaluation=["confidence", "bootstrap_draws", "error_budget"]),
+        robot=CONTENT["robot"],
+        code=code_of("error_budget"),
+    script:
+        "../scripts/error_budget.py"
+
+
 rule figure_05:
     input:
         arrays(panels_of(FIGURE_05), "recording", "residual", "estimate"),
     output:
-        ensure(
-            expand(f"{FIGURES}/figure_05.{{ending}}", ending=["pdf", "png", "csv"]),
-            non_empty=True,
-        ),
+        ensure(figure_files("figure_05"), non_empty=True),
     log:
         f"{RESULTS}/logs/figure_05.log",
     benchmark:

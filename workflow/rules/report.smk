@@ -9,6 +9,8 @@ rule numbers:
         ensure(f"{TABLES}/numbers.tex", non_empty=True),
     log:
         f"{RESULTS}/logs/numbers.log",
+    benchmark:
+        f"{RESULTS}/bench/numbers.tsv"
     threads: 1
     params:
         config=part("scale", "rates", "evaluation", "sizes"),
@@ -24,6 +26,8 @@ rule deviations:
         ensure(f"{TABLES}/deviations.tex", non_empty=True),
     log:
         f"{RESULTS}/logs/deviations.log",
+    benchmark:
+        f"{RESULTS}/bench/deviations.tsv"
     threads: 1
     params:
         code=code_of("deviations"),
@@ -39,6 +43,7 @@ rule paper:
         figures=expand(f"{FIGURES}/{{name}}.pdf", name=FIGURE_NAMES),
     output:
         ensure(f"{PAPER}/build.json", non_empty=True),
+        ensure([shown(name, "paper") for name in PDF], non_empty=True),
     log:
         f"{RESULTS}/logs/paper.log",
     benchmark:
@@ -58,6 +63,8 @@ rule manifest:
         ensure(MANIFEST, non_empty=True),
     log:
         f"{RESULTS}/logs/manifest.log",
+    benchmark:
+        f"{RESULTS}/bench/manifest.tsv"
     threads: 1
     params:
         code=code_of("manifest"),

@@ -10,7 +10,7 @@ rule runs:
         # code_of reads Python only
         templates=expand("src/mobnet/evaluation/templates/runs.{ending}", ending=["html", "css", "js"]),
     output:
-        ensure(f"{RESULTS}/runs.html", non_empty=True),
+        ensure(shown(f"{RESULTS}/runs.html", "trainings"), non_empty=True),
     log:
         f"{RESULTS}/logs/runs.log",
     benchmark:

@@ -11,13 +11,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
 from mobnet.core.files import write_text
 from mobnet.evaluation.charts import Chart, line_chart
+from mobnet.evaluation.pages import rendered
 from mobnet.evaluation.training_runs import DIVERGED, TrainingRun, read_training_run
 
-TEMPLATES = Path(__file__).parent / "templates"
 MISSING = "–"
 
 
@@ -74,12 +72,8 @@ def runs_page(config: Mapping[str, Any], folders: Sequence[Path], page: Path) ->
         DataError: a file is missing or damaged.
     """
     runs = sorted(map(read_training_run, folders), key=lambda run: (run.method, run.limb, run.seed))
-    settings = Environment(
-        loader=FileSystemLoader(TEMPLATES), autoescape=True, undefined=StrictUndefined,
-        trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True,
-    )  # fmt: skip
-    text = settings.get_template("runs.html").render(
-        scale=config["scale"], columns=COLUMNS, runs=runs, diverged=DIVERGED,
+    text = rendered(
+        "runs.html", scale=config["scale"], columns=COLUMNS, runs=runs, diverged=DIVERGED,
         charts={run.name: charts(run) for run in runs},
         links={run.name: os.path.relpath(run.metrics, page.parent) for run in runs},
     )  # fmt: skip
