@@ -21,6 +21,7 @@ from mobnet.evaluation.rows import Score, write_rows
 from mobnet.evaluation.trainings import Epoch
 
 REPO = Path(__file__).parents[2]
+CONFIGURED = yaml.safe_load((REPO / "configs/config.yaml").read_text())["evaluation"]
 RATE_HZ = 100.0
 STEP_ROWS = 70  # rows in the air and rows on the ground of the made-up walk
 JOINTS = [f"LL{i}" for i in range(1, 7)]
@@ -54,7 +55,8 @@ def config() -> dict[str, Any]:
             "confidence": 0.95,
             "bootstrap_draws": 200,
             "table_05": {"scenario": "forward_walk", "limb": "LL", "levels": LEVELS},
-            "tables": yaml.safe_load((REPO / "configs/config.yaml").read_text())["evaluation"]["tables"],
+            "tables": CONFIGURED["tables"],
+            "error_budget": CONFIGURED["error_budget"],
             "figure_05": {"scenario": "forward_walk", "joint": "LL3", "start_s": 1.0},
             "figure_19": {"joints": ["LL2", "LL3"], "dots": 12, "test_dots": 8},
             "coverage": {

@@ -86,8 +86,10 @@ def test_pushes_are_scored_each_and_together(tmp_path: Path, walk: Walk, layout:
     assert not [row for row in score_run(layout, "knee", entry) if "push" in row.metric]
 
 
-def test_a_run_without_a_push_has_no_row_of_pushes(walk: Walk, layout: JointLayout) -> None:
-    rows = score_run(layout, "knee", walk(2.0), {"before_s": 0.1, "after_s": 0.2})
+def test_a_run_without_a_push_has_no_row_of_pushes(tmp_path: Path, walk: Walk, layout: JointLayout) -> None:
+    write_array(tmp_path / "recording", np.zeros((560, 1)), [("pushed", "-", "-")], {"rate_hz": 100.0})
+    entry = walk(2.0) | {"recording": tmp_path / "recording"}
+    rows = score_run(layout, "knee", entry, {"before_s": 0.1, "after_s": 0.2})
     assert {row.metric for row in rows} == {"rmse", "roughness", "r_rmse"}
 
 
