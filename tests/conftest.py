@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 import yaml
+from browser import BROWSER, Browser
 from numpy.typing import NDArray
 
 from mobnet.core.config import load_layout, resolve
@@ -125,6 +126,31 @@ def mirrored(robot: RobotDescription) -> Callable[..., tuple[Array, Array, Any]]
         return q, v, s
 
     return mirror
+
+
+@pytest.fixture(scope="session")
+def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
+    """A browser for all tests."""
+    browser = Browser(BROWSER or "", tmp_path_factory.mktemp("browser"))
+    yield browser
+    browser.close()
+
+
+@pytest.fixture
+def open_page(running: Browser) -> Iterator[Callable[..., Browser]]:
+    """A function that loads a file with a fragment; afterwards no script failed and nothing else was loaded."""
+    running.events.clear()
+    loaded = {"about:blank"}
+
+    def load(page: Path, fragment: str = "") -> Browser:
+        loaded.add(page.as_uri())
+        running.go(page.as_uri() + fragment)
+        return running
+
+    yield load
+    asked = {event["params"]["request"]["url"] for event in running.events if event["method"].endswith("WillBeSent")}
+    assert {url.split("#")[0] for url in asked if not url.startswith("data:")} <= loaded
+    assert [event for event in running.events if event["method"] == "Runtime.exceptionThrown"] == []
 
 
 def _recording(layout: JointLayout, rng: np.random.Generator, samples: int, segments: int) -> Recording:

@@ -3,26 +3,17 @@
 from __future__ import annotations
 
 import json
-import os
 import re
-import select
-import shutil
-import subprocess
-import time
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from html.parser import HTMLParser
-from itertools import count
 from pathlib import Path
-from typing import Any
 
 import pytest
+from browser import Browser, with_browser
 
 from mobnet.evaluation.runs_page import COLUMNS, runs_page
 
-BROWSER = shutil.which("chromium") or shutil.which("google-chrome")
-with_browser = pytest.mark.skipif(BROWSER is None, reason="no browser is installed: apt-get install chromium")
-WAIT_S = 20.0
 RUNS = {  # name -> cell, best validation loss, RMSE [N m]; the first one diverged before its first epoch ended
     "FTS-e2e-LL-s0": ("GRU", None, None),
     "GRU-LL-s0": ("GRU", -5.0, 1.5),
@@ -145,110 +136,10 @@ def test_a_hundred_long_runs_stay_small(tmp_path: Path) -> None:
     assert make_page(tmp_path).stat().st_size < 200_000
 
 
-class Browser:
-    """A headless browser, told over a pipe what to do (Chrome DevTools protocol), and what it was told of."""
-
-    def __init__(self, program: str, folder: Path) -> None:
-        read, self._write = os.pipe()
-        self._read, write = os.pipe()
-        words = [
-            program, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
-            "--disable-background-networking", f"--user-data-dir={folder}", "--remote-debugging-pipe",
-        ]  # fmt: skip
-        self.process = subprocess.Popen(
-            ["bash", "-c", f'exec "$@" 3<&{read} 4>&{write}', "bash", *words],
-            pass_fds=(read, write), stderr=subprocess.DEVNULL,
-        )  # fmt: skip
-        os.close(read)
-        os.close(write)
-        self.events: list[dict[str, Any]] = []
-        self._rest, self._number, self._session = b"", count(1), {}
-        target = self.tell("Target.createTarget", url="about:blank")["targetId"]
-        attached = self.tell("Target.attachToTarget", targetId=target, flatten=True)
-        self._session = {"sessionId": attached["sessionId"]}
-        for part in ("Page", "Runtime", "Network"):
-            self.tell(f"{part}.enable")
-
-    def close(self) -> None:
-        """End the browser and wait until it has gone."""
-        os.close(self._write)
-        self.process.wait(WAIT_S)
-        os.close(self._read)
-
-    def tell(self, method: str, **parameters: Any) -> dict[str, Any]:
-        """Send a command and return its result."""
-        number = next(self._number)
-        words = {"id": number, "method": method, "params": parameters, **self._session}
-        os.write(self._write, json.dumps(words).encode() + b"\0")
-        while (answer := self._message()).get("id") != number:
-            self.events.append(answer)
-        assert "error" not in answer, answer
-        return answer["result"]
-
-    def _message(self) -> dict[str, Any]:
-        """Return the next message."""
-        while b"\0" not in self._rest:
-            assert select.select([self._read], [], [], WAIT_S)[0], "the browser does not answer"
-            part = os.read(self._read, 1 << 16)
-            assert part, "the browser has gone"
-            self._rest += part
-        message, self._rest = self._rest.split(b"\0", 1)
-        return json.loads(message)
-
-    def value(self, script: str) -> Any:
-        """Return the value of an expression."""
-        return self.tell("Runtime.evaluate", expression=script, returnByValue=True)["result"].get("value")
-
-    def until(self, script: str, wanted: Any) -> None:
-        """Wait for an expression to have a value."""
-        end = time.monotonic() + WAIT_S
-        while (seen := self.value(script)) != wanted and time.monotonic() < end:
-            time.sleep(0.02)
-        assert seen == wanted
-
-    def go(self, address: str) -> None:
-        """Load a page afresh."""
-        self.tell("Page.navigate", url="about:blank")
-        self.until("location.href + document.readyState", "about:blankcomplete")
-        self.tell("Page.navigate", url=address)
-        self.until("location.protocol + document.readyState", "file:complete")
-
-    def click(self, selector: str) -> None:
-        """Press the mouse in the middle of an element."""
-        box = self.value(
-            f"(() => {{const e = document.querySelector({json.dumps(selector)}); e.scrollIntoView({{block: 'center'}});"
-            "const b = e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]})()"
-        )
-        for kind in ("mousePressed", "mouseReleased"):
-            self.tell("Input.dispatchMouseEvent", type=kind, x=box[0], y=box[1], button="left", clickCount=1)
-
-    def press(self, key: str, code: int, text: str = "") -> None:
-        """Press a key."""
-        for kind in ("keyDown", "keyUp"):
-            self.tell("Input.dispatchKeyEvent", type=kind, key=key, code=key, windowsVirtualKeyCode=code, text=text)
-
-
-@pytest.fixture(scope="module")
-def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
-    """A browser for all tests."""
-    browser = Browser(BROWSER or "", tmp_path_factory.mktemp("browser"))
-    yield browser
-    browser.close()
-
-
 @pytest.fixture
-def browse(running: Browser, page: Path) -> Iterator[Callable[[str], Browser]]:
-    """A function that loads the page with a fragment; afterwards no script failed and nothing else was loaded."""
-    running.events.clear()
-
-    def load(fragment: str = "") -> Browser:
-        running.go(page.as_uri() + fragment)
-        return running
-
-    yield load
-    asked = {event["params"]["request"]["url"] for event in running.events if event["method"].endswith("WillBeSent")}
-    assert {url.split("#")[0] for url in asked} <= {page.as_uri(), "about:blank"}
-    assert [event for event in running.events if event["method"] == "Runtime.exceptionThrown"] == []
+def browse(open_page: Callable[[Path, str], Browser], page: Path) -> Callable[[str], Browser]:
+    """A function that loads the page with a fragment."""
+    return lambda fragment: open_page(page, fragment)
 
 
 @with_browser
