@@ -171,6 +171,44 @@ def write_limb_scores(tmp_path: Path, layout: JointLayout) -> Callable[..., Path
     return write
 
 
+def table_scores(layout: JointLayout, rows: list[dict[str, Any]], metrics: tuple[str, ...]) -> list[Score]:
+    """Return scores of every joint that rows of a table ask for: 2 networks where there are any, 3 tests.
+
+    The k-th joint errs by k times 0.1, 4 of MOB, 3 of MOB-fric, 1 of MOB-Net, 2 of others, up to a factor per run.
+    """
+    sizes = {"MOB": 4.0, "MOB-fric": 3.0, "MOB-Net": 1.0}
+    scores: list[Score] = []
+    for row, method in ((row, method) for row in rows for method in row["methods"]):
+        networks = 1 if method in ("MOB", "MOB-fric") else 2
+        for network, test in itertools.product(range(networks), (1, 2, 3)):
+            off = 1 + 0.1 * (test - 2) + 0.04 * (network - (networks - 1) / 2)
+            for limb, joints in layout.groups.items():
+                for joint in joints:
+                    run = (row["scenario"], row["level"], method, network, test, limb, joint)
+                    value = 0.1 * sizes.get(method, 2.0) * (layout.names.index(joint) + 1) * off
+                    scores += [
+                        Score(*run, metric, value * (k + 1), "%" if metric == "r_rmse" else layout.unit(joint))
+                        for k, metric in enumerate(metrics)
+                    ]
+    return list(dict.fromkeys(scores))
+
+
+@pytest.fixture
+def write_table_scores(tmp_path: Path, layout: JointLayout, config: dict[str, Any]) -> Callable[..., dict[str, Path]]:
+    """Write the scores that a table needs: write_table_scores(name, *metrics) -> scenario -> CSV."""
+
+    def write(name: str, *metrics: str) -> dict[str, Path]:
+        rows = config["evaluation"]["tables"][name]["rows"]
+        found = {}
+        for scenario in dict.fromkeys(row["scenario"] for row in rows):
+            found[scenario] = tmp_path / f"{name}_{scenario}.csv"
+            own = [row for row in rows if row["scenario"] == scenario]
+            write_rows(found[scenario], Score, table_scores(layout, own, metrics))
+        return found
+
+    return write
+
+
 @pytest.fixture
 def write_training(tmp_path: Path) -> Callable[..., str]:
     """Write a made-up training: write_training(method, seed=0, loss=-4.0, epochs=3, **changes of run.json) -> folder.

@@ -45,6 +45,16 @@ def test_table_05_is_the_golden_one(suffix: str, tmp_path: Path, config: dict[st
     check(tmp_path / f"table_05.{suffix}")
 
 
+@pytest.mark.parametrize("suffix", ["tex", "csv", "md"])
+@pytest.mark.parametrize("name", ["table_06", "table_07", "table_10", "table_11"])
+def test_tables_of_errors_are_the_golden_ones(
+    suffix: str, name: str, tmp_path: Path, config: dict[str, Any], write_table_scores: Callable[..., dict[str, Path]]
+) -> None:
+    pushes = ["rmse_pushed", *(f"rmse_push_{k}" for k in range(1, 5))]
+    table(config, name, write_table_scores(name, "rmse", "r_rmse", *pushes), tmp_path)
+    check(tmp_path / f"{name}.{suffix}")
+
+
 def test_claims_and_numbers_are_the_golden_ones(tmp_path: Path, config: dict[str, Any]) -> None:
     table(config, "table_05", {"forward_walk": GOLDEN / "scores.csv"}, tmp_path)
     claims(config, GOLDEN / "claims.yaml", GOLDEN / "scores.csv", tmp_path)

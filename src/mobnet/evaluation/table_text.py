@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any
 
@@ -11,7 +11,7 @@ from mobnet.evaluation.markup import GAP, RULE, Line, markdown_table, number, sp
 from mobnet.evaluation.rows import Cell
 from mobnet.evaluation.scores import AVERAGE
 
-OURS, PAPER = ("ours", "simulated counterpart"), ("paper", "paper, on the robot")  # printed: of a simulation, a robot
+OURS, PAPER = ("ours", "ours, simulated"), ("paper", "paper, robot")  # where they simulated, and where they measured
 PART = "\\par\\medskip\n"  # between the parts of a table that is wider than a page
 
 
@@ -46,6 +46,7 @@ class Look:
         floor: level and method of the row that later averages are compared with, or None.
         confidence: of the intervals, a share [-].
         parts: columns that begin a further tabular in TeX; intervals then stand on two lines.
+        names: what methods are called, where it is not their name.
     """
 
     header: tuple[str, ...]
@@ -53,12 +54,13 @@ class Look:
     floor: Mapping[str, str] | None
     confidence: float
     parts: tuple[str, ...] = ()
+    names: Mapping[str, str] = field(default_factory=dict)
 
 
 def look_of(spec: Mapping[str, Any], entry: Mapping[str, Any], confidence: float) -> Look:
     """Return how a table is laid out, from its configuration, what the paper prints, and a share [-]."""
-    parts = tuple(spec.get("parts", ()))
-    return Look(tuple(spec["header"]), entry.get("robot", False), entry.get("floor"), confidence, parts)
+    parts, names = tuple(spec.get("parts", ())), spec.get("names", {})
+    return Look(tuple(spec["header"]), entry.get("robot", False), entry.get("floor"), confidence, parts, names)
 
 
 def table_tex(rows: Sequence[TableRow], look: Look) -> str:
@@ -116,7 +118,8 @@ def row_lines(
         found += intervals(row, look.confidence, stacked)
     if any(cell.published is not None for cell in row.cells):
         found.append((PAPER[look.robot], values(row, over, "published")))
-    first = [*labels, row.cells[0].method]
+    method = row.cells[0].method
+    first = [*labels, look.names.get(method, method)]
     for k, (kind, texts) in enumerate(found):
         yield [*([""] * len(first) if k else first), kind, *texts]
 
