@@ -17,6 +17,13 @@ def config_of_table(name):
     }
 
 
+def folders_of_claims():
+    """Return the folders of the networks whose losses claims name: all kinds and sizes of the left leg's."""
+    kinds = settings["evaluation"]["figure_17"]
+    sizes = [folder for size in sizes_of_networks() for folder in size["folders"]]
+    return list(dict.fromkeys(network_folders(kinds["methods"], kinds["limb"]) + sizes))
+
+
 rule score:
     input:
         lambda w: arrays(runs_of(w.scenario), "residual", "estimate"),
@@ -105,7 +112,8 @@ rule figure_05:
 
 rule claims:
     input:
-        scores=f"{RESULTS}/scores/{TABLE_05['scenario']}.csv",
+        courses(folders_of_claims()),
+        scores=expand(f"{RESULTS}/scores/{{name}}.csv", name=dict.fromkeys(name for name, _, _ in wanted())),
     output:
         ensure(
             expand(f"{TABLES}/claims.{{ending}}", ending=["csv", "tex", "md"]),
@@ -117,7 +125,9 @@ rule claims:
         f"{RESULTS}/bench/claims.tsv"
     threads: 1
     params:
-        config=part("seed", "claims", "evaluation"),
+        config=part("seed", "robot", "claims", evaluation=["confidence", "bootstrap_draws"]),
+        folders=folders_of_claims(),
+        robot=CONTENT["robot"],
         claims=CONTENT["claims"],
         code=code_of("claims"),
     script:

@@ -20,8 +20,8 @@ log = logging.getLogger(__name__)
 
 REPRODUCED = "reproduced"
 VERDICTS = (REPRODUCED, "direction only", "not reproduced", "not measured")
-HEADER = ["Claim", "Printed in", "Paper", "Ours", "", "Differs", "Holds if", "Verdict"]
-COLUMNS = r">{\raggedright\arraybackslash}p{.36\linewidth}>{\raggedright\arraybackslash}p{.15\linewidth}rrrlll"
+HEADER = ("Claim", "Printed in", "Paper", "Ours", "{:.0%}", "Differs", "Holds if", "Verdict")
+COLUMNS = r">{\raggedright\arraybackslash}p{.385\linewidth}>{\raggedright\arraybackslash}p{.12\linewidth}rrrlll"
 
 
 @dataclass(frozen=True)
@@ -77,11 +77,12 @@ def claims(
     """
     results = read_results(Path(config["robot"]), scores, folders)
     verdicts = [judge(config, claim, results) for claim in read_claims(claims_yaml)]
+    header = [text.format(config["evaluation"]["confidence"]) for text in HEADER]
     lines = [claim_line(verdict) for verdict in verdicts]
     full = [[*line, verdict.cause] for line, verdict in zip(lines, verdicts, strict=True)]
     write_rows(out_dir / "claims.csv", Verdict, verdicts)
-    write_text(out_dir / "claims.tex", text_table(COLUMNS, HEADER, lines))
-    write_text(out_dir / "claims.md", markdown_table([*HEADER, "Cause"], full, left=len(HEADER) + 1))
+    write_text(out_dir / "claims.tex", text_table(COLUMNS, header, lines))
+    write_text(out_dir / "claims.md", markdown_table([*header, "Cause"], full, left=len(header) + 1))
     for verdict in verdicts:
         log.info("%s: %s (%s, %s)", verdict.claim, verdict.verdict, number(verdict.value), verdict.rule)
 
