@@ -24,8 +24,10 @@ REPO = Path(__file__).parents[2]
 CONFIGURED = yaml.safe_load((REPO / "configs/config.yaml").read_text())["evaluation"]
 RATE_HZ = 100.0
 STEP_ROWS = 70  # rows in the air and rows on the ground of the made-up walk
+PUSHED_ROWS = range(20, 30)  # of every swing of the made-up walk
 JOINTS = [f"LL{i}" for i in range(1, 7)]
 LEVELS = {"ideal": ["MOB"], "sensor_noise": ["MOB"], "all_uncertainty": ["MOB", "MOB-Net", "FTS-e2e"]}
+PUSHED_TEST = {"scenario": "hip_pitch_step", "level": "all_uncertainty", "methods": ["MOB", "MOB-Net"]}
 MEANS = {"ideal": 0.01, "sensor_noise": 1.2, "MOB": 19.0, "MOB-Net": 1.5, "FTS-e2e": 2.0}  # avg [N m]
 
 
@@ -58,6 +60,20 @@ def config() -> dict[str, Any]:
             "tables": CONFIGURED["tables"],
             "error_budget": CONFIGURED["error_budget"],
             "figure_05": {"scenario": "forward_walk", "joint": "LL3", "start_s": 1.0},
+            "figure_06": {**PUSHED_TEST, "joint": "LL3", "before_s": 0.1, "after_s": 0.1},
+            "figure_07": {"joints": ["W2", "V3"], "start_s": 0.5, "end_s": 1.0, "every": 5},
+            "figure_08": {"limb": "LL", "start_s": 1.0},
+            "figure_09": {"limb": "LL", "start_s": 1.0},
+            "figure_10": {
+                "joint": "LL3",
+                "before_s": 0.1,
+                "after_s": 0.15,
+                "tests": {
+                    "swing knee": {**PUSHED_TEST, "scenario": "knee_swing"},
+                    "support knee": {**PUSHED_TEST, "scenario": "knee_support"},
+                },
+                "against": {**PUSHED_TEST, "scenario": "walk_test"},
+            },
             "figure_19": {"joints": ["LL2", "LL3"], "dots": 12, "test_dots": 8},
             "coverage": {
                 "limb": "LL",
@@ -280,17 +296,51 @@ def scores_csv(tmp_path: Path) -> Path:
     return tmp_path / "scores.csv"
 
 
+def push_scores(scenario: str, means: dict[str, float], pushes: int) -> list[Score]:
+    """Return scores of LL3 around pushes: `means` of all [N m], a tenth more of each later one, one less of no push."""
+    rows = []
+    for method, mean in means.items():
+        for network, test in itertools.product(range(1 if method == "MOB" else 2), (1, 2)):
+            run = (scenario, "all_uncertainty", method, network, test, "LL", "LL3")
+            value = mean * (1 + 0.1 * (test - 1.5) + 0.04 * (network - 0.5) * (method != "MOB"))
+            each = {f"rmse_push_{k}": value * (1 + 0.1 * (k - 1)) for k in range(1, pushes + 1)}
+            measured = {"rmse": value - 1.0} | each | ({"rmse_pushed": value} if pushes else {})
+            rows += [Score(*run, metric, number, "N m") for metric, number in measured.items()]
+    return rows
+
+
+@pytest.fixture
+def write_push_scores(tmp_path: Path) -> Callable[..., Path]:
+    """Write scores of a scenario with pushes: write_push_scores(scenario, means, pushes=2) -> CSV."""
+
+    def write(scenario: str, means: dict[str, float], pushes: int = 2) -> Path:
+        write_rows(tmp_path / f"{scenario}.csv", Score, push_scores(scenario, means, pushes))
+        return tmp_path / f"{scenario}.csv"
+
+    return write
+
+
 def write_walk(
-    folder: Path, layout: JointLayout, error: float, steps: int = 4, method: str = "MOB-Net"
+    folder: Path,
+    layout: JointLayout,
+    error: float,
+    steps: int,
+    method: str,
+    joints: list[str],
+    std: float | None,
+    calm: bool,
 ) -> dict[str, Any]:
-    """Write recording, residual and estimate of a made-up walk and return its entry; LL only in the estimate.
+    """Write recording, residual and estimate of a made-up walk that is pushed in every swing, and return its entry.
 
     Args:
         folder: gets the files.
         layout: joints.
-        error: constant error of the estimate of every joint [N m].
+        error: constant error of the estimate of every joint [N m]; the residual's is 5.
         steps: gait cycles.
         method: name in the entry.
+        joints: names in the estimate.
+        std: standard deviation that the estimate tells [N m]; None: none.
+        calm: whether nothing pushes.
     """
     rows = 2 * STEP_ROWS * steps
     phase = np.arange(rows) % (2 * STEP_ROWS)
@@ -300,27 +350,36 @@ def write_walk(
     zeros = np.zeros
     sensed = Sensed(zeros((rows, layout.nq)), zeros((rows, layout.nv)), zeros((rows, 3)), zeros((rows, layout.nu)),
                     zeros((rows, layout.nu)), np.stack([air, 1 - air], axis=1), zeros((rows, 5)))  # fmt: skip
-    wrench = zeros((rows, 6))
-    recording = Recording(
-        sensed, ((0, rows),), RATE_HZ, {}, Truth(truth, wrench, wrench, zeros((rows, 2)), zeros((rows, 1)))
-    )
+    wrench, pushed = zeros((rows, 6)), (np.isin(phase, PUSHED_ROWS) & (not calm)).astype(float)[:, None]
+    recording = Recording(sensed, ((0, rows),), RATE_HZ, {}, Truth(truth, wrench, wrench, zeros((rows, 2)), pushed))
     write_recording(folder / "recording", recording, layout)
     lp = [(f"tau_ext_lp.{joint}", layout.unit(joint), "joint") for joint in layout.names]
     r = [(f"r.{joint}", layout.unit(joint), "joint") for joint in layout.names]
     write_array(folder / "residual", np.concatenate([truth + 5, truth], axis=1), r + lp, {"rate_hz": RATE_HZ})
-    where = layout.columns(JOINTS)
-    columns = [(f"tau_ext.{joint}", "N m", "joint") for joint in JOINTS]
-    write_array(folder / "estimate", truth[:, where] + error, columns, {"rate_hz": RATE_HZ})
+    columns = [(f"tau_ext.{joint}", layout.unit(joint), "joint") for joint in joints]
+    estimate = truth[:, layout.columns(joints)] + error
+    if std is not None:
+        columns += [(f"std.{joint}", layout.unit(joint), "joint") for joint in joints]
+        estimate = np.concatenate([estimate, np.full(estimate.shape, std)], axis=1)
+    write_array(folder / "estimate", estimate, columns, {"rate_hz": RATE_HZ})
     stems = {name: folder / name for name in ("recording", "residual", "estimate")}
     return {"level": "all_uncertainty", "method": method, "network_seed": 0, "test_seed": 1, **stems}
 
 
 @pytest.fixture
 def walk(tmp_path: Path, layout: JointLayout) -> Callable[..., dict[str, Any]]:
-    """Write a made-up walk below the test's folder: walk(error, steps=4, method="MOB-Net") -> entry."""
+    """Write a made-up walk: walk(error, steps=4, method="MOB-Net", joints=JOINTS, std=None, calm=False) -> entry."""
 
-    def write(error: float, steps: int = 4, method: str = "MOB-Net") -> dict[str, Any]:
-        return write_walk(tmp_path / f"{method}-{error}-{steps}", layout, error, steps, method)
+    def write(
+        error: float,
+        steps: int = 4,
+        method: str = "MOB-Net",
+        joints: list[str] = JOINTS,
+        std: float | None = None,
+        calm: bool = False,
+    ) -> dict[str, Any]:
+        folder = tmp_path / f"{method}-{error}-{steps}-{joints[0]}-{std}-{calm}"
+        return write_walk(folder, layout, error, steps, method, joints, std, calm)
 
     return write
 

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from mobnet.evaluation.ablation_figures import BarPanel, Line, LinePanel, draw_bars, draw_lines
+from mobnet.evaluation.ablation_figures import Line, LinePanel, draw_bars, draw_lines
+from mobnet.evaluation.bars import BarPanel
 from mobnet.evaluation.figures import COLUMN_INCH
 
 

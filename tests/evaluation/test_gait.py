@@ -1,5 +1,6 @@
 """The gait cycle of Figure 5 begins at a lift-off, ends at the next, and lies within one segment."""
 
+import csv
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -8,7 +9,7 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import ConfigError, DataError
-from mobnet.evaluation.gait import figure_05, foot_of, gait_cycle, read_panel
+from mobnet.evaluation.gait import figure_05, figure_08, figure_09, foot_of, gait_cycle, read_panel
 
 Walk = Callable[..., dict[str, Any]]
 AIR = np.array([1, 1, 0, 0, 0, 1, 1, 0, 0, 1, 1, 0, 1, 0, 0, 1], dtype=bool)  # lift-offs at 5, 9, 12, 15
@@ -44,8 +45,9 @@ def test_panel_holds_the_cycle_of_the_joint(walk: Walk, config: dict[str, Any]) 
     assert panel.title == "MOB-Net, all uncertainty"
     assert len(panel.time) == 140
     assert panel.time[0] == 0.0
-    assert panel.swing.sum() == 70
-    np.testing.assert_allclose(panel.estimate - panel.truth, 2.0, rtol=1e-4)
+    assert panel.flags["swing"].sum() == 70
+    truth, estimate = panel.curves
+    np.testing.assert_allclose(estimate.values - truth.values, 2.0, rtol=1e-4)
 
 
 def test_a_scale_too_short_may_start_earlier(walk: Walk, config: dict[str, Any]) -> None:
@@ -74,5 +76,29 @@ def test_figure_is_written_as_vector_picture_and_numbers(tmp_path: Path, walk: W
     assert (tmp_path / "figure_05.pdf").read_bytes().startswith(b"%PDF")
     assert (tmp_path / "figure_05.png").read_bytes().startswith(b"\x89PNG")
     lines = (tmp_path / "figure_05.csv").read_text().splitlines()
-    assert lines[0] == "panel,time_s,swing,truth_nm,estimate_nm"
+    assert lines[0] == "panel,time_s,swing,truth,MOB,MOB-Net"
     assert len(lines) == 1 + 2 * 140
+
+
+def test_figure_08_tells_target_prediction_and_error_of_every_joint(
+    tmp_path: Path, walk: Walk, config: dict[str, Any]
+) -> None:
+    figure_08(config, [walk(2.0, std=0.5)], tmp_path)
+    with (tmp_path / "figure_08.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert list(dict.fromkeys(row["panel"] for row in rows)) == [f"LL{i}, RMSE 2.00 N m" for i in range(1, 7)]
+    assert len(rows) == 6 * 140
+    for row in rows:
+        assert float(row["target"]) == pytest.approx(5.0, rel=1e-4)
+        assert float(row["MOB-Net"]) == pytest.approx(3.0, rel=1e-4)
+        assert float(row["MOB-Net std"]) == 0.5
+
+
+def test_figure_09_shows_every_method_on_every_joint(tmp_path: Path, walk: Walk, config: dict[str, Any]) -> None:
+    figure_09(config, [walk(-15.0, method="MOB"), walk(4.0, method="MOB-fric"), walk(2.0)], tmp_path)
+    with (tmp_path / "figure_09.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert list(dict.fromkeys(row["panel"] for row in rows)) == [f"LL{i}" for i in range(1, 7)]
+    for row in rows[70:80]:
+        errors = [float(row[method]) - float(row["truth"]) for method in ("MOB", "MOB-fric", "MOB-Net")]
+        assert errors == pytest.approx([-15.0, 4.0, 2.0], rel=1e-3)

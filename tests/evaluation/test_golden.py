@@ -16,12 +16,14 @@ from mobnet.evaluation.claims import claims
 from mobnet.evaluation.commands import commands, steps
 from mobnet.evaluation.coverage import coverage
 from mobnet.evaluation.data_sets import data
-from mobnet.evaluation.gait import figure_05
+from mobnet.evaluation.gait import figure_05, figure_08, figure_09
 from mobnet.evaluation.growth import figure_20
+from mobnet.evaluation.hand_load import figure_07
 from mobnet.evaluation.kinds import kinds
 from mobnet.evaluation.losses import figure_17
 from mobnet.evaluation.numbers import numbers
 from mobnet.evaluation.overview import methods
+from mobnet.evaluation.pushes import figure_06, figure_10
 from mobnet.evaluation.single import figure_18
 from mobnet.evaluation.spread import figure_19
 from mobnet.evaluation.tables import table
@@ -68,6 +70,33 @@ def test_figure_05_is_made_of_the_golden_numbers(
 ) -> None:
     figure_05(config, [walk(-15.0, method="MOB"), walk(1.5)], tmp_path)
     check(tmp_path / "figure_05.csv")
+
+
+def test_figures_over_time_are_made_of_the_golden_numbers(
+    tmp_path: Path, config: dict[str, Any], walk: Callable[..., dict[str, Any]]
+) -> None:
+    mob, net = walk(-15.0, method="MOB"), walk(1.5, std=0.5)
+    joints = ["W2", "V3"]
+    figure_07(config, [walk(-15.0, method="MOB", joints=joints), walk(1.5, joints=joints, std=0.5)], tmp_path)
+    figure_08(config, [net], tmp_path)
+    figure_09(config, [mob, net], tmp_path)
+    for name in ("figure_07.csv", "figure_08.csv", "figure_09.csv"):
+        check(tmp_path / name)
+
+
+def test_figures_of_pushes_are_made_of_the_golden_numbers(
+    tmp_path: Path,
+    config: dict[str, Any],
+    walk: Callable[..., dict[str, Any]],
+    write_push_scores: Callable[..., Path],
+) -> None:
+    entries = [walk(-15.0, method="MOB"), walk(1.5)]
+    names = ("hip_pitch_step", "knee_swing", "knee_support", "walk_test")
+    scores = {name: write_push_scores(name, {"MOB": 20.0 - k, "MOB-Net": 3.0 + k}) for k, name in enumerate(names)}
+    figure_06(config, entries, scores["hip_pitch_step"], tmp_path)
+    figure_10(config, {"swing knee": entries, "support knee": entries}, scores, tmp_path)
+    for name in ("figure_06.csv", "figure_06_bars.csv", "figure_10.csv", "figure_10_bars.csv"):
+        check(tmp_path / name)
 
 
 def test_tables_of_the_data_are_the_golden_ones(

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
+from mobnet.evaluation.bars import BarPanel, draw_bar_panel
 from mobnet.evaluation.figures import COLUMN_INCH, STYLE, legend
 
 PANEL_INCH, LEGEND_INCH = 1.6, 0.45  # height of a panel and of the legend above all
@@ -20,10 +21,7 @@ PANEL_INCH, LEGEND_INCH = 1.6, 0.45  # height of a panel and of the legend above
 COLOURS = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "black", "#56B4E9")
 DASHES: Sequence[Any] = ("-", (0, (5, 1.5)), (0, (1, 1)), (0, (5, 1, 1, 1)), (0, (3, 1, 1, 1, 1, 1)), (0, (8, 2)), "-")
 MARKERS = "osD^vPX"
-HATCHES = ("", "////", "xxxx", "....")
-SHADES = ("#D55E00", "#56B4E9", "#E69F00", "#009E73")
 LEGEND: Mapping[str, Any] = {"columns": 3, "handlelength": 2.6, "columnspacing": 1.2, "handletextpad": 0.5}
-BAR_SHARE = 0.8  # of the distance between two groups of bars
 
 
 @dataclass(frozen=True)
@@ -62,23 +60,6 @@ class LinePanel:
     y_label: str
     lines: Sequence[Line]
     sizes: bool = False
-
-
-@dataclass(frozen=True)
-class BarPanel:
-    """One panel of Figure 18.
-
-    Attributes:
-        title: the test.
-        groups: names of the groups of bars (n,).
-        heights: method -> height of its bar in each group (n,) [N m].
-        spans: method -> ends of the intervals (2, n) [N m]; equal to the height where there is none.
-    """
-
-    title: str
-    groups: Sequence[str]
-    heights: Mapping[str, NDArray[Any]]
-    spans: Mapping[str, NDArray[Any]]
 
 
 def draw_lines(panels: Sequence[LinePanel]) -> Figure:
@@ -132,25 +113,11 @@ def draw_bars(panels: Sequence[BarPanel], y_label: str) -> Figure:
     with mpl.rc_context({**STYLE, "hatch.linewidth": 0.5}):
         figure, axes = _stacked(len(panels))
         for letter, axis, panel in zip("abcdefgh", axes, panels, strict=False):
-            _bars(axis, panel)
+            draw_bar_panel(axis, panel)
             axis.set(ylabel=y_label)
             axis.set_title(f"({letter}) {panel.title}", loc="left", pad=3)
         legend(figure, axes, **LEGEND)
     return figure
-
-
-def _bars(axis: Axes, panel: BarPanel) -> None:
-    """Draw a panel's bars (n,) [N m] side by side in their groups."""
-    places, width = np.arange(len(panel.groups)), BAR_SHARE / len(panel.heights)
-    for k, (method, heights) in enumerate(panel.heights.items()):
-        low, high = panel.spans[method]
-        axis.bar(
-            places + (k - (len(panel.heights) - 1) / 2) * width, heights, width, label=method,
-            color=SHADES[k % len(SHADES)], hatch=HATCHES[k % len(HATCHES)], edgecolor="black", linewidth=0.4,
-            yerr=[heights - low, high - heights], error_kw={"linewidth": 0.8, "capsize": 2.0},
-        )  # fmt: skip
-    axis.set_xticks(places, panel.groups)
-    axis.tick_params(axis="x", length=0.0)
 
 
 def _stacked(count: int) -> tuple[Figure, list[Axes]]:

@@ -1,4 +1,4 @@
-"""Figure 5: pick one gait cycle out of a recording and draw it."""
+"""Figures 5, 8 and 9: pick one gait cycle out of a recording and draw joints of the leg that begins it."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from numpy.typing import NDArray
 
 from mobnet.core.config import load_layout, read_yaml
 from mobnet.core.errors import ConfigError, DataError, not_accepted
-from mobnet.core.files import write_text
 from mobnet.core.recording import FEET
-from mobnet.core.store import read_array
-from mobnet.evaluation.figures import Panel, curve_rows, draw_gait_cycle, save_figure
-from mobnet.evaluation.metrics import Spans
+from mobnet.evaluation.curves import Curves, read_curves
+from mobnet.evaluation.figures import Panel, draw_panels, save_figure, write_panels
+from mobnet.evaluation.metrics import Spans, rmse_in_spans
 from mobnet.evaluation.published import read_published
-from mobnet.evaluation.rows import csv_text
-from mobnet.evaluation.scores import read_pair
 
 log = logging.getLogger(__name__)
 
 SWING = "swing."  # columns of a recording
-AIR = 0.5  # a stored flag above this is 1
+FROM_LIFT_OFF = "time from lift-off [s]"
+SIDE_BY_SIDE, HEIGHT_INCH = 3, 1.5  # panels of a leg's joints
+
+Entries = Sequence[Mapping[str, Any]]
 
 
-def figure_05(config: Mapping[str, Any], entries: Sequence[Mapping[str, Any]], out_dir: Path) -> None:
+def figure_05(config: Mapping[str, Any], entries: Entries, out_dir: Path) -> None:
     """Write Figure 5, one gait cycle of one joint [N m], as PDF, PNG and the plotted numbers as CSV.
 
     Args:
@@ -43,33 +43,98 @@ def figure_05(config: Mapping[str, Any], entries: Sequence[Mapping[str, Any]], o
     settings = config["evaluation"]["figure_05"]
     labels = read_published(Path(config["published"]), "table_05")["labels"]
     panels = [read_panel(config, entry, labels.get(entry["level"], entry["level"])) for entry in entries]
-    header = ("panel", "time_s", "swing", "truth_nm", "estimate_nm")
-    write_text(out_dir / "figure_05.csv", csv_text(header, curve_rows(panels)))
-    save_figure(draw_gait_cycle(panels, settings["joint"]), out_dir / "figure_05")
+    y_label = f"external torque of {settings['joint']} [N m]"
+    write_panels(out_dir / "figure_05.csv", panels)
+    save_figure(draw_panels(panels, FROM_LIFT_OFF, y_label, one_scale=True), out_dir / "figure_05")
     log.info("%s: %d panels", out_dir / "figure_05.pdf", len(panels))
 
 
 def read_panel(config: Mapping[str, Any], entry: Mapping[str, Any], label: str) -> Panel:
-    """Return one panel: the first whole gait cycle after the start.
+    """Return one panel of Figure 5: the first whole gait cycle after the start.
 
     Raises:
         DataError: a file is missing or damaged, or no whole cycle follows the start.
     """
-    joint = config["evaluation"]["figure_05"]["joint"]
-    start_s = config["sizes"].get("figure_start_s", config["evaluation"]["figure_05"]["start_s"])
-    pair = read_pair(Path(entry["estimate"]), Path(entry["residual"]), load_layout(Path(config["robot"])))
-    if joint not in pair.joints:
-        raise ConfigError(f"{entry['estimate']}.json: " + not_accepted("joint", joint, pair.joints))
-    stem = Path(entry["recording"])
-    swing, _ = read_array(stem, [SWING + foot_of(Path(config["robot"]), joint)])
-    air = swing[:, 0] > AIR
-    rows = gait_cycle(air, pair.spans, round(start_s * pair.rate_hz))
-    if rows is None:
-        raise DataError(f"{stem}.parquet: no whole gait cycle after {start_s} s; it lasts {len(air) / pair.rate_hz} s")
-    column = pair.joints.index(joint)
-    time = np.arange(rows.stop - rows.start) / pair.rate_hz
+    settings = config["evaluation"]["figure_05"]
+    curves, rows = read_cycle(config, settings, [entry], [settings["joint"]])
     title = f"{entry['method']}, {label[:1].lower()}{label[1:]}"
-    return Panel(title, entry["method"], time, air[rows], pair.truth[rows, column], pair.estimate[rows, column])
+    return curves.panel(title, settings["joint"], rows, zero=rows.start)
+
+
+def figure_08(config: Mapping[str, Any], entries: Entries, out_dir: Path) -> None:
+    """Write Figure 8, uncertainty torque of a leg over one gait cycle [N m]: the target and what a network predicts.
+
+    The error told in a panel's title is that over the whole recording, as the paper tells it.
+
+    Args:
+        config: resolved configuration: `robot`, `evaluation.figure_08` (limb, start_s), `sizes.figure_start_s`.
+        entries: a mapping a method: method, and the stems `recording`, `residual`, `estimate` of one recording.
+        out_dir: gets figure_08.pdf, .png and .csv.
+
+    Raises:
+        DataError: a file is missing or damaged, or no whole cycle follows the start.
+    """
+    settings = config["evaluation"]["figure_08"]
+    joints = load_layout(Path(config["robot"])).limb(settings["limb"])
+    curves, rows = read_cycle(config, settings, entries, joints)
+    (estimate,) = curves.estimates.values()
+    errors = rmse_in_spans(estimate, curves.truth, curves.spans, curves.rate_hz).tolist()
+    panels = [
+        curves.uncertainty_panel(f"{joint}, RMSE {error:.2f} N m", joint, rows, zero=rows.start)
+        for joint, error in zip(joints, errors, strict=True)
+    ]
+    _write(panels, "uncertainty torque [N m]", out_dir / "figure_08")
+
+
+def figure_09(config: Mapping[str, Any], entries: Entries, out_dir: Path) -> None:
+    """Write Figure 9, external torque of a leg over one gait cycle by method [N m].
+
+    Args:
+        config: resolved configuration: `robot`, `evaluation.figure_09` (limb, start_s), `sizes.figure_start_s`.
+        entries: a mapping a method: method, and the stems `recording`, `residual`, `estimate` of one recording.
+        out_dir: gets figure_09.pdf, .png and .csv.
+
+    Raises:
+        DataError: a file is missing or damaged, or no whole cycle follows the start.
+    """
+    settings = config["evaluation"]["figure_09"]
+    joints = load_layout(Path(config["robot"])).limb(settings["limb"])
+    curves, rows = read_cycle(config, settings, entries, joints)
+    panels = [curves.panel(joint, joint, rows, zero=rows.start) for joint in joints]
+    _write(panels, "external torque [N m]", out_dir / "figure_09")
+
+
+def _write(panels: Sequence[Panel], y_label: str, stem: Path) -> None:
+    """Write a leg's panels [N m] as CSV, PDF and PNG."""
+    write_panels(stem.with_suffix(".csv"), panels)
+    save_figure(draw_panels(panels, FROM_LIFT_OFF, y_label, SIDE_BY_SIDE, height_inch=HEIGHT_INCH), stem)
+    log.info("%s.pdf: %d panels", stem, len(panels))
+
+
+def read_cycle(
+    config: Mapping[str, Any], settings: Mapping[str, Any], entries: Entries, joints: Sequence[str]
+) -> tuple[Curves, slice]:
+    """Return what methods made of joints of a leg, and the rows of the first whole gait cycle after the start.
+
+    Args:
+        config: resolved configuration: `robot`, `sizes.figure_start_s` instead of start_s where it is given.
+        settings: start_s [s].
+        entries: a mapping a method, all of one recording.
+        joints: names.
+
+    Raises:
+        DataError: a file is missing or damaged, or no whole cycle follows the start.
+        ConfigError: the first joint belongs to no leg.
+    """
+    robot, start_s = Path(config["robot"]), config["sizes"].get("figure_start_s", settings["start_s"])
+    curves = read_curves(robot, entries, joints, {"swing": SWING + foot_of(robot, joints[0])})
+    rows = gait_cycle(curves.flags["swing"], curves.spans, round(start_s * curves.rate_hz))
+    if rows is None:
+        length_s = len(curves.truth) / curves.rate_hz
+        raise DataError(
+            f"{entries[0]['recording']}.parquet: no whole gait cycle after {start_s} s; it lasts {length_s} s"
+        )
+    return curves, rows
 
 
 def gait_cycle(air: NDArray[np.bool_], segments: Spans, start: int) -> slice | None:

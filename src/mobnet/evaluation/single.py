@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mobnet.core.config import load_layout
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.ablation_figures import BarPanel, draw_bars
+from mobnet.evaluation.ablation_figures import draw_bars
+from mobnet.evaluation.bars import BarPanel
 from mobnet.evaluation.figures import save_figure
-from mobnet.evaluation.intervals import Summary, summarise
+from mobnet.evaluation.intervals import Summary, mean, summarise
 from mobnet.evaluation.rows import Score, read_rows, write_rows
 from mobnet.evaluation.runs import Wanted, run_grid
 from mobnet.evaluation.scores import AVERAGE
@@ -99,11 +99,6 @@ def method_bars(
             for joint, grid in zip(layout.limb(limb), own, strict=True)
         ]
     return bars
-
-
-def mean(means: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the mean over joints of their means (n, ...) [N m], (...)."""
-    return means.mean(axis=0)
 
 
 def _numbers(summary: Summary) -> tuple[int, float, float | None, float | None]:
