@@ -9,14 +9,8 @@ import pytest
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
 from mobnet.core.names import (
-    ablation_uses,
-    calibration_uses,
+    USES,
     check_names,
-    evaluation_uses,
-    method_uses,
-    network_uses,
-    scenario_uses,
-    size_uses,
 )
 
 
@@ -25,8 +19,7 @@ def test_the_repository_names_only_what_exists(full_config: dict[str, Any], layo
 
 
 def test_every_reference_is_looked_at(full_config: dict[str, Any], layout: JointLayout) -> None:
-    every = (network_uses, method_uses, scenario_uses, size_uses, evaluation_uses, ablation_uses, calibration_uses)
-    keys = {key for uses in every for key, _, _ in uses(full_config, layout)}
+    keys = {key for uses in USES for key, _, _ in uses(full_config, layout)}
     expected = {
         "networks.V.Q",
         "networks.WB.joints",
@@ -38,7 +31,9 @@ def test_every_reference_is_looked_at(full_config: dict[str, Any], layout: Joint
         "scale",
         "scenarios.random_walk.terrain",
     }
-    expected |= {"evaluation.table_05.levels.ideal", "evaluation.figure_05.joint", "tests", "tests.walk_test"}
+    expected |= {"evaluation.figure_05.panels.sensor_noise", "evaluation.figure_05.joint", "tests", "tests.walk_test"}
+    expected |= {f"evaluation.tables.table_05.{key}" for key in ("joints", "scenario", "level", "methods")}
+    expected |= {"evaluation.error_budget.joints", "evaluation.error_budget.methods", "evaluation.windows"}
     expected |= {"scenarios.random_walk.pushes", "scenarios.random_motion.motion", "scenarios.hand_load_10.draws"}
     expected |= {"pushes.hip_pitch.joint", "scales.paper.train.walk.scenario", "scales.smoke.train.motion.level"}
     expected |= {"evaluation.table_01.method", "evaluation.figure_17.methods", "evaluation.kinds.variants"}
@@ -59,10 +54,24 @@ def test_a_sweep_that_a_figure_shows_must_exist(full_config: dict[str, Any], lay
 
 
 def test_unknown_method_of_a_table_is_named(full_config: dict[str, Any], layout: JointLayout) -> None:
-    table = {**full_config["evaluation"]["table_05"], "levels": {"ideal": ["MOB", "magic"]}}
-    config = {**full_config, "evaluation": {**full_config["evaluation"], "table_05": table}}
-    with pytest.raises(ConfigError, match=r"table_05\.levels\.ideal: 'magic' is not accepted; accepted: FTS-e2e, "):
-        check_names(config, layout)
+    with pytest.raises(ConfigError, match=r"table_05\.methods: 'magic' is not accepted; accepted: FTS-e2e, "):
+        check_names(with_row(full_config, methods=["MOB", "magic"]), layout)
+
+
+def test_a_table_asks_for_pushes_only_where_they_are_scored(full_config: dict[str, Any], layout: JointLayout) -> None:
+    check_names(with_row(full_config, scenario="knee_swing", metric="rmse_pushed"), layout)
+    with pytest.raises(
+        ConfigError, match=r"table_05\.scenario, around pushes: 'walk_test' is not accepted; accepted: "
+    ):
+        check_names(with_row(full_config, scenario="walk_test", metric="rmse_pushed"), layout)
+
+
+def with_row(config: dict[str, Any], **changes: Any) -> dict[str, Any]:
+    """Return a configuration whose Table 5 begins with a row that is changed."""
+    tables = config["evaluation"]["tables"]
+    first, *others = tables["table_05"]["rows"]
+    table = {**tables["table_05"], "rows": [{**first, **changes}, *others]}
+    return {**config, "evaluation": {**config["evaluation"], "tables": {**tables, "table_05": table}}}
 
 
 @pytest.mark.parametrize(("key", "value"), [("fitted", ["tail"]), ("of", "magic"), ("of", "MOB-fric-BPF")])

@@ -56,7 +56,6 @@ def config() -> dict[str, Any]:
         "evaluation": {
             "confidence": 0.95,
             "bootstrap_draws": 200,
-            "table_05": {"scenario": "forward_walk", "limb": "LL", "levels": LEVELS},
             "tables": CONFIGURED["tables"],
             "error_budget": CONFIGURED["error_budget"],
             "figure_05": {"scenario": "forward_walk", "joint": "LL3", "start_s": 1.0},

@@ -36,7 +36,7 @@ TABLE_NAMES += ["kinds", "methods", "calibration", "error_budget"]
 FIGURE_NAMES = ["figure_05", "figure_06", "figure_07", "figure_08", "figure_09", "figure_10"]
 FIGURE_NAMES += ["figure_17", "figure_18", "figure_19", "figure_20", "commands", "calibration"]
 BAR_NAMES = ["figure_06", "figure_10"]  # figures whose bars have a file of their own
-TABLE_05, FIGURE_05, FIGURE_18 = (settings["evaluation"][name] for name in ("table_05", "figure_05", "figure_18"))
+FIGURE_05, FIGURE_18 = (settings["evaluation"][name] for name in ("figure_05", "figure_18"))
 
 
 wildcard_constraints:
@@ -227,8 +227,7 @@ def asked_in(node):
 
 def wanted():
     """Return scenario, level and method of every run that a table or a figure asks for, each once."""
-    found = [(TABLE_05["scenario"], level, TABLE_05["levels"][level]) for level in TABLE_05["levels"]]
-    found += [(FIGURE_05["scenario"], level, FIGURE_05["panels"][level]) for level in FIGURE_05["panels"]]
+    found = [(FIGURE_05["scenario"], level, FIGURE_05["panels"][level]) for level in FIGURE_05["panels"]]
     found += [(scenario, FIGURE_18["level"], FIGURE_18["methods"]) for scenario in FIGURE_18["panels"]]
     found += asked_in(settings["evaluation"])
     return list(dict.fromkeys((scenario, level, method) for scenario, level, names in found for method in names))

@@ -17,7 +17,7 @@ def check_names(config: Mapping[str, Any], layout: JointLayout, where: str = "co
     Raises:
         ConfigError: one line with the key, the name and the accepted names.
     """
-    for uses in (network_uses, method_uses, scenario_uses, size_uses, evaluation_uses, ablation_uses, calibration_uses):
+    for uses in USES:
         for key, name, accepted in uses(config, layout):
             if name not in accepted:
                 raise ConfigError(f"{where}: {not_accepted(key, name, accepted)}")
@@ -78,16 +78,33 @@ def size_uses(config: Mapping[str, Any], _: JointLayout) -> Iterator[Use]:
 
 
 def evaluation_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
-    """Yield what the tables and figures name."""
-    table, figure = config["evaluation"]["table_05"], config["evaluation"]["figure_05"]
+    """Yield what Figure 5 and the tables and figures of the data name."""
+    figure = config["evaluation"]["figure_05"]
     yield from data_uses(config, layout)
-    yield "evaluation.table_05.limb", table["limb"], layout.groups
     yield "evaluation.figure_05.joint", figure["joint"], layout.names
-    for key, part, levels in (("table_05", table, "levels"), ("figure_05", figure, "panels")):
-        yield f"evaluation.{key}.scenario", part["scenario"], config["scenarios"]
-        for level, methods in part[levels].items():
-            yield f"evaluation.{key}.{levels}", level, config["levels"]
-            yield from ((f"evaluation.{key}.{levels}.{level}", method, config["methods"]) for method in methods)
+    yield "evaluation.figure_05.scenario", figure["scenario"], config["scenarios"]
+    for level, methods in figure["panels"].items():
+        yield "evaluation.figure_05.panels", level, config["levels"]
+        yield from ((f"evaluation.figure_05.panels.{level}", method, config["methods"]) for method in methods)
+
+
+def table_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
+    """Yield what the tables of errors, such as Table 5, and the error budget name."""
+    settings = config["evaluation"]
+    yield from (("evaluation.windows", scenario, config["scenarios"]) for scenario in settings["windows"])
+    tables = {f"tables.{name}": (spec["columns"], spec["rows"]) for name, spec in settings["tables"].items()}
+    budget = settings["error_budget"]
+    for name, (columns, rows) in (tables | {"error_budget": (budget["joints"], budget["tests"])}).items():
+        place, asked = f"evaluation.{name}", [column for column in columns if isinstance(column, Mapping)]
+        joints = [column for column in columns if isinstance(column, str)]
+        joints += [joint for column in asked for joint in column["joints"]]
+        yield from ((f"{place}.joints", joint, (*layout.groups, *layout.names)) for joint in joints)
+        metrics = [metric for column in asked for metric in column.get("metrics", ())]
+        for row in rows:
+            yield from test_uses(place, row, config, layout)
+            yield from ((f"{place}.methods", method, config["methods"]) for method in row["methods"])
+            if any("push" in metric for metric in (*metrics, row.get("metric", ""))):
+                yield f"{place}.scenario, around pushes", row["scenario"], settings["windows"]
 
 
 def data_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
@@ -137,3 +154,9 @@ def test_uses(place: str, test: Mapping[str, Any], config: Mapping[str, Any], la
     yield f"{place}.level", test["level"], config["levels"]
     if "pushed" in test:
         yield f"{place}.pushed", test["pushed"], layout.actuated
+
+
+USES = (
+    network_uses, method_uses, scenario_uses, size_uses,
+    evaluation_uses, table_uses, ablation_uses, calibration_uses,
+)  # fmt: skip
