@@ -1,8 +1,10 @@
 """Claims as written: what cells share is filled in, a malformed one is named, bounds lie within each other."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import yaml
 
@@ -10,9 +12,26 @@ from mobnet.core.errors import ConfigError
 from mobnet.evaluation.claim import Claim, inside, read_claims, rule_text
 from mobnet.evaluation.kinds import MEASURES
 from mobnet.evaluation.metrics import METRICS, PUSH, PUSHED
+from mobnet.evaluation.published import published_row, read_published
+from mobnet.evaluation.quantities import QUANTITIES
 from mobnet.evaluation.results import listed
 
 CLAIMS = Path(__file__).parents[2] / "configs/claims.yaml"
+PUBLISHED = CLAIMS.with_name("published.yaml")
+TABLES = {  # scenario -> table and place of its methods
+    "forward_walk": [("table_05", "rows.{}")],
+    "hip_pitch_step": [("figure_06", "rows.{}")],
+    "motion_test": [("table_06", "data_sets.collision_free_motion.{}"), ("table_08", "rmse.collision_free_motion")],
+    "hand_load_10": [("table_06", "data_sets.left_hand_load_10n.{}")],
+    "hand_load_30": [("table_06", "data_sets.left_hand_load_30n.{}")],
+    "walk_test": [("table_07", "rmse_nm"), ("table_10", "rmse_nm")],
+    "knee_swing": [("table_11", "rmse_nm"), ("figure_10", "rows.knee_swing")],
+    "hand_wrench": [("table_08", "rmse.external_wrench_on_hand")],
+}
+ENTRIES = {table: read_published(PUBLISHED, table) for places in TABLES.values() for table, _ in places}
+COLUMNS = {"LL": "avg", "W+LA": "avg W+LA", "W+RA": "avg W+RA", "V1+V2+V3": "avg V lin", "V4+V5+V6": "avg V ang"}
+IN_WORDS = {"support-mob-net-growth", "support-fts-e2e-growth"}  # "approximately 1 Nm"
+IN_WORDS |= {"size-mob-net", "size-fts-e2e", "data-mob-net", "data-fts-e2e"}  # "decreases as"
 KNOWN = {*METRICS, *MEASURES, PUSHED, *(PUSH.format(k) for k in range(1, 7))}
 
 
@@ -26,6 +45,25 @@ def test_what_is_reproduced_also_points_the_papers_way(claim: Claim) -> None:
 @pytest.mark.parametrize("claim", read_claims(CLAIMS), ids=lambda claim: claim.name)
 def test_the_papers_own_number_would_count_as_reproduced(claim: Claim) -> None:
     assert claim.published is None or inside(claim.published, claim.reproduced)
+
+
+@pytest.mark.parametrize("claim", read_claims(CLAIMS), ids=lambda claim: claim.name)
+def test_the_papers_number_follows_from_its_tables(claim: Claim) -> None:
+    if claim.published is None or claim.name in IN_WORDS:
+        return
+    means = np.array([printed(cell) for cell in claim.cells])
+    assert QUANTITIES[claim.quantity].made(means) == pytest.approx(claim.published, abs=0.006)
+
+
+def printed(cell: Mapping[str, Any]) -> float:
+    """Return what the paper prints in a cell, from the first of its tables that has the method and the column."""
+    joint = cell["joint"] if isinstance(cell["joint"], str) else "+".join(cell["joint"])
+    column = "avg" if cell["scenario"] == "knee_swing" else COLUMNS.get(joint, joint)
+    for table, place in TABLES[cell["scenario"]]:
+        row = published_row(ENTRIES[table], place.format(cell["level"]), cell["method"])
+        if row.get(column) is not None:
+            return float(row[column] or 0.0)
+    raise AssertionError(f"the paper prints no {column} of {cell}")
 
 
 @pytest.mark.parametrize("claim", read_claims(CLAIMS), ids=lambda claim: claim.name)

@@ -57,10 +57,14 @@ def test_tables_of_errors_are_the_golden_ones(
     check(tmp_path / f"{name}.{suffix}")
 
 
-def test_claims_and_numbers_are_the_golden_ones(tmp_path: Path, config: dict[str, Any]) -> None:
+def test_claims_and_numbers_are_the_golden_ones(
+    tmp_path: Path, config: dict[str, Any], write_training: Callable[..., str]
+) -> None:
+    losses = {"GRU": -4.0, "LSTM": -3.8, "MLP": -3.0}
+    folders = [write_training(kind, seed, loss + 0.05 * seed) for kind, loss in losses.items() for seed in range(2)]
     table(config, "table_05", {"forward_walk": GOLDEN / "scores.csv"}, tmp_path)
-    claims(config, GOLDEN / "claims.yaml", GOLDEN / "scores.csv", tmp_path)
-    numbers(config, tmp_path / "table_05.csv", tmp_path / "claims.csv", tmp_path / "numbers.tex")
+    claims(config, GOLDEN / "claims.yaml", [GOLDEN / "scores.csv"], folders, tmp_path)
+    numbers(config, [tmp_path / "table_05.csv"], tmp_path / "claims.csv", tmp_path / "numbers.tex")
     for name in ("claims.csv", "claims.tex", "claims.md", "numbers.tex"):
         check(tmp_path / name)
 

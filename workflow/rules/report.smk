@@ -3,7 +3,7 @@
 
 rule numbers:
     input:
-        table=f"{TABLES}/table_05.csv",
+        tables=expand(f"{TABLES}/{{name}}.csv", name=settings["evaluation"]["tables"]),
         claims=f"{TABLES}/claims.csv",
     output:
         ensure(f"{TABLES}/numbers.tex", non_empty=True),
@@ -13,7 +13,7 @@ rule numbers:
         f"{RESULTS}/bench/numbers.tsv"
     threads: 1
     params:
-        config=part("scale", "rates", "evaluation", "sizes"),
+        config=part("scale", "rates", "sizes"),
         code=code_of("numbers"),
     script:
         "../scripts/numbers.py"

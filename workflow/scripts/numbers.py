@@ -6,5 +6,5 @@ from mobnet.core.logs import job
 from mobnet.evaluation.numbers import numbers
 
 with job(snakemake.log[0]):
-    table, judged = Path(snakemake.input.table), Path(snakemake.input.claims)
-    numbers(snakemake.params.config, table, judged, Path(snakemake.output[0]))
+    tables, judged = map(Path, snakemake.input.tables), Path(snakemake.input.claims)
+    numbers(snakemake.params.config, tables, judged, Path(snakemake.output[0]))

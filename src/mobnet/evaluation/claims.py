@@ -124,14 +124,11 @@ def differs(ours: Summary | None, equality: float | None) -> str:
 def claim_line(verdict: Verdict) -> list[str]:
     """Return the texts of a row of the table."""
     unit = "" if verdict.unit == "-" else f" {verdict.unit}"
+    own = [verdict.says, verdict.printed, number(verdict.published), *ours_text(verdict)]
+    return [*own, verdict.differs, verdict.rule + unit, verdict.verdict]
+
+
+def ours_text(verdict: Verdict) -> tuple[str, str]:
+    """Return our number and its interval as text; small ones with a unit get a digit more."""
     digits = 2 if verdict.unit == "-" or abs(verdict.value or 0.0) >= 1 else 3
-    return [
-        verdict.says,
-        verdict.printed,
-        number(verdict.published),
-        number(verdict.value, digits),
-        span(verdict.low, verdict.high, digits),
-        verdict.differs,
-        verdict.rule + unit,
-        verdict.verdict,
-    ]
+    return number(verdict.value, digits), span(verdict.low, verdict.high, digits)
