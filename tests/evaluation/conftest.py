@@ -29,6 +29,7 @@ JOINTS = [f"LL{i}" for i in range(1, 7)]
 LEVELS = {"ideal": ["MOB"], "sensor_noise": ["MOB"], "all_uncertainty": ["MOB", "MOB-Net", "FTS-e2e"]}
 PUSHED_TEST = {"scenario": "hip_pitch_step", "level": "all_uncertainty", "methods": ["MOB", "MOB-Net"]}
 MEANS = {"ideal": 0.01, "sensor_noise": 1.2, "MOB": 19.0, "MOB-Net": 1.5, "FTS-e2e": 2.0}  # avg [N m]
+OFF = {"all_uncertainty": 1.0, "exact_model": 0.8, "no_friction": 0.5, "no_load_friction": 1.0, "no_noise": 1.1}
 
 
 @pytest.fixture
@@ -193,7 +194,7 @@ def table_scores(layout: JointLayout, rows: list[dict[str, Any]], metrics: tuple
     """
     sizes = {"MOB": 4.0, "MOB-fric": 3.0, "MOB-Net": 1.0}
     scores: list[Score] = []
-    for row, method in ((row, method) for row in rows for method in row["methods"]):
+    for row, method in ((each, name) for each in rows for name in each["methods"]):
         networks = 1 if method in ("MOB", "MOB-fric") else 2
         for network, test in itertools.product(range(networks), (1, 2, 3)):
             off = 1 + 0.1 * (test - 2) + 0.04 * (network - (networks - 1) / 2)
@@ -220,6 +221,27 @@ def write_table_scores(tmp_path: Path, layout: JointLayout, config: dict[str, An
             own = [row for row in rows if row["scenario"] == scenario]
             write_rows(found[scenario], Score, table_scores(layout, own, metrics))
         return found
+
+    return write
+
+
+@pytest.fixture
+def write_budget_scores(tmp_path: Path, layout: JointLayout) -> Callable[..., Path]:
+    """Write errors of three tests with sources of error off: write_budget_scores(factors=OFF, cut="") -> CSV.
+
+    Joint k of a limb errs by k, times its level's factor; joint `cut` errs by 0 as soon as any source is off.
+    """
+
+    def write(factors: dict[str, float] = OFF, cut: str = "") -> Path:
+        rows = []
+        for (level, factor), test in itertools.product(factors.items(), (1, 2, 3)):
+            for limb, joints in layout.groups.items():
+                for k, joint in enumerate(joints, start=1):
+                    value = k * factor * (1 + 0.1 * (test - 2)) * (joint != cut or level == "all_uncertainty")
+                    run = ("motion_test", level, "MOB", 0, test, limb, joint)
+                    rows.append(Score(*run, "rmse", value, layout.unit(joint)))
+        write_rows(tmp_path / "budget_scores.csv", Score, rows)
+        return tmp_path / "budget_scores.csv"
 
     return write
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,24 +12,11 @@ import pytest
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.error_budget import error_budget, share_gone
-from mobnet.evaluation.rows import Cell, Score, read_rows, write_rows
+from mobnet.evaluation.rows import Cell, read_rows
 
 FACTORS = {"all_uncertainty": 1.0, "exact_model": 0.8, "no_friction": 0.5, "no_load_friction": 1.0, "no_noise": 1.1}
+Write = Callable[..., Path]
 Cells = Mapping[tuple[str, str, str], Cell]
-
-
-def write_scores(path: Path, layout: JointLayout, factors: Mapping[str, float], cut: str = "") -> Path:
-    """Write errors of three tests: joint k of a limb errs by k, times its level's factor; joint `cut` by 0 without."""
-    rows = []
-    for level, factor in factors.items():
-        for test in (1, 2, 3):
-            for limb, joints in layout.groups.items():
-                for k, joint in enumerate(joints, start=1):
-                    value = k * factor * (1 + 0.1 * (test - 2)) * (joint != cut or level == "all_uncertainty")
-                    run = ("motion_test", level, "MOB", 0, test, limb, joint)
-                    rows.append(Score(*run, "rmse", value, layout.unit(joint)))
-    write_rows(path, Score, rows)
-    return path
 
 
 def made(config: dict[str, Any], scores_csv: Path, out: Path) -> Cells:
@@ -39,9 +26,9 @@ def made(config: dict[str, Any], scores_csv: Path, out: Path) -> Cells:
 
 
 def test_share_gone_is_that_of_the_square_whatever_the_joint(
-    tmp_path: Path, config: dict[str, Any], layout: JointLayout
+    tmp_path: Path, config: dict[str, Any], layout: JointLayout, write_budget_scores: Write
 ) -> None:
-    cells = made(config, write_scores(tmp_path / "s.csv", layout, FACTORS), tmp_path)
+    cells = made(config, write_budget_scores(FACTORS), tmp_path)
     for (joint, level, metric), cell in cells.items():
         if metric == "gone":
             assert cell.value == pytest.approx(100 * (1 - FACTORS[level] ** 2), abs=0.01), joint
@@ -53,27 +40,29 @@ def test_share_gone_is_that_of_the_square_whatever_the_joint(
 
 
 def test_a_group_counts_its_joints_by_their_squares(
-    tmp_path: Path, config: dict[str, Any], layout: JointLayout
+    tmp_path: Path, config: dict[str, Any], write_budget_scores: Write
 ) -> None:
-    cells = made(config, write_scores(tmp_path / "s.csv", layout, dict.fromkeys(FACTORS, 1.0), cut="W3"), tmp_path)
+    cells = made(config, write_budget_scores(dict.fromkeys(FACTORS, 1.0), "W3"), tmp_path)
     assert cells["waist", "exact_model", "gone"].value == pytest.approx(100 * 9 / 14, abs=0.01)
     assert cells["waist", "exact_model", "rmse"].value == pytest.approx(1.0)
     assert cells["W2", "exact_model", "gone"].value == pytest.approx(0.0)
 
 
-def test_intervals_are_paired_over_recordings(tmp_path: Path, config: dict[str, Any], layout: JointLayout) -> None:
-    cell = made(config, write_scores(tmp_path / "s.csv", layout, FACTORS), tmp_path)["LL2", "no_friction", "gone"]
+def test_intervals_are_paired_over_recordings(
+    tmp_path: Path, config: dict[str, Any], write_budget_scores: Write
+) -> None:
+    cell = made(config, write_budget_scores(FACTORS), tmp_path)["LL2", "no_friction", "gone"]
     assert (cell.low, cell.high) == pytest.approx((75.0, 75.0))
-    rmse = made(config, tmp_path / "s.csv", tmp_path)["LL2", "no_friction", "rmse"]
+    rmse = made(config, write_budget_scores(FACTORS), tmp_path)["LL2", "no_friction", "rmse"]
     assert rmse.low is not None
     assert rmse.high is not None
     assert rmse.low < 1.0 < rmse.high
 
 
 def test_a_line_stands_for_every_joint_and_intervals_below_means_alone(
-    tmp_path: Path, config: dict[str, Any], layout: JointLayout
+    tmp_path: Path, config: dict[str, Any], layout: JointLayout, write_budget_scores: Write
 ) -> None:
-    made(config, write_scores(tmp_path / "s.csv", layout, FACTORS), tmp_path)
+    made(config, write_budget_scores(FACTORS), tmp_path)
     header, _, *lines = (tmp_path / "error_budget.md").read_text().splitlines()
     means = [item for item in config["evaluation"]["error_budget"]["joints"] if isinstance(item, dict)]
     assert header.count("gone") == len(FACTORS) - 1
@@ -82,11 +71,11 @@ def test_a_line_stands_for_every_joint_and_intervals_below_means_alone(
 
 
 def test_a_source_that_was_never_switched_off_is_named(
-    tmp_path: Path, config: dict[str, Any], layout: JointLayout
+    tmp_path: Path, config: dict[str, Any], write_budget_scores: Write
 ) -> None:
     factors = {level: factor for level, factor in FACTORS.items() if level != "no_noise"}
     with pytest.raises(DataError, match="'no_noise'"):
-        made(config, write_scores(tmp_path / "s.csv", layout, factors), tmp_path / "out")
+        made(config, write_budget_scores(factors), tmp_path / "out")
     assert not (tmp_path / "out").exists()
 
 

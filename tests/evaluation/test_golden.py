@@ -16,6 +16,7 @@ from mobnet.evaluation.claims import claims
 from mobnet.evaluation.commands import commands, steps
 from mobnet.evaluation.coverage import coverage
 from mobnet.evaluation.data_sets import data
+from mobnet.evaluation.error_budget import error_budget
 from mobnet.evaluation.gait import figure_05, figure_08, figure_09
 from mobnet.evaluation.growth import figure_20
 from mobnet.evaluation.hand_load import figure_07
@@ -55,6 +56,14 @@ def test_tables_of_errors_are_the_golden_ones(
     pushes = ["rmse_pushed", *(f"rmse_push_{k}" for k in range(1, 5))]
     table(config, name, write_table_scores(name, "rmse", "r_rmse", *pushes), tmp_path)
     check(tmp_path / f"{name}.{suffix}")
+
+
+def test_error_budget_is_the_golden_one(
+    tmp_path: Path, config: dict[str, Any], write_budget_scores: Callable[..., Path]
+) -> None:
+    error_budget(config, write_budget_scores(cut="LL2"), tmp_path)
+    for ending in ("csv", "tex", "md"):
+        check(tmp_path / f"error_budget.{ending}")
 
 
 def test_claims_and_numbers_are_the_golden_ones(

@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 from mobnet.core.errors import ConfigError
-from mobnet.evaluation.published import published_value, read_published
+from mobnet.evaluation.published import published_row, published_value, read_published
 
 CONFIGS = Path(__file__).parents[2] / "configs"
 PUBLISHED = CONFIGS / "published.yaml"
@@ -18,7 +18,8 @@ TABLES = yaml.safe_load(PUBLISHED.read_text())
 def leg_rows() -> list[Any]:
     """Return every row of six leg joints and their printed average."""
     table_05 = [row for methods in TABLES["table_05"]["rows"].values() for row in methods.values()]
-    return [*table_05, *TABLES["table_07"]["rmse_nm"].values(), *TABLES["table_10"]["rmse_nm"].values()]
+    walked = [row for n in ("07", "10", "11") for row in TABLES[f"table_{n}"]["rmse_nm"].values()]
+    return [*table_05, *walked]
 
 
 @pytest.mark.parametrize("row", leg_rows())
@@ -53,6 +54,14 @@ def test_published_value_is_the_printed_one() -> None:
     assert published_value(entry, "all_uncertainty", "MOB-Net", "avg") == pytest.approx(1.31)
     assert published_value(entry, "all_uncertainty", "MOB-fric", "avg") is None
     assert published_value(entry, "all_uncertainty", "MOB", "RL1") is None
+    entry = read_published(PUBLISHED, "table_06")
+    row = published_row(entry, "data_sets.left_hand_load_30n.all_uncertainty", "MOB-Net")
+    assert (row["W1"], row["avg V ang"]) == pytest.approx((2.50, 3.84))
+    assert published_row(entry, "data_sets.left_hand_load_30n.all_uncertainty", "FTS-e2e") == {}
+    with pytest.raises(
+        ConfigError, match=r"'hand' is not accepted; accepted: collision_free_motion, left_hand_load_10n"
+    ):
+        published_row(entry, "data_sets.hand", "MOB")
 
 
 def test_a_short_row_and_an_unknown_table_are_named(tmp_path: Path) -> None:
