@@ -35,6 +35,22 @@ def test_one_flipped_bit_and_a_missing_file_are_named(files: list[Path]) -> None
     assert changed.startswith(f"{files[0]}: hash ")
 
 
+@pytest.mark.parametrize("ending", ["parquet", "json", "safetensors", "csv", "tex", "md", "png", "pdf", "html"])
+@pytest.mark.parametrize("place", [0, 500, 999])
+def test_one_flipped_byte_anywhere_in_any_file_is_found_and_only_its_file_is_named(
+    tmp_path: Path, ending: str, place: int
+) -> None:
+    paths = [tmp_path / f"{name}.{ending}" for name in ("whole", "flipped", "other")]
+    for path in paths:
+        path.write_bytes(bytes(range(250)) * 4)
+    write_manifest(paths, tmp_path / "MANIFEST.sha256")
+    content = bytearray(paths[1].read_bytes())
+    content[place] ^= 0xFF
+    paths[1].write_bytes(content)
+    (fault,) = damaged_files(tmp_path / "MANIFEST.sha256")
+    assert fault.startswith(f"{paths[1]}: hash ")
+
+
 def test_order_of_files_does_not_matter(files: list[Path]) -> None:
     manifest = files[0].parent / "MANIFEST.sha256"
     before = manifest.read_bytes()

@@ -28,8 +28,9 @@ with_tex = pytest.mark.skipif(bool(missing_packages()), reason="TeX is not insta
 @pytest.fixture
 def source(tmp_path: Path) -> Path:
     """A small paper that inputs one table."""
-    for name in ("paper", "tables", "figures", "out"):
+    for name in ("paper", "tables", "figures", "snapshot", "out"):
         (tmp_path / name).mkdir()
+    (tmp_path / "snapshot/compute.tex").write_text("hours")
     (tmp_path / "tables/table_05.tex").write_text("nineteen")
     (tmp_path / "paper/main.tex").write_text(SOURCE)
     return tmp_path / "paper/main.tex"
@@ -38,7 +39,7 @@ def source(tmp_path: Path) -> Path:
 def run(config: dict[str, Any], source: Path) -> dict[str, Any]:
     """Build and return the status."""
     root = source.parents[1]
-    build(config, source, root / "tables", root / "figures", root / "out/main.pdf")
+    build(config, source, root / "tables", root / "figures", root / "snapshot", root / "out/main.pdf")
     return json.loads((root / "out/build.json").read_text())
 
 
@@ -86,7 +87,7 @@ def test_the_paper_itself_builds_from_the_golden_tables(
     for name in re.findall(r"\\figures/(\w+)", (REPO / "paper/main.tex").read_text()):
         if not (tmp_path / f"{name}.pdf").exists():  # one that needs trained networks: any picture in its place
             shutil.copy(tmp_path / "figure_05.pdf", tmp_path / f"{name}.pdf")
-    build(config, REPO / "paper/main.tex", tmp_path, tmp_path, tmp_path / "out/main.pdf")
+    build(config, REPO / "paper/main.tex", tmp_path, tmp_path, REPO / "docs/results", tmp_path / "out/main.pdf")
     assert (tmp_path / "out/main.pdf").stat().st_size > 50_000
 
 
@@ -100,13 +101,14 @@ def test_an_error_of_tex_is_shown_and_leaves_no_pdf(config: dict[str, Any], sour
 
 def test_a_missing_source_is_named(config: dict[str, Any], tmp_path: Path) -> None:
     with pytest.raises(DataError, match=r"none\.tex: file is missing"):
-        build(config, tmp_path / "none.tex", tmp_path, tmp_path, tmp_path / "main.pdf")
+        build(config, tmp_path / "none.tex", tmp_path, tmp_path, tmp_path, tmp_path / "main.pdf")
 
 
 def test_only_what_the_paper_needs_is_collected(source: Path, tmp_path: Path) -> None:
     (tmp_path / "tables/table_05.csv").write_text("x")
     folder = tmp_path / "build"
     folder.mkdir()
-    assert collect(source, tmp_path / "tables", tmp_path / "figures", folder) == folder / "main.tex"
+    places = (tmp_path / name for name in ("tables", "figures", "snapshot"))
+    assert collect(source, *places, folder) == folder / "main.tex"
     found = sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
-    assert found == ["main.tex", "tables/table_05.tex"]
+    assert found == ["main.tex", "snapshot/compute.tex", "tables/table_05.tex"]

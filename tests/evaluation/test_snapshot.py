@@ -21,10 +21,16 @@ CONFIG = {"scale": "default"}
 def stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A working folder with a fresh table and a snapshot of it."""
     monkeypatch.chdir(tmp_path)
-    for name, text in {"tables/table_05.csv": TABLE, "tables/table_05.md": "x", "figures/figure_05.png": "png"}.items():
+    made = {
+        "tables/table_05.csv": TABLE,
+        "tables/table_05.md": "x",
+        "figures/figure_05.png": "png",
+        "results/c.md": "c",
+    }
+    for name, text in made.items():
         Path(name).parent.mkdir(exist_ok=True)
         Path(name).write_text(text)
-    write_snapshot(CONFIG, Path("tables"), Path("figures"), Path("docs/results"))
+    write_snapshot(CONFIG, Path("tables"), Path("figures"), Path("docs/results"), [Path("results/c.md")])
     return tmp_path
 
 
@@ -37,7 +43,7 @@ def rewrite(old: str, new: str) -> list[str]:
 @pytest.mark.usefixtures("stored")
 def test_snapshot_holds_tables_and_pictures_with_their_origin() -> None:
     names = sorted(path.name for path in Path("docs/results").iterdir())
-    assert names == ["figure_05.png", "provenance.json", "table_05.csv", "table_05.md"]
+    assert names == ["c.md", "figure_05.png", "provenance.json", "table_05.csv", "table_05.md"]
     assert set(read_json(Path("docs/results/provenance.json"))) == {"scale", "commit", "lock", "config"}
 
 
@@ -74,6 +80,13 @@ def test_nothing_to_store_or_to_compare_is_an_error(tmp_path: Path) -> None:
         write_snapshot(CONFIG, tmp_path, tmp_path, tmp_path / "out")
     with pytest.raises(DataError, match="holds no CSV"):
         compare_snapshot(tmp_path, tmp_path)
+
+
+@pytest.mark.usefixtures("stored")
+def test_a_file_that_is_not_there_is_named_and_nothing_is_copied() -> None:
+    with pytest.raises(DataError, match=r"results/none\.md: file is missing"):
+        write_snapshot(CONFIG, Path("tables"), Path("figures"), Path("out"), [Path("results/none.md")])
+    assert not Path("out").exists()
 
 
 @pytest.mark.usefixtures("stored")

@@ -112,6 +112,14 @@ def motion_of(scenario, seed):
     return [f"{RESULTS}/motions/{name}/s{seed}.parquet"] if name else []
 
 
+def motions():
+    """Return the files of every motion of the upper body, each once."""
+    rows = SIZES["train"].values()
+    walked = [(row["scenario"], FIRST_TRAINING_SEED + i) for row in rows for i in range(row["shards"])]
+    walked += [(scenario, seed) for scenario in settings["tests"] for seed in TEST_SEEDS]
+    return list(dict.fromkeys(name for scenario, seed in walked for name in motion_of(scenario, seed)))
+
+
 def moved_by(motion):
     """Return the scenarios whose upper body follows a motion."""
     return [name for name, row in settings["scenarios"].items() if row.get("motion") == motion]
@@ -314,14 +322,15 @@ def products():
     stored = [name for row in SIZES["train"] for name in training("recordings", row)]
     stored += [name for row in SIZES["train"] for name in training("residuals", row)]
     tests = test_recordings() + coverage_recordings()
-    stored += list(dict.fromkeys(tests + arrays(runs, "recording", "residual", "estimate")))
+    stored += list(dict.fromkeys(tests + arrays(runs, "recording", "residual", "estimate"))) + motions()
     notes = [str(Path(name).with_suffix(".json")) for name in stored]
     tables = expand(f"{TABLES}/{{name}}.{{ending}}", name=TABLE_NAMES, ending=["csv", "tex", "md"])
     figures = expand(f"{FIGURES}/{{name}}.{{ending}}", name=FIGURE_NAMES, ending=["pdf", "png", "csv"])
     figures += expand(f"{FIGURES}/{{name}}_bars.csv", name=BAR_NAMES)
     scores = expand(f"{RESULTS}/scores/{{scenario}}.csv", scenario=scenarios)
+    fits = list(dict.fromkeys(name for _, _, method in wanted() for name in fit_of(method)))
     texts = [f"{TABLES}/numbers.tex", f"{TABLES}/deviations.tex", f"{PAPER}/build.json", *PDF, f"{RESULTS}/runs.html"]
-    return stored + notes + trained + scores + tables + figures + texts
+    return stored + notes + trained + fits + scores + tables + figures + texts
 
 
 PRODUCTS = products()

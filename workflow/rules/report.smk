@@ -41,6 +41,7 @@ rule paper:
         references="paper/refs.bib",
         tables=expand(f"{TABLES}/{{name}}.tex", name=[*TABLE_NAMES, "numbers", "deviations"]),
         figures=expand(f"{FIGURES}/{{name}}.pdf", name=FIGURE_NAMES),
+        compute="docs/results/compute.tex",  # of the committed run: this one's differs each time
     output:
         ensure(f"{PAPER}/build.json", non_empty=True),
         ensure([shown(name, "paper") for name in PDF], non_empty=True),

@@ -11,5 +11,6 @@ with job(snakemake.log[0]):
         Path(snakemake.input.main),
         Path(snakemake.input.tables[0]).parent,
         Path(snakemake.input.figures[0]).parent,
+        Path(snakemake.input.compute).parent,
         Path(snakemake.output[0]).with_name("main.pdf"),
     )

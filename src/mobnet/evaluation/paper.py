@@ -31,7 +31,9 @@ class PaperError(MobnetError):
     """TeX is there but could not set the paper."""
 
 
-def build(config: Mapping[str, Any], main_tex: Path, tables_dir: Path, figures_dir: Path, out_pdf: Path) -> None:
+def build(
+    config: Mapping[str, Any], main_tex: Path, tables_dir: Path, figures_dir: Path, snapshot_dir: Path, out_pdf: Path
+) -> None:
     """Set the paper with latexmk and write a status file beside the PDF, also where TeX is missing.
 
     Args:
@@ -39,6 +41,7 @@ def build(config: Mapping[str, Any], main_tex: Path, tables_dir: Path, figures_d
         main_tex: the paper; refs.bib lies beside it.
         tables_dir: tables that it inputs, *.tex.
         figures_dir: figures that it includes, *.pdf.
+        snapshot_dir: tables that it inputs as they were committed, *.tex: what differs from run to run.
         out_pdf: the PDF; `build.json` beside it says whether it was built, and what is missing if not.
 
     Raises:
@@ -53,7 +56,7 @@ def build(config: Mapping[str, Any], main_tex: Path, tables_dir: Path, figures_d
         log.warning("%s: no PDF, TeX is not complete; install: apt-get install %s", out_pdf, " ".join(PACKAGES))
     else:
         with tempfile.TemporaryDirectory() as folder:
-            compile_pdf(collect(main_tex, tables_dir, figures_dir, Path(folder)), out_pdf)
+            compile_pdf(collect(main_tex, tables_dir, figures_dir, snapshot_dir, Path(folder)), out_pdf)
     status = {"scale": config["scale"], "pdf": None if missing else out_pdf.name, "missing_packages": missing}
     write_json(out_pdf.with_name("build.json"), status)
 
@@ -70,13 +73,13 @@ def _found(name: str) -> bool:
     return subprocess.run(["kpsewhich", name], capture_output=True, check=False).returncode == 0
 
 
-def collect(main_tex: Path, tables_dir: Path, figures_dir: Path, folder: Path) -> Path:
+def collect(main_tex: Path, tables_dir: Path, figures_dir: Path, snapshot_dir: Path, folder: Path) -> Path:
     """Copy the paper's source, tables and figures into an empty folder and return the copy of the source."""
     for source in (main_tex, *main_tex.parent.glob("*.bib")):
         shutil.copy(source, folder / source.name)
-    for name, source_dir, pattern in (("tables", tables_dir, "*.tex"), ("figures", figures_dir, "*.pdf")):
+    for name, source_dir in (("tables", tables_dir), ("figures", figures_dir), ("snapshot", snapshot_dir)):
         (folder / name).mkdir()
-        for source in sorted(source_dir.glob(pattern)):
+        for source in sorted(source_dir.glob("*.pdf" if name == "figures" else "*.tex")):
             shutil.copy(source, folder / name / source.name)
     return folder / main_tex.name
 
@@ -100,5 +103,5 @@ def compile_pdf(source: Path, out_pdf: Path) -> None:
 
 def latexmk_command(name: str) -> Sequence[str]:
     """Return the command that sets a paper whose tables and figures lie in folders beside it."""
-    folders = r"\def\tables{tables}\def\figures{figures}"
+    folders = r"\def\tables{tables}\def\figures{figures}\def\snapshot{snapshot}"
     return ("latexmk", "-pdf", "-norc", "-interaction=nonstopmode", "-halt-on-error", f"-usepretex={folders}", name)

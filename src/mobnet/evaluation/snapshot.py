@@ -10,7 +10,7 @@ import csv
 import logging
 import shutil
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +24,7 @@ log = logging.getLogger(__name__)
 
 CONFIG, TABLES, FIGURES = Path("configs/config.yaml"), Path("tables"), Path("figures")
 SNAPSHOT, MANIFEST = Path("docs/results"), Path("results/MANIFEST.sha256")
+COMPUTE = (Path("results/default/compute.md"), Path("results/default/compute.tex"))  # nothing to compare: no CSV
 README, HEADLINE = Path("README.md"), "table_05"
 KEYS = (  # columns that name a row; the others are results
     "scenario", "level", "method", "joint", "metric", "claim",
@@ -32,16 +33,21 @@ KEYS = (  # columns that name a row; the others are results
 Rows = dict[tuple[str, ...], dict[str, str]]
 
 
-def write_snapshot(config: Mapping[str, Any], tables: Path, figures: Path, out: Path) -> None:
-    """Copy a scale's tables (CSV, Markdown) and figures (PNG) and note where they come from.
+def write_snapshot(
+    config: Mapping[str, Any], tables: Path, figures: Path, out: Path, others: Sequence[Path] = ()
+) -> None:
+    """Copy a scale's tables (CSV, Markdown), figures (PNG) and other files, and note where they come from.
 
     Raises:
-        DataError: there is no table to copy.
+        DataError: there is no table to copy, or a file is missing.
     """
     numbers = sorted(tables.glob("*.csv"))
-    found = [*numbers, *(path.with_suffix(".md") for path in numbers), *sorted(figures.glob("*.png"))]
+    found = [*numbers, *(path.with_suffix(".md") for path in numbers), *sorted(figures.glob("*.png")), *others]
     if not numbers:
         raise DataError(f"{tables}: holds no CSV; ./reproduce all makes them")
+    missing = [path for path in found if not path.is_file()]
+    if missing:
+        raise DataError(f"{missing[0]}: file is missing; ./reproduce all makes it")
     for source in found:
         with atomic_path(out / source.name) as temporary:
             shutil.copyfile(source, temporary)
@@ -112,7 +118,7 @@ def main(words: list[str]) -> int:
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
     try:
         if options.command == "snapshot":
-            write_snapshot(load_config(CONFIG), TABLES, FIGURES, SNAPSHOT)
+            write_snapshot(load_config(CONFIG), TABLES, FIGURES, SNAPSHOT, COMPUTE)
             table = (SNAPSHOT / f"{HEADLINE}.md").read_text(encoding="utf-8")
             write_text(README, with_headline(README.read_text(encoding="utf-8"), table))
             return 0
