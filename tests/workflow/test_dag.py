@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -55,6 +56,14 @@ def test_training_and_test_recordings_are_disjoint(outputs: Outputs) -> None:
     seeds = {folder: sorted(int(p.stem[1:]) for p in paths if p.parent.parts[3:] == folder) for folder in FOLDERS}
     assert seeds[FOLDERS[0]] == [1000 + i for i in range(sizes["train"]["walk"]["shards"])]
     assert seeds[FOLDERS[1]] == [1 + i for i in range(sizes["test"]["shards"])]
+
+
+def test_the_manifest_lists_every_result(snakemake: Snakemake, outputs: Outputs) -> None:
+    """All that the workflow makes but the manifest and what follows it: compute, its pages, runs for wandb."""
+    done = snakemake("-n", "--forceall", "--quiet", "host", "--config", "scale=smoke")
+    listed = re.findall(r"^rule manifest:\n    input: (.+)$", done.stdout + done.stderr, re.MULTILINE)[0].split(", ")
+    views = {name for name, rule in outputs("smoke").items() if rule in ("manifest", "compute", "pages", "wandb_runs")}
+    assert set(listed) == set(outputs("smoke")) - views
 
 
 @pytest.mark.parametrize(
