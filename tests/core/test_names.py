@@ -41,6 +41,9 @@ def test_every_reference_is_looked_at(full_config: dict[str, Any], layout: Joint
     expected |= {"evaluation.methods.scenario", "evaluation.methods.level", "evaluation.methods.methods"}
     expected |= {f"evaluation.calibration.tests.{key}" for key in ("scenario", "level", "pushed", "methods", "limbs")}
     expected |= {"evaluation.calibration.methods", "evaluation.calibration.share"}
+    expected |= {f"evaluation.figure_06.{key}" for key in ("joint", "scenario", "level", "methods")}
+    expected |= {"evaluation.figure_07.joints", "evaluation.figure_08.limb", "evaluation.figure_09.limb"}
+    expected |= {"evaluation.figure_10.tests.swing knee.joint", "evaluation.figure_10.against.methods"}
     assert expected <= keys
 
 
@@ -64,6 +67,15 @@ def test_a_table_asks_for_pushes_only_where_they_are_scored(full_config: dict[st
         ConfigError, match=r"table_05\.scenario, around pushes: 'walk_test' is not accepted; accepted: "
     ):
         check_names(with_row(full_config, scenario="walk_test", metric="rmse_pushed"), layout)
+
+
+def test_a_figure_of_pushes_shows_scenarios_that_are_scored_around_them(
+    full_config: dict[str, Any], layout: JointLayout
+) -> None:
+    evaluation = full_config["evaluation"]
+    changed = {**evaluation, "figure_06": {**evaluation["figure_06"], "scenario": "walk_test"}}
+    with pytest.raises(ConfigError, match=r"figure_06\.scenario, around pushes: 'walk_test' is not accepted"):
+        check_names({**full_config, "evaluation": changed}, layout)
 
 
 def with_row(config: dict[str, Any], **changes: Any) -> dict[str, Any]:

@@ -101,7 +101,7 @@ rule figure_05:
         f"{RESULTS}/bench/figure_05.tsv"
     threads: 1
     params:
-        config=part("robot", "published", "evaluation") | sizes("figure_start_s"),
+        config=part("robot", "published", evaluation=["figure_05"]) | sizes("figure_start_s"),
         entries=panels_of(FIGURE_05),
         robot=CONTENT["robot"],
         published=CONTENT["published"],

@@ -107,6 +107,25 @@ def table_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
                 yield f"{place}.scenario, around pushes", row["scenario"], settings["windows"]
 
 
+def curve_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
+    """Yield what Figures 6 to 10 name."""
+    settings = config["evaluation"]
+    figures = {name: settings[name] for name in ("figure_06", "figure_07", "figure_08", "figure_09")}
+    last = settings["figure_10"]
+    figures |= {"figure_10.against": last["against"]}
+    figures |= {f"figure_10.tests.{title}": {**test, "joint": last["joint"]} for title, test in last["tests"].items()}
+    for name, figure in figures.items():
+        place = f"evaluation.{name}"
+        yield from test_uses(place, figure, config, layout)
+        yield from ((f"{place}.methods", method, config["methods"]) for method in figure["methods"])
+        yield from ((f"{place}.joints", joint, layout.names) for joint in figure.get("joints", ()))
+        if "limb" in figure:
+            yield f"{place}.limb", figure["limb"], layout.groups
+        if "joint" in figure:  # of a leg that is pushed
+            yield f"{place}.joint", figure["joint"], layout.actuated
+            yield f"{place}.scenario, around pushes", figure["scenario"], settings["windows"]
+
+
 def data_uses(config: Mapping[str, Any], layout: JointLayout) -> Iterator[Use]:
     """Yield what Figure 19 and the tables of the data name."""
     settings = config["evaluation"]
@@ -158,5 +177,5 @@ def test_uses(place: str, test: Mapping[str, Any], config: Mapping[str, Any], la
 
 USES = (
     network_uses, method_uses, scenario_uses, size_uses,
-    evaluation_uses, table_uses, ablation_uses, calibration_uses,
+    evaluation_uses, table_uses, curve_uses, ablation_uses, calibration_uses,
 )  # fmt: skip

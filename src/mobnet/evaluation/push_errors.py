@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,6 @@ from mobnet.evaluation.rows import Score
 from mobnet.evaluation.runs import Wanted, run_grid
 
 ALL, AVERAGE, INCREASE = "all windows", "avg", "increase"  # pushes of an error that is not one push's
-NONE = float("nan")
 MINUS = "\N{MINUS SIGN}"
 
 
@@ -111,29 +110,48 @@ def increase(means: NDArray[np.float64]) -> NDArray[np.float64]:
 def bar_panel(title: str, errors: Sequence[PushError], source: str = "paper") -> BarPanel:
     """Return a panel: a group for each push and for what is made of all, in each a bar a method [N m].
 
-    Above the last bar stand its error and, if there is one, its increase; `source` names the paper's numbers.
+    Args:
+        title: of the panel.
+        errors: method by method, those of an increase last.
+        source: name of the paper's numbers.
     """
-    methods = list(dict.fromkeys(error.method for error in errors))
-    pushes = list(dict.fromkeys(error.push for error in errors if error.push != INCREASE))
-    found = {(error.method, error.push): error for error in errors}
-    own = {method: [found[method, push] for push in pushes] for method in methods}
-    more = {method: found.get((method, INCREASE)) for method in methods}
+    shown = [error for error in errors if error.push != INCREASE]
+    rows = by_method(shown)
     return BarPanel(
         title,
-        pushes,
-        {method: np.array([error.rmse_nm for error in row]) for method, row in own.items()},
-        {method: np.array([span_of(error) for error in row]).T for method, row in own.items()},
-        {method: np.array([error.published or NONE for error in row]) for method, row in own.items()},
+        list(dict.fromkeys(error.push for error in shown)),
+        {method: np.array([error.rmse_nm for error in row]) for method, row in rows.items()},
+        {method: spans_of(row) for method, row in rows.items()},
+        {method: printed_of(row) for method, row in rows.items()},
         source,
-        {method: [""] * (len(row) - 1) + [note_of(row[-1], more[method])] for method, row in own.items()},
+        {method: notes_of(row) for method, row in by_method(errors).items()},
     )
 
 
-def span_of(error: PushError) -> tuple[float, float]:
-    """Return the ends of an error's interval [N m], the error itself where it has none."""
-    return (error.rmse_nm, error.rmse_nm) if error.low is None or error.high is None else (error.low, error.high)
+def by_method(errors: Iterable[PushError]) -> dict[str, list[PushError]]:
+    """Return method -> its errors, in order."""
+    rows: dict[str, list[PushError]] = {}
+    for error in errors:
+        rows.setdefault(error.method, []).append(error)
+    return rows
 
 
-def note_of(error: PushError, more: PushError | None) -> str:
-    """Return an error [N m] as text, with its increase if there is one."""
-    return (f"{error.rmse_nm:.1f}" + (f" ({more.rmse_nm:+.1f})" if more else "")).replace("-", MINUS)
+def spans_of(errors: Sequence[PushError]) -> NDArray[np.float64]:
+    """Return the ends of errors' intervals (2, n) [N m], the error itself where it has none."""
+    ends = [(e.rmse_nm, e.rmse_nm) if e.low is None or e.high is None else (e.low, e.high) for e in errors]
+    return np.array(ends).T
+
+
+def printed_of(errors: Sequence[PushError]) -> NDArray[np.float64]:
+    """Return the paper's numbers (n,) [N m]; nan where it prints none."""
+    return np.array([np.nan if error.published is None else error.published for error in errors])
+
+
+def notes_of(errors: Sequence[PushError]) -> list[str]:
+    """Return what stands above a method's bars: at the last its error [N m] and, if that is known, its increase."""
+    *own, last = errors
+    text = f"{last.rmse_nm:.1f}"
+    if last.push == INCREASE:
+        *own, average = own
+        text = f"{average.rmse_nm:.1f} ({last.rmse_nm:+.1f})"
+    return [""] * len(own) + [text.replace("-", MINUS)]
