@@ -84,7 +84,8 @@ def test_only_a_claim_that_fails_shows_its_cause(
     scores, folders = write_results(read_claims(tmp_path / "c.yaml"), BRANCHES)
     claims(config, tmp_path / "c.yaml", scores, folders, tmp_path)
     assert [row.cause for row in read_rows(tmp_path / "claims.csv", Verdict)] == ["it was cold", ""]
-    assert (tmp_path / "claims.md").read_text().count("it was cold") == 1
+    for table in ("claims.md", "claims.tex"):
+        assert (tmp_path / table).read_text().count("it was cold") == 1
 
 
 def test_a_test_too_short_for_its_push_is_not_measured_and_fails_nothing(

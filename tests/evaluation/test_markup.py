@@ -2,7 +2,7 @@
 
 import pytest
 
-from mobnet.evaluation.markup import GAP, RULE, markdown_table, number, span, tex_escape, tex_table
+from mobnet.evaluation.markup import GAP, RULE, long_table, markdown_table, number, span, tex_escape, tex_table
 
 
 @pytest.mark.parametrize("character", list("\\&%$#_{}~^<>|"))
@@ -35,3 +35,11 @@ def test_markdown_rows_have_the_same_cells_and_rules_are_left_out() -> None:
 def test_what_is_not_known_is_blank_not_invented() -> None:
     assert (number(None), span(None, None), span(1.0, None)) == ("-", "", "")
     assert (number(1.005, 1), span(1.0, 2.0)) == ("1.0", "[1.00, 2.00]")
+
+
+def test_a_long_table_repeats_its_header_and_ends_each_page_with_a_rule() -> None:
+    lines = long_table("lr", r"\caption{c}", ["a_1", "b"], [["50 %", "1"], r"\multicolumn{2}{l}{why} \\"]).splitlines()
+    assert lines == [
+        r"\begin{longtable}{lr}", r"\caption{c} \\", r"\toprule", r"a\_1 & b \\", RULE, r"\endhead", r"\bottomrule",
+        r"\endfoot", r"50 \% & 1 \\", r"\multicolumn{2}{l}{why} \\", r"\end{longtable}",
+    ]  # fmt: skip

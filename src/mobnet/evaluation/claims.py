@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,7 @@ from typing import Any
 from mobnet.core.files import write_text
 from mobnet.evaluation.claim import Claim, inside, read_claims, rule_text
 from mobnet.evaluation.intervals import Summary, summarise
-from mobnet.evaluation.markup import markdown_table, number, span, text_table
+from mobnet.evaluation.markup import Line, long_table, markdown_table, number, span, tex_escape
 from mobnet.evaluation.quantities import QUANTITIES
 from mobnet.evaluation.results import Results, read_results
 from mobnet.evaluation.rows import write_rows
@@ -21,6 +21,7 @@ log = logging.getLogger(__name__)
 REPRODUCED = "reproduced"
 VERDICTS = (REPRODUCED, "direction only", "not reproduced", "not measured")
 HEADER = ("Claim", "Printed in", "Paper", "Ours", "{:.0%}", "Differs", "Holds if", "Verdict")
+CAPTION = r"\claimscaption"  # the paper's
 COLUMNS = r">{\raggedright\arraybackslash}p{.385\linewidth}>{\raggedright\arraybackslash}p{.12\linewidth}rrrlll"
 
 
@@ -81,10 +82,19 @@ def claims(
     lines = [claim_line(verdict) for verdict in verdicts]
     full = [[*line, verdict.cause] for line, verdict in zip(lines, verdicts, strict=True)]
     write_rows(out_dir / "claims.csv", Verdict, verdicts)
-    write_text(out_dir / "claims.tex", text_table(COLUMNS, header, lines))
+    write_text(out_dir / "claims.tex", long_table(COLUMNS, CAPTION, header, list(with_causes(verdicts, lines))))
     write_text(out_dir / "claims.md", markdown_table([*header, "Cause"], full, left=len(header) + 1))
     for verdict in verdicts:
         log.info("%s: %s (%s, %s)", verdict.claim, verdict.verdict, number(verdict.value), verdict.rule)
+
+
+def with_causes(verdicts: Sequence[Verdict], lines: Sequence[Line]) -> Iterator[Line]:
+    """Yield the lines of claims, each followed by a line across all columns with its cause, where it has one."""
+    across = rf"\multicolumn{{{len(HEADER)}}}{{@{{\quad}}p{{.96\linewidth}}}}"
+    for verdict, line in zip(verdicts, lines, strict=True):
+        yield line
+        if verdict.cause:
+            yield rf"{across}{{\emph{{{tex_escape(verdict.cause)}}}}} \\"
 
 
 def judge(config: Mapping[str, Any], claim: Claim, results: Results) -> Verdict:

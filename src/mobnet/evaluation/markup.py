@@ -1,4 +1,4 @@
-"""Tables as TeX and Markdown text. Only booktabs is needed in TeX."""
+"""Tables as TeX and Markdown text. Only booktabs is needed in TeX, and longtable for a table of several pages."""
 
 from __future__ import annotations
 
@@ -40,6 +40,20 @@ def text_table(columns: str, header: Sequence[str], lines: Sequence[Line]) -> st
     """Return a tabular environment of plain text; `columns` is a TeX column specification."""
     escaped = [line if isinstance(line, str) else list(map(tex_escape, line)) for line in lines]
     return tex_table(columns, list(map(tex_escape, header)), escaped)
+
+
+def long_table(columns: str, caption: str, header: Sequence[str], lines: Sequence[Line]) -> str:
+    """Return a longtable environment of plain text, which breaks across pages and repeats its header.
+
+    Args:
+        columns: TeX column specification.
+        caption: TeX of the caption; a longtable holds its own.
+        header: header cells.
+        lines: rows of cells, `RULE`, `GAP` or other TeX.
+    """
+    head = [r"\toprule", tex_row(list(map(tex_escape, header))), RULE, r"\endhead", r"\bottomrule", r"\endfoot"]
+    body = [line if isinstance(line, str) else tex_row(list(map(tex_escape, line))) for line in lines]
+    return "\n".join([rf"\begin{{longtable}}{{{columns}}}", rf"{caption} \\", *head, *body, r"\end{longtable}"]) + "\n"
 
 
 def tex_row(cells: Sequence[str]) -> str:
