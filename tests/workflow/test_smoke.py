@@ -12,9 +12,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from browser import Browser, with_browser
 
 from mobnet.core.config import load_config
 
+from .clicks import choose, explain, show, text_of_frame
 from .conftest import ROOT, Snakemake
 
 SMOKE = ("--config", "scale=smoke")
@@ -25,11 +27,11 @@ LONGEST_S = 20.0
 pytestmark = [pytest.mark.slow, pytest.mark.sim]
 
 
-def reproduce(folder: Path, *words: str) -> subprocess.Popen[bytes]:
+def reproduce(folder: Path, *words: str, command: str = "all") -> subprocess.Popen[bytes]:
     """Start ./reproduce in a process group of its own."""
-    command = [sys.executable, str(folder / "reproduce"), "all", *SMOKE, *words]
+    started = [sys.executable, str(folder / "reproduce"), command, *SMOKE, *words]
     with (folder / "out.log").open("ab") as out:
-        return subprocess.Popen(command, cwd=folder, stdout=out, stderr=out, start_new_session=True)
+        return subprocess.Popen(started, cwd=folder, stdout=out, stderr=out, start_new_session=True)
 
 
 def told(folder: Path) -> str:
@@ -89,18 +91,54 @@ def test_second_call_does_nothing(unbroken: Path) -> None:
     assert "Nothing to be done" in told(unbroken)
 
 
-def test_manifest_finds_one_flipped_byte(unbroken: Path) -> None:
+def kinds_of_files(names: list[str]) -> dict[str, str]:
+    """Return the last file of each folder's kind of file, such as results/smoke/networks and .csv."""
+    return {f"{'/'.join(Path(name).parts[:3])}{Path(name).suffix}": name for name in names}
+
+
+def test_verify_names_every_file_in_which_a_byte_is_flipped_and_no_other(unbroken: Path) -> None:
     manifest = "results/smoke/MANIFEST.sha256"
     words = [sys.executable, str(unbroken / "reproduce"), "verify", "--manifest", manifest]
     assert subprocess.run(words, cwd=unbroken, check=False, capture_output=True).returncode == 0
-    path = unbroken / "results" / "smoke" / "networks" / "MOB-Net-LL-s0" / "weights.safetensors"
-    whole, times = path.read_bytes(), path.stat()
-    path.write_bytes(whole[:-1] + bytes([whole[-1] ^ 1]))
+    names = [line.split("  ", 1)[1] for line in (unbroken / manifest).read_text().splitlines()]
+    flipped = sorted(kinds_of_files(names).values())
+    endings = {".parquet", ".json", ".safetensors", ".csv", ".tex", ".md", ".pdf", ".png", ".html"}
+    assert {Path(name).suffix for name in flipped} == endings
+    before = {name: ((unbroken / name).read_bytes(), (unbroken / name).stat()) for name in flipped}
+    for name, (whole, _) in before.items():
+        middle = len(whole) // 2
+        (unbroken / name).write_bytes(whole[:middle] + bytes([whole[middle] ^ 1]) + whole[middle + 1 :])
     done = subprocess.run(words, cwd=unbroken, check=False, capture_output=True, text=True)
-    path.write_bytes(whole)
-    os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
+    for name, (whole, times) in before.items():
+        (unbroken / name).write_bytes(whole)
+        os.utime(unbroken / name, ns=(times.st_atime_ns, times.st_mtime_ns))
     assert done.returncode == 1
-    assert "MOB-Net-LL-s0/weights.safetensors: hash" in done.stdout
+    assert sorted(line.split(": hash ")[0] for line in done.stdout.splitlines() if ": hash " in line) == flipped
+
+
+def test_compute_counts_every_job_that_left_a_benchmark(unbroken: Path) -> None:
+    rows = (unbroken / "results" / "smoke" / "compute.csv").read_text().splitlines()
+    jobs = len(list((unbroken / "results" / "smoke" / "bench").rglob("*.tsv")))
+    assert f"all jobs,jobs,{jobs},-" in rows
+    assert any(row.startswith("elapsed,cores,") for row in rows)
+
+
+def test_report_is_made_by_one_command(unbroken: Path) -> None:
+    assert reproduce(unbroken, command="report").wait() == 0, told(unbroken)
+    assert (unbroken / "report.html").stat().st_size > 1_000_000
+
+
+@with_browser
+def test_report_shows_tables_figures_and_trainings(unbroken: Path, open_page: Callable[..., Browser]) -> None:
+    browser = open_page(unbroken / "report.html")
+    choose(browser, "Tables")
+    show(browser, "table_05", "iframe")
+    assert "MOB-Net" in text_of_frame(browser)
+    browser = open_page(unbroken / "report.html")
+    choose(browser, "Trainings")
+    show(browser, "runs", "iframe")
+    assert "MOB-Net-LL-s0" in text_of_frame(browser)
+    assert "SNAKEMAKE RULE runs" in explain(browser, "runs")
 
 
 def test_comment_reruns_nothing_and_an_edit_just_what_depends_on_it(unbroken: Path, snakemake: Snakemake) -> None:

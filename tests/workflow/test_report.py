@@ -1,0 +1,130 @@
+"""Snakemake's report: every table and figure has its caption, and a browser can click through it offline.
+
+The files shown are made up here; what marks them for the report is the workflow itself.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections.abc import Callable
+from html import unescape
+from pathlib import Path
+
+import pytest
+from browser import Browser, with_browser
+
+from mobnet.evaluation.markup import markdown_table
+from mobnet.evaluation.pages import pages, table_page
+
+from .clicks import MENU, ROWS, choose, explain, show, text_of_frame
+from .conftest import ROOT, Snakemake
+
+CAPTIONS = ROOT / "workflow" / "report"
+COUNTERPARTS = ["table_07", "table_10", "table_11", "figure_08", "figure_09", "figure_10"]  # the paper's: the robot
+Outputs = Callable[[str], dict[str, str]]
+OpenPage = Callable[..., Browser]
+
+
+def in_report(made: dict[str, str]) -> dict[str, list[str]]:
+    """Return category -> names of what the report must show, of all files that the workflow makes."""
+    endings = {
+        "figures": r"figures/.*\.png",
+        "tables": r"(?:tables/.*|results/\w+/compute)\.md",
+        "paper": r".*main\.pdf",
+    }
+    endings["trainings"] = r".*/runs\.html"
+    return {kind: sorted(Path(name).stem for name in made if re.fullmatch(end, name)) for kind, end in endings.items()}
+
+
+def test_everything_shown_has_a_caption_and_every_caption_is_shown(outputs: Outputs) -> None:
+    for kind, names in in_report(outputs("smoke")).items():
+        captions = sorted(path.stem for path in (CAPTIONS / kind).iterdir())
+        assert captions == names or (kind, names) == ("paper", [])  # without TeX there is none
+
+
+@pytest.mark.parametrize("path", sorted(CAPTIONS.glob("*/*.rst")), ids=lambda path: f"{path.parent.name}/{path.stem}")
+def test_a_caption_has_a_title_of_its_own_and_is_sound(path: Path) -> None:
+    title, gap, *text = path.read_text().splitlines()
+    assert 10 < len(title) < 60  # the menu is as wide as its longest line
+    assert gap == ""
+    assert len(text) >= 1
+    assert title in unescape(table_page(markdown_table(["a"], [["b"]]), path.read_text()))  # docutils finds no fault
+    number = re.fullmatch(r"(table|figure)_(\d\d)", path.stem)
+    if number:
+        assert title.startswith(f"{number[1].capitalize()} {int(number[2])}: ")
+        assert re.search(r"\(section\s\d", path.read_text())
+
+
+@pytest.mark.parametrize("name", COUNTERPARTS)
+def test_what_the_paper_took_from_the_robot_is_called_a_simulated_counterpart(name: str) -> None:
+    (path,) = CAPTIONS.glob(f"*/{name}.rst")
+    text = path.read_text()
+    assert "simulated counterpart" in text.splitlines()[0]
+    assert "robot" in text
+
+
+@pytest.fixture(scope="module")
+def report(make_project: Callable[..., Path], snakemake: Snakemake, outputs: Outputs) -> Path:
+    """The report of made-up files: each table has one cell that names it, each figure is the same picture."""
+    folder = make_project("report")
+    made = outputs("smoke")
+    for name in made:
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if path.suffix == ".md":
+            path.write_text(markdown_table(["name", "number"], [[path.stem, "1.25"]]))
+        elif path.suffix == ".png":
+            shutil.copy(ROOT / "docs" / "results" / "figure_05.png", path)
+        elif path.name in ("runs.html", "main.pdf"):
+            path.write_text("<h1>made up</h1>")
+    found = [Path(name).parts for name in made if name.endswith(".md")]
+    tables = [folder.joinpath(*parts) for parts in found]
+    pages(tables, CAPTIONS / "tables", folder / "results" / "smoke" / "pages")
+    done = snakemake("--config", "scale=smoke", "--report", "report.html", folder=folder)
+    assert (folder / "report.html").is_file(), done.stdout + done.stderr
+    return folder / "report.html"
+
+
+@with_browser
+def test_the_first_page_says_what_it_is_and_lists_all_categories(
+    report: Path, open_page: OpenPage, outputs: Outputs
+) -> None:
+    browser = open_page(report)
+    browser.until("document.querySelector('#app .prose h1')?.textContent", "MOB-Net reproduced in simulation")
+    assert "Scale smoke" in browser.value("document.body.innerText")
+    shown = [kind.capitalize() for kind, names in in_report(outputs("smoke")).items() if names]
+    assert browser.value(MENU)[-len(shown) :] == sorted(shown)
+
+
+@with_browser
+@pytest.mark.parametrize("kind", ["figures", "tables"])
+def test_a_category_lists_all_its_results(kind: str, report: Path, open_page: OpenPage, outputs: Outputs) -> None:
+    browser = open_page(report)
+    choose(browser, kind.capitalize())
+    browser.until(ROWS, in_report(outputs("smoke"))[kind])
+
+
+@with_browser
+def test_a_table_is_shown_and_says_where_it_comes_from(report: Path, open_page: OpenPage) -> None:
+    browser = open_page(report)
+    choose(browser, "Tables")
+    show(browser, "table_07", "iframe")
+    text = text_of_frame(browser)
+    assert "1.25" in text
+    assert "simulated counterpart" in text
+    assert "Simulated counterpart of Table 7 (section 5.2)" in explain(browser, "table_07")
+
+
+@with_browser
+def test_a_figure_fits_beside_the_menu_and_says_which_rule_made_it(report: Path, open_page: OpenPage) -> None:
+    browser = open_page(report)
+    choose(browser, "Figures")
+    show(browser, "figure_05", ".p-3 > img")
+    browser.until("document.querySelector('#app .p-3 > img').naturalWidth > 100", True)
+    box = browser.value("document.querySelector('#app .p-3 > img').getBoundingClientRect().toJSON()")
+    assert box["top"] >= 0
+    assert box["right"] <= browser.value("innerWidth")
+    told = explain(browser, "figure_05")
+    assert "After Figure 5 of the paper (section 5.1" in told
+    assert "SNAKEMAKE RULE figure_05" in told
