@@ -43,3 +43,8 @@ def test_a_long_table_repeats_its_header_and_ends_each_page_with_a_rule() -> Non
         r"\begin{longtable}{lr}", r"\caption{c} \\", r"\toprule", r"a\_1 & b \\", RULE, r"\endhead", r"\bottomrule",
         r"\endfoot", r"50 \% & 1 \\", r"\multicolumn{2}{l}{why} \\", r"\end{longtable}",
     ]  # fmt: skip
+
+
+def test_what_rounds_to_zero_has_no_sign() -> None:
+    assert [number(-0.004), number(-0.3, 0), number(-0.006)] == ["0.00", "0", "-0.01"]
+    assert span(-0.4, 0.4, 0) == "[0, 0]"

@@ -75,10 +75,10 @@ def markdown_table(header: Sequence[str], lines: Sequence[Line], left: int = 1) 
 
 
 def number(value: float | None, digits: int = 2) -> str:
-    """Return a number with fixed digits, or a dash where there is none."""
-    return "-" if value is None else f"{value:.{digits}f}"
+    """Return a number with fixed digits and no minus before zero, or a dash where there is none."""
+    return "-" if value is None else f"{round(value, digits) + 0.0:.{digits}f}"
 
 
 def span(low: float | None, high: float | None, digits: int = 2) -> str:
     """Return an interval in brackets, or nothing where there is none."""
-    return "" if low is None or high is None else f"[{low:.{digits}f}, {high:.{digits}f}]"
+    return "" if low is None or high is None else f"[{number(low, digits)}, {number(high, digits)}]"
