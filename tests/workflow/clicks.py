@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import time
+from typing import Any
 
 from browser import WAIT_S, Browser
 
@@ -51,13 +52,20 @@ def _button(name: str, place: int) -> str:
 
 
 def text_of_frame(browser: Browser) -> str:
-    """Return the text of an HTML result."""
-    (frame,) = browser.tell("Page.getFrameTree")["frameTree"]["childFrames"]
-    world = browser.tell("Page.createIsolatedWorld", frameId=frame["frame"]["id"])["executionContextId"]
+    """Return the text of an HTML result, once its frame has loaded it."""
     end = time.monotonic() + WAIT_S
-    while True:
-        words = {"expression": "document.body.innerText", "contextId": world, "returnByValue": True}
-        text = browser.tell("Runtime.evaluate", **words)["result"].get("value")
-        if text or time.monotonic() > end:
-            return text or ""
+    while not (frame := _frame(browser))["url"].startswith("data:") and time.monotonic() < end:
         time.sleep(0.05)
+    world = browser.tell("Page.createIsolatedWorld", frameId=frame["id"])["executionContextId"]
+    script = "document.readyState === 'complete' ? document.body.innerText : ''"
+    text = ""
+    while not text and time.monotonic() < end:
+        found = browser.tell("Runtime.evaluate", expression=script, contextId=world, returnByValue=True)
+        text = found["result"]["value"]
+    return text
+
+
+def _frame(browser: Browser) -> dict[str, Any]:
+    """Return the frame of an HTML result."""
+    (tree,) = browser.tell("Page.getFrameTree")["frameTree"]["childFrames"]
+    return tree["frame"]
