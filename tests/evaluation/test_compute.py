@@ -28,14 +28,17 @@ def write_benchmarks(folder: Path, jobs: dict[str, tuple[float, float, str, str]
         path = folder / f"{name}.tsv"
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(f"s\th:m:s\tmax_rss\tcpu_time\n{wall_s}\t0:00:00\t{memory_mib}\t{cpu_s}\n")
-        os.utime(path, (end, end))
+        log = folder.parent / "logs" / f"{name}.log"
+        log.parent.mkdir(parents=True, exist_ok=True)
+        log.touch()
+        os.utime(log, (end, end))
     return folder
 
 
 @pytest.fixture
 def uses(tmp_path: Path) -> dict[tuple[str, str], float]:
     """The numbers of the made-up jobs."""
-    compute(CONFIG, write_benchmarks(tmp_path / "bench", JOBS), tmp_path)
+    compute(CONFIG, write_benchmarks(tmp_path / "bench", JOBS), tmp_path / "logs", tmp_path)
     return {(use.stage, use.quantity): use.value for use in read_rows(tmp_path / "compute.csv", Use)}
 
 
@@ -67,7 +70,7 @@ def test_the_pause_between_two_runs_does_not_count(uses: dict[tuple[str, str], f
 
 def test_a_short_wait_is_part_of_the_run(tmp_path: Path) -> None:
     jobs = {"collect/a": (1010.0, 10.0, "1.0", "1.0"), "collect/b": (1060.0, 10.0, "1.0", "1.0")}
-    compute(CONFIG, write_benchmarks(tmp_path / "bench", jobs), tmp_path)
+    compute(CONFIG, write_benchmarks(tmp_path / "bench", jobs), tmp_path / "logs", tmp_path)
     uses = {(use.stage, use.quantity): use.value for use in read_rows(tmp_path / "compute.csv", Use)}
     assert uses[ELAPSED, "wall time"] == pytest.approx(60 / 3600, rel=1e-4)
     assert uses[ELAPSED, "taken"] == pytest.approx(100 / 3, rel=1e-4)
@@ -75,7 +78,7 @@ def test_a_short_wait_is_part_of_the_run(tmp_path: Path) -> None:
 
 def test_text_has_a_row_a_stage_and_two_of_the_whole(tmp_path: Path) -> None:
     jobs = {"train/a": (8200.0, 7200.0, "3597.5", "900.4"), "collect/b": (1000.0, 3600.0, "3585.0", "5.0")}
-    compute(CONFIG, write_benchmarks(tmp_path / "bench", jobs), tmp_path)
+    compute(CONFIG, write_benchmarks(tmp_path / "bench", jobs), tmp_path / "logs", tmp_path)
     assert (tmp_path / "compute.md").read_text().splitlines()[2:] == [
         "| collect | 1 | 1.00 | 1.00 | 100 | 5 |",
         "| train | 1 | 1.00 | 2.00 | 50 | 900 |",
@@ -98,10 +101,13 @@ def test_a_steady_job_gets_all_its_cpu_time(wall_s: float, load: float) -> None:
     assert whole_cpu_s(load * seen_s, wall_s) == pytest.approx(load * wall_s)
 
 
-def test_no_benchmark_and_a_damaged_one_are_named(tmp_path: Path) -> None:
+def test_no_benchmark_a_damaged_one_and_a_missing_log_are_named(tmp_path: Path) -> None:
     with pytest.raises(DataError, match=r"bench: holds no benchmark; \./reproduce all makes them"):
-        compute(CONFIG, tmp_path / "bench", tmp_path)
+        compute(CONFIG, tmp_path / "bench", tmp_path / "logs", tmp_path)
     (tmp_path / "bench").mkdir()
+    (tmp_path / "bench" / "paper.tsv").write_text("s\tmax_rss\tcpu_time\n1\t1\t1\n")
+    with pytest.raises(DataError, match=r"logs/paper\.log: file is missing"):
+        compute(CONFIG, tmp_path / "bench", tmp_path / "logs", tmp_path)
     (tmp_path / "bench" / "paper.tsv").write_text("s\tcpu_time\nx\t1\n")
     with pytest.raises(DataError, match=r"bench/paper\.tsv: not a benchmark"):
-        compute(CONFIG, tmp_path / "bench", tmp_path)
+        compute(CONFIG, tmp_path / "bench", tmp_path / "logs", tmp_path)

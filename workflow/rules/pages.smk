@@ -15,6 +15,7 @@ rule compute:
     params:
         config=part(evaluation=["compute"]),
         benchmarks=f"{RESULTS}/bench",
+        logs=f"{RESULTS}/logs",
         code=code_of("compute"),
     script:
         "../scripts/compute.py"

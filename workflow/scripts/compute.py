@@ -6,4 +6,5 @@ from mobnet.core.logs import job
 from mobnet.evaluation.compute import compute
 
 with job(snakemake.log[0]):
-    compute(snakemake.params.config, Path(snakemake.params.benchmarks), Path(snakemake.output[0]).parent)
+    folders = (Path(name) for name in (snakemake.params.benchmarks, snakemake.params.logs))
+    compute(snakemake.params.config, *folders, Path(snakemake.output[0]).parent)

@@ -32,6 +32,7 @@ STAGES = {  # stage -> its rules; those of no stage make tables and figures
 REST = "tables and figures"
 WHOLE, ELAPSED = "all jobs", "elapsed"
 FIRST_S, FIRST_END_S, NEXT_S = 0.5, 15.0, 30.0  # Snakemake looks at a job every 0.5 s until 15 s, then every 30 s
+EDGE_S = 2.0  # a job's last line in its log is written at most this long before its end
 HOUR_S, PERCENT = 3600.0, 100.0
 HEADER = ["Stage", "Jobs", "CPU time [h]", "Wall time [h]", "Load [%]", "Peak memory [MiB]"]
 
@@ -72,19 +73,21 @@ class Use:
     unit: str
 
 
-def compute(config: Mapping[str, Any], bench_dir: Path, out_dir: Path) -> None:
+def compute(config: Mapping[str, Any], bench_dir: Path, logs_dir: Path, out_dir: Path) -> None:
     """Write compute.csv, .tex and .md: jobs [-], CPU and wall time [h] and peak memory [MiB] of each stage.
 
     Args:
         config: resolved configuration: `evaluation.compute.pause_s`, the longest time without any job that still
             counts as part of the run [s].
         bench_dir: benchmark files, one a job, in a folder a rule or named by their rule.
+        logs_dir: the jobs' logs, named as those are.
         out_dir: gets the three files.
 
     Raises:
-        DataError: there is no benchmark file, or one lacks a number.
+        DataError: there is no benchmark file, or one lacks a number or its log.
     """
-    jobs = [read_job(path, path.relative_to(bench_dir)) for path in sorted(bench_dir.rglob("*.tsv"))]
+    names = [path.relative_to(bench_dir) for path in sorted(bench_dir.rglob("*.tsv"))]
+    jobs = [read_job(bench_dir / name, (logs_dir / name).with_suffix(".log"), rule_of(name)) for name in names]
     if not jobs:
         raise DataError(f"{bench_dir}: holds no benchmark; ./reproduce all makes them")
     uses = [use for stage, own in by_stage(jobs) for use in uses_of(stage, own)]
@@ -96,20 +99,27 @@ def compute(config: Mapping[str, Any], bench_dir: Path, out_dir: Path) -> None:
     log.info("%s: %d jobs", out_dir / "compute.csv", len(jobs))
 
 
-def read_job(path: Path, name: Path) -> Job:
-    """Read a benchmark file, whose own time says when the job ended; `name` is its path below their folder.
+def rule_of(name: Path) -> str:
+    """Return the rule of a benchmark file, by its path below their folder."""
+    return name.parts[0].removesuffix(".tsv")
+
+
+def read_job(path: Path, log_path: Path, rule: str) -> Job:
+    """Read a benchmark file of a rule; when the job ended is told by its log, which `snakemake --touch` leaves alone.
 
     Raises:
-        DataError: it lacks a number.
+        DataError: a number or the log is missing.
     """
     with path.open(newline="", encoding="utf-8") as file:
         row = next(csv.DictReader(file, delimiter="\t"), {})
     try:
-        wall_s, end = float(row["s"]), path.stat().st_mtime
+        wall_s, end = float(row["s"]), log_path.stat().st_mtime
         cpu_s, peak_mib = (None if row[key] in ("-", "NA") else float(row[key]) for key in ("cpu_time", "max_rss"))
+    except FileNotFoundError:
+        raise DataError(f"{log_path}: file is missing") from None
     except (KeyError, ValueError) as error:
         raise DataError(f"{path}: not a benchmark, {error}") from None
-    return Job(name.parts[0].removesuffix(".tsv"), end - wall_s, end, whole_cpu_s(cpu_s or 0.0, wall_s), peak_mib)
+    return Job(rule, end - wall_s, end, whole_cpu_s(cpu_s or 0.0, wall_s), peak_mib)
 
 
 def whole_cpu_s(cpu_s: float, wall_s: float) -> float:
@@ -160,9 +170,10 @@ def whole_run(jobs: Sequence[Job], pause_s: float) -> Iterator[Use]:
 
 
 def at_once(jobs: Sequence[Job]) -> int:
-    """Return how many jobs ran at once at most."""
-    changes = sorted([(job.end, -1) for job in jobs] + [(job.start, 1) for job in jobs])
-    running, most = 0, 0
+    """Return how many jobs ran at once at most; their ends, which logs tell a little early, are left out."""
+    middles = [(job.start + EDGE_S, job.end - EDGE_S) for job in jobs if job.end - job.start > 2 * EDGE_S]
+    changes = sorted([(end, -1) for _, end in middles] + [(start, 1) for start, _ in middles])
+    running, most = 0, 1
     for _, change in changes:
         running += change
         most = max(most, running)
