@@ -50,3 +50,11 @@ def test_bars_have_their_heights_and_intervals_on_one_scale() -> None:
     ends = np.concatenate([np.asarray(bars.get_segments())[:, :, 1] for bars in first.collections])
     np.testing.assert_allclose(ends, [[0.5, 1.25], [1.5, 2.25], [2.5, 3.25], [3.5, 4.25]])
     assert [text.get_text() for text in figure.legends[0].get_texts()] == ["a", "b"]
+
+
+def test_a_run_that_leaps_flattens_no_line() -> None:
+    calm, leaping = lines(2, 3)
+    leaping.high[1] = 1e6
+    low, high = draw_lines([LinePanel("one", "x", "y", [calm, leaping])]).axes[0].get_ylim()
+    means = np.concatenate([calm.mean, leaping.mean])
+    assert low < means.min() < means.max() < high < 100

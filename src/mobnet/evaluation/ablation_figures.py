@@ -21,6 +21,7 @@ PANEL_INCH, LEGEND_INCH = 1.6, 0.45  # height of a panel and of the legend above
 COLOURS = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "black", "#56B4E9")
 DASHES: Sequence[Any] = ("-", (0, (5, 1.5)), (0, (1, 1)), (0, (5, 1, 1, 1)), (0, (3, 1, 1, 1, 1, 1)), (0, (8, 2)), "-")
 MARKERS = "osD^vPX"
+MARGIN = 0.08  # above and below all means [share of their range]
 LEGEND: Mapping[str, Any] = {"columns": 3, "handlelength": 2.6, "columnspacing": 1.2, "handletextpad": 0.5}
 
 
@@ -77,8 +78,17 @@ def draw_lines(panels: Sequence[LinePanel]) -> Figure:
             axis.set(xlabel=panel.x_label, ylabel=panel.y_label)
             axis.set_title(f"({letter}) {panel.title}", loc="left", pad=3)
             _places(axis, panel)
+        if not any(panel.sizes for panel in panels):
+            axes[0].set_ylim(*_range_of_means(panels))
         legend(figure, axes, **LEGEND)
     return figure
+
+
+def _range_of_means(panels: Sequence[LinePanel]) -> tuple[float, float]:
+    """Return the ends of an axis [its unit] that shows all means: a single run that leaps would flatten every line."""
+    means = np.concatenate([line.mean for panel in panels for line in panel.lines])
+    margin = MARGIN * float(np.ptp(means)) or 1.0
+    return float(means.min()) - margin, float(means.max()) + margin
 
 
 def _line(axis: Axes, line: Line, style: int, marked: bool) -> None:
