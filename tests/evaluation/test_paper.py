@@ -11,10 +11,14 @@ import pytest
 
 from mobnet.core.errors import DataError
 from mobnet.evaluation import paper
+from mobnet.evaluation.claim import read_claims
+from mobnet.evaluation.claims import Verdict
 from mobnet.evaluation.commands import commands
 from mobnet.evaluation.deviations import deviations
 from mobnet.evaluation.gait import figure_05
+from mobnet.evaluation.numbers import numbers
 from mobnet.evaluation.paper import PaperError, build, collect, missing_packages
+from mobnet.evaluation.rows import write_rows
 from mobnet.evaluation.spread import figure_19
 
 REPO = Path(__file__).parents[2]
@@ -81,6 +85,12 @@ def test_the_paper_itself_builds_from_the_golden_tables(
     for golden in (REPO / "tests/golden").glob("*.tex"):
         (tmp_path / golden.name).write_text(golden.read_text())
     deviations(REPO / "docs/deviations.md", tmp_path / "deviations.tex")
+    verdicts = [
+        Verdict(c.name, c.printed, c.says, c.published, 1.0, 0.9, 1.1, 6, c.unit, "yes", "-", "reproduced", c.cause)
+        for c in read_claims(REPO / "configs/claims.yaml")
+    ]
+    write_rows(tmp_path / "claims.csv", Verdict, verdicts)
+    numbers(config, [REPO / "tests/golden/table_05.csv"], tmp_path / "claims.csv", tmp_path / "numbers.tex")
     figure_05(config, [walk(1.0, method="MOB"), walk(2.0)], tmp_path)
     figure_19(config, {"with RTE": data_sets["walk"]}, [{"scenario": "t", "recordings": data_sets["test"]}], tmp_path)
     commands(config, {"walk": data_sets["walk"]}, tmp_path)

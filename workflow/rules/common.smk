@@ -314,6 +314,39 @@ def figure_files(name):
     return [f"{FIGURES}/{name}.pdf", shown(f"{FIGURES}/{name}.png", "figures"), f"{FIGURES}/{name}.csv"]
 
 
+def scenarios_of_table(name):
+    """Return the scenarios whose scores a table shows, each once."""
+    return list(dict.fromkeys(row["scenario"] for row in settings["evaluation"]["tables"][name]["rows"]))
+
+
+def config_of_table(name):
+    """Return what a table reads of the configuration: of all tables only its own."""
+    picked = part(evaluation=["confidence", "bootstrap_draws"])["evaluation"]
+    return part("seed", "robot", "published") | {
+        "evaluation": picked | {"tables": {name: settings["evaluation"]["tables"][name]}}
+    }
+
+
+def folders_of_claims():
+    """Return the folders of the networks whose losses claims name: all kinds and sizes of the left leg's."""
+    kinds = settings["evaluation"]["figure_17"]
+    sizes = [folder for size in sizes_of_networks() for folder in size["folders"]]
+    return list(dict.fromkeys(network_folders(kinds["methods"], kinds["limb"]) + sizes))
+
+
+def first_runs(test):
+    """Return the runs of a test that a figure shows: first network, first recording."""
+    return [
+        entry(test["scenario"], test["level"], method, network_seeds(method)[0], TEST_SEEDS[0])
+        for method in test["methods"]
+    ]
+
+
+def curves_of(*tests):
+    """Return the files behind the curves of tests."""
+    return arrays([run for test in tests for run in first_runs(test)], "recording", "residual", "estimate")
+
+
 def products():
     """Return every file worth keeping, also those that later ones could be made without."""
     scenarios = dict.fromkeys(name for name, _, _ in wanted())

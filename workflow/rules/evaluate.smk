@@ -4,26 +4,6 @@ WINDOWS = settings["evaluation"]["windows"]  # around pushes: only there are rec
 BUDGET = settings["evaluation"]["error_budget"]["tests"]  # of one scenario
 
 
-def scenarios_of_table(name):
-    """Return the scenarios whose scores a table shows, each once."""
-    return list(dict.fromkeys(row["scenario"] for row in settings["evaluation"]["tables"][name]["rows"]))
-
-
-def config_of_table(name):
-    """Return what a table reads of the configuration: of all tables only its own."""
-    picked = part(evaluation=["confidence", "bootstrap_draws"])["evaluation"]
-    return part("seed", "robot", "published") | {
-        "evaluation": picked | {"tables": {name: settings["evaluation"]["tables"][name]}}
-    }
-
-
-def folders_of_claims():
-    """Return the folders of the networks whose losses claims name: all kinds and sizes of the left leg's."""
-    kinds = settings["evaluation"]["figure_17"]
-    sizes = [folder for size in sizes_of_networks() for folder in size["folders"]]
-    return list(dict.fromkeys(network_folders(kinds["methods"], kinds["limb"]) + sizes))
-
-
 rule score:
     input:
         lambda w: arrays(runs_of(w.scenario), "residual", "estimate"),

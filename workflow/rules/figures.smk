@@ -6,19 +6,6 @@ FIGURES_5 = {
 COLLISIONS = FIGURES_5["figure_10"]["tests"]
 
 
-def first_runs(test):
-    """Return the runs of a test that a figure shows: first network, first recording."""
-    return [
-        entry(test["scenario"], test["level"], method, network_seeds(method)[0], TEST_SEEDS[0])
-        for method in test["methods"]
-    ]
-
-
-def curves_of(*tests):
-    """Return the files behind the curves of tests."""
-    return arrays([run for test in tests for run in first_runs(test)], "recording", "residual", "estimate")
-
-
 rule figure_06:
     input:
         curves_of(FIGURES_5["figure_06"]),
