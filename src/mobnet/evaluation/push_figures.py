@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
@@ -48,7 +49,9 @@ def draw_pushes(groups: Sequence[PushGroup], joint: str, across: int = 1, note_d
         note_deg: angle of the bars' notes [deg].
     """
     rows = max(1, *(-(-len(group.panels) // across) for group in groups))
-    places = [[f"{k}.{row * across + i}" for k in range(len(groups)) for i in range(across)] for row in range(rows)]
+    places: list[Any] = [
+        [f"{k}.{row * across + i}" for k in range(len(groups)) for i in range(across)] for row in range(rows)
+    ]
     places.append([f"{k}.bars" for k in range(len(groups)) for _ in range(across)])
     with mpl.rc_context({**STYLE, "hatch.linewidth": 0.5}):
         size = COLUMN_INCH if len(groups) == 1 else PAGE_INCH, CURVES_INCH * rows + BARS_INCH + LEGEND_INCH
