@@ -9,8 +9,9 @@ import pytest
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json
 from mobnet.evaluation import snapshot as module
-from mobnet.evaluation.snapshot import HEADLINE, compare_snapshot, main, with_headline, write_snapshot
+from mobnet.evaluation.snapshot import HEADLINE, compare_snapshot, main, read_keyed, with_headline, write_snapshot
 
+REPO = Path(__file__).parents[2]
 TABLE = (
     "scenario,level,method,joint,metric,value,published\nwalk,ideal,MOB,LL1,rmse,1.5,2\nwalk,ideal,MOB,LL2,rmse,3,4\n"
 )
@@ -114,3 +115,9 @@ def test_the_readme_shows_the_committed_headline_table() -> None:
     root = Path(__file__).parents[2]
     page, table = (root / "README.md").read_text(), (root / "docs" / "results" / f"{HEADLINE}.md").read_text()
     assert with_headline(page, table) == page
+
+
+@pytest.mark.parametrize("stored", sorted((REPO / "docs/results").glob("*.csv")), ids=lambda path: path.stem)
+def test_every_row_of_the_stored_tables_has_a_name_of_its_own(stored: Path) -> None:
+    """Else `compare` would look at the last one of a name alone."""
+    assert len(read_keyed(stored)) == len(stored.read_text().splitlines()) - 1

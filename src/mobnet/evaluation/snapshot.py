@@ -28,7 +28,7 @@ COMPUTE = (Path("results/default/compute.md"), Path("results/default/compute.tex
 README, HEADLINE = Path("README.md"), "table_05"
 KEYS = (  # columns that name a row; the others are results
     "scenario", "level", "method", "joint", "metric", "claim",
-    "set", "quantity", "part", "command", "bin_from", "measure", "limb",
+    "set", "quantity", "part", "command", "bin_from", "measure", "limb", "test", "pushed", "share", "unit",
 )  # fmt: skip
 Rows = dict[tuple[str, ...], dict[str, str]]
 
