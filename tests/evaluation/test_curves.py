@@ -55,6 +55,7 @@ def test_a_band_is_shown_where_it_is_wanted_and_told(curves: Curves) -> None:
 
 
 def test_uncertainty_is_what_the_residual_has_beyond_the_truth_and_the_estimate(curves: Curves) -> None:
+    """The identity of (15): the residual is external torque and uncertainty."""
     target, mob, net = curves.uncertainty_panel("a", "LL3", slice(0, 300)).curves
     assert target.label == "target"
     np.testing.assert_allclose(target.values, 5.0, rtol=1e-4)

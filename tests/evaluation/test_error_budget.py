@@ -28,6 +28,7 @@ def made(config: dict[str, Any], scores_csv: Path, out: Path) -> Cells:
 def test_share_gone_is_that_of_the_square_whatever_the_joint(
     tmp_path: Path, config: dict[str, Any], layout: JointLayout, write_budget_scores: Write
 ) -> None:
+    """A closed form: errors a factor smaller leave the square of that factor."""
     cells = made(config, write_budget_scores(FACTORS), tmp_path)
     for (joint, level, metric), cell in cells.items():
         if metric == "gone":
@@ -42,6 +43,7 @@ def test_share_gone_is_that_of_the_square_whatever_the_joint(
 def test_a_group_counts_its_joints_by_their_squares(
     tmp_path: Path, config: dict[str, Any], write_budget_scores: Write
 ) -> None:
+    """A closed form: of squares 1, 4 and 9 the last is gone."""
     cells = made(config, write_budget_scores(dict.fromkeys(FACTORS, 1.0), "W3"), tmp_path)
     assert cells["waist", "exact_model", "gone"].value == pytest.approx(100 * 9 / 14, abs=0.01)
     assert cells["waist", "exact_model", "rmse"].value == pytest.approx(1.0)

@@ -25,6 +25,7 @@ def test_rmse_of_white_noise_converges_to_its_deviation(rng: np.random.Generator
 
 
 def test_rmse_loses_no_digits_on_float32_with_a_large_offset() -> None:
+    """Invariant under an offset that both share."""
     truth = np.full((100_000, 1), 1000.0, dtype=np.float32)
     np.testing.assert_allclose(rmse(truth + np.float32(0.5), truth), 0.5, rtol=1e-12)
 
@@ -36,6 +37,7 @@ def test_roughness_of_a_ramp_is_its_slope() -> None:
 
 
 def test_roughness_ignores_the_jump_between_segments() -> None:
+    """Zero, however far apart two still segments are."""
     signal = np.concatenate([np.zeros((50, 1)), np.full((50, 1), 100.0)])
     assert roughness(signal, ((0, 50), (50, 100)), 1000.0) == pytest.approx(0.0)
     assert roughness(signal, ((0, 100),), 1000.0) > 1.0
@@ -56,6 +58,7 @@ def test_samples_between_segments_do_not_count() -> None:
 def test_relative_rmse_is_a_percentage_of_the_largest_truth_and_has_no_unit_of_its_own(
     rng: np.random.Generator,
 ) -> None:
+    """A closed form, invariant under a change of unit."""
     truth = rng.normal(size=(300, 2))
     truth[7] = [-20.0, 50.0]
     spans = ((0, 200),)

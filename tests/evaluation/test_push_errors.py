@@ -25,6 +25,7 @@ def errors(config: dict[str, Any], write_push_scores: WritePushScores) -> list[P
 
 
 def test_average_is_that_of_the_pushes_and_increase_is_over_walking(errors: list[PushError]) -> None:
+    """A closed form of made-up errors."""
     for method, mean in MEANS.items():
         own = {error.push: error for error in errors if error.method == method}
         assert list(own) == ["1", "2", AVERAGE, INCREASE]

@@ -33,6 +33,7 @@ def test_number_of_an_example_whether_alone_or_among_draws(name: str) -> None:
 
 @pytest.mark.parametrize("name", [name for name, quantity in QUANTITIES.items() if quantity.equality is not None])
 def test_equal_cells_give_equality(name: str) -> None:
+    """Identity: cells that are alike give what counts as equality."""
     quantity = QUANTITIES[name]
     means = np.full(quantity.takes[0], 2.0)
     if name == "gap ratio":
@@ -41,6 +42,7 @@ def test_equal_cells_give_equality(name: str) -> None:
 
 
 def test_falls_is_one_for_a_falling_row_and_minus_one_for_a_rising_one() -> None:
+    """The order of the cells decides, not their size."""
     row = np.arange(7.0)
     assert QUANTITIES["falls"].made(-row) == 1.0
     assert QUANTITIES["falls"].made(row) == -1.0
@@ -49,3 +51,15 @@ def test_falls_is_one_for_a_falling_row_and_minus_one_for_a_rising_one() -> None
 @pytest.mark.parametrize(("name", "counts"), [("value", [0, 2]), ("ratio", [1, 3]), ("least ratio", [0, 3, 7])])
 def test_other_numbers_of_cells_are_not_taken(name: str, counts: list[int]) -> None:
     assert not [count for count in counts if count in QUANTITIES[name].takes]
+
+
+@pytest.mark.parametrize("name", ["ratio", "cut", "least ratio", "gap ratio", "falls"])
+def test_numbers_without_a_unit_are_invariant_under_a_change_of_it(name: str, rng: np.random.Generator) -> None:
+    means = rng.uniform(1.0, 9.0, QUANTITIES[name].takes[-1] if len(QUANTITIES[name].takes) < 9 else 4)
+    assert QUANTITIES[name].made(1000.0 * means) == pytest.approx(QUANTITIES[name].made(means))
+
+
+@pytest.mark.parametrize("name", ["difference", "below", "above"])
+def test_differences_are_invariant_under_an_offset_that_all_share(name: str, rng: np.random.Generator) -> None:
+    means = rng.uniform(1.0, 9.0, QUANTITIES[name].takes[0])
+    assert QUANTITIES[name].made(means + 5.0) == pytest.approx(QUANTITIES[name].made(means))

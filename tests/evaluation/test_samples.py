@@ -24,12 +24,14 @@ def test_a_span_holds_the_flags_and_what_comes_after_within_its_segment() -> Non
 
 
 def test_blocks_tile_the_spans() -> None:
+    """Identity: end to end the blocks are the spans."""
     blocks = list(blocks_of(((0, 25), (40, 50)), 10))
     assert blocks == [(0, 10), (10, 20), (20, 25), (40, 50)]
 
 
 @pytest.mark.parametrize(("total", "count"), [(10, 3), (3, 10), (100, 7), (5, 5), (0, 4)])
 def test_samples_are_spread_evenly_without_a_repeat(total: int, count: int) -> None:
+    """In order, from the first on, no two steps further apart than one."""
     taken = evenly(total, count)
     assert len(taken) == min(total, count)
     assert len(set(taken.tolist())) == len(taken)

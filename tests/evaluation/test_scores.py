@@ -17,6 +17,7 @@ Walk = Callable[..., dict[str, Any]]
 
 
 def test_constant_error_is_scored_as_that_constant_in_every_joint(walk: Walk, layout: JointLayout) -> None:
+    """A closed form."""
     rows = [row for row in score_run(layout, "forward_walk", walk(-3.0)) if row.metric == "rmse"]
     assert [row.joint for row in rows] == [*layout.limb("LL"), "avg"]
     assert [row.value for row in rows] == pytest.approx([3.0] * 7, rel=1e-5)
@@ -26,6 +27,7 @@ def test_constant_error_is_scored_as_that_constant_in_every_joint(walk: Walk, la
 
 
 def test_a_constant_error_does_not_change_the_roughness(walk: Walk, layout: JointLayout) -> None:
+    """Invariant under an offset of the estimate."""
     one, two = (
         [row.value for row in score_run(layout, "walk", walk(error)) if row.metric == "roughness"]
         for error in (0.5, 4.0)

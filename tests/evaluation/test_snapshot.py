@@ -50,6 +50,7 @@ def test_snapshot_holds_tables_and_pictures_with_their_origin() -> None:
 
 @pytest.mark.usefixtures("stored")
 def test_identical_tables_do_not_differ() -> None:
+    """Identity: nothing differs from itself."""
     assert rewrite("", "") == []
 
 
