@@ -258,12 +258,9 @@ def calibration_tests():
 
 
 def panels_of(figure):
-    """Return the runs that a figure of one recording shows: first network, first test."""
-    return [
-        entry(figure["scenario"], level, method, network_seeds(method)[0], TEST_SEEDS[0])
-        for level, methods in figure["panels"].items()
-        for method in methods
-    ]
+    """Return the runs that a figure of one scenario at some levels shows: first network, first recording."""
+    tests = [{**figure, "level": level, "methods": methods} for level, methods in figure["panels"].items()]
+    return [run for test in tests for run in first_runs(test)]
 
 
 def arrays(entries, *kinds):

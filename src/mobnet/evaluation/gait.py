@@ -74,14 +74,12 @@ def figure_08(config: Mapping[str, Any], entries: Entries, out_dir: Path) -> Non
     Raises:
         DataError: a file is missing or damaged, or no whole cycle follows the start.
     """
-    settings = config["evaluation"]["figure_08"]
-    joints = load_layout(Path(config["robot"])).limb(settings["limb"])
-    curves, rows = read_cycle(config, settings, entries, joints)
+    curves, rows = read_leg(config, "figure_08", entries)
     (estimate,) = curves.estimates.values()
     errors = rmse_in_spans(estimate, curves.truth, curves.spans, curves.rate_hz).tolist()
     panels = [
         curves.uncertainty_panel(f"{joint}, RMSE {error:.2f} N m", joint, rows, zero=rows.start)
-        for joint, error in zip(joints, errors, strict=True)
+        for joint, error in zip(curves.joints, errors, strict=True)
     ]
     _write(panels, "uncertainty torque [N m]", out_dir / "figure_08")
 
@@ -97,10 +95,8 @@ def figure_09(config: Mapping[str, Any], entries: Entries, out_dir: Path) -> Non
     Raises:
         DataError: a file is missing or damaged, or no whole cycle follows the start.
     """
-    settings = config["evaluation"]["figure_09"]
-    joints = load_layout(Path(config["robot"])).limb(settings["limb"])
-    curves, rows = read_cycle(config, settings, entries, joints)
-    panels = [curves.panel(joint, joint, rows, zero=rows.start) for joint in joints]
+    curves, rows = read_leg(config, "figure_09", entries)
+    panels = [curves.panel(joint, joint, rows, zero=rows.start) for joint in curves.joints]
     _write(panels, "external torque [N m]", out_dir / "figure_09")
 
 
@@ -109,6 +105,12 @@ def _write(panels: Sequence[Panel], y_label: str, stem: Path) -> None:
     write_panels(stem.with_suffix(".csv"), panels)
     save_figure(draw_panels(panels, FROM_LIFT_OFF, y_label, SIDE_BY_SIDE, height_inch=HEIGHT_INCH), stem)
     log.info("%s.pdf: %d panels", stem, len(panels))
+
+
+def read_leg(config: Mapping[str, Any], figure: str, entries: Entries) -> tuple[Curves, slice]:
+    """Return `read_cycle` of all joints of the limb that a figure names, (n,)."""
+    settings = config["evaluation"][figure]
+    return read_cycle(config, settings, entries, load_layout(Path(config["robot"])).limb(settings["limb"]))
 
 
 def read_cycle(

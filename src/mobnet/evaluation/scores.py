@@ -17,7 +17,7 @@ from mobnet.core.config import load_layout
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json
 from mobnet.core.joints import JointLayout
-from mobnet.core.store import NOTE, read_array
+from mobnet.core.store import NOTE, read_array, spans_and_rate
 from mobnet.evaluation.metrics import METRICS, PUSH, PUSHED, Spans
 from mobnet.evaluation.rows import Score, write_rows
 from mobnet.evaluation.samples import push_windows
@@ -146,6 +146,5 @@ def read_pair(estimate_stem: Path, residual_stem: Path, layout: JointLayout) -> 
         joints,
         read_array(estimate_stem, [ESTIMATE + joint for joint in joints])[0],
         read_array(residual_stem, [TRUTH + joint for joint in joints])[0],
-        tuple((int(start), int(end)) for start, end in meta["segments"]),
-        float(meta["rate_hz"]),
+        *spans_and_rate(meta),
     )
