@@ -1,0 +1,94 @@
+"""Claims of the paper and the bounds within which ours count as reproduced."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import AfterValidator, Field, model_validator
+
+from mobnet.settings.base import LevelName, LimbOrJointName, MethodName, Real, Section, TestName, Text
+
+SHORT_CELL = ("level", "method", "joint")
+TAKES = {  # quantity -> how many cells it takes: at least, and in steps of; a step of 0 is exactly
+    "value": (1, 0), "ratio": (2, 0), "cut": (2, 0), "difference": (2, 0), "gap ratio": (4, 0),
+    "below": (2, 1), "above": (2, 1), "falls": (2, 1), "least ratio": (2, 2),
+}  # fmt: skip
+
+
+def _ordered(bounds: tuple[float | None, float | None]) -> tuple[float | None, float | None]:
+    """Check that a range has its lower end first; None is no bound."""
+    low, high = bounds
+    if low is not None and high is not None and low > high:
+        raise ValueError("accepted: [low, high] with low <= high, null for no bound")
+    return bounds
+
+
+Bounds = Annotated[tuple[Real | None, Real | None], AfterValidator(_ordered)]
+
+
+class Cell(Section):
+    """A result that a claim's number is made of; several joints or metrics are averaged."""
+
+    scenario: TestName | None = None
+    level: LevelName | None = None
+    method: MethodName | None = None
+    joint: LimbOrJointName | tuple[LimbOrJointName, ...] | None = None
+    metric: str | tuple[str, ...] | None = None
+
+
+class Claim(Section):
+    """What the paper says and what must hold here.
+
+    Attributes:
+        printed: where the paper says it.
+        says: the claim in our words.
+        quantity: how the number is made of the cells, a key of `TAKES`.
+        cells: results that the number is made of, with what they share filled in.
+        unit: unit of the number.
+        published: the paper's number; None where it gives none.
+        reproduced: range in which ours counts as the paper's.
+        direction: wider range in which ours points the paper's way.
+        cause: why ours is not reproduced, as far as it was tested.
+    """
+
+    printed: Text
+    says: Text
+    quantity: Text
+    cells: Annotated[tuple[Cell, ...], Field(min_length=1)]
+    unit: Text
+    published: Real | None
+    reproduced: Bounds
+    direction: Bounds
+    cause: str = ""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _fill_in(cls, entry: Any) -> Any:
+        """Spell out short cells, and put what the cells share, `at`, into each."""
+        if not isinstance(entry, dict) or not isinstance(entry.get("cells"), list):
+            return entry
+        shared, rest = entry.get("at") or {}, {key: value for key, value in entry.items() if key != "at"}
+        return {**rest, "cells": [{**shared, **cls._spelt_out(cell)} for cell in entry["cells"]]}
+
+    @staticmethod
+    def _spelt_out(cell: Any) -> dict[str, Any]:
+        """Return a cell that is a method's name, [level, method, joint] or a mapping as a mapping."""
+        if isinstance(cell, str):
+            return {"method": cell}
+        if isinstance(cell, list):
+            if len(cell) != len(SHORT_CELL):
+                raise ValueError(f"cell {cell}: accepted: [{', '.join(SHORT_CELL)}], a method or a mapping")
+            return dict(zip(SHORT_CELL, cell, strict=True))
+        return dict(cell)
+
+    @model_validator(mode="after")
+    def _takes_its_cells(self) -> Claim:
+        """Check that the quantity exists and takes as many cells."""
+        if self.quantity not in TAKES:
+            raise ValueError(f"quantity: {self.quantity!r} is not accepted; accepted: {', '.join(sorted(TAKES))}")
+        least, step = TAKES[self.quantity]
+        more = len(self.cells) - least
+        if more < 0 or (more % step if step else more):
+            accepted = f"{least}, {least + step}, ..." if step else str(least)
+            raise ValueError(f"{len(self.cells)} cells; {self.quantity} takes {accepted}")
+        return self

@@ -1,0 +1,120 @@
+"""The paper's own results, as printed (Lim, Kim, Cha, Park: MOB-Net)."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field, model_validator
+from typing_extensions import TypeAliasType
+
+from mobnet.settings.base import Count, LevelName, LimbName, MethodName, Positive, Real, Section, Text
+
+Numbers = tuple[Real | None, ...]  # one for each column; None where nothing is printed or readable
+Node = TypeAliasType("Node", "dict[str, Numbers | Node]")
+
+
+class Floor(Section):
+    """The row over which a table prints its averages as increases."""
+
+    level: LevelName
+    method: MethodName
+
+
+class PublishedTable(Section):
+    """A table, or the numbers of a figure.
+
+    Attributes:
+        printed: where the paper prints it.
+        metric: of the numbers.
+        unit: of the numbers.
+        columns: joints or other heads.
+        robot: whether it was measured on the paper's robot, not in its simulation.
+        labels: level -> how the table calls it.
+        numbers: rows by their keys, such as level and method, each one number for each column.
+    """
+
+    printed: Text
+    metric: Text | None = None
+    unit: Text | None = None
+    columns: tuple[Text, ...]
+    robot: bool = False
+    floor: Floor | None = None
+    labels: dict[LevelName, str] = {}
+    numbers: Node
+
+    @model_validator(mode="after")
+    def _rows_fit(self) -> PublishedTable:
+        """Check that every row has a number for each column."""
+        waiting: list[tuple[str, Numbers | Node]] = list(self.numbers.items())
+        while waiting:
+            place, item = waiting.pop()
+            if isinstance(item, dict):
+                waiting += [(f"{place}.{key}", below) for key, below in item.items()]
+            elif len(item) != len(self.columns):
+                raise ValueError(f"{place}: {len(item)} numbers for {len(self.columns)} columns")
+        return self
+
+
+class PublishedNetwork(Section):
+    """A row of Table 1."""
+
+    architecture: Text
+    parameters: Count
+    horizon_steps: Count
+
+
+class PublishedNetworks(Section):
+    """Table 1."""
+
+    printed: Text
+    rows: dict[LimbName, PublishedNetwork]
+
+
+class PublishedData(Section):
+    """What the paper says of its training sets: set -> quantity -> number, durations in minutes."""
+
+    printed: Text
+    sets: dict[str, dict[str, Real]]
+
+
+class PublishedUncertainty(Section):
+    """Standard deviations of the robot's uncertainty torque [N m], V1 to V3 [N], by limb."""
+
+    printed: Text
+    unit: Text
+    std: dict[LimbName, tuple[Positive, ...]]
+    note: Text
+
+
+class PublishedKinds(Section):
+    """Networks of section 6.1: parameters, and the order of their losses, lowest first."""
+
+    printed: Text
+    parameters: dict[MethodName, Count]
+    order: dict[MethodName, Count]
+
+
+class Contact(Section):
+    """Peak force and impulse of a contact."""
+
+    force_n: Positive
+    momentum_ns: Positive
+
+
+class PublishedContacts(Section):
+    """Section 5.4: means of five collisions with a fixed obstacle."""
+
+    printed: Text
+    foot: Contact
+    knee: Contact
+
+
+class Published(Section):
+    """All numbers of the paper that ours stand beside."""
+
+    table_01: PublishedNetworks
+    tables: Annotated[dict[str, PublishedTable], Field(min_length=1)]
+    data: PublishedData
+    uncertainty: PublishedUncertainty
+    kinds: PublishedKinds
+    section_5_4: PublishedContacts

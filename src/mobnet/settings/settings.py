@@ -1,0 +1,145 @@
+"""The whole configuration, and what follows from a row of it: a method's networks and trainings."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Annotated
+
+from pydantic import Field
+
+from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.core.joints import JointLayout
+from mobnet.settings.base import Index, LevelName, MethodNames, ScaleName, ScenarioName, Section, TestName
+from mobnet.settings.claims import Claim
+from mobnet.settings.data import Commands, Motion, Push, RandomTorque, RecordingSettings, Scenario, Terrain
+from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.methods import Method, Observer, Sweep
+from mobnet.settings.networks import Learning, Network, NetworkRow, Training
+from mobnet.settings.plant import Level, Plant, Rates
+from mobnet.settings.published import Published
+from mobnet.settings.robot import RobotTable
+from mobnet.settings.scales import Experiment, Scale
+from mobnet.settings.walking import Walking
+
+LowerName = Annotated[str, Field(pattern="^[a-z0-9_]+$")]
+RowName = Annotated[str, Field(pattern="^[A-Za-z0-9][A-Za-z0-9-]*$")]
+
+
+class Settings(Section):
+    """Every number of the artifact, once.
+
+    Attributes:
+        scale: the scale that is chosen.
+        seed: root of every random number; a job adds its own name.
+        tests: scenario -> level -> methods that are run on it.
+    """
+
+    scale: ScaleName
+    seed: Index
+    rates: Rates
+    plant: Plant
+    levels: Annotated[dict[LowerName, Level], Field(min_length=1)]
+    walking: Walking
+    terrain: Terrain
+    commands: Commands
+    random_torque: RandomTorque
+    motions: dict[LowerName, Motion]
+    pushes: dict[LowerName, Push]
+    scenarios: Annotated[dict[LowerName, Scenario], Field(min_length=1)]
+    recording: RecordingSettings
+    observer: Observer
+    networks: Annotated[dict[str, NetworkRow], Field(min_length=1)]
+    learning: Learning
+    methods: Annotated[dict[RowName, Method], Field(min_length=1)]
+    sweeps: dict[Annotated[str, Field(pattern="^[a-z_]+$")], Sweep]
+    tests: dict[ScenarioName, dict[LevelName, MethodNames]]
+    evaluation: Evaluation
+    scales: Annotated[dict[LowerName, Scale], Field(min_length=1)]
+    robot: RobotTable
+    published: Published
+    claims: dict[str, Claim]
+
+    @property
+    def layout(self) -> JointLayout:
+        """Joints and limbs of the robot."""
+        return self.robot.layout
+
+    @property
+    def sizes(self) -> Scale:
+        """The chosen scale."""
+        return self.scales[self.scale]
+
+    @cached_property
+    def all_methods(self) -> dict[str, Method]:
+        """The methods and those that sweeps stand for, such as `MOB-Net-hidden-44` (section 6.3)."""
+        swept = {
+            swept_name(base, key, value): _swept(self.methods[base], sweep, key, value)
+            for key, sweep in self.sweeps.items()
+            for base in sweep.of
+            for value in sweep.values
+        }
+        return {**self.methods, **swept}
+
+    def method(self, name: str) -> Method:
+        """Return a method.
+
+        Raises:
+            ConfigError: it is unknown.
+        """
+        if name not in self.all_methods:
+            raise ConfigError(not_accepted("method", name, self.all_methods))
+        return self.all_methods[name]
+
+    def source_of(self, method: str) -> str:
+        """Return the method whose networks or fit a method runs on: the one that `of` names, or itself."""
+        return self.method(method).of or method
+
+    def network(self, method: str, limb: str) -> Network:
+        """Return a network of Table 1 with a method's changes laid over it.
+
+        Raises:
+            ConfigError: the method or the network is unknown.
+        """
+        if limb not in self.networks:
+            raise ConfigError(not_accepted("network", limb, self.networks))
+        row, ports = self.networks[limb], self.robot.networks[limb]
+        return Network.model_validate({**vars(ports), **vars(row), **self.method(method).network})
+
+    def experiment(self, method: str, limb: str) -> Experiment:
+        """Return how long and how often a method's network is trained at the chosen scale."""
+        return self.sizes.experiments[self.network(method, limb).experiment]
+
+    def training(self, method: str, limb: str) -> Training:
+        """Return all that a training of a method's network takes.
+
+        Raises:
+            ConfigError: the method is unknown or learns nothing, or the network is unknown.
+        """
+        row, sizes = self.method(method), self.sizes
+        if row.target is None:
+            accepted = [name for name, other in self.all_methods.items() if other.target]
+            raise ConfigError(not_accepted("method to train", method, accepted))
+        scaled = {name: getattr(sizes, name) for name in ("batch_size", "stream_s", "rate_decay_share")}
+        known = {name: value for name, value in scaled.items() if value is not None}
+        experiment = self.experiment(method, limb)
+        return Training(
+            method=method,
+            limb=limb,
+            target=row.target,
+            network=self.network(method, limb),
+            learning=Learning.model_validate({**vars(self.learning), **known, **row.learning}),
+            epochs=experiment.epochs,
+            epoch_samples=experiment.epoch_samples,
+        )
+
+
+def swept_name(base: str, key: str, value: int) -> str:
+    """Return the name of the method that stands for one value of a sweep."""
+    return f"{base}-{key.replace('_', '-')}-{value}"
+
+
+def _swept(base: Method, sweep: Sweep, key: str, value: int) -> Method:
+    """Return a method with a sweep's limb, experiment and changed key."""
+    network, learning = {**base.network, "experiment": sweep.experiment}, dict(base.learning)
+    (network if sweep.section == "network" else learning)[key] = value
+    return base.model_copy(update={"limbs": (sweep.limb,), "network": network, "learning": learning})
