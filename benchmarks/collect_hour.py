@@ -22,10 +22,10 @@ from benchmarks.jobs import CONFIG, Cost, run
 from mobnet.core.config import FIRST_TRAINING_SEED, load_config
 from mobnet.core.files import read_json
 from mobnet.core.recording import COMMAND
-from mobnet.evaluation.commands import KEYS, UNITS, bars, in_degrees
-from mobnet.evaluation.data_sets import commanded
-from mobnet.evaluation.steps import read_steps
-from mobnet.evaluation.upper_body import upper_body
+from mobnet.evaluation.figures.commands import bars
+from mobnet.evaluation.measure.steps import KEYS, UNITS, in_degrees, read_steps
+from mobnet.evaluation.measure.upper_body import upper_body
+from mobnet.evaluation.tables.data import commanded
 from mobnet.robot.description import load_robot
 from mobnet.robot.nominal import NominalModel
 

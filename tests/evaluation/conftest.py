@@ -15,10 +15,10 @@ from mobnet.core.files import write_json
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout, layout_of
 from mobnet.core.recording import FEET, Recording, Sensed, Truth
 from mobnet.core.store import write_array, write_recording
-from mobnet.evaluation.claim import Claim
-from mobnet.evaluation.results import listed
-from mobnet.evaluation.rows import Score, write_rows
-from mobnet.evaluation.trainings import Epoch
+from mobnet.evaluation.measure.results import listed
+from mobnet.evaluation.measure.trainings import Epoch
+from mobnet.evaluation.number.claim import Claim
+from mobnet.evaluation.number.rows import Score, write_rows
 
 REPO = Path(__file__).parents[2]
 CONFIGURED = yaml.safe_load((REPO / "configs/config.yaml").read_text())["evaluation"]

@@ -11,24 +11,28 @@ from typing import Any
 
 import pytest
 
-from mobnet.evaluation.architecture import table_01
-from mobnet.evaluation.claims import claims
-from mobnet.evaluation.commands import commands, steps
-from mobnet.evaluation.coverage import coverage
-from mobnet.evaluation.data_sets import data
-from mobnet.evaluation.error_budget import error_budget
-from mobnet.evaluation.gait import figure_05, figure_08, figure_09
-from mobnet.evaluation.growth import figure_20
-from mobnet.evaluation.hand_load import figure_07
-from mobnet.evaluation.kinds import kinds
-from mobnet.evaluation.losses import figure_17
-from mobnet.evaluation.numbers import numbers
-from mobnet.evaluation.overview import methods
-from mobnet.evaluation.pushes import figure_06, figure_10
-from mobnet.evaluation.single import figure_18
-from mobnet.evaluation.spread import figure_19
-from mobnet.evaluation.tables import table
-from mobnet.evaluation.uncertainty import uncertainty
+from mobnet.evaluation.figures.commands import commands
+from mobnet.evaluation.figures.figure_05 import figure_05
+from mobnet.evaluation.figures.figure_06 import figure_06
+from mobnet.evaluation.figures.figure_07 import figure_07
+from mobnet.evaluation.figures.figure_08 import figure_08
+from mobnet.evaluation.figures.figure_09 import figure_09
+from mobnet.evaluation.figures.figure_10 import figure_10
+from mobnet.evaluation.figures.figure_17 import figure_17
+from mobnet.evaluation.figures.figure_18 import figure_18
+from mobnet.evaluation.figures.figure_19 import figure_19
+from mobnet.evaluation.figures.figure_20 import figure_20
+from mobnet.evaluation.report.numbers import numbers
+from mobnet.evaluation.tables.claims import claims
+from mobnet.evaluation.tables.coverage import coverage
+from mobnet.evaluation.tables.data import data
+from mobnet.evaluation.tables.error_budget import error_budget
+from mobnet.evaluation.tables.errors import table
+from mobnet.evaluation.tables.kinds import kinds
+from mobnet.evaluation.tables.methods import methods
+from mobnet.evaluation.tables.steps import steps
+from mobnet.evaluation.tables.table_01 import table_01
+from mobnet.evaluation.tables.uncertainty import uncertainty
 
 REPO = Path(__file__).parents[2]
 GOLDEN = REPO / "tests/golden"

@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 from browser import Browser, with_browser
 
-from mobnet.evaluation.markup import markdown_table
-from mobnet.evaluation.pages import pages, table_page
+from mobnet.evaluation.report.pages import pages, table_page
+from mobnet.evaluation.tables.layout import markdown_table
 
 from .clicks import MENU, ROWS, choose, explain, show, text_of_frame
 from .conftest import ROOT, Snakemake

@@ -142,7 +142,7 @@ def test_report_shows_tables_figures_and_trainings(unbroken: Path, open_page: Ca
 
 
 def test_comment_reruns_nothing_and_an_edit_just_what_depends_on_it(unbroken: Path, snakemake: Snakemake) -> None:
-    path = unbroken / "src" / "mobnet" / "evaluation" / "tables.py"
+    path = unbroken / "src" / "mobnet" / "evaluation" / "tables" / "errors.py"
     text = path.read_text()
     path.write_text(text + "# a comment\n")
     assert "Nothing to be done" in snakemake("-n", *SMOKE, folder=unbroken).stdout

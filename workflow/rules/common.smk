@@ -9,7 +9,7 @@ from mobnet.core.config import check_config as validate
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
 from mobnet.core.methods import SCALE_SIZES, experiment_row, network_row, source_of, swept_name
-from mobnet.evaluation.paper import missing_packages
+from mobnet.evaluation.report.paper import missing_packages
 
 ROOT = Path(workflow.basedir)
 quieten(ROOT)

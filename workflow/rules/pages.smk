@@ -25,7 +25,7 @@ rule pages:
     input:
         tables=[*expand(f"{TABLES}/{{name}}.md", name=TABLE_NAMES), f"{RESULTS}/compute.md"],
         captions=expand("workflow/report/tables/{name}.rst", name=[*TABLE_NAMES, "compute"]),
-        template="src/mobnet/evaluation/templates/table.html",  # code_of reads Python only
+        template="src/mobnet/evaluation/report/templates/table.html",  # code_of reads Python only
     output:
         ensure(
             [shown(f"{RESULTS}/pages/{name}.html", "tables") for name in [*TABLE_NAMES, "compute"]],

@@ -8,7 +8,7 @@ rule runs:
         notes=networks("run.json"),
         metrics=networks("metrics.csv"),
         # code_of reads Python only
-        templates=expand("src/mobnet/evaluation/templates/runs.{ending}", ending=["html", "css", "js"]),
+        templates=expand("src/mobnet/evaluation/report/templates/runs.{ending}", ending=["html", "css", "js"]),
     output:
         ensure(shown(f"{RESULTS}/runs.html", "trainings"), non_empty=True),
     log:

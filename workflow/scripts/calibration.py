@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.calibration_tables import calibration
+from mobnet.evaluation.report.calibration import calibration
 
 with job(snakemake.log[0]):
     calibration(

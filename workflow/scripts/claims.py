@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.claims import claims
+from mobnet.evaluation.tables.claims import claims
 
 with job(snakemake.log[0]):
     config, scores = snakemake.params.config, [Path(name) for name in snakemake.input.scores]

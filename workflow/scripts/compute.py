@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.compute import compute
+from mobnet.evaluation.report.compute import compute
 
 with job(snakemake.log[0]):
     folders = (Path(name) for name in (snakemake.params.benchmarks, snakemake.params.logs))

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.coverage import coverage
+from mobnet.evaluation.tables.coverage import coverage
 
 with job(snakemake.log[0]):
     coverage(

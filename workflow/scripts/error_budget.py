@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.error_budget import error_budget
+from mobnet.evaluation.tables.error_budget import error_budget
 
 with job(snakemake.log[0]):
     error_budget(snakemake.params.config, Path(snakemake.input.scores), Path(snakemake.output[0]).parent)

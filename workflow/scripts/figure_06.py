@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.pushes import figure_06
+from mobnet.evaluation.figures.figure_06 import figure_06
 
 with job(snakemake.log[0]):
     figure_06(

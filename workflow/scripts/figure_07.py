@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.hand_load import figure_07
+from mobnet.evaluation.figures.figure_07 import figure_07
 
 with job(snakemake.log[0]):
     figure_07(snakemake.params.config, snakemake.params.entries, Path(snakemake.output[0]).parent)

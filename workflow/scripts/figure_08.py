@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.gait import figure_08
+from mobnet.evaluation.figures.figure_08 import figure_08
 
 with job(snakemake.log[0]):
     figure_08(snakemake.params.config, snakemake.params.entries, Path(snakemake.output[0]).parent)

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.gait import figure_09
+from mobnet.evaluation.figures.figure_09 import figure_09
 
 with job(snakemake.log[0]):
     figure_09(snakemake.params.config, snakemake.params.entries, Path(snakemake.output[0]).parent)

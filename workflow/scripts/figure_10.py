@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.pushes import figure_10
+from mobnet.evaluation.figures.figure_10 import figure_10
 
 with job(snakemake.log[0]):
     figure_10(

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.losses import figure_17
+from mobnet.evaluation.figures.figure_17 import figure_17
 
 with job(snakemake.log[0]):
     figure_17(snakemake.params.folders, Path(snakemake.output[0]).parent)

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.single import figure_18
+from mobnet.evaluation.figures.figure_18 import figure_18
 
 with job(snakemake.log[0]):
     scores = {Path(name).stem: Path(name) for name in snakemake.input.scores}

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.spread import figure_19
+from mobnet.evaluation.figures.figure_19 import figure_19
 
 with job(snakemake.log[0]):
     figure_19(

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.growth import figure_20
+from mobnet.evaluation.figures.figure_20 import figure_20
 
 with job(snakemake.log[0]):
     figure_20(snakemake.params.entries, Path(snakemake.output[0]).parent)

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.overview import methods
+from mobnet.evaluation.tables.methods import methods
 
 with job(snakemake.log[0]):
     scores = {Path(name).stem: Path(name) for name in snakemake.input.scores}

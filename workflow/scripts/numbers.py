@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.numbers import numbers
+from mobnet.evaluation.report.numbers import numbers
 
 with job(snakemake.log[0]):
     tables, judged = map(Path, snakemake.input.tables), Path(snakemake.input.claims)

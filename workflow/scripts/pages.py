@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.pages import pages
+from mobnet.evaluation.report.pages import pages
 
 with job(snakemake.log[0]):
     captions = Path(snakemake.input.captions[0]).parent

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.paper import build
+from mobnet.evaluation.report.paper import build
 
 with job(snakemake.log[0]):
     build(

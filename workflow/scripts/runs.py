@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.runs_page import runs_page
+from mobnet.evaluation.report.runs_page import runs_page
 
 with job(snakemake.log[0]):
     folders = [Path(name).parent for name in snakemake.input.notes]

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.scores import score
+from mobnet.evaluation.measure.scores import score
 
 with job(snakemake.log[0]):
     score(

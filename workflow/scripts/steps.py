@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.commands import steps
+from mobnet.evaluation.tables.steps import steps
 
 with job(snakemake.log[0]):
     steps(snakemake.params.config, snakemake.params.sets, Path(snakemake.output[0]).parent)

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mobnet.core.logs import job
-from mobnet.evaluation.uncertainty import uncertainty
+from mobnet.evaluation.tables.uncertainty import uncertainty
 
 with job(snakemake.log[0]):
     uncertainty(snakemake.params.config, snakemake.params.sets, Path(snakemake.output[0]).parent)

@@ -1,0 +1,44 @@
+"""Figure 10: pushes on the knee of a leg in the air and on the ground, and the error of each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from mobnet.evaluation.figures.drawing.pushes import PushGroup, bar_panel, save_pushes
+from mobnet.evaluation.measure.pushes import (
+    Entries,
+    collision_errors,
+    read_pushes,
+)
+from mobnet.evaluation.number.rows import Score, read_rows
+
+ROBOT = "paper (robot)"  # name of numbers that the paper measured on its robot
+
+
+def figure_10(
+    config: Mapping[str, Any], entries: Mapping[str, Entries], scores: Mapping[str, Path], out_dir: Path
+) -> None:
+    """Write Figure 10, pushes on the knee of a leg in the air and on the ground [N m]: curves and errors of each.
+
+    Args:
+        config: resolved configuration: `robot`, `published`, `evaluation.figure_10` (joint, before_s, after_s, tests:
+            title -> scenario, level, methods; against: the same of what the average error is compared with) and what
+            intervals need.
+        entries: title of a test -> a mapping a method, as in Figure 6.
+        scores: scenario -> its scores.
+        out_dir: gets figure_10.pdf, .png, .csv and figure_10_bars.csv.
+
+    Raises:
+        DataError: a file is missing or damaged, or a run is missing.
+    """
+    settings = config["evaluation"]["figure_10"]
+    rows = [row for path in scores.values() for row in read_rows(path, Score)]
+    groups, errors = [], []
+    for title, test in settings["tests"].items():
+        own = collision_errors(config, settings, test, rows)
+        panels = read_pushes(config, settings, entries[title], f"{title} {{}}")
+        groups.append(PushGroup(panels, bar_panel(f"{title}: error by push", own, ROBOT)))
+        errors += own
+    save_pushes(groups, errors, settings, out_dir / "figure_10")

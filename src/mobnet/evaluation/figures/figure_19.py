@@ -1,0 +1,141 @@
+"""Figures of the data: what was commanded, and which velocities and torques it covers. Drawing only."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from mobnet.core.files import write_text
+from mobnet.core.store import read_array
+from mobnet.evaluation.figures.style import PAGE_INCH, SET_COLOURS, STYLE, legend, save_figure
+from mobnet.evaluation.measure.windows import Pushed, evenly, pushed_of
+from mobnet.evaluation.number.rows import csv_text
+
+log = logging.getLogger(__name__)
+
+CLOUD_INCH = 2.0  # height of a row
+TEST_COLOUR = "black"
+DOT, MARKER = 1.6, 4.0  # size of a dot [points^2]; how much larger it stands in the legend
+
+
+@dataclass(frozen=True)
+class Cloud:
+    """One panel of Figure 19.
+
+    Attributes:
+        joint: name of the joint; chooses the column.
+        training: name of the training set; chooses the row and the colour.
+        dots: joint velocity [rad/s] and desired torque [N m] in training (n, 2).
+        test: the same in the tests (m, 2), drawn over it.
+    """
+
+    joint: str
+    training: str
+    dots: NDArray[Any]
+    test: NDArray[Any]
+
+
+def draw_clouds(clouds: Sequence[Cloud], test: str) -> Figure:
+    """Draw desired torque [N m] over joint velocity [rad/s], a column a joint and a row a training set (Figure 19).
+
+    Args:
+        clouds: the panels, velocity in [rad/s] and torque in [N m].
+        test: name of the test data in the legend.
+    """
+    joints, sets = (list(dict.fromkeys(getattr(cloud, key) for cloud in clouds)) for key in ("joint", "training"))
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(PAGE_INCH, CLOUD_INCH * len(sets)), layout="constrained")
+        axes = figure.subplots(len(sets), len(joints), sharex="col", sharey="col", squeeze=False)
+        for cloud in clouds:
+            row, column = sets.index(cloud.training), joints.index(cloud.joint)
+            _scatter(axes[row, column], cloud.dots, SET_COLOURS[row], f"training {cloud.training}")
+            _scatter(axes[row, column], cloud.test, TEST_COLOUR, test)
+        for letter, joint, axis in zip("abcdefgh", joints, axes[0], strict=False):
+            axis.set_title(f"({letter}) {joint}", loc="left", pad=3)
+        for axis in axes[-1]:
+            axis.set_xlabel("velocity [rad/s]")
+        for axis in axes[:, 0]:
+            axis.set_ylabel("desired torque [N m]")
+        legend(figure, axes[:, 0].tolist(), last=test, markerscale=MARKER)
+    return figure
+
+
+def _scatter(axis: Axes, dots: NDArray[Any], colour: str, label: str) -> None:
+    """Draw dots (n, 2) as pixels: thousands of vector dots would make a slow page."""
+    axis.scatter(dots[:, 0], dots[:, 1], s=DOT, c=colour, linewidths=0, label=label, rasterized=True)
+
+
+def figure_19(
+    config: Mapping[str, Any],
+    training: Mapping[str, Sequence[str]],
+    tests: Sequence[Mapping[str, Any]],
+    out_dir: Path,
+) -> None:
+    """Write Figure 19, desired torque [N m] over velocity [rad/s] of some joints, as PDF, PNG and CSV.
+
+    Args:
+        config: resolved configuration: `evaluation.figure_19` (joints, dots of each training set, test_dots of
+            all tests together) and, for pushes, `evaluation.coverage`.
+        training: name of a training set -> stems of its recordings; a row of panels each.
+        tests: scenario and `recordings`, the stems, of each test; `pushed`, a joint, where only samples around pushes
+            count. Shown together, each with the same number of dots.
+        out_dir: gets figure_19.pdf, .png and .csv.
+
+    Raises:
+        DataError: a file or a column is missing.
+    """
+    settings = config["evaluation"]["figure_19"]
+    joints, share = settings["joints"], settings["test_dots"] // len(tests)
+    learnt = {name: read_dots(list(map(Path, stems)), joints, settings["dots"]) for name, stems in training.items()}
+    tested = {
+        test["scenario"]: read_dots(
+            list(map(Path, test["recordings"])), joints, share, pushed_of(test, config["evaluation"]["coverage"])
+        )
+        for test in tests
+    }
+    together = np.concatenate(list(tested.values()))
+    clouds = [
+        Cloud(joint, name, dots[:, k], together[:, k])
+        for name, dots in learnt.items()
+        for k, joint in enumerate(joints)
+    ]
+    rows = [
+        (kind, name, joint, *dot)
+        for kind, sets in (("training", learnt), ("test", tested))
+        for name, dots in sets.items()
+        for k, joint in enumerate(joints)
+        for dot in dots[:, k].tolist()
+    ]
+    write_text(out_dir / "figure_19.csv", csv_text(("kind", "set", "joint", "velocity_rad_s", "torque_nm"), rows))
+    save_figure(draw_clouds(clouds, "test"), out_dir / "figure_19")
+    log.info("%s: %d dots", out_dir / "figure_19.pdf", len(rows))
+
+
+def read_dots(
+    stems: Sequence[Path], joints: Sequence[str], count: int, pushed: Pushed | None = None
+) -> NDArray[np.float32]:
+    """Return velocity [rad/s] and desired torque [N m] of joints at evenly spread samples (n, joints, 2).
+
+    Args:
+        stems: recordings, paths without a suffix.
+        joints: actuated joints.
+        count: dots wanted of all recordings together; fewer where they hold fewer.
+        pushed: look at these samples only.
+    """
+    names = [f"{quantity}.{joint}" for joint in joints for quantity in ("v", "tau_des")]
+    arrays = []
+    for stem in stems:
+        array, meta = read_array(stem, names)
+        spans = pushed.spans(stem) if pushed else meta["segments"]
+        arrays += [array[start:end] for start, end in spans]
+    together = np.concatenate([*arrays, np.zeros((0, len(names)), dtype=np.float32)])
+    return together[evenly(len(together), count)].reshape(-1, len(joints), 2)

@@ -1,0 +1,254 @@
+"""How much of what the tests ask about the training data hold, with and without random torque exploration.
+
+Three measures beside Figure 19: the part of the velocity-torque plane that a training set visits, joint by joint; the
+share of test samples outside a training set's central range; and the distance of a test sample to its nearest neighbour
+in training, in the inputs of a limb's network (Table 1). Both sets have equally many samples.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from mobnet.core.config import load_layout
+from mobnet.core.joints import JointLayout
+from mobnet.core.recording import FEET
+from mobnet.core.store import read_sensed
+from mobnet.evaluation.measure.gait import foot_of
+from mobnet.evaluation.measure.windows import FLAG, Pushed, blocks_of, evenly, pushed_of
+from mobnet.evaluation.number.intervals import summarise
+from mobnet.learning.features import LimbInputs, limb_inputs
+
+log = logging.getLogger(__name__)
+
+Array = NDArray[np.float64]
+Blocks = Sequence[NDArray[Any]]  # one array (n, ...) a block of test samples
+WITH, WITHOUT = "with RTE", "without RTE"  # names of the training sets
+OUTSIDE = {"v": "outside velocity", "tau_des": "outside torque"}
+AREA, AIR_AREA = "visited cells", "visited cells, swing"
+NEAREST = {"nearest, median": 0.5, "nearest, 95 %": 0.95}
+ALL = "all"  # joints together
+
+
+@dataclass(frozen=True)
+class Covered:
+    """One measure of a test against both training sets: a row of coverage.csv.
+
+    Attributes:
+        scenario: test; `training` where none is needed.
+        level: its uncertainty level.
+        measure: AREA, AIR_AREA or a value of OUTSIDE, a share [-], or a name of NEAREST, a distance in z-scored
+            inputs [-].
+        joint: joint, or `all`, the mean over joints or inputs together.
+        block_count: blocks of test samples, each contiguous in time; 0 without a test.
+        with_rte: number against the training set with random torque exploration [-].
+        without_rte: the same against the set without it, of equally many samples [-].
+        ratio: with over without [-]; None for the shares of test samples, which may be zero.
+        low: lower end of the ratio's interval over blocks [-]; None with fewer than two.
+        high: upper end [-].
+    """
+
+    scenario: str
+    level: str
+    measure: str
+    joint: str
+    block_count: int
+    with_rte: float
+    without_rte: float
+    ratio: float | None
+    low: float | None
+    high: float | None
+
+
+@dataclass(frozen=True)
+class Reference:
+    """Training data that tests are held against.
+
+    Attributes:
+        low: lower end of the central range of each input (n_in,) [unit of the input].
+        high: upper end (n_in,).
+        tree: z-scored samples.
+    """
+
+    low: Array
+    high: Array
+    tree: cKDTree
+
+
+def covered(
+    config: Mapping[str, Any], training: Mapping[str, Sequence[str]], tests: Sequence[Mapping[str, Any]]
+) -> list[Covered]:
+    """Return all measures of the training sets and of every test against them.
+
+    Args:
+        config: resolved configuration: `robot`, `networks`, `seed`, and of `evaluation`: `coverage` (limb, samples of
+            each training set, every, block_s, range, the central quantiles [-], cells, cell_range, push_nm,
+            push_after_s) and what intervals need.
+        training: `with RTE` and `without RTE` -> stems of the recordings.
+        tests: scenario, level and `recordings`, the stems, of each test; `pushed`, a joint, where only samples around
+            pushes count.
+
+    Raises:
+        DataError: a file or a column is missing.
+    """
+    settings, layout = config["evaluation"]["coverage"], load_layout(Path(config["robot"]))
+    inputs = limb_inputs(layout, config["networks"][settings["limb"]])
+    joints, foot = layout.limb(settings["limb"]), FEET.index(foot_of(Path(config["robot"]), settings["limb"] + "1"))
+    sets = [training[WITH], training[WITHOUT]]
+    samples = equal_sets([read_blocks(stems, layout, inputs, settings) for stems in sets], settings)
+    airborne = equal_sets([read_blocks(stems, layout, inputs, settings, foot) for stems in sets], settings)
+    mean, std = scale_of(np.concatenate(samples))
+    references = [refer(array, settings["range"], mean, std) for array in samples]
+    rows = [
+        *visited(AREA, samples, inputs.names, joints, settings),
+        *visited(AIR_AREA, airborne, inputs.names, joints, settings),
+    ]
+    for test in tests:
+        blocks = read_blocks(test["recordings"], layout, inputs, settings, pushed=pushed_of(test, settings))
+        if not blocks:
+            log.warning("%s: no push is found in its %d recordings", test["scenario"], len(test["recordings"]))
+            continue
+        rows += outside(test, blocks, references, inputs.names, joints)
+        rows += nearest(config, test, [(block - mean) / std for block in blocks], references)
+    return rows
+
+
+def read_blocks(
+    stems: Sequence[str],
+    layout: JointLayout,
+    inputs: LimbInputs,
+    settings: Mapping[str, Any],
+    foot: int | None = None,
+    pushed: Pushed | None = None,
+) -> list[NDArray[np.float32]]:
+    """Return every k-th sample of a network's inputs, block by block (n, n_in), units of `LimbInputs`.
+
+    Args:
+        stems: recordings.
+        layout: joints.
+        inputs: of the limb's network.
+        settings: `evaluation.coverage`: block_s [s], every.
+        foot: look at samples with this foot, 0 left, 1 right, in the air only.
+        pushed: look at these samples only; a block each.
+
+    Raises:
+        DataError: a file or a column is missing.
+    """
+    blocks = []
+    for stem in stems:
+        recording = read_sensed(Path(stem), layout)
+        length = round(settings["block_s"] * recording.rate_hz)
+        spans = pushed.spans(Path(stem)) if pushed else tuple(recording.segments)
+        for start, end in blocks_of(spans, length):
+            sensed = recording.sensed[start : end : settings["every"]]
+            blocks.append(inputs(sensed)[slice(None) if foot is None else sensed.swing[:, foot] > FLAG])
+    return blocks
+
+
+def equal_sets(sets: Sequence[Blocks], settings: Mapping[str, Any]) -> list[NDArray[np.float32]]:
+    """Return samples (n, n_in) of every set [their units], equally many and evenly spread in time."""
+    whole = [np.concatenate(blocks) for blocks in sets]
+    size = min(settings["samples"], *map(len, whole))
+    return [array[evenly(len(array), size)] for array in whole]
+
+
+def scale_of(samples: NDArray[Any]) -> tuple[Array, Array]:
+    """Return mean and standard deviation (n_in,) of inputs [their units]; a constant input keeps its scale."""
+    std = samples.std(axis=0, dtype=np.float64)
+    return samples.mean(axis=0, dtype=np.float64), np.where(std > 0.0, std, 1.0)
+
+
+def refer(samples: NDArray[Any], shares: Sequence[float], mean: Array, std: Array) -> Reference:
+    """Return what tests are held against.
+
+    Args:
+        samples: training inputs (n, n_in) [their units].
+        shares: lower and upper quantile of the central range [-].
+        mean: of both training sets together (n_in,).
+        std: of both training sets together (n_in,): one scale, so that distances to the two compare.
+    """
+    low, high = np.quantile(samples, shares, axis=0)
+    return Reference(low, high, cKDTree((samples - mean) / std))
+
+
+def visited(
+    measure: str,
+    samples: Sequence[NDArray[Any]],
+    names: Sequence[str],
+    joints: Sequence[str],
+    settings: Mapping[str, Any],
+) -> Iterator[Covered]:
+    """Yield the share of a joint's velocity-torque plane that each training set visits [-] (Figure 19).
+
+    The plane is a rectangle of both sets together, without their rarest samples, cut into equal cells.
+
+    Args:
+        measure: AREA or AIR_AREA.
+        samples: with and without random torque exploration (n, n_in) [rad/s], [N m] among the inputs.
+        names: of the inputs (n_in,).
+        joints: joints of the limb.
+        settings: `evaluation.coverage`: cells along each side, cell_range, the quantiles [-] at its ends.
+    """
+    where = {name: column for column, name in enumerate(names)}
+    shares = []
+    for joint in joints:
+        planes = [array[:, [where[f"{quantity}.{joint}"] for quantity in OUTSIDE]] for array in samples]
+        both = np.concatenate(planes)
+        bounds = list(zip(*np.quantile(both, settings["cell_range"], axis=0), strict=True))
+        shares.append([float(np.mean(np.histogramdd(plane, settings["cells"], bounds)[0] > 0)) for plane in planes])
+    for joint, (have, lack) in zip([*joints, ALL], [*shares, np.mean(shares, axis=0).tolist()], strict=True):
+        yield Covered("training", "", measure, joint, 0, have, lack, have / lack, None, None)
+
+
+def outside(
+    test: Mapping[str, Any],
+    blocks: Blocks,
+    references: Sequence[Reference],
+    names: Sequence[str],
+    joints: Sequence[str],
+) -> Iterator[Covered]:
+    """Yield the share of test samples outside the central range [-], for each joint and the mean over joints.
+
+    Args:
+        test: scenario and level.
+        blocks: test inputs (n, n_in) each [their units].
+        references: with and without random torque exploration.
+        names: of the inputs (n_in,).
+        joints: joints of the limb.
+    """
+    where = {name: column for column, name in enumerate(names)}
+    samples = np.concatenate(blocks)
+    shares = [np.mean((samples < ref.low) | (samples > ref.high), axis=0) for ref in references]
+    for quantity, measure in OUTSIDE.items():
+        columns = {joint: [where[f"{quantity}.{joint}"]] for joint in joints}
+        for joint, picked in (columns | {ALL: [column for (column,) in columns.values()]}).items():
+            have, lack = (float(share[picked].mean()) for share in shares)
+            yield Covered(test["scenario"], test["level"], measure, joint, len(blocks), have, lack, None, None, None)
+
+
+def nearest(
+    config: Mapping[str, Any], test: Mapping[str, Any], blocks: Blocks, references: Sequence[Reference]
+) -> Iterator[Covered]:
+    """Yield quantiles of the distance to the nearest training sample [-], means over blocks, and their ratio.
+
+    Args:
+        config: resolved configuration, for the interval.
+        test: scenario and level.
+        blocks: z-scored test inputs (n, n_in) each [-].
+        references: with and without random torque exploration.
+    """
+    distances = [[ref.tree.query(block)[0] for block in blocks] for ref in references]
+    for measure, share in NEAREST.items():
+        have, lack = (np.array([[np.quantile(block, share) for block in found]]) for found in distances)
+        ratio = summarise([have, lack], config, lambda means: means[0] / means[1])
+        yield Covered(
+            test["scenario"], test["level"], measure, ALL, len(blocks), float(have.mean()), float(lack.mean()),
+            ratio.value, ratio.low, ratio.high,
+        )  # fmt: skip

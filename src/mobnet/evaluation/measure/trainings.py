@@ -1,0 +1,110 @@
+"""What trainings left: sizes from run.json, losses from metrics.csv."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from mobnet.core.errors import DataError
+from mobnet.core.files import read_json
+from mobnet.evaluation.number.rows import read_rows
+
+RUN, METRICS = "run.json", "metrics.csv"
+MEASURES: Mapping[str, tuple[Callable[[Training], float], str]] = {  # name -> (of a training, unit)
+    "validation loss": (lambda training: training.kept.validation_loss, "-"),
+    "validation RMSE": (lambda training: training.kept.validation_rmse, "N m"),
+    "validation loss on windows": (lambda training: training.windows_loss, "-"),
+    "training loss at the end": (lambda training: training.last.train_loss, "-"),
+    "validation loss at the end": (lambda training: training.last.validation_loss, "-"),
+}
+
+
+@dataclass(frozen=True)
+class Epoch:
+    """One epoch of a training: a line of metrics.csv.
+
+    Attributes:
+        epoch: counted from 1.
+        train_loss: mean of (22) over the training samples [-].
+        validation_loss: mean of (22) over the samples held out [-].
+        validation_rmse: mean over the joints of their root-mean-square errors [N m], V1..V3 [N].
+        rate: learning rate [-].
+        gradient_norm: mean norm of the gradient before the clip [-].
+    """
+
+    epoch: int
+    train_loss: float
+    validation_loss: float
+    validation_rmse: float
+    rate: float
+    gradient_norm: float
+
+
+@dataclass(frozen=True)
+class Training:
+    """One trained network.
+
+    Attributes:
+        method: row of the configuration's methods.
+        seed: number of the repetition.
+        parameters: trained parameters, column `Network Size` of Table 1.
+        samples: samples learned from, those held out apart.
+        seconds: time that the training took [s].
+        diverged: whether it was stopped because its loss grew; its epochs end there.
+        windows_loss: validation loss (22) of the epoch kept where every sample re-runs its window from zero [-];
+            elsewhere the state is carried.
+        epochs: its course.
+    """
+
+    method: str
+    seed: int
+    parameters: int
+    samples: int
+    seconds: float
+    diverged: bool
+    windows_loss: float
+    epochs: tuple[Epoch, ...]
+
+    @property
+    def last(self) -> Epoch:
+        """The last epoch."""
+        return self.epochs[-1]
+
+    @property
+    def kept(self) -> Epoch:
+        """The epoch that validated best, whose weights are kept."""
+        return min(self.epochs, key=lambda epoch: epoch.validation_loss)
+
+
+def read_training(folder: Path) -> Training:
+    """Read a network's folder.
+
+    Raises:
+        DataError: a file is missing or damaged, or a training that did not diverge has no epoch.
+    """
+    note, epochs = read_json(folder / RUN), tuple(read_rows(folder / METRICS, Epoch))
+    diverged = bool(note.get("diverged", False))
+    if not epochs and not diverged:
+        raise DataError(f"{folder / METRICS}: no epoch, though {RUN} does not say that the training diverged")
+    sizes: Mapping[str, Any] = {name: note[name] for name in ("method", "seed", "parameters", "samples", "seconds")}
+    return Training(**sizes, diverged=diverged, windows_loss=note["on_windows"]["loss"], epochs=epochs)
+
+
+def read_trainings(folders: Iterable[str]) -> dict[str, list[Training]]:
+    """Return method -> its trainings, in the order given.
+
+    Raises:
+        DataError: a file is missing or damaged.
+    """
+    found: dict[str, list[Training]] = {}
+    for folder in folders:
+        training = read_training(Path(folder))
+        found.setdefault(training.method, []).append(training)
+    return found
+
+
+def sound(trainings: Sequence[Training]) -> list[Training]:
+    """Return the trainings that did not diverge."""
+    return [training for training in trainings if not training.diverged]

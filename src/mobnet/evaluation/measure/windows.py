@@ -1,0 +1,115 @@
+"""Which samples of recordings are looked at: all or those around pushes, evenly thinned, in blocks of time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.errors import DataError
+from mobnet.core.recording import FEET
+from mobnet.core.store import read_array
+from mobnet.evaluation.measure.metrics import Spans
+
+FLAG = 0.5  # a stored flag above this is 1
+
+
+@dataclass(frozen=True)
+class Pushed:
+    """Where in a recording a swinging left leg is pushed, or an arm: it has external torque though it touches nothing.
+
+    Attributes:
+        joint: joint that the push turns.
+        torque_nm: external torque above this is a push [N m].
+        after_s: how long after a push the robot is still looked at [s].
+        leg: whether the joint is the left leg's, which counts in swing and off the ground alone.
+    """
+
+    joint: str
+    torque_nm: float
+    after_s: float
+    leg: bool = True
+
+    def spans(self, stem: Path) -> Spans:
+        """Return the spans (start, end) of rows around the pushes of a recording, in order.
+
+        Raises:
+            DataError: a file or a column is missing.
+        """
+        names = [f"swing.{FEET[0]}", f"contact.{FEET[0]}", f"tau_ext.{self.joint}"]
+        array, meta = read_array(stem, names)
+        free = (array[:, 0] > FLAG) & (array[:, 1] < FLAG) if self.leg else np.ones(len(array), dtype=bool)
+        return runs(
+            free & (np.abs(array[:, 2]) > self.torque_nm), meta["segments"], round(self.after_s * meta["rate_hz"])
+        )
+
+
+def push_windows(stem: Path, rows: int, before_s: float, after_s: float) -> Spans:
+    """Return the spans (start, end) of rows around each push of a recording, in order, each within its segment.
+
+    Args:
+        stem: a recording.
+        rows: samples that it must have.
+        before_s: looked at before a push [s].
+        after_s: looked at after it [s]; the truth behind the observer's low-pass outlasts a push.
+
+    Raises:
+        DataError: a file or a column is missing, or the samples are not as many.
+    """
+    pushed, meta = read_array(stem, ["pushed"])
+    if len(pushed) != rows:
+        raise DataError(f"{stem}.json: rows is {len(pushed)}, but its estimates have {rows}")
+    before, after = (round(time_s * meta["rate_hz"]) for time_s in (before_s, after_s))
+    return tuple(
+        (max(start - before, first), min(end + after, last))
+        for first, last in meta["segments"]
+        for start, end in runs(pushed[:, 0] > FLAG, ((first, last),), 0)
+    )
+
+
+def pushed_of(test: Mapping[str, Any], settings: Mapping[str, Any]) -> Pushed | None:
+    """Return which samples of a test count, None for all.
+
+    Args:
+        test: `pushed`, a joint, where only samples around pushes count.
+        settings: `evaluation.coverage`: push_nm [N m], push_after_s [s], and the leg's limb.
+    """
+    if "pushed" not in test:
+        return None
+    leg = test["pushed"].startswith(settings["limb"])
+    return Pushed(test["pushed"], settings["push_nm"], settings["push_after_s"], leg)
+
+
+def runs(flags: NDArray[np.bool_], segments: Spans, after: int) -> Spans:
+    """Return the spans (start, end) of rows in which a flag is set or was within the last `after` rows.
+
+    Args:
+        flags: (T,).
+        segments: contiguous stretches (start, end); a span stays within one.
+        after: rows added to every span.
+    """
+    spans: list[tuple[int, int]] = []
+    for first, last in segments:
+        wide = np.zeros(last - first + 1, dtype=bool)
+        for row in np.flatnonzero(flags[first:last]):
+            wide[row : min(row + after + 1, last - first)] = True
+        edges = np.flatnonzero(np.diff(wide, prepend=False)) + first
+        spans += [(int(start), int(end)) for start, end in edges.reshape(-1, 2)]
+    return tuple(spans)
+
+
+def blocks_of(spans: Spans, length: int) -> Iterator[tuple[int, int]]:
+    """Yield spans (start, end) cut into blocks of `length` rows; the last of each span may be shorter."""
+    for first, last in spans:
+        for start in range(int(first), int(last), length):
+            yield start, min(start + length, int(last))
+
+
+def evenly(total: int, count: int) -> NDArray[np.intp]:
+    """Return the indices of `count` samples spread evenly over `total`, or of all where there are fewer."""
+    taken = min(total, count)
+    return np.arange(taken) * total // max(1, taken)

@@ -1,0 +1,1 @@
+"""A number with its interval, the runs it is made of, and what the paper prints."""

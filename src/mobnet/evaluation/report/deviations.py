@@ -1,0 +1,49 @@
+"""The table of deviations: written once in Markdown, set in the paper as TeX."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from mobnet.core.errors import DataError
+from mobnet.core.files import write_text
+from mobnet.evaluation.tables.layout import tex_escape, tex_table
+
+WIDTHS = (0.13, 0.25, 0.24, 0.30)  # shares of the text width, one a column
+
+
+def deviations(markdown: Path, out_tex: Path) -> None:
+    """Write the table of a Markdown file as a TeX tabular.
+
+    Raises:
+        DataError: the file is missing, or its table is not as wide as the paper's.
+    """
+    try:
+        text = markdown.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise DataError(f"{markdown}: file is missing") from None
+    header, *rows = markdown_rows(text, str(markdown))
+    columns = "".join(rf">{{\raggedright\arraybackslash}}p{{{width}\textwidth}}" for width in WIDTHS)
+    write_text(out_tex, tex_table(columns, list(map(tex_text, header)), [list(map(tex_text, row)) for row in rows]))
+
+
+def markdown_rows(text: str, name: str) -> list[list[str]]:
+    """Return the cells of the first Markdown table in a text, header first.
+
+    Raises:
+        DataError: there is no table, or a row has another number of cells.
+    """
+    lines = [line for line in text.splitlines() if line.startswith("|")]
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+    rows = [row for row in rows if not all(set(cell) <= set("-: ") for cell in row)]
+    wrong = [row for row in rows if len(row) != len(WIDTHS)]
+    if wrong or not rows:
+        found = f"{len(wrong[0])} cells in the row of {wrong[0][0]!r}" if wrong else "no table"
+        raise DataError(f"{name}: {found}; expected rows of {len(WIDTHS)} cells")
+    return rows
+
+
+def tex_text(text: str) -> str:
+    """Return Markdown text with `code` as TeX."""
+    parts = re.split(r"`([^`]*)`", text)
+    return "".join(rf"\texttt{{{tex_escape(part)}}}" if i % 2 else tex_escape(part) for i, part in enumerate(parts))

@@ -1,0 +1,139 @@
+"""The committed snapshot of the default scale's results: write it, and say what differs from it.
+
+`python -m mobnet.evaluation.report.snapshot {snapshot,compare,verify}` is what ./reproduce calls.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import logging
+import shutil
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from mobnet.core.config import load_config
+from mobnet.core.errors import DataError, MobnetError
+from mobnet.core.files import atomic_path, write_json, write_text
+from mobnet.core.provenance import provenance
+from mobnet.evaluation.report.manifest import damaged_files
+
+log = logging.getLogger(__name__)
+
+CONFIG, TABLES, FIGURES = Path("configs/config.yaml"), Path("tables"), Path("figures")
+SNAPSHOT, MANIFEST = Path("docs/results"), Path("results/MANIFEST.sha256")
+COMPUTE = (Path("results/default/compute.md"), Path("results/default/compute.tex"))  # nothing to compare: no CSV
+README, HEADLINE = Path("README.md"), "table_05"
+KEYS = (  # columns that name a row; the others are results
+    "scenario", "level", "method", "joint", "metric", "claim",
+    "set", "quantity", "part", "command", "bin_from", "measure", "limb", "test", "pushed", "share", "unit",
+)  # fmt: skip
+Rows = dict[tuple[str, ...], dict[str, str]]
+
+
+def write_snapshot(
+    config: Mapping[str, Any], tables: Path, figures: Path, out: Path, others: Sequence[Path] = ()
+) -> None:
+    """Copy a scale's tables (CSV, Markdown), figures (PNG) and other files, and note where they come from.
+
+    Raises:
+        DataError: there is no table to copy, or a file is missing.
+    """
+    numbers = sorted(tables.glob("*.csv"))
+    found = [*numbers, *(path.with_suffix(".md") for path in numbers), *sorted(figures.glob("*.png")), *others]
+    if not numbers:
+        raise DataError(f"{tables}: holds no CSV; ./reproduce all makes them")
+    missing = [path for path in found if not path.is_file()]
+    if missing:
+        raise DataError(f"{missing[0]}: file is missing; ./reproduce all makes it")
+    for source in found:
+        with atomic_path(out / source.name) as temporary:
+            shutil.copyfile(source, temporary)
+    write_json(out / "provenance.json", {"scale": config["scale"], **provenance(config)})
+    log.info("%s: %d files", out, len(found))
+
+
+def with_headline(text: str, table: str) -> str:
+    """Return a page with the headline table between its marks.
+
+    Raises:
+        DataError: the page lacks the marks.
+    """
+    first, last = f"<!-- {HEADLINE} -->\n", f"<!-- /{HEADLINE} -->"
+    if first not in text or last not in text:
+        raise DataError(f"{README}: the marks {first.strip()!r} and {last!r} are missing")
+    return text[: text.index(first)] + first + table.strip() + "\n" + text[text.index(last) :]
+
+
+def compare_snapshot(snapshot: Path, tables: Path) -> list[str]:
+    """Return one line for each cell, row or table in which fresh tables differ from a snapshot.
+
+    Raises:
+        DataError: the snapshot holds no table.
+    """
+    stored = sorted(snapshot.glob("*.csv"))
+    if not stored:
+        raise DataError(f"{snapshot}: holds no CSV; ./reproduce snapshot stores them")
+    return [line for path in stored for line in table_differences(path, tables / path.name)]
+
+
+def table_differences(old: Path, new: Path) -> Iterator[str]:
+    """Yield one line for each cell or row in which a table differs, old value first."""
+    if not new.exists():
+        yield f"{new}: file is missing; ./reproduce all makes it"
+        return
+    before, after = read_keyed(old), read_keyed(new)
+    for key in before | after:
+        where = f"{new.name}: {' '.join(key)}"
+        if key not in after:
+            yield f"{where}: row is gone"
+        elif key not in before:
+            yield f"{where}: row is new"
+        else:
+            yield from (f"{where}: {text}" for text in cell_differences(before[key], after[key]))
+
+
+def cell_differences(old: Mapping[str, str], new: Mapping[str, str]) -> Iterator[str]:
+    """Yield `column old -> new` for each column in which two rows differ."""
+    for column in dict.fromkeys([*old, *new]):
+        was, now = old.get(column, "no such column"), new.get(column, "no such column")
+        if was != now:
+            yield f"{column} {was} -> {now}"
+
+
+def read_keyed(path: Path) -> Rows:
+    """Read a tidy CSV as (values of the naming columns) -> row."""
+    with path.open(newline="", encoding="utf-8") as file:
+        return {tuple(row[key] for key in KEYS if key in row): row for row in csv.DictReader(file)}
+
+
+def main(words: list[str]) -> int:
+    """Run one of the commands and return the exit status: 0 where nothing differs."""
+    parser = argparse.ArgumentParser(prog="./reproduce", description="Look after the results.")
+    parser.add_argument("command", choices=("snapshot", "compare", "verify"))
+    parser.add_argument("--manifest", type=Path, default=MANIFEST, help="manifest to verify (default: %(default)s)")
+    options = parser.parse_args(words)
+    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+    try:
+        if options.command == "snapshot":
+            write_snapshot(load_config(CONFIG), TABLES, FIGURES, SNAPSHOT, COMPUTE)
+            table = (SNAPSHOT / f"{HEADLINE}.md").read_text(encoding="utf-8")
+            write_text(README, with_headline(README.read_text(encoding="utf-8"), table))
+            return 0
+        compares = options.command == "compare"
+        found = compare_snapshot(SNAPSHOT, TABLES) if compares else damaged_files(options.manifest)
+    except MobnetError as error:
+        log.error("%s", error)
+        return 1
+    for line in found:
+        log.info("%s", line)
+    log.info(
+        "%s: %s", SNAPSHOT if compares else options.manifest, f"{len(found)} differences" if found else "no difference"
+    )
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

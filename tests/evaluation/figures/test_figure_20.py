@@ -1,0 +1,44 @@
+"""Figure 20 places every network at its own size, whatever its name says."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from mobnet.evaluation.figures.figure_20 import Size, figure_20, growth_line, sizes_of
+from mobnet.evaluation.number.rows import read_rows
+
+Write = Callable[..., str]
+
+
+def test_rows_rise_with_the_size_that_their_panel_varies(tmp_path: Path, write_training: Write) -> None:
+    entries = [
+        {"panel": panel, "base": base, "folders": [write_training(f"{base}-{panel[0]}{k}", 0, -3.0 - k, **{panel: n})]}
+        for panel in ("parameters", "samples")
+        for base in ("MOB-Net", "FTS-e2e")
+        for k, n in ((2, 40000), (0, 10000), (1, 20000))
+    ]
+    figure_20(entries, tmp_path / "out")
+    rows = read_rows(tmp_path / "out/figure_20.csv", Size)
+    assert len(rows) == 12
+    for panel in ("parameters", "samples"):
+        for base in ("MOB-Net", "FTS-e2e"):
+            own = [row for row in rows if (row.panel, row.base) == (panel, base)]
+            assert [getattr(row, panel) for row in own] == [10000, 20000, 40000]
+            assert [row.loss for row in own] == [-3.0, -4.0, -5.0]
+    assert (tmp_path / "out/figure_20.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_place_is_the_mean_of_its_sound_runs(write_training: Write) -> None:
+    folders = [write_training("a", 0, -4.0), write_training("a", 1, -3.0), write_training("a", 2, 9.0, diverged=True)]
+    (size,) = sizes_of({"panel": "samples", "base": "MOB-Net", "folders": folders})
+    assert (size.runs, size.loss, size.loss_low, size.loss_high) == (2, -3.5, -4.0, -3.0)
+    assert (size.rmse_nm, size.rmse_low_nm, size.rmse_high_nm) == (6.5, 6.0, 7.0)
+    assert sizes_of({"panel": "samples", "base": "MOB-Net", "folders": folders[2:]}) == []
+
+
+def test_line_is_drawn_over_thousands(write_training: Write) -> None:
+    sizes = sizes_of({"panel": "parameters", "base": "MOB-Net", "folders": [write_training("a", parameters=83712)]})
+    line = growth_line(sizes, "MOB-Net")
+    assert line.x == pytest.approx([83.712])
+    assert line.mean == pytest.approx([-4.0])

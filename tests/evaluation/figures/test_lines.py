@@ -1,0 +1,60 @@
+"""Figures of the ablations show the arrays given, at the width of a column, each line told from the others."""
+
+import numpy as np
+import pytest
+
+from mobnet.evaluation.figures.drawing.bars import BarPanel, draw_bars
+from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
+from mobnet.evaluation.figures.style import COLUMN_INCH
+
+
+def lines(count: int, places: int) -> list[Line]:
+    """Return made-up lines."""
+    x = np.arange(1.0, places + 1)
+    return [Line(f"kind {k}", x, -x - k, -x - k - 0.5, -x - k + 0.5) for k in range(count)]
+
+
+@pytest.mark.parametrize("sizes", [False, True])
+def test_lines_show_their_means_and_differ_without_colour(sizes: bool) -> None:
+    drawn = lines(6, 4)
+    figure = draw_lines([LinePanel("one", "x [-]", "loss [-]", drawn, sizes)] * 2)
+    assert figure.get_figwidth() == pytest.approx(COLUMN_INCH)
+    for axis in figure.axes:
+        assert (axis.get_xlabel(), axis.get_ylabel()) == ("x [-]", "loss [-]")
+        shown = [line for line in axis.lines if len(line.get_xdata()) == 4 and line.get_linestyle() != "None"]
+        for line, own in zip(shown, drawn, strict=True):
+            np.testing.assert_array_equal(np.asarray(line.get_ydata()), own.mean)
+        looks = {(str(line._unscaled_dash_pattern), line.get_marker()) for line in shown}  # type: ignore[attr-defined]
+        assert len(looks) == len(drawn)
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == [line.label for line in drawn]
+
+
+def test_sizes_are_marked_where_they_are_on_a_logarithmic_axis() -> None:
+    axis = draw_lines([LinePanel("one", "x", "y", lines(2, 3), sizes=True)]).axes[0]
+    assert axis.get_xscale() == "log"
+    assert axis.get_xticks().tolist() == [1.0, 2.0, 3.0]
+
+
+def test_bars_have_their_heights_and_intervals_on_one_scale() -> None:
+    heights = {"a": np.array([1.0, 2.0]), "b": np.array([3.0, 4.0])}
+    spans = {name: np.array([height - 0.5, height + 0.25]) for name, height in heights.items()}
+    low = {name: height / 2 for name, height in heights.items()}
+    panels = [
+        BarPanel("ID", ["W", "RA"], heights, spans),
+        BarPanel("OOD", ["W", "RA"], low, {n: np.array([h, h]) for n, h in low.items()}),
+    ]
+    figure = draw_bars(panels, "RMSE [N m]")
+    first, second = figure.axes
+    assert first.get_ylim() == second.get_ylim()
+    assert [patch.get_height() for patch in first.patches] == [1.0, 2.0, 3.0, 4.0]
+    ends = np.concatenate([np.asarray(bars.get_segments())[:, :, 1] for bars in first.collections])
+    np.testing.assert_allclose(ends, [[0.5, 1.25], [1.5, 2.25], [2.5, 3.25], [3.5, 4.25]])
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["a", "b"]
+
+
+def test_a_run_that_leaps_flattens_no_line() -> None:
+    calm, leaping = lines(2, 3)
+    leaping.high[1] = 1e6
+    low, high = draw_lines([LinePanel("one", "x", "y", [calm, leaping])]).axes[0].get_ylim()
+    means = np.concatenate([calm.mean, leaping.mean])
+    assert low < means.min() < means.max() < high < 100

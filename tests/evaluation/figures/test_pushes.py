@@ -1,0 +1,52 @@
+"""A group's curves share one scale and its bars stand below them; one group is a column wide, more are two."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mobnet.evaluation.figures.drawing.bars import BarPanel
+from mobnet.evaluation.figures.drawing.pushes import PushGroup, draw_pushes
+from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH
+from mobnet.evaluation.measure.curves import Curve, Panel
+
+TIME = np.linspace(-0.1, 0.2, 31)
+BARS = BarPanel("errors", ["avg"], {"MOB": np.array([3.0])}, {"MOB": np.array([[2.0], [4.0]])})
+
+
+def group(*sizes: float) -> PushGroup:
+    """Return a group of a push for each size."""
+    curves = [[Curve("truth", size * np.sin(TIME)), Curve("MOB", size * np.cos(TIME))] for size in sizes]
+    return PushGroup([Panel(f"push {k}", TIME, own, {"push": TIME > 0.0}) for k, own in enumerate(curves)], BARS)
+
+
+@pytest.mark.parametrize(
+    ("groups", "across", "width"), [([group(1.0)], 1, COLUMN_INCH), ([group(1.0, 2.0)] * 2, 2, PAGE_INCH)]
+)
+def test_curves_and_bars_are_lettered_in_order(groups: list[PushGroup], across: int, width: float) -> None:
+    figure = draw_pushes(groups, "LL3", across)
+    assert figure.get_figwidth() == pytest.approx(width)
+    titles = [axis.get_title(loc="left") for axis in figure.axes]
+    assert (
+        sorted(title[:3] for title in titles if title.startswith("("))
+        == ["(a)", "(b)", "(c)", "(d)"][: 2 * len(groups)]
+    )
+    assert sum("errors" in title for title in titles) == len(groups)
+
+
+def test_curves_of_a_group_share_a_scale_that_holds_them_all() -> None:
+    figure = draw_pushes([group(1.0, 5.0, 2.0), group(1.0)], "LL3", across=2)
+    shown = [axis for axis in figure.axes if axis.get_visible()]
+    curves = [axis for axis in shown if "push" in axis.get_title(loc="left")]
+    assert len(curves) == 4
+    scales = {axis.get_ylim() for axis in curves}
+    assert len(scales) == 2
+    assert max(top for _, top in scales) >= 5.0
+    assert {axis.get_ylabel() for axis in shown} == {"LL3 torque [N m]", "RMSE [N m]", ""}
+    assert {axis.get_xlabel() for axis in shown} == {"time from push [s]", ""}
+
+
+def test_a_group_without_pushes_is_empty() -> None:
+    empty = PushGroup([], BarPanel("errors", [], {}, {}))
+    figure = draw_pushes([empty, empty], "LL3", across=2)
+    assert [bool(axis.lines) for axis in figure.axes if axis.get_visible()] == [False, False]

@@ -1,0 +1,35 @@
+"""Columns of tables are joints, limbs joint by joint, and means over joints of one unit."""
+
+from typing import Any
+
+import pytest
+
+from mobnet.core.errors import ConfigError
+from mobnet.core.joints import JointLayout
+from mobnet.evaluation.measure.averages import Column, columns_of
+
+
+def test_a_limb_is_its_joints_one_by_one(layout: JointLayout) -> None:
+    columns = columns_of(layout, ["W", "LL3", "V1"])
+    assert [column.name for column in columns] == ["W1", "W2", "W3", "LL3", "V1"]
+    assert columns[3:] == [Column("LL3", "N m", (("LL", "LL3"),)), Column("V1", "N", (("V", "V1"),))]
+
+
+def test_a_mean_is_over_limbs_and_joints_and_perhaps_metrics(layout: JointLayout) -> None:
+    metrics = ["rmse_push_1", "rmse_push_2"]
+    (column,) = columns_of(layout, [{"name": "avg W+LA1", "joints": ["W", "LA1"], "metrics": metrics}])
+    assert column.joints == (("W", "W1"), ("W", "W2"), ("W", "W3"), ("LA", "LA1"))
+    assert column.metrics == tuple(metrics)
+
+
+@pytest.mark.parametrize(
+    ("item", "says"),
+    [
+        ({"name": "avg V", "joints": ["V"]}, "'avg V': a mean over V1, V2, V3, V4, V5, V6 mixes N and N m"),
+        ("LL9", "'LL9' is not accepted"),
+        ({"name": "avg", "joints": ["tail"]}, "'tail' is not accepted"),
+    ],
+)
+def test_what_cannot_be_a_column_is_named(item: Any, says: str, layout: JointLayout) -> None:
+    with pytest.raises(ConfigError, match=says):
+        columns_of(layout, [item])

@@ -1,0 +1,115 @@
+"""Coverage is 1 : 1 where both sets are alike, and sees the set that is wider."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mobnet.core.joints import JointLayout
+from mobnet.evaluation.measure.coverage import (
+    ALL,
+    AREA,
+    NEAREST,
+    OUTSIDE,
+    Covered,
+    equal_sets,
+    nearest,
+    outside,
+    read_blocks,
+    refer,
+    scale_of,
+    visited,
+)
+from mobnet.evaluation.number.rows import read_rows
+from mobnet.evaluation.tables.coverage import coverage
+from mobnet.learning.features import limb_inputs
+
+Sets = dict[str, list[str]]
+NAMES = ("v.LL1", "tau_des.LL1")
+PLANE = {"cells": 10, "cell_range": [0.0, 1.0]}
+TEST = {"scenario": "walk_test", "level": "all_uncertainty"}
+
+
+@pytest.fixture
+def rng() -> np.random.Generator:
+    return np.random.default_rng(0)
+
+
+def test_an_inner_test_is_inside_and_a_far_one_outside(rng: np.random.Generator) -> None:
+    training = rng.uniform(-1, 1, (4000, 2))
+    references = [
+        refer(training, [0.01, 0.99], np.zeros(2), np.ones(2)),
+        refer(0.1 * training, [0.01, 0.99], np.zeros(2), np.ones(2)),
+    ]
+    rows = {(row.measure, row.joint): row for row in outside(TEST, [0.5 * training[:500]], references, NAMES, ["LL1"])}
+    for measure in OUTSIDE.values():
+        assert rows[measure, "LL1"].with_rte == 0.0
+        assert rows[measure, "LL1"].without_rte == pytest.approx(0.8, abs=0.05)
+        assert rows[measure, ALL].without_rte == rows[measure, "LL1"].without_rte
+
+
+def test_about_two_percent_of_training_lie_outside_its_own_range(rng: np.random.Generator) -> None:
+    training = rng.normal(size=(5000, 2))
+    reference = refer(training, [0.01, 0.99], np.zeros(2), np.ones(2))
+    for row in outside(TEST, [training], [reference, reference], NAMES, ["LL1"]):
+        assert row.with_rte == pytest.approx(0.02, abs=0.001)
+
+
+def test_distance_to_the_nearest_sample_has_its_closed_form_in_units_of_the_common_spread(
+    config: dict[str, Any],
+) -> None:
+    mean, std = np.array([1.0, 2.0]), np.array([2.0, 4.0])
+    references = [
+        refer(np.array([[1.0, 2.0], [9.0, 2.0]]), [0, 1], mean, std),
+        refer(np.array([[1.0, 6.0]] * 2), [0, 1], mean, std),
+    ]
+    block = (np.array([[5.0, 2.0], [1.0, 2.0], [3.0, 2.0]]) - mean) / std  # 2, 0 and 1 away from the first set
+    rows = list(nearest(config, TEST, [block, block], references))
+    assert [row.measure for row in rows] == list(NEAREST)
+    assert rows[0].with_rte == pytest.approx(1.0)
+    assert rows[0].without_rte == pytest.approx(np.sqrt(2.0))
+    assert rows[0].ratio == pytest.approx(np.sqrt(0.5))
+    assert rows[0].low == pytest.approx(rows[0].high)
+
+
+def test_the_wider_set_visits_more_of_the_plane_and_equal_sets_equally_much(rng: np.random.Generator) -> None:
+    wide = rng.uniform(-1, 1, (3000, 2))
+    assert {row.ratio for row in visited(AREA, [wide, wide], NAMES, ["LL1"], PLANE)} == {1.0}
+    for row in visited(AREA, [wide, 0.5 * wide], NAMES, ["LL1"], PLANE):
+        assert row.measure == AREA
+        assert row.with_rte == pytest.approx(1.0, abs=0.02)
+        assert row.ratio == pytest.approx(4.0, rel=0.5)
+
+
+def test_sets_are_made_equally_long_and_a_constant_input_keeps_its_scale(rng: np.random.Generator) -> None:
+    sets = [[np.ones((30, 2)), np.zeros((30, 2))], [np.ones((40, 2))]]
+    assert [len(samples) for samples in equal_sets(sets, {"samples": 50})] == [40, 40]
+    assert [len(samples) for samples in equal_sets(sets, {"samples": 10})] == [10, 10]
+    assert equal_sets(sets, {"samples": 10})[0].mean() == 0.5
+    np.testing.assert_array_equal(scale_of(np.ones((5, 2)))[1], [1.0, 1.0])
+
+
+def test_blocks_hold_the_inputs_of_table_1(config: dict[str, Any], layout: JointLayout, data_sets: Sets) -> None:
+    inputs = limb_inputs(layout, config["networks"]["LL"])
+    blocks = read_blocks(data_sets["walk"][:1], layout, inputs, config["evaluation"]["coverage"])
+    assert [block.shape for block in blocks] == [
+        (250, 30)
+    ] * 4  # 20 s in two segments, blocks of 5 s, every second sample
+
+
+def test_equivalent_sets_come_out_even_and_tests_without_pushes_are_left_out(
+    tmp_path: Path, config: dict[str, Any], data_sets: Sets
+) -> None:
+    training = {"with RTE": data_sets["walk"], "without RTE": data_sets["walk"]}
+    tests = [
+        {**TEST, "recordings": data_sets["test"]},
+        {**TEST, "scenario": "knee_swing", "pushed": "LL3", "recordings": []},
+    ]
+    coverage(config, training, tests, tmp_path)
+    rows = read_rows(tmp_path / "coverage.csv", Covered)
+    assert {row.scenario for row in rows} == {"training", "walk_test"}
+    assert all(row.with_rte == row.without_rte for row in rows)
+    assert all(row.ratio == 1.0 for row in rows if row.measure in NEAREST or row.measure == AREA)

@@ -1,0 +1,74 @@
+"""Results: several joints and metrics are averaged, what is missing is told apart from what cannot be there."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mobnet.core.errors import ConfigError, DataError
+from mobnet.evaluation.measure.results import Results, read_results
+from mobnet.evaluation.number.rows import Score, write_rows
+
+REPO = Path(__file__).parents[3]
+WALK = {"scenario": "walk", "level": "ideal", "method": "MOB"}
+
+
+@pytest.fixture
+def results(tmp_path: Path, write_training: Callable[..., str]) -> Results:
+    """Two tests of one method, its errors 1, 2 and 3 at the waist, and two kinds of trainings, one all diverged."""
+    rows = [
+        Score("walk", "ideal", "MOB", 0, test, limb, joint, metric, factor * value * test, "")
+        for test in (1, 2)
+        for limb, joint, value in (("W", "W1", 1.0), ("W", "W2", 2.0), ("W", "W3", 3.0), ("LL", "LL1", 8.0))
+        for metric, factor in (("rmse", 1.0), ("rmse_push_1", 10.0))
+    ]
+    write_rows(tmp_path / "walk.csv", Score, rows)
+    folders = [write_training("GRU", seed, -4.0 - seed) for seed in (0, 1)]
+    folders.append(write_training("MLP", epochs=1, diverged=True))
+    return read_results(REPO / "configs/robots/tocabi.yaml", [tmp_path / "walk.csv"], folders)
+
+
+@pytest.mark.parametrize(
+    ("cell", "first_test"),
+    [
+        ({"joint": "W2"}, 2.0),
+        ({"joint": "W"}, 2.0),
+        ({"joint": ["W1", "W2"]}, 1.5),
+        ({"joint": ["W", "LL1"]}, 3.5),
+        ({"joint": "W1", "metric": "rmse_push_1"}, 10.0),
+        ({"joint": "W1", "metric": ["rmse", "rmse_push_1"]}, 5.5),
+    ],
+)
+def test_a_number_is_the_mean_over_joints_and_metrics(results: Results, cell: Any, first_test: float) -> None:
+    np.testing.assert_allclose(results.grid(WALK | cell), [[first_test, 2 * first_test]])
+
+
+def test_a_training_is_a_network_on_one_test(results: Results) -> None:
+    np.testing.assert_allclose(results.grid({"method": "GRU", "metric": "validation loss"}), [[-4.0], [-5.0]])
+
+
+@pytest.mark.parametrize(
+    "cell", [WALK | {"joint": "W1", "metric": "rmse_push_9"}, {"method": "MLP", "metric": "validation loss"}]
+)
+def test_a_push_that_never_came_and_trainings_that_all_diverged_have_no_number(results: Results, cell: Any) -> None:
+    assert results.grid(cell) is None
+
+
+@pytest.mark.parametrize(
+    ("cell", "error", "says"),
+    [
+        (WALK | {"method": "MOB-Net", "joint": "W1"}, DataError, "no run of MOB-Net in walk, ideal"),
+        (WALK | {"joint": "RA1"}, DataError, "'RA1'"),
+        ({"method": "MOB-Net", "joint": "W1"}, ConfigError, "scenario is missing"),
+        (WALK, ConfigError, "joint is missing"),
+        (WALK | {"joint": ["V1", "V4"]}, ConfigError, "mixes N and N m"),
+        ({"method": "LSTM", "metric": "validation loss"}, DataError, "'LSTM' is not accepted; accepted: GRU, MLP"),
+    ],
+)
+def test_a_run_that_should_be_there_is_named(
+    results: Results, cell: dict[str, Any], error: type[Exception], says: str
+) -> None:
+    with pytest.raises(error, match=says):
+        results.grid(cell)

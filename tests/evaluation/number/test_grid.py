@@ -1,0 +1,52 @@
+"""Runs are found by what they are, never by their place in the file."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mobnet.core.errors import DataError
+from mobnet.evaluation.number.grid import Wanted, run_grid, unit_of
+from mobnet.evaluation.number.rows import Score
+
+WANTED = Wanted("forward_walk", "LL", "all_uncertainty", "MOB-Net", "avg")
+Scores = Callable[..., list[Score]]
+
+
+def test_grid_has_networks_as_rows_and_tests_as_columns(make_scores: Scores) -> None:
+    grid = run_grid(make_scores(2, 3), WANTED)
+    assert grid.shape == (2, 3)
+    assert np.all(np.diff(grid, axis=0) > 0)
+    assert np.all(np.diff(grid, axis=1) > 0)
+
+
+def test_order_of_rows_does_not_matter(make_scores: Scores, rng: np.random.Generator) -> None:
+    scores = make_scores()
+    shuffled = [scores[i] for i in rng.permutation(len(scores))]
+    np.testing.assert_array_equal(run_grid(shuffled, WANTED), run_grid(scores, WANTED))
+
+
+def test_a_missing_run_is_refused(make_scores: Scores) -> None:
+    scores = make_scores()
+    scores.remove(next(row for row in scores if WANTED.matches(row)))
+    with pytest.raises(DataError, match=r"5 rows for .*'MOB-Net'.*networks \[0, 1\] on tests \[1, 2, 3\]"):
+        run_grid(scores, WANTED)
+
+
+def test_a_run_scored_twice_is_refused(make_scores: Scores) -> None:
+    scores = make_scores()
+    with pytest.raises(DataError, match="7 rows"):
+        run_grid([*scores, next(row for row in scores if WANTED.matches(row))], WANTED)
+
+
+def test_an_unknown_method_is_named(make_scores: Scores) -> None:
+    with pytest.raises(DataError, match=r"no row for .*'MOB-Fantasy'"):
+        run_grid(make_scores(), replace(WANTED, method="MOB-Fantasy"))
+    with pytest.raises(DataError, match="no row"):
+        unit_of([], WANTED)
+
+
+def test_unit_is_that_of_the_metric(make_scores: Scores) -> None:
+    assert unit_of(make_scores(), WANTED) == "N m"
+    assert unit_of(make_scores(), replace(WANTED, metric="roughness")) == "N m/s"

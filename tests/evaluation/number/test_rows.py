@@ -1,0 +1,50 @@
+"""Result rows survive a round trip, and a damaged file is named."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from mobnet.core.errors import DataError
+from mobnet.evaluation.number.rows import Cell, Score, csv_text, read_rows, write_rows
+
+
+def test_rows_survive_a_round_trip(tmp_path: Path, make_scores: Callable[..., list[Score]]) -> None:
+    write_rows(tmp_path / "a.csv", Score, make_scores())
+    once = read_rows(tmp_path / "a.csv", Score)
+    write_rows(tmp_path / "b.csv", Score, once)
+    assert read_rows(tmp_path / "b.csv", Score) == once
+    assert [row.value for row in once] == pytest.approx([row.value for row in make_scores()], rel=1e-5)
+
+
+def test_none_is_an_empty_field_and_comes_back_as_none(tmp_path: Path) -> None:
+    """Writing and reading are a round trip."""
+    cell = Cell("walk", "ideal", "MOB", "LL1", 1, "rmse", 0.25, None, None, "N m", None)
+    write_rows(tmp_path / "a.csv", Cell, [cell])
+    assert (tmp_path / "a.csv").read_text().splitlines()[1] == "walk,ideal,MOB,LL1,1,rmse,0.25,,,N m,"
+    assert read_rows(tmp_path / "a.csv", Cell) == [cell]
+
+
+def test_the_sign_of_zero_does_not_reach_a_file() -> None:
+    assert csv_text(["x"], [[-0.0]]) == "x\n0\n"
+
+
+@pytest.mark.parametrize(
+    ("damage", "says"),
+    [
+        (lambda text: text.replace("value", "wert"), "column 'value' is missing"),
+        (lambda text: text.replace("0.25", "abc"), "'abc' is not accepted"),
+        (lambda text: text.replace("ideal,MOB,LL1,1,rmse,0.25,,,N m,", "ideal"), "cut off"),
+    ],
+)
+def test_damage_is_named(tmp_path: Path, damage: Callable[[str], str], says: str) -> None:
+    path = tmp_path / "a.csv"
+    write_rows(path, Cell, [Cell("walk", "ideal", "MOB", "LL1", 1, "rmse", 0.25, None, None, "N m", None)])
+    path.write_text(damage(path.read_text()))
+    with pytest.raises(DataError, match=says):
+        read_rows(path, Cell)
+
+
+def test_a_missing_file_is_named(tmp_path: Path) -> None:
+    with pytest.raises(DataError, match=r"none\.csv: file is missing"):
+        read_rows(tmp_path / "none.csv", Cell)

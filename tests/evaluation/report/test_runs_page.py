@@ -1,0 +1,237 @@
+"""The page of all runs: what it says, and what a browser makes of it when somebody clicks and types."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections import Counter
+from collections.abc import Callable
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+from browser import Browser, with_browser
+
+from mobnet.evaluation.report.runs_page import COLUMNS, runs_page
+
+RUNS = {  # name -> cell, best validation loss, RMSE [N m]; the first one diverged before its first epoch ended
+    "FTS-e2e-LL-s0": ("GRU", None, None),
+    "GRU-LL-s0": ("GRU", -5.0, 1.5),
+    "GRU-LL-s1": ("GRU", -4.0, 11.5),
+    "LSTM-LL-s0": ("LSTM", -4.5, 2.5),
+}
+SHOWN = "[...document.querySelectorAll('tbody:not([hidden])')].map((run) => run.dataset.name)"
+OPEN = "[...document.querySelectorAll('.more')].filter((row) => row.getClientRects().length).map((row) => row.id)"
+
+
+def write_run(folder: Path, name: str, cell: str, loss: float | None, rmse: float | None) -> None:
+    """Write a training's run.json and metrics.csv; the second of three epochs is the best."""
+    method, limb, seed = name.rsplit("-", 2)
+    rows = [] if loss is None or rmse is None else [(loss + 1, rmse + 1), (loss, rmse), (loss + 0.5, rmse + 0.5)]
+    lines = [f"{i},{a - 0.25},{a},{b},{0.005 / i},9" for i, (a, b) in enumerate(rows, start=1)]
+    note = {
+        "name": name, "method": method, "limb": limb, "seed": int(seed[1:]), "target": "uncertainty",
+        "settings": {"epochs": 3, "network": {"cell": cell}}, "parameters": 83712, "samples": 1800000,
+        "diverged": not rows, "seconds": 360.0, "device": "cpu", "precision": "float32", "on_windows": {"loss": -1.0},
+        "fingerprint": "<script>alert(1)</script>", "provenance": {"commit": "c"},
+    }  # fmt: skip
+    folder.mkdir(parents=True)
+    (folder / "run.json").write_text(json.dumps(note))
+    head = "epoch,train_loss,validation_loss,validation_rmse,rate,gradient_norm"
+    (folder / "metrics.csv").write_text("\n".join([head, *lines]) + "\n")
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The page of a few made-up runs."""
+    root = tmp_path_factory.mktemp("results")
+    for name, numbers in RUNS.items():
+        write_run(root / "networks" / name, name, *numbers)
+    return make_page(root)
+
+
+def make_page(root: Path) -> Path:
+    """Write the page of all runs below a folder."""
+    runs_page({"scale": "default"}, sorted((root / "networks").iterdir()), root / "runs.html")
+    return root / "runs.html"
+
+
+class Reader(HTMLParser):
+    """Collects rows of text, attributes, and tags that are not closed in their order."""
+
+    def __init__(self, page: Path) -> None:
+        super().__init__()
+        self.rows: list[list[str]] = []
+        self.found: list[tuple[str, str | None]] = []
+        self.open: list[str] = []
+        self.feed(page.read_text())
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.found += attrs
+        if tag not in ("meta", "input"):
+            self.open.append(tag)
+        if tag == "tr":
+            self.rows.append([])
+        if tag in ("td", "th"):
+            self.rows[-1].append("")
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.found += attrs
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        if {"td", "th"} & set(self.open):
+            self.rows[-1][-1] += data.strip()
+
+    def values(self, name: str) -> list[str | None]:
+        """Return the values of an attribute."""
+        return [value for key, value in self.found if key == name]
+
+
+def test_every_run_has_a_row_with_its_numbers(page: Path) -> None:
+    """Without any script all is there; what is not known is a dash."""
+    rows = {row[0]: row for row in Reader(page).rows}
+    assert rows["GRU-LL-s1"][2:] == [
+        "GRU", "LL", "1", "GRU", "83,712", "1,800,000", "3", "2", "-4.000", "11.50", "360.0", "cpu", "float32", "done",
+    ]  # fmt: skip
+    assert rows["FTS-e2e-LL-s0"][8:12] == ["0", "–", "–", "–"]
+    assert rows["FTS-e2e-LL-s0"][-1] == "diverged"
+    assert len(rows["name"]) == len(COLUMNS) + 1
+
+
+def test_page_is_well_formed_and_needs_nothing_else(page: Path) -> None:
+    read = Reader(page)
+    assert read.open == []
+    assert not read.values("src")
+    assert max(Counter(read.values("id")).values()) == 1
+    assert not re.search(r"https?:|@import|url\(", page.read_text())
+
+
+def test_links_lead_to_the_metrics(page: Path) -> None:
+    links = [value for value in Reader(page).values("href") if value and not value.startswith("#")]
+    assert [page.parent / link for link in links] == [page.parent / f"networks/{name}/metrics.csv" for name in RUNS]
+    assert all((page.parent / link).is_file() for link in links)
+
+
+def test_what_a_run_says_is_text_never_markup(page: Path) -> None:
+    assert "<script>alert" not in page.read_text()
+    assert "&lt;script&gt;alert(1)" in page.read_text()
+
+
+def test_equal_runs_give_equal_bytes(page: Path) -> None:
+    once = page.read_bytes()
+    assert make_page(page.parent).read_bytes() == once
+
+
+def test_a_hundred_long_runs_stay_small(tmp_path: Path) -> None:
+    """Two hundred epochs a run, as at the paper's scale: below 2 MB."""
+    for seed in range(10):
+        write_run(tmp_path / f"networks/s{seed}", f"MOB-Net-LL-s{seed}", "GRU", -5.0, 1.5)
+        lines = [f"{i},{-i / 37:.6f},{-i / 41:.6f},{400 / i:.6f},{0.005 / i:.6f},9\n" for i in range(2, 201)]
+        with (tmp_path / f"networks/s{seed}/metrics.csv").open("a") as file:
+            file.writelines(lines)
+    assert make_page(tmp_path).stat().st_size < 200_000
+
+
+@pytest.fixture
+def browse(open_page: Callable[[Path, str], Browser], page: Path) -> Callable[[str], Browser]:
+    """A function that loads the page with a fragment."""
+    return lambda fragment: open_page(page, fragment)
+
+
+@with_browser
+def test_the_address_says_what_is_shown(browse: Callable[[str], Browser]) -> None:
+    browser = browse("#sort=-rmse&filter=gru+LL&open=GRU-LL-s0")
+    assert browser.value(SHOWN) == ["GRU-LL-s1", "GRU-LL-s0", "FTS-e2e-LL-s0"]
+    assert browser.value(OPEN) == ["more-GRU-LL-s0"]
+    assert browser.value("document.querySelector('#filter').value") == "gru LL"
+    assert browser.value("document.querySelector('#shown').value") == "3 of 4 runs, 0.30 h of training"
+
+
+@with_browser
+def test_a_click_on_a_head_sorts_and_a_second_one_turns_it_round(browse: Callable[[str], Browser]) -> None:
+    """Numbers by size, not by digits; a run without a number is last both ways."""
+    browser = browse("")
+    browser.click("[data-key=rmse] a")
+    browser.until(SHOWN, ["GRU-LL-s0", "LSTM-LL-s0", "GRU-LL-s1", "FTS-e2e-LL-s0"])
+    assert browser.value("document.querySelector('[aria-sort]').dataset.key") == "rmse"
+    browser.click("[data-key=rmse] a")
+    browser.until(SHOWN, ["GRU-LL-s1", "LSTM-LL-s0", "GRU-LL-s0", "FTS-e2e-LL-s0"])
+    browser.click("[data-key=name] a")
+    browser.until(SHOWN, sorted(RUNS))
+
+
+@with_browser
+def test_typing_filters_and_the_address_keeps_up(browse: Callable[[str], Browser]) -> None:
+    browser = browse("")
+    browser.click("#filter")
+    browser.tell("Input.insertText", text="lstm")
+    browser.until(SHOWN, ["LSTM-LL-s0"])
+    assert browser.value("location.hash") == "#sort=name&filter=lstm"
+    browser.tell("Input.insertText", text=" diverged")
+    browser.until(SHOWN, [])
+
+
+@with_browser
+def test_a_name_opens_and_closes_its_run_and_back_undoes_it(browse: Callable[[str], Browser]) -> None:
+    browser = browse("")
+    assert browser.value(OPEN) == []
+    browser.click("[data-name=GRU-LL-s1] a")
+    browser.until(OPEN, ["more-GRU-LL-s1"])
+    assert browser.value("document.querySelectorAll('#more-GRU-LL-s1 .charts > svg').length") == 3
+    assert browser.value("document.querySelector('[aria-expanded=true]').textContent") == "GRU-LL-s1"
+    browser.click("[data-name=LSTM-LL-s0] a")
+    browser.until(OPEN, ["more-GRU-LL-s1", "more-LSTM-LL-s0"])
+    browser.click("[data-name=GRU-LL-s1] a")
+    browser.until(OPEN, ["more-LSTM-LL-s0"])
+    browser.value("history.back()")
+    browser.until(OPEN, ["more-GRU-LL-s1", "more-LSTM-LL-s0"])
+
+
+@with_browser
+def test_the_keyboard_alone_sorts_and_opens(browse: Callable[[str], Browser]) -> None:
+    browser = browse("")
+    browser.value("document.querySelector('[data-key=loss] a').focus()")
+    browser.press("Enter", 13, "\r")
+    browser.until(SHOWN, ["GRU-LL-s0", "LSTM-LL-s0", "GRU-LL-s1", "FTS-e2e-LL-s0"])
+    for _ in range(len(COLUMNS) - [column.key for column in COLUMNS].index("loss")):
+        browser.press("Tab", 9)
+    browser.press("Enter", 13, "\r")
+    browser.until(OPEN, ["more-GRU-LL-s0"])
+
+
+@with_browser
+def test_curves_are_drawn_large_where_a_run_is_opened(browse: Callable[[str], Browser]) -> None:
+    """The large curve is the small one, scaled to fill its axes."""
+    browser = browse("#open=GRU-LL-s0")
+    small, large = (
+        browser.value(f"(() => {{const b = document.querySelector('{place}').getBoundingClientRect();"
+                      "return [b.width, b.height]})()")
+        for place in ("#loss-GRU-LL-s0", "#more-GRU-LL-s0 use")
+    )  # fmt: skip
+    assert large[0] > 4 * small[0] > 0
+    assert large[1] > 4 * small[1] > 0
+
+
+@with_browser
+def test_a_link_to_an_opened_run_shows_it_without_scrolling(browse: Callable[[str], Browser]) -> None:
+    browse("").tell("Emulation.setDeviceMetricsOverride", width=1000, height=300, deviceScaleFactor=1, mobile=False)
+    browser = browse("#open=LSTM-LL-s0")
+    try:
+        browser.until("document.querySelector('.open').getBoundingClientRect().top < innerHeight", True)
+    finally:
+        browser.tell("Emulation.clearDeviceMetricsOverride")
+
+
+@with_browser
+def test_without_scripts_every_run_is_open(browse: Callable[[str], Browser]) -> None:
+    browser = browse("")
+    browser.tell("Emulation.setScriptExecutionDisabled", value=True)
+    browser.tell("Page.reload")
+    try:
+        browser.until(f"{OPEN}.length", len(RUNS))
+    finally:
+        browser.tell("Emulation.setScriptExecutionDisabled", value=False)

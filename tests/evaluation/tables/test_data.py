@@ -1,0 +1,87 @@
+"""The table of the training sets says what the recordings hold."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mobnet.core.errors import DataError
+from mobnet.core.files import read_json, write_json
+from mobnet.evaluation.measure.steps import Steps
+from mobnet.evaluation.number.rows import read_rows
+from mobnet.evaluation.tables.data import Fact, commanded, data, extent
+from mobnet.robot.description import load_robot
+from mobnet.robot.nominal import NominalModel
+
+Sets = dict[str, list[str]]
+Facts = dict[tuple[str, str, str], Fact]
+
+
+@pytest.fixture
+def facts(tmp_path: Path, config: dict[str, Any], data_sets: Sets) -> Facts:
+    data(config, {name: data_sets[name] for name in ("walk", "motion")}, tmp_path)
+    return {(row.set, row.quantity, row.part): row for row in read_rows(tmp_path / "data.csv", Fact)}
+
+
+def test_lengths_and_falls_are_sums(facts: Facts) -> None:
+    assert facts["walk", "samples", ""].value == 4000
+    assert facts["walk", "duration", ""].value == pytest.approx(40 / 60)
+    assert facts["walk", "duration", ""].published == 60.0
+    assert facts["walk", "falls", ""].value == 0
+    assert facts["walk", "episodes", ""].value == 4
+    assert facts["walk", "time on terrain", "checks"].value == 0.5
+
+
+def test_only_the_motion_stands_half_of_the_time(facts: Facts) -> None:
+    assert facts["walk", "time standing", ""].value == 0.0
+    assert facts["motion", "time standing", ""].value == 0.5
+    assert facts["motion", "time standing", ""].published == 0.5
+    assert facts["motion", "steps", ""].value < facts["walk", "steps", ""].value
+
+
+def test_commands_stand_beside_the_ends_of_table_2(facts: Facts) -> None:
+    low, high = (facts["walk", f"{end} command", "step_x"] for end in ("smallest", "largest"))
+    assert (low.published, high.published) == (-0.15, 0.2)
+    assert -0.15 <= low.value < high.value <= 0.2
+    assert facts["walk", "largest command", "turn"].published == 20.0
+    assert facts["walk", "largest command", "turn"].unit == "deg"
+    assert facts["walk", "largest command", "foot_height"].published == 0.07
+
+
+def test_joints_are_left_to_the_csv(facts: Facts, tmp_path: Path) -> None:
+    assert ("walk", "lower limit", "LA1") in facts
+    text = (tmp_path / "data.md").read_text()
+    assert "LA1" not in text
+    assert "joint range visited, limb LA" in text
+    assert text.splitlines()[0].startswith("|  | walk | motion | Paper |")
+
+
+def test_clearance_is_the_smallest_that_was_noted(tmp_path: Path, data_sets: Sets) -> None:
+    stems = []
+    for k, clearance in enumerate((0.05, 0.02)):
+        stems.append(tmp_path / f"s{k}")
+        write_json(
+            stems[-1].with_suffix(".json"),
+            {**read_json(Path(data_sets["motion"][k] + ".json")), "clearance_min_m": clearance},
+        )
+    found = {(quantity, part): value for quantity, part, value, _ in extent(stems, ["checks"])}
+    assert found["smallest self-clearance", ""] == 0.02
+
+
+def test_a_command_never_given_has_no_ratio(
+    monkeypatch: pytest.MonkeyPatch, config: dict[str, Any], data_sets: Sets
+) -> None:
+    monkeypatch.setattr(Steps, "follows", lambda self, column: np.full(len(self), column != 2))
+    nominal = NominalModel(load_robot(Path(config["robot"])))
+    parts = [
+        part for quantity, part, _, _ in commanded(config, [Path(data_sets["walk"][0])], nominal) if "over" in quantity
+    ]
+    assert parts == ["step_x", "step_y"]
+
+
+def test_a_missing_recording_is_named(tmp_path: Path, config: dict[str, Any]) -> None:
+    with pytest.raises(DataError, match=r"nowhere\.json: file is missing"):
+        data(config, {"walk": [str(tmp_path / "nowhere")]}, tmp_path)

@@ -1,0 +1,58 @@
+"""The overview holds every method of every test, with dashes where the test does not ask for a column."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mobnet.evaluation.number.rows import Score, read_rows, write_rows
+from mobnet.evaluation.tables.methods import Error, methods
+
+MEANS = {"MOB": 9.0, "MOB-Net": 2.0, "FTS-e2e": 3.0}
+
+
+@pytest.fixture
+def table(tmp_path: Path, config: dict[str, Any], write_limb_scores: Callable[..., Path]) -> Path:
+    """The overview of made-up scores."""
+    scores = {name: write_limb_scores(name, MEANS) for name in ("walk_test", "motion_test")}
+    methods(config, scores, tmp_path)
+    return tmp_path / "methods.csv"
+
+
+def test_errors_are_those_asked_for_test_by_test(table: Path) -> None:
+    errors = read_rows(table, Error)
+    assert [(error.method, error.limb, error.joint) for error in errors] == [
+        *((method, "LL", joint) for method in MEANS for joint in ("LL3", "avg")),
+        *((method, limb, "avg") for method in ("MOB", "MOB-Net") for limb in ("W", "RA")),
+    ]
+    for error in errors:
+        assert error.value == pytest.approx(MEANS[error.method])
+        assert error.runs == (2 if error.method == "MOB" else 4)
+        assert error.unit == "N m"
+
+
+def test_tests_stand_below_one_another_with_dashes_where_a_column_is_not_theirs(table: Path) -> None:
+    lines = table.with_suffix(".md").read_text().splitlines()
+    assert lines[0] == "| Test | Method | LL3 | LL avg | W avg | RA avg |"
+    assert lines[2] == "| walk test, all uncertainty | MOB | 9.00 | 9.00 | - | - |"
+    assert lines[3].endswith("|  |  |")
+    assert lines[8] == "| motion test, all uncertainty | MOB | - | - | 9.00 | 9.00 |"
+    methods_of_lines = [line.split("|")[2].strip() for line in lines[2:]]
+    assert methods_of_lines[::2] == ["MOB", "MOB-Net", "FTS-e2e", "MOB", "MOB-Net"]
+    assert set(methods_of_lines[1::2]) == {"95%"}
+    assert table.with_suffix(".tex").read_text().count(r"\midrule") == 2
+
+
+def test_a_scenario_at_two_levels_is_two_tests(
+    tmp_path: Path, config: dict[str, Any], write_limb_scores: Callable[..., Path]
+) -> None:
+    path = write_limb_scores("walk_test", {"MOB": 9.0})
+    rows = read_rows(path, Score)
+    clean = [Score(**{**vars(row), "level": "ideal", "value": row.value / 9}) for row in rows]
+    write_rows(path, Score, [*rows, *clean])
+    test = {"scenario": "walk_test", "columns": {"LL": ["avg"]}, "methods": ["MOB"]}
+    config["evaluation"]["methods"] = [{**test, "level": level} for level in ("all_uncertainty", "ideal")]
+    methods(config, {"walk_test": path}, tmp_path)
+    lines = (tmp_path / "methods.md").read_text().splitlines()
+    assert lines[2::2] == ["| walk test, all uncertainty | MOB | 9.00 |", "| walk test, ideal | MOB | 1.00 |"]

@@ -1,0 +1,64 @@
+"""Sizes of the uncertainty torque are standard deviations over whole sets, beside the robot's."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+
+from mobnet.core.errors import ConfigError
+from mobnet.core.joints import JointLayout
+from mobnet.core.store import read_array, write_array
+from mobnet.evaluation.number.rows import read_rows
+from mobnet.evaluation.tables.uncertainty import Size, note_tex, read_sizes, target_std, uncertainty, verdict
+
+Sets = dict[str, list[str]]
+
+
+def residuals(data_sets: Sets) -> Sets:
+    return {name: [f"{stem}_residual" for stem in stems] for name, stems in data_sets.items()}
+
+
+def test_standard_deviation_file_by_file_is_equivalent_to_that_of_all_samples_together(tmp_path: Path) -> None:
+    rng = np.random.default_rng(1)
+    parts = [rng.normal(1000.0 * k, 1.0 + k, (n, 4)) for k, n in enumerate((50, 400, 7))]
+    columns = [(name, "N m", "joint") for name in ("r.A", "r.B", "tau_ext_lp.A", "tau_ext_lp.B")]
+    stems = [tmp_path / f"s{k}" for k in range(3)]
+    for stem, part in zip(stems, parts, strict=True):
+        write_array(stem, part, columns, {"rate_hz": 1.0})
+    stored = np.concatenate([read_array(stem)[0] for stem in stems]).astype(float)
+    np.testing.assert_allclose(target_std(stems, ["A", "B"]), (stored[:, :2] - stored[:, 2:]).std(axis=0), rtol=1e-12)
+
+
+def test_rows_stand_beside_the_robots_numbers(tmp_path: Path, config: dict[str, Any], data_sets: Sets) -> None:
+    uncertainty(config, residuals(data_sets), tmp_path)
+    rows = {row.joint: row for row in read_rows(tmp_path / "uncertainty.csv", Size)}
+    assert list(rows) == [*(f"LL{i}" for i in range(1, 7)), "W1", "W2", "W3", *(f"V{i}" for i in range(1, 7))]
+    assert rows["LL1"].value == pytest.approx(20.0, rel=0.05)  # as the made-up residuals are
+    assert rows["W1"].value == pytest.approx(10.0, rel=0.05)
+    assert rows["LL1"].published == 9.7
+    assert rows["V1"].ratio == pytest.approx(rows["V1"].value / 47.6, rel=1e-4)
+    assert {row.within for row in rows.values() if row.limb != "LL"} == {""}
+    assert rows["LL2"].within == "yes"
+    assert (rows["V1"].unit, rows["V4"].unit) == ("N", "N m")
+
+
+def test_bounds_are_closed_and_a_missing_number_is_no_verdict() -> None:
+    assert [verdict(ratio, [0.4, 2.5]) for ratio in (0.39, 0.4, 2.5, 2.51)] == ["no", "yes", "yes", "no"]
+    assert verdict(None, [0.4, 2.5]) == verdict(1.0, None) == ""
+
+
+def test_the_note_stands_under_the_table(tmp_path: Path, config: dict[str, Any], data_sets: Sets) -> None:
+    uncertainty(config, residuals(data_sets), tmp_path)
+    note = yaml.safe_load(Path(config["published"]).read_text())["uncertainty"]["note"]
+    assert note in (tmp_path / "uncertainty.md").read_text()
+    assert (tmp_path / "uncertainty.tex").read_text().endswith(note_tex(note))
+
+
+def test_a_limb_with_another_number_of_joints_is_named(tmp_path: Path, layout: JointLayout) -> None:
+    (tmp_path / "p.yaml").write_text("uncertainty: {std: {W: [1.0, 2.0]}}")
+    with pytest.raises(ConfigError, match=r"uncertainty\.std\.W: 2 numbers for 3 joints \(W1, W2, W3\)"):
+        read_sizes(tmp_path / "p.yaml", layout)
