@@ -7,8 +7,27 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from mobnet.settings.base import (
-    Choices, Count, CountRange, Flag, Index, MotionName, MotorName, NotNegative, NotNegativeRange, Positive,
-    PositivePair, PositiveRange, PushName, Range, Real, ScenarioName, Section, Share, TerrainName, Text, Vector3,
+    Choices,
+    Count,
+    CountRange,
+    Flag,
+    Index,
+    MotionName,
+    MotorName,
+    NotNegative,
+    NotNegativeRange,
+    Positive,
+    PositivePair,
+    PositiveRange,
+    PushName,
+    Range,
+    Real,
+    ScenarioName,
+    Section,
+    Share,
+    TerrainName,
+    Text,
+    Vector3,
 )  # fmt: skip
 
 Phase = Literal["always", "left_swing", "right_swing", "left_support", "right_support"]

@@ -7,9 +7,26 @@ from typing import Annotated
 from pydantic import Field
 
 from mobnet.settings.base import (
-    Count, InnerShare, JointName, LevelName, LimbName, LimbOrJointName, MethodName, MethodNames,
-    MotorName, NetworkName, NotNegative, Positive, PushedTestName, Range, Section, Share, ShareRange, SweepName,
-    TestName, Text,
+    Count,
+    InnerShare,
+    JointName,
+    LevelName,
+    LimbName,
+    LimbOrJointName,
+    MethodName,
+    MethodNames,
+    MotorName,
+    NetworkName,
+    NotNegative,
+    Positive,
+    PushedTestName,
+    Range,
+    Section,
+    Share,
+    ShareRange,
+    SweepName,
+    TestName,
+    Text,
 )  # fmt: skip
 
 Metric = Annotated[str, Field(pattern=r"^(rmse|r_rmse|roughness|rmse_pushed|rmse_push_[1-9][0-9]*)$")]

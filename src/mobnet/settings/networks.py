@@ -7,7 +7,16 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from mobnet.settings.base import (
-    Count, ExperimentName, Flag, InnerShare, InnerShares, LimbNames, Positive, Section, Share, TrainingSetName,
+    Count,
+    ExperimentName,
+    Flag,
+    InnerShare,
+    InnerShares,
+    LimbNames,
+    Positive,
+    Section,
+    Share,
+    TrainingSetName,
 )  # fmt: skip
 
 CellKind = Literal["GRU", "LSTM", "RNN", "TCN", "MLP", "constant"]

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import JointLayout
-from mobnet.settings.base import Index, LevelName, MethodNames, ScaleName, ScenarioName, Section, TestName
+from mobnet.settings.base import Index, LevelName, MethodNames, ScaleName, ScenarioName, Section
 from mobnet.settings.claims import Claim
 from mobnet.settings.data import Commands, Motion, Push, RandomTorque, RecordingSettings, Scenario, Terrain
 from mobnet.settings.evaluation import Evaluation

@@ -1,0 +1,73 @@
+"""A job as a value: a function of this package by its dotted name, and the arguments that it gets."""
+
+from __future__ import annotations
+
+import ast
+import functools
+import importlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from mobnet.core.errors import ConfigError, not_accepted
+
+SOURCE = Path(__file__).parents[2]
+
+
+@dataclass(frozen=True)
+class Call:
+    """A call that a job makes. Its text is a parameter of the job's rule: the job reruns when it changes.
+
+    Attributes:
+        function: module and name, such as `mobnet.learning.train:train`.
+        arguments: the function's arguments by name: sections of the configuration, names, paths.
+    """
+
+    function: str
+    arguments: Mapping[str, object]
+
+    def __call__(self) -> object:
+        """Import the function and call it."""
+        module, name = self.function.split(":")
+        return getattr(importlib.import_module(module), name)(**self.arguments)
+
+
+def call_of(function: str, available: Mapping[str, object]) -> Call:
+    """Return a call whose arguments are those that the function's signature names.
+
+    Args:
+        function: module and name.
+        available: every value that the function may ask for.
+
+    Raises:
+        ConfigError: the function asks for something else.
+    """
+    required, optional = parameters(function)
+    missing = [name for name in required if name not in available]
+    if missing:
+        raise ConfigError(not_accepted(f"{function}: parameter", missing[0], available))
+    return Call(function, {name: available[name] for name in (*required, *optional) if name in available})
+
+
+@functools.cache
+def parameters(function: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the names of a function's parameters, those without a default and those with one; nothing is imported.
+
+    Raises:
+        ConfigError: there is no such function.
+    """
+    module, name = function.split(":")
+    tree = ast.parse(module_file(module).read_text(encoding="utf-8"))
+    for node in tree.body:
+        if isinstance(node, ast.FunctionDef) and node.name == name:
+            names = [argument.arg for argument in node.args.args]
+            plain = len(names) - len(node.args.defaults)
+            return tuple(names[:plain]), tuple(names[plain:])
+    raise ConfigError(
+        not_accepted(f"function of {module}", name, [n.name for n in tree.body if isinstance(n, ast.FunctionDef)])
+    )
+
+
+def module_file(module: str) -> Path:
+    """Return the file of a module of this package."""
+    return SOURCE.joinpath(*module.split(".")).with_suffix(".py")

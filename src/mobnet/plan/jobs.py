@@ -1,0 +1,165 @@
+"""The jobs that are made once for each recording, network or run: which function, and what it gets."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from mobnet.plan.call import Call
+from mobnet.plan.runs import Files
+from mobnet.settings.data import Terrain
+from mobnet.settings.jobs import WalkSettings
+from mobnet.settings.settings import Settings
+
+KINDS = "mobnet.estimation.kinds"  # modules that a method names as its kind
+
+
+@dataclass(frozen=True)
+class Jobs:
+    """Calls by the wildcards of their rules.
+
+    Attributes:
+        settings: the configuration.
+        files: where files stand.
+    """
+
+    settings: Settings
+    files: Files
+
+    def motion(self, motion: str, seed: int) -> Call:
+        """Return the making of a random motion of the upper body."""
+        moved = [name for name, row in self.settings.scenarios.items() if row.motion == motion]
+        return Call(
+            "mobnet.simulation.motion:make_motion",
+            {
+                "root_seed": self.settings.seed,
+                "robot": self.settings.robot,
+                "motion": self.settings.motions[motion],
+                "name": motion,
+                "seed": seed,
+                "duration_s": self.files.duration_s(moved, seed),
+                "out": self.files.results / "motions" / motion / f"s{seed}",
+            },
+        )
+
+    def collect(self, scenario: str, level: str, seed: int) -> Call:
+        """Return the recording of a walk."""
+        return Call(
+            "mobnet.simulation.record:collect",
+            {
+                "settings": walk_settings(self.settings, scenario, level),
+                "seed": seed,
+                "duration_s": self.files.duration_s([scenario], seed),
+                "out": self.files.array("recordings", scenario, level, seed),
+                "motion": next(iter(self.files.motion(scenario, seed)), None),
+            },
+        )
+
+    def observe(self, scenario: str, level: str, seed: int) -> Call:
+        """Return the observer's residual of a recording."""
+        return Call(
+            "mobnet.estimation.observe:observe",
+            {
+                **self._observer(level),
+                "recording": self.files.array("recordings", scenario, level, seed),
+                "out": self.files.array("residuals", scenario, level, seed),
+            },
+        )
+
+    def fit(self, method: str) -> Call:
+        """Return the fit of a method without networks to the training sets of its limbs."""
+        row = self.settings.method(method)
+        networks = {limb: self.settings.network(method, limb) for limb in row.fitted}
+        pairs = {limb: tuple(zip(*self._training(network.data), strict=True)) for limb, network in networks.items()}
+        return Call(
+            "mobnet.estimation.fitting:write_fit",
+            {
+                "layout": self.settings.layout,
+                "observer": self.settings.observer,
+                "method": row,
+                "networks": networks,
+                "training": pairs,
+                "out": self.files.results / "fits" / f"{method}.json",
+            },
+        )
+
+    def train(self, method: str, limb: str, seed: int) -> Call:
+        """Return the training of a network."""
+        training = self.settings.training(method, limb)
+        recordings, residuals = self._training(training.network.data)
+        name = f"{method}-{limb}-s{seed}"
+        return Call(
+            "mobnet.learning.train:train",
+            {
+                "root_seed": self.settings.seed,
+                "layout": self.settings.layout,
+                "training": training,
+                "seed": seed,
+                "recordings": recordings,
+                "residuals": residuals,
+                "out": self.files.results / "networks" / name,
+                "state": self.files.results / "state" / name,
+            },
+        )
+
+    def estimate(self, method: str, network_seed: int, scenario: str, level: str, seed: int) -> Call:
+        """Return a method's external torque for a recording."""
+        source = self.settings.source_of(method)
+        limbs = self.settings.method(source).limbs
+        return Call(
+            "mobnet.estimation.estimate:estimate",
+            {
+                **self._observer(level),
+                "method": method,
+                "methods": {name: self.settings.method(name) for name in dict.fromkeys([method, source])},
+                "networks": {limb: self.files.network(source, limb, network_seed) for limb in limbs},
+                "fitted": next(iter(self.files.fit(method)), None),
+                "recording": self.files.array("recordings", scenario, level, seed),
+                "out": self.files.array(f"estimates/{method}/n{network_seed}", scenario, level, seed),
+            },
+        )
+
+    def score(self, scenario: str) -> Call:
+        """Return the errors of every run of a test."""
+        return Call(
+            "mobnet.evaluation.measure.scores:score",
+            {
+                "layout": self.settings.layout,
+                "runs": self.files.runs_of(scenario),
+                "window": self.settings.evaluation.windows.get(scenario),
+                "out": self.files.scores([scenario])[scenario],
+            },
+        )
+
+    def kinds(self, method: str) -> list[str]:
+        """Return the modules that a method imports by name: its kind and that of the method it runs on."""
+        names = (method, self.settings.source_of(method))
+        return list(dict.fromkeys(f"{KINDS}.{self.settings.method(name).kind}" for name in names))
+
+    def _observer(self, level: str) -> dict[str, object]:
+        """Return what the observer takes."""
+        return {
+            "robot": self.settings.robot,
+            "gravity_m_s2": self.settings.plant.gravity_m_s2,
+            "observer": self.settings.observer,
+            "level": self.settings.levels[level],
+        }
+
+    def _training(self, name: str) -> tuple[tuple[Path, ...], tuple[Path, ...]]:
+        """Return recordings and residuals of a training set."""
+        return self.files.training("recordings", name), self.files.training("residuals", name)
+
+
+def walk_settings(settings: Settings, scenario: str, level: str) -> WalkSettings:
+    """Return what a walk takes: of terrains and pushes, those that the scenario names."""
+    row = settings.scenarios[scenario]
+    return WalkSettings(
+        **{name: getattr(settings, name) for name in WalkSettings.model_fields if name in type(settings).model_fields
+           and name not in ("terrain", "pushes")},
+        scenario_name=scenario,
+        scenario=row,
+        level_name=level,
+        level=settings.levels[level],
+        terrain=Terrain(**{name: getattr(settings.terrain, name) for name in row.terrain}),
+        pushes={name: settings.pushes[name] for name in row.pushes},
+    )  # fmt: skip

@@ -1,0 +1,211 @@
+"""The runs of an estimator, and the files of recordings, residuals, estimates and networks at one scale."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields, is_dataclass
+from pathlib import Path
+
+from mobnet.settings.evaluation import PushedRuns, Runs
+from mobnet.settings.scales import TrainingSet
+from mobnet.settings.settings import Settings, swept_name
+
+FIRST_TRAINING_SEED = 1000  # recordings and motions for tests count from 1
+ARRAY = ".parquet"
+COURSE = ("run.json", "metrics.csv")  # files of a trained network that say how its training went
+WEIGHTS = "weights.safetensors"
+NETWORKS = "networks"
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run of a method: a network seed on a test recording.
+
+    Attributes:
+        scenario: what was walked.
+        level: uncertainty level of section 5.1.
+        method: the estimator.
+        network_seed: seed of its networks; 0 for a method without any.
+        test_seed: seed of the recording.
+        recording: the recording, without the ending of its files.
+        residual: the observer's residual of it, likewise.
+        estimate: the method's estimate, likewise.
+    """
+
+    scenario: str
+    level: str
+    method: str
+    network_seed: int
+    test_seed: int
+    recording: Path
+    residual: Path
+    estimate: Path
+
+
+@dataclass(frozen=True)
+class SweptSize:
+    """Networks of one size, or of one amount of data, of a sweep (Figure 20).
+
+    Attributes:
+        panel: what is swept, `parameters` or `samples`.
+        base: the method whose network or data are varied.
+        folders: its trained networks.
+    """
+
+    panel: str
+    base: str
+    folders: tuple[Path, ...]
+
+
+@dataclass(frozen=True)
+class Files:
+    """Where the files of a scale stand, and which seeds they have.
+
+    Attributes:
+        settings: the configuration.
+        results: folder of everything but tables, figures and the paper.
+    """
+
+    settings: Settings
+    results: Path
+
+    @property
+    def test_seeds(self) -> list[int]:
+        """Seeds of the recordings of every test."""
+        return [1 + i for i in range(self.settings.sizes.test.shards)]
+
+    def array(self, kind: str, scenario: str, level: str, seed: int | str) -> Path:
+        """Return a recording, residual or estimate without its ending; `{seed}` and so on make a pattern."""
+        return self.results / kind / scenario / level / f"s{seed}"
+
+    def motion(self, scenario: str, seed: int) -> list[Path]:
+        """Return the motion of the upper body in a recording; none where it is still."""
+        name = self.settings.scenarios[scenario].motion
+        return [self.results / "motions" / name / f"s{seed}"] if name else []
+
+    def training_seeds(self, name: str) -> list[int]:
+        """Return the seeds of a training set's recordings."""
+        return [FIRST_TRAINING_SEED + i for i in range(self.training_set(name).shards)]
+
+    def training_set(self, name: str) -> TrainingSet:
+        """Return a training set of the scale."""
+        return self.settings.sizes.train[name]
+
+    def training(self, kind: str, name: str) -> tuple[Path, ...]:
+        """Return the recordings or residuals of a training set."""
+        row = self.training_set(name)
+        return tuple(self.array(kind, row.scenario, row.level, seed) for seed in self.training_seeds(name))
+
+    def tests(self, scenario: str, level: str) -> tuple[Path, ...]:
+        """Return the recordings of a test."""
+        return tuple(self.array("recordings", scenario, level, seed) for seed in self.test_seeds)
+
+    def recorded(self) -> Iterator[tuple[str, str, int]]:
+        """Yield scenario, level and seed of every recording."""
+        for name, row in self.settings.sizes.train.items():
+            yield from ((row.scenario, row.level, seed) for seed in self.training_seeds(name))
+        for scenario, levels in self.settings.tests.items():
+            yield from ((scenario, level, seed) for level in levels for seed in self.test_seeds)
+
+    def duration_s(self, scenarios: Iterable[str], seed: int) -> float:
+        """Return how long the longest recording of some scenarios with a seed is [s]."""
+        sizes, names = self.settings.sizes, list(scenarios)
+        if seed < FIRST_TRAINING_SEED:
+            return sizes.test.shard_s
+        return max(row.shard_s for row in sizes.train.values() if row.scenario in names)
+
+    def network_seeds(self, method: str, limb: str | None = None) -> tuple[int, ...]:
+        """Return the seeds of a method's networks of a limb; without a limb, of the one that has the most; (0,) if none."""
+        limbs = [limb] if limb else self.settings.method(self.settings.source_of(method)).limbs
+        return max((self.settings.experiment(method, name).seeds for name in limbs), key=len, default=(0,))
+
+    def network(self, method: str, limb: str, seed: int) -> Path:
+        """Return the folder of a trained network; a limb with fewer seeds than others serves them in turn."""
+        seeds = self.network_seeds(method, limb)
+        return self.results / NETWORKS / f"{method}-{limb}-s{seeds[seed % len(seeds)]}"
+
+    def network_folders(self, methods: Iterable[str], limb: str) -> tuple[Path, ...]:
+        """Return the folders of methods' trained networks of a limb."""
+        return tuple(self.network(name, limb, seed) for name in methods for seed in self.network_seeds(name, limb))
+
+    def all_networks(self) -> tuple[Path, ...]:
+        """Return the folders of every network that is trained."""
+        methods = self.settings.all_methods
+        return tuple(
+            folder
+            for name, row in methods.items()
+            for limb in row.limbs
+            for folder in self.network_folders([name], limb)
+        )
+
+    def fit(self, method: str) -> list[Path]:
+        """Return the file of what a method, or the one it runs on, was fitted to; none if it is not fitted."""
+        source = self.settings.source_of(method)
+        return [self.results / "fits" / f"{source}.json"] if self.settings.method(source).fitted else []
+
+    def run(self, scenario: str, level: str, method: str, network_seed: int, test_seed: int) -> Run:
+        """Return one run of a method."""
+        recording, residual = (self.array(kind, scenario, level, test_seed) for kind in ("recordings", "residuals"))
+        estimate = self.array(f"estimates/{method}/n{network_seed}", scenario, level, test_seed)
+        return Run(scenario, level, method, network_seed, test_seed, recording, residual, estimate)
+
+    def runs(self, scenario: str, level: str, methods: Iterable[str]) -> tuple[Run, ...]:
+        """Return the runs of methods on a test: every network on every recording."""
+        return tuple(
+            self.run(scenario, level, method, network, test)
+            for method in methods
+            for network in self.network_seeds(method)
+            for test in self.test_seeds
+        )
+
+    def first_runs(self, test: Runs | PushedRuns) -> tuple[Run, ...]:
+        """Return the runs of a test that a figure of one recording shows: first network, first recording."""
+        first = self.test_seeds[0]
+        return tuple(
+            self.run(test.scenario, test.level, method, self.network_seeds(method)[0], first) for method in test.methods
+        )
+
+    def runs_of(self, scenario: str) -> tuple[Run, ...]:
+        """Return every run of a test."""
+        levels = self.settings.tests[scenario]
+        return tuple(run for level, methods in levels.items() for run in self.runs(scenario, level, methods))
+
+    def scores(self, scenarios: Iterable[str]) -> dict[str, Path]:
+        """Return the files of scores of some tests."""
+        return {name: self.results / "scores" / f"{name}.csv" for name in scenarios}
+
+    def swept_sizes(self) -> tuple[SweptSize, ...]:
+        """Return the sizes of Figure 20; the network of all data is that of Table 1's size."""
+        figure, sweeps = self.settings.evaluation.figure_20, self.settings.sweeps
+        found = []
+        for panel, key in (("parameters", figure.parameters), ("samples", figure.samples)):
+            for base in sweeps[key].of:
+                names = [swept_name(base, key, value) for value in sweeps[key].values]
+                if panel == "samples":
+                    full = getattr(self.settings.network(base, figure.limb), figure.parameters)
+                    names.append(swept_name(base, figure.parameters, full))
+                found += [SweptSize(panel, base, self.network_folders([name], figure.limb)) for name in names]
+        return tuple(found)
+
+
+def files_in(needs: object) -> Iterator[Path]:
+    """Yield every file behind what a product needs, at any depth of containers and dataclasses."""
+    if isinstance(needs, Path):
+        yield from _files_of(needs)
+    elif isinstance(needs, Mapping):
+        yield from files_in(list(needs.values()))
+    elif isinstance(needs, Sequence) and not isinstance(needs, str):
+        for item in needs:
+            yield from files_in(item)
+    elif is_dataclass(needs):
+        yield from files_in([getattr(needs, field.name) for field in fields(needs)])
+
+
+def _files_of(place: Path) -> Iterator[Path]:
+    """Yield the files of a place: a file, the course of a network's training, or an array."""
+    if place.suffix:
+        yield place
+    elif place.parent.name == NETWORKS:
+        yield from (place / name for name in COURSE)
+    else:
+        yield place.with_suffix(ARRAY)

@@ -1,0 +1,33 @@
+"""What a walk takes of the configuration; other jobs take whole sections."""
+
+from __future__ import annotations
+
+from mobnet.settings.base import Section
+from mobnet.settings.data import Commands, Push, RandomTorque, RecordingSettings, Scenario, Terrain
+from mobnet.settings.plant import Level, Plant, Rates
+from mobnet.settings.robot import RobotTable
+from mobnet.settings.walking import Walking
+
+
+class WalkSettings(Section):
+    """A scenario at a level, with the terrains and pushes that it names and no others.
+
+    Attributes:
+        scenario_name: the scenario's key; recordings draw by it.
+        level_name: the level's key.
+    """
+
+    seed: int
+    robot: RobotTable
+    rates: Rates
+    plant: Plant
+    walking: Walking
+    commands: Commands
+    random_torque: RandomTorque
+    recording: RecordingSettings
+    scenario_name: str
+    scenario: Scenario
+    level_name: str
+    level: Level
+    terrain: Terrain
+    pushes: dict[str, Push]
