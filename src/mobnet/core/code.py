@@ -1,7 +1,14 @@
 """A hash of the code behind a result, so that an edit reruns exactly what depends on it.
 
-Snakemake sees a script but not what it imports; each rule therefore carries `code_hash(its script)` as a parameter.
-Docstrings and comments do not count.
+Snakemake sees a script but not what it imports; each rule therefore carries the hash of its code as a parameter. The
+machine code of compiled functions and the checkpoints of trainings belong to the same hash. It covers
+
+* the syntax trees of the files named and of all modules of this package that they import, directly or not, without
+  what cannot change a result: comments, docstrings, and the texts of errors and log messages;
+* the lines in environment.lock of the packages that these files import, and of those that these require.
+
+Standard library only: the hash exists before anything is installed. As long as a package is not installed, nobody
+knows what it requires; it then counts with its own line alone, and the hash may differ from the one afterwards.
 """
 
 from __future__ import annotations
@@ -9,65 +16,200 @@ from __future__ import annotations
 import ast
 import functools
 import hashlib
-from collections.abc import Iterable, Iterator
+import importlib.metadata
+import re
+import sys
+from collections.abc import Iterable
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import NamedTuple
+
+from mobnet.core.errors import ConfigError, not_accepted
 
 SOURCE = Path(__file__).parents[2]
+LOCK = SOURCE.parent / "environment.lock"
 PACKAGE = "mobnet"
-NOTED_ONLY = frozenset({"mobnet.core.provenance", "mobnet.core.logs"})  # they write notes, never results
+# Imports of these modules are not followed. Provenance and logs write notes, never results. Settings and plan read and
+# check the configuration and compute nothing: what a job takes of their values is a parameter of its rule, so that a
+# changed value reruns the job, and a changed check of it reruns nothing.
+NOT_FOLLOWED = frozenset({f"{PACKAGE}.{name}" for name in ("core.provenance", "core.logs", "settings", "plan")})
+DISTRIBUTIONS = {  # import name -> name in the lock, where they differ; asking importlib.metadata for all takes 0.4 s
+    "OpenGL": "pyopengl",
+    "PIL": "pillow",
+    "markdown_it": "markdown-it-py",
+    "pinocchio": "pin",
+    "yaml": "pyyaml",
+}
+LOGGERS = frozenset({"log", "logging", "warnings"})
+LEVELS = frozenset({"debug", "info", "warning", "warn", "error", "exception", "critical", "log"})
 SHORT = 16  # characters of a hash that are kept
 
 
-def code_hash(*scripts: Path | str) -> str:
-    """Return a short hash of scripts and of every module of this package that they import, directly or not."""
-    files: set[Path] = set()
-    waiting = [Path(script).resolve() for script in scripts]
-    while waiting:
-        path = waiting.pop()
-        if path not in files:
-            files.add(path)
-            waiting += reading(path)[1]
-    return hashlib.sha256("".join(reading(path)[0] for path in sorted(files)).encode()).hexdigest()[:SHORT]
+class Source(NamedTuple):
+    """What one file contributes.
+
+    Attributes:
+        digest: hash of its syntax tree.
+        files: files of this package that it imports.
+        packages: names of the packages of others that it imports, as the lock has them.
+    """
+
+    digest: bytes
+    files: tuple[Path, ...]
+    packages: frozenset[str]
+
+
+def code_hash(*starts: Path | str) -> str:
+    """Return a short hash of the code behind files or functions.
+
+    Args:
+        starts: files, or dotted names of modules of this package, a function's name after a colon left out or not.
+
+    Raises:
+        ConfigError: there is no such file or module.
+    """
+    sources = reached(frozenset(start_of(start) for start in starts))
+    digests = sorted(source.digest for source in sources)
+    packages = with_required(name for source in sources for name in source.packages)
+    pinned = sorted(lock_lines()[name] for name in packages)
+    return hashlib.sha256(b"".join(digests) + "\n".join(pinned).encode()).hexdigest()[:SHORT]
+
+
+def start_of(start: Path | str) -> Path:
+    """Return the file of a path or of a dotted name such as `mobnet.learning.train:train`."""
+    name = str(start).partition(":")[0]
+    is_dotted = isinstance(start, str) and name.split(".")[0] == PACKAGE
+    place = SOURCE.joinpath(*name.split(".")) if is_dotted else Path(start)
+    accepted = (place / "__init__.py", place.with_suffix(".py")) if is_dotted else (place,)
+    found = next((file.resolve() for file in accepted if file.is_file()), None)
+    if found is None:
+        raise ConfigError(f"{start}: no such code; accepted: a file, or a module of {PACKAGE} below {SOURCE}")
+    return found
 
 
 @functools.cache
-def reading(path: Path) -> tuple[str, tuple[Path, ...]]:
-    """Return a file's code without docstrings, as text, and the files of this package that it imports."""
-    tree = ast.parse(path.read_text(encoding="utf-8"), str(path))
-    imported = {file for name in imported_names(tree) for file in module_files(name)}
-    return ast.dump(without_docstrings(tree)), tuple(sorted(imported))
+def reached(starts: frozenset[Path]) -> tuple[Source, ...]:
+    """Return some files and all that they import of this package, directly or not."""
+    found: dict[Path, Source] = {}
+    waiting = list(starts)
+    while waiting:
+        path = waiting.pop()
+        if path not in found:
+            found[path] = read(path)
+            waiting += found[path].files
+    return tuple(found.values())
 
 
-def imported_names(tree: ast.Module) -> Iterator[str]:
-    """Yield the dotted names of this package that a module imports, anywhere in it."""
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names if alias.name.split(".")[0] == PACKAGE)
-        elif isinstance(node, ast.ImportFrom) and node.module and node.module.split(".")[0] == PACKAGE:
-            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+@functools.cache
+def read(path: Path) -> Source:
+    """Read one file."""
+    reader = Reader()
+    reader.read(ast.parse(path.read_bytes(), str(path)))
+    files = {file for name in reader.imports for file in module_files(name)}
+    tops = {name.partition(".")[0] for name in reader.imports} - {PACKAGE} - sys.stdlib_module_names
+    packages = {DISTRIBUTIONS.get(top, lock_name(top)) for top in tops}
+    return Source(hashlib.sha256(" ".join(reader.words).encode()).digest(), tuple(files), frozenset(packages))
 
 
-def module_files(name: str) -> Iterable[Path]:
+@dataclass
+class Reader:
+    """Reads a syntax tree without what cannot change a result.
+
+    Attributes:
+        words: the tree in words: kinds of its nodes, its constants, brackets around lists.
+        imports: dotted names that it imports, anywhere.
+    """
+
+    words: list[str] = field(default_factory=list)
+    imports: set[str] = field(default_factory=set)
+
+    def read(self, node: ast.AST) -> None:
+        """Add a node with all below it."""
+        self._prepare(node)
+        self.words.append(type(node).__name__)
+        for name in node._fields:
+            value = getattr(node, name, None)
+            if isinstance(value, ast.AST):
+                self.read(value)
+            elif isinstance(value, list):
+                self.words.append("[")
+                for item in value:
+                    if not isinstance(item, ast.AST):
+                        self.words.append(repr(item))
+                    elif not is_idle(item):
+                        self.read(item)
+                self.words.append("]")
+            else:
+                self.words.append(repr(value))
+
+    def _prepare(self, node: ast.AST) -> None:
+        """Take the texts out of an error, and note what an import statement imports."""
+        if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call):
+            node.exc = node.exc.func
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == not_accepted.__name__:
+            node.args, node.keywords = [], []
+        elif isinstance(node, ast.Import):
+            self.imports.update(alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            self.imports.update(f"{node.module}.{alias.name}" for alias in node.names)
+
+
+def is_idle(node: object) -> bool:
+    """Return whether a statement cannot change a result: a docstring, a log call, or imports for type checkers."""
+    if isinstance(node, ast.If):
+        return isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"
+    if not isinstance(node, ast.Expr):
+        return False
+    value = node.value
+    if isinstance(value, ast.Constant):
+        return True
+    called = value.func if isinstance(value, ast.Call) else None
+    if not isinstance(called, ast.Attribute) or not isinstance(called.value, ast.Name):
+        return False
+    return called.value.id in LOGGERS and called.attr in LEVELS
+
+
+@functools.cache
+def module_files(name: str) -> tuple[Path, ...]:
     """Return the files that importing a dotted name runs: its packages and itself, where it is a module."""
     parts = name.split(".")
-    for count in range(1, len(parts) + 1):
-        if ".".join(parts[:count]) in NOTED_ONLY:
-            return
-        place = SOURCE.joinpath(*parts[:count])
-        for file in (place / "__init__.py", place.with_suffix(".py")):
-            if file.is_file():
-                yield file
+    names = [parts[: count + 1] for count in range(len(parts))]
+    if parts[0] != PACKAGE or any(".".join(some) in NOT_FOLLOWED for some in names):
+        return ()
+    places = [SOURCE.joinpath(*some) for some in names]
+    files = (file for place in places for file in (place / "__init__.py", place.with_suffix(".py")))
+    return tuple(file for file in files if file.is_file())
 
 
-def without_docstrings(tree: ast.Module) -> ast.Module:
-    """Return the tree with every docstring taken out, in place."""
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef) and _is_text(node.body):
-            node.body = node.body[1:]
-    return tree
+def with_required(packages: Iterable[str]) -> set[str]:
+    """Return packages and those that they require, directly or not, as far as environment.lock has them."""
+    found: set[str] = set()
+    waiting = list(packages)
+    while waiting:
+        name = waiting.pop()
+        if name not in found and name in lock_lines():
+            found.add(name)
+            waiting += required(name)
+    return found
 
 
-def _is_text(body: list[ast.stmt]) -> bool:
-    """Return whether a body begins with a docstring."""
-    first = body[0] if body else None
-    return isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str)
+@functools.cache
+def lock_lines() -> dict[str, str]:
+    """Return package -> `name==version` of environment.lock; nothing without that file."""
+    text = LOCK.read_text(encoding="utf-8") if LOCK.is_file() else ""
+    return {match[1]: match[0] for match in re.finditer(r"^([a-z0-9-]+)==[^\s;\\]+", text, re.MULTILINE)}
+
+
+@functools.cache
+def required(package: str) -> tuple[str, ...]:
+    """Return what an installed package requires, its extras apart; nothing where it is not installed."""
+    try:
+        lines = importlib.metadata.requires(package) or []
+    except importlib.metadata.PackageNotFoundError:
+        return ()
+    return tuple(lock_name(re.split(r"[^\w.-]", line)[0]) for line in lines if "extra ==" not in line)
+
+
+def lock_name(name: str) -> str:
+    """Return a package's name as the lock writes it."""
+    return re.sub(r"[-_.]+", "-", name).lower()

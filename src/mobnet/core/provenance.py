@@ -6,15 +6,13 @@ import functools
 import hashlib
 import subprocess
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
+from mobnet.core.code import LOCK, SHORT
 from mobnet.core.config import config_hash
 
-ROOT = Path(__file__).parents[3]
-LOCK = ROOT / "environment.lock"
+ROOT = LOCK.parent
 UNKNOWN = "unknown"
-SHORT = 16  # characters of a hash that are kept
 
 
 def provenance(config: Mapping[str, Any]) -> dict[str, str]:
