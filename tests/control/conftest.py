@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mobnet.control.kinematics import update
 from mobnet.control.parameters import State, WalkingParameters, empty_state, walking_parameters
-from mobnet.control.walking import Walker, make_walker
+from mobnet.control.walker import Walker, make_walker
 from mobnet.robot.description import RobotDescription
 
 Array = NDArray[np.float64]

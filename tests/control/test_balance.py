@@ -11,7 +11,7 @@ from mobnet.control.balance import adapt_duration, adapt_foothold, ground_force,
 from mobnet.control.footsteps import plan_steps, reference
 from mobnet.control.geometry import to_yaw_frame
 from mobnet.control.parameters import State, WalkingParameters
-from mobnet.control.walking import Walker
+from mobnet.control.walker import Walker
 
 ANKLE = np.array([0.2, 0.1, 0.158])
 TICK_S, GRAVITY = 0.0005, 9.81

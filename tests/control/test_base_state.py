@@ -7,7 +7,7 @@ import pytest
 
 from mobnet.control.base_state import update_base
 from mobnet.control.kinematics import update
-from mobnet.control.walking import Walker
+from mobnet.control.walker import Walker
 from mobnet.robot.description import RobotDescription
 
 TICK_S = 0.0005

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mobnet.control.kinematics import tree_of, update
-from mobnet.control.walking import Walker
+from mobnet.control.walker import Walker
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.plant import robot_spec
 

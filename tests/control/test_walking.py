@@ -9,7 +9,9 @@ import pytest
 
 from mobnet.control.geometry import yaw_roll_pitch_matrix
 from mobnet.control.parameters import DURATION, State, WalkingParameters, empty_state
-from mobnet.control.walking import Walker, _feel_slope, _share_load, foot_yaw, make_walker, vertical_force, walk
+from mobnet.control.phases import correct_load, feel_slope
+from mobnet.control.walker import Walker, foot_yaw, make_walker, vertical_force
+from mobnet.control.walking import walk
 from mobnet.robot.description import RobotDescription
 from mobnet.simulation.start import start_standing, start_walking
 
@@ -149,17 +151,17 @@ def test_step_of_a_robot_that_sinks_is_made_in_place(swinging: Walk, share: floa
 def test_load_error_converges_to_what_a_foot_lacks_of_its_share(walker: Walker, stepping: State, lacks: float) -> None:
     load_feet(walker, stepping, lacks)
     for _ in range(200):
-        _share_load(walker, stepping)
+        correct_load(walker, stepping)
     np.testing.assert_allclose(stepping.load_error, [lacks, -lacks], atol=1e-6)
 
 
 def test_load_error_decays_to_zero_while_one_foot_swings(walker: Walker, stepping: State) -> None:
     load_feet(walker, stepping, 200.0)
     stepping.load_error, stepping.swinging = [200.0, -200.0], 1
-    _share_load(walker, stepping)
+    correct_load(walker, stepping)
     np.testing.assert_allclose(stepping.load_error, np.array([200.0, -200.0]) * (1 - walker.par.load_filter))
     for _ in range(300):
-        _share_load(walker, stepping)
+        correct_load(walker, stepping)
     np.testing.assert_allclose(stepping.load_error, 0.0, atol=1e-9)
 
 
@@ -179,10 +181,10 @@ def test_felt_slope_converges_to_the_foot_s_and_takes_a_time_constant(par: Walki
     yaw_roll_pitch_matrix(yaw, roll, pitch, foot)
     ticks = round(1.0 / (par.slope_rate_hz * TICK_S))
     for _ in range(ticks):
-        _feel_slope(par, s, foot, TICK_S)
+        feel_slope(par, s, foot, TICK_S)
     np.testing.assert_allclose(s.slope, slope * (1 - np.exp(-1)), rtol=5e-3)
     for _ in range(20 * ticks):
-        _feel_slope(par, s, foot, TICK_S)
+        feel_slope(par, s, foot, TICK_S)
     np.testing.assert_allclose(s.slope, slope, rtol=3e-3)
 
 
@@ -190,7 +192,7 @@ def test_felt_slope_stays_within_its_bound_under_a_foot_that_tips(par: WalkingPa
     s, foot = empty_state(), np.zeros((3, 3))
     yaw_roll_pitch_matrix(0.3, 0.5, -0.6, foot)
     for _ in range(20_000):
-        _feel_slope(par, s, foot, TICK_S)
+        feel_slope(par, s, foot, TICK_S)
         assert np.abs(s.slope).max() <= par.slope_max
     assert np.abs(s.slope).max() == par.slope_max
 

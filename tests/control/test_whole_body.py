@@ -11,7 +11,7 @@ import pytest
 from mobnet.control.geometry import yaw_roll_pitch_matrix
 from mobnet.control.kinematics import update
 from mobnet.control.parameters import State
-from mobnet.control.walking import Walker
+from mobnet.control.walker import Walker
 from mobnet.control.whole_body import (
     LEG_JOINTS,
     leg_jacobian,

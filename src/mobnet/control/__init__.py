@@ -1,1 +1,1 @@
-"""Walking controller: footsteps, balance, swing and whole-body torques, compiled and called at the plant's rate."""
+"""Walking controller, compiled; docs/notes/0019-walking-controller.md derives its laws."""

@@ -26,10 +26,11 @@ def update_base(
     q: Array,
     v: Array,
 ) -> None:
-    """Advance the complementary filter one tick; q[0:3] [m] and v[0:3] [m/s] are its state, world axes.
+    """Advance the complementary filter (W48) by one tick; q[0:3] [m] and v[0:3] [m/s] are its state, in world axes.
 
-    The IMU carries the velocity on; the loaded feet, whose soles do not move, pull it back with `time_constant_s`.
-    Taken at the sole's centre: at the ankle the rolling foot makes an error three times larger.
+    The acceleration is integrated. The sole of a loaded foot does not move, so the velocity that the kinematics give to
+    it is the error of the base's velocity, which decays with `time_constant_s`. The velocity is taken at the sole's
+    centre: at the ankle, a foot that rolls makes the error three times larger.
 
     Args:
         pose: kinematics of the sensed state before this tick.
@@ -49,7 +50,7 @@ def update_base(
     slip[0] = slip[1] = slip[2] = 0.0
     weights = 0.0
     for k in range(2):
-        load = max(loads[k], 0.0)
+        load = max(loads[k], 0.0)  # its square is the weight, so that a foot nearly free counts little
         foot = feet[k]
         rotate(pose.rotation[foot], sole, arm)
         cross(pose.omega[foot], arm, swept)
@@ -58,6 +59,6 @@ def update_base(
         weights += load * load
     for i in range(3):
         v[i] += dt * acceleration[i]
-        if weights > 1.0:  # N^2: some foot carries load
+        if weights > 1.0:  # [N^2]; a robot in the air has no foot that rests
             v[i] -= dt / time_constant_s * slip[i] / weights
         q[i] += dt * v[i]

@@ -1,4 +1,4 @@
-"""Walking commands: fixed, or drawn over Table 2 the way a person plays with a joystick."""
+"""Walking commands, one row a step: one command repeated, or random ones over Table 2 in place of a joystick."""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
 """Footsteps ahead and the divergent component of motion (DCM) that goes with them.
 
-xi = c + cdot / w obeys xidot = w (xi - z): given where the zero moment point z will be, the DCM that ends every step
-follows by going backwards from a distant, soon forgotten end. World axes, metres; E(x) = exp(-w max(x, 0)).
+The DCM xi = c + cdot / w obeys xidot = w (xi - z), with z the zero moment point (ZMP). Errors of xi grow forwards in
+time and decay backwards, so the DCM at the end of a step follows from the coming footholds, step by step backwards.
+World axes, metres. The equations (W5) to (W12) are derived in docs/notes/0019-walking-controller.md.
 """
 
 from __future__ import annotations
@@ -18,17 +19,19 @@ Array = NDArray[np.float64]
 
 @compiled
 def decay(omega: float, time: float) -> float:
-    """Return E(time) = exp(-omega max(time, 0)) [-], omega [1/s], time [s]."""
+    """Return E(time) = exp(-omega max(time, 0)) of (W7), with omega [1/s] and time [s]."""
     return np.exp(-omega * max(time, 0.0))
 
 
 @compiled
 def plan_steps(par: WalkingParameters, s: State, ankle: Array) -> None:
-    """Lay the next four footholds from the stance ankle (3,) [m] and fill next_ankle, next_yaw, plan and dcm_end."""
+    """Fill next_ankle, next_yaw, plan and dcm_end for the footholds after the stance ankle (3,) [m], (W5) to (W8)."""
     x, y, yaw, side = ankle[0], ankle[1], s.stance_yaw, s.side
     for k in range(5):
         c, n = np.cos(yaw), np.sin(yaw)
+        # (W6): the middle of the sole lies before the ankle.
         s.plan[k, 0], s.plan[k, 1] = x + c * par.zmp_offset_x_m, y + n * par.zmp_offset_x_m
+        # (W5): only the outer foot steps sideways, so that the feet never cross.
         sideways = s.command[STEP_Y] if s.command[STEP_Y] * side < 0.0 else 0.0
         forward, left = s.command[STEP_X], -side * par.foot_spacing_m + sideways
         turn = s.command[TURN]
@@ -39,6 +42,7 @@ def plan_steps(par: WalkingParameters, s: State, ankle: Array) -> None:
         side = -side
         if k == 0:
             s.next_ankle[0], s.next_ankle[1], s.next_yaw = x, y, yaw
+    # (W8): the guess that ends the plan is forgotten within three steps.
     factor = decay(s.omega, s.commanded)
     for i in range(2):
         dcm = 0.5 * (s.plan[4, i] + s.plan[3, i])
@@ -49,9 +53,10 @@ def plan_steps(par: WalkingParameters, s: State, ankle: Array) -> None:
 
 @compiled
 def reference(s: State, double_support: float) -> None:
-    """Fill zmp_nominal and dcm_reference at time s.t; the ZMP ramps from the old to the new foot in double support.
+    """Fill zmp_nominal and dcm_reference (2,) [m] at time s.t, (W9) to (W12).
 
-    The middle of the next double support, at total + double_support / 2 [s], is where the DCM reaches dcm_end.
+    In double support, which lasts double_support [s], the ZMP goes from the old to the new foot on a straight line. The
+    DCM reaches dcm_end in the middle of the next double support, at total + double_support / 2.
     """
     middle = 0.5 * double_support
     share = clip(s.t / double_support, 0.0, 1.0)
@@ -60,11 +65,13 @@ def reference(s: State, double_support: float) -> None:
     remaining = decay(s.omega, double_support - max(s.t, 0.0))
     for i in range(2):
         first, old = s.plan[0, i], s.zmp_old[i]
-        s.zmp_nominal[i] = old + share * (first - old)
+        s.zmp_nominal[i] = old + share * (first - old)  # (W9)
         offset = (s.dcm_end[i] - first) * after
         if s.t >= double_support:
-            s.dcm_reference[i] = first + offset
+            s.dcm_reference[i] = first + offset  # (W10)
             continue
+        # (W11): over a ZMP on a ramp the DCM runs ahead of it by a constant, to which the growing part is added. Before
+        # t = 0, after an early touch-down, the ZMP still rests under the old foot, (W12).
         ramp = (first - old) / (s.omega * double_support)
         dcm = s.zmp_nominal[i] + ramp + (offset - ramp) * remaining
         s.dcm_reference[i] = dcm if s.t >= 0.0 else old + (dcm - old) * waited

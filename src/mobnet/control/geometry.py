@@ -1,4 +1,4 @@
-"""Small vector and time-law functions of the controller, compiled."""
+"""Small compiled functions of the controller: limits, smooth rises, vectors, rotations, linear equations."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def clip(x: float, low: float, high: float) -> float:
 
 @compiled
 def dead(x: float, band: float) -> float:
-    """Return x with a dead band of +-band taken out."""
+    """Return x moved towards zero by `band`, and zero within +-band."""
     if x > band:
         return x - band
     if x < -band:
@@ -28,14 +28,14 @@ def dead(x: float, band: float) -> float:
 
 @compiled
 def rise(x: float) -> float:
-    """Return the quintic 0 -> 1 on [0, 1] with zero slope and curvature at both ends [-]."""
+    """Return the quintic from 0 to 1 on [0, 1] with zero slope and curvature at both ends, (W31)."""
     x = min(max(x, 0.0), 1.0)
     return x * x * x * (10.0 + x * (6.0 * x - 15.0))
 
 
 @compiled
 def rise_slope(x: float) -> float:
-    """Return the slope of `rise` [-]; zero outside [0, 1]."""
+    """Return the slope of `rise`, which is zero outside [0, 1], (W31)."""
     if x <= 0.0 or x >= 1.0:
         return 0.0
     return 30.0 * x * x * (1.0 - x) * (1.0 - x)
@@ -43,14 +43,14 @@ def rise_slope(x: float) -> float:
 
 @compiled
 def smoothstep(x: float) -> float:
-    """Return the cubic 0 -> 1 on [0, 1] with zero slope at both ends [-]."""
+    """Return the cubic from 0 to 1 on [0, 1] with zero slope at both ends."""
     x = min(max(x, 0.0), 1.0)
     return x * x * (3.0 - 2.0 * x)
 
 
 @compiled
 def wrap(angle: float) -> float:
-    """Return an angle [rad] in (-pi, pi]."""
+    """Return the angle [rad] in [-pi, pi) that differs from `angle` by full turns."""
     return angle - 2.0 * np.pi * np.floor((angle + np.pi) / (2.0 * np.pi))
 
 
@@ -134,10 +134,10 @@ def yaw_roll_pitch_matrix(yaw: float, roll: float, pitch: float, out: Array) -> 
 
 @compiled
 def solve(matrix: Array, right: Array) -> bool:
-    """Solve matrix (n, n) x = right (n,) in place by elimination with pivoting; x stands in right.
+    """Solve matrix (n, n) x = right (n,) by elimination with pivoting; matrix is overwritten and right becomes x.
 
     Returns:
-        False if a pivot vanishes; right is then not meaningful.
+        False if a pivot vanishes; right then has no meaning.
     """
     n = len(right)
     for i in range(n):

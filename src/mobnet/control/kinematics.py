@@ -27,7 +27,7 @@ class Tree(NamedTuple):
         axis: joint axis in the body (nb, 3).
         mass: nominal mass (nb,) [kg].
         com: centre of mass in the body (nb, 3) [m].
-        inertia: mean principal moment of inertia (nb,) [kg m^2], enough for the angular momentum in balance.
+        inertia: mean principal moment of inertia (nb,) [kg m^2]; needs no turning into the world, see (W1).
         body_of_joint: body moved by each actuator (nu,).
     """
 
@@ -43,7 +43,7 @@ class Tree(NamedTuple):
 
 
 class Pose(NamedTuple):
-    """Result of `update`, world axes; buffers are reused.
+    """Result of `update`, in world axes; the same arrays are filled again in each tick.
 
     Attributes:
         rotation: orientation of bodies (nb, 3, 3).
@@ -54,8 +54,8 @@ class Pose(NamedTuple):
         moment: mass times centre of mass of each subtree (nb, 3) [kg m].
         weight: mass of each subtree (nb,) [kg].
         com: centre of mass of the robot (3,) [m].
-        com_velocity: its velocity (3,) [m/s].
-        spin: angular momentum about it (3,) [N m s].
+        com_velocity: velocity of the centre of mass (3,) [m/s].
+        spin: angular momentum about the centre of mass (3,) [N m s].
         gravity: torque that holds each subtree against gravity (nu,) [N m].
     """
 
@@ -95,7 +95,7 @@ def tree_of(robot: RobotDescription, mass_ratio: float) -> Tree:
 
 
 def empty_pose(tree: Tree) -> Pose:
-    """Return buffers for a tree."""
+    """Return a pose of zeros for the bodies and joints of a tree."""
     nb, nu = len(tree.parent), len(tree.body_of_joint)
     vectors = [np.zeros((nb, 3)) for _ in range(4)]
     return Pose(
@@ -119,7 +119,7 @@ def update(tree: Tree, q: Array, v: Array, gravity_m_s2: float, pose: Pose) -> N
 
 @compiled
 def _chain(tree: Tree, q: Array, v: Array, pose: Pose) -> None:
-    """Place and move every body from its parent's pose."""
+    """Fill orientation, position and velocity of every body from those of its parent."""
     fixed, turned, arm, swept = matrix3(), matrix3(), vector3(), vector3()
     for b in range(1, len(tree.parent)):
         parent, joint = tree.parent[b], int(tree.joint[b])
@@ -144,7 +144,10 @@ def _chain(tree: Tree, q: Array, v: Array, pose: Pose) -> None:
 
 @compiled
 def _centroid(tree: Tree, pose: Pose) -> None:
-    """Fill centre of mass, its velocity and the angular momentum about it; start the subtree sums."""
+    """Fill the centre of mass, its velocity and the angular momentum about it, (W1).
+
+    `weight` and `moment` get each body's own mass and first moment, to which `_subtrees` adds those of its children.
+    """
     arm, swept = vector3(), vector3()
     total = 0.0
     pose.com[:] = 0.0
@@ -168,14 +171,14 @@ def _centroid(tree: Tree, pose: Pose) -> None:
     for i in range(3):
         pose.com[i] /= total
         pose.com_velocity[i] /= total
-    for i in range(3):  # from about the origin to about the centre of mass
+    for i in range(3):  # the sum above is about the world's origin
         j, k = (i + 1) % 3, (i + 2) % 3
         pose.spin[i] -= total * (pose.com[j] * pose.com_velocity[k] - pose.com[k] * pose.com_velocity[j])
 
 
 @compiled
 def _subtrees(tree: Tree, gravity_m_s2: float, pose: Pose) -> None:
-    """Sum subtrees from the leaves and fill the gravity torque of every joint."""
+    """Sum masses and first moments of subtrees from the leaves on and fill the gravity torque of every joint, (W40)."""
     for b in range(len(tree.parent) - 1, 0, -1):
         parent, joint = tree.parent[b], tree.joint[b]
         pose.weight[parent] += pose.weight[b]

@@ -1,4 +1,8 @@
-"""Leg kinematics in closed form: hip yaw, roll, pitch intersect, knee pitch, ankle pitch and roll intersect."""
+"""Inverse kinematics of a leg in closed form, (W35) to (W38) of docs/notes/0019-walking-controller.md.
+
+It asks for axes of hip yaw, roll and pitch that meet in one point, a knee pitch, axes of ankle pitch and roll that meet
+in one point, and a thigh as long as the shank.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +18,12 @@ Array = NDArray[np.float64]
 
 
 class LegGeometry(NamedTuple):
-    """Sizes of a leg: hip position in the base (3,) of the left leg [m], thigh = shank length [m]."""
+    """Sizes of a leg.
+
+    Attributes:
+        hip: position of the left hip in the base (3,) [m].
+        length: length of the thigh and of the shank [m].
+    """
 
     hip: Array
     length: float
@@ -26,9 +35,9 @@ def leg_ik(
 ) -> None:
     """Write the six joint angles [rad] that put the ankle at a pose into q (6,).
 
-    With R_foot = R_base Rz(q1) Rx(q2) Ry(q3 + q4 + q5) Rx(q6) and r the hip seen from the ankle in foot axes:
-    the knee follows from |r|, ankle roll and pitch from the direction of r, the hip from what rotation is left.
-    A pose out of reach is met with the leg at its limit of 4 deg short of straight.
+    With R_foot = R_base Rz(q1) Rx(q2) Ry(q3 + q4 + q5) Rx(q6), (W35), and r = (x, y, z) the hip seen from the ankle in
+    foot axes: the knee follows from |r|, (W36), ankle roll and pitch from the direction of r, (W37), and the hip from
+    the rotation that remains, (W38). A pose out of reach is met with the leg 4 degrees short of straight.
 
     Args:
         leg: sizes of the left leg.
@@ -53,6 +62,7 @@ def leg_ik(
     y = r_foot[0, 1] * hip[0] + r_foot[1, 1] * hip[1] + r_foot[2, 1] * hip[2]
     z = r_foot[0, 2] * hip[0] + r_foot[1, 2] * hip[1] + r_foot[2, 2] * hip[2]
     cosine = (x * x + y * y + z * z - 2.0 * b * b) / (2.0 * b * b)
+    # Short of straight, because the Jacobian of a straight leg is singular.
     knee = np.arccos(min(max(cosine, -0.5), 0.9975))
     ankle_roll = np.arctan2(y, z)
     ankle_pitch = np.arctan2(-b * np.sin(knee), b + b * np.cos(knee)) - np.arctan2(x, np.hypot(y, z))
@@ -62,7 +72,7 @@ def leg_ik(
 
 @compiled
 def _hip_angles(r_base: Array, r_foot: Array, pitch: float, roll: float, q: Array) -> None:
-    """Write hip yaw, roll and pitch [rad] into q[0:3] from C = R_base^T R_foot Rx(-roll) Ry(-pitch)."""
+    """Write hip yaw, roll and pitch [rad] into q[0:3] from C = R_base^T R_foot Rx(-roll) Ry(-pitch), (W38)."""
     cr, sr, cp, sp = np.cos(roll), np.sin(roll), np.cos(pitch), np.sin(pitch)
     c = matrix3()
     for i in range(3):

@@ -1,4 +1,4 @@
-"""Random torque exploration (RTE, section 4.3): steps of random torque, joint by joint, never on a support leg."""
+"""Random torque exploration (section 4.3): each joint gets steps of random torque, a leg only while it swings."""
 
 from __future__ import annotations
 

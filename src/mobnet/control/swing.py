@@ -1,4 +1,7 @@
-"""Where the swing foot should be: a quintic over the ground, up and down again, and further down when it is late."""
+"""Where the swing foot should be: to its target on a quintic, up and down again, and further down when it is late.
+
+The equations (W31) to (W34) are derived in docs/notes/0019-walking-controller.md.
+"""
 
 from __future__ import annotations
 
@@ -14,11 +17,12 @@ Array = NDArray[np.float64]
 
 @compiled
 def swing_height(par: WalkingParameters, s: State, ground: float, span: float, u: float) -> tuple[float, float]:
-    """Return ankle height [m] and its rate [m/s] at phase u of a swing of span [s] that ends at height ground [m]."""
+    """Return the ankle's height [m] and rate [m/s] at phase u of a swing of span [s] to height ground [m], (W33)."""
     top = max(s.lift[2], ground) + s.command[FOOT_HEIGHT]
     if u < par.swing_apex:
         x = u / par.swing_apex
         return s.lift[2] + (top - s.lift[2]) * rise(x), (top - s.lift[2]) * rise_slope(x) / (par.swing_apex * span)
+    # A cubic that ends with the speed of descent: the foot must meet ground that is a little higher or lower.
     if u < 1.0:
         down = (1.0 - par.swing_apex) * span
         x = (u - par.swing_apex) / (1.0 - par.swing_apex)
@@ -27,6 +31,7 @@ def swing_height(par: WalkingParameters, s: State, ground: float, span: float, u
         height = ground + drop * (1.0 + x * x * (2.0 * x - 3.0)) + slope * x * x * (x - 1.0)
         rate = (drop * 6.0 * x * (x - 1.0) + slope * x * (3.0 * x - 2.0)) / down
         return height, rate
+    # Ground that is lower than expected is met sooner by an accelerating foot than at the speed of descent.
     late = (u - 1.0) * span
     fall = par.descent_speed_m_s * late + 0.5 * par.descent_acceleration_m_s2 * late * late
     if fall >= par.descent_depth_m:
@@ -36,15 +41,23 @@ def swing_height(par: WalkingParameters, s: State, ground: float, span: float, u
 
 @compiled
 def swing_foot(par: WalkingParameters, s: State, double_support: float, ground: float) -> None:
-    """Fill the swing foot's foot (3,) [m], foot_velocity (3,) [m/s], foot_rotation (3, 3), foot_yaw_rate [rad/s]."""
+    """Fill foot (3,) [m], foot_velocity (3,) [m/s], foot_rotation (3, 3), foot_yaw_rate [rad/s], (W32) to (W34).
+
+    Args:
+        par: numbers of the controller.
+        s: state; the four fields are written.
+        double_support: duration of double support [s].
+        ground: height of the ankle [m] when the sole stands on the ground under the target.
+    """
     span = s.total - double_support
     u = (s.t - double_support) / span
-    x = u / par.swing_xy_share
+    x = u / par.swing_xy_share  # reaches 1 before the swing ends: ground that is met early is met from above
     share, slope = rise(x), rise_slope(x) / (par.swing_xy_share * span)
     for i in range(2):
         s.foot[i] = s.lift[i] + (s.target[i] - s.lift[i]) * share
         s.foot_velocity[i] = (s.target[i] - s.lift[i]) * slope + share * s.target_velocity[i]
     s.foot[2], s.foot_velocity[2] = swing_height(par, s, ground, span, u)
+    # (W34): the sole leaves as it stood and lands along the slope.
     x = u / par.swing_level_share
     turn = wrap(s.next_yaw - s.lift_yaw)
     level = 1.0 - rise(x)

@@ -1,4 +1,4 @@
-"""Where the joints above the legs should be: still in a posture, or along knots of a motion."""
+"""Reference of the joints above the legs: a posture, or a motion given by knots."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ Array = NDArray[np.float64]
 
 
 class UpperBody(NamedTuple):
-    """Knots of a motion and where they are now.
+    """Knots of a motion and the time at which they begin.
 
     Attributes:
-        knots: joint positions at equal steps of time (k, n) [rad]; a single knot holds still.
-        rate_hz: knots per second [Hz].
+        knots: joint positions at equal steps of time (k, n) [rad]; a single knot is a posture.
+        rate_hz: knots in a second [1/s].
         start: time of the motion when the episode's clock is zero, one entry (1,) [s].
     """
 
@@ -28,9 +28,10 @@ class UpperBody(NamedTuple):
 
 @compiled
 def follow(upper: UpperBody, clock: float, q: Array, v: Array) -> None:
-    """Write the wanted positions q (n,) [rad] and velocities v (n,) [rad/s] at a clock [s]; ends are held.
+    """Write the wanted positions q (n,) [rad] and velocities v (n,) [rad/s] at a clock [s], (W47).
 
-    Between knots runs a cubic whose slopes at the knots are the central differences: continuous in velocity.
+    Before the first and after the last knot the joints rest. Between knots runs a cubic whose slopes at the knots are
+    the central differences, so that the velocity is continuous.
     """
     last = len(upper.knots) - 1
     at = (clock + upper.start[0]) * upper.rate_hz

@@ -1,4 +1,8 @@
-"""From ground force and foot targets to joint torques [N m]: stance legs push, swing leg and upper body follow."""
+"""From the ground's force and the feet's targets to joint torques.
+
+Stance legs transmit the force to the ground, the swing leg and the upper body follow their references. The equations
+(W39) to (W46) are derived in docs/notes/0019-walking-controller.md.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +24,7 @@ ANKLE_PITCH, ANKLE_ROLL = 4, 5  # joints of a leg
 
 @compiled
 def leg_jacobian(tree: Tree, pose: Pose, first: int, foot: int, out: Array) -> None:
-    """Write the ankle's Jacobian (6, 6) against the base, linear over angular rows, world axes, into out."""
+    """Write the Jacobian (6, 6) of the ankle against the base: linear above angular rows, world axes, (W39)."""
     arm, column = vector3(), vector3()
     for j in range(LEG_JOINTS):
         body = tree.body_of_joint[first + j]
@@ -37,10 +41,21 @@ def leg_reference(
     par: WalkingParameters, leg: LegGeometry, tree: Tree, pose: Pose, s: State, k: int, first: int, foot: int,
     swings: bool,
 ) -> None:  # fmt: skip
-    """Fill q_reference[k] [rad] and v_reference[k] [rad/s] of leg k (0 left, 1 right).
+    """Fill q_reference[k] [rad] and v_reference[k] [rad/s] of leg k (0 left, 1 right), (W39).
 
-    A swing leg takes its foot to the target from where the pelvis is; a stance leg takes the pelvis, level, to its
-    height and yaw from where the foot is.
+    A swing leg brings its foot to the target, seen from the measured pelvis. A stance leg brings the pelvis to its
+    level orientation, height and yaw over the measured foot; the pelvis' place in x and y is left to the pendulum.
+
+    Args:
+        par: numbers of the controller.
+        leg: sizes of the left leg.
+        tree: bodies of the nominal model.
+        pose: kinematics of the sensed state.
+        s: state; the references of leg k are written.
+        k: leg.
+        first: first actuator of the leg.
+        foot: body of its foot.
+        swings: whether the leg swings.
     """
     side = LEFT_SIDE if k == 0 else RIGHT_SIDE
     rates, arm, swept = s.v_reference[k], vector3(), vector3()
@@ -61,7 +76,7 @@ def leg_reference(
         rates[0], rates[1], rates[2] = -pose.velocity[0, 0], -pose.velocity[0, 1], -s.height_rate
         rates[3:] = 0.0
     leg_jacobian(tree, pose, first, foot, s.jacobian)
-    if not solve(s.jacobian, rates):
+    if not solve(s.jacobian, rates):  # a straight leg has no inverse
         rates[:] = 0.0
     for j in range(LEG_JOINTS):
         rates[j] = clip(rates[j], -par.joint_speed_max_rad_s, par.joint_speed_max_rad_s)
@@ -72,11 +87,27 @@ def stance_torque(
     par: WalkingParameters, tree: Tree, pose: Pose, s: State, k: int, first: int, foot: int,
     q: Array, v: Array, wrench: Array, point: Array, dt: float, tau: Array,
 ) -> None:  # fmt: skip
-    """Add the torques [N m] of a leg that carries the share load[k] of the ground force at `point` (3,) [m]."""
+    """Add the torques of a stance leg to tau (nu,) [N m], (W41) and (W42).
+
+    Args:
+        par: numbers of the controller.
+        tree: bodies of the nominal model.
+        pose: kinematics of the sensed state.
+        s: state; the ankle's integrals are advanced.
+        k: leg (0 left, 1 right), which carries the share load[k] of the ground's force.
+        first: first actuator of the leg.
+        foot: body of its foot.
+        q: sensed generalized position (nq,).
+        v: sensed generalized velocity (nv,).
+        wrench: measured wrench of the ground about the ankle, foot axes (6,) [N, N m].
+        point: where the ground pushes this foot (3,) [m].
+        dt: tick [s].
+        tau: desired torques (nu,) [N m].
+    """
     load, arm, force = s.load[k], vector3(), vector3()
     for i in range(3):
         force[i] = load * s.force[i]
-    force[2] += par.load_gain * s.load_error[k]
+    force[2] += par.load_gain * s.load_error[k]  # (W23)
     for j in range(LEG_JOINTS):
         joint = first + j
         body = tree.body_of_joint[joint]
@@ -84,6 +115,8 @@ def stance_torque(
             arm[i] = point[i] - pose.position[body, i]
         push = triple(pose.axis[joint], arm, force)
         error, rate = s.q_reference[k, j] - q[7 + joint], s.v_reference[k, j] - v[6 + joint]
+        # (W41): hip and knee keep the pelvis level; a leg without load is soft, or it would push when it lands early.
+        # (W42): the ankle has no stiffness, so that the sole takes the ground's orientation.
         if j < ANKLE_PITCH:
             pull = par.leg_stiffness_nm_rad[j] * error + par.leg_damping_nms_rad[j] * rate
             tau[joint] += (par.unloaded_stiffness + (1.0 - par.unloaded_stiffness) * load) * pull - push
@@ -96,10 +129,18 @@ def stance_torque(
 def _ankle_correction(
     par: WalkingParameters, pose: Pose, s: State, k: int, which: int, foot: int, push: float, wrench: Array, dt: float
 ) -> float:
-    """Return the torque [N m] that makes the measured ankle moment the wanted one and keeps the foot from tipping.
+    """Return the torque [N m] that corrects the ankle's moment, (W43), and keeps the foot from tipping, (W44).
 
-    Which is 0 for pitch, 1 for roll; push [N m] is the wanted moment of the ground about that axis and wrench (6,)
-    [N, N m] the ground's about the ankle, foot axes; dt in [s].
+    Args:
+        par: numbers of the controller.
+        pose: kinematics of the sensed state.
+        s: state; integral[k, which] is advanced.
+        k: leg (0 left, 1 right).
+        which: axis of the ankle, 0 for pitch, 1 for roll.
+        foot: body of the foot.
+        push: wanted moment of the ground about that axis [N m].
+        wrench: measured wrench of the ground about the ankle, foot axes (6,) [N, N m].
+        dt: tick [s].
     """
     rotation = pose.rotation[foot]
     sin_roll, sin_pitch = rotation[2, 1], -rotation[2, 0]
@@ -109,9 +150,12 @@ def _ankle_correction(
         omega += rotation[i, column] * pose.omega[foot, i]
     yaw = np.arctan2(rotation[1, 0], rotation[0, 0])
     c, n = np.cos(yaw), np.sin(yaw)
+    # (W44): the tilt against the felt slope, on which a sole may lie flat.
     x, y = s.slope[0], s.slope[1]
     tilt = sin_pitch + x * c + y * n if which == 0 else sin_roll - (y * c - x * n)
     measured = wrench[4] if which == 0 else wrench[3]
+    # (W43): the integral makes up for friction. On a tilted foot, which stands on an edge, the moment no longer follows
+    # the ankle, and the integral would run away.
     leak = par.ankle_leak_hz
     if abs(sin_roll) + abs(sin_pitch) > par.ankle_tilt:
         rate = -(leak + par.ankle_tilt_leak_hz) * s.integral[k, which]
@@ -128,7 +172,7 @@ def _ankle_correction(
 
 @compiled
 def swing_torque(par: WalkingParameters, s: State, k: int, first: int, q: Array, v: Array, tau: Array) -> None:
-    """Add the torques [N m] that make a swing leg follow its reference."""
+    """Add the torques with which swing leg k follows its reference to tau (nu,) [N m], (W45); forget its integrals."""
     for j in range(LEG_JOINTS):
         joint = first + j
         tau[joint] += par.leg_stiffness_nm_rad[j] * (s.q_reference[k, j] - q[7 + joint])
@@ -141,7 +185,17 @@ def swing_torque(par: WalkingParameters, s: State, k: int, first: int, q: Array,
 def posture_torque(
     par: WalkingParameters, first: int, q: Array, v: Array, target: Array, rate: Array, tau: Array
 ) -> None:
-    """Add the torques [N m] that keep the joints from `first` on at a target (n,) [rad] moving at rate (n,) [rad/s]."""
+    """Add the torques of the joints from actuator `first` on to tau (nu,) [N m], (W46).
+
+    Args:
+        par: numbers of the controller.
+        first: first actuator above the legs.
+        q: sensed generalized position (nq,).
+        v: sensed generalized velocity (nv,).
+        target: wanted joint positions (n,) [rad].
+        rate: wanted joint velocities (n,) [rad/s].
+        tau: desired torques (nu,) [N m].
+    """
     for j in range(len(target)):
         joint = first + j
         tau[joint] += par.posture_stiffness_nm_rad[j] * (target[j] - q[7 + joint])

@@ -13,7 +13,8 @@ from mobnet.control.geometry import clip
 from mobnet.control.parameters import State
 from mobnet.control.random_torque import RandomTorque, advance_random_torque
 from mobnet.control.upper_body import UpperBody, follow
-from mobnet.control.walking import Walker, walk
+from mobnet.control.walker import Walker
+from mobnet.control.walking import walk
 from mobnet.simulation.friction import Friction, friction_torque
 from mobnet.simulation.native import Native, addresses_at, call_step, doubles_at, ints_at
 from mobnet.simulation.pushes import Pushes, push

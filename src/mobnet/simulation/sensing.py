@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mobnet.control.base_state import update_base
 from mobnet.control.compiled import compiled
-from mobnet.control.walking import Walker, vertical_force
+from mobnet.control.walker import Walker, vertical_force
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.robot.description import SIDES
 

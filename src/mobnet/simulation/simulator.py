@@ -14,7 +14,7 @@ from mobnet.control.commands import fixed_commands, random_commands
 from mobnet.control.parameters import empty_state, walking_parameters
 from mobnet.control.random_torque import make_random_torque
 from mobnet.control.upper_body import UpperBody, follow
-from mobnet.control.walking import make_walker
+from mobnet.control.walker import make_walker
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.recording import recording_width
 from mobnet.robot.description import RobotDescription, load_robot

@@ -12,7 +12,7 @@ from mobnet.control.geometry import solve
 from mobnet.control.kinematics import update
 from mobnet.control.leg_ik import leg_ik
 from mobnet.control.parameters import DURATION, State
-from mobnet.control.walking import Walker
+from mobnet.control.walker import Walker
 from mobnet.control.whole_body import leg_jacobian
 from mobnet.robot.description import RobotDescription
 
@@ -43,7 +43,7 @@ def place(walker: Walker, robot: RobotDescription) -> tuple[Array, Array]:
 def start_walking(walker: Walker, robot: RobotDescription, s: State, command: Array) -> tuple[Array, Array]:
     """Return q (nq,) and v (nv,) amid double support, swaying to the left, and set the controller's state to it.
 
-    The pelvis has the lateral speed of a linear inverted pendulum that steps in place.
+    The pelvis has the lateral speed of a linear inverted pendulum that steps in place, (W49).
 
     Args:
         walker: knowledge of the robot.

@@ -1,0 +1,107 @@
+"""What the walking controller knows of the robot, and how its feet stand."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.control.compiled import compiled
+from mobnet.control.kinematics import Pose, Tree, empty_pose, tree_of
+from mobnet.control.leg_ik import LegGeometry
+from mobnet.control.parameters import WalkingParameters
+from mobnet.robot.description import SIDES, RobotDescription
+
+Array = NDArray[np.float64]
+
+
+class Walker(NamedTuple):
+    """What the controller knows of the robot.
+
+    Attributes:
+        par: numbers of the controller.
+        tree: bodies of the nominal model.
+        pose: kinematics of the nominal model in the sensed state; filled by each tick.
+        leg: sizes of the left leg.
+        feet: bodies of the left, right foot (2,).
+        first: first actuator of the left, right leg (2,).
+        upper: first actuator above the legs.
+        sensor: position of the force sensor in the foot (3,) [m].
+        sole: centre of the sole in the foot (3,) [m].
+        gravity: gravity [m/s^2].
+        wrench: measured wrenches of the ground about the ankles, foot axes (2, 6) [N, N m]; filled by each tick.
+        posture: wanted positions of the joints above the legs (nu - upper,) [rad], written by what moves them.
+        posture_rate: wanted velocities of these joints (nu - upper,) [rad/s].
+        work: scratch (3,).
+    """
+
+    par: WalkingParameters
+    tree: Tree
+    pose: Pose
+    leg: LegGeometry
+    feet: NDArray[np.int64]
+    first: NDArray[np.int64]
+    upper: int
+    sensor: Array
+    sole: Array
+    gravity: float
+    wrench: Array
+    posture: Array
+    posture_rate: Array
+    work: Array
+
+
+def make_walker(robot: RobotDescription, par: WalkingParameters, mass_ratio: float, gravity_m_s2: float) -> Walker:
+    """Build what the controller knows of a robot, with masses mass_ratio times those of its table.
+
+    Args:
+        robot: the robot.
+        par: numbers of the controller.
+        mass_ratio: of the nominal model.
+        gravity_m_s2: gravity [m/s^2].
+    """
+    tree = tree_of(robot, mass_ratio)
+    index = {body.name: i for i, body in enumerate(robot.bodies)}
+    actuator = {name: i for i, name in enumerate(robot.layout.actuated)}
+    limbs = [robot.layout.limb(robot.feet[side].limb) for side in SIDES]
+    return Walker(
+        par=par,
+        tree=tree,
+        pose=empty_pose(tree),
+        leg=LegGeometry(np.array(robot.hip_pos, dtype=float), float(robot.link_length)),
+        feet=np.array([index[robot.feet[side].body] for side in SIDES], dtype=np.int64),
+        first=np.array([actuator[limb[0]] for limb in limbs], dtype=np.int64),
+        upper=sum(map(len, limbs)),
+        sensor=np.array(robot.sensor_pos, dtype=float),
+        sole=np.array([*robot.sole_centre[:2], robot.sole_height]),
+        gravity=float(gravity_m_s2),
+        wrench=np.zeros((2, 6)),
+        posture=par.posture_rad.copy(),
+        posture_rate=np.zeros(len(par.posture_rad)),
+        work=np.zeros(3),
+    )
+
+
+@compiled
+def foot_yaw(pose: Pose, foot: int) -> float:
+    """Return the yaw of a body [rad]."""
+    return np.arctan2(pose.rotation[foot, 1, 0], pose.rotation[foot, 0, 0])
+
+
+@compiled
+def vertical_force(walker: Walker, k: int) -> float:
+    """Return the ground's vertical force on foot k (0 left, 1 right) [N], world axes."""
+    up, force = walker.pose.rotation[walker.feet[k], 2], walker.wrench[k]
+    return up[0] * force[0] + up[1] * force[1] + up[2] * force[2]
+
+
+@compiled
+def move_wrenches(walker: Walker, wrenches: Array) -> None:
+    """Fill walker.wrench from measured wrenches (2, 6) [N, N m], moved from the sensors to the ankles."""
+    r = walker.sensor
+    for k in range(2):
+        for i in range(3):
+            j, n = (i + 1) % 3, (i + 2) % 3
+            walker.wrench[k, i] = wrenches[k, i]
+            walker.wrench[k, 3 + i] = wrenches[k, 3 + i] + r[j] * wrenches[k, n] - r[n] * wrenches[k, j]
