@@ -1,75 +1,64 @@
-# Recordings of the walking robot, and what the observer makes of them.
+# Recordings of the walking robot, and what the observer makes of them. Memory [MB] and time [min] are those of the
+# default scale, doubled.
 
 
 rule motion:
+    input:
+        lambda w: job("motion", w).inputs,
     output:
-        array=ensure(f"{RESULTS}/motions/{{motion}}/s{{seed}}.parquet", non_empty=True),
-        note=ensure(f"{RESULTS}/motions/{{motion}}/s{{seed}}.json", non_empty=True),
+        ensure(
+            expand(
+                f"{PLAN.folders.results}/motions/{{{{motion}}}}/s{{{{seed}}}}.{{ending}}", ending=["parquet", "json"]
+            ),
+            non_empty=True,
+        ),
     log:
-        f"{RESULTS}/logs/motion/{{motion}}-s{{seed}}.log",
-    benchmark:
-        f"{RESULTS}/bench/motion/{{motion}}-s{{seed}}.tsv"
+        f"{LOGS}/motion/{{motion}}-s{{seed}}.log",
     priority: 30
     threads: 1
+    resources:
+        mem_mb=500,
+        runtime=10,
     params:
-        config=lambda w: part("seed", "robot", "walking", motions=[w.motion]),
-        duration_s=lambda w: duration_s(moved_by(w.motion), w.seed),
-        robot=CONTENT["robot"],
-        code=code_of("motion"),
+        call=lambda w: job("motion", w).call,
+        given=lambda w: given(job("motion", w)),
     script:
-        "../scripts/motion.py"
+        "../scripts/call.py"
 
 
 rule collect:
     input:
-        motion=lambda w: motion_of(w.scenario, w.seed),
+        lambda w: job("collect", w).inputs,
     output:
-        array=ensure(files("recordings"), non_empty=True),
-        note=ensure(files("recordings", "json"), non_empty=True),
+        array("recordings"),
     log:
-        f"{RESULTS}/logs/collect/{{scenario}}-{{level}}-s{{seed}}.log",
-    benchmark:
-        f"{RESULTS}/bench/collect/{{scenario}}-{{level}}-s{{seed}}.tsv"
+        f"{LOGS}/collect/{{scenario}}-{{level}}-s{{seed}}.log",
     priority: 20
     threads: 1
+    resources:
+        mem_mb=1200,
+        runtime=10,
     params:
-        config=lambda w: part(
-            "seed",
-            "robot",
-            "rates",
-            "plant",
-            "commands",
-            "random_torque",
-            "recording",
-            "walking",
-            levels=[w.level],
-            scenarios=[w.scenario],
-            terrain=settings["scenarios"][w.scenario]["terrain"],
-            pushes=settings["scenarios"][w.scenario].get("pushes", []),
-        ),
-        duration_s=lambda w: duration_s([w.scenario], w.seed),
-        robot=CONTENT["robot"],
-        code=code_of("collect"),
+        call=lambda w: job("collect", w).call,
+        given=lambda w: given(job("collect", w)),
     script:
-        "../scripts/collect.py"
+        "../scripts/call.py"
 
 
 rule observe:
     input:
-        array=files("recordings"),
-        note=files("recordings", "json"),
+        lambda w: job("observe", w).inputs,
     output:
-        array=ensure(files("residuals"), non_empty=True),
-        note=ensure(files("residuals", "json"), non_empty=True),
+        array("residuals"),
     log:
-        f"{RESULTS}/logs/observe/{{scenario}}-{{level}}-s{{seed}}.log",
-    benchmark:
-        f"{RESULTS}/bench/observe/{{scenario}}-{{level}}-s{{seed}}.tsv"
+        f"{LOGS}/observe/{{scenario}}-{{level}}-s{{seed}}.log",
     priority: 20
     threads: 1
+    resources:
+        mem_mb=2300,
+        runtime=10,
     params:
-        config=lambda w: part("robot", "rates", "plant", "observer", levels=[w.level]),
-        robot=CONTENT["robot"],
-        code=code_of("observe"),
+        call=lambda w: job("observe", w).call,
+        given=lambda w: given(job("observe", w)),
     script:
-        "../scripts/observe.py"
+        "../scripts/call.py"

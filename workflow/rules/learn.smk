@@ -1,55 +1,63 @@
-# One network a limb, method and seed; then every method on every test.
+# What methods without networks are fitted to, one network for each limb, method and seed; then every method on every test.
+
+
+rule fit:
+    input:
+        lambda w: job("fit", w).inputs,
+    output:
+        ensure(f"{PLAN.folders.results}/fits/{{method}}.json", non_empty=True),
+    log:
+        f"{LOGS}/fit/{{method}}.log",
+    priority: 10
+    threads: 1
+    resources:
+        mem_mb=4000,
+        runtime=10,
+    params:
+        call=lambda w: job("fit", w).call,
+        given=lambda w: given(job("fit", w)),
+    script:
+        "../scripts/call.py"
 
 
 rule train:
     input:
-        recordings=lambda w: training("recordings", data_of(w.method, w.limb)),
-        residuals=lambda w: training("residuals", data_of(w.method, w.limb)),
+        lambda w: job("train", w).inputs,
     output:
-        weights=ensure(f"{RESULTS}/networks/{{method}}-{{limb}}-s{{seed}}/weights.safetensors", non_empty=True),
-        metrics=ensure(f"{RESULTS}/networks/{{method}}-{{limb}}-s{{seed}}/metrics.csv", non_empty=True),
-        note=ensure(f"{RESULTS}/networks/{{method}}-{{limb}}-s{{seed}}/run.json", non_empty=True),
+        ensure(
+            expand(
+                f"{PLAN.folders.results}/networks/{{{{method}}}}-{{{{limb}}}}-s{{{{seed}}}}/{{name}}",
+                name=["weights.safetensors", "metrics.csv", "run.json"],
+            ),
+            non_empty=True,
+        ),
     log:
-        f"{RESULTS}/logs/train/{{method}}-{{limb}}-s{{seed}}.log",
-    benchmark:
-        f"{RESULTS}/bench/train/{{method}}-{{limb}}-s{{seed}}.tsv"
+        f"{LOGS}/train/{{method}}-{{limb}}-s{{seed}}.log",
     priority: 10
     threads: 1
+    resources:
+        mem_mb=6000,
+        runtime=30,
     params:
-        config=lambda w: part("seed", "robot", "learning", methods=[w.method], networks=[w.limb])
-        | training_sizes(w.method, w.limb),
-        state=f"{RESULTS}/state/{{method}}-{{limb}}-s{{seed}}",
-        robot=CONTENT["robot"],
-        code=code_of("train"),
+        call=lambda w: job("train", w).call,
+        given=lambda w: given(job("train", w)),
     script:
-        "../scripts/train.py"
+        "../scripts/call.py"
 
 
 rule estimate:
     input:
-        array=files("recordings"),
-        note=files("recordings", "json"),
-        networks=lambda w: [
-            network(source_of(settings, w.method), limb, w.network_seed)
-            for limb in limbs_of(source_of(settings, w.method))
-        ],
-        fit=lambda w: fit_of(w.method),
+        lambda w: job("estimate", w).inputs,
     output:
-        array=ensure(files("estimates/{method}/n{network_seed}"), non_empty=True),
-        note=ensure(files("estimates/{method}/n{network_seed}", "json"), non_empty=True),
+        array("estimates/{method}/n{network_seed}"),
     log:
-        f"{RESULTS}/logs/estimate/{{method}}-n{{network_seed}}-{{scenario}}-{{level}}-s{{seed}}.log",
-    benchmark:
-        f"{RESULTS}/bench/estimate/{{method}}-n{{network_seed}}-{{scenario}}-{{level}}-s{{seed}}.tsv"
-    wildcard_constraints:
-        network_seed=r"\d+",
+        f"{LOGS}/estimate/{{method}}-n{{network_seed}}-{{scenario}}-{{level}}-s{{seed}}.log",
     threads: 1
+    resources:
+        mem_mb=2800,
+        runtime=10,
     params:
-        config=lambda w: part(
-            "robot", "rates", "plant", "observer", levels=[w.level], methods=method_and_source(w.method)
-        ),
-        limbs=lambda w: limbs_of(source_of(settings, w.method)),
-        robot=CONTENT["robot"],
-        code=lambda w: code_of("estimate", method=w.method),
+        call=lambda w: job("estimate", w).call,
+        given=lambda w: given(job("estimate", w)),
     script:
-        "../scripts/estimate.py"
+        "../scripts/call.py"

@@ -1,1 +1,1 @@
-"""Which recordings, networks and estimates a product needs, and which function makes each file; the workflow asks it."""
+"""Which recordings, networks and estimates a product needs, and which function makes each file of the workflow."""

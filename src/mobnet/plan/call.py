@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import functools
+import hashlib
 import importlib
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,12 +12,13 @@ from pathlib import Path
 
 from mobnet.core.errors import ConfigError, not_accepted
 
+SHORT = 16  # characters of a hash that are kept
 SOURCE = Path(__file__).parents[2]
 
 
 @dataclass(frozen=True)
 class Call:
-    """A call that a job makes. Its text is a parameter of the job's rule: the job reruns when it changes.
+    """A call that a job makes; `fingerprint` is a parameter of the job's rule, which reruns when it changes.
 
     Attributes:
         function: module and name, such as `mobnet.learning.train:train`.
@@ -26,10 +28,28 @@ class Call:
     function: str
     arguments: Mapping[str, object]
 
-    def __call__(self) -> object:
+    @property
+    def module(self) -> str:
+        """Dotted name of the function's module."""
+        return self.function.split(":")[0]
+
+    @property
+    def fingerprint(self) -> str:
+        """Short hash of the function's name and of every argument."""
+        return hashlib.sha256(repr(self).encode()).hexdigest()[:SHORT]
+
+    def run(self) -> None:
         """Import the function and call it."""
-        module, name = self.function.split(":")
-        return getattr(importlib.import_module(module), name)(**self.arguments)
+        getattr(importlib.import_module(self.module), self.function.split(":")[1])(**self.arguments)
+
+
+@dataclass(frozen=True)
+class Job:
+    """A call, the files that it reads and the modules that it imports by name only."""
+
+    call: Call
+    inputs: tuple[str, ...]
+    modules: tuple[str, ...] = ()
 
 
 def call_of(function: str, available: Mapping[str, object]) -> Call:

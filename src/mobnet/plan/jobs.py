@@ -1,12 +1,12 @@
-"""The jobs that are made once for each recording, network or run: which function, and what it gets."""
+"""The jobs that are made once for each recording, network or run: which function, what it gets, what it reads."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
 
-from mobnet.plan.call import Call
-from mobnet.plan.runs import Files
+from mobnet.plan.call import Call, Job
+from mobnet.plan.runs import WEIGHTS, Files, files_in
 from mobnet.settings.data import Terrain
 from mobnet.settings.jobs import WalkSettings
 from mobnet.settings.settings import Settings
@@ -16,7 +16,7 @@ KINDS = "mobnet.estimation.kinds"  # modules that a method names as its kind
 
 @dataclass(frozen=True)
 class Jobs:
-    """Calls by the wildcards of their rules.
+    """Jobs by the wildcards of their rules.
 
     Attributes:
         settings: the configuration.
@@ -26,115 +26,101 @@ class Jobs:
     settings: Settings
     files: Files
 
-    def motion(self, motion: str, seed: int) -> Call:
+    def motion(self, motion: str, seed: int) -> Job:
         """Return the making of a random motion of the upper body."""
         moved = [name for name, row in self.settings.scenarios.items() if row.motion == motion]
-        return Call(
-            "mobnet.simulation.motion:make_motion",
-            {
-                "root_seed": self.settings.seed,
-                "robot": self.settings.robot,
-                "motion": self.settings.motions[motion],
-                "name": motion,
-                "seed": seed,
-                "duration_s": self.files.duration_s(moved, seed),
-                "out": self.files.results / "motions" / motion / f"s{seed}",
-            },
-        )
+        arguments = {
+            "root_seed": self.settings.seed,
+            "robot": self.settings.robot,
+            "motion": self.settings.motions[motion],
+            "name": motion,
+            "seed": seed,
+            "duration_s": self.files.duration_s(moved, seed),
+            "out": self.files.results / "motions" / motion / f"s{seed}",
+        }
+        return Job(Call("mobnet.simulation.motion:make_motion", arguments), ())
 
-    def collect(self, scenario: str, level: str, seed: int) -> Call:
+    def collect(self, scenario: str, level: str, seed: int) -> Job:
         """Return the recording of a walk."""
-        return Call(
-            "mobnet.simulation.record:collect",
-            {
-                "settings": walk_settings(self.settings, scenario, level),
-                "seed": seed,
-                "duration_s": self.files.duration_s([scenario], seed),
-                "out": self.files.array("recordings", scenario, level, seed),
-                "motion": next(iter(self.files.motion(scenario, seed)), None),
-            },
-        )
+        motion = self.files.motion(scenario, seed)
+        arguments = {
+            "settings": walk_settings(self.settings, scenario, level),
+            "seed": seed,
+            "duration_s": self.files.duration_s([scenario], seed),
+            "out": self.files.array("recordings", scenario, level, seed),
+            "motion": next(iter(motion), None),
+        }
+        return Job(Call("mobnet.simulation.record:collect", arguments), _read(motion))
 
-    def observe(self, scenario: str, level: str, seed: int) -> Call:
+    def observe(self, scenario: str, level: str, seed: int) -> Job:
         """Return the observer's residual of a recording."""
-        return Call(
-            "mobnet.estimation.observe:observe",
-            {
-                **self._observer(level),
-                "recording": self.files.array("recordings", scenario, level, seed),
-                "out": self.files.array("residuals", scenario, level, seed),
-            },
-        )
+        recording = self.files.array("recordings", scenario, level, seed)
+        out = self.files.array("residuals", scenario, level, seed)
+        arguments = {**self._observer(level), "recording": recording, "out": out}
+        return Job(Call("mobnet.estimation.observe:observe", arguments), _read(recording))
 
-    def fit(self, method: str) -> Call:
+    def fit(self, method: str) -> Job:
         """Return the fit of a method without networks to the training sets of its limbs."""
         row = self.settings.method(method)
         networks = {limb: self.settings.network(method, limb) for limb in row.fitted}
-        pairs = {limb: tuple(zip(*self._training(network.data), strict=True)) for limb, network in networks.items()}
-        return Call(
-            "mobnet.estimation.fitting:write_fit",
-            {
-                "layout": self.settings.layout,
-                "observer": self.settings.observer,
-                "method": row,
-                "networks": networks,
-                "training": pairs,
-                "out": self.files.results / "fits" / f"{method}.json",
-            },
-        )
+        training = {limb: tuple(zip(*self._training(network.data), strict=True)) for limb, network in networks.items()}
+        arguments = {
+            "layout": self.settings.layout,
+            "observer": self.settings.observer,
+            "method": row,
+            "networks": networks,
+            "training": training,
+            "out": self.files.results / "fits" / f"{method}.json",
+        }
+        return Job(Call("mobnet.estimation.fitting:write_fit", arguments), _read(training), self._kinds(method))
 
-    def train(self, method: str, limb: str, seed: int) -> Call:
+    def train(self, method: str, limb: str, seed: int) -> Job:
         """Return the training of a network."""
         training = self.settings.training(method, limb)
         recordings, residuals = self._training(training.network.data)
         name = f"{method}-{limb}-s{seed}"
-        return Call(
-            "mobnet.learning.train:train",
-            {
-                "root_seed": self.settings.seed,
-                "layout": self.settings.layout,
-                "training": training,
-                "seed": seed,
-                "recordings": recordings,
-                "residuals": residuals,
-                "out": self.files.results / "networks" / name,
-                "state": self.files.results / "state" / name,
-            },
-        )
+        arguments = {
+            "root_seed": self.settings.seed,
+            "layout": self.settings.layout,
+            "training": training,
+            "seed": seed,
+            "recordings": recordings,
+            "residuals": residuals,
+            "out": self.files.results / "networks" / name,
+            "state": self.files.results / "state" / name,
+        }
+        return Job(Call("mobnet.learning.train:train", arguments), _read([recordings, residuals]))
 
-    def estimate(self, method: str, network_seed: int, scenario: str, level: str, seed: int) -> Call:
+    def estimate(self, method: str, network_seed: int, scenario: str, level: str, seed: int) -> Job:
         """Return a method's external torque for a recording."""
         source = self.settings.source_of(method)
         limbs = self.settings.method(source).limbs
-        return Call(
-            "mobnet.estimation.estimate:estimate",
-            {
-                **self._observer(level),
-                "method": method,
-                "methods": {name: self.settings.method(name) for name in dict.fromkeys([method, source])},
-                "networks": {limb: self.files.network(source, limb, network_seed) for limb in limbs},
-                "fitted": next(iter(self.files.fit(method)), None),
-                "recording": self.files.array("recordings", scenario, level, seed),
-                "out": self.files.array(f"estimates/{method}/n{network_seed}", scenario, level, seed),
-            },
-        )
+        networks = {limb: self.files.network(source, limb, network_seed) for limb in limbs}
+        recording, fitted = self.files.array("recordings", scenario, level, seed), self.files.fit(method)
+        arguments = {
+            **self._observer(level),
+            "method": method,
+            "methods": {name: self.settings.method(name) for name in dict.fromkeys([method, source])},
+            "networks": networks,
+            "fitted": next(iter(fitted), None),
+            "recording": recording,
+            "out": self.files.array(f"estimates/{method}/n{network_seed}", scenario, level, seed),
+        }
+        inputs = _read([recording, fitted, [folder / WEIGHTS for folder in networks.values()]])
+        return Job(Call("mobnet.estimation.estimate:estimate", arguments), inputs, self._kinds(method))
 
-    def score(self, scenario: str) -> Call:
-        """Return the errors of every run of a test."""
-        return Call(
-            "mobnet.evaluation.measure.scores:score",
-            {
-                "layout": self.settings.layout,
-                "runs": self.files.runs_of(scenario),
-                "window": self.settings.evaluation.windows.get(scenario),
-                "out": self.files.scores([scenario])[scenario],
-            },
-        )
+    def score(self, scenario: str) -> Job:
+        """Return the errors of every run of a test; recordings are read only where pushes are looked at."""
+        runs, window = self.files.runs_of(scenario), self.settings.evaluation.windows.get(scenario)
+        out = self.files.scores([scenario])[scenario]
+        arguments = {"layout": self.settings.layout, "runs": runs, "window": window, "out": out}
+        read = [[run.residual, run.estimate, *([run.recording] if window else [])] for run in runs]
+        return Job(Call("mobnet.evaluation.measure.scores:score", arguments), _read(read))
 
-    def kinds(self, method: str) -> list[str]:
+    def _kinds(self, method: str) -> tuple[str, ...]:
         """Return the modules that a method imports by name: its kind and that of the method it runs on."""
         names = (method, self.settings.source_of(method))
-        return list(dict.fromkeys(f"{KINDS}.{self.settings.method(name).kind}" for name in names))
+        return tuple(dict.fromkeys(f"{KINDS}.{self.settings.method(name).kind}" for name in names))
 
     def _observer(self, level: str) -> dict[str, object]:
         """Return what the observer takes."""
@@ -153,13 +139,20 @@ class Jobs:
 def walk_settings(settings: Settings, scenario: str, level: str) -> WalkSettings:
     """Return what a walk takes: of terrains and pushes, those that the scenario names."""
     row = settings.scenarios[scenario]
-    return WalkSettings(
-        **{name: getattr(settings, name) for name in WalkSettings.model_fields if name in type(settings).model_fields
-           and name not in ("terrain", "pushes")},
-        scenario_name=scenario,
-        scenario=row,
-        level_name=level,
-        level=settings.levels[level],
-        terrain=Terrain(**{name: getattr(settings.terrain, name) for name in row.terrain}),
-        pushes={name: settings.pushes[name] for name in row.pushes},
-    )  # fmt: skip
+    sections = {
+        name: getattr(settings, name) for name in WalkSettings.model_fields if name in type(settings).model_fields
+    }
+    picked = {
+        "scenario_name": scenario,
+        "scenario": row,
+        "level_name": level,
+        "level": settings.levels[level],
+        "terrain": Terrain(**{name: getattr(settings.terrain, name) for name in row.terrain}),
+        "pushes": {name: settings.pushes[name] for name in row.pushes},
+    }
+    return WalkSettings.model_validate({**sections, **picked})
+
+
+def _read(needs: object) -> tuple[str, ...]:
+    """Return the files behind some arguments, each once."""
+    return tuple(dict.fromkeys(map(str, files_in(needs))))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from mobnet.plan.call import Call, call_of
+from mobnet.plan.call import Job, call_of
 from mobnet.plan.needs import NEEDS
 from mobnet.plan.runs import ARRAY, COURSE, WEIGHTS, Files, files_in
 from mobnet.settings.settings import Settings
@@ -42,12 +42,14 @@ class Folders:
         tables: tables.
         figures: figures.
         paper: the paper's PDF.
+        manifest: the list of every result with its hash.
     """
 
     results: Path
     tables: Path
     figures: Path
     paper: Path
+    manifest: Path
 
 
 @dataclass(frozen=True)
@@ -56,14 +58,12 @@ class Product:
 
     Attributes:
         name: its name, which is its rule's.
-        call: what makes it.
-        inputs: files that it reads.
+        job: what makes it, and the files that it reads.
         outputs: files that it writes.
     """
 
     name: str
-    call: Call
-    inputs: tuple[str, ...]
+    job: Job
     outputs: tuple[str, ...]
 
 
@@ -114,7 +114,7 @@ class Products:
             outputs = [self.folders.tables / f"{name}.{ending}" for ending in TABLE]
             if name in self.settings.evaluation.tables:
                 yield self._product(name, f"{EVALUATION}.tables.errors:errors", self._needs(name), outputs)
-            elif name != "calibration":  # made together with its figure
+            elif name != "calibration":
                 yield self._product(name, f"{EVALUATION}.tables.{name}:{name}", self._needs(name), outputs)
 
     def _figures(self) -> Iterator[Product]:
@@ -123,7 +123,8 @@ class Products:
             outputs = [self.folders.figures / f"{name}.{ending}" for ending in FIGURE]
             outputs += [self.folders.figures / f"{name}_bars.csv"] if name in BARS else []
             outputs += [self.folders.tables / f"{name}.{ending}" for ending in TABLE] if name == "calibration" else []
-            yield self._product(name, f"{EVALUATION}.figures.{name}:{name}", self._needs(name), outputs)
+            floor = "report" if name == "calibration" else "figures"  # its table is made with it
+            yield self._product(name, f"{EVALUATION}.{floor}.{name}:{name}", self._needs(name), outputs)
 
     def _texts(self) -> Iterator[Product]:
         """Yield the numbers and tables that the paper's text takes, and the pages of trainings."""
@@ -155,13 +156,6 @@ class Products:
             "manifest", {"files": [*map(Path, self.stored()), *outputs, *built]}, [self.manifest]
         )
 
-    @property
-    def manifest(self) -> Path:
-        """The list of every result with its hash."""
-        return (
-            self.folders.results.parent if self.folders.tables.name == "tables" else self.folders.results
-        ) / "MANIFEST.sha256"
-
     def _report_product(self, name: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:
         """Return a product of the module of its name in `report`."""
         return self._product(name, f"{EVALUATION}.report.{name}:{name}", needs, outputs)
@@ -170,7 +164,7 @@ class Products:
         """Return a product; its function gets what its signature names."""
         call = call_of(function, {**self._shared, **self._own(name), **needs, "out": outputs[0]})
         files = dict.fromkeys(str(path) for path in files_in(needs) if str(path) != str(needs.get("accounts")))
-        return Product(name, call, tuple(files), tuple(map(str, outputs)))
+        return Product(name, Job(call, tuple(files)), tuple(map(str, outputs)))
 
     @cached_property
     def _shared(self) -> dict[str, object]:

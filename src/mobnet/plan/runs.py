@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
+from typing import cast
 
 from mobnet.settings.evaluation import PushedRuns, Runs
 from mobnet.settings.scales import TrainingSet
@@ -115,7 +116,7 @@ class Files:
         return max(row.shard_s for row in sizes.train.values() if row.scenario in names)
 
     def network_seeds(self, method: str, limb: str | None = None) -> tuple[int, ...]:
-        """Return the seeds of a method's networks of a limb; without a limb, of the one that has the most; (0,) if none."""
+        """Return the seeds of a method's networks of a limb, or of that with the most; (0,) if there are none."""
         limbs = [limb] if limb else self.settings.method(self.settings.source_of(method)).limbs
         return max((self.settings.experiment(method, name).seeds for name in limbs), key=len, default=(0,))
 
@@ -192,13 +193,16 @@ def files_in(needs: object) -> Iterator[Path]:
     """Yield every file behind what a product needs, at any depth of containers and dataclasses."""
     if isinstance(needs, Path):
         yield from _files_of(needs)
-    elif isinstance(needs, Mapping):
-        yield from files_in(list(needs.values()))
-    elif isinstance(needs, Sequence) and not isinstance(needs, str):
-        for item in needs:
-            yield from files_in(item)
+        return
+    items: list[object] = []
+    if isinstance(needs, dict):
+        items = list(cast("dict[object, object]", needs).values())
+    elif isinstance(needs, list | tuple):
+        items = list(cast("Sequence[object]", needs))
     elif is_dataclass(needs):
-        yield from files_in([getattr(needs, field.name) for field in fields(needs)])
+        items = [getattr(needs, field.name) for field in fields(needs)]
+    for item in items:
+        yield from files_in(item)
 
 
 def _files_of(place: Path) -> Iterator[Path]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, cast
 
 from pydantic import AfterValidator, Field, model_validator
 
@@ -36,6 +36,22 @@ class Cell(Section):
     metric: str | tuple[str, ...] | None = None
 
 
+def spelt_out(cell: Any) -> dict[str, Any]:
+    """Return a cell that is a method's name, [level, method, joint] or a mapping as a mapping.
+
+    Raises:
+        ValueError: it is none of these.
+    """
+    if isinstance(cell, str):
+        return {"method": cell}
+    if isinstance(cell, dict):
+        return cast("dict[str, Any]", cell)
+    names = cast("list[Any]", cell) if isinstance(cell, list) else []
+    if len(names) != len(SHORT_CELL):
+        raise ValueError(f"cell {cell}: accepted: [{', '.join(SHORT_CELL)}], a method or a mapping")
+    return dict(zip(SHORT_CELL, names, strict=True))
+
+
 class Claim(Section):
     """What the paper says and what must hold here.
 
@@ -65,21 +81,13 @@ class Claim(Section):
     @classmethod
     def _fill_in(cls, entry: Any) -> Any:
         """Spell out short cells, and put what the cells share, `at`, into each."""
-        if not isinstance(entry, dict) or not isinstance(entry.get("cells"), list):
+        if not isinstance(entry, dict):
             return entry
-        shared, rest = entry.get("at") or {}, {key: value for key, value in entry.items() if key != "at"}
-        return {**rest, "cells": [{**shared, **cls._spelt_out(cell)} for cell in entry["cells"]]}
-
-    @staticmethod
-    def _spelt_out(cell: Any) -> dict[str, Any]:
-        """Return a cell that is a method's name, [level, method, joint] or a mapping as a mapping."""
-        if isinstance(cell, str):
-            return {"method": cell}
-        if isinstance(cell, list):
-            if len(cell) != len(SHORT_CELL):
-                raise ValueError(f"cell {cell}: accepted: [{', '.join(SHORT_CELL)}], a method or a mapping")
-            return dict(zip(SHORT_CELL, cell, strict=True))
-        return dict(cell)
+        rest = cast("dict[str, Any]", entry).copy()
+        shared, cells = rest.pop("at", None) or {}, rest.get("cells")
+        if isinstance(cells, list):
+            rest["cells"] = [{**shared, **spelt_out(cell)} for cell in cast("list[Any]", cells)]
+        return rest
 
     @model_validator(mode="after")
     def _takes_its_cells(self) -> Claim:

@@ -71,7 +71,7 @@ class ErrorRow(Runs):
 
     Attributes:
         labels: texts of the leading columns.
-        paper: place of the paper's numbers in the table of `configs/published.yaml`, keys joined by dots.
+        paper: place of the paper's numbers in its table of `configs/published.yaml`.
     """
 
     labels: tuple[str, ...]

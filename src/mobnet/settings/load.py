@@ -7,13 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any, TypeVar, get_args
+from typing import Any, TypeVar, cast, get_args
 
 import yaml
 from pydantic import BaseModel, ValidationError
 
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.settings.base import Section
+from mobnet.settings.checks import inconsistencies, refused_changes
+from mobnet.settings.networks import Training
 from mobnet.settings.references import unknown_names
 from mobnet.settings.settings import Settings
 
@@ -77,7 +79,7 @@ def read_yaml(path: Path) -> dict[str, Any]:
         raise ConfigError(f"{path}: not YAML, {' '.join(str(error).split())}") from None
     if not isinstance(value, dict):
         raise ConfigError(f"{path}: a mapping is expected, found {type(value).__name__}")
-    return value
+    return cast("dict[str, Any]", value)
 
 
 def problems(error: ValidationError, kind: type[BaseModel]) -> Iterator[tuple[Place, str]]:
@@ -89,7 +91,7 @@ def problems(error: ValidationError, kind: type[BaseModel]) -> Iterator[tuple[Pl
         elif what == "missing":
             yield place, "key is missing"
         elif what == "value_error":
-            yield place, str(found["ctx"]["error"])
+            yield place, str(found.get("ctx", {}).get("error"))
         else:
             yield place, f"{found['input']!r} is not accepted; {found['msg'][:1].lower()}{found['msg'][1:]}"
 
@@ -101,21 +103,14 @@ def _checked(read: Mapping[str, Any], files: Mapping[str, Path], main: Path) -> 
     except ValidationError as error:
         found = problems(error, Settings)
         raise ConfigError(_lines((files.get(str(place[0]), main), place, text) for place, text in found)) from None
-    wrong = [*unknown_names(settings), *_refused_changes(settings)]
+    wrong = list(unknown_names(settings))
+    if not wrong:  # only then can what they name be looked up
+        for place, error in refused_changes(settings):
+            wrong += [((*place, *map(str, inner)), text) for inner, text in problems(error, Training)]
+        wrong += inconsistencies(settings)
     if wrong:
-        raise ConfigError(_lines((files[place[0]], place, text) for place, text in wrong))
+        raise ConfigError(_lines((files[place[0]], place, text) for place, text in dict.fromkeys(wrong)))
     return settings
-
-
-def _refused_changes(settings: Settings) -> Iterator[tuple[tuple[str, ...], str]]:
-    """Yield where a method changes a key of its networks or of learning to something that is not accepted."""
-    for name, method in settings.all_methods.items():
-        for limb in method.limbs:
-            try:
-                settings.training(name, limb)
-            except ValidationError as error:
-                for place, text in problems(error, Settings):
-                    yield ("methods", name, *map(str, place)), text
 
 
 def _laid_over(values: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[str, Any]:
@@ -123,7 +118,10 @@ def _laid_over(values: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[
     merged = dict(values)
     for key, value in overrides.items():
         below = merged.get(key)
-        merged[key] = _laid_over(below, value) if isinstance(below, dict) and isinstance(value, Mapping) else value
+        if isinstance(below, dict) and isinstance(value, dict):
+            merged[key] = _laid_over(cast("dict[str, Any]", below), cast("dict[str, Any]", value))
+        else:
+            merged[key] = value
     return merged
 
 

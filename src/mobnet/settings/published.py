@@ -5,12 +5,10 @@ from __future__ import annotations
 from typing import Annotated
 
 from pydantic import Field, model_validator
-from typing_extensions import TypeAliasType
 
 from mobnet.settings.base import Count, LevelName, LimbName, MethodName, Positive, Real, Section, Text
 
 Numbers = tuple[Real | None, ...]  # one for each column; None where nothing is printed or readable
-Node = TypeAliasType("Node", "dict[str, Numbers | Node]")
 
 
 class Floor(Section):
@@ -30,7 +28,7 @@ class PublishedTable(Section):
         columns: joints or other heads.
         robot: whether it was measured on the paper's robot, not in its simulation.
         labels: level -> how the table calls it.
-        numbers: rows by their keys, such as level and method, each one number for each column.
+        numbers: place in the table, such as a level -> method -> one number for each column.
     """
 
     printed: Text
@@ -40,18 +38,15 @@ class PublishedTable(Section):
     robot: bool = False
     floor: Floor | None = None
     labels: dict[LevelName, str] = {}
-    numbers: Node
+    numbers: dict[str, dict[str, Numbers]]
 
     @model_validator(mode="after")
     def _rows_fit(self) -> PublishedTable:
         """Check that every row has a number for each column."""
-        waiting: list[tuple[str, Numbers | Node]] = list(self.numbers.items())
-        while waiting:
-            place, item = waiting.pop()
-            if isinstance(item, dict):
-                waiting += [(f"{place}.{key}", below) for key, below in item.items()]
-            elif len(item) != len(self.columns):
-                raise ValueError(f"{place}: {len(item)} numbers for {len(self.columns)} columns")
+        for place, rows in self.numbers.items():
+            for method, row in rows.items():
+                if len(row) != len(self.columns):
+                    raise ValueError(f"{place}, {method}: {len(row)} numbers for {len(self.columns)} columns")
         return self
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator
 from types import NoneType, UnionType
-from typing import Annotated, Any, Union, get_args, get_origin
+from typing import Annotated, Any, Union, cast, get_args, get_origin
 
 from pydantic import BaseModel
 
@@ -59,13 +59,14 @@ def uses(value: Any, kind: Any, place: tuple[str, ...]) -> Iterator[Use]:
             yield from uses(getattr(value, name), inner, (*place, name))
     elif origin in (Union, UnionType):
         yield from _union_uses(value, args, place)
-    elif isinstance(value, Mapping) and len(args) == 2:
-        for key, item in value.items():
+    elif isinstance(value, dict) and len(args) == 2:
+        for key, item in cast("dict[str, Any]", value).items():
             yield from uses(key, args[0], place)
-            yield from uses(item, args[1], (*place, str(key)))
+            yield from uses(item, args[1], (*place, key))
     elif isinstance(value, tuple) and args:
-        kinds = [args[0]] * len(value) if args[-1] is Ellipsis else args
-        for item, inner in zip(value, kinds, strict=True):
+        items = cast("tuple[Any, ...]", value)
+        kinds = [args[0]] * len(items) if args[-1] is Ellipsis else args
+        for item, inner in zip(items, kinds, strict=True):
             yield from uses(item, inner, place)
 
 

@@ -1,0 +1,50 @@
+"""The whole plan of a scale: its files, its jobs and its products."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from mobnet.plan.jobs import Jobs
+from mobnet.plan.products import Folders, Product, Products
+from mobnet.plan.runs import Files
+from mobnet.settings.settings import Settings
+
+MAIN = "default"  # the scale whose tables stand where a reader looks for them; others have folders of their own
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What the workflow makes at the chosen scale.
+
+    Attributes:
+        settings: the configuration.
+        folders: where products stand.
+        files: recordings, networks and runs.
+        jobs: what is made once for each of these.
+        products: tables, figures and texts, each after those that it needs.
+        stored: every file that products are made from.
+    """
+
+    settings: Settings
+    folders: Folders
+    files: Files
+    jobs: Jobs
+    products: tuple[Product, ...]
+    stored: tuple[str, ...]
+
+
+def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
+    """Return the plan of the chosen scale.
+
+    Args:
+        settings: the configuration.
+        with_pdf: whether TeX is there to build the paper's PDF.
+    """
+    scale = settings.scale
+    results, part = Path("results") / scale, "" if scale == MAIN else scale
+    paper, manifest = (Path("paper"), results.parent) if scale == MAIN else (results / "paper", results)
+    folders = Folders(results, Path("tables") / part, Path("figures") / part, paper, manifest / "MANIFEST.sha256")
+    files = Files(settings, results)
+    products = Products(settings, files, folders, with_pdf)
+    return Plan(settings, folders, files, Jobs(settings, files), tuple(products.all()), tuple(products.stored()))

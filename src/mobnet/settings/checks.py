@@ -1,0 +1,95 @@
+"""What must hold between sections: every run that is shown is run, and every metric of pushes has its windows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
+from typing import cast
+
+from pydantic import BaseModel, ValidationError
+
+from mobnet.core.errors import not_accepted
+from mobnet.settings.evaluation import Mean
+from mobnet.settings.settings import Settings
+
+Place = tuple[str, ...]
+Problem = tuple[Place, str]
+Shown = tuple[Place, str, str, str]  # place, scenario, level, method
+ROOT: Place = ("evaluation",)
+
+
+def inconsistencies(settings: Settings) -> Iterator[Problem]:
+    """Yield the place and the text of everything that does not fit together."""
+    for place, scenario, level, method in shown_runs(settings):
+        accepted = settings.tests.get(scenario, {}).get(level)
+        if accepted is None:
+            yield place, not_accepted(f"level of test {scenario}", level, settings.tests.get(scenario, {}))
+        elif method not in accepted:
+            yield place, not_accepted(f"method of test {scenario}, {level}", method, accepted)
+    yield from _metrics_without_window(settings)
+    yield from _missing_places(settings)
+
+
+def shown_runs(settings: Settings) -> Iterator[Shown]:
+    """Yield every run that a table, a figure or a claim shows."""
+    evaluation = settings.evaluation
+    for place, section in sections_below(evaluation, ROOT):
+        if {"scenario", "level", "methods"} <= type(section).model_fields.keys():
+            scenario, level, methods = (getattr(section, name) for name in ("scenario", "level", "methods"))
+            yield from ((place, scenario, level, method) for method in methods)
+    figure = evaluation.figure_05
+    for level, methods in figure.panels.items():
+        yield from (((*ROOT, "figure_05", "panels"), figure.scenario, level, method) for method in methods)
+    for scenario, method in product(evaluation.figure_18.panels, evaluation.figure_18.methods):
+        yield (*ROOT, "figure_18", "panels"), scenario, evaluation.figure_18.level, method
+    for name, claim in settings.claims.items():
+        for cell in claim.cells:
+            if cell.scenario and cell.level and cell.method:
+                yield ("claims", name, "cells"), cell.scenario, cell.level, cell.method
+
+
+def sections_below(value: object, place: Place) -> Iterator[tuple[Place, BaseModel]]:
+    """Yield a section and all below it, each with the keys that lead to it."""
+    if isinstance(value, BaseModel):
+        yield place, value
+        for name in type(value).model_fields:
+            yield from sections_below(getattr(value, name), (*place, name))
+    elif isinstance(value, Mapping):
+        for key, item in cast("Mapping[str, object]", value).items():
+            yield from sections_below(item, (*place, str(key)))
+    elif isinstance(value, tuple):
+        for item in cast("Sequence[object]", value):
+            yield from sections_below(item, place)
+
+
+def _metrics_without_window(settings: Settings) -> Iterator[Problem]:
+    """Yield rows of tables whose metric looks at pushes of a test that has no window around them."""
+    for name, table in settings.evaluation.tables.items():
+        own = [metric for column in table.columns if isinstance(column, Mean) for metric in column.metrics]
+        for row in table.rows:
+            if (
+                any("push" in metric for metric in (*own, row.metric))
+                and row.scenario not in settings.evaluation.windows
+            ):
+                place = (*ROOT, "tables", name, "rows")
+                yield place, not_accepted("test with a window around pushes", row.scenario, settings.evaluation.windows)
+
+
+def _missing_places(settings: Settings) -> Iterator[Problem]:
+    """Yield rows of tables that name a place of the paper's numbers which is not there."""
+    for name, table in settings.evaluation.tables.items():
+        printed = settings.published.tables.get(name)
+        accepted = printed.numbers if printed else {}
+        for row in table.rows:
+            if row.paper is not None and row.paper not in accepted:
+                yield (*ROOT, "tables", name, "rows"), not_accepted("paper", row.paper, accepted)
+
+
+def refused_changes(settings: Settings) -> Iterator[tuple[Place, ValidationError]]:
+    """Yield where a method changes a key of its networks or of learning to something that is not accepted."""
+    for name, method in settings.all_methods.items():
+        for limb in method.limbs:
+            try:
+                settings.training(name, limb)
+            except ValidationError as error:
+                yield ("methods", name), error

@@ -1,0 +1,41 @@
+# Scores of all runs of a test; then every table, figure and text of the plan, each by a rule of its own name.
+
+
+rule score:
+    input:
+        lambda w: job("score", w).inputs,
+    output:
+        ensure(f"{PLAN.folders.results}/scores/{{scenario}}.csv", non_empty=True),
+    log:
+        f"{LOGS}/score/{{scenario}}.log",
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        call=lambda w: job("score", w).call,
+        given=lambda w: given(job("score", w)),
+    script:
+        "../scripts/call.py"
+
+
+for product in PLAN.products:
+
+    rule:
+        name:
+            product.name
+        input:
+            product.job.inputs,
+        output:
+            [flagged(name) for name in product.outputs],
+        log:
+            f"{LOGS}/{product.name}.log",
+        threads: 1
+        resources:
+            mem_mb=1700,
+            runtime=10,
+        params:
+            call=product.job.call,
+            given=given(product.job),
+        script:
+            "../scripts/call.py"
