@@ -1,36 +1,66 @@
-"""The cache of compiled code follows every source file of the compiled packages."""
+"""Compiled code is cached by the hash of its code, and decorating it changes nothing else."""
 
 from __future__ import annotations
 
+import os
+import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import numba
 import pytest
+from numba.core.errors import NumbaError
 
-from mobnet.control import compiled as module
-from mobnet.control.compiled import PACKAGES, compiled, source_hash
+from mobnet.control.compiled import cache_folder, compiled
+from mobnet.core.code import SOURCE, code_hash
 
-
-def test_hash_changes_with_any_compiled_source_and_nothing_else(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    root = tmp_path / "package"
-    for package in (*PACKAGES, "learning"):
-        (root / package).mkdir(parents=True)
-        (root / package / "code.py").write_text("x = 1\n")
-    monkeypatch.setattr(module, "__file__", str(root / "control" / "compiled.py"))
-    before = source_hash()
-    (root / "learning" / "code.py").write_text("x = 2\n")
-    assert source_hash() == before
-    for package in PACKAGES:
-        (root / package / "code.py").write_text("x = 2\n")
-        assert source_hash() != before
-        before = source_hash()
+CALLED = """from mobnet.control.compiled import compiled
 
 
-def test_cache_lies_in_a_folder_named_after_the_hash() -> None:
-    assert Path(numba.config.CACHE_DIR).name == source_hash()
+@compiled
+def f(x):
+    return x + 1.0
+"""
+CALLER = CALLED.replace("\n\n\n", "\nfrom mobnet.control.called import f\n\n\n").replace("x + 1.0", "2.0 * f(x)")
+CALLER = CALLER.replace("def f", "def g")
+TELL = """import sys
+from mobnet.control.caller import g
+print(g(1.0), sum(g.stats.cache_hits.values()))
+"""
 
 
-def test_compiled_code_divides_by_zero_as_numpy_does() -> None:
+def test_code_divides_by_zero_as_numpy_does() -> None:
     assert compiled(lambda x: 1.0 / x)(0.0) == float("inf")
+
+
+def test_options_reach_the_compiler() -> None:
+    finite = compiled(fastmath={"nnan"})(lambda x: x)
+    assert finite.targetoptions["fastmath"] == {"nnan"}
+    assert compiled(allocating=True)(lambda n: len([n]))(1) == 1
+    with pytest.raises(NumbaError):
+        compiled(lambda n: len([n]))(1)
+
+
+def test_cache_lies_in_a_folder_named_after_the_hash_and_numba_s_settings_stay() -> None:
+    before = numba.config.CACHE_DIR
+    function = compiled(lambda x: x)
+    assert before == numba.config.CACHE_DIR
+    assert Path(function.stats.cache_path).parent == cache_folder(__file__)
+    assert cache_folder(__file__).name == code_hash(__file__)
+
+
+@pytest.mark.slow
+def test_cached_code_follows_the_functions_that_it_calls(tmp_path: Path) -> None:
+    """The caller's own file stays; what it calls gets another number, then a comment."""
+    package = tmp_path / "mobnet"
+    for name in ("__init__", "core/__init__", "core/code", "core/errors", "control/__init__", "control/compiled"):
+        (package / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(SOURCE / f"mobnet/{name}.py", package / f"{name}.py")
+    (package / "control/caller.py").write_text(CALLER)
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path), "NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+    told = []
+    for text in (CALLED, CALLED.replace("1.0", "2.0"), CALLED.replace("1.0", "2.0") + "# a comment\n"):
+        (package / "control/called.py").write_text(text)
+        told.append(subprocess.check_output([sys.executable, "-c", TELL], env=environment, text=True).split())
+    assert told == [["4.0", "0"], ["6.0", "0"], ["6.0", "1"]]

@@ -49,6 +49,7 @@ other==3.0
 @pytest.fixture(autouse=True)
 def fresh():
     """Nothing is remembered from one test to the next."""
+    forget()
     yield
     forget()
 

@@ -34,6 +34,37 @@ def test_what_a_user_set_stays(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     assert os.environ["WANDB_MODE"] == "offline"
 
 
+IMPORT_ALL = """import importlib, logging, os, pkgutil, sys
+written, before = [], dict(os.environ)
+changes = os.O_WRONLY | os.O_RDWR | os.O_CREAT
+
+
+def note(event, arguments):
+    if event == "os.mkdir" or (event == "open" and arguments[2] & changes):
+        written.append(str(arguments[0]))
+
+
+sys.addaudithook(note)
+import mobnet, numba
+
+for module in pkgutil.walk_packages(mobnet.__path__, "mobnet."):
+    importlib.import_module(module.name)
+cache = os.path.dirname(os.environ["NUMBA_CACHE_DIR"])
+assert numba.config.CACHE_DIR == os.environ["NUMBA_CACHE_DIR"], numba.config.CACHE_DIR
+assert dict(os.environ) == before, set(os.environ.items()) ^ set(before.items())
+assert not logging.getLogger().handlers
+outside = [name for name in written if name.startswith("/") and not name.startswith((cache, os.devnull))]
+assert not outside, outside
+"""
+
+
+@pytest.mark.slow
+def test_importing_changes_nothing(tmp_path: Path) -> None:
+    """All modules: no variable, no setting, no log, no file but in the caches of other packages."""
+    environment = {**os.environ, **child_environment(tmp_path)}
+    subprocess.run([sys.executable, "-B", "-c", IMPORT_ALL], check=True, env=environment)
+
+
 def test_module_needs_the_standard_library_only() -> None:
     code = "import sys; sys.path.insert(0, 'src'); import mobnet.core.environment"
     subprocess.run([sys.executable, "-I", "-S", "-c", code], check=True)

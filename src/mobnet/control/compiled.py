@@ -1,37 +1,57 @@
 """The decorator for compiled code, and where its machine code is cached.
 
 Code under `compiled` owns no memory: numba then counts no references to arrays, which took half of the controller's
-time, and refuses code that allocates. Arrays come from the caller or from `mobnet.control.stack`.
+time and keeps loops from vector instructions, and refuses code that allocates. Arrays come from the caller or from
+`mobnet.control.stack`.
 
-Numba looks only at the file of a function to tell whether its cached machine code is stale, not at the files of the
-functions it calls. The cache therefore lives in a folder named after a hash of every compiled source file.
+To tell whether cached machine code is stale, numba looks only at the file of the function itself, not at those of the
+functions it calls. The cache of each module therefore lives in a folder named after the hash of the module's code with
+all that it imports (`mobnet.core.code`), so that an edit of a called function is noticed, and one of a comment in its
+file is not.
 """
 
 from __future__ import annotations
 
-import hashlib
-import os
+import contextlib
+import functools
+from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
 from typing import Any
 
 import numba
 
-PACKAGES = ("control", "simulation")
+from mobnet.core.code import ROOT, code_hash
 
 
-def source_hash() -> str:
-    """Return a short hash of all source files of the compiled packages."""
-    root = Path(__file__).parents[1]
-    digest = hashlib.sha256(numba.__version__.encode())
-    for path in sorted(path for package in PACKAGES for path in (root / package).glob("*.py")):
-        digest.update(path.read_bytes())
-    return digest.hexdigest()[:16]
+def compiled(
+    function: Callable[..., Any] | None = None, *, allocating: bool = False, fastmath: Collection[str] = ()
+) -> Any:
+    """Return a function compiled by numba at its first call, or, without a function, the decorator with its options.
+
+    Args:
+        function: what is compiled, in a source file.
+        allocating: True for the outermost loop, which makes the buffers and so owns memory.
+        fastmath: freedoms that the compiler takes with floating-point numbers, in LLVM's words; none by default.
+    """
+    if function is None:
+        return functools.partial(compiled, allocating=allocating, fastmath=fastmath)
+    options: dict[str, Any] = {} if allocating else {"_nrt": False}  # no run time of numba: no memory and no counts
+    with cached_in(cache_folder(function.__code__.co_filename)):
+        return numba.njit(cache=True, error_model="numpy", fastmath=set(fastmath) or False, **options)(function)
 
 
-_root = Path(os.environ.get("NUMBA_CACHE_DIR") or Path(__file__).parents[3] / ".cache" / "numba")
-numba.config.CACHE_DIR = str(_root / source_hash())
+@functools.cache
+def cache_folder(file: str) -> Path:
+    """Return the folder for the machine code of a source file's functions."""
+    return Path(numba.config.CACHE_DIR or ROOT / ".cache" / "numba") / code_hash(Path(file))
 
-_options: dict[str, Any] = {"cache": True, "error_model": "numpy"}
-allocating = numba.njit(**_options)  # for the outermost loop, which makes the buffers
-_options["_nrt"] = False  # no run time of numba, so no memory and no counts
-compiled = numba.njit(**_options)
+
+@contextlib.contextmanager
+def cached_in(folder: Path) -> Iterator[None]:
+    """Let numba cache the functions that are decorated meanwhile in a folder; it takes none but from its settings."""
+    before = numba.config.CACHE_DIR
+    numba.config.CACHE_DIR = str(folder)
+    try:
+        yield
+    finally:
+        numba.config.CACHE_DIR = before

@@ -27,7 +27,8 @@ from typing import NamedTuple
 from mobnet.core.errors import ConfigError, not_accepted
 
 SOURCE = Path(__file__).parents[2]
-LOCK = SOURCE.parent / "environment.lock"
+ROOT = SOURCE.parent
+LOCK = ROOT / "environment.lock"
 PACKAGE = "mobnet"
 # Imports of these modules are not followed. Provenance and logs write notes, never results. Settings and plan read and
 # check the configuration and compute nothing: what a job takes of their values is a parameter of its rule, so that a
@@ -77,9 +78,8 @@ def code_hash(*starts: Path | str) -> str:
 
 def start_of(start: Path | str) -> Path:
     """Return the file of a path or of a dotted name such as `mobnet.learning.train:train`."""
-    name = str(start).partition(":")[0]
-    is_dotted = isinstance(start, str) and name.split(".")[0] == PACKAGE
-    place = SOURCE.joinpath(*name.split(".")) if is_dotted else Path(start)
+    is_dotted = isinstance(start, str) and start.split(".")[0] == PACKAGE
+    place = SOURCE.joinpath(*start.partition(":")[0].split(".")) if is_dotted else Path(start)
     accepted = (place / "__init__.py", place.with_suffix(".py")) if is_dotted else (place,)
     found = next((file.resolve() for file in accepted if file.is_file()), None)
     if found is None:

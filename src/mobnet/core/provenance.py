@@ -8,10 +8,9 @@ import subprocess
 from collections.abc import Mapping
 from typing import Any
 
-from mobnet.core.code import LOCK, SHORT
+from mobnet.core.code import LOCK, ROOT, SHORT
 from mobnet.core.config import config_hash
 
-ROOT = LOCK.parent
 UNKNOWN = "unknown"
 
 

@@ -7,18 +7,17 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from mobnet.control.compiled import compiled
 
 Array = NDArray[np.float32]
 Products = NDArray[Any]  # float32, or bfloat16 as its bits in uint16
 MATHS = {"contract", "nsz", "arcp"}  # NaN stays NaN
-_options: dict[str, Any] = {"_nrt": False}  # without counts of references to views, which keep loops from vectors
-compiled = numba.njit(cache=True, error_model="numpy", fastmath=MATHS, **_options)
 
 
-@compiled
+@compiled(fastmath=MATHS)
 def rational_tanh(x: np.float32) -> np.float32:
     """Return tanh(x), unitless, within a few float32 roundings; loops over it vectorize, which tanh's do not.
 
@@ -34,7 +33,7 @@ def rational_tanh(x: np.float32) -> np.float32:
     return (t + t) / (np.float32(1.0) + t * t)
 
 
-@compiled
+@compiled(fastmath=MATHS)
 def read(array: Products, j: int) -> np.float32:
     """Return an element of an array (n,) of either format, unitless: bfloat16 is the upper half of a float32."""
     if array.itemsize == 2:
@@ -42,7 +41,7 @@ def read(array: Products, j: int) -> np.float32:
     return np.float32(array[j])
 
 
-@compiled
+@compiled(fastmath=MATHS)
 def write(array: Products, j: int, value: np.float32) -> None:
     """Set an element of an array (n,) of either format, unitless, rounded to the nearest, ties to even."""
     if array.itemsize == 2:
@@ -53,7 +52,7 @@ def write(array: Products, j: int, value: np.float32) -> None:
         array[j] = value
 
 
-@compiled
+@compiled(fastmath=MATHS)
 def step_forward(
     inputs: Array, recurrent: Products, bias: Array, before: Array, gates: Array, after: Array, rounded: Products
 ) -> None:
@@ -86,7 +85,7 @@ def step_forward(
             write(low, j, state[j])
 
 
-@compiled
+@compiled(fastmath=MATHS)
 def step_backward(
     gates: Array, before: Array, given: Array, fed: Products, carried: Array, d_sums: Products, d_new: Products,
     d_bias: Array,

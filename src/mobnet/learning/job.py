@@ -5,12 +5,12 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import torch
 
+from mobnet.core.code import code_hash
 from mobnet.core.config import config_hash
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.methods import experiment_row, learning_row, network_row
@@ -75,10 +75,10 @@ class Job:
         return precision_of(self.settings["precision"], device) if self.row["cell"] == "GRU" else torch.float32
 
     def fingerprint(self, data_digest: str, device: torch.device) -> str:
-        """Return a hash of all that the weights depend on: numbers, data, this package's code, torch, device."""
-        code = [path.read_text(encoding="utf-8") for path in sorted(Path(__file__).parent.glob("*.py"))]
-        return config_hash({**asdict(self), "data": data_digest, "code": code, "torch": torch.__version__,
-                            "device": device.type, "precision": str(self.precision(device))})  # fmt: skip
+        """Return a hash of all that the weights depend on: numbers, data, code, torch's build, device."""
+        return config_hash({**asdict(self), "data": data_digest, "code": code_hash("mobnet.learning.train"),
+                            "torch": torch.__version__, "device": device.type,
+                            "precision": str(self.precision(device))})  # fmt: skip
 
 
 def _generator(*words: int | str) -> np.random.Generator:

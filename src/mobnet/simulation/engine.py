@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.control.compiled import allocating, compiled
+from mobnet.control.compiled import compiled
 from mobnet.control.geometry import clip
 from mobnet.control.parameters import State
 from mobnet.control.random_torque import RandomTorque, advance_random_torque
@@ -88,7 +88,7 @@ def make_plant(
     )  # fmt: skip
 
 
-@allocating
+@compiled(allocating=True)
 def run(
     plant: Plant, walker: Walker, sensors: Sensors, s: State, commands: Array, upper: UpperBody, torque: RandomTorque,
     pushes: Pushes, rng_noise: np.random.Generator, rng_torque: np.random.Generator, rng_pushes: np.random.Generator,
