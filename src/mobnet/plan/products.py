@@ -153,7 +153,7 @@ class Products:
         pages = [results / "pages" / f"{path.stem}.html" for path in shown]
         yield self._report_product("pages", {"tables": shown, "captions": captions}, pages)
         yield self._report_product(
-            "manifest", {"files": [*map(Path, self.stored()), *outputs, *built]}, [self.manifest]
+            "manifest", {"files": [*map(Path, self.stored()), *outputs, *built]}, [self.folders.manifest]
         )
 
     def _report_product(self, name: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:
@@ -184,8 +184,8 @@ class Products:
         evaluation, published = self.settings.evaluation, self.settings.published
         section = evaluation.tables.get(name) or getattr(evaluation, name, None)
         printed = published.tables.get(name) or getattr(published, name, None)
-        own = {"name": name} | ({"settings": section} if section is not None else {})
-        return own | ({"published": printed} if printed is not None else {})
+        own = {"name": name, "settings": section, "published": printed}
+        return {key: value for key, value in own.items() if value is not None}
 
     def _needs(self, name: str) -> Mapping[str, object]:
         """Return scores, runs, recordings or trainings behind a table or a figure."""

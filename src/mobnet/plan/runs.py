@@ -178,7 +178,7 @@ class Files:
     def swept_sizes(self) -> tuple[SweptSize, ...]:
         """Return the sizes of Figure 20; the network of all data is that of Table 1's size."""
         figure, sweeps = self.settings.evaluation.figure_20, self.settings.sweeps
-        found = []
+        found: list[SweptSize] = []
         for panel, key in (("parameters", figure.parameters), ("samples", figure.samples)):
             for base in sweeps[key].of:
                 names = [swept_name(base, key, value) for value in sweeps[key].values]

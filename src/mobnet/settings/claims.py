@@ -84,7 +84,7 @@ class Claim(Section):
         if not isinstance(entry, dict):
             return entry
         rest = cast("dict[str, Any]", entry).copy()
-        shared, cells = rest.pop("at", None) or {}, rest.get("cells")
+        shared, cells = cast("dict[str, Any]", rest.pop("at", None) or {}), rest.get("cells")
         if isinstance(cells, list):
             rest["cells"] = [{**shared, **spelt_out(cell)} for cell in cast("list[Any]", cells)]
         return rest

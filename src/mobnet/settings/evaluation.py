@@ -55,6 +55,14 @@ class Runs(Section):
     methods: MethodNames
 
 
+class PushedRuns(Section):
+    """Methods on one test that has pushes."""
+
+    scenario: PushedTestName
+    level: LevelName
+    methods: MethodNames
+
+
 class Mean(Section):
     """A column that is a mean over joints, or over metrics."""
 
@@ -127,12 +135,9 @@ class Figure05(Section):
     panels: dict[LevelName, MethodNames]
 
 
-class Figure06(Section):
+class Figure06(PushedRuns):
     """Figure 6: a step of torque on a swinging hip."""
 
-    scenario: PushedTestName
-    level: LevelName
-    methods: MethodNames
     joint: MotorName
     before_s: NotNegative
     after_s: NotNegative
@@ -152,14 +157,6 @@ class GaitFigure(Runs):
 
     limb: LimbName
     start_s: NotNegative
-
-
-class PushedRuns(Section):
-    """Methods on one test that has pushes."""
-
-    scenario: PushedTestName
-    level: LevelName
-    methods: MethodNames
 
 
 class Figure10(Section):
