@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
-
 import mujoco
 import numpy as np
 import pytest
@@ -12,7 +10,7 @@ from numba import njit
 from mobnet.core.errors import SimulationError
 from mobnet.robot.description import RobotDescription
 from mobnet.simulation import native
-from mobnet.simulation.native import addresses_at, bind, c_struct, call_step, doubles_at, ints_at
+from mobnet.simulation.native import READ, addresses_at, bind, c_struct, call_step, doubles_at, ints_at, offsets
 from mobnet.simulation.world import World, make_world
 
 POINTERS = ("qpos", "qvel", "ctrl", "qfrc_applied", "xpos", "sensordata", "efc_type", "efc_J", "efc_force", "contact")
@@ -70,9 +68,17 @@ def test_call_by_address_is_mujoco_s_step_to_the_bit(world: World) -> None:
     np.testing.assert_array_equal(world.data.efc_force, twin.efc_force)
 
 
-def test_a_struct_that_is_laid_out_otherwise_is_refused(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
-    fields = [("more", ctypes.c_int64), *c_struct("mjData")._fields_]
-    shifted = type("mjData", (ctypes.Structure,), {"_fields_": fields})
-    monkeypatch.setattr(native, "c_struct", lambda name: shifted)
-    with pytest.raises(SimulationError, match=r"mjData\.\w+: at \d+, Python says \d+"):
-        bind(world.model, world.data)
+@pytest.mark.parametrize("shift", [-8, 4, 8])
+@pytest.mark.parametrize("field", READ)
+def test_a_field_that_lies_elsewhere_is_refused(monkeypatch: pytest.MonkeyPatch, field: str, shift: int) -> None:
+    offset = native.offset
+    monkeypatch.setattr(native, "offset", lambda name: offset(name) + shift * (name == field))
+    with pytest.raises(SimulationError, match=rf"^mjData\.{field}: \d+ by its address, Python says \d+$"):
+        offsets.__wrapped__()
+
+
+@pytest.mark.parametrize("field", [name for name in READ if name != "nefc"])
+def test_a_field_of_another_type_is_refused(monkeypatch: pytest.MonkeyPatch, field: str) -> None:
+    monkeypatch.setitem(READ, field, np.int64)
+    with pytest.raises(SimulationError, match=rf"^mjData\.{field}: type \w+ is not accepted; accepted: int64$"):
+        offsets.__wrapped__()

@@ -1,7 +1,8 @@
 """MuJoCo called from compiled code: its step by address, its constraint rows by their place in `mjData`.
 
 Constraint arrays live in an arena and move at every step, so their pointers are read from the C struct itself. The
-struct's layout comes from the description MuJoCo ships (`mujoco.introspect`), and is checked against Python's view.
+struct's layout comes from the description MuJoCo ships (`mujoco.introspect`); before its first use, every field that is
+read is checked against Python's view of it.
 """
 
 from __future__ import annotations
@@ -32,6 +33,17 @@ C_TYPES: dict[str, Any] = {
     "mjtByte": ctypes.c_ubyte,
     "mjtBool": ctypes.c_bool,
 }
+
+
+READ = {  # fields of mjData that compiled code reads by address, in the order of Native, and their type
+    "nefc": np.int32,
+    "efc_type": np.int32,
+    "efc_J": np.float64,
+    "efc_force": np.float64,
+}
+BALL = """<mujoco><option jacobian="dense" cone="pyramidal"/><worldbody>
+<geom type="plane" size="1 1 1"/><body pos="0 0 0.09"><freejoint/><geom size="0.1"/></body>
+</worldbody></mujoco>"""  # four rows of a contact, so that each field holds another number
 
 
 class Native(NamedTuple):
@@ -87,27 +99,46 @@ def step_address() -> int:
 
 
 def bind(model: mujoco.MjModel, data: mujoco.MjData) -> Native:
-    """Return the addresses of a model and its data, checked on the data as it stands.
+    """Return the addresses of a model and its data, and bring the data's derived arrays to its position.
 
     Raises:
         SimulationError: the struct's layout is not what MuJoCo describes.
     """
-    layout = c_struct("mjData")
-    native = Native(
-        step_address(),
-        model._address,
-        data._address,
-        *(getattr(layout, field).offset for field in ("nefc", "efc_type", "efc_J", "efc_force")),
-    )
+    native = Native(step_address(), model._address, data._address, *offsets())
     mujoco.mj_forward(model, data)
-    raw = layout.from_address(data._address)
-    for field in ("qpos", "sensordata", "efc_J", "efc_force"):
-        array = getattr(data, field)
-        if array.size and getattr(raw, field) != array.ctypes.data:
-            raise SimulationError(f"mjData.{field}: at {getattr(raw, field)}, Python says {array.ctypes.data}")
-    if raw.nefc != data.nefc:
-        raise SimulationError(f"mjData.nefc: {raw.nefc}, Python says {data.nefc}")
     return native
+
+
+@functools.cache
+def offsets() -> tuple[int, ...]:
+    """Return the offsets in mjData of the fields in `READ`, checked at first use on a ball that lies on the ground.
+
+    Raises:
+        SimulationError: Python's view of the ball's data has a field elsewhere, or of another type.
+    """
+    model = mujoco.MjModel.from_xml_string(BALL)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    found = tuple(offset(field) for field in READ)
+    for (field, kind), at in zip(READ.items(), found, strict=True):
+        told, viewed = read_at(data._address + at, field), np.asarray(getattr(data, field))
+        wanted = viewed.ctypes.data if viewed.ndim else int(viewed)
+        if told != wanted:
+            raise SimulationError(f"mjData.{field}: {told} by its address, Python says {wanted}")
+        if viewed.ndim and viewed.dtype != kind:
+            raise SimulationError(f"mjData.{field}: type {viewed.dtype} is not accepted; accepted: {np.dtype(kind)}")
+    return found
+
+
+def offset(field: str) -> int:
+    """Return the offset of a field of mjData in the struct that MuJoCo describes."""
+    return getattr(c_struct("mjData"), field).offset
+
+
+def read_at(address: int, field: str) -> int:
+    """Return what compiled code reads of a field: the number of rows, or else the address of an array."""
+    kind = ctypes.c_int32 if field == "nefc" else ctypes.c_uint64
+    return kind.from_address(address).value
 
 
 def _call_step(typingctx: Any, step: Any, model: Any, data: Any) -> Any:
