@@ -88,8 +88,9 @@ def _missing_places(settings: Settings) -> Iterator[Problem]:
 def refused_changes(settings: Settings) -> Iterator[tuple[Place, ValidationError]]:
     """Yield where a method changes a key of its networks or of learning to something that is not accepted."""
     for name, method in settings.all_methods.items():
-        for limb in method.limbs:
-            try:
-                settings.training(name, limb)
-            except ValidationError as error:
-                yield ("methods", name), error
+        for part, made in (("network", settings.network), ("learning", settings.training)):
+            for limb in method.limbs:
+                try:
+                    made(name, limb)
+                except ValidationError as error:
+                    yield ("methods", name, part), error

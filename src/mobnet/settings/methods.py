@@ -6,7 +6,17 @@ from typing import Annotated, Literal
 
 from pydantic import Field, JsonValue, model_validator
 
-from mobnet.settings.base import Change, Count, ExperimentName, MethodNames, NetworkName, Positive, Section, Text
+from mobnet.settings.base import (
+    Change,
+    Count,
+    ExperimentName,
+    MethodNames,
+    NetworkName,
+    Positive,
+    Section,
+    SourceName,
+    Text,
+)  # fmt: skip
 
 Target = Literal["uncertainty", "external"]
 
@@ -37,7 +47,7 @@ class Method(Section):
     network: Change = {}
     learning: Change = {}
     fitted: tuple[NetworkName, ...] = ()
-    of: Annotated[str, Field(min_length=1)] | None = None
+    of: SourceName | None = None
     options: dict[str, JsonValue] = {}
 
     @model_validator(mode="after")

@@ -10,6 +10,7 @@ from pydantic import BaseModel
 
 from mobnet.core.errors import not_accepted
 from mobnet.settings.base import Named
+from mobnet.settings.networks import Network
 from mobnet.settings.settings import Settings
 
 Use = tuple[tuple[str, ...], str, str]  # place, kind of name, name
@@ -30,15 +31,27 @@ def accepted_names(settings: Settings) -> dict[str, Collection[str]]:
         "network": settings.networks, "method": settings.all_methods, "sweep": settings.sweeps,
         "joint": layout.names, "motor": layout.actuated, "limb": layout.groups,
         "limb or joint": (*layout.groups, *layout.names),
+        "method that runs on its own": [name for name, row in settings.methods.items() if row.of is None],
     }  # fmt: skip
 
 
 def unknown_names(settings: Settings) -> Iterator[tuple[tuple[str, ...], str]]:
     """Yield the place of every name that does not exist and what is accepted there."""
     accepted = accepted_names(settings)
-    for place, kind, name in uses(settings, Settings, ()):
+    for place, kind, name in (*uses(settings, Settings, ()), *_changed_uses(settings)):
         if name not in accepted[kind]:
             yield place, not_accepted(kind, name, accepted[kind])
+
+
+def _changed_uses(settings: Settings) -> Iterator[Use]:
+    """Yield the names in what methods change of their networks."""
+    for name, method in settings.all_methods.items():
+        for key, value in method.network.items():
+            if key in Network.model_fields:
+                field = Network.model_fields[key]
+                yield from uses(
+                    value, Annotated[field.annotation, *field.metadata, None], ("methods", name, "network", key)
+                )
 
 
 def uses(value: Any, kind: Any, place: tuple[str, ...]) -> Iterator[Use]:

@@ -1,0 +1,158 @@
+"""What follows from the configuration: methods of sweeps, networks with a method's changes, names that are checked."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+from pydantic import BaseModel, ValidationError
+
+from mobnet.core.errors import ConfigError
+from mobnet.plan.runs import FIRST_TRAINING_SEED
+from mobnet.settings import evaluation
+from mobnet.settings.claims import TAKES, Claim
+from mobnet.settings.published import PublishedTable
+from mobnet.settings.references import uses
+from mobnet.settings.settings import Settings
+
+SECTIONS = Path(evaluation.__file__).parent
+RESOLVED = {"settings.py", "robot.py"}  # with properties that follow from the values and are never called by a job
+CLAIM = {"printed": "Table 5", "says": "It errs.", "quantity": "ratio", "unit": "-", "published": None}
+BOUNDS = {"reproduced": [None, 2.0], "direction": [1.0, None]}
+
+
+def test_a_sweep_stands_for_one_method_for_each_value(settings: Settings) -> None:
+    base, swept = settings.method("MOB-Net"), settings.method("MOB-Net-hidden-44")
+    assert swept == base.model_copy(update={"limbs": ("LL",), "network": {"experiment": "sweep", "hidden": 44}})
+    assert settings.method("FTS-e2e-data-parts-2").learning == {"data_parts": 2}
+    sizes = sum(len(sweep.of) * len(sweep.values) for sweep in settings.sweeps.values())
+    assert len(settings.all_methods) == len(settings.methods) + sizes
+
+
+def test_a_method_changes_its_networks_alone(settings: Settings) -> None:
+    plain, base = (settings.network(method, "LL") for method in ("MOB-Net-plain", "MOB-Net"))
+    assert plain == base.model_copy(update={"data": "walk_plain"})
+    assert base.joints == ("LL",)
+    assert settings.network("MOB-Net-Single", "WB").joints == settings.robot.networks["WB"].joints
+
+
+def test_a_networks_experiment_says_how_long_it_trains(settings: Settings) -> None:
+    sizes = settings.sizes.experiments
+    assert settings.experiment("MOB-Net", "LL") == sizes["left_leg"]
+    assert settings.experiment("MOB-Net-hidden-44", "LL") == sizes["sweep"]
+
+
+def test_sizes_lie_over_learning_and_the_methods_changes_over_both(settings: Settings) -> None:
+    learning = settings.training("GRU-printed-rate", "LL").learning
+    assert (learning.batch_size, learning.rate_first) == (settings.sizes.batch_size, 0.05)
+    assert learning.std_min == settings.learning.std_min
+
+
+def test_unknown_names_are_refused(settings: Settings) -> None:
+    with pytest.raises(ConfigError, match="method: 'X' is not accepted; accepted: "):
+        settings.method("X")
+    with pytest.raises(ConfigError, match="network: 'tail' is not accepted"):
+        settings.network("MOB-Net", "tail")
+    with pytest.raises(ConfigError, match=r"method to train: 'MOB' is not accepted; accepted: .*MOB-Net"):
+        settings.training("MOB", "LL")
+
+
+def test_a_method_runs_on_the_files_of_the_one_it_names(settings: Settings) -> None:
+    assert [settings.source_of(name) for name in ("MOB-fric", "MOB-fric-BPF")] == ["MOB-fric", "MOB-fric"]
+
+
+def test_names_are_looked_at_in_every_section(settings: Settings) -> None:
+    """Each mark of a field is found through tuples, keys and values of mappings, unions and nested sections."""
+    found = {(".".join(place), kind) for place, kind, _ in uses(settings, Settings, ())}
+    assert found >= {
+        ("scale", "scale"), ("scenarios.random_walk.terrain", "terrain"), ("scenarios.random_walk.pushes", "push"),
+        ("scenarios.random_motion.motion", "motion"), ("scenarios.hand_load_10.draws", "scenario"),
+        ("pushes.hip_pitch.joint", "motor"), ("tests", "scenario"), ("tests.walk_test", "level"),
+        ("networks.LL.experiment", "experiment"), ("methods.MOB-Net.limbs", "network"), ("sweeps.hidden.of", "method"),
+        ("scales.paper.train.walk.scenario", "scenario"), ("scales.smoke.train.motion.level", "level"),
+        ("evaluation.tables.table_05.columns", "limb or joint"),
+        ("evaluation.tables.table_06.columns.joints", "limb or joint"),
+        ("evaluation.tables.table_05.rows.methods", "method"), ("evaluation.figure_05.panels", "level"),
+        ("evaluation.figure_10.tests.swing knee.scenario", "test with a window around pushes"),
+        ("evaluation.calibration.tests.pushed", "motor"), ("evaluation.figure_18.limbs", "limb"),
+        ("claims.mob-exact.cells.joint", "limb or joint"), ("published.tables.table_05.floor.method", "method"),
+    }  # fmt: skip
+
+
+def test_seeds_of_tests_and_training_never_meet(settings: Settings) -> None:
+    assert all(scale.test.shards < FIRST_TRAINING_SEED for scale in settings.scales.values())
+
+
+def test_scenarios_that_draw_the_same_differ_in_pushes_or_random_torque_alone(settings: Settings) -> None:
+    own = {"pushes", "random_torque", "draws"}
+    for name, row in settings.scenarios.items():
+        if row.draws:
+            assert row.model_dump(exclude=own) == settings.scenarios[row.draws].model_dump(exclude=own), name
+
+
+def test_sections_are_frozen_and_closed(settings: Settings) -> None:
+    with pytest.raises(ValidationError, match="frozen"):
+        settings.plant.contact_friction = 1.0  # type: ignore[misc]
+    schema = Settings.model_json_schema()
+    closed = [part["additionalProperties"] for part in schema["$defs"].values() if "properties" in part]
+    assert len(closed) > 60
+    assert not any(closed)
+
+
+def test_sections_hold_values_and_checks_and_compute_nothing() -> None:
+    """Jobs get values, so the code of sections is no part of their hash: it may hold nothing that a result rests on."""
+    for path in SECTIONS.glob("*.py"):
+        tree = ast.parse(path.read_text())
+        for section in (node for node in tree.body if isinstance(node, ast.ClassDef) and path.name not in RESOLVED):
+            for method in (node for node in section.body if isinstance(node, ast.FunctionDef)):
+                decorators = ast.unparse(method.decorator_list[0]) if method.decorator_list else ""
+                assert decorators.startswith(("model_validator", "field_validator")), f"{path}: {method.name}"
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"quantity": "sum"}, "quantity: 'sum' is not accepted; accepted: above, below"),
+        ({"cells": ["MOB"]}, "1 cells; ratio takes 2"),
+        ({"cells": [["ideal", "MOB"], "MOB"]}, "accepted: .level, method, joint., a method or a mapping"),
+        ({"cells": [{"colour": "red"}, "MOB"]}, "colour"),
+        ({"reproduced": [2.0, 1.0]}, "low <= high"),
+        ({"claim": "x"}, "claim"),
+        ({"quantity": "below", "cells": ["MOB"]}, "1 cells; below takes 2, 3, ..."),
+        ({"quantity": "least ratio", "cells": ["A", "B", "C"]}, "3 cells; least ratio takes 2, 4, ..."),
+    ],
+)  # fmt: skip
+def test_a_claim_that_does_not_fit_itself_is_refused(change: dict[str, object], message: str) -> None:
+    good = {**CLAIM, **BOUNDS, "cells": ["MOB", "MOB-Net"]}
+    assert Claim.model_validate(good).cells[1].method == "MOB-Net"
+    with pytest.raises(ValidationError, match=message):
+        Claim.model_validate({**good, **change})
+
+
+def test_cells_of_a_claim_share_what_stands_at_it() -> None:
+    entry = {
+        **CLAIM,
+        **BOUNDS,
+        "cells": [["ideal", "MOB", "LL"], {"method": "A", "level": "no_noise"}],
+        "at": {"level": "x", "scenario": "s"},
+    }
+    first, second = Claim.model_validate(entry).cells
+    assert (first.scenario, first.level, first.method, first.joint) == ("s", "ideal", "MOB", "LL")
+    assert (second.scenario, second.level) == ("s", "no_noise")
+
+
+def test_every_quantity_takes_its_cells() -> None:
+    for quantity, (least, step) in TAKES.items():
+        for count in (least, least + step):
+            Claim.model_validate({**CLAIM, **BOUNDS, "quantity": quantity, "cells": ["A"] * count})
+
+
+def test_published_rows_have_a_number_for_each_column() -> None:
+    table = {"printed": "Table 0", "columns": ["LL1", "avg"], "numbers": {"ideal": {"MOB": [0.1]}}}
+    with pytest.raises(ValidationError, match="ideal, MOB: 1 numbers for 2 columns"):
+        PublishedTable.model_validate(table)
+
+
+def test_every_section_says_what_it_is() -> None:
+    assert all(section.__doc__ for section in BaseModel.__subclasses__())
