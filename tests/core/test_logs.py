@@ -1,18 +1,35 @@
-"""A job tells an expected error in one line and ends with status 1."""
+"""A job tells an expected error in one line, ends with status 1, and accounts for what it took."""
 
 from __future__ import annotations
 
 import logging
+import signal
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import pytest
 
 from mobnet.core.errors import DataError
+from mobnet.core.files import read_json
+from mobnet.core.logs import Account, job
+
+GREEDY = """
+import subprocess, sys
 from mobnet.core.logs import job
+with job(sys.argv[1]):
+    subprocess.run([sys.executable, "-c", "bytearray(300 << 20); sum(range(10**7))"], check=True)
+"""
 
 
 def fail(error: Exception) -> None:
     raise error
+
+
+def account(path: Path) -> Account:
+    """Return the account beside a log."""
+    return Account(**read_json(path.with_suffix(".json")))
 
 
 def test_expected_error_is_one_line_in_log_and_terminal(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -29,9 +46,43 @@ def test_a_fault_of_the_program_keeps_its_traceback(tmp_path: Path) -> None:
         fail(ZeroDivisionError())
 
 
-def test_logging_is_as_before_afterwards(tmp_path: Path) -> None:
-    before = logging.getLogger().handlers[:]
+def test_logging_and_signals_are_as_before_afterwards(tmp_path: Path) -> None:
+    before = logging.getLogger().handlers[:], signal.getsignal(signal.SIGTERM)
     with job(tmp_path / "a.log"):
         logging.getLogger("mobnet.some").info("progress")
-    assert logging.getLogger().handlers == before
+    assert (logging.getLogger().handlers, signal.getsignal(signal.SIGTERM)) == before
     assert (tmp_path / "a.log").read_text().endswith("INFO progress\n")
+
+
+@pytest.mark.parametrize(("log", "name"), [("logs/collect/walk-s1.log", "collect/walk-s1"), ("paper.log", "paper")])
+def test_account_says_when_and_how_long(tmp_path: Path, log: str, name: str) -> None:
+    before = time.time()
+    with job(tmp_path / log):
+        time.sleep(0.2)
+    told = account(tmp_path / log)
+    assert (told.job, told.succeeded) == (name, True)
+    assert before - 0.01 <= told.start_s <= told.end_s <= time.time() + 0.01
+    assert told.end_s - told.start_s == pytest.approx(told.wall_s, abs=0.05)
+    assert told.wall_s >= 0.19
+    assert told.cpu_s < 0.15
+
+
+def test_children_count(tmp_path: Path) -> None:
+    subprocess.run([sys.executable, "-c", GREEDY, tmp_path / "a.log"], check=True)
+    told = account(tmp_path / "a.log")
+    assert 300 < told.peak_mib < 400
+    assert 0.1 < told.cpu_s <= told.wall_s + 0.1
+
+
+@pytest.mark.parametrize("number", [None, signal.SIGTERM, signal.SIGINT])
+def test_a_job_that_fails_or_is_interrupted_says_so(tmp_path: Path, number: signal.Signals | None) -> None:
+    with pytest.raises((SystemExit, KeyboardInterrupt)), job(tmp_path / "a.log"):
+        signal.raise_signal(number) if number else fail(DataError("damaged"))
+    assert not account(tmp_path / "a.log").succeeded
+
+
+def test_a_job_that_is_killed_leaves_no_account_of_the_run_before(tmp_path: Path) -> None:
+    with job(tmp_path / "a.log"):
+        pass
+    with job(tmp_path / "a.log"):
+        assert not (tmp_path / "a.json").exists()

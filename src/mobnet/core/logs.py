@@ -1,28 +1,68 @@
-"""What a job of the workflow tells: progress to its log file and the terminal, an error as one line."""
+"""What a job of the workflow tells: progress to its log and the terminal, an error as one line, and what it took."""
 
 from __future__ import annotations
 
 import contextlib
 import logging
+import re
+import resource
+import signal
 import sys
+import threading
+import time
 from collections.abc import Iterator
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from mobnet.core.errors import MobnetError
+from mobnet.core.files import write_json
 
 log = logging.getLogger(__name__)
 
 FORMAT = "%(asctime)s %(levelname)s %(message)s"
+LOGS = "logs"  # folder of the jobs' logs, in which each rule with several jobs has a folder of its own
+STATUS = Path("/proc/self/status")
+MIB = 2**20
+
+
+@dataclass(frozen=True)
+class Account:
+    """What a job took, from the start of its work to its end; Python's own start is not in it.
+
+    Attributes:
+        job: name of its log below the folder of logs; the first part is the name of its rule.
+        start_s: time of its start [s since 1970, UTC].
+        end_s: time of its end [s since 1970, UTC].
+        wall_s: how long it took, by a clock that nobody sets [s].
+        cpu_s: processor time, user and system, of the process and of the children that it waited for [s].
+        peak_mib: most memory that the process, or one of these children, held at once [MiB].
+        succeeded: False where it failed or was interrupted.
+    """
+
+    job: str
+    start_s: float
+    end_s: float
+    wall_s: float
+    cpu_s: float
+    peak_mib: float
+    succeeded: bool
 
 
 @contextlib.contextmanager
 def job(log_file: Path | str) -> Iterator[None]:
-    """Log a job to its file and to the terminal.
+    """Log a job to its file and to the terminal, and write its account beside the log, as JSON, when it ends.
 
     Raises:
-        SystemExit: the job raised a MobnetError; its message is the last line of the log.
+        SystemExit: the job raised a MobnetError, whose message is the last line of the log, or was terminated.
     """
     path = Path(log_file)
+    with terminable(), accounted(path), logged(path):
+        yield
+
+
+@contextlib.contextmanager
+def logged(path: Path) -> Iterator[None]:
+    """Log to a file and to the terminal; an expected error is one line, and the end with status 1."""
     path.parent.mkdir(parents=True, exist_ok=True)
     handlers = [logging.FileHandler(path, mode="w", encoding="utf-8"), logging.StreamHandler(sys.stderr)]
     root = logging.getLogger()
@@ -42,3 +82,53 @@ def job(log_file: Path | str) -> Iterator[None]:
         logging.captureWarnings(capture=False)
         handlers[0].close()
         root.handlers[:], root.level = previous
+
+
+@contextlib.contextmanager
+def accounted(log_path: Path) -> Iterator[None]:
+    """Write what happens meanwhile took beside a log; a job that is killed outright leaves no account."""
+    account, below = log_path.with_suffix(".json"), log_path.with_suffix("").parts
+    account.unlink(missing_ok=True)
+    name = "/".join(below[below.index(LOGS) + 1 :] if LOGS in below else below[-1:])
+    start_s, begin, used_s, succeeded = time.time(), time.monotonic(), cpu_s(), False
+    try:
+        yield
+        succeeded = True
+    finally:
+        wall_s, used_s = time.monotonic() - begin, cpu_s() - used_s
+        told = Account(name, start_s, time.time(), wall_s, used_s, peak_mib(), succeeded)
+        rounded = {key: round(value, 3) for key, value in asdict(told).items() if isinstance(value, float)}
+        write_json(account, asdict(told) | rounded)
+
+
+@contextlib.contextmanager
+def terminable() -> Iterator[None]:
+    """Turn the signal to terminate into an exit, so that a terminated job ends as an interrupted one does."""
+
+    def leave(number: int, frame: object) -> None:
+        raise SystemExit(128 + number)
+
+    if threading.current_thread() is not threading.main_thread():
+        yield  # other threads get no signals
+        return
+    before = signal.signal(signal.SIGTERM, leave)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def cpu_s() -> float:
+    """Return the processor time of this process and of the children that it waited for [s]."""
+    uses = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(use.ru_utime + use.ru_stime for use in uses)
+
+
+def peak_mib() -> float:
+    """Return the most memory that this process, or one of the children that it waited for, held at once [MiB]."""
+    unit = 1 if sys.platform == "darwin" else 1024  # of ru_maxrss [bytes]
+    peaks = [resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * unit]
+    # Linux counts in ru_maxrss what the process held before it became this program: the whole of Snakemake.
+    held = re.search(r"^VmHWM:\s*(\d+) kB", STATUS.read_text() if STATUS.exists() else "", re.MULTILINE)
+    peaks.append(int(held[1]) * 1024 if held else resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit)
+    return max(peaks) / MIB
