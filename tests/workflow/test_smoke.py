@@ -4,23 +4,26 @@ from __future__ import annotations
 
 import os
 import random
+import re
 import signal
 import subprocess
 import sys
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 from browser import Browser, with_browser
 
-from mobnet.core.config import load_config
+from mobnet.plan.plan import Plan, make_plan
+from mobnet.settings.load import load_settings
 
 from .clicks import choose, explain, show, text_of_frame
 from .conftest import ROOT, Snakemake
 
 SMOKE = ("--config", "scale=smoke")
-NO_OP_S = 15.0
+NO_OP_S = 10.0
 KILLS = 5
 LONGEST_S = 20.0
 
@@ -45,17 +48,10 @@ def products(folder: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in found}
 
 
-def recordings_of_the_smoke_scale() -> int:
-    """Return the number of training and test recordings, as the configuration has them."""
-    config = load_config(ROOT / "configs" / "config.yaml", "smoke")
-    training = sum(row["shards"] for row in config["sizes"]["train"].values())
-    return training + config["sizes"]["test"]["shards"] * sum(map(len, config["tests"].values()))
-
-
-def networks_of_smoke() -> int:
-    """Return the number of networks of the smoke scale: one seed of every method's limbs."""
-    methods = load_config(ROOT / "configs" / "config.yaml", "smoke")["methods"]
-    return sum(len(row.get("limbs", [])) for row in methods.values())
+@pytest.fixture(scope="module")
+def plan() -> Plan:
+    """What the smoke scale makes."""
+    return make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False)
 
 
 @pytest.fixture(scope="module")
@@ -66,22 +62,23 @@ def unbroken(make_project: Callable[..., Path]) -> Path:
     return folder
 
 
-def test_smoke_makes_tables_figures_and_networks(unbroken: Path) -> None:
-    made = products(unbroken)
-    assert {"table_05.csv", "table_05.tex", "table_05.md", "claims.csv", "figure_05.csv"} <= set(made)
-    assert {"data.csv", "steps.csv", "coverage.csv", "uncertainty.csv", "figure_19.csv", "commands.csv"} <= set(made)
-    assert {"table_01.csv", "kinds.csv", "methods.csv", "calibration.csv"} <= set(made)
-    assert {"figure_17.csv", "figure_18.csv", "figure_20.csv"} <= set(made)
-    assert all(made.values())
+def test_smoke_makes_all_that_is_planned(unbroken: Path, plan: Plan) -> None:
+    names = [*plan.stored, *(name for product in plan.products for name in product.outputs)]
+    assert [name for name in names if not (unbroken / name).exists()] == []
     assert (unbroken / "figures" / "smoke" / "figure_05.pdf").read_bytes().startswith(b"%PDF")
-    assert len(list((unbroken / "results" / "smoke" / "networks").glob("*/weights.safetensors"))) == networks_of_smoke()
     assert "MOB-Net-LL-s0" in (unbroken / "results" / "smoke" / "runs.html").read_text()
 
 
-def test_every_job_left_a_log_and_a_benchmark(unbroken: Path) -> None:
-    logs = {path.stem for path in (unbroken / "results" / "smoke" / "logs" / "collect").iterdir()}
-    assert logs == {path.stem for path in (unbroken / "results" / "smoke" / "bench" / "collect").iterdir()}
-    assert len(logs) == recordings_of_the_smoke_scale()
+def accounts(folder: Path) -> list[Path]:
+    """Return the accounts that jobs wrote beside their logs."""
+    return list((folder / "results" / "smoke" / "logs").rglob("*.json"))
+
+
+def test_every_job_left_a_log_and_an_account(unbroken: Path, plan: Plan) -> None:
+    logs = {path.with_suffix(".json") for path in (unbroken / "results" / "smoke" / "logs").rglob("*.log")}
+    assert logs == set(accounts(unbroken))
+    collected = [path for path in logs if path.parent.name == "collect"]
+    assert len(collected) == len(list(plan.files.recorded()))
 
 
 def test_second_call_does_nothing(unbroken: Path) -> None:
@@ -116,10 +113,11 @@ def test_verify_names_every_file_in_which_a_byte_is_flipped_and_no_other(unbroke
     assert sorted(line.split(": hash ")[0] for line in done.stdout.splitlines() if ": hash " in line) == flipped
 
 
-def test_compute_counts_every_job_that_left_a_benchmark(unbroken: Path) -> None:
+def test_compute_counts_every_job_before_it(unbroken: Path) -> None:
     rows = (unbroken / "results" / "smoke" / "compute.csv").read_text().splitlines()
-    jobs = len(list((unbroken / "results" / "smoke" / "bench").rglob("*.tsv")))
-    assert f"all jobs,jobs,{jobs},-" in rows
+    after = {"compute", "paper", "pages", "manifest"}
+    jobs = [path for path in accounts(unbroken) if path.stem not in after]
+    assert f"all jobs,jobs,{len(jobs)},-" in rows
     assert any(row.startswith("elapsed,cores,") for row in rows)
 
 
@@ -138,19 +136,56 @@ def test_report_shows_tables_figures_and_trainings(unbroken: Path, open_page: Ca
     choose(browser, "Trainings")
     show(browser, "runs", "iframe")
     assert "MOB-Net-LL-s0" in text_of_frame(browser)
-    assert "SNAKEMAKE RULE runs" in explain(browser, "runs")
+    assert "SNAKEMAKE RULE runs_page" in explain(browser, "runs")
 
 
-def test_comment_reruns_nothing_and_an_edit_just_what_depends_on_it(unbroken: Path, snakemake: Snakemake) -> None:
-    path = unbroken / "src" / "mobnet" / "evaluation" / "tables" / "errors.py"
-    text = path.read_text()
-    path.write_text(text + "# a comment\n")
-    assert "Nothing to be done" in snakemake("-n", *SMOKE, folder=unbroken).stdout
-    path.write_text(text + "ADDED = 1\n")
-    planned = snakemake("-n", *SMOKE, folder=unbroken).stdout
-    path.write_text(text)
-    assert {"table", "numbers", "paper", "manifest"} <= set(planned.split())
-    assert not {"collect", "observe", "train", "estimate", "score"} & set(planned.split())
+@dataclass(frozen=True)
+class Edit:
+    """An edit of a file of the project, the rules that it touches and some that must not run."""
+
+    file: str
+    old: str
+    new: str
+    touches: frozenset[str]
+    spares: frozenset[str] = frozenset()
+
+
+EDITS = {
+    "wording of an error": Edit("src/mobnet/core/store.py", "file is missing", "there is no file", frozenset()),
+    "wording of a log": Edit("src/mobnet/learning/train.py", "done after epoch", "ended after epoch", frozenset()),
+    "comment": Edit("src/mobnet/simulation/friction.py", "\n@compiled\n", "\n# a comment\n@compiled\n", frozenset()),
+    "check of a name": Edit("src/mobnet/settings/references.py", "if name not in accepted", "if name and name not in accepted", frozenset()),
+    "friction law": Edit(
+        "src/mobnet/simulation/friction.py", "\n@compiled\n", "\nADDED = 1\n\n\n@compiled\n",
+        frozenset({"collect"}), frozenset({"motion", "table_01", "deviations"}),
+    ),
+    "one figure's setting": Edit("configs/evaluation.yaml", "    every: 10\n", "    every: 11\n", frozenset({"figure_07"})),
+    "one table": Edit("src/mobnet/evaluation/tables/steps.py", "\ndef ", "\nADDED = 1\n\n\ndef ", frozenset({"steps"})),
+    "version of MuJoCo": Edit(
+        "environment.lock", "\nmujoco==", "\nmujoco==9", frozenset({"motion", "collect"}), frozenset({"table_01", "deviations"})
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", EDITS)
+def test_an_edit_reruns_exactly_what_depends_on_it(unbroken: Path, snakemake: Snakemake, name: str) -> None:
+    edit = EDITS[name]
+    path = unbroken / edit.file
+    text, times = path.read_text(), path.stat()
+    assert edit.old in text
+    path.write_text(text.replace(edit.old, edit.new, 1))
+    try:
+        planned = snakemake("-n", *SMOKE, folder=unbroken).stdout
+    finally:
+        path.write_text(text)
+        os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
+    if not edit.touches:
+        assert "Nothing to be done" in planned
+        return
+    changed = re.findall(r"params have changed since last execution:\n +(.+(?:\n {8}.+)*)", planned)
+    touched = {word.strip() for line in changed for word in line.split(",")}
+    assert touched >= edit.touches if name == "version of MuJoCo" else touched == edit.touches
+    assert not edit.spares & set(planned.split())
 
 
 def test_damaged_recording_stops_with_one_line_and_nothing_half_written(

@@ -1,0 +1,189 @@
+"""The plan names each file once, gives each job what its function takes and no more, and misses nothing."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mobnet.core.errors import ConfigError
+from mobnet.plan.call import Call, call_of, parameters
+from mobnet.plan.needs import NEEDS
+from mobnet.plan.plan import Plan, make_plan
+from mobnet.plan.products import FIGURES, TABLES
+from mobnet.plan.runs import SweptSize, files_in
+from mobnet.settings.load import load_settings
+from mobnet.settings.settings import Settings
+
+SCALES = ("smoke", "default", "paper")
+
+
+@pytest.fixture(scope="module")
+def plans() -> dict[str, Plan]:
+    """The plan of every scale."""
+    return {scale: make_plan(load_settings(overrides={"scale": scale}), with_pdf=True) for scale in SCALES}
+
+
+@pytest.fixture
+def plan(plans: dict[str, Plan]) -> Plan:
+    return plans["smoke"]
+
+
+def made(plan: Plan) -> list[str]:
+    """Return every file that the plan makes."""
+    return [*plan.stored, *(name for product in plan.products for name in product.outputs)]
+
+
+def changed(settings: Settings, *keys: str, **values: Any) -> Plan:
+    """Return the plan after a change of the section that keys lead to."""
+    sections = [settings]
+    for key in keys:
+        sections.append(sections[-1][key] if isinstance(sections[-1], dict) else getattr(sections[-1], key))
+    section: Any = sections[-1].model_copy(update=values)
+    for key, above in zip(reversed(keys), reversed(sections[:-1]), strict=True):
+        section = {**above, key: section} if isinstance(above, dict) else above.model_copy(update={key: section})
+    return make_plan(section, with_pdf=True)
+
+
+def rerun(before: Plan, after: Plan) -> set[str]:
+    """Return the products whose arguments differ."""
+    told = {product.name: product.job.call.fingerprint for product in before.products}
+    return {product.name for product in after.products if told[product.name] != product.job.call.fingerprint}
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_every_file_is_made_once_and_read_after_it_is_made(plans: dict[str, Plan], scale: str) -> None:
+    names = made(plans[scale])
+    assert Counter(names).most_common(1)[0][1] == 1
+    known = set(plans[scale].stored)
+    for product in plans[scale].products:
+        sources = {
+            name
+            for name in product.job.inputs
+            if name.startswith(("paper/main", "paper/refs", "docs", "src", "workflow"))
+        }
+        assert set(product.job.inputs) - sources <= known, product.name
+        known |= set(product.outputs)
+
+
+def test_scales_never_share_a_file(plans: dict[str, Plan]) -> None:
+    names = [name for plan in plans.values() for name in made(plan)]
+    assert len(set(names)) == len(names)
+
+
+def test_the_main_scale_stands_where_a_reader_looks(plans: dict[str, Plan]) -> None:
+    assert {"tables/table_05.tex", "figures/figure_05.pdf", "paper/main.pdf"} <= set(made(plans["default"]))
+    assert {"tables/smoke/table_05.tex", "results/smoke/paper/main.pdf"} <= set(made(plans["smoke"]))
+
+
+def test_without_tex_there_is_no_pdf(settings: Settings) -> None:
+    assert not [name for name in made(make_plan(settings, with_pdf=False)) if name.endswith("main.pdf")]
+
+
+def test_training_and_test_recordings_are_disjoint(plans: dict[str, Plan]) -> None:
+    files = plans["default"].files
+    train, test = files.training("recordings", "walk"), files.tests("forward_walk", "all_uncertainty")
+    assert [path.name for path in train] == [f"s{1000 + k}" for k in range(files.training_set("walk").shards)]
+    assert [path.name for path in test] == [f"s{1 + k}" for k in range(files.settings.sizes.test.shards)]
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_every_method_gets_its_networks(plans: dict[str, Plan], scale: str) -> None:
+    settings = plans[scale].settings
+    count = sum(
+        len(settings.experiment(m, limb).seeds) for m, row in settings.all_methods.items() for limb in row.limbs
+    )
+    assert len([name for name in plans[scale].stored if name.endswith("weights.safetensors")]) == count
+
+
+def test_a_limb_with_fewer_seeds_serves_them_in_turn(plans: dict[str, Plan]) -> None:
+    files = plans["default"].files
+    assert files.network_seeds("MOB-Net", "RL") == (0,)
+    assert files.network("MOB-Net", "RL", 2).name == "MOB-Net-RL-s0"
+    assert {run.network_seed for run in files.runs("walk_test", "all_uncertainty", ["MOB-Net"])} == {0, 1, 2}
+    assert {run.network_seed for run in files.runs("walk_test", "all_uncertainty", ["MOB"])} == {0}
+
+
+def test_the_manifest_lists_every_result(plan: Plan) -> None:
+    """All but the manifest itself and what differs from run to run: compute, its pages, runs for wandb."""
+    (manifest,) = [product for product in plan.products if product.name == "manifest"]
+    views = {
+        name for p in plan.products if p.name in ("manifest", "compute", "pages", "wandb_runs") for name in p.outputs
+    }
+    assert set(manifest.job.inputs) == set(made(plan)) - views
+
+
+def test_a_walk_gets_the_terrains_and_pushes_that_it_names(plan: Plan) -> None:
+    walk: Any = plan.jobs.collect("knee_swing", "all_uncertainty", 1).call.arguments["settings"]
+    assert set(walk.pushes) == {"left_knee_swing"}
+    assert walk.terrain.checks is not None
+    assert walk.terrain.plates is None
+
+
+def test_an_estimate_reads_weights_fit_and_recording(plan: Plan) -> None:
+    place = ("walk_test", "all_uncertainty", 1)
+    learned, fitted = (plan.jobs.estimate(method, 0, *place) for method in ("FTS-e2e", "MOB-fric-BPF"))
+    assert [Path(name).name for name in learned.inputs] == ["s1.parquet", "weights.safetensors", "weights.safetensors"]
+    assert fitted.inputs[1] == "results/smoke/fits/MOB-fric.json"
+    assert fitted.modules == ("mobnet.estimation.kinds.band_pass", "mobnet.estimation.kinds.friction")
+
+
+def test_recordings_are_scored_only_around_pushes(plan: Plan) -> None:
+    assert not [name for name in plan.jobs.score("walk_test").inputs if "/recordings/" in name]
+    assert [name for name in plan.jobs.score("knee_swing").inputs if "/recordings/" in name]
+
+
+def test_a_setting_reruns_what_reads_it_and_nothing_else(plan: Plan) -> None:
+    settings = plan.settings
+    assert rerun(plan, changed(settings, "evaluation", "figure_07", every=11)) == {"figure_07"}
+    assert rerun(plan, changed(settings, "evaluation", "steps", bins=8)) == {"steps"}
+    assert rerun(plan, changed(settings, "evaluation", "compute", pause_s=61.0)) == {"compute"}
+    assert rerun(plan, changed(settings, "observer", gain_hz=50.0)) <= {"data_card"}
+    observed = plan.jobs.observe("walk_test", "all_uncertainty", 1).call.fingerprint
+    after = changed(settings, "observer", gain_hz=50.0).jobs.observe("walk_test", "all_uncertainty", 1)
+    assert after.call.fingerprint != observed
+    table = {**settings.evaluation.tables, "table_07": settings.evaluation.tables["table_10"]}
+    assert rerun(plan, changed(settings, "evaluation", tables=table)) >= {"table_07"}
+
+
+def test_a_push_reruns_the_walks_that_it_comes_in(plan: Plan) -> None:
+    pushes = {**plan.settings.pushes, "left_knee_swing": plan.settings.pushes["left_knee_support"]}
+    after = make_plan(plan.settings.model_copy(update={"pushes": pushes}), with_pdf=True)
+    moved = [
+        scenario
+        for scenario in plan.settings.tests
+        if plan.jobs.collect(scenario, "all_uncertainty", 1).call
+        != after.jobs.collect(scenario, "all_uncertainty", 1).call
+    ]
+    assert moved == ["knee_swing"]
+
+
+def test_every_table_and_figure_has_its_needs() -> None:
+    assert set(NEEDS) == {*TABLES, *FIGURES}
+
+
+def test_a_call_takes_what_the_signature_names() -> None:
+    call = call_of("mobnet.plan.plan:make_plan", {"settings": 1, "other": 2})
+    assert call.arguments == {"settings": 1}
+    assert parameters("mobnet.plan.call:call_of") == (("function", "available"), ())
+    with pytest.raises(ConfigError, match="make_plan: parameter: 'settings' is not accepted; accepted: other"):
+        call_of("mobnet.plan.plan:make_plan", {"other": 2})
+    with pytest.raises(
+        ConfigError, match=r"function of mobnet\.plan\.plan: 'unmake' is not accepted; accepted: make_plan"
+    ):
+        parameters("mobnet.plan.plan:unmake")
+
+
+def test_a_call_runs_its_function_and_its_fingerprint_tells_arguments_apart(tmp_path: Path) -> None:
+    call = Call("mobnet.core.files:write_text", {"path": tmp_path / "a.txt", "text": "a"})
+    call.run()
+    assert (tmp_path / "a.txt").read_text() == "a"
+    assert call.fingerprint != Call(call.function, {**call.arguments, "text": "b"}).fingerprint
+
+
+def test_files_are_found_behind_stems_networks_and_dataclasses() -> None:
+    stem, folder, file = Path("results/recordings/a/s1"), Path("results/networks/A-LL-s0"), Path("results/a.csv")
+    needs = {"a": [stem, (file, "text", 3)], "b": SweptSize("parameters", "A", (folder,))}
+    assert [path.name for path in files_in(needs)] == ["s1.parquet", "a.csv", "run.json", "metrics.csv"]
