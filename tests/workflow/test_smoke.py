@@ -20,7 +20,7 @@ from mobnet.plan.plan import Plan, make_plan
 from mobnet.settings.load import load_settings
 
 from .clicks import choose, explain, show, text_of_frame
-from .conftest import ROOT, Snakemake
+from .conftest import Snakemake
 
 SMOKE = ("--config", "scale=smoke")
 NO_OP_S = 10.0
@@ -150,21 +150,28 @@ class Edit:
     spares: frozenset[str] = frozenset()
 
 
+SIMULATION, EVALUATION = "src/mobnet/simulation", "src/mobnet/evaluation"
+NOTHING: frozenset[str] = frozenset()
+UNTOUCHED = frozenset({"table_01", "deviations"})
+DECORATED, DEFINED = "\n@compiled\n", "\n\n\ndef "
 EDITS = {
-    "wording of an error": Edit("src/mobnet/core/store.py", "file is missing", "there is no file", frozenset()),
-    "wording of a log": Edit("src/mobnet/learning/train.py", "done after epoch", "ended after epoch", frozenset()),
-    "comment": Edit("src/mobnet/simulation/friction.py", "\n@compiled\n", "\n# a comment\n@compiled\n", frozenset()),
-    "check of a name": Edit("src/mobnet/settings/references.py", "if name not in accepted", "if name and name not in accepted", frozenset()),
+    "wording of an error": Edit("src/mobnet/core/store.py", "file is missing", "there is no file", NOTHING),
+    "wording of a log": Edit("src/mobnet/learning/train.py", "done after epoch", "ended after epoch", NOTHING),
+    "comment": Edit(f"{SIMULATION}/friction.py", DECORATED, f"\n# a comment{DECORATED}", NOTHING),
+    "check of a name": Edit("src/mobnet/settings/references.py", "if name not in", "if name and name not in", NOTHING),
     "friction law": Edit(
-        "src/mobnet/simulation/friction.py", "\n@compiled\n", "\nADDED = 1\n\n\n@compiled\n",
-        frozenset({"collect"}), frozenset({"motion", "table_01", "deviations"}),
+        f"{SIMULATION}/friction.py",
+        DECORATED,
+        f"\nADDED = 1\n\n{DECORATED}",
+        frozenset({"collect"}),
+        UNTOUCHED | {"motion"},
     ),
-    "one figure's setting": Edit("configs/evaluation.yaml", "    every: 10\n", "    every: 11\n", frozenset({"figure_07"})),
-    "one table": Edit("src/mobnet/evaluation/tables/steps.py", "\ndef ", "\nADDED = 1\n\n\ndef ", frozenset({"steps"})),
+    "a figure's setting": Edit("configs/evaluation.yaml", "every: 10\n", "every: 11\n", frozenset({"figure_07"})),
+    "a table's code": Edit(f"{EVALUATION}/tables/steps.py", DEFINED, f"\n\nADDED = 1{DEFINED}", frozenset({"steps"})),
     "version of MuJoCo": Edit(
-        "environment.lock", "\nmujoco==", "\nmujoco==9", frozenset({"motion", "collect"}), frozenset({"table_01", "deviations"})
+        "environment.lock", "\nmujoco==", "\nmujoco==9", frozenset({"motion", "collect"}), UNTOUCHED
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", EDITS)
