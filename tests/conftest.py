@@ -21,6 +21,8 @@ from mobnet.robot.description import RobotDescription, load_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
+from mobnet.settings.load import load_settings
+from mobnet.settings.settings import Settings
 
 ROOT = Path(__file__).parents[1]
 RATE_HZ = 1000.0
@@ -34,6 +36,12 @@ def full_config() -> dict[str, Any]:
     config = yaml.safe_load((ROOT / "configs" / "config.yaml").read_text())
     config["robot"] = str(ROOT / config["robot"])
     return resolve({**config, "scale": "smoke"})
+
+
+@pytest.fixture(scope="session")
+def settings() -> Settings:
+    """The repository's configuration at its smoke scale."""
+    return load_settings(overrides={"scale": "smoke"})
 
 
 @pytest.fixture(scope="session")
