@@ -16,11 +16,13 @@ from browser import Browser, with_browser
 
 from mobnet.evaluation.report.pages import pages, table_page
 from mobnet.evaluation.tables.layout import markdown_table
+from mobnet.plan.products import TEMPLATES
 
 from .clicks import MENU, ROWS, choose, explain, show, text_of_frame
 from .conftest import ROOT, Snakemake
 
 CAPTIONS = ROOT / "workflow" / "report"
+TABLE_HTML = ROOT / TEMPLATES / "table.html"
 COUNTERPARTS = ["table_07", "table_10", "table_11", "figure_08", "figure_09", "figure_10"]  # the paper's: the robot
 Outputs = Callable[[str], dict[str, str]]
 OpenPage = Callable[..., Browser]
@@ -49,7 +51,8 @@ def test_a_caption_has_a_title_of_its_own_and_is_sound(path: Path) -> None:
     assert 10 < len(title) < 60  # the menu is as wide as its longest line
     assert gap == ""
     assert len(text) >= 1
-    assert title in unescape(table_page(markdown_table(["a"], [["b"]]), path.read_text()))  # docutils finds no fault
+    page = table_page(TABLE_HTML, markdown_table(["a"], [["b"]]), path.read_text())  # docutils finds no fault
+    assert title in unescape(page)
     number = re.fullmatch(r"(table|figure)_(\d\d)", path.stem)
     if number:
         assert title.startswith(f"{number[1].capitalize()} {int(number[2])}: ")
@@ -80,7 +83,8 @@ def report(make_project: Callable[..., Path], snakemake: Snakemake, outputs: Out
             path.write_text("<h1>made up</h1>")
     found = [Path(name).parts for name in made if name.endswith(".md")]
     tables = [folder.joinpath(*parts) for parts in found]
-    pages(tables, CAPTIONS / "tables", folder / "results" / "smoke" / "pages")
+    captions = [CAPTIONS / "tables" / f"{table.stem}.rst" for table in tables]
+    pages(tables, captions, TABLE_HTML, folder / "results" / "smoke" / "pages" / "first.html")
     done = snakemake("--config", "scale=smoke", "--report", "report.html", folder=folder)
     assert (folder / "report.html").is_file(), done.stdout + done.stderr
     return folder / "report.html"

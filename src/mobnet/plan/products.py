@@ -13,6 +13,7 @@ from mobnet.plan.runs import ARRAY, COURSE, WEIGHTS, Files, files_in
 from mobnet.settings.settings import Settings
 
 EVALUATION = "mobnet.evaluation"
+TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their rules: the code hash reads Python only
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "png", "csv")  # endings of a table's and of a figure's files
 TABLES = (
     "table_01",
@@ -133,8 +134,10 @@ class Products:
         numbers = {"table_csvs": csvs, "claims_csv": tables / "claims.csv"}
         yield self._report_product("numbers", numbers, [tables / "numbers.tex"])
         yield self._report_product("deviations", {"markdown": Path("docs/deviations.md")}, [tables / "deviations.tex"])
-        yield self._report_product("runs_page", {"folders": self.files.all_networks()}, [results / "runs.html"])
-        yield self._report_product("wandb_runs", {"folders": self.files.all_networks()}, [results / "wandb"])
+        networks = {"folders": self.files.all_networks()}
+        parts = [TEMPLATES / f"runs.{ending}" for ending in ("html", "css", "js")]
+        yield self._report_product("runs_page", {**networks, "templates": parts}, [results / "runs.html"])
+        yield self._report_product("wandb_runs", networks, [results / "wandb"])
 
     def _report(self, made: list[Product]) -> Iterator[Product]:
         """Yield what looks at all other products: compute, the paper, the pages of the report and the manifest."""
@@ -151,10 +154,10 @@ class Products:
         shown = [*(tables / f"{name}.md" for name in self.table_names), results / "compute.md"]
         captions = [Path(f"workflow/report/tables/{path.stem}.rst") for path in shown]
         pages = [results / "pages" / f"{path.stem}.html" for path in shown]
-        yield self._report_product("pages", {"tables": shown, "captions": captions}, pages)
-        yield self._report_product(
-            "manifest", {"files": [*map(Path, self.stored()), *outputs, *built]}, [self.folders.manifest]
-        )
+        needs = {"tables": shown, "captions": captions, "template": TEMPLATES / "table.html"}
+        yield self._report_product("pages", needs, pages)
+        listed = [*map(Path, self.stored()), *outputs, *compute, *built, *pages]
+        yield self._report_product("manifest", {"files": listed}, [self.folders.manifest])
 
     def _report_product(self, name: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:
         """Return a product of the module of its name in `report`."""

@@ -5,44 +5,28 @@ from __future__ import annotations
 import json
 import re
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from mobnet.core.config import resolve
-from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed, Truth, recording_columns
-from mobnet.evaluation.report.data_card import (
-    CARD,
-    CONFIG,
-    DRAWN,
-    card,
-    column_rows,
-    columns,
-    drawn,
-    field_texts,
-    sizes,
-)
+from mobnet.evaluation.report.data_card import CARD, DRAWN, card, column_rows, columns, drawn, field_texts, sizes
+from mobnet.settings.load import load_settings
+from mobnet.settings.scales import Scale
 
 REPO = Path(__file__).parents[3]
+SETTINGS = load_settings(overrides={"scale": "default"})
 
 
-@pytest.fixture
-def repository(full_config: dict[str, Any]) -> dict[str, Any]:
-    """The repository's configuration at its default scale."""
-    return resolve({**full_config, "scale": "default"})
-
-
-def test_the_card_is_current(repository: dict[str, Any], layout: JointLayout) -> None:
+def test_the_card_is_current() -> None:
     remedy = "python -m mobnet.evaluation.report.data_card writes it"
-    assert (REPO / CARD).read_text() == card(repository, layout), remedy
-    assert (REPO / CONFIG).is_file()
+    assert (REPO / CARD).read_text() == card(SETTINGS), remedy
 
 
-def test_every_field_is_explained_and_every_column_counted(repository: dict[str, Any], layout: JointLayout) -> None:
+def test_every_field_is_explained_and_every_column_counted() -> None:
+    layout = SETTINGS.layout
     groups = recording_columns(layout)
     assert {*field_texts(Sensed), *field_texts(Truth)} == set(groups)
-    tables = "".join(columns(repository, layout))
+    tables = "".join(columns(layout, SETTINGS.observer.gain_hz))
     counts = [int(row.split(" | ")[2]) for row in re.findall(r"^\| (?:`\w+`)? ?\|.*$|^\| `.*$", tables, re.MULTILINE)]
     assert sum(counts) == sum(map(len, groups.values())) + 2 * layout.nv
 
@@ -60,15 +44,19 @@ def test_texts_are_those_of_the_docstring() -> None:
 
 
 def test_minutes_are_recordings_times_their_length() -> None:
-    train = {"walk": {"scenario": "w", "level": "l", "shards": 6, "shard_s": 300.0}}
-    text = sizes({"s": {"train": train, "test": {"shards": 3, "shard_s": 60.0}}})
+    walk = {"scenario": "w", "level": "l", "shards": 6, "shard_s": 300.0}
+    experiments = {"e": {"epochs": 1, "seeds": [0]}}
+    scale = {"train": {"walk": walk}, "test": {"shards": 3, "shard_s": 60.0}, "experiments": experiments}
+    text = sizes({"s": Scale.model_validate(scale)})
     assert "| s | walk | w | l | 6 | 30 |" in text
     assert "| s | test | each test | as its table asks | 3 | 3 |" in text
 
 
-def test_every_number_of_a_section_is_in_its_table(repository: dict[str, Any]) -> None:
-    tables = list(drawn(repository))
-    for section in DRAWN:
-        table = next(text for text in tables if text.startswith(f"\n### `{section}`"))
-        for key, value in repository[section].items():
-            assert f"| `{key}` | {json.dumps(value)} |" in table
+@pytest.mark.parametrize(("section", "table"), list(zip(DRAWN, drawn(SETTINGS), strict=True)), ids=list(DRAWN))
+def test_every_number_of_a_section_is_in_its_table(section: str, table: str) -> None:
+    assert table.startswith(f"\n### `{section}`")
+    written = SETTINGS.model_dump(mode="json", exclude_unset=True)
+    for part in section.split("."):
+        written = written[part]
+    for key, value in written.items():
+        assert f"| `{key}` | {json.dumps(value)} |" in table

@@ -1,25 +1,20 @@
 """The paper builds where TeX exists, says what is missing where it does not, and never changes on its own."""
 
 import json
-import re
-import shutil
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
+from matplotlib.figure import Figure
 
 from mobnet.core.errors import DataError
-from mobnet.evaluation.figures.commands import commands
-from mobnet.evaluation.figures.figure_05 import figure_05
-from mobnet.evaluation.figures.figure_19 import figure_19
-from mobnet.evaluation.number.claim import read_claims
-from mobnet.evaluation.number.rows import write_rows
-from mobnet.evaluation.report import paper
 from mobnet.evaluation.report.deviations import deviations
 from mobnet.evaluation.report.numbers import numbers
-from mobnet.evaluation.report.paper import PaperError, build, collect, missing_packages
-from mobnet.evaluation.tables.claims import Verdict
+from mobnet.evaluation.report.paper import PACKAGES, PaperError, copy_sources, missing_packages, paper
+from mobnet.evaluation.tables.layout import text_table
+from mobnet.plan.products import FIGURES, Folders, Products
+from mobnet.plan.runs import Files
+from mobnet.settings.settings import Settings
 
 REPO = Path(__file__).parents[3]
 SOURCE = r"""\documentclass{article}
@@ -32,93 +27,77 @@ with_tex = pytest.mark.skipif(bool(missing_packages()), reason="TeX is not insta
 @pytest.fixture
 def source(tmp_path: Path) -> Path:
     """A small paper that inputs one table."""
-    for name in ("paper", "tables", "figures", "snapshot", "out"):
+    for name in ("paper", "tables", "figures"):
         (tmp_path / name).mkdir()
-    (tmp_path / "snapshot/compute.tex").write_text("hours")
     (tmp_path / "tables/table_05.tex").write_text("nineteen")
+    (tmp_path / "paper/refs.bib").write_text("")
     (tmp_path / "paper/main.tex").write_text(SOURCE)
     return tmp_path / "paper/main.tex"
 
 
-def run(config: dict[str, Any], source: Path) -> dict[str, Any]:
-    """Build and return the status."""
+def build(source: Path) -> Any:
+    """Build the paper into a folder `out` and return the note."""
     root = source.parents[1]
-    build(config, source, root / "tables", root / "figures", root / "snapshot", root / "out/main.pdf")
+    paper("default", source, source.with_name("refs.bib"), [root / "tables/table_05.tex"], [], root / "out/build.json")
     return json.loads((root / "out/build.json").read_text())
 
 
-def test_without_tex_the_status_names_the_packages(
-    config: dict[str, Any], source: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
-) -> None:
-    monkeypatch.setattr(paper.shutil, "which", lambda name: None)
-    status = run(config, source)
-    assert status["pdf"] is None
-    assert "latexmk" in status["missing_packages"]
-    assert "apt-get install texlive-latex-recommended texlive-publishers" in caplog.text
-    assert not (source.parents[1] / "out/main.pdf").exists()
-
-
-def test_a_stale_pdf_does_not_outlive_its_tex(
-    config: dict[str, Any], source: Path, monkeypatch: pytest.MonkeyPatch
+def test_without_tex_the_note_names_the_packages_and_no_old_pdf_is_left(
+    source: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     stale = source.parents[1] / "out/main.pdf"
+    stale.parent.mkdir()
     stale.write_text("old")
-    monkeypatch.setattr(paper.shutil, "which", lambda name: None)
-    run(config, source)
+    monkeypatch.setattr("shutil.which", lambda name: None)
+    assert build(source) == {"scale": "default", "pdf": None, "missing_packages": list(PACKAGES)}
+    assert "apt-get install texlive-latex-recommended texlive-publishers" in caplog.text
     assert not stale.exists()
 
 
 @with_tex
-def test_with_tex_equal_input_gives_equal_bytes(config: dict[str, Any], source: Path) -> None:
+def test_with_tex_equal_input_gives_equal_bytes(source: Path) -> None:
     pdf = source.parents[1] / "out/main.pdf"
-    assert run(config, source) == {"scale": "default", "pdf": "main.pdf", "missing_packages": []}
+    assert build(source) == {"scale": "default", "pdf": "main.pdf", "missing_packages": []}
     once = pdf.read_bytes()
-    run(config, source)
+    build(source)
     assert pdf.read_bytes() == once
     assert once.startswith(b"%PDF")
 
 
 @with_tex
-def test_the_paper_itself_builds_from_the_golden_tables(
-    config: dict[str, Any], tmp_path: Path, walk: Callable[..., dict[str, Any]], data_sets: dict[str, list[str]]
-) -> None:
-    for golden in (REPO / "tests/golden").glob("*.tex"):
-        (tmp_path / golden.name).write_text(golden.read_text())
+def test_the_paper_itself_builds_from_the_golden_tables(tmp_path: Path, claims_csv: Path, settings: Settings) -> None:
+    """Every figure is the same picture."""
+    folders = Folders(tmp_path, tmp_path, tmp_path, tmp_path / "out", tmp_path / "MANIFEST.sha256")
+    products = Products(settings, Files(settings, tmp_path), folders, with_pdf=True)
+    golden = REPO / "tests/golden"
     deviations(REPO / "docs/deviations.md", tmp_path / "deviations.tex")
-    verdicts = [
-        Verdict(c.name, c.printed, c.says, c.published, 1.0, 0.9, 1.1, 6, c.unit, "yes", "-", "reproduced", c.cause)
-        for c in read_claims(REPO / "configs/claims.yaml")
-    ]
-    write_rows(tmp_path / "claims.csv", Verdict, verdicts)
-    numbers(config, [REPO / "tests/golden/table_05.csv"], tmp_path / "claims.csv", tmp_path / "numbers.tex")
-    figure_05(config, [walk(1.0, method="MOB"), walk(2.0)], tmp_path)
-    figure_19(config, {"with RTE": data_sets["walk"]}, [{"scenario": "t", "recordings": data_sets["test"]}], tmp_path)
-    commands(config, {"walk": data_sets["walk"]}, tmp_path)
-    for name in re.findall(r"\\figures/(\w+)", (REPO / "paper/main.tex").read_text()):
-        if not (tmp_path / f"{name}.pdf").exists():  # one that needs trained networks: any picture in its place
-            shutil.copy(tmp_path / "figure_05.pdf", tmp_path / f"{name}.pdf")
-    build(config, REPO / "paper/main.tex", tmp_path, tmp_path, REPO / "docs/results", tmp_path / "out/main.pdf")
+    numbers(
+        settings.scale, settings.rates, settings.sizes, [golden / "table_05.csv"], claims_csv, tmp_path / "numbers.tex"
+    )
+    (tmp_path / "compute.tex").write_text(text_table("lr", ["Stage", "Jobs"], [["collect", "1"]]))
+    tables = [golden / f"{name}.tex" for name in products.table_names]
+    tables += [tmp_path / f"{name}.tex" for name in ("numbers", "deviations", "compute")]
+    figures = [tmp_path / f"{name}.pdf" for name in FIGURES]
+    for path in figures:
+        Figure().savefig(path)
+    main, references = REPO / "paper/main.tex", REPO / "paper/refs.bib"
+    paper(settings.scale, main, references, tables, figures, tmp_path / "out/build.json")
     assert (tmp_path / "out/main.pdf").stat().st_size > 50_000
 
 
 @with_tex
-def test_an_error_of_tex_is_shown_and_leaves_no_pdf(config: dict[str, Any], source: Path) -> None:
+def test_an_error_of_tex_is_shown_and_leaves_no_pdf(source: Path) -> None:
     source.write_text(SOURCE.replace("table_05", "table_99"))
     with pytest.raises(PaperError, match=r"table_99"):
-        run(config, source)
-    assert list((source.parents[1] / "out").iterdir()) == []
+        build(source)
+    assert not (source.parents[1] / "out").exists()
 
 
-def test_a_missing_source_is_named(config: dict[str, Any], tmp_path: Path) -> None:
-    with pytest.raises(DataError, match=r"none\.tex: file is missing"):
-        build(config, tmp_path / "none.tex", tmp_path, tmp_path, tmp_path, tmp_path / "main.pdf")
-
-
-def test_only_what_the_paper_needs_is_collected(source: Path, tmp_path: Path) -> None:
-    (tmp_path / "tables/table_05.csv").write_text("x")
-    folder = tmp_path / "build"
+def test_files_are_copied_into_folders_and_a_missing_one_is_named(source: Path, tmp_path: Path) -> None:
+    folder, table = tmp_path / "build", tmp_path / "tables/table_05.tex"
     folder.mkdir()
-    places = (tmp_path / name for name in ("tables", "figures", "snapshot"))
-    assert collect(source, *places, folder) == folder / "main.tex"
+    copy_sources({".": [source], "tables": [table], "figures": []}, folder)
     found = sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
-    assert found == ["main.tex", "snapshot/compute.tex", "tables/table_05.tex"]
+    assert found == ["main.tex", "tables/table_05.tex"]
+    with pytest.raises(DataError, match=r"none\.tex: file is missing"):
+        copy_sources({".": [tmp_path / "none.tex"]}, folder)

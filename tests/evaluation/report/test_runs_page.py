@@ -13,7 +13,9 @@ import pytest
 from browser import Browser, with_browser
 
 from mobnet.evaluation.report.runs_page import COLUMNS, runs_page
+from mobnet.plan.products import TEMPLATES
 
+REPO = Path(__file__).parents[3]
 RUNS = {  # name -> cell, best validation loss, RMSE [N m]; the first one diverged before its first epoch ended
     "FTS-e2e-LL-s0": ("GRU", None, None),
     "GRU-LL-s0": ("GRU", -5.0, 1.5),
@@ -52,7 +54,8 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def make_page(root: Path) -> Path:
     """Write the page of all runs below a folder."""
-    runs_page({"scale": "default"}, sorted((root / "networks").iterdir()), root / "runs.html")
+    parts = [REPO / TEMPLATES / f"runs.{ending}" for ending in ("html", "css", "js")]
+    runs_page("default", sorted((root / "networks").iterdir()), parts, root / "runs.html")
     return root / "runs.html"
 
 

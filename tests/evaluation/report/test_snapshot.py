@@ -8,7 +8,6 @@ import pytest
 
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json
-from mobnet.evaluation.report import snapshot as module
 from mobnet.evaluation.report.snapshot import (
     HEADLINE,
     compare_snapshot,
@@ -17,54 +16,45 @@ from mobnet.evaluation.report.snapshot import (
     with_headline,
     write_snapshot,
 )
+from mobnet.settings.load import load_settings
 
 REPO = Path(__file__).parents[3]
+SETTINGS = load_settings()
+TABLES, FIGURES, COMPUTE, STORED = (Path(name) for name in ("tables", "figures", "compute.md", "docs/results"))
 TABLE = (
     "scenario,level,method,joint,metric,value,published\nwalk,ideal,MOB,LL1,rmse,1.5,2\nwalk,ideal,MOB,LL2,rmse,3,4\n"
 )
-CONFIG = {"scale": "default"}
 
 
 @pytest.fixture
-def stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A working folder with a fresh table and a snapshot of it."""
     monkeypatch.chdir(tmp_path)
-    made = {
-        "tables/table_05.csv": TABLE,
-        "tables/table_05.md": "x",
-        "figures/figure_05.png": "png",
-        "results/c.md": "c",
-    }
-    for name, text in made.items():
-        Path(name).parent.mkdir(exist_ok=True)
-        Path(name).write_text(text)
-    write_snapshot(CONFIG, Path("tables"), Path("figures"), Path("docs/results"), [Path("results/c.md")])
-    return tmp_path
+    made = {TABLES / "table_05.csv": TABLE, TABLES / "table_05.md": "x", FIGURES / "figure_05.png": "p", COMPUTE: "c"}
+    for path, text in made.items():
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(text)
+    write_snapshot(SETTINGS, TABLES, FIGURES, COMPUTE, STORED)
 
 
 def rewrite(old: str, new: str) -> list[str]:
     """Return the differences after an edit of the fresh table."""
-    Path("tables/table_05.csv").write_text(TABLE.replace(old, new))
-    return compare_snapshot(Path("docs/results"), Path("tables"))
+    (TABLES / "table_05.csv").write_text(TABLE.replace(old, new))
+    return compare_snapshot(STORED, TABLES)
 
 
 @pytest.mark.usefixtures("stored")
 def test_snapshot_holds_tables_and_pictures_with_their_origin() -> None:
-    names = sorted(path.name for path in Path("docs/results").iterdir())
-    assert names == ["c.md", "figure_05.png", "provenance.json", "table_05.csv", "table_05.md"]
-    assert set(read_json(Path("docs/results/provenance.json"))) == {"scale", "commit", "lock", "config"}
-
-
-@pytest.mark.usefixtures("stored")
-def test_identical_tables_do_not_differ() -> None:
-    """Identity: nothing differs from itself."""
-    assert rewrite("", "") == []
+    names = sorted(path.name for path in STORED.iterdir())
+    assert names == ["compute.md", "figure_05.png", "provenance.json", "table_05.csv", "table_05.md"]
+    assert set(read_json(STORED / "provenance.json")) == {"scale", "commit", "lock", "config"}
 
 
 @pytest.mark.usefixtures("stored")
 @pytest.mark.parametrize(
     ("old", "new", "told"),
     [
+        ("", "", []),
         ("1.5", "1.6", ["table_05.csv: walk ideal MOB LL1 rmse: value 1.5 -> 1.6"]),
         ("walk,ideal,MOB,LL2,rmse,3,4\n", "", ["table_05.csv: walk ideal MOB LL2 rmse: row is gone"]),
         ("MOB,LL1", "MOB,LL3", ["walk ideal MOB LL1 rmse: row is gone", "walk ideal MOB LL3 rmse: row is new"]),
@@ -77,30 +67,22 @@ def test_a_changed_cell_and_a_changed_row_are_told_once(old: str, new: str, told
 
 
 @pytest.mark.usefixtures("stored")
-def test_missing_table_is_told() -> None:
-    Path("tables/table_05.csv").unlink()
-    assert compare_snapshot(Path("docs/results"), Path("tables")) == [
-        "tables/table_05.csv: file is missing; ./reproduce all makes it"
-    ]
-
-
-def test_nothing_to_store_or_to_compare_is_an_error(tmp_path: Path) -> None:
-    with pytest.raises(DataError, match="holds no CSV"):
-        write_snapshot(CONFIG, tmp_path, tmp_path, tmp_path / "out")
-    with pytest.raises(DataError, match="holds no CSV"):
-        compare_snapshot(tmp_path, tmp_path)
-
-
-@pytest.mark.usefixtures("stored")
-def test_a_file_that_is_not_there_is_named_and_nothing_is_copied() -> None:
-    with pytest.raises(DataError, match=r"results/none\.md: file is missing"):
-        write_snapshot(CONFIG, Path("tables"), Path("figures"), Path("out"), [Path("results/none.md")])
+def test_a_missing_file_is_named_and_nothing_is_copied() -> None:
+    with pytest.raises(DataError, match=r"none\.md: file is missing; \./reproduce all makes it"):
+        write_snapshot(SETTINGS, TABLES, FIGURES, Path("none.md"), Path("out"))
     assert not Path("out").exists()
+    (TABLES / "table_05.csv").unlink()
+    told = ["tables/table_05.csv: file is missing; ./reproduce all makes it"]
+    assert compare_snapshot(STORED, TABLES) == told
+    with pytest.raises(DataError, match="tables: holds no CSV"):
+        write_snapshot(SETTINGS, TABLES, FIGURES, COMPUTE, Path("out"))
+    with pytest.raises(DataError, match="tables: holds no CSV"):
+        compare_snapshot(TABLES, STORED)
 
 
 @pytest.mark.usefixtures("stored")
 def test_exit_status_tells_whether_anything_differs(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module.logging, "basicConfig", lambda **_: None)
+    monkeypatch.setattr("logging.basicConfig", lambda **_: None)
     assert main(["compare"]) == 0
     assert rewrite("1.5", "1.6")
     assert main(["compare"]) == 1
@@ -112,20 +94,16 @@ def test_the_headline_replaces_what_stood_between_the_marks_and_nothing_else() -
     once = with_headline(page, "| new |\n")
     assert once == page.replace("old", "| new |")
     assert with_headline(once, "| new |\n") == once
-
-
-def test_a_page_without_marks_is_refused() -> None:
     with pytest.raises(DataError, match="marks"):
         with_headline("no marks", "| new |")
 
 
 def test_the_readme_shows_the_committed_headline_table() -> None:
-    root = Path(__file__).parents[3]
-    page, table = (root / "README.md").read_text(), (root / "docs" / "results" / f"{HEADLINE}.md").read_text()
+    page, table = (REPO / "README.md").read_text(), (REPO / "docs" / "results" / f"{HEADLINE}.md").read_text()
     assert with_headline(page, table) == page
 
 
 @pytest.mark.parametrize("stored", sorted((REPO / "docs/results").glob("*.csv")), ids=lambda path: path.stem)
 def test_every_row_of_the_stored_tables_has_a_name_of_its_own(stored: Path) -> None:
-    """Else `compare` would look at the last one of a name alone."""
+    """Otherwise `compare` would look only at the last row of a name."""
     assert len(read_keyed(stored)) == len(stored.read_text().splitlines()) - 1

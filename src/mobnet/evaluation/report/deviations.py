@@ -6,25 +6,21 @@ import re
 from pathlib import Path
 
 from mobnet.core.errors import DataError
-from mobnet.core.files import write_text
+from mobnet.core.files import read_text, write_text
 from mobnet.evaluation.tables.layout import tex_escape, tex_table
 
 WIDTHS = (0.13, 0.25, 0.24, 0.30)  # shares of the text width, one a column
 
 
-def deviations(markdown: Path, out_tex: Path) -> None:
+def deviations(markdown: Path, out: Path) -> None:
     """Write the table of a Markdown file as a TeX tabular.
 
     Raises:
         DataError: the file is missing, or its table is not as wide as the paper's.
     """
-    try:
-        text = markdown.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise DataError(f"{markdown}: file is missing") from None
-    header, *rows = markdown_rows(text, str(markdown))
+    header, *rows = markdown_rows(read_text(markdown), str(markdown))
     columns = "".join(rf">{{\raggedright\arraybackslash}}p{{{width}\textwidth}}" for width in WIDTHS)
-    write_text(out_tex, tex_table(columns, list(map(tex_text, header)), [list(map(tex_text, row)) for row in rows]))
+    write_text(out, tex_table(columns, list(map(tex_text, header)), [list(map(tex_text, row)) for row in rows]))
 
 
 def markdown_rows(text: str, name: str) -> list[list[str]]:

@@ -1,4 +1,8 @@
-"""The list of every result file with its hash, as sha256sum writes and reads it."""
+"""The list of every result file with its hash, in the format of sha256sum.
+
+It tells whether files are still what their run wrote. Some differ from one run to the next: `run.json` and `runs.html`
+hold times, and so do the table of compute, its page and the paper.
+"""
 
 from __future__ import annotations
 
@@ -12,8 +16,8 @@ from mobnet.core.files import write_text
 BETWEEN = "  "  # sha256sum's text between hash and name
 
 
-def write_manifest(files: Iterable[Path], out: Path) -> None:
-    """Write one line a file, sorted by name: SHA-256 and path as given.
+def manifest(files: Iterable[Path], out: Path) -> None:
+    """Write one line for each file, sorted by name: SHA-256 and path as given.
 
     Raises:
         DataError: a file is missing.
@@ -22,16 +26,18 @@ def write_manifest(files: Iterable[Path], out: Path) -> None:
     write_text(out, "".join(lines))
 
 
-def damaged_files(manifest: Path) -> list[str]:
-    """Return one line for each file that is missing or differs from a manifest; its paths are seen from here.
+def damaged_files(listed: Path) -> list[str]:
+    """Return one line for each file that is missing or differs from its hash; paths are relative to the working folder.
+
+    Args:
+        listed: file that `manifest` wrote.
 
     Raises:
-        DataError: the manifest is missing.
+        DataError: it is missing.
     """
-    try:
-        lines = manifest.read_text(encoding="utf-8").splitlines()
-    except FileNotFoundError:
-        raise DataError(f"{manifest}: file is missing; ./reproduce all writes it") from None
+    if not listed.is_file():
+        raise DataError(f"{listed}: file is missing; ./reproduce all writes it")
+    lines = listed.read_text(encoding="utf-8").splitlines()
     return [fault for fault in (_fault(*line.split(BETWEEN, 1)) for line in lines) if fault]
 
 

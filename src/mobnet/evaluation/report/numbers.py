@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from mobnet.core.files import write_text
 from mobnet.evaluation.number.rows import Cell, read_rows
 from mobnet.evaluation.tables.claims import VERDICTS, Verdict, ours_text
 from mobnet.evaluation.tables.layout import number, tex_escape
+from mobnet.settings.plant import Rates
+from mobnet.settings.scales import Scale
 
 LOOKUP = r"""% Written by mobnet.evaluation.report.numbers; do not edit.
 \newcommand{\lookup}[1]{\ifcsname #1\endcsname\csname #1\endcsname\else\errmessage{numbers.tex has no #1}\fi}
@@ -28,24 +29,27 @@ MINUTE_S = 60.0
 MILLION = 1e6
 
 
-def numbers(config: Mapping[str, Any], tables: Iterable[Path], claims_csv: Path, out_tex: Path) -> None:
+def numbers(scale: str, rates: Rates, sizes: Scale, table_csvs: Sequence[Path], claims_csv: Path, out: Path) -> None:
     r"""Write the macros that the paper's text uses.
 
-    \ourcell{scenario}{level}{method}{joint}{metric} and \publishedcell give a cell of any table (metric: `mean` where
-    it is over some), \ours{level}{method}{joint} and \published one of Table 5; \claimed{claim}, \found, \foundspan
-    (its interval), \verdict and \cause what became of a claim; \size{name} the scale's sizes and how many claims hold.
+    \ourcell{scenario}{level}{method}{joint}{metric} and \publishedcell give a cell of any table (metric: `mean` if it
+    is the mean of some), \ours{level}{method}{joint} and \published a cell of Table 5. \claimed{claim} gives the
+    paper's number of a claim, \found and \foundspan ours and its interval, \verdict and \cause the judgement.
+    \size{name} gives sizes of the scale and how many claims have each verdict.
 
     Args:
-        config: resolved configuration; its sizes become \size.
-        tables: cells of Tables 5, 6, 7, 10 and 11.
-        claims_csv: judged claims.
-        out_tex: TeX file to \input before the text.
+        scale: name of the scale.
+        rates: sampling rates.
+        sizes: the scale.
+        table_csvs: the tables of errors.
+        claims_csv: the judged claims.
+        out: TeX file to \input before the text.
 
     Raises:
         DataError: a file is missing or damaged.
     """
-    values = {f"size@{name}": text for name, text in size_texts(config).items()}
-    for path in tables:
+    values = {f"size@{name}": text for name, text in size_texts(scale, rates, sizes).items()}
+    for path in table_csvs:
         for cell in read_rows(path, Cell):
             values |= cell_texts(cell)
     verdicts = read_rows(claims_csv, Verdict)
@@ -53,7 +57,7 @@ def numbers(config: Mapping[str, Any], tables: Iterable[Path], claims_csv: Path,
         values |= claim_texts(row)
     values |= {f"size@{kind}": str(sum(row.verdict == kind for row in verdicts)) for kind in VERDICTS}
     values["size@claims"] = str(len(verdicts))
-    write_text(out_tex, LOOKUP + "".join(map(tex_definition, values.items())))
+    write_text(out, LOOKUP + "".join(map(tex_definition, values.items())))
 
 
 def cell_texts(cell: Cell) -> dict[str, str]:
@@ -76,18 +80,17 @@ def tex_definition(item: tuple[str, str]) -> str:
     return rf"\expandafter\def\csname {name}\endcsname{{{text}}}" + "\n"
 
 
-def size_texts(config: Mapping[str, Any]) -> dict[str, str]:
-    """Return the sizes of the chosen scale as texts: minutes [min], million samples, epochs, seeds."""
-    sizes = config["sizes"]
-    train, test, legs = sizes["train"]["walk"], sizes["test"], sizes["experiments"]["left_leg"]
+def size_texts(scale: str, rates: Rates, sizes: Scale) -> dict[str, str]:
+    """Return the sizes of a scale as texts: minutes [min], million samples, epochs, seeds."""
+    train, legs = sizes.train["walk"], sizes.experiments["left_leg"]
     return {
-        "scale": tex_escape(config["scale"]),
-        "train minutes": f"{train['shards'] * train['shard_s'] / MINUTE_S:g}",
-        "train samples": f"{train['shards'] * train['shard_s'] * config['rates']['data_hz'] / MILLION:.2g}",
-        "test runs": str(test["shards"]),
-        "test seconds": f"{test['shard_s']:g}",
-        "network runs": str(len(legs["seeds"])),
-        "epochs": str(legs["epochs"]),
-        **{f"{name} runs": str(len(row["seeds"])) for name, row in sizes["experiments"].items()},
-        **{f"{name} epochs": str(row["epochs"]) for name, row in sizes["experiments"].items()},
+        "scale": tex_escape(scale),
+        "train minutes": f"{train.shards * train.shard_s / MINUTE_S:g}",
+        "train samples": f"{train.shards * train.shard_s * rates.data_hz / MILLION:.2g}",
+        "test runs": str(sizes.test.shards),
+        "test seconds": f"{sizes.test.shard_s:g}",
+        "network runs": str(len(legs.seeds)),
+        "epochs": str(legs.epochs),
+        **{f"{name} runs": str(len(row.seeds)) for name, row in sizes.experiments.items()},
+        **{f"{name} epochs": str(row.epochs) for name, row in sizes.experiments.items()},
     }

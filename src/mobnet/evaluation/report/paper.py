@@ -1,4 +1,4 @@
-"""Build the paper where TeX exists; elsewhere say what to install and go on."""
+"""The paper as PDF where TeX is installed; elsewhere a note of what to install."""
 
 from __future__ import annotations
 
@@ -9,56 +9,52 @@ import subprocess
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from mobnet.core.errors import DataError, MobnetError
 from mobnet.core.files import atomic_path, write_json
 
 log = logging.getLogger(__name__)
 
-NEEDED = {  # file that TeX must find -> Debian package that brings it
+NEEDED = {  # file that TeX must find -> Debian package that holds it
     "article.cls": "texlive-latex-base",
     "booktabs.sty": "texlive-latex-recommended",
     "IEEEtran.cls": "texlive-publishers",
     "ptmr7t.tfm": "texlive-fonts-recommended",
 }
 PACKAGES = ("texlive-latex-recommended", "texlive-publishers", "texlive-fonts-recommended", "latexmk")
+TABLES, FIGURES = "tables", "figures"  # folders beside the copy of the paper that TeX reads
 LOG_LINES = 15
 EPOCH = "0"  # date of the PDF unless SOURCE_DATE_EPOCH says another: equal input gives equal bytes
 
 
 class PaperError(MobnetError):
-    """TeX is there but could not set the paper."""
+    """TeX is installed but could not set the paper."""
 
 
-def build(
-    config: Mapping[str, Any], main_tex: Path, tables_dir: Path, figures_dir: Path, snapshot_dir: Path, out_pdf: Path
-) -> None:
-    """Set the paper with latexmk and write a status file beside the PDF, also where TeX is missing.
+def paper(scale: str, main: Path, references: Path, tables: Sequence[Path], figures: Sequence[Path], out: Path) -> None:
+    """Set the paper with latexmk, and write a note of it also where TeX is missing.
 
     Args:
-        config: resolved configuration; its scale is noted.
-        main_tex: the paper; refs.bib lies beside it.
-        tables_dir: tables that it inputs, *.tex.
-        figures_dir: figures that it includes, *.pdf.
-        snapshot_dir: tables that it inputs as they were committed, *.tex: what differs from run to run.
-        out_pdf: the PDF; `build.json` beside it says whether it was built, and what is missing if not.
+        scale: name of the scale.
+        main: the paper's TeX.
+        references: its BibTeX file.
+        tables: TeX files that it inputs.
+        figures: PDF files that it includes.
+        out: the note (JSON): scale, name of the PDF beside it or null, missing packages.
 
     Raises:
         PaperError: TeX failed; the message holds the end of its log.
-        DataError: the paper's source is missing.
+        DataError: a file is missing.
     """
-    if not main_tex.is_file():
-        raise DataError(f"{main_tex}: file is missing")
-    missing = missing_packages()
-    out_pdf.unlink(missing_ok=True)
+    pdf, missing = out.with_name(f"{main.stem}.pdf"), missing_packages()
+    pdf.unlink(missing_ok=True)
     if missing:
-        log.warning("%s: no PDF, TeX is not complete; install: apt-get install %s", out_pdf, " ".join(PACKAGES))
+        log.warning("%s: no PDF, TeX is not complete; install: apt-get install %s", pdf, " ".join(PACKAGES))
     else:
         with tempfile.TemporaryDirectory() as folder:
-            compile_pdf(collect(main_tex, tables_dir, figures_dir, snapshot_dir, Path(folder)), out_pdf)
-    status = {"scale": config["scale"], "pdf": None if missing else out_pdf.name, "missing_packages": missing}
-    write_json(out_pdf.with_name("build.json"), status)
+            copy_sources({".": [main, references], TABLES: tables, FIGURES: figures}, Path(folder))
+            compile_pdf(Path(folder) / main.name, pdf)
+    write_json(out, {"scale": scale, "pdf": None if missing else pdf.name, "missing_packages": missing})
 
 
 def missing_packages() -> list[str]:
@@ -73,19 +69,22 @@ def _found(name: str) -> bool:
     return subprocess.run(["kpsewhich", name], capture_output=True, check=False).returncode == 0
 
 
-def collect(main_tex: Path, tables_dir: Path, figures_dir: Path, snapshot_dir: Path, folder: Path) -> Path:
-    """Copy the paper's source, tables and figures into an empty folder and return the copy of the source."""
-    for source in (main_tex, *main_tex.parent.glob("*.bib")):
-        shutil.copy(source, folder / source.name)
-    for name, source_dir in (("tables", tables_dir), ("figures", figures_dir), ("snapshot", snapshot_dir)):
-        (folder / name).mkdir()
-        for source in sorted(source_dir.glob("*.pdf" if name == "figures" else "*.tex")):
-            shutil.copy(source, folder / name / source.name)
-    return folder / main_tex.name
+def copy_sources(sources: Mapping[str, Sequence[Path]], folder: Path) -> None:
+    """Copy files into folders below an empty one.
+
+    Raises:
+        DataError: a file is missing.
+    """
+    for name, paths in sources.items():
+        (folder / name).mkdir(exist_ok=True)
+        for path in paths:
+            if not path.is_file():
+                raise DataError(f"{path}: file is missing")
+            shutil.copy(path, folder / name)
 
 
-def compile_pdf(source: Path, out_pdf: Path) -> None:
-    """Run latexmk in the source's folder and put the PDF in its place.
+def compile_pdf(source: Path, out: Path) -> None:
+    """Run latexmk in the source's folder and write the PDF.
 
     Raises:
         PaperError: TeX failed; the message holds the end of its log.
@@ -96,12 +95,12 @@ def compile_pdf(source: Path, out_pdf: Path) -> None:
     )  # fmt: skip
     if run.returncode != 0:
         lines = [line for line in run.stdout.splitlines() if line.strip()]
-        raise PaperError(f"{out_pdf}: latexmk ended with {run.returncode}:\n" + "\n".join(lines[-LOG_LINES:]))
-    with atomic_path(out_pdf) as temporary:
+        raise PaperError(f"{out}: latexmk ended with {run.returncode}:\n" + "\n".join(lines[-LOG_LINES:]))
+    with atomic_path(out) as temporary:
         shutil.copy(source.with_suffix(".pdf"), temporary)
 
 
 def latexmk_command(name: str) -> Sequence[str]:
-    """Return the command that sets a paper whose tables and figures lie in folders beside it."""
-    folders = r"\def\tables{tables}\def\figures{figures}\def\snapshot{snapshot}"
+    """Return the command that sets a paper whose tables and figures are in folders beside it."""
+    folders = rf"\def\tables{{{TABLES}}}\def\figures{{{FIGURES}}}\def\results{{{TABLES}}}"
     return ("latexmk", "-pdf", "-norc", "-interaction=nonstopmode", "-halt-on-error", f"-usepretex={folders}", name)

@@ -1,19 +1,18 @@
-"""The page of all trainings: one HTML file that needs nothing else, a table with a curve in every row.
+"""The page of all trainings: one HTML file that needs no other, with a table that has curves in every row.
 
-What it shows (order, filter, opened rows) stands in the address: `runs.html#sort=-rmse&filter=LSTM&open=LSTM-LL-s0`.
+The address holds what is shown (order, filter, opened rows): `runs.html#sort=-rmse&filter=LSTM&open=LSTM-LL-s0`.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from mobnet.core.files import write_text
 from mobnet.evaluation.report.charts import Chart, line_chart
-from mobnet.evaluation.report.pages import rendered
+from mobnet.evaluation.report.html import rendered
 from mobnet.evaluation.report.training_runs import DIVERGED, TrainingRun, read_training_run
 
 MISSING = "–"
@@ -60,24 +59,25 @@ COLUMNS = (
 )
 
 
-def runs_page(config: Mapping[str, Any], folders: Sequence[Path], page: Path) -> None:
+def runs_page(scale: str, folders: Sequence[Path], templates: Sequence[Path], out: Path) -> None:
     """Write the page of all trainings.
 
     Args:
-        config: resolved configuration; its scale is named.
-        folders: each training's, with its `run.json` and `metrics.csv`.
-        page: HTML file; links to the metrics are relative to it.
+        scale: name of the scale, for the title.
+        folders: folder of each trained network, with its `run.json` and `metrics.csv`.
+        templates: the page's HTML, then the files that it includes.
+        out: HTML file; its links to the metrics are relative.
 
     Raises:
         DataError: a file is missing or damaged.
     """
     runs = sorted(map(read_training_run, folders), key=lambda run: (run.method, run.limb, run.seed))
     text = rendered(
-        "runs.html", scale=config["scale"], columns=COLUMNS, runs=runs, diverged=DIVERGED,
+        templates[0], scale=scale, columns=COLUMNS, runs=runs, diverged=DIVERGED,
         charts={run.name: charts(run) for run in runs},
-        links={run.name: os.path.relpath(run.metrics, page.parent) for run in runs},
+        links={run.name: os.path.relpath(run.metrics, out.parent) for run in runs},
     )  # fmt: skip
-    write_text(page, text)
+    write_text(out, text)
 
 
 def charts(run: TrainingRun) -> list[Chart]:

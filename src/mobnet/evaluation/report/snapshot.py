@@ -1,6 +1,6 @@
-"""The committed snapshot of the default scale's results: write it, and say what differs from it.
+"""The committed snapshot of the default scale's results: writing it, and finding what differs from it.
 
-`python -m mobnet.evaluation.report.snapshot {snapshot,compare,verify}` is what ./reproduce calls.
+`./reproduce` calls `python -m mobnet.evaluation.report.snapshot {snapshot,compare,verify}`.
 """
 
 from __future__ import annotations
@@ -10,21 +10,20 @@ import csv
 import logging
 import shutil
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
 
-from mobnet.core.config import load_config
 from mobnet.core.errors import DataError, MobnetError
 from mobnet.core.files import atomic_path, write_json, write_text
 from mobnet.core.provenance import provenance
 from mobnet.evaluation.report.manifest import damaged_files
+from mobnet.settings.load import load_settings
+from mobnet.settings.settings import Settings
 
 log = logging.getLogger(__name__)
 
-CONFIG, TABLES, FIGURES = Path("configs/config.yaml"), Path("tables"), Path("figures")
-SNAPSHOT, MANIFEST = Path("docs/results"), Path("results/MANIFEST.sha256")
-COMPUTE = (Path("results/default/compute.md"), Path("results/default/compute.tex"))  # nothing to compare: no CSV
+TABLES, FIGURES, SNAPSHOT = Path("tables"), Path("figures"), Path("docs/results")
+COMPUTE, MANIFEST = Path("results/default/compute.md"), Path("results/MANIFEST.sha256")
 README, HEADLINE = Path("README.md"), "table_05"
 KEYS = (  # columns that name a row; the others are results
     "scenario", "level", "method", "joint", "metric", "claim",
@@ -33,16 +32,21 @@ KEYS = (  # columns that name a row; the others are results
 Rows = dict[tuple[str, ...], dict[str, str]]
 
 
-def write_snapshot(
-    config: Mapping[str, Any], tables: Path, figures: Path, out: Path, others: Sequence[Path] = ()
-) -> None:
-    """Copy a scale's tables (CSV, Markdown), figures (PNG) and other files, and note where they come from.
+def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Path, out: Path) -> None:
+    """Copy a scale's tables (CSV, Markdown), figures (PNG) and table of compute, and note where they come from.
+
+    Args:
+        settings: the configuration behind them.
+        tables: folder of the tables.
+        figures: folder of the figures.
+        compute: table of compute (Markdown); it differs from run to run, so its CSV is not stored to be compared.
+        out: folder of the snapshot.
 
     Raises:
         DataError: there is no table to copy, or a file is missing.
     """
     numbers = sorted(tables.glob("*.csv"))
-    found = [*numbers, *(path.with_suffix(".md") for path in numbers), *sorted(figures.glob("*.png")), *others]
+    found = [*numbers, *(path.with_suffix(".md") for path in numbers), *sorted(figures.glob("*.png")), compute]
     if not numbers:
         raise DataError(f"{tables}: holds no CSV; ./reproduce all makes them")
     missing = [path for path in found if not path.is_file()]
@@ -51,7 +55,7 @@ def write_snapshot(
     for source in found:
         with atomic_path(out / source.name) as temporary:
             shutil.copyfile(source, temporary)
-    write_json(out / "provenance.json", {"scale": config["scale"], **provenance(config)})
+    write_json(out / "provenance.json", {"scale": settings.scale, **provenance(settings.model_dump(mode="json"))})
     log.info("%s: %d files", out, len(found))
 
 
@@ -118,7 +122,7 @@ def main(words: list[str]) -> int:
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
     try:
         if options.command == "snapshot":
-            write_snapshot(load_config(CONFIG), TABLES, FIGURES, SNAPSHOT, COMPUTE)
+            write_snapshot(load_settings(), TABLES, FIGURES, COMPUTE, SNAPSHOT)
             table = (SNAPSHOT / f"{HEADLINE}.md").read_text(encoding="utf-8")
             write_text(README, with_headline(README.read_text(encoding="utf-8"), table))
             return 0
