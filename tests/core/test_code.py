@@ -14,7 +14,7 @@ from mobnet.core import code
 from mobnet.core.code import code_hash, lock_lines, module_files, read, required
 from mobnet.core.errors import ConfigError
 
-CACHED = (code.reached, read, module_files, lock_lines, required)
+CACHED = (code_hash, read, module_files, lock_lines, required)
 ONE = '''"""One."""
 import logging
 import warnings
@@ -217,4 +217,4 @@ def test_a_new_mujoco_counts_for_the_code_that_imports_it(tmp_path: Path, monkey
 
 def packages_behind(path: Path) -> set[str]:
     """Return the packages that a file and what it imports of this package import."""
-    return {name for source in code.reached(frozenset([path])) for name in source.packages}
+    return {name for source in code.reached([path]) for name in source.packages}

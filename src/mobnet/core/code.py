@@ -60,6 +60,7 @@ class Source(NamedTuple):
     packages: frozenset[str]
 
 
+@functools.cache
 def code_hash(*starts: Path | str) -> str:
     """Return a short hash of the code behind files or functions.
 
@@ -69,7 +70,7 @@ def code_hash(*starts: Path | str) -> str:
     Raises:
         ConfigError: there is no such file or module.
     """
-    sources = reached(frozenset(start_of(start) for start in starts))
+    sources = reached(start_of(start) for start in starts)
     digests = sorted(source.digest for source in sources)
     packages = with_required(name for source in sources for name in source.packages)
     pinned = sorted(lock_lines()[name] for name in packages)
@@ -87,8 +88,7 @@ def start_of(start: Path | str) -> Path:
     return found
 
 
-@functools.cache
-def reached(starts: frozenset[Path]) -> tuple[Source, ...]:
+def reached(starts: Iterable[Path]) -> tuple[Source, ...]:
     """Return some files and all that they import of this package, directly or not."""
     found: dict[Path, Source] = {}
     waiting = list(starts)

@@ -69,7 +69,7 @@ def test_the_pause_between_two_runs_does_not_count(uses: Uses) -> None:
     assert uses[ELAPSED, "load"] == pytest.approx(100 * 29 / (2 * 24.2), rel=1e-4)
 
 
-def test_a_short_wait_is_part_of_the_run_and_ends_where_the_next_job_starts_are_no_overlap(tmp_path: Path) -> None:
+def test_a_short_wait_is_part_of_the_run_and_jobs_in_turn_are_not_at_once(tmp_path: Path) -> None:
     jobs = {"collect/a": (1010.0, 10.0, 1.0, 1.0), "collect/b": (1020.0, 10.0, 1.0, 1.0)}
     uses = made(tmp_path, {**jobs, "collect/c": (1070.0, 10.0, 1.0, 1.0)})
     assert uses[ELAPSED, "wall time"] == pytest.approx(70 / 3600, rel=1e-4)
