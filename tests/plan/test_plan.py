@@ -107,11 +107,9 @@ def test_a_limb_with_fewer_seeds_serves_them_in_turn(plans: dict[str, Plan]) -> 
 
 
 def test_the_manifest_lists_every_result(plan: Plan) -> None:
-    """All but the manifest itself and what differs from run to run: compute, its pages, runs for wandb."""
+    """All but the manifest itself and the folder of runs for wandb."""
     (manifest,) = [product for product in plan.products if product.name == "manifest"]
-    views = {
-        name for p in plan.products if p.name in ("manifest", "compute", "pages", "wandb_runs") for name in p.outputs
-    }
+    views = {name for p in plan.products if p.name in ("manifest", "wandb_runs") for name in p.outputs}
     assert set(manifest.job.inputs) == set(made(plan)) - views
 
 

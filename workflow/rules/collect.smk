@@ -6,12 +6,7 @@ rule motion:
     input:
         lambda w: job("motion", w).inputs,
     output:
-        ensure(
-            expand(
-                f"{PLAN.folders.results}/motions/{{{{motion}}}}/s{{{{seed}}}}.{{ending}}", ending=["parquet", "json"]
-            ),
-            non_empty=True,
-        ),
+        array("motions", "{motion}", "s{seed}"),
     log:
         f"{LOGS}/motion/{{motion}}-s{{seed}}.log",
     priority: 30
@@ -30,7 +25,7 @@ rule collect:
     input:
         lambda w: job("collect", w).inputs,
     output:
-        array("recordings"),
+        array("recordings", *RECORDING),
     log:
         f"{LOGS}/collect/{{scenario}}-{{level}}-s{{seed}}.log",
     priority: 20
@@ -49,7 +44,7 @@ rule observe:
     input:
         lambda w: job("observe", w).inputs,
     output:
-        array("residuals"),
+        array("residuals", *RECORDING),
     log:
         f"{LOGS}/observe/{{scenario}}-{{level}}-s{{seed}}.log",
     priority: 20

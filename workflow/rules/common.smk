@@ -23,8 +23,10 @@ try:
 except MobnetError as error:
     sys.exit(str(error))
 
+RECORDING = "{scenario}", "{level}", "s{seed}"  # place of what belongs to a recording
 LOGS = PLAN.folders.results / "logs"
-SHOWN = {".png": "figures", ".html": "tables"}  # kinds of the report's captions by a file's ending
+# kinds of captions in the report, by a file's name or ending
+SHOWN = {"runs.html": "trainings", "main.pdf": "paper", ".html": "tables", ".png": "figures"}
 
 
 wildcard_constraints:
@@ -44,22 +46,24 @@ def job(kind, wildcards):
 
 def given(job):
     """Return what a job reruns on besides its files: its arguments and the code behind it."""
-    return f"{job.call.fingerprint} {code_hash(job.call.module, *job.modules)}"
+    return job.call.fingerprint + code_hash(job.call.module, *job.modules)
 
 
-def array(kind):
-    """Return the two files of a kind of array as patterns of scenario, level and seed."""
-    stem = PLAN.files.array(kind, "{scenario}", "{level}", "{seed}")
-    return ensure([f"{stem}.parquet", f"{stem}.json"], non_empty=True)
+def array(*place):
+    """Return the two files of an array whose place below the results is a pattern."""
+    return ensure(
+        [f"{PLAN.folders.results.joinpath(*place)}{ending}" for ending in (".parquet", ".json")], non_empty=True
+    )
 
 
 def flagged(name):
     """Mark an output for Snakemake: a folder, or a file that the report shows with the caption of its kind."""
     path = Path(name)
-    kind = {"runs.html": "trainings", "main.pdf": "paper"}.get(path.name, SHOWN.get(path.suffix))
+    output = ensure(name, non_empty=True) if path.suffix else directory(name)
+    kind = SHOWN.get(path.name, SHOWN.get(path.suffix))
     if kind is None:
-        return ensure(name, non_empty=True) if path.suffix else directory(name)
+        return output
     caption = f"report/{kind}/{path.stem}.rst"
     title = (ROOT / "workflow" / caption).read_text(encoding="utf-8").splitlines()[0]
     labels = {"file": path.stem, "shows": title}
-    return report(ensure(name, non_empty=True), caption=f"../{caption}", category=kind.capitalize(), labels=labels)
+    return report(output, caption=f"../{caption}", category=kind.capitalize(), labels=labels)

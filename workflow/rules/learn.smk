@@ -49,7 +49,7 @@ rule estimate:
     input:
         lambda w: job("estimate", w).inputs,
     output:
-        array("estimates/{method}/n{network_seed}"),
+        array("estimates", "{method}", "n{network_seed}", *RECORDING),
     log:
         f"{LOGS}/estimate/{{method}}-n{{network_seed}}-{{scenario}}-{{level}}-s{{seed}}.log",
     threads: 1
