@@ -17,7 +17,7 @@ from mobnet.core.config import load_layout, resolve
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Recording, Sensed, Truth, recording_columns
 from mobnet.core.store import write_array, write_recording
-from mobnet.robot.description import RobotDescription, load_robot
+from mobnet.robot.description import WalkingRobot, for_walking, load_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
@@ -56,12 +56,12 @@ def layout(full_config: dict[str, Any]) -> JointLayout:
 
 
 @pytest.fixture(scope="session")
-def robot(full_config: dict[str, Any]) -> RobotDescription:
-    return load_robot(Path(full_config["robot"]))
+def robot(full_config: dict[str, Any]) -> WalkingRobot:
+    return for_walking(load_robot(Path(full_config["robot"])))
 
 
 @pytest.fixture(scope="session")
-def nominal(robot: RobotDescription) -> NominalModel:
+def nominal(robot: WalkingRobot) -> NominalModel:
     return NominalModel(robot)
 
 
@@ -118,7 +118,7 @@ def turned() -> Callable[..., tuple[Array, Array, Any]]:
 
 
 @pytest.fixture(scope="session")
-def mirrored(robot: RobotDescription) -> Callable[..., tuple[Array, Array, Any]]:
+def mirrored(robot: WalkingRobot) -> Callable[..., tuple[Array, Array, Any]]:
     """Return a function (q, v, s) -> q, v and controller state reflected in y: left becomes right."""
     names = [joint.id for joint in robot.joints]
     images = [{"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:] for name in names]

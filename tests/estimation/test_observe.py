@@ -141,7 +141,7 @@ def _shaken(robot: RobotDescription, samples: int) -> tuple[np.ndarray, np.ndarr
     spec.option.timestep = 1 / (2 * RATE_HZ)
     model = spec.compile()
     data, rng = mujoco.MjData(model), np.random.default_rng(2)
-    data.qpos[2] = robot.link_length * 2 - robot.hip_pos[2] - robot.sole_height
+    data.qpos[2] = robot.leg.link_length * 2 - robot.leg.hip_pos[2] - robot.sole.height
     rows = []
     for _ in range(samples):
         push = 0.1 * robot.torque_limits * rng.normal(size=robot.layout.nu)

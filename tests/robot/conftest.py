@@ -47,7 +47,7 @@ def standing(robot: RobotDescription) -> Callable[[int], Iterator[tuple[mujoco.M
 
     def simulate(steps: int) -> Iterator[tuple[mujoco.MjModel, mujoco.MjData, Array]]:
         data = mujoco.MjData(model)
-        data.qpos[2] = robot.link_length * 2 - robot.hip_pos[2] - robot.sole_height
+        data.qpos[2] = robot.leg.link_length * 2 - robot.leg.hip_pos[2] - robot.sole.height
         for _ in range(steps):
             before = data.qpos.copy()
             data.ctrl[:] = -robot.torque_limits * (STIFFNESS * data.qpos[7:] + DAMPING * data.qvel[6:])

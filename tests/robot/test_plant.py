@@ -58,7 +58,7 @@ def test_compiles_in_less_than_a_second(robot: RobotDescription) -> None:
 def test_stands_as_tall_as_the_robot(plant: mujoco.MjModel, robot: RobotDescription) -> None:
     data = mujoco.MjData(plant)
     mujoco.mj_forward(plant, data)
-    head, sole = plant.geom("head"), data.body(sole_name("left")).xpos[2] + robot.sole_height
+    head, sole = plant.geom("head"), data.body(sole_name("left")).xpos[2] + robot.sole.height
     top = data.geom("head").xpos[2] + head.size[2]
     assert top - sole == pytest.approx(1.8, abs=0.05)
 

@@ -20,7 +20,7 @@ POINTERS = ("qpos", "qvel", "ctrl", "qfrc_applied", "xpos", "sensordata", "efc_t
 def world(full_config: dict, robot: RobotDescription) -> World:
     """Feet on the ground, so that there are contact rows."""
     world = make_world(full_config, robot, "flat", "ideal", np.random.default_rng(0))
-    world.data.qpos[2] = 2 * robot.link_length - robot.hip_pos[2] - robot.sole_height - 1e-3
+    world.data.qpos[2] = 2 * robot.leg.link_length - robot.leg.hip_pos[2] - robot.sole.height - 1e-3
     mujoco.mj_forward(world.model, world.data)
     return world
 

@@ -91,7 +91,7 @@ def test_distance_of_two_capsules_is_that_of_their_axes_less_their_radii(
     """Both thighs are parallel, hips 0.205 m apart, and nothing else is as near."""
     clearance = Clearance(robot, 0.1)
     radius = next(shape.size[0] for shape in robot.shapes if shape.name == "left_thigh")
-    assert clearance.nearest(standing[None])[0] == pytest.approx(2 * robot.hip_pos[1] - 2 * radius, abs=1e-6)
+    assert clearance.nearest(standing[None])[0] == pytest.approx(2 * robot.leg.hip_pos[1] - 2 * radius, abs=1e-6)
     assert clearance.pair(standing) == ("left_thigh", "right_thigh")
 
 

@@ -27,7 +27,7 @@ def test_feet_stand_level_side_by_side_just_over_the_ground(simulator: Simulator
         np.testing.assert_allclose(walker.pose.position[foot], ankles[k], atol=1e-10)
         np.testing.assert_allclose(walker.pose.rotation[foot], np.eye(3), atol=1e-12)
         assert ankles[k, 1] == side * walker.par.foot_spacing_m / 2
-    assert ankles[0, 2] + robot.sole_height == pytest.approx(CLEARANCE_M, abs=1e-15)
+    assert ankles[0, 2] + robot.sole.height == pytest.approx(CLEARANCE_M, abs=1e-15)
     assert walker.pose.com[0] == pytest.approx(ankles[0, 0] + walker.par.zmp_offset_x_m, abs=1e-9)
 
 

@@ -11,7 +11,7 @@ from mobnet.control.compiled import compiled
 from mobnet.control.kinematics import Pose, Tree, empty_pose, tree_of
 from mobnet.control.leg_ik import LegGeometry
 from mobnet.control.parameters import WalkingParameters
-from mobnet.robot.description import SIDES, RobotDescription
+from mobnet.robot.description import SIDES, WalkingRobot
 
 Array = NDArray[np.float64]
 
@@ -52,7 +52,7 @@ class Walker(NamedTuple):
     work: Array
 
 
-def make_walker(robot: RobotDescription, par: WalkingParameters, mass_ratio: float, gravity_m_s2: float) -> Walker:
+def make_walker(robot: WalkingRobot, par: WalkingParameters, mass_ratio: float, gravity_m_s2: float) -> Walker:
     """Build what the controller knows of a robot, with masses mass_ratio times those of its table.
 
     Args:
@@ -69,12 +69,12 @@ def make_walker(robot: RobotDescription, par: WalkingParameters, mass_ratio: flo
         par=par,
         tree=tree,
         pose=empty_pose(tree),
-        leg=LegGeometry(np.array(robot.hip_pos, dtype=float), float(robot.link_length)),
+        leg=LegGeometry(np.array(robot.leg.hip_pos, dtype=float), float(robot.leg.link_length)),
         feet=np.array([index[robot.feet[side].body] for side in SIDES], dtype=np.int64),
         first=np.array([actuator[limb[0]] for limb in limbs], dtype=np.int64),
         upper=sum(map(len, limbs)),
-        sensor=np.array(robot.sensor_pos, dtype=float),
-        sole=np.array([*robot.sole_centre[:2], robot.sole_height]),
+        sensor=np.array(robot.sole.sensor_pos, dtype=float),
+        sole=np.array([*robot.sole.centre[:2], robot.sole.height]),
         gravity=float(gravity_m_s2),
         wrench=np.zeros((2, 6)),
         posture=par.posture_rad.copy(),

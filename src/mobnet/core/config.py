@@ -85,7 +85,8 @@ def resolve(config: Mapping[str, Any]) -> dict[str, Any]:
 def load_layout(robot: Path) -> JointLayout:
     """Read the joint layout of a robot's table of figures."""
     table = read_yaml(robot)
-    return layout_of(table["order"], table["groups"])
+    legs = {side: table["feet"][side]["limb"] for side in ("left", "right")}
+    return layout_of(table["order"], table["groups"], legs)
 
 
 def config_hash(config: Mapping[str, Any]) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,18 +17,20 @@ VIRTUAL_UNITS = ("N", "N", "N", "N m", "N m", "N m")
 
 @dataclass(frozen=True)
 class JointLayout:
-    """Order of the generalized velocity: virtual joints V1..V6, then the actuated joints.
+    """Order of the generalized velocity: virtual joints V1..V6 of a floating base, then the actuated joints.
 
     Attributes:
         virtual: names of the six virtual joints; 1..3 linear [m/s, N] in world axes, 4..6 angular [rad/s, N m] in
-            base axes.
+            base axes; empty for a fixed base.
         actuated: names of the actuated joints, in motor order, (nu,).
         groups: limb name -> joint names; section 4.1 uses V, LL, RL, W, LA, RA.
+        legs: `left`, `right` -> limb that stands on the foot of that side; empty for a robot without feet.
     """
 
     virtual: tuple[str, ...]
     actuated: tuple[str, ...]
     groups: Mapping[str, tuple[str, ...]]
+    legs: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -47,8 +49,8 @@ class JointLayout:
 
     @property
     def nq(self) -> int:
-        """Number of generalized positions, the base orientation being a quaternion."""
-        return NQ_BASE + self.nu
+        """Number of generalized positions, the orientation of a floating base being a quaternion."""
+        return (NQ_BASE if self.virtual else 0) + self.nu
 
     def limb(self, name: str) -> tuple[str, ...]:
         """Return the joint names of a limb.
@@ -77,14 +79,24 @@ class JointLayout:
         return VIRTUAL_UNITS[self.virtual.index(name)] if name in self.virtual else "N m"
 
 
-def layout_of(order: Mapping[str, Sequence[str]], groups: Mapping[str, Sequence[str]]) -> JointLayout:
-    """Build the layout from a robot table's `order` (virtual, actuated) and `groups`.
+def right_of(left: str) -> str:
+    """Return the name of the mirror image of a body; a middle body is its own."""
+    return left.replace("L_", "R_", 1)
+
+
+def layout_of(
+    order: Mapping[str, Sequence[str]], groups: Mapping[str, Sequence[str]], legs: Mapping[str, str]
+) -> JointLayout:
+    """Build the layout from a robot table's `order` (virtual, actuated), `groups` and legs by side.
 
     Raises:
         ConfigError: a group names a joint that the order does not have.
     """
     layout = JointLayout(
-        tuple(order["virtual"]), tuple(order["actuated"]), {limb: tuple(joints) for limb, joints in groups.items()}
+        tuple(order["virtual"]),
+        tuple(order["actuated"]),
+        {limb: tuple(joints) for limb, joints in groups.items()},
+        legs,
     )
     for joints in layout.groups.values():
         layout.columns(joints)

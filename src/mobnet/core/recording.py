@@ -19,6 +19,9 @@ Column = tuple[str, str, str]  # name, unit, frame
 class Sensed:
     """Proprioception of a robot; all that an estimator may see. Time is the first axis, one row a sample.
 
+    What a robot does not have has no columns (T, 0): the base where it is fixed, feet that are not there, and commands
+    where nothing walks.
+
     Attributes:
         q: generalized position (T, nq): base position [m] in world, base quaternion w x y z, joints [rad].
         v: generalized velocity (T, nv): base linear [m/s] in world, base angular [rad/s] in base, joints [rad/s].
@@ -104,9 +107,10 @@ class Recording(SensedRecording):
 
 
 def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:
-    """Return field -> columns (name, unit, frame) of a stored recording, in file order."""
-    actuated, xyz, wxyz = layout.actuated, "xyz", "wxyz"
-    wrench = [("force", "N"), ("moment", "N m")]
+    """Return field -> columns (name, unit, frame) of a stored recording, in file order; some fields may have none."""
+    actuated, xyz, wxyz = layout.actuated, "xyz" if layout.virtual else "", "wxyz" if layout.virtual else ""
+    feet = [foot for foot in FEET if foot.removesuffix("_foot") in layout.legs]
+    wrench = [(f"{kind}_{axis}", unit) for kind, unit in (("force", "N"), ("moment", "N m")) for axis in "xyz"]
     base_v = [(f"v.base_{a}", "m/s", "world") for a in xyz] + [(f"v.omega_{a}", "rad/s", "base") for a in xyz]
     base_q = [(f"q.base_{a}", "m", "world") for a in xyz] + [(f"q.quat_{a}", "-", "world") for a in wxyz]
     return {
@@ -115,16 +119,16 @@ def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:
         "acc_base_in_base": [(f"acc.{a}", "m/s^2", "base") for a in xyz],
         "tau_des": [(f"tau_des.{j}", "N m", "joint") for j in actuated],
         "tau_motor": [(f"tau_motor.{j}", "N m", "joint") for j in actuated],
-        "swing": [(f"swing.{foot}", "-", "plan") for foot in FEET],
-        "command": [(f"command.{name}", unit, "stance foot") for name, unit in COMMAND],
+        "swing": [(f"swing.{foot}", "-", "plan") for foot in feet],
+        "command": [(f"command.{name}", unit, "stance foot") for name, unit in COMMAND if feet],
         "tau_ext": [
             (f"tau_ext.{j}", layout.unit(j), "world" if i < len(xyz) else "joint") for i, j in enumerate(layout.names)
         ],
         **{
-            f"wrench_{foot}": [(f"wrench_{foot}.{kind}_{a}", unit, foot) for kind, unit in wrench for a in xyz]
+            f"wrench_{foot}": [(f"wrench_{foot}.{name}", unit, foot) for name, unit in wrench if foot in feet]
             for foot in FEET
         },
-        "contact": [(f"contact.{foot}", "-", "ground") for foot in FEET],
+        "contact": [(f"contact.{foot}", "-", "ground") for foot in feet],
         "pushed": [("pushed", "-", "scenario")],
     }
 

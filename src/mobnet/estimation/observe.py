@@ -3,65 +3,81 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.errors import ConfigError, DataError, not_accepted
+from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Column, Recording, SensedRecording, recording_columns
 from mobnet.core.store import read_recording, write_array
-from mobnet.estimation.observer import MomentumObserver, low_pass
-from mobnet.robot.description import RobotDescription, load_robot
+from mobnet.estimation.observer import MomentumObserver, TorqueKind, low_pass
+from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.nominal import NominalModel
+from mobnet.settings.methods import Observer
+from mobnet.settings.plant import Level
+from mobnet.settings.robot import RobotTable
 
 CARRIED = ("scenario", "level", "seed")  # what a recording says of itself and its residual repeats
 log = logging.getLogger(__name__)
 
 
-def observe(config: Mapping[str, Any], recording_stem: Path, out_stem: Path) -> None:
+def observe(
+    robot: RobotTable, level: Level, gravity_m_s2: float, observer: Observer, recording: Path, out: Path
+) -> None:
     """Write r of (9) and the low-passed external torque of (15) for a recording, 2 x (T, nv) [N] and [N m].
 
     Columns are `r.<joint>` and then `tau_ext_lp.<joint>`; segments are the recording's, and the observer starts anew
     with each. The target of the networks (section 4.2.3) is their difference.
 
     Args:
-        config: the resolved configuration.
-        recording_stem: the recording, path without a suffix.
-        out_stem: where to write, path without a suffix.
+        robot: the robot's table.
+        level: uncertainty level at which the recording was made.
+        gravity_m_s2: acceleration of gravity [m/s^2].
+        observer: the observer's settings.
+        recording: path without a suffix.
+        out: where to write, path without a suffix.
 
     Raises:
-        DataError: the recording is damaged or does not name its level.
-        ConfigError: its level is not configured.
+        DataError: the recording is damaged.
     """
-    robot = load_robot(Path(config["robot"]))
-    recording = read_recording(recording_stem, robot.layout)
-    observer = observer_of(config, robot, level_of(recording, recording_stem), recording.rate_hz)
-    log.info("%s: %d samples in %d segments", recording_stem, len(recording.sensed), len(recording.segments))
-    array = np.concatenate(residual_and_truth(observer, recording), axis=1)
+    description = describe(robot)
+    read = read_recording(recording, description.layout)
+    momentum = observer_of(description, level, gravity_m_s2, observer.gain_hz, read.rate_hz, observer.torque)
+    log.info("%s: %d samples in %d segments", recording, len(read.sensed), len(read.segments))
+    array = np.concatenate(residual_and_truth(momentum, read), axis=1)
     meta = {
-        "rate_hz": recording.rate_hz,
-        **{key: recording.meta[key] for key in CARRIED if key in recording.meta},
+        "rate_hz": read.rate_hz,
+        **{key: read.meta[key] for key in CARRIED if key in read.meta},
         "gain_hz": observer.gain_hz,
-        "nominal_mass_ratio": observer.nominal.mass_ratio,
+        "nominal_mass_ratio": level.nominal_mass_ratio,
     }
-    write_array(out_stem, array, residual_columns(robot.layout), meta, recording.segments)
+    write_array(out, array, residual_columns(description.layout), meta, read.segments)
 
 
-def observer_of(config: Mapping[str, Any], robot: RobotDescription, level: str, rate_hz: float) -> MomentumObserver:
+def observer_of(
+    robot: RobotDescription,
+    level: Level,
+    gravity_m_s2: float,
+    gain_hz: float,
+    rate_hz: float,
+    torque: TorqueKind = "mean",
+) -> MomentumObserver:
     """Return the observer that knows the robot as an uncertainty level of section 5.1 says.
 
+    Args:
+        robot: the robot.
+        level: what the observer's model gets wrong.
+        gravity_m_s2: acceleration of gravity [m/s^2].
+        gain_hz: K_0 of (7) [1/s].
+        rate_hz: samples per second [Hz].
+        torque: whether recordings hold means or samples of the motors' torque.
+
     Raises:
-        ConfigError: the level is not configured.
+        ConfigError: a gain or a rate is not positive.
     """
-    if level not in config["levels"]:
-        raise ConfigError(not_accepted("level", level, config["levels"]))
-    ratio = config["levels"][level]["nominal_mass_ratio"]
-    nominal = NominalModel(robot, ratio, config["plant"]["gravity_m_s2"])
-    return MomentumObserver(nominal, config["observer"]["gain_hz"], rate_hz)
+    return MomentumObserver(NominalModel(robot, level.nominal_mass_ratio, gravity_m_s2), gain_hz, rate_hz, torque)
 
 
 def level_of(recording: SensedRecording, stem: Path) -> str:

@@ -1,4 +1,4 @@
-"""The robot's table of figures as values: bodies, joints, feet, shapes. Both models are built from it."""
+"""A robot's table of figures as numpy values; the plant, the nominal model and the controller are built from it."""
 
 from __future__ import annotations
 
@@ -8,46 +8,40 @@ from pathlib import Path
 
 import numpy as np
 
-from mobnet.core.config import read_yaml
 from mobnet.core.errors import ConfigError, not_accepted
-from mobnet.core.joints import JointLayout, layout_of
-from mobnet.robot.parts import (
-    Body,
-    Foot,
-    Joint,
-    Point,
-    Shape,
-    Vector,
+from mobnet.core.joints import JointLayout
+from mobnet.robot.parts import Body, Foot, Joint, Leg, Point, Posture, Shape, Sole, Vector
+from mobnet.robot.rows import (
     read_body,
+    read_feet,
     read_joint,
     read_point,
+    read_posture,
     read_shape,
     vector,
     with_mirrored,
 )
+from mobnet.settings.load import load_section
+from mobnet.settings.robot import RobotTable
 
 SIDES = ("left", "right")
-WORLD = "world"
+LEG_JOINTS = 6  # of a leg that walks
 
 
 @dataclass(frozen=True)
 class RobotDescription:
-    """All figures of the robot; section 4.1 names its 33 joints and six virtual ones.
+    """All figures of a robot; section 4.1 names TOCABI's 33 joints and six virtual ones.
 
     Attributes:
         name: the robot's name.
         layout: order of the generalized velocity and the limb groups.
-        bodies: links, parents first.
+        bodies: links, depth-first, parents first.
         joints: actuated joints in the order of `layout.actuated`.
-        feet: `left` and `right`.
-        hands: `left` and `right` -> body.
-        sensor_pos: force/torque sensor in the foot's frame (3,) [m].
-        sole_centre: centre of the sole's box in the foot's frame (3,) [m].
-        sole_half: its half lengths (3,) [m].
-        sole_height: the sole's lower face in the foot's frame [m].
-        hip_pos: left hip in the base (3,) [m].
-        link_length: length of thigh and of shank [m].
-        imu_pos: inertial sensor in the base (3,) [m].
+        feet: side -> foot; empty for a robot without feet.
+        hands: side -> body.
+        leg: geometry of the legs, if the table has it.
+        imu: inertial sensor, if there is one.
+        posture: how the joints are held that nothing moves, in motor order; the table may leave joints out.
         shapes: what the robot looks like.
         points: where forces may be applied.
     """
@@ -58,19 +52,20 @@ class RobotDescription:
     joints: tuple[Joint, ...]
     feet: Mapping[str, Foot]
     hands: Mapping[str, str]
-    sensor_pos: Vector
-    sole_centre: Vector
-    sole_half: Vector
-    sole_height: float
-    hip_pos: Vector
-    link_length: float
-    imu_pos: Vector
+    leg: Leg | None
+    imu: Point | None
+    posture: Posture
     shapes: tuple[Shape, ...]
     points: tuple[Point, ...]
 
     @property
+    def floating(self) -> bool:
+        """Whether the base is free to move."""
+        return bool(self.layout.virtual)
+
+    @property
     def base(self) -> str:
-        """Name of the floating base."""
+        """Name of the first body, which floats or is fixed to the world."""
         return self.bodies[0].name
 
     @property
@@ -96,70 +91,76 @@ class RobotDescription:
         """Return the foot of a side.
 
         Raises:
-            ConfigError: the side is not `left` or `right`.
+            ConfigError: the robot has none there.
         """
         if side not in self.feet:
             raise ConfigError(not_accepted("foot", side, self.feet))
         return self.feet[side]
 
 
+@dataclass(frozen=True)
+class WalkingRobot(RobotDescription):
+    """A robot with all that walking takes; `for_walking` makes one.
+
+    Attributes:
+        leg: geometry of the legs.
+        imu: inertial sensor.
+    """
+
+    leg: Leg
+    imu: Point
+
+    @property
+    def sole(self) -> Sole:
+        """Sole of either foot."""
+        return self.feet["left"].sole
+
+
+def describe(table: RobotTable) -> RobotDescription:
+    """Return a robot's table as numpy values."""
+    return RobotDescription(
+        name=table.name,
+        layout=table.layout,
+        bodies=tuple(map(read_body, table.bodies)),
+        joints=tuple(map(read_joint, table.joints)),
+        feet=read_feet(table.feet),
+        hands={**table.hands},
+        leg=None if table.leg is None else Leg(vector(table.leg.hip_pos), table.leg.link_length),
+        imu=None if table.imu is None else Point("imu", table.imu.body, vector(table.imu.pos)),
+        posture=read_posture(table),
+        shapes=tuple(read_shape(row, table.tones) for row in with_mirrored(table.shapes)),
+        points=tuple(map(read_point, with_mirrored(table.points))),
+    )
+
+
 def load_robot(path: Path) -> RobotDescription:
     """Read a robot's table of figures (configs/robots/*.yaml).
 
     Raises:
-        ConfigError: the table does not fit itself; the message names the value.
+        ConfigError: a key or a value is not accepted, or the table does not fit itself; one line for each.
     """
-    table = read_yaml(path)
-    layout = layout_of(table["order"], table["groups"])
-    feet, leg = table["feet"], table["leg"]
-    robot = RobotDescription(
-        name=table["name"],
-        layout=layout,
-        bodies=tuple(read_body(row) for row in table["bodies"]),
-        joints=tuple(read_joint(row) for row in table["joints"]),
-        feet={side: Foot(**feet[side]) for side in SIDES},
-        hands=table["hands"],
-        sensor_pos=vector(feet["sensor_pos"]),
-        sole_centre=vector(feet["sole_box_centre"]),
-        sole_half=vector(feet["sole_box_half"]),
-        sole_height=float(feet["sole_height"]),
-        hip_pos=vector(leg["hip_pos"]),
-        link_length=float(leg["link_length"]),
-        imu_pos=vector(table["imu"]["pos"]),
-        shapes=tuple(read_shape(row, table["tones"]) for row in with_mirrored(table.get("shapes", []))),
-        points=tuple(read_point(row) for row in with_mirrored(table.get("points", []))),
-    )
-    for problem in (_tree_problem(robot), _name_problem(robot), _order_problem(robot)):
-        if problem is not None:
-            raise ConfigError(f"{path}: {problem}")
-    return robot
+    return describe(load_section(path, RobotTable))
 
 
-def _tree_problem(robot: RobotDescription) -> str | None:
-    """Return what is wrong where a body hangs on none that stands before it."""
-    known = [WORLD]
-    for body in robot.bodies:
-        if body.parent not in known:
-            return not_accepted(f"parent of {body.name}", body.parent, known)
-        known = [name for name in known if name != WORLD] + [body.name]
-    return None
+def for_walking(robot: RobotDescription) -> WalkingRobot:
+    """Return a robot that walks.
 
-
-def _name_problem(robot: RobotDescription) -> str | None:
-    """Return what is wrong where a joint, foot, hand, shape or point stands on a body that is not there."""
-    known = [body.name for body in robot.bodies]
-    users = [(f"body of {part.name}", part.body) for part in (*robot.shapes, *robot.points)]
-    users += [(f"body of {joint.id}", joint.body) for joint in robot.joints]
-    users += [(f"{side} foot", foot.body) for side, foot in robot.feet.items()]
-    users += [(f"{side} hand", hand) for side, hand in robot.hands.items()]
-    return next((not_accepted(what, name, known) for what, name in users if name not in known), None)
-
-
-def _order_problem(robot: RobotDescription) -> str | None:
-    """Return what is wrong where joints, or the bodies that they move, do not stand in motor order."""
-    accepted = robot.layout.actuated
-    listed = tuple(joint.id for joint in robot.joints)
-    moved = {joint.body: joint.id for joint in robot.joints}
-    depth_first = tuple(moved[body.name] for body in robot.bodies if body.name in moved)
-    wrong = next((order for order in (listed, depth_first) if order != accepted), None)
-    return None if wrong is None else f"joints stand in the order {wrong}; accepted: {accepted}"
+    Raises:
+        ConfigError: its table lacks something that walking takes; one line names all of it.
+    """
+    limbs = [robot.layout.limb(robot.feet[side].limb) for side in SIDES if side in robot.feet]
+    legs = sum(limbs, ())
+    needed = {
+        "a floating base": robot.floating,
+        "feet on both sides": robot.feet.keys() >= set(SIDES),
+        f"legs of {LEG_JOINTS} joints": all(len(limb) == LEG_JOINTS for limb in limbs),
+        "legs that come first in `order`, the left one before the right": robot.layout.actuated[: len(legs)] == legs,
+        "leg geometry (`leg`)": robot.leg,
+        "hands on both sides": robot.hands.keys() >= set(SIDES),
+        "an inertial sensor (`imu`)": robot.imu,
+        "a posture of all joints above the legs": robot.posture.joints == robot.layout.actuated[len(legs) :],
+    }
+    missing = [what for what, there in needed.items() if not there]
+    if missing:
+        raise ConfigError(f"robot {robot.name} cannot walk; its table lacks: {', '.join(missing)}")
+    return WalkingRobot(**vars(robot))

@@ -11,7 +11,6 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from mobnet.robot.frames import to_pinocchio
 from mobnet.robot.nominal import NominalModel
 
 Array = NDArray[np.float64]
@@ -19,28 +18,28 @@ Array = NDArray[np.float64]
 
 def mass_matrix(nominal: NominalModel, q: NDArray[Any]) -> Array:
     """Return M(q) of (1), rotor inertia included, (nv, nv) [kg], [kg m], [kg m^2]."""
-    upper = np.triu(pin.crba(nominal.model, nominal.data, to_pinocchio(q)))
+    upper = np.triu(pin.crba(nominal.model, nominal.data, nominal.positions(q)))
     return upper + np.triu(upper, 1).T
 
 
 def coriolis(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> Array:
     """Return C(q, v) of (1) with C + C^T = Mdot, (nv, nv); times v it is in [N] and [N m]."""
-    return pin.computeCoriolisMatrix(nominal.model, nominal.data, to_pinocchio(q), _float64(v))
+    return pin.computeCoriolisMatrix(nominal.model, nominal.data, nominal.positions(q), _float64(v))
 
 
 def gravity(nominal: NominalModel, q: NDArray[Any]) -> Array:
     """Return g(q) of (1), (nv,) [N] and [N m]."""
-    return pin.computeGeneralizedGravity(nominal.model, nominal.data, to_pinocchio(q))
+    return pin.computeGeneralizedGravity(nominal.model, nominal.data, nominal.positions(q))
 
 
 def bias(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> Array:
     """Return C v + g of (1), (nv,) [N] and [N m]."""
-    return pin.nonLinearEffects(nominal.model, nominal.data, to_pinocchio(q), _float64(v))
+    return pin.nonLinearEffects(nominal.model, nominal.data, nominal.positions(q), _float64(v))
 
 
 def inverse_dynamics(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any], a: NDArray[Any]) -> Array:
     """Return M a + C v + g of (1), a the derivative of v, (nv,) [N] and [N m]."""
-    return pin.rnea(nominal.model, nominal.data, to_pinocchio(q), _float64(v), _float64(a))
+    return pin.rnea(nominal.model, nominal.data, nominal.positions(q), _float64(v), _float64(a))
 
 
 def momentum(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> Array:
@@ -58,15 +57,15 @@ def momentum_and_beta(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -
 
     Args:
         nominal: the model.
-        q: positions (..., nq), base quaternion w x y z.
-        v: velocities (..., nv) [m/s] and [rad/s].
+        q: positions (..., nq) of any float type and memory order, base quaternion w x y z.
+        v: velocities (..., nv) [m/s] and [rad/s], likewise.
 
     Returns:
         p [kg m/s] and [kg m^2/s], and beta [N] and [N m].
 
     """
     model, data, nv = nominal.model, nominal.data, nominal.model.nv
-    positions = to_pinocchio(q).reshape(-1, model.nq)
+    positions = nominal.positions(q).reshape(-1, model.nq)
     velocities = _float64(v).reshape(-1, nv)
     # rnea(q, 0, v) = M v + g is cheaper than M itself
     p, result, still = np.empty_like(velocities), np.empty_like(velocities), np.zeros(nv)
@@ -80,5 +79,5 @@ def momentum_and_beta(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -
 
 
 def _float64(array: NDArray[Any]) -> Array:
-    """Return an array in float64, as physics is computed."""
-    return np.asarray(array, dtype=np.float64)
+    """Return an array in float64, as physics is computed, its last axis contiguous, as Pinocchio takes it."""
+    return np.ascontiguousarray(array, dtype=np.float64)

@@ -22,7 +22,7 @@ XYZW_TO_WXYZ = (3, 0, 1, 2)
 def to_pinocchio(q: NDArray[Any]) -> NDArray[np.float64]:
     """Return generalized positions (..., nq) [m], [-], [rad] of a recording, w x y z, as Pinocchio's, x y z w.
 
-    Quaternions are brought to unit length: float32 logs and noise leave it.
+    The base floats. Quaternions are brought to unit length: float32 logs and noise leave it.
     """
     return _reordered(q, WXYZ_TO_XYZW)
 
@@ -34,7 +34,7 @@ def from_pinocchio(q: NDArray[Any]) -> NDArray[np.float64]:
 
 def _reordered(q: NDArray[Any], order: tuple[int, ...]) -> NDArray[np.float64]:
     """Return positions (..., nq) in float64 with the base quaternion reordered and of unit length."""
-    result = np.array(q, dtype=np.float64)
+    result = np.array(q, dtype=np.float64, order="C")
     quat = result[..., QUATERNION][..., list(order)]
     result[..., QUATERNION] = quat / np.linalg.norm(quat, axis=-1, keepdims=True)
     return result

@@ -1,16 +1,20 @@
 """The nominal model: what the observer knows of the robot (section 3.2), in Pinocchio.
 
-The root is two joints, a translation and then a ball. A free-flyer would express the base's linear
+The root of a floating base is two joints, a translation and then a ball. A free-flyer would express the base's linear
 velocity in base axes, and Pinocchio's Coriolis matrix is wrong for one composite root (tests/robot/test_dynamics.py).
 """
 
 from __future__ import annotations
 
-import pinocchio as pin
+from typing import Any
 
-from mobnet.core.joints import N_VIRTUAL
-from mobnet.robot.description import SIDES, RobotDescription
-from mobnet.robot.parts import Body, Joint
+import numpy as np
+import pinocchio as pin
+from numpy.typing import NDArray
+
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.frames import to_pinocchio
+from mobnet.robot.parts import Body, Joint, Sole
 
 ALIGNED = {(1.0, 0.0, 0.0): pin.JointModelRX, (0.0, 1.0, 0.0): pin.JointModelRY, (0.0, 0.0, 1.0): pin.JointModelRZ}
 
@@ -42,19 +46,22 @@ class NominalModel:
             self.model.gravity.linear = -gravity_m_s2 * pin.ZAxis
         placements = _add_bodies(self.model, robot, mass_ratio)
         armature = self.model.armature.copy()
-        armature[N_VIRTUAL:] = mass_ratio * robot.armature
+        armature[len(robot.layout.virtual) :] = mass_ratio * robot.armature
         self.model.armature = armature
         self.foot_frames = {
-            side: _add_sensor(self.model, robot, f"{side}_foot", *placements[robot.feet[side].body]) for side in SIDES
+            side: _add_sensor(self.model, foot.sole, f"{side}_foot", *placements[foot.body])
+            for side, foot in robot.feet.items()
         }
         self.data = self.model.createData()
+
+    def positions(self, q: NDArray[Any]) -> NDArray[np.float64]:
+        """Return generalized positions (..., nq) [m], [-], [rad] of a recording as Pinocchio takes them, row by row."""
+        return to_pinocchio(q) if self.robot.floating else np.array(q, dtype=np.float64, order="C")
 
 
 def _add_bodies(model: pin.Model, robot: RobotDescription, mass_ratio: float) -> dict[str, tuple[int, pin.SE3]]:
     """Add joints and inertia; return body -> (joint that carries it, its placement in that joint's frame)."""
-    root = model.addJoint(0, pin.JointModelTranslation(), pin.SE3.Identity(), "base_translation")
-    root = model.addJoint(root, pin.JointModelSpherical(), pin.SE3.Identity(), "base_rotation")
-    placements = {robot.base: (root, pin.SE3.Identity())}
+    placements = {robot.base: _add_root(model) if robot.floating else (0, _placement(robot.bodies[0]))}
     for body in robot.bodies:
         joint = robot.joint_of(body.name)
         if body.name != robot.base:
@@ -68,6 +75,13 @@ def _add_bodies(model: pin.Model, robot: RobotDescription, mass_ratio: float) ->
         carrier_id, in_carrier = placements[body.name]
         model.appendBodyToJoint(carrier_id, _inertia(body, mass_ratio), in_carrier)
     return placements
+
+
+def _add_root(model: pin.Model) -> tuple[int, pin.SE3]:
+    """Add the joints of a floating base; return the one that carries it and its placement in that joint's frame."""
+    root = model.addJoint(0, pin.JointModelTranslation(), pin.SE3.Identity(), "base_translation")
+    root = model.addJoint(root, pin.JointModelSpherical(), pin.SE3.Identity(), "base_rotation")
+    return root, pin.SE3.Identity()
 
 
 def _placement(body: Body) -> pin.SE3:
@@ -89,7 +103,7 @@ def _inertia(body: Body, mass_ratio: float) -> pin.Inertia:
     return pin.Inertia(mass_ratio * body.mass, body.com, matrix.matrix())
 
 
-def _add_sensor(model: pin.Model, robot: RobotDescription, name: str, joint: int, foot: pin.SE3) -> int:
+def _add_sensor(model: pin.Model, sole: Sole, name: str, joint: int, foot: pin.SE3) -> int:
     """Add the frame of a foot's force/torque sensor; return its index."""
-    placement = foot * pin.SE3(pin.SE3.Identity().rotation, robot.sensor_pos)
+    placement = foot * pin.SE3(pin.SE3.Identity().rotation, sole.sensor_pos)
     return model.addFrame(pin.Frame(name, joint, placement, pin.FrameType.SENSOR))

@@ -1,15 +1,12 @@
-"""Parts of the robot as values, each read from a row of the table of figures."""
+"""Parts of a robot as numpy values."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-MIRROR_Y = np.array([1.0, -1.0, 1.0])
 Vector = NDArray[np.float64]
 
 
@@ -60,12 +57,59 @@ class Joint:
 
 
 @dataclass(frozen=True)
+class Sole:
+    """What a foot stands on, in the foot's frame.
+
+    Attributes:
+        sensor_pos: force/torque sensor (3,) [m].
+        centre: centre of the box that touches the ground (3,) [m].
+        half: its half lengths (3,) [m].
+        height: height of its lower face [m].
+    """
+
+    sensor_pos: Vector
+    centre: Vector
+    half: Vector
+    height: float
+
+
+@dataclass(frozen=True)
 class Foot:
-    """A foot: `body` is welded to `ankle`, the last link of the leg `limb`."""
+    """A foot: `body` is the last one of the leg `limb`."""
 
     body: str
-    ankle: str
     limb: str
+    sole: Sole
+
+
+@dataclass(frozen=True)
+class Leg:
+    """Geometry of both legs.
+
+    Attributes:
+        hip_pos: left hip in the base (3,) [m].
+        link_length: length of the thigh, and of the shank [m].
+    """
+
+    hip_pos: Vector
+    link_length: float
+
+
+@dataclass(frozen=True)
+class Posture:
+    """How joints are held while nothing moves them.
+
+    Attributes:
+        joints: names, in motor order (n,).
+        angle: positions (n,) [rad].
+        stiffness: torque of a position error (n,) [N m/rad].
+        damping: torque of a velocity error (n,) [N m s/rad].
+    """
+
+    joints: tuple[str, ...]
+    angle: Vector
+    stiffness: Vector
+    damping: Vector
 
 
 @dataclass(frozen=True)
@@ -98,67 +142,3 @@ class Point:
     name: str
     body: str
     pos: Vector
-
-
-def with_mirrored(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Return rows of the left side, each with its mirror image in y, and other rows as they are."""
-    return [image for row in rows for image in ([row, _mirrored(row)] if row["name"].startswith("left_") else [row])]
-
-
-def _mirrored(row: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a row of the left side as the right side has it."""
-    image = {**row, "name": row["name"].replace("left_", "right_", 1), "body": row["body"].replace("L_", "R_", 1)}
-    for key in ("pos", "segment"):
-        if key in row:
-            image[key] = (np.reshape(row[key], (-1, len(MIRROR_Y))) * MIRROR_Y).ravel()
-    return image
-
-
-def vector(values: ArrayLike) -> Vector:
-    """Return numbers of the table as a float64 vector (n,), in the table's SI units such as [m]."""
-    return np.asarray(values, dtype=np.float64)
-
-
-def read_body(row: Mapping[str, Any]) -> Body:
-    """Return a row of `bodies`; its quaternion is brought to unit length."""
-    quat = vector(row["quat"])
-    return Body(
-        row["name"],
-        row["parent"],
-        vector(row["pos"]),
-        quat / np.linalg.norm(quat),
-        float(row["mass"]),
-        vector(row["com"]),
-        vector(row["inertia"]),
-    )
-
-
-def read_joint(row: Mapping[str, Any]) -> Joint:
-    """Return a row of `joints`."""
-    return Joint(
-        row["id"],
-        row["body"],
-        vector(row["axis"]),
-        vector(row["range"]),
-        float(row["torque_limit"]),
-        float(row["armature"]),
-        float(row["velocity_limit"]),
-    )
-
-
-def read_shape(row: Mapping[str, Any], tones: Mapping[str, Any]) -> Shape:
-    """Return a row of `shapes`."""
-    return Shape(
-        row["name"],
-        row["body"],
-        row["type"],
-        vector(row["size"]),
-        vector(row.get("pos", np.zeros_like(MIRROR_Y))),
-        vector(row["segment"]) if "segment" in row else None,
-        vector(tones[row["tone"]]),
-    )
-
-
-def read_point(row: Mapping[str, Any]) -> Point:
-    """Return a row of `points`."""
-    return Point(row["name"], row["body"], vector(row["pos"]))

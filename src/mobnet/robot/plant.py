@@ -6,8 +6,9 @@ from collections.abc import Mapping
 
 import mujoco
 
-from mobnet.robot.description import SIDES, WORLD, RobotDescription
-from mobnet.robot.parts import Body, Shape
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.parts import Body, Point, Shape, Sole
+from mobnet.settings.robot import WORLD
 
 SOLE_TYPE = 2  # contype of soles and conaffinity of terrain: only soles on terrain collide
 TERRAIN_TYPE = 1  # contype of terrain and conaffinity of soles
@@ -26,9 +27,10 @@ def robot_spec(robot: RobotDescription) -> mujoco.MjSpec:
     """Return the robot as a MuJoCo specification, without terrain, limits, damping and friction.
 
     `qvel` is then the generalized velocity of `JointLayout`: base linear [m/s] in world axes, base angular [rad/s] in
-    base axes, joints [rad/s] in the order of `layout.actuated`. Motors and joints are named by their ids and stand in
-    that order; motors pass ctrl [N m] on unclipped. Sensors: `imu_gyro`, `imu_acc`, `left_foot_force`,
-    `left_foot_torque` and the same of the right foot, the last four being minus the ground's wrench at the sensor.
+    base axes, joints [rad/s] in the order of `layout.actuated`; with a fixed base, the joints alone. Motors and joints
+    are named by their ids and stand in that order; motors pass ctrl [N m] on unclipped. Sensors, where the robot has
+    them: `imu_gyro`, `imu_acc`, `left_foot_force`, `left_foot_torque` and the same of the right foot, those of the feet
+    being minus the ground's wrench at the sensor.
     """
     spec = mujoco.MjSpec()
     spec.modelname = robot.name
@@ -40,9 +42,10 @@ def robot_spec(robot: RobotDescription) -> mujoco.MjSpec:
     for joint in robot.joints:
         motor = spec.add_actuator(name=joint.id, target=joint.id, trntype=mujoco.mjtTrn.mjTRN_JOINT)
         motor.set_to_motor()
-    _add_imu(spec, bodies[robot.base], robot)
-    for side in SIDES:
-        _add_sole(spec, bodies[robot.feet[side].body], robot, side)
+    if robot.imu is not None:
+        _add_imu(spec, bodies[robot.imu.body], robot.imu)
+    for side, foot in robot.feet.items():
+        _add_sole(spec, bodies[foot.body], foot.sole, side)
     return spec
 
 
@@ -61,7 +64,8 @@ def _add_bodies(spec: mujoco.MjSpec, robot: RobotDescription) -> Mapping[str, mu
             bodies[body.name].add_joint(
                 name=joint.id, type=mujoco.mjtJoint.mjJNT_HINGE, axis=joint.axis, armature=joint.armature
             )
-    bodies[robot.base].add_freejoint(name="base", align=mujoco.mjtAlignFree.mjALIGNFREE_FALSE)
+    if robot.floating:
+        bodies[robot.base].add_freejoint(name="base", align=mujoco.mjtAlignFree.mjALIGNFREE_FALSE)
     return bodies
 
 
@@ -90,28 +94,28 @@ def _add_shape(body: mujoco.MjsBody, shape: Shape) -> None:
         geom.fromto = shape.segment
 
 
-def _add_imu(spec: mujoco.MjSpec, base: mujoco.MjsBody, robot: RobotDescription) -> None:
+def _add_imu(spec: mujoco.MjSpec, base: mujoco.MjsBody, imu: Point) -> None:
     """Add the inertial sensor: angular velocity [rad/s] and specific force [m/s^2] in base axes."""
-    base.add_site(name="imu", pos=robot.imu_pos)
+    base.add_site(name="imu", pos=imu.pos)
     for name, kind in IMU_SENSORS.items():
         spec.add_sensor(name=f"imu_{name}", type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname="imu")
 
 
-def _add_sole(spec: mujoco.MjSpec, foot: mujoco.MjsBody, robot: RobotDescription, side: str) -> None:
+def _add_sole(spec: mujoco.MjSpec, foot: mujoco.MjsBody, shape: Sole, side: str) -> None:
     """Add the sole: a massless welded body, so that no inertia stands between the ground and the foot's sensor."""
     name = sole_name(side)
     sole = foot.add_body(name=name, explicitinertial=True)
     sole.add_geom(
         name=name,
         type=mujoco.mjtGeom.mjGEOM_BOX,
-        pos=robot.sole_centre,
-        size=robot.sole_half,
+        pos=shape.centre,
+        size=shape.half,
         contype=SOLE_TYPE,
         conaffinity=TERRAIN_TYPE,
         condim=SLIDING,
         group=SOLE_GROUP,
         mass=0,
     )
-    sole.add_site(name=name, pos=robot.sensor_pos)
+    sole.add_site(name=name, pos=shape.sensor_pos)
     for quantity, kind in FOOT_SENSORS.items():
         spec.add_sensor(name=f"{side}_foot_{quantity}", type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=name)

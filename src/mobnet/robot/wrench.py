@@ -10,7 +10,6 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from mobnet.core.errors import ConfigError, not_accepted
-from mobnet.robot.frames import to_pinocchio
 from mobnet.robot.nominal import NominalModel
 
 Array = NDArray[np.float64]
@@ -28,7 +27,7 @@ def foot_jacobian(nominal: NominalModel, q: NDArray[Any], side: str) -> Array:
         ConfigError: the side is unknown.
     """
     frame = _frame(nominal, side)
-    return pin.computeFrameJacobian(nominal.model, nominal.data, to_pinocchio(q), frame, pin.ReferenceFrame.LOCAL)
+    return pin.computeFrameJacobian(nominal.model, nominal.data, nominal.positions(q), frame, pin.ReferenceFrame.LOCAL)
 
 
 def foot_torque(nominal: NominalModel, q: NDArray[Any], side: str, wrench: NDArray[Any]) -> Array:
@@ -44,8 +43,8 @@ def foot_torque(nominal: NominalModel, q: NDArray[Any], side: str, wrench: NDArr
         ConfigError: the side is unknown.
     """
     model, data, frame = nominal.model, nominal.data, _frame(nominal, side)
-    positions = to_pinocchio(q).reshape(-1, model.nq)
-    loads = np.asarray(wrench, dtype=np.float64).reshape(len(positions), -1)
+    positions = nominal.positions(q).reshape(-1, model.nq)
+    loads = np.ascontiguousarray(wrench, dtype=np.float64).reshape(len(positions), -1)
     torque = np.empty((len(positions), model.nv))
     for k, (position, load) in enumerate(zip(positions, loads, strict=True)):
         torque[k] = load @ pin.computeFrameJacobian(model, data, position, frame, pin.ReferenceFrame.LOCAL)

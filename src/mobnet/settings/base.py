@@ -85,6 +85,8 @@ JointName = Annotated[str, Named("joint")]
 MotorName = Annotated[str, Named("motor")]
 LimbName = Annotated[str, Named("limb")]
 LimbOrJointName = Annotated[str, Named("limb or joint")]
+BodyName = Annotated[str, Named("body")]
+ToneName = Annotated[str, Named("tone")]
 
 MethodNames = Annotated[tuple[MethodName, ...], Field(min_length=1)]
 LimbNames = tuple[LimbName, ...]

@@ -22,9 +22,15 @@ Target = Literal["uncertainty", "external"]
 
 
 class Observer(Section):
-    """The momentum observer (7)."""
+    """The momentum observer (7).
+
+    Attributes:
+        torque: what recordings hold of the motors' torque: its `mean` over the interval that ends at the tick, as the
+            simulator writes it, or a `sample` at the tick.
+    """
 
     gain_hz: Positive
+    torque: Literal["mean", "sample"] = "mean"
 
 
 class Method(Section):

@@ -17,7 +17,7 @@ from mobnet.control.upper_body import UpperBody, follow
 from mobnet.control.walker import make_walker
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.recording import recording_width
-from mobnet.robot.description import RobotDescription, load_robot
+from mobnet.robot.description import for_walking, load_robot
 from mobnet.simulation.engine import Plant, make_plant, run
 from mobnet.simulation.friction import make_friction
 from mobnet.simulation.native import bind
@@ -64,7 +64,7 @@ class Simulator:
         if scenario not in config["scenarios"]:
             raise ConfigError(not_accepted("scenario", scenario, config["scenarios"]))
         self.config, self.level, self.settings = config, level, config["scenarios"][scenario]
-        self.robot: RobotDescription = load_robot(Path(config["robot"]))
+        self.robot = for_walking(load_robot(Path(config["robot"])))
         par = walking_parameters(config["walking"])
         ratio = _level(config, level)["nominal_mass_ratio"]
         self.walker = make_walker(self.robot, par, ratio, config["plant"]["gravity_m_s2"])
@@ -151,8 +151,8 @@ class Simulator:
     def _sole_points(self, yaw: float) -> Array:
         """Return points (n, 2) [m] under both soles of a start that faces yaw [rad]."""
         robot, spacing = self.robot, self.walker.par.foot_spacing_m
-        x = robot.sole_centre[0] + robot.sole_half[0] * np.linspace(-1.0, 1.0, SOLE_POINTS[0])
-        y = robot.sole_half[1] * np.linspace(-1.0, 1.0, SOLE_POINTS[1])
+        x = robot.sole.centre[0] + robot.sole.half[0] * np.linspace(-1.0, 1.0, SOLE_POINTS[0])
+        y = robot.sole.half[1] * np.linspace(-1.0, 1.0, SOLE_POINTS[1])
         x, y = (grid.ravel() for grid in np.meshgrid(x, np.concatenate([y, y + spacing])))
         c, n = np.cos(yaw), np.sin(yaw)
         return self.state.old_ankle[:2] + np.column_stack([c * x - n * y, n * x + c * y])  # of the right foot

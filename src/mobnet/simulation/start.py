@@ -14,7 +14,7 @@ from mobnet.control.leg_ik import leg_ik
 from mobnet.control.parameters import DURATION, State
 from mobnet.control.walker import Walker
 from mobnet.control.whole_body import leg_jacobian
-from mobnet.robot.description import RobotDescription
+from mobnet.robot.description import WalkingRobot
 
 Array = NDArray[np.float64]
 CLEARANCE_M = 0.001  # soles over the ground at the start
@@ -22,14 +22,14 @@ ITERATIONS = 20  # of the feet's place under the centre of mass; converges by a 
 SIDES = (1.0, -1.0)
 
 
-def place(walker: Walker, robot: RobotDescription) -> tuple[Array, Array]:
+def place(walker: Walker, robot: WalkingRobot) -> tuple[Array, Array]:
     """Return q (nq,) and the ankles (2, 3) [m] of standing in the walker's posture: level, weight over the ZMP."""
     par = walker.par
     q, v = np.zeros(robot.layout.nq), np.zeros(robot.layout.nv)
     q[2], q[3] = CLEARANCE_M + par.pelvis_height_m, 1.0
     q[7 + walker.upper :] = walker.posture
     ankles = np.zeros((2, 3))
-    ankles[:, 2] = CLEARANCE_M - robot.sole_height
+    ankles[:, 2] = CLEARANCE_M - robot.sole.height
     ankles[:, 1] = np.array(SIDES) * par.foot_spacing_m / 2
     for _ in range(ITERATIONS):
         for k, side in enumerate(SIDES):
@@ -40,7 +40,7 @@ def place(walker: Walker, robot: RobotDescription) -> tuple[Array, Array]:
     return q, ankles
 
 
-def start_walking(walker: Walker, robot: RobotDescription, s: State, command: Array) -> tuple[Array, Array]:
+def start_walking(walker: Walker, robot: WalkingRobot, s: State, command: Array) -> tuple[Array, Array]:
     """Return q (nq,) and v (nv,) amid double support, swaying to the left, and set the controller's state to it.
 
     The pelvis has the lateral speed of a linear inverted pendulum that steps in place, (W49).
@@ -53,7 +53,7 @@ def start_walking(walker: Walker, robot: RobotDescription, s: State, command: Ar
     """
     par = walker.par
     q, ankles = place(walker, robot)
-    omega = np.sqrt(walker.gravity / (walker.pose.com[2] - ankles[0, 2] - robot.sole_height))
+    omega = np.sqrt(walker.gravity / (walker.pose.com[2] - ankles[0, 2] - robot.sole.height))
     sway = omega * par.foot_spacing_m / 2 * np.tanh(omega * command[DURATION] / 2)
     v = np.zeros(robot.layout.nv)
     v[6 + walker.upper :] = walker.posture_rate
@@ -70,7 +70,7 @@ def start_walking(walker: Walker, robot: RobotDescription, s: State, command: Ar
     return q, v
 
 
-def start_standing(walker: Walker, robot: RobotDescription, s: State, command: Array) -> tuple[Array, Array]:
+def start_standing(walker: Walker, robot: WalkingRobot, s: State, command: Array) -> tuple[Array, Array]:
     """Return q (nq,) and v (nv,) of a still stance and set the controller to stand; arguments as `start_walking`'s."""
     q, ankles = place(walker, robot)
     _set_state(walker, s, command, q, ankles)

@@ -1,0 +1,66 @@
+"""Names in a section that must exist elsewhere: found by the marks of the fields that hold them."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from types import NoneType, UnionType
+from typing import Annotated, Any, Union, cast, get_args, get_origin
+
+from pydantic import BaseModel
+
+from mobnet.core.errors import not_accepted
+from mobnet.settings.base import Named
+
+Place = tuple[str, ...]
+Use = tuple[Place, str, str]  # place, kind of name, name
+
+
+def unknown(found: Iterable[Use], accepted: Mapping[str, Collection[str]]) -> Iterator[tuple[Place, str]]:
+    """Yield the place of every name that does not exist and what is accepted there.
+
+    Args:
+        found: names with their places and kinds.
+        accepted: kind of name -> the names that exist.
+    """
+    for place, kind, name in found:
+        if name not in accepted[kind]:
+            yield place, not_accepted(kind, name, accepted[kind])
+
+
+def uses(value: Any, kind: Any, place: Place = ()) -> Iterator[Use]:
+    """Yield every name that a value of an annotated kind holds.
+
+    Args:
+        value: a section, a container or a scalar.
+        kind: its annotation.
+        place: keys that lead to it.
+    """
+    origin, args = get_origin(kind), get_args(kind)
+    if origin is Annotated:
+        yield from ((place, mark.kind, value) for mark in args[1:] if isinstance(mark, Named))
+        yield from uses(value, args[0], place)
+    elif isinstance(value, BaseModel):
+        for name, field in type(value).model_fields.items():
+            inner = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
+            yield from uses(getattr(value, name), inner, (*place, name))
+    elif origin in (Union, UnionType):
+        yield from _union_uses(value, args, place)
+    elif isinstance(value, dict) and len(args) == 2:
+        for key, item in cast("dict[str, Any]", value).items():
+            yield from uses(key, args[0], place)
+            yield from uses(item, args[1], (*place, key))
+    elif isinstance(value, tuple) and args:
+        items = cast("tuple[Any, ...]", value)
+        kinds = [args[0]] * len(items) if args[-1] is Ellipsis else args
+        for index, (item, inner) in enumerate(zip(items, kinds, strict=True)):
+            yield from uses(item, inner, (*place, str(index)) if isinstance(item, BaseModel) else place)
+
+
+def _union_uses(value: Any, kinds: tuple[Any, ...], place: Place) -> Iterator[Use]:
+    """Yield the names of a value that is of one of several kinds."""
+    for kind in kinds:
+        bare = get_args(kind)[0] if get_origin(kind) is Annotated else kind
+        origin = get_origin(bare) or bare
+        if bare is not NoneType and isinstance(origin, type) and isinstance(value, origin):
+            yield from uses(value, kind, place)
+            return
