@@ -61,7 +61,7 @@ class RobotTable(Section):
     imu: ImuRow | None = None
     feet: Feet | None = None
     leg: LegRow | None = None
-    hands: dict[Side, BodyName] = Field(default_factory=dict)
+    hands: dict[Side, BodyName] = Field(default={})
     order: Order
     groups: dict[Text, Annotated[tuple[JointName, ...], Field(min_length=1)]]
     posture: dict[LimbName, PostureRow] = Field(default_factory=dict)
