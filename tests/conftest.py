@@ -13,15 +13,14 @@ import yaml
 from browser import BROWSER, Browser
 from numpy.typing import NDArray
 
-from mobnet.core.config import load_layout, resolve
+from mobnet.core.config import resolve
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Recording, Sensed, Truth, recording_columns
 from mobnet.core.store import write_array, write_recording
-from mobnet.robot.description import WalkingRobot, for_walking, load_robot
+from mobnet.robot.description import RobotDescription, WalkingRobot, describe, for_walking
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.load import load_settings
-from mobnet.settings.settings import Settings
-from mobnet.settings.load import load_settings
+from mobnet.settings.load import load_section, load_settings
+from mobnet.settings.robot import RobotTable
 from mobnet.settings.settings import Settings
 
 ROOT = Path(__file__).parents[1]
@@ -45,19 +44,24 @@ def settings() -> Settings:
 
 
 @pytest.fixture(scope="session")
-def settings() -> Settings:
-    """The repository's configuration at its smoke scale."""
-    return load_settings(overrides={"scale": "smoke"})
+def layout(settings: Settings) -> JointLayout:
+    return settings.layout
 
 
 @pytest.fixture(scope="session")
-def layout(full_config: dict[str, Any]) -> JointLayout:
-    return load_layout(Path(full_config["robot"]))
+def robot(settings: Settings) -> WalkingRobot:
+    return for_walking(describe(settings.robot))
 
 
 @pytest.fixture(scope="session")
-def robot(full_config: dict[str, Any]) -> WalkingRobot:
-    return for_walking(load_robot(Path(full_config["robot"])))
+def arm_table() -> RobotTable:
+    """A two-link arm on a fixed base."""
+    return load_section(ROOT / "tests" / "data" / "arm.yaml", RobotTable)
+
+
+@pytest.fixture(scope="session")
+def arm(arm_table: RobotTable) -> RobotDescription:
+    return describe(arm_table)
 
 
 @pytest.fixture(scope="session")

@@ -38,4 +38,4 @@ def test_unknown_limb_and_joint_are_named(layout: JointLayout) -> None:
 def test_group_of_an_unknown_joint_is_refused() -> None:
     order = {"virtual": ["V1"], "actuated": ["A1"]}
     with pytest.raises(ConfigError, match="joint: 'A2'"):
-        layout_of(order, {"A": ["A2"]})
+        layout_of(order, {"A": ["A2"]}, {})

@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import mujoco
 import numpy as np
 import pytest
 
-from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.recording import Recording, Sensed, Truth
 from mobnet.core.store import read_array, write_recording
 from mobnet.estimation.observe import observe, observer_of, residual_columns
@@ -19,6 +17,7 @@ from mobnet.estimation.observer import MomentumObserver, low_pass
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.plant import SOLE_TYPE, TERRAIN_TYPE, robot_spec
+from mobnet.settings.settings import Settings
 
 RATE_HZ, GAIN_HZ = 1000.0, 100.0
 META = {"scenario": "random_walk", "level": "ideal", "seed": 3}
@@ -44,10 +43,21 @@ def written(robot: RobotDescription, tmp_path: Path) -> Callable[[Recording], Pa
     return write
 
 
+@pytest.fixture
+def run(settings: Settings) -> Callable[..., None]:
+    """A function recording, out, level that runs the rule."""
+
+    def observed(recording: Path, out: Path, level: str = "ideal") -> None:
+        gravity = settings.plant.gravity_m_s2
+        observe(settings.robot, settings.levels[level], gravity, settings.observer, recording, out)
+
+    return observed
+
+
 def test_file_has_residual_then_truth_and_says_where_from(
-    config: dict[str, Any], recording: Recording, robot: RobotDescription, written: Callable, tmp_path: Path
+    run: Callable, recording: Recording, robot: RobotDescription, written: Callable, tmp_path: Path
 ) -> None:
-    observe(config, written(recording), tmp_path / "out" / "s3")
+    run(written(recording), tmp_path / "out" / "s3")
     array, meta = read_array(tmp_path / "out" / "s3")
     names = [column["name"] for column in meta["columns"]]
     joints = robot.layout.names
@@ -59,9 +69,9 @@ def test_file_has_residual_then_truth_and_says_where_from(
 
 
 def test_without_uncertainty_residual_is_the_low_passed_truth(
-    config: dict[str, Any], recording: Recording, written: Callable, tmp_path: Path
+    run: Callable, recording: Recording, written: Callable, tmp_path: Path
 ) -> None:
-    observe(config, written(recording), tmp_path / "out")
+    run(written(recording), tmp_path / "out")
     array, _ = read_array(tmp_path / "out")
     residual, truth = np.split(np.asarray(array, dtype=np.float64), 2, axis=1)
     assert np.abs(truth[:, :6]).max() > 100
@@ -69,9 +79,9 @@ def test_without_uncertainty_residual_is_the_low_passed_truth(
 
 
 def test_every_segment_starts_anew(
-    config: dict[str, Any], recording: Recording, nominal: NominalModel, written: Callable, tmp_path: Path
+    run: Callable, recording: Recording, nominal: NominalModel, written: Callable, tmp_path: Path
 ) -> None:
-    observe(config, written(recording), tmp_path / "out")
+    run(written(recording), tmp_path / "out")
     array, _ = read_array(tmp_path / "out")
     nv = nominal.model.nv
     np.testing.assert_array_equal(array[[0, 100]], 0)
@@ -80,34 +90,25 @@ def test_every_segment_starts_anew(
     np.testing.assert_allclose(array[100:, nv:], low_pass(recording.truth.tau_ext[100:], GAIN_HZ, RATE_HZ), atol=0.01)
 
 
-def test_level_picks_the_nominal_model(config: dict[str, Any], robot: RobotDescription) -> None:
-    ratios = {level: observer_of(config, robot, level, RATE_HZ).nominal.mass_ratio for level in config["levels"]}
+def test_level_picks_the_nominal_model(settings: Settings, robot: RobotDescription) -> None:
+    made = {name: observer_of(robot, level, 9.81, GAIN_HZ, RATE_HZ) for name, level in settings.levels.items()}
+    ratios = {name: observer.nominal.mass_ratio for name, observer in made.items()}
     lighter = {level for level, ratio in ratios.items() if ratio == pytest.approx(0.9)}
     assert lighter == {"all_uncertainty", "no_friction", "no_load_friction", "no_noise"}
     assert {ratios[level] for level in ratios.keys() - lighter} == {1.0}
 
 
 def test_lighter_nominal_model_leaves_a_share_of_what_is_needed_in_the_residual(
-    config: dict[str, Any], recording: Recording, written: Callable, tmp_path: Path, robot: RobotDescription
+    run: Callable, recording: Recording, written: Callable, tmp_path: Path, robot: RobotDescription
 ) -> None:
     stem = written(replace(recording, meta={**META, "level": "all_uncertainty"}))
-    observe(config, stem, tmp_path / "out")
+    run(stem, tmp_path / "out", "all_uncertainty")
     array, meta = read_array(tmp_path / "out")
     residual, truth = np.split(np.asarray(array, dtype=np.float64), 2, axis=1)
     needed = np.concatenate([recording.truth.tau_ext[:, :6], recording.sensed.tau_motor], axis=1)
     error = -0.1 * low_pass(needed[:100], GAIN_HZ, RATE_HZ)
     assert meta["nominal_mass_ratio"] == 0.9
     np.testing.assert_allclose((residual - truth)[:100], error, atol=0.02)
-
-
-def test_unknown_or_missing_level_is_named(
-    config: dict[str, Any], recording: Recording, written: Callable, tmp_path: Path
-) -> None:
-    with pytest.raises(ConfigError, match="'perfect' is not accepted; accepted: all_uncertainty, "):
-        observe(config, written(replace(recording, meta={**META, "level": "perfect"})), tmp_path / "out")
-    with pytest.raises(DataError, match="key 'level' is missing"):
-        observe(config, written(replace(recording, meta={})), tmp_path / "out")
-    assert not (tmp_path / "out.json").exists()
 
 
 def test_columns_carry_unit_and_frame(robot: RobotDescription) -> None:

@@ -170,5 +170,5 @@ def test_gain_or_rate_not_above_zero_is_named(nominal: NominalModel, gain_hz: fl
 
 def test_samples_of_another_robot_are_refused(observer: MomentumObserver, pushed: Callable) -> None:
     sensed, _ = pushed(RATE_HZ)
-    with pytest.raises(DataError, match=r"\(201, 39\), \(201, 39\); accepted"):
+    with pytest.raises(DataError, match=r"\(201, 39\), \(201, 39\), \(201, 33\)\]; accepted"):
         observer.residual(replace(sensed, q=sensed.q[:, :-1]))

@@ -12,7 +12,12 @@ from mobnet.settings.parts import BodyRow, PointRow, ShapeRow
 HAND = PointRow(name="left_hand", body="L_Wrist2_Link", pos=(0.1, 0.2, 0.3))
 HEAD = PointRow(name="head", body="Head_Link")
 ARM = ShapeRow(
-    name="left_arm", body="L_Arm_Link", type="capsule", size=(0.1,), segment=(0.1, 0.2, 0.3, -0.4, 0.5, 0.6), tone="light"
+    name="left_arm",
+    body="L_Arm_Link",
+    type="capsule",
+    size=(0.1,),
+    segment=(0.1, 0.2, 0.3, -0.4, 0.5, 0.6),
+    tone="light",
 )
 
 

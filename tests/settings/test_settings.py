@@ -12,8 +12,8 @@ from mobnet.core.errors import ConfigError
 from mobnet.plan.runs import FIRST_TRAINING_SEED
 from mobnet.settings import evaluation
 from mobnet.settings.claims import TAKES, Claim
+from mobnet.settings.names import uses
 from mobnet.settings.published import PublishedTable
-from mobnet.settings.references import uses
 from mobnet.settings.settings import Settings
 
 SECTIONS = Path(evaluation.__file__).parent
@@ -64,7 +64,7 @@ def test_a_method_runs_on_the_files_of_the_one_it_names(settings: Settings) -> N
 
 def test_names_are_looked_at_in_every_section(settings: Settings) -> None:
     """Each mark of a field is found through tuples, keys and values of mappings, unions and nested sections."""
-    found = {(".".join(place), kind) for place, kind, _ in uses(settings, Settings, ())}
+    found = {(".".join(place), kind) for place, kind, _ in uses(settings, Settings)}
     assert found >= {
         ("scale", "scale"), ("scenarios.random_walk.terrain", "terrain"), ("scenarios.random_walk.pushes", "push"),
         ("scenarios.random_motion.motion", "motion"), ("scenarios.hand_load_10.draws", "scenario"),
@@ -72,11 +72,11 @@ def test_names_are_looked_at_in_every_section(settings: Settings) -> None:
         ("networks.LL.experiment", "experiment"), ("methods.MOB-Net.limbs", "network"), ("sweeps.hidden.of", "method"),
         ("scales.paper.train.walk.scenario", "scenario"), ("scales.smoke.train.motion.level", "level"),
         ("evaluation.tables.table_05.columns", "limb or joint"),
-        ("evaluation.tables.table_06.columns.joints", "limb or joint"),
-        ("evaluation.tables.table_05.rows.methods", "method"), ("evaluation.figure_05.panels", "level"),
+        ("evaluation.tables.table_06.columns.2.joints", "limb or joint"),
+        ("evaluation.tables.table_05.rows.0.methods", "method"), ("evaluation.figure_05.panels", "level"),
         ("evaluation.figure_10.tests.swing knee.scenario", "test with a window around pushes"),
-        ("evaluation.calibration.tests.pushed", "motor"), ("evaluation.figure_18.limbs", "limb"),
-        ("claims.mob-exact.cells.joint", "limb or joint"), ("published.tables.table_05.floor.method", "method"),
+        ("evaluation.calibration.tests.2.pushed", "motor"), ("evaluation.figure_18.limbs", "limb"),
+        ("claims.mob-exact.cells.0.joint", "limb or joint"), ("published.tables.table_05.floor.method", "method"),
     }  # fmt: skip
 
 

@@ -118,12 +118,13 @@ class WalkingRobot(RobotDescription):
 
 def describe(table: RobotTable) -> RobotDescription:
     """Return a robot's table as numpy values."""
+    legs = {side: foot.limb for side, foot in table.feet.items()}
     return RobotDescription(
         name=table.name,
-        layout=table.layout,
+        layout=JointLayout(table.order.virtual, table.order.actuated, table.groups, legs),
         bodies=tuple(map(read_body, table.bodies)),
         joints=tuple(map(read_joint, table.joints)),
-        feet=read_feet(table.feet),
+        feet=read_feet(table),
         hands={**table.hands},
         leg=None if table.leg is None else Leg(vector(table.leg.hip_pos), table.leg.link_length),
         imu=None if table.imu is None else Point("imu", table.imu.body, vector(table.imu.pos)),

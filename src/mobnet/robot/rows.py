@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from mobnet.core.joints import right_of
 from mobnet.robot.parts import Body, Foot, Joint, Point, Posture, Shape, Sole, Vector
-from mobnet.settings.parts import BodyRow, Colour, Feet, JointRow, PointRow, ShapeRow
+from mobnet.settings.parts import BodyRow, Colour, JointRow, PointRow, ShapeRow
 from mobnet.settings.robot import RobotTable
 
 Row = TypeVar("Row", bound=PointRow)
@@ -43,14 +43,13 @@ def read_joint(row: JointRow) -> Joint:
     )
 
 
-def read_feet(feet: Feet | None) -> dict[str, Foot]:
+def read_feet(table: RobotTable) -> dict[str, Foot]:
     """Return side -> foot, all on soles of one shape."""
-    if feet is None:
+    row = table.sole
+    if row is None:
         return {}
-    sole = Sole(
-        vector(feet.sensor_pos), vector(feet.sole_box_centre), vector(feet.sole_box_half), float(feet.sole_height)
-    )
-    return {side: Foot(row.body, row.limb, sole) for side, row in feet.by_side.items()}
+    sole = Sole(vector(row.sensor_pos), vector(row.box_centre), vector(row.box_half), row.height)
+    return {side: Foot(foot.body, foot.limb, sole) for side, foot in table.feet.items()}
 
 
 def read_posture(table: RobotTable) -> Posture:

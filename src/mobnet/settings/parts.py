@@ -105,28 +105,20 @@ class FootRow(Section):
     limb: LimbName
 
 
-class Feet(Section):
-    """Feet of one shape; positions in the foot's frame.
+class SoleRow(Section):
+    """What every foot stands on, in the foot's frame.
 
     Attributes:
         sensor_pos: origin of the force/torque sensor [m].
-        sole_box_centre: centre of the box that touches the ground [m].
-        sole_box_half: its half lengths [m].
-        sole_height: height of its lower face [m].
+        box_centre: centre of the box that touches the ground [m].
+        box_half: its half lengths [m].
+        height: height of its lower face [m].
     """
 
-    left: FootRow | None = None
-    right: FootRow | None = None
     sensor_pos: Vector3
-    sole_box_centre: Vector3
-    sole_box_half: tuple[Positive, Positive, Positive]
-    sole_height: Real
-
-    @property
-    def by_side(self) -> dict[Side, FootRow]:
-        """The feet that there are."""
-        both: dict[Side, FootRow | None] = {"left": self.left, "right": self.right}
-        return {side: foot for side, foot in both.items() if foot is not None}
+    box_centre: Vector3
+    box_half: tuple[Positive, Positive, Positive]
+    height: Real
 
 
 class LegRow(Section):
@@ -165,7 +157,7 @@ class ShapeRow(PointRow):
     @model_validator(mode="after")
     def _has_its_size(self) -> ShapeRow:
         """Check that there are as many sizes as the solid takes, and one place."""
-        if self.segment is not None and ("pos" in self.model_fields_set or SIZES[self.type] != 2):
+        if self.segment is not None and (any(self.pos) or SIZES[self.type] != 2):
             raise ValueError(f"{self.type} {self.name} with `segment`; accepted: capsule and cylinder without `pos`")
         wanted = SIZES[self.type] if self.segment is None else 1
         if len(self.size) != wanted:

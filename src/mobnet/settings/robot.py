@@ -18,7 +18,7 @@ from mobnet.settings.networks import Limb
 from mobnet.settings.parts import (
     BodyRow,
     Colour,
-    Feet,
+    FootRow,
     ImuRow,
     JointRow,
     LegRow,
@@ -26,6 +26,7 @@ from mobnet.settings.parts import (
     PostureRow,
     ShapeRow,
     Side,
+    SoleRow,
     Totals,
 )  # fmt: skip
 
@@ -59,7 +60,8 @@ class RobotTable(Section):
     base: Literal["fixed", "floating"]
     totals: Totals | None = None
     imu: ImuRow | None = None
-    feet: Feet | None = None
+    feet: dict[Side, FootRow] = Field(default={})
+    sole: SoleRow | None = None
     leg: LegRow | None = None
     hands: dict[Side, BodyName] = Field(default={})
     order: Order
@@ -80,7 +82,7 @@ class RobotTable(Section):
     @property
     def layout(self) -> JointLayout:
         """Joints and limbs."""
-        legs = {side: foot.limb for side, foot in self.feet.by_side.items()} if self.feet else {}
+        legs = {side: foot.limb for side, foot in self.feet.items()}
         return JointLayout(self.order.virtual, self.order.actuated, self.groups, legs)
 
     @property
@@ -165,12 +167,14 @@ def _length_problems(table: RobotTable) -> Iterator[Problem]:
 
 
 def _base_problems(table: RobotTable) -> Iterator[Problem]:
-    """Yield virtual joints, a sensor or a hinge that do not fit the base."""
+    """Yield virtual joints, a sensor or a hinge that do not fit the base, and feet without soles."""
     base, wanted = table.bodies[0].name, N_VIRTUAL if table.base == "floating" else 0
     if len(table.order.virtual) != wanted:
         yield ("order", "virtual"), f"{len(table.order.virtual)} joints; accepted: {wanted} of a {table.base} base"
     if table.imu is not None and table.imu.body != base:
         yield ("imu", "body"), not_accepted("body", table.imu.body, [base])
+    if bool(table.feet) != (table.sole is not None):
+        yield ("feet",), "`feet` and `sole` are accepted together only"
     for index, joint in enumerate(table.joints):
         if joint.body == base:
             yield ("joints", str(index), "body"), f"{joint.id} moves the base {base!r}; accepted: a body below it"

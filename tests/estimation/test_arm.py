@@ -1,0 +1,79 @@
+"""The observer on a log of a two-link arm on a fixed base: no base, no feet, no walking."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+from mobnet.core.errors import DataError
+from mobnet.core.recording import Recording, Sensed, Truth, recording_columns
+from mobnet.core.store import read_array, read_recording, read_sensed, write_recording
+from mobnet.estimation.observe import observe, observer_of
+from mobnet.estimation.observer import low_pass
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.plant import robot_spec
+from mobnet.settings.robot import RobotTable
+from mobnet.settings.settings import Settings
+
+RATE_HZ, SUB_STEPS, SAMPLES = 1000.0, 2, 600
+
+
+@pytest.fixture(scope="module")
+def log(arm: RobotDescription) -> Recording:
+    """The simulated arm swings under its motors, and is pushed after a tenth of a second."""
+    spec = robot_spec(arm)
+    spec.option.timestep = 1 / (SUB_STEPS * RATE_HZ)
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_RK4  # links turn at 10 rad/s, too fast for Euler's method
+    model = spec.compile()
+    data, rows = mujoco.MjData(model), []
+    data.qpos[:] = 0.5, -0.8
+    for sample in range(SAMPLES):
+        ticks = []
+        for _ in range(SUB_STEPS):
+            data.ctrl[:] = 12 * np.sin(9 * data.time) - 4 * data.qpos - data.qvel
+            data.qfrc_applied[:] = [0.0, 3.0] if sample >= RATE_HZ / 10 else [0.0, 0.0]
+            mujoco.mj_step(model, data)
+            ticks.append([data.ctrl.copy(), data.qfrc_applied.copy()])
+        rows.append([data.qpos.copy(), data.qvel.copy(), *np.mean(ticks, axis=0)])
+    q, v, tau, external = np.array(rows).transpose(1, 0, 2)
+    none = np.zeros((SAMPLES, 0))
+    truth = Truth(external, none, none, none, np.zeros((SAMPLES, 1)))
+    return Recording(Sensed(q, v, none, tau, tau, none, none), ((0, SAMPLES),), RATE_HZ, {"level": "ideal"}, truth)
+
+
+def test_a_log_holds_joints_alone_and_is_read_back(log: Recording, arm: RobotDescription, tmp_path: Path) -> None:
+    columns = recording_columns(arm.layout)
+    names = [name for group in columns.values() for name, _, _ in group]
+    assert names == [f"{field}.{joint}" for field in ("q", "v", "tau_des", "tau_motor", "tau_ext")
+                     for joint in ("J1", "J2")] + ["pushed"]  # fmt: skip
+    assert columns["tau_ext"][0] == ("tau_ext.J1", "N m", "joint")
+    write_recording(tmp_path / "log", log, arm.layout)
+    read = read_recording(tmp_path / "log", arm.layout)
+    for name in Sensed.__dataclass_fields__:
+        np.testing.assert_allclose(getattr(read.sensed, name), getattr(log.sensed, name), rtol=1e-6)
+        assert getattr(read_sensed(tmp_path / "log", arm.layout).sensed, name).dtype == np.float32
+    assert (read.truth.contact.shape, read.truth.wrench_left_foot.shape) == ((SAMPLES, 0), (SAMPLES, 0))
+
+
+def test_residual_is_the_low_passed_torque_that_pushed_it(
+    log: Recording, arm_table: RobotTable, settings: Settings, tmp_path: Path
+) -> None:
+    """The reference is the external torque of the simulation."""
+    write_recording(tmp_path / "log", log, arm_table.layout)
+    level, gravity = settings.levels["ideal"], settings.plant.gravity_m_s2
+    observe(arm_table, level, gravity, settings.observer, tmp_path / "log", tmp_path / "out")
+    array, meta = read_array(tmp_path / "out")
+    assert [column["name"] for column in meta["columns"]] == ["r.J1", "r.J2", "tau_ext_lp.J1", "tau_ext_lp.J2"]
+    pushed = low_pass(log.truth.tau_ext, settings.observer.gain_hz, RATE_HZ)
+    assert pushed[-1, 1] == pytest.approx(3, abs=1e-9)
+    np.testing.assert_allclose(array[:, 2:], pushed, atol=1e-6)
+    np.testing.assert_allclose(array[:, :2], pushed, atol=0.004)
+
+
+def test_samples_of_another_robot_are_refused(log: Recording, robot: RobotDescription, settings: Settings) -> None:
+    observer = observer_of(robot, settings.levels["ideal"], 9.81, 100.0, RATE_HZ)
+    with pytest.raises(DataError, match=r"\(600, 2\), .*accepted: .\(600, 40\), \(600, 39\), \(600, 33\)"):
+        observer.residual(log.sensed)

@@ -1,0 +1,118 @@
+"""A robot's table: every fault is one line with place, value and accepted values, and all are told at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from mobnet.core.errors import ConfigError
+from mobnet.settings.load import load_section, read_yaml
+from mobnet.settings.robot import RobotTable
+
+ROOT = Path(__file__).parents[2]
+TOCABI, ARM = ROOT / "configs" / "robots" / "tocabi.yaml", ROOT / "tests" / "data" / "arm.yaml"
+Break = Callable[[dict[str, Any]], object]
+
+
+def load_broken(tmp_path: Path, source: Path, *breaks: Break) -> RobotTable:
+    """Return a table after changes of its values."""
+    table = read_yaml(source)
+    for change in breaks:
+        change(table)
+    path = tmp_path / "robot.yaml"
+    path.write_text(yaml.dump(table, Dumper=yaml.CSafeDumper, sort_keys=False))
+    return load_section(path, RobotTable)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda t: t.update(base="flying"), "base: 'flying' is not accepted; input should be 'fixed' or 'floating'"),
+        (lambda t: t.update(base="fixed"), "order.virtual: 6 joints; accepted: 0 of a fixed base"),
+        (lambda t: t["order"].pop("virtual"), "order.virtual: 0 joints; accepted: 6 of a floating base"),
+        (lambda t: t["bodies"][3].update(parent="nowhere"), "bodies.3.parent: parent of L_Thigh_Link: 'nowhere' is not"),
+        (lambda t: t["bodies"][1].update(parent="world"), "parent of L_HipRoll_Link: 'world' is not .*: base_link$"),
+        (lambda t: t["bodies"].insert(1, t["bodies"].pop(8)), "parent of R_HipCenter_Link: .*; accepted: L_AnkleC"),
+        (lambda t: t["bodies"][3].update(mass=0.0), "bodies.3.mass: 0.0 is not accepted; input should be greater than 0"),
+        (lambda t: t["bodies"][3].update(quat=[1.0, 0.1, 0.0, 0.0]), "bodies.3.quat: .* length 1.00499; accepted: le"),
+        (lambda t: t["bodies"][3].update(inertia=[0.1, 0.1, 0.3, 0.0, 0.0, 0.0]), "3.inertia: .* moments 0.1, 0.1, 0.3;"),
+        (lambda t: t["bodies"][3].update(inertia=[0.1, 0.1, 0.1, 0.2, 0.0, 0.0]), "accepted: all above 0 and none above"),
+        (lambda t: t["bodies"][3].update(pos=[0.0, 0.0]), "bodies.3.pos"),
+        (lambda t: t["joints"][0].update(body="L_Wing"), "joints.0.body: body: 'L_Wing' is not accepted; accepted: Head"),
+        (lambda t: t["joints"][0].update(body="base_link"), "joints.0.body: LL1 moves the base 'base_link'"),
+        (lambda t: t["joints"][0].update(axis=[0.0, 1.0, 1.0]), "joints.0.axis: .* has length 1.41421; accepted: length"),
+        (lambda t: t["joints"][0].update(range=[1.0, -1.0]), "joints.0.range: the lower end must come first"),
+        (lambda t: t["joints"].reverse(), "joints: joint 0 in order is 'RA8'; accepted: 'LL1', by `order.actuated`"),
+        (lambda t: t["joints"].pop(), "joints: joint 32 in order is None; accepted: 'RA8'"),
+        (lambda t: t["groups"]["W"].append("W4"), "groups.W: joint: 'W4' is not accepted; accepted: LA1"),
+        (lambda t: t["groups"]["W"].append("LL1"), "groups: 'LL1' occurs 2 times; accepted: once"),
+        (lambda t: t["networks"]["W"].update(Q=["tail"]), "networks.W.Q: limb: 'tail' is not accepted; accepted: LA, LL"),
+        (lambda t: t["posture"]["N"].update(angle_rad=[0.0]), "posture.N.angle_rad: 1 numbers; accepted: 2"),
+        (lambda t: t["posture"].update(T=t["posture"]["N"]), "posture: limb: 'T' is not accepted"),
+        (lambda t: t["hands"].update(left="L_Hook"), "hands.left: body: 'L_Hook' is not accepted; accepted: Head_Link"),
+        (lambda t: t["feet"].update(middle=t["feet"]["left"]), "feet.middle"),
+        (lambda t: t["feet"]["left"].update(limb="LX"), "feet.left.limb: limb: 'LX' is not accepted"),
+        (lambda t: t.pop("sole"), "feet: `feet` and `sole` are accepted together only"),
+        (lambda t: t["imu"].update(body="Head_Link"), "imu.body: body: 'Head_Link' is not accepted; accepted: base_link"),
+        (lambda t: t["shapes"][0].update(tone="pink"), "shapes.0.tone: tone: 'pink' is not accepted; accepted: accent"),
+        (lambda t: t["shapes"][0].update(size=[0.1]), "shapes.0: box pelvis with 1 sizes; accepted: 3"),
+        (lambda t: t["shapes"][2].update(type="box"), "shapes.2: box left_hip with `segment`; accepted: capsule and cyl"),
+        (lambda t: t["shapes"][2].update(body="L_Foot_Link_"), "shapes.2.body: body: 'L_Foot_Link_' is not accepted"),
+        (lambda t: t["points"][1].update(name="torso"), "points: 'torso' occurs 2 times; accepted: once"),
+        (lambda t: t["totals"].update(mass=95.7), "totals.mass: 95.7 is not accepted; accepted: 95.621910, by the rows"),
+        (lambda t: t["totals"].update(dof=40), "totals.dof: 40 is not accepted; accepted: 39, by the rows"),
+        (lambda t: t.update(wings=2), "wings: key: 'wings' is not accepted; accepted: base, bodies, feet"),
+        (lambda t: t.pop("order"), "order: key is missing"),
+    ],
+)  # fmt: skip
+def test_a_fault_is_one_line_with_place_value_and_accepted(tmp_path: Path, change: Break, message: str) -> None:
+    with pytest.raises(ConfigError, match=rf"(?m)^{tmp_path / 'robot.yaml'}: .*{message}"):
+        load_broken(tmp_path, TOCABI, change)
+
+
+def test_a_mirror_image_needs_a_body(tmp_path: Path) -> None:
+    def add(table: dict[str, Any]) -> None:
+        table["bodies"][2]["name"] = table["joints"][1]["body"] = "L_Link"
+        table["points"] = [{"name": "left_hand", "body": "L_Link"}]
+
+    with pytest.raises(ConfigError, match="points.0.body: body of the mirror image: 'R_Link' is not accepted; accepted"):
+        load_broken(tmp_path, ARM, add)
+
+
+def test_all_faults_of_a_table_are_told_at_once(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError) as caught:
+        load_broken(
+            tmp_path,
+            TOCABI,
+            lambda t: t["hands"].update(left="L_Hook"),
+            lambda t: t["groups"]["W"].append("W4"),
+            lambda t: t["totals"].update(mass=1.0),
+        )
+    places = [line.split(": ")[1] for line in str(caught.value).splitlines()]
+    assert sorted(set(places)) == ["groups.W", "hands.left", "posture.W.angle_rad", "posture.W.damping_nms_rad",
+                                   "posture.W.stiffness_nm_rad", "totals.mass"]  # fmt: skip
+
+
+def test_text_of_a_table_is_short_and_changes_with_every_figure(tmp_path: Path) -> None:
+    """The text is a parameter of every rule that takes the robot, so that a changed figure reruns it."""
+    table = load_section(TOCABI, RobotTable)
+    assert repr(table) == repr(load_broken(tmp_path, TOCABI)) == repr(RobotTable.model_validate(table.model_dump()))
+    assert len(repr(table)) < 80
+    changes: list[Break] = [
+        lambda t: t["bodies"][7].update(com=[0.0162, 8.1e-05, -0.1209]),
+        lambda t: t["points"].pop(),
+        lambda t: t["posture"]["LA"]["damping_nms_rad"].__setitem__(0, 10.001),
+        lambda t: t["totals"].update(height_m=1.81),
+    ]
+    texts = [repr(load_broken(tmp_path, TOCABI, change)) for change in changes]
+    assert len({repr(table), *texts}) == 1 + len(changes)
+
+
+def test_a_table_needs_bodies_joints_and_groups_alone() -> None:
+    layout = load_section(ARM, RobotTable).layout
+    assert (layout.nq, layout.nv, layout.nu, layout.names, dict(layout.legs)) == (2, 2, 2, ("J1", "J2"), {})
+    assert load_section(TOCABI, RobotTable).layout.legs == {"left": "LL", "right": "RL"}
