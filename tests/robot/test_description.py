@@ -27,17 +27,17 @@ def test_unknown_foot_is_named(robot: RobotDescription) -> None:
 
 def test_an_arm_has_no_feet_sensors_or_posture(arm: RobotDescription) -> None:
     assert (arm.floating, arm.base, arm.mass) == (False, "wall", 10.0)
-    assert not (arm.feet or arm.hands or arm.leg or arm.imu or arm.posture.joints or arm.shapes or arm.points)
+    assert not any((arm.feet, arm.hands, arm.leg, arm.imu, arm.posture.joints, arm.shapes, arm.points))
 
 
 def test_walking_names_all_that_a_table_lacks(robot: RobotDescription, arm: RobotDescription) -> None:
-    needs = "a floating base, feet on both sides, leg geometry .`leg`., hands on both sides, an inertial sensor"
-    with pytest.raises(
-        ConfigError, match=f"^robot two-link arm cannot walk; its table lacks: {needs} .*, a posture of"
-    ):
+    needs = (
+        "a floating base, feet on both sides, leg geometry .*, hands on both sides, an inertial sensor .*, a posture"
+    )
+    with pytest.raises(ConfigError, match=f"^robot two-link arm cannot walk; its table lacks: {needs}"):
         for_walking(arm)
     short = {**robot.layout.groups, "LL": robot.layout.groups["LL"][:5]}
     with pytest.raises(ConfigError, match="lacks: legs of 6 joints, legs that come first in `order`"):
         for_walking(replace(robot, layout=replace(robot.layout, groups=short)))
-    with pytest.raises(ConfigError, match="lacks: an inertial sensor .`imu`.$"):
+    with pytest.raises(ConfigError, match=r"lacks: an inertial sensor .`imu`.$"):
         for_walking(replace(robot, imu=None))
