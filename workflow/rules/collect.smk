@@ -16,7 +16,7 @@ rule motion:
         runtime=10,
     params:
         call=lambda w: job("motion", w).call,
-        given=lambda w: given(job("motion", w)),
+        given=lambda w: job("motion", w).given,
     script:
         "../scripts/call.py"
 
@@ -35,7 +35,7 @@ rule collect:
         runtime=10,
     params:
         call=lambda w: job("collect", w).call,
-        given=lambda w: given(job("collect", w)),
+        given=lambda w: job("collect", w).given,
     script:
         "../scripts/call.py"
 
@@ -54,6 +54,6 @@ rule observe:
         runtime=10,
     params:
         call=lambda w: job("observe", w).call,
-        given=lambda w: given(job("observe", w)),
+        given=lambda w: job("observe", w).given,
     script:
         "../scripts/call.py"

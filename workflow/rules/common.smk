@@ -3,7 +3,6 @@
 import sys
 from pathlib import Path
 
-from mobnet.core.code import code_hash
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
 from mobnet.estimation.methods import check_methods
@@ -13,7 +12,7 @@ from mobnet.settings.load import load_settings
 
 ROOT = Path(workflow.basedir)
 quieten(ROOT)
-# Every job, also one that outlives a killed run, holds this lock; ./reproduce clears up only once it holds it alone.
+# every job, also one that outlives a killed run, holds this lock; ./reproduce clears up only once it holds it alone
 shell.prefix(f"exec 9<>'{ROOT}/.cache/run.lock'; flock -s 9; ")
 
 try:
@@ -25,8 +24,7 @@ except MobnetError as error:
 
 RECORDING = "{scenario}", "{level}", "s{seed}"  # place of what belongs to a recording
 LOGS = PLAN.folders.results / "logs"
-# kinds of captions in the report, by a file's name or ending
-SHOWN = {"runs.html": "trainings", "main.pdf": "paper", ".html": "tables", ".png": "figures"}
+SHOWN = {"runs.html": "trainings", "main.pdf": "paper", ".html": "tables", ".png": "figures"}  # kinds of captions
 
 
 wildcard_constraints:
@@ -44,16 +42,10 @@ def job(kind, wildcards):
     return getattr(PLAN.jobs, kind)(**{k: int(v) if k.endswith("seed") else v for k, v in wildcards.items()})
 
 
-def given(job):
-    """Return what a job reruns on besides its files: its arguments and the code behind it."""
-    return job.call.fingerprint + code_hash(job.call.module, *job.modules)
-
-
 def array(*place):
     """Return the two files of an array whose place below the results is a pattern."""
-    return ensure(
-        [f"{PLAN.folders.results.joinpath(*place)}{ending}" for ending in (".parquet", ".json")], non_empty=True
-    )
+    stem = PLAN.folders.results.joinpath(*place)
+    return ensure([f"{stem}.parquet", f"{stem}.json"], non_empty=True)
 
 
 def flagged(name):
@@ -64,6 +56,5 @@ def flagged(name):
     if kind is None:
         return output
     caption = f"report/{kind}/{path.stem}.rst"
-    title = (ROOT / "workflow" / caption).read_text(encoding="utf-8").splitlines()[0]
-    labels = {"file": path.stem, "shows": title}
+    labels = {"file": path.stem, "shows": (ROOT / "workflow" / caption).read_text(encoding="utf-8").splitlines()[0]}
     return report(output, caption=f"../{caption}", category=kind.capitalize(), labels=labels)

@@ -15,7 +15,7 @@ rule fit:
         runtime=10,
     params:
         call=lambda w: job("fit", w).call,
-        given=lambda w: given(job("fit", w)),
+        given=lambda w: job("fit", w).given,
     script:
         "../scripts/call.py"
 
@@ -40,7 +40,7 @@ rule train:
         runtime=30,
     params:
         call=lambda w: job("train", w).call,
-        given=lambda w: given(job("train", w)),
+        given=lambda w: job("train", w).given,
     script:
         "../scripts/call.py"
 
@@ -58,6 +58,6 @@ rule estimate:
         runtime=10,
     params:
         call=lambda w: job("estimate", w).call,
-        given=lambda w: given(job("estimate", w)),
+        given=lambda w: job("estimate", w).given,
     script:
         "../scripts/call.py"

@@ -14,7 +14,7 @@ rule score:
         runtime=5,
     params:
         call=lambda w: job("score", w).call,
-        given=lambda w: given(job("score", w)),
+        given=lambda w: job("score", w).given,
     script:
         "../scripts/call.py"
 
@@ -36,6 +36,6 @@ for product in PLAN.products:
             runtime=10,
         params:
             call=product.job.call,
-            given=given(product.job),
+            given=product.job.given,
         script:
             "../scripts/call.py"

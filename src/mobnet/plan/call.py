@@ -8,12 +8,9 @@ import hashlib
 import importlib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
+from mobnet.core.code import SHORT, code_hash, start_of
 from mobnet.core.errors import ConfigError, not_accepted
-
-SHORT = 16  # characters of a hash that are kept
-SOURCE = Path(__file__).parents[2]
 
 
 @dataclass(frozen=True)
@@ -51,6 +48,11 @@ class Job:
     inputs: tuple[str, ...]
     modules: tuple[str, ...] = ()
 
+    @property
+    def given(self) -> str:
+        """What the job reruns on besides its files: its arguments and the code behind it."""
+        return self.call.fingerprint + code_hash(self.call.module, *self.modules)
+
 
 def call_of(function: str, available: Mapping[str, object]) -> Call:
     """Return a call whose arguments are those that the function's signature names.
@@ -77,7 +79,7 @@ def parameters(function: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
         ConfigError: there is no such function.
     """
     module, name = function.split(":")
-    tree = ast.parse(module_file(module).read_text(encoding="utf-8"))
+    tree = ast.parse(start_of(module).read_text(encoding="utf-8"))
     for node in tree.body:
         if isinstance(node, ast.FunctionDef) and node.name == name:
             names = [argument.arg for argument in node.args.args]
@@ -86,8 +88,3 @@ def parameters(function: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
     raise ConfigError(
         not_accepted(f"function of {module}", name, [n.name for n in tree.body if isinstance(n, ast.FunctionDef)])
     )
-
-
-def module_file(module: str) -> Path:
-    """Return the file of a module of this package."""
-    return SOURCE.joinpath(*module.split(".")).with_suffix(".py")
