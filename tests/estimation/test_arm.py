@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
+from typing import Literal
 
 import mujoco
 import numpy as np
 import pytest
 
-from mobnet.core.errors import DataError
+from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.recording import Recording, Sensed, Truth, recording_columns
 from mobnet.core.store import read_array, read_recording, read_sensed, write_recording
 from mobnet.estimation.observe import observe, observer_of
-from mobnet.estimation.observer import low_pass
+from mobnet.estimation.observer import MomentumObserver, low_pass
 from mobnet.robot.description import RobotDescription
+from mobnet.robot.dynamics import inverse_dynamics
+from mobnet.robot.nominal import NominalModel
 from mobnet.robot.plant import robot_spec
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.settings import Settings
 
 RATE_HZ, SUB_STEPS, SAMPLES = 1000.0, 2, 600
+GAIN_HZ, PUSH = 100.0, np.array([0.0, 3.0])  # [N m]
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +39,7 @@ def log(arm: RobotDescription) -> Recording:
         ticks = []
         for _ in range(SUB_STEPS):
             data.ctrl[:] = 12 * np.sin(9 * data.time) - 4 * data.qpos - data.qvel
-            data.qfrc_applied[:] = [0.0, 3.0] if sample >= RATE_HZ / 10 else [0.0, 0.0]
+            data.qfrc_applied[:] = PUSH if sample >= RATE_HZ / 10 else 0.0
             mujoco.mj_step(model, data)
             ticks.append([data.ctrl.copy(), data.qfrc_applied.copy()])
         rows.append([data.qpos.copy(), data.qvel.copy(), *np.mean(ticks, axis=0)])
@@ -42,6 +47,67 @@ def log(arm: RobotDescription) -> Recording:
     none = np.zeros((SAMPLES, 0))
     truth = Truth(external, none, none, none, np.zeros((SAMPLES, 1)))
     return Recording(Sensed(q, v, none, tau, tau, none, none), ((0, SAMPLES),), RATE_HZ, {"level": "ideal"}, truth)
+
+
+def swing(arm: RobotDescription, rate_hz: float) -> tuple[Sensed, Sensed]:
+    """Return two seconds of both joints on sines of 10 rad/s, pushed by PUSH: torques are means, or samples."""
+    nominal, period = NominalModel(arm), 1 / rate_hz
+    size, rate, phase = np.array([0.3, 0.2]), 10.0, np.array([0.0, 1.0])
+
+    def needed(t: float) -> np.ndarray:
+        angle = rate * t + phase
+        return inverse_dynamics(
+            nominal, size * np.sin(angle), size * rate * np.cos(angle), -size * rate**2 * np.sin(angle)
+        )
+
+    times = np.arange(0, 2, period)
+    angles, none = rate * times[:, None] + phase, np.zeros((len(times), 0))
+    q, v = size * np.sin(angles), size * rate * np.cos(angles)
+    before = period * ((np.arange(20) + 0.5) / 20 - 1)
+    mean = np.array([np.mean([needed(t + dt) for dt in before], axis=0) for t in times]) - PUSH
+    sample = np.array([needed(t) for t in times]) - PUSH
+    return tuple(Sensed(q, v, none, tau, tau, none, none) for tau in (mean, sample))
+
+
+def error(arm: RobotDescription, kind: Literal["mean", "sample"], sensed: Sensed, rate_hz: float) -> np.ndarray:
+    """Return the largest departure (2,) from the answer (10) to a push, a share of the motors' torque."""
+    residual = MomentumObserver(NominalModel(arm), GAIN_HZ, rate_hz, kind).residual(sensed)
+    answer = PUSH * (1 - np.exp(-GAIN_HZ / rate_hz * np.arange(len(residual))))[:, None]
+    return np.abs(residual - answer).max(axis=0) / (np.ptp(sensed.tau_motor, axis=0) / 2)
+
+
+def test_means_and_samples_of_a_torque_give_the_closed_form(arm: RobotDescription) -> None:
+    """The reference is (10): a constant push comes out of a first-order low-pass, whatever the motors do."""
+    for kind, coarse, fine in zip(("mean", "sample"), swing(arm, 100.0), swing(arm, 200.0), strict=True):
+        errors = error(arm, kind, coarse, 100.0), error(arm, kind, fine, 200.0)
+        assert errors[0].max() < 1e-3, kind
+        np.testing.assert_allclose(errors[0] / errors[1], 4, atol=0.2)  # second order in time
+
+
+def test_a_sample_taken_for_a_mean_is_half_a_sample_late(arm: RobotDescription) -> None:
+    """10 ms are 0.1 rad of the sine: half of it, five per cent of the torque, comes out as a push."""
+    mean, sample = swing(arm, 100.0)
+    np.testing.assert_allclose(error(arm, "mean", sample, 100.0), 0.05, atol=0.002)
+    np.testing.assert_allclose(error(arm, "sample", mean, 100.0), 0.05, atol=0.002)
+
+
+@pytest.mark.parametrize("kind", ["mean", "sample"])
+def test_stepping_through_one_buffer_equals_the_whole(arm: RobotDescription, kind: Literal["mean", "sample"]) -> None:
+    """Both forms are equivalent for either kind of torque, for any memory order, and if samples share their memory."""
+    sensed, observer = swing(arm, 100.0)[1], MomentumObserver(NominalModel(arm), GAIN_HZ, 100.0, kind)
+    whole, state, buffer, rows = observer.residual(sensed), observer.init(), np.zeros(2), []
+    for k in range(len(sensed)):
+        buffer[:] = sensed.tau_motor[k]
+        state, residual = observer.step(state, replace(sensed[k], tau_motor=buffer))
+        rows.append(residual)
+    np.testing.assert_allclose(rows, whole, atol=1e-9)
+    columns = Sensed(*(np.asfortranarray(getattr(sensed, name)) for name in Sensed.__dataclass_fields__))
+    np.testing.assert_array_equal(observer.residual(columns), whole)
+
+
+def test_an_unknown_kind_of_torque_is_named(arm: RobotDescription) -> None:
+    with pytest.raises(ConfigError, match="torque: 'median' is not accepted; accepted: mean, sample"):
+        MomentumObserver(NominalModel(arm), GAIN_HZ, RATE_HZ, "median")  # type: ignore[arg-type]
 
 
 def test_a_log_holds_joints_alone_and_is_read_back(log: Recording, arm: RobotDescription, tmp_path: Path) -> None:

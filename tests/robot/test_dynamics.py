@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Literal
 
 import numpy as np
 import pinocchio as pin
@@ -106,6 +107,23 @@ def test_batch_equals_one_by_one(nominal: NominalModel, random_state: Callable) 
     p, beta = dynamics.momentum_and_beta(nominal, q, v)
     np.testing.assert_array_equal(p, [dynamics.momentum(nominal, *state) for state in states])
     np.testing.assert_array_equal(beta, [dynamics.beta(nominal, *state) for state in states])
+
+
+@pytest.mark.parametrize("order", ["C", "F"])
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("machine", ["robot", "arm"])
+def test_any_memory_order_and_float_type_gives_the_same(
+    request: pytest.FixtureRequest, machine: str, dtype: type, order: Literal["C", "F"]
+) -> None:
+    """Columns of a table, as pandas hands them out, are the reference's rows in another order."""
+    nominal, rng = NominalModel(request.getfixturevalue(machine)), np.random.default_rng(8)
+    layout = nominal.robot.layout
+    q, v = (rng.normal(size=(5, width)).astype(dtype) for width in (layout.nq, layout.nv))
+    expected = dynamics.momentum_and_beta(nominal, q.astype(np.float64), v.astype(np.float64))
+    found = dynamics.momentum_and_beta(nominal, np.array(q, order=order), np.array(v, order=order))
+    np.testing.assert_array_equal(found, expected)
+    column = dynamics.mass_matrix(nominal, np.array(q, order=order)[2])
+    np.testing.assert_array_equal(column, dynamics.mass_matrix(nominal, q[2].astype(np.float64)))
 
 
 def test_yaw_of_the_world_turns_the_linear_part_only(nominal: NominalModel, random_state: Callable) -> None:

@@ -44,7 +44,7 @@ def test_sum_over_feet_keeps_each_leg_to_itself(nominal: NominalModel, random_st
     q = np.stack([random_state(seed)[0] for seed in range(3)])
     wrenches = {side: np.tile(WRENCH, (3, 1)) for side in SIDES}
     layout = nominal.robot.layout
-    total = feet_torque(nominal, q, wrenches)
+    total = feet_torque(nominal, np.asfortranarray(q), {side: np.asfortranarray(w) for side, w in wrenches.items()})
     left = foot_torque(nominal, q, "left", wrenches["left"])
     np.testing.assert_allclose(total[:, layout.columns(layout.limb("LL"))], left[:, layout.columns(layout.limb("LL"))])
     assert not left[:, layout.columns(layout.limb("RL"))].any()
