@@ -22,6 +22,7 @@ try:
 except MobnetError as error:
     sys.exit(str(error))
 
+config["scale"] = SETTINGS.scale  # the report names it
 RECORDING = "{scenario}", "{level}", "s{seed}"  # place of what belongs to a recording
 LOGS = PLAN.folders.results / "logs"
 SHOWN = {"runs.html": "trainings", "main.pdf": "paper", ".html": "tables", ".png": "figures"}  # kinds of captions
@@ -44,8 +45,7 @@ def job(kind, wildcards):
 
 def array(*place):
     """Return the two files of an array whose place below the results is a pattern."""
-    stem = PLAN.folders.results.joinpath(*place)
-    return ensure([f"{stem}.parquet", f"{stem}.json"], non_empty=True)
+    return ensure([f"{PLAN.folders.results.joinpath(*place)}{ending}" for ending in (".parquet", ".json")], non_empty=True)
 
 
 def flagged(name):
