@@ -45,13 +45,13 @@ def job(kind, wildcards):
 
 def array(*place):
     """Return the two files of an array whose place below the results is a pattern."""
-    return ensure([f"{PLAN.folders.results.joinpath(*place)}{ending}" for ending in (".parquet", ".json")], non_empty=True)
+    stem = PLAN.folders.results.joinpath(*place)
+    return ensure([f"{stem}.parquet", f"{stem}.json"], non_empty=True)
 
 
 def flagged(name):
     """Mark an output for Snakemake: a folder, or a file that the report shows with the caption of its kind."""
-    path = Path(name)
-    output = ensure(name, non_empty=True) if path.suffix else directory(name)
+    path, output = Path(name), ensure(name, non_empty=True) if Path(name).suffix else directory(name)
     kind = SHOWN.get(path.name, SHOWN.get(path.suffix))
     if kind is None:
         return output
