@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from mobnet.core.errors import DataError
-from mobnet.core.files import atomic_path, read_json, write_json, write_text
+from mobnet.core.files import atomic_path, read_json, read_text, write_json, write_text
 
 
 def test_failed_write_keeps_the_old_file_and_leaves_nothing_else(tmp_path: Path) -> None:
@@ -26,9 +27,13 @@ def test_writing_makes_folders_and_a_readable_file(tmp_path: Path) -> None:
     assert path.stat().st_mode & 0o444 == 0o444
 
 
-def test_json_that_is_missing_or_damaged_is_named(tmp_path: Path) -> None:
+@pytest.mark.parametrize("read", [read_text, read_json])
+def test_a_missing_file_is_named(tmp_path: Path, read: Callable[[Path], object]) -> None:
     with pytest.raises(DataError, match=r"a\.json: file is missing"):
-        read_json(tmp_path / "a.json")
+        read(tmp_path / "a.json")
+
+
+def test_damaged_json_is_named(tmp_path: Path) -> None:
     (tmp_path / "a.json").write_text('{"rows": ')
     with pytest.raises(DataError, match=r"a\.json: not JSON"):
         read_json(tmp_path / "a.json")

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import fields
 
 import numpy as np
 
-from mobnet.core.recording import Recording
+from mobnet.core.recording import Recording, Sensed, Truth
 
 
 def test_slicing_takes_the_same_rows_of_every_field(made_up: Callable[..., Recording]) -> None:
@@ -24,6 +25,5 @@ def test_spans_are_the_segments(made_up: Callable[..., Recording]) -> None:
     assert sum(span.stop - span.start for span in recording.spans()) == len(recording.sensed)
 
 
-def test_an_estimator_cannot_reach_the_truth(made_up: Callable[..., Recording]) -> None:
-    recording = made_up(seconds=0.1)
-    assert not set(vars(recording.sensed)) & set(vars(recording.truth))
+def test_an_estimator_cannot_reach_the_truth() -> None:
+    assert not {field.name for field in fields(Sensed)} & {field.name for field in fields(Truth)}
