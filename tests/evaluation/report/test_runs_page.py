@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections import Counter
 from collections.abc import Callable
@@ -26,37 +25,23 @@ SHOWN = "[...document.querySelectorAll('tbody:not([hidden])')].map((run) => run.
 OPEN = "[...document.querySelectorAll('.more')].filter((row) => row.getClientRects().length).map((row) => row.id)"
 
 
-def write_run(folder: Path, name: str, cell: str, loss: float | None, rmse: float | None) -> None:
-    """Write a training's run.json and metrics.csv; the second of three epochs is the best."""
-    method, limb, seed = name.rsplit("-", 2)
-    rows = [] if loss is None or rmse is None else [(loss + 1, rmse + 1), (loss, rmse), (loss + 0.5, rmse + 0.5)]
-    lines = [f"{i},{a - 0.25},{a},{b},{0.005 / i},9" for i, (a, b) in enumerate(rows, start=1)]
-    note = {
-        "name": name, "method": method, "limb": limb, "seed": int(seed[1:]), "target": "uncertainty",
-        "settings": {"epochs": 3, "network": {"cell": cell}}, "parameters": 83712, "samples": 1800000,
-        "diverged": not rows, "seconds": 360.0, "device": "cpu", "precision": "float32", "on_windows": {"loss": -1.0},
-        "fingerprint": "<script>alert(1)</script>", "provenance": {"commit": "c"},
-    }  # fmt: skip
-    folder.mkdir(parents=True)
-    (folder / "run.json").write_text(json.dumps(note))
-    head = "epoch,train_loss,validation_loss,validation_rmse,rate,gradient_norm"
-    (folder / "metrics.csv").write_text("\n".join([head, *lines]) + "\n")
-
-
 @pytest.fixture(scope="module")
-def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The page of a few made-up runs."""
-    root = tmp_path_factory.mktemp("results")
-    for name, numbers in RUNS.items():
-        write_run(root / "networks" / name, name, *numbers)
-    return make_page(root)
+def page(tmp_path_factory: pytest.TempPathFactory, write_run: Callable[..., Path]) -> Path:
+    """The page of a few made-up trainings; the second of three epochs is the best."""
+    networks = tmp_path_factory.mktemp("results") / "networks"
+    for name, (cell, loss, rmse) in RUNS.items():
+        rows = [(loss + x, rmse + x) for x in (1, 0, 0.5)] if loss and rmse else []
+        lines = [f"{i},{a - 0.25},{a},{b},{0.005 / i},9" for i, (a, b) in enumerate(rows, start=1)]
+        write_run(networks, name, lines, diverged=not rows, settings={"network": {"cell": cell}})
+    return make_page(networks)
 
 
-def make_page(root: Path) -> Path:
-    """Write the page of all runs below a folder."""
+def make_page(networks: Path) -> Path:
+    """Write the page of all trainings in a folder, beside that folder."""
     parts = [REPO / TEMPLATES / f"runs.{ending}" for ending in ("html", "css", "js")]
-    runs_page("default", sorted((root / "networks").iterdir()), parts, root / "runs.html")
-    return root / "runs.html"
+    page = networks.with_name("runs.html")
+    runs_page("default", sorted(networks.iterdir()), parts, page)
+    return page
 
 
 class Reader(HTMLParser):
@@ -95,7 +80,7 @@ class Reader(HTMLParser):
 
 
 def test_every_run_has_a_row_with_its_numbers(page: Path) -> None:
-    """Without any script all is there; what is not known is a dash."""
+    """The page is complete without scripts; a dash stands for a number that does not exist."""
     rows = {row[0]: row for row in Reader(page).rows}
     assert rows["GRU-LL-s1"][2:] == [
         "GRU", "LL", "1", "GRU", "83,712", "1,800,000", "3", "2", "-4.000", "11.50", "360.0", "cpu", "float32", "done",
@@ -126,17 +111,15 @@ def test_what_a_run_says_is_text_never_markup(page: Path) -> None:
 
 def test_equal_runs_give_equal_bytes(page: Path) -> None:
     once = page.read_bytes()
-    assert make_page(page.parent).read_bytes() == once
+    assert make_page(page.parent / "networks").read_bytes() == once
 
 
-def test_a_hundred_long_runs_stay_small(tmp_path: Path) -> None:
+def test_a_hundred_long_runs_stay_small(tmp_path: Path, write_run: Callable[..., Path]) -> None:
     """Two hundred epochs a run, as at the paper's scale: below 2 MB."""
+    lines = [f"{i},{-i / 37:.6f},{-i / 41:.6f},{400 / i:.6f},{0.005 / i:.6f},9" for i in range(1, 201)]
     for seed in range(10):
-        write_run(tmp_path / f"networks/s{seed}", f"MOB-Net-LL-s{seed}", "GRU", -5.0, 1.5)
-        lines = [f"{i},{-i / 37:.6f},{-i / 41:.6f},{400 / i:.6f},{0.005 / i:.6f},9\n" for i in range(2, 201)]
-        with (tmp_path / f"networks/s{seed}/metrics.csv").open("a") as file:
-            file.writelines(lines)
-    assert make_page(tmp_path).stat().st_size < 200_000
+        write_run(tmp_path / "networks", f"MOB-Net-LL-s{seed}", lines)
+    assert make_page(tmp_path / "networks").stat().st_size < 200_000
 
 
 @pytest.fixture
