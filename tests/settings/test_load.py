@@ -60,6 +60,7 @@ def test_every_scale_is_accepted(scale: str) -> None:
         ("scenarios.knee_swing.pushes", ["elbow"], f"knee_swing.pushes: push: 'elbow' {ACCEPTED}hip_pitch"),
         ("scenarios.motion_test.motion", "dance", f"motion_test.motion: motion: 'dance' {ACCEPTED}random_m"),
         ("scenarios.hand_load_10.draws", "hops", f"hand_load_10.draws: scenario: 'hops' {ACCEPTED}forward_w"),
+        ("pushes.torso.point", "tail", f"pushes.torso.point: point: 'tail' {ACCEPTED}left_hand, .*left_sole"),
         ("pushes.hip_pitch.joint", "LL9", f"pushes.hip_pitch.joint: motor: 'LL9' {ACCEPTED}"),
         ("tests.stroll", {"ideal": ["MOB"]}, f"tests.yaml: tests: scenario: 'stroll' {ACCEPTED}forward_walk"),
         ("tests.walk_test.perfect", ["MOB"], f"tests.walk_test: level: 'perfect' {ACCEPTED}all_uncertainty"),
@@ -73,6 +74,8 @@ def test_every_scale_is_accepted(scale: str) -> None:
         ("evaluation.figure_20.samples", "shares", f"figure_20.samples: sweep: 'shares' {ACCEPTED}data_parts, hidden"),
         ("scales.smoke.train.walk.level", "none", f"smoke.train.walk.level: level: 'none' {ACCEPTED}all_"),
         ("scales.paper.train.motion.scenario", "nap", f"paper.train.motion.scenario: scenario: 'nap' {ACCEPTED}"),
+        ("networks.tail", {"data": "walk", "experiment": "sweep", "horizon_steps": 1, "cell": "constant"},
+         f"networks.yaml: networks: network of the robot: 'tail' {ACCEPTED}LA"),
         ("networks.LL.data", "walks", f"networks.yaml: networks.LL.data: training set: 'walks' {ACCEPTED}motion"),
     ],
 )  # fmt: skip

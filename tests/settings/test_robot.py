@@ -63,6 +63,7 @@ def load_broken(tmp_path: Path, source: Path, *breaks: Break) -> RobotTable:
         (lambda t: t["shapes"][2].update(type="box"), "shapes.2: box left_hip with `segment`; accepted: capsule and c"),
         (lambda t: t["shapes"][2].update(body="L_Foot_Link_"), "shapes.2.body: body: 'L_Foot_Link_' is not accepted"),
         (lambda t: t["points"][1].update(name="torso"), "points: 'torso' occurs 2 times; accepted: once"),
+        (lambda t: t["points"][1].update(name="right_knee_front"), "points: 'right_knee_front' occurs 2 times"),
         (lambda t: t["totals"].update(mass=95.7), "totals.mass: 95.7 is not accepted; accepted: 95.621910, by the row"),
         (lambda t: t["totals"].update(dof=40), "totals.dof: 40 is not accepted; accepted: 39, by the rows"),
         (lambda t: t.update(wings=2), "wings: key: 'wings' is not accepted; accepted: base, bodies, feet"),

@@ -79,9 +79,14 @@ class JointLayout:
         return VIRTUAL_UNITS[self.virtual.index(name)] if name in self.virtual else "N m"
 
 
-def right_of(left: str) -> str:
-    """Return the name of the mirror image of a body; a middle body is its own."""
-    return left.replace("L_", "R_", 1)
+def right_of(body: str) -> str:
+    """Return the name of the body that is the mirror image of another; a middle body is its own."""
+    return body.replace("L_", "R_", 1)
+
+
+def with_image(part: str) -> tuple[str, ...]:
+    """Return the name of a shape or a point, and that of its mirror image if it has one."""
+    return (part, part.replace("left_", "right_", 1)) if part.startswith("left_") else (part,)
 
 
 def layout_of(

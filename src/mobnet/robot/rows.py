@@ -8,7 +8,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mobnet.core.joints import right_of
+from mobnet.core.joints import right_of, with_image
 from mobnet.robot.parts import Body, Foot, Joint, Point, Posture, Shape, Sole, Vector
 from mobnet.settings.parts import BodyRow, Colour, JointRow, PointRow, ShapeRow
 from mobnet.settings.robot import RobotTable
@@ -79,12 +79,12 @@ def read_point(row: PointRow) -> Point:
 
 def with_mirrored(rows: Iterable[Row]) -> list[Row]:
     """Return rows of the left side, each with its mirror image in y, and other rows as they are."""
-    return [image for row in rows for image in ([row, _mirrored(row)] if row.name.startswith("left_") else [row])]
+    return [image for row in rows for image in (row, *(_mirrored(row, name) for name in with_image(row.name)[1:]))]
 
 
-def _mirrored(row: Row) -> Row:
-    """Return a row of the left side as the right side has it."""
-    update = {"name": row.name.replace("left_", "right_", 1), "body": right_of(row.body), "pos": _in_y(row.pos)}
+def _mirrored(row: Row, name: str) -> Row:
+    """Return a row of the left side as the right side has it, under its name."""
+    update = {"name": name, "body": right_of(row.body), "pos": _in_y(row.pos)}
     if isinstance(row, ShapeRow) and row.segment is not None:
         update["segment"] = _in_y(row.segment)
     return row.model_copy(update=update)

@@ -87,6 +87,8 @@ LimbName = Annotated[str, Named("limb")]
 LimbOrJointName = Annotated[str, Named("limb or joint")]
 BodyName = Annotated[str, Named("body")]
 ToneName = Annotated[str, Named("tone")]
+PointName = Annotated[str, Named("point")]
+RobotNetworkName = Annotated[str, Named("network of the robot")]
 
 MethodNames = Annotated[tuple[MethodName, ...], Field(min_length=1)]
 LimbNames = tuple[LimbName, ...]

@@ -16,6 +16,7 @@ from mobnet.settings.base import (
     MotorName,
     NotNegative,
     NotNegativeRange,
+    PointName,
     Positive,
     PositivePair,
     PositiveRange,
@@ -26,7 +27,6 @@ from mobnet.settings.base import (
     Section,
     Share,
     TerrainName,
-    Text,
     Vector3,
 )  # fmt: skip
 
@@ -165,7 +165,7 @@ class Motion(Section):
 class Push(Section):
     """A force at a point, or a torque on a joint, with the times at which it comes."""
 
-    point: Text | None = None
+    point: PointName | None = None
     joint: MotorName | None = None
     during: Phase = "always"
     share: NotNegativeRange = (0.0, 0.0)

@@ -11,7 +11,7 @@ from pydantic import Field, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
 from mobnet.core.errors import not_accepted
-from mobnet.core.joints import N_VIRTUAL, JointLayout, right_of
+from mobnet.core.joints import N_VIRTUAL, JointLayout, right_of, with_image
 from mobnet.settings.base import BodyName, JointName, LimbName, Section, Text
 from mobnet.settings.names import Place, unknown, uses
 from mobnet.settings.networks import Limb
@@ -93,6 +93,11 @@ class RobotTable(Section):
         return {
             "joint": joints, "motor": order.actuated, "limb": self.groups, "limb or joint": (*self.groups, *joints),
             "body": [body.name for body in self.bodies], "tone": self.tones,
+            "network of the robot": self.networks,
+            "point": [
+                *(name for point in self.points for name in with_image(point.name)),
+                *(f"{side}_sole" for side in self.feet),
+            ],
         }  # fmt: skip
 
     @model_validator(mode="after")
@@ -120,8 +125,8 @@ def _repeated(table: RobotTable) -> Iterator[Problem]:
         ("joints",): [joint.body for joint in table.joints],
         ("order",): [*table.order.virtual, *table.order.actuated],
         ("groups",): [joint for limb in table.groups.values() for joint in limb],
-        ("shapes",): [shape.name for shape in table.shapes],
-        ("points",): [point.name for point in table.points],
+        ("shapes",): [name for shape in table.shapes for name in with_image(shape.name)],
+        ("points",): [name for point in table.points for name in with_image(point.name)],
     }
     for place, names in lists.items():
         for name in sorted({name for name in names if names.count(name) > 1}):
@@ -140,7 +145,7 @@ def _tree_problems(table: RobotTable) -> Iterator[Problem]:
     names = {body.name for body in table.bodies}
     for kind, rows in (("shapes", table.shapes), ("points", table.points)):
         for index, row in enumerate(rows):
-            if row.name.startswith("left_") and row.body in names and right_of(row.body) not in names:
+            if len(with_image(row.name)) > 1 and row.body in names and right_of(row.body) not in names:
                 yield (kind, str(index), "body"), not_accepted("body of the mirror image", right_of(row.body), names)
 
 

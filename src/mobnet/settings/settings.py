@@ -9,7 +9,7 @@ from pydantic import Field
 
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import JointLayout
-from mobnet.settings.base import Index, LevelName, MethodNames, ScaleName, ScenarioName, Section
+from mobnet.settings.base import Index, LevelName, MethodNames, RobotNetworkName, ScaleName, ScenarioName, Section
 from mobnet.settings.claims import Claim
 from mobnet.settings.data import Commands, Motion, Push, RandomTorque, RecordingSettings, Scenario, Terrain
 from mobnet.settings.evaluation import Evaluation
@@ -48,7 +48,7 @@ class Settings(Section):
     scenarios: Annotated[dict[LowerName, Scenario], Field(min_length=1)]
     recording: RecordingSettings
     observer: Observer
-    networks: Annotated[dict[str, NetworkRow], Field(min_length=1)]
+    networks: Annotated[dict[RobotNetworkName, NetworkRow], Field(min_length=1)]
     learning: Learning
     methods: Annotated[dict[RowName, Method], Field(min_length=1)]
     sweeps: dict[Annotated[str, Field(pattern="^[a-z_]+$")], Sweep]
