@@ -1,4 +1,4 @@
-"""Writing files so that a reader finds the old one or the whole new one, and reading JSON."""
+"""Writing files so that a reader finds either the old or the complete new one, and reading text and JSON."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from mobnet.core.errors import DataError
 
 @contextlib.contextmanager
 def atomic_path(path: Path) -> Iterator[Path]:
-    """Yield a temporary path beside `path`; on success it is synced to disk and takes its place, else it goes."""
+    """Yield a temporary path beside `path`; on success it is synced to disk and replaces `path`, else it is deleted."""
     path.parent.mkdir(parents=True, exist_ok=True)
     handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=path.suffix, dir=path.parent)
     os.close(handle)

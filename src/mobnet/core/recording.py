@@ -1,4 +1,4 @@
-"""What a robot senses and what only a simulator knows, sample by sample."""
+"""The signals that a robot senses, and those that only a simulator has, sample by sample."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Sensed:
 
 @dataclass(frozen=True)
 class Truth:
-    """What the plant knows and a robot does not; foot wrenches also serve as training labels (section 4.2.3).
+    """Signals of the plant that a robot does not have; foot wrenches also serve as training labels (section 4.2.3).
 
     Attributes:
         tau_ext: external torque (T, nv) [N, N m], mean over the control ticks of the sample; J^T F of (2).
@@ -76,10 +76,10 @@ class Truth:
 
 @dataclass(frozen=True)
 class SensedRecording:
-    """One stored run as the robot saw it: samples at a fixed rate, cut into segments that are contiguous in time.
+    """The sensed part of a stored run: samples at a fixed rate, in segments that are contiguous in time.
 
     Attributes:
-        sensed: what a robot has.
+        sensed: signals that a robot has.
         segments: start and end row of each contiguous stretch; a fall ends one and the next starts anew.
         rate_hz: samples per second [Hz].
         meta: scenario, level, seed, provenance and what else the writer noted.
@@ -97,10 +97,10 @@ class SensedRecording:
 
 @dataclass(frozen=True)
 class Recording(SensedRecording):
-    """One stored run with what only the plant knows.
+    """A stored run with the signals that only the plant has.
 
     Attributes:
-        truth: what only the plant knows.
+        truth: signals that only the plant has.
     """
 
     truth: Truth

@@ -1,7 +1,8 @@
-"""The only reader and writer of arrays and recordings: described, checked, streamed.
+"""Writing and reading arrays and recordings; nothing else does so.
 
-An array is two files: `NAME.parquet`, float32, one row a sample, each column with its unit and frame, and `NAME.json`,
-its columns, row count, segments and provenance. The JSON is written last, so a pair with a JSON is whole.
+An array is two files: `NAME.parquet`, float32, one row for each sample, with unit and frame of each column, and
+`NAME.json` with its columns, row count, segments and provenance. The JSON file is written last, so an array that has
+one is complete.
 """
 
 from __future__ import annotations
@@ -23,9 +24,9 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Column, Recording, Sensed, SensedRecording, Truth, recording_columns
 
 ARRAY, NOTE = ".parquet", ".json"
-GROUP_ROWS = 60_000  # rows stored together, a minute at 1 kHz: what a writer or a reader holds besides its result
-BLOCK_ROWS = 256  # rows turned into columns, or back, together: they fit the processor's cache
-# docs/notes/0010-parquet.md has the measurements behind these
+# Note 0010 has the measurements behind these numbers.
+GROUP_ROWS = 60_000  # rows stored together, a minute at 1 kHz: writer and reader hold as many besides their result
+BLOCK_ROWS = 256  # rows transposed together: they fit into the processor's cache
 CODING = {
     "compression": "lz4",
     "use_byte_stream_split": True,
@@ -36,10 +37,10 @@ CODING = {
 
 
 class ArrayWriter:
-    """Rows on their way into an array's file; `array_writer` makes one."""
+    """Writes an array row by row; `array_writer` makes one."""
 
     def __init__(self, stem: Path, columns: Sequence[Column], file: pq.ParquetWriter, descriptor: int) -> None:
-        """Write into an open file, of which the system has a descriptor too; columns (C,) are its own."""
+        """Write columns (C,) into an open file, which also has a descriptor of the operating system."""
         self.rows = 0
         self._stem, self._columns, self._file, self._descriptor = stem, columns, file, descriptor
         self._names = [name for name, _, _ in columns]
@@ -67,7 +68,7 @@ class ArrayWriter:
                 self._store(GROUP_ROWS)
 
     def close(self, meta: Mapping[str, Any], segments: Sequence[tuple[int, int]] | None = None) -> None:
-        """Describe the rows, which are all there now; the files appear when the writer's block ends.
+        """Describe the rows, of which no more follow; the files appear when the writer's block ends.
 
         Args:
             meta: what else to note; must hold `rate_hz` [Hz].
@@ -78,7 +79,7 @@ class ArrayWriter:
         self._note = {"rows": self.rows, "segments": spans, **meta, "columns": described}
 
     def finish(self) -> dict[str, Any]:
-        """Store the rows still in hand and return the description, as `array_writer` does at its end.
+        """Store the remaining rows and return the description; `array_writer` calls this at its end.
 
         Raises:
             DataError: rows were never described, or more came after that.
@@ -89,11 +90,11 @@ class ArrayWriter:
         return self._note
 
     def _store(self, count: int) -> None:
-        """Store the first `count` rows of the group in hand as a row group."""
+        """Store the first `count` rows of the present group as a row group."""
         if count:
             columns = [pa.array(column[:count]) for column in self._group]
             self._file.write_batch(pa.RecordBatch.from_arrays(columns, schema=self._file.schema), GROUP_ROWS)
-            # on to the disk now, and out of the system's memory, whose fresh pages would cost more than the coding
+            # to disk at once, and out of the page cache: new pages of memory would take more time than the encoding
             os.posix_fadvise(self._descriptor, 0, 0, os.POSIX_FADV_DONTNEED)
 
 
@@ -172,14 +173,14 @@ def read_array(stem: Path, names: Sequence[str] | None = None) -> tuple[NDArray[
 def _agreed_names(
     stem: Path, file: pq.ParquetFile, meta: Mapping[str, Any], names: Sequence[str] | None
 ) -> Sequence[str]:
-    """Return the columns to read, after checking that the file holds them and is what its description says."""
+    """Return the columns to read, after checking that the file has them and agrees with its description."""
     held, noted = file.schema_arrow.names, [column["name"] for column in meta["columns"]]
-    found, expected = (file.metadata.num_rows, len(held)), (meta["rows"], len(noted))
-    if found != expected:
-        raise DataError(f"{stem}{ARRAY}: shape {found}, but {stem.name}{NOTE} says {expected}")
-    for there, said in zip(held, noted, strict=True):
-        if there != said:
-            raise DataError(f"{stem}{ARRAY}: column {there!r}, but {stem.name}{NOTE} says {said!r}")
+    shape, noted_shape = (file.metadata.num_rows, len(held)), (meta["rows"], len(noted))
+    if shape != noted_shape:
+        raise DataError(f"{stem}{ARRAY}: shape {shape}, but {stem.name}{NOTE} says {noted_shape}")
+    for found, expected in zip(held, noted, strict=True):
+        if found != expected:
+            raise DataError(f"{stem}{ARRAY}: column {found!r}, but {stem.name}{NOTE} says {expected!r}")
     for name in names or ():
         if name not in held:
             raise DataError(
@@ -227,9 +228,9 @@ def write_recording(stem: Path, recording: Recording, layout: JointLayout) -> No
 
 
 def read_sensed(stem: Path, layout: JointLayout) -> SensedRecording:
-    """Read what the robot sensed, float32, and leave the truth on disk: all that an estimator gets.
+    """Read the sensed signals of a recording, float32, and not its truth: an estimator gets no more.
 
-    Columns are found by name, so a robot's log may hold others too and in any order.
+    Columns are found by name, so a robot's log may have others too and in any order.
 
     Raises:
         DataError: a file is missing or damaged, or a column is missing.

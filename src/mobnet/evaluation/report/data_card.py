@@ -26,7 +26,7 @@ from mobnet.settings.settings import Settings
 
 CARD = Path("docs/data.md")
 MINUTE_S = 60.0
-SHOWN = 3  # columns of a group named before the rest is counted
+SHOWN = 3  # columns of a group that are named before the last one
 HEAD = """# Data card
 
 Generated from the columns of recordings and `configs` by `python -m mobnet.evaluation.report.data_card`; do not edit.
@@ -100,15 +100,15 @@ def columns(layout: JointLayout, gain_hz: float) -> Iterator[str]:
     header = ["field", "columns", "number", "unit", "frame", "what it is"]
     groups = recording_columns(layout)
     for kind, title in ((Sensed, "sensed by the robot"), (Truth, "truth, which no estimator may see")):
-        said = field_texts(kind)
-        rows = [row for field in groups if field in said for row in column_rows(field, groups[field], said[field])]
+        texts = field_texts(kind)
+        rows = [row for field in groups if field in texts for row in column_rows(field, groups[field], texts[field])]
         yield f"\nA recording, {title}:\n\n" + markdown_table(header, rows, left=len(header))
-    said = {
+    texts = {
         "r": f"the observer's residual, eq. (9), gain {gain_hz:g} 1/s",
         "tau_ext_lp": "external torque behind the observer's low-pass filter, eq. (15); r minus this is the label",
     }
     grouped = groupby(residual_columns(layout), key=lambda column: column[0].split(".")[0])
-    rows = [row for field, found in grouped for row in column_rows(field, list(found), said[field])]
+    rows = [row for field, found in grouped for row in column_rows(field, list(found), texts[field])]
     yield "\nA residual:\n\n" + markdown_table(header, rows, left=len(header))
 
 
@@ -121,7 +121,7 @@ def field_texts(kind: type) -> dict[str, str]:
 
 
 def column_rows(field: str, found: Sequence[Column], text: str) -> Iterator[list[str]]:
-    """Yield the row of each run of columns with one unit and frame; the text stands at the first."""
+    """Yield the row of each run of columns with one unit and frame; only the first has the text."""
     for (unit, frame), run in groupby(found, key=lambda column: column[1:]):
         names = [f"`{name}`" for name, _, _ in run]
         shown = names if len(names) <= SHOWN + 1 else [*names[:SHOWN], "...", names[-1]]
@@ -145,7 +145,7 @@ def sizes(scales: Mapping[str, Scale]) -> str:
 
 
 def drawn(settings: Settings) -> Iterator[str]:
-    """Yield a table for each section of the configuration that the data are drawn from; units stand in the keys."""
+    """Yield a table for each section of the configuration that the data are drawn from; units are in the keys."""
     written = settings.model_dump(mode="json", exclude_unset=True)
     for section, text in DRAWN.items():
         values = reduce(getitem, section.split("."), written)

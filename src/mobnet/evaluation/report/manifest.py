@@ -1,7 +1,7 @@
 """The list of every result file with its hash, in the format of sha256sum.
 
-It tells whether files are still what their run wrote. Some differ from one run to the next: `run.json` and `runs.html`
-hold times, and so do the table of compute, its page and the paper.
+It shows whether files are still as their run wrote them. Some differ from one run to the next: `run.json` and
+`runs.html` hold times, and so do the table of compute, its page and the paper.
 """
 
 from __future__ import annotations

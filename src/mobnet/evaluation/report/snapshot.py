@@ -72,7 +72,7 @@ def with_headline(text: str, table: str) -> str:
 
 
 def compare_snapshot(snapshot: Path, tables: Path) -> list[str]:
-    """Return one line for each cell, row or table in which fresh tables differ from a snapshot.
+    """Return one line for each cell, row or table in which the present tables differ from a snapshot.
 
     Raises:
         DataError: the snapshot holds no table.
@@ -114,8 +114,8 @@ def read_keyed(path: Path) -> Rows:
 
 
 def main(words: list[str]) -> int:
-    """Run one of the commands and return the exit status: 0 where nothing differs."""
-    parser = argparse.ArgumentParser(prog="./reproduce", description="Look after the results.")
+    """Run one of the commands and return the exit status: 0 if nothing differs."""
+    parser = argparse.ArgumentParser(prog="./reproduce", description="Store, compare or verify the results.")
     parser.add_argument("command", choices=("snapshot", "compare", "verify"))
     parser.add_argument("--manifest", type=Path, default=MANIFEST, help="manifest to verify (default: %(default)s)")
     options = parser.parse_args(words)

@@ -1,4 +1,4 @@
-"""Trainings with all that the page of runs tells of them."""
+"""Trainings with everything that their page shows."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from mobnet.core.files import read_json
 from mobnet.evaluation.measure.trainings import METRICS, RUN, Epoch, Training, read_training
 
 SETTINGS = ("target", "settings", "fingerprint", "provenance")  # keys of run.json that say what was trained on what
-TOLD = ("name", "limb", "device", "precision")  # keys that are shown as they are
+SHOWN = ("name", "limb", "device", "precision")  # keys that are shown as they are
 ENDED, DIVERGED = "done", "diverged"
 
 
@@ -75,17 +75,17 @@ def read_training_run(folder: Path) -> TrainingRun:
     Raises:
         DataError: a file is missing or damaged, or lacks a key or a column.
     """
-    told = read_json(folder / RUN)
+    note = read_json(folder / RUN)
     try:
         return TrainingRun(
             **vars(read_training(folder)),
-            **{key: told[key] for key in TOLD},
-            cell=told["settings"]["network"]["cell"],
-            settings=dict(pair for key in SETTINGS for pair in flattened(key, told[key])),
+            **{key: note[key] for key in SHOWN},
+            cell=note["settings"]["network"]["cell"],
+            settings=dict(pair for key in SETTINGS for pair in flattened(key, note[key])),
             metrics=folder / METRICS,
         )
     except KeyError as error:
-        raise DataError(f"{folder / RUN}: key {error} is missing; it holds {', '.join(told)}") from None
+        raise DataError(f"{folder / RUN}: key {error} is missing; it holds {', '.join(note)}") from None
 
 
 def flattened(name: str, value: Any) -> Iterator[tuple[str, str]]:
