@@ -85,7 +85,7 @@ def test_without_tex_there_is_no_pdf(settings: Settings) -> None:
 def test_training_and_test_recordings_are_disjoint(plans: dict[str, Plan]) -> None:
     files = plans["default"].files
     train, test = files.training("recordings", "walk"), files.tests("forward_walk", "all_uncertainty")
-    assert [path.name for path in train] == [f"s{1000 + k}" for k in range(files.training_set("walk").shards)]
+    assert [path.name for path in train] == [f"s{1000 + k}" for k in range(files.training_size("walk").shards)]
     assert [path.name for path in test] == [f"s{1 + k}" for k in range(files.settings.sizes.test.shards)]
 
 

@@ -72,8 +72,9 @@ def test_every_scale_is_accepted(scale: str) -> None:
         ("evaluation.error_budget.joints", ["LL9"], f"error_budget.joints: limb or joint: 'LL9' {ACCEPTED}"),
         ("evaluation.windows.stroll", {"before_s": 0.0, "after_s": 0.1}, f"windows: test: 'stroll' {ACCEPTED}"),
         ("evaluation.figure_20.samples", "shares", f"figure_20.samples: sweep: 'shares' {ACCEPTED}data_parts, hidden"),
-        ("scales.smoke.train.walk.level", "none", f"smoke.train.walk.level: level: 'none' {ACCEPTED}all_"),
-        ("scales.paper.train.motion.scenario", "nap", f"paper.train.motion.scenario: scenario: 'nap' {ACCEPTED}"),
+        ("training_sets.walk.level", "none", f"data.yaml: training_sets.walk.level: level: 'none' {ACCEPTED}all_"),
+        ("training_sets.motion.scenario", "nap", f"training_sets.motion.scenario: scenario: 'nap' {ACCEPTED}"),
+        ("training_sets.motion.sizes.tiny", {"shards": 1, "shard_s": 1.0}, f"sizes: scale: 'tiny' {ACCEPTED}"),
         ("networks.tail", {"data": "walk", "experiment": "sweep", "horizon_steps": 1, "cell": "constant"},
          f"networks.yaml: networks: network of the robot: 'tail' {ACCEPTED}LA"),
         ("networks.LL.data", "walks", f"networks.yaml: networks.LL.data: training set: 'walks' {ACCEPTED}motion"),
@@ -127,12 +128,12 @@ def test_a_push_says_where_when_and_how_hard(folder: Path, key: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["walk", "walk_plain", "motion"])
-def test_every_scale_has_every_training_set(folder: Path, name: str) -> None:
-    path = folder / "scales.yaml"
+def test_every_training_set_has_a_size_at_every_scale(folder: Path, name: str) -> None:
+    path = folder / "data.yaml"
     values = read_yaml(path)
-    del values["scales"]["smoke"]["train"][name]
+    del values["training_sets"][name]["sizes"]["smoke"]
     path.write_text(yaml.safe_dump(values))
-    with pytest.raises(ConfigError, match=f"training set: '{name}' {ACCEPTED}"):
+    with pytest.raises(ConfigError, match=f"training_sets.{name}.sizes: scale is missing: smoke"):
         load_settings(folder)
 
 

@@ -70,7 +70,7 @@ def test_names_are_looked_at_in_every_section(settings: Settings) -> None:
         ("scenarios.random_motion.motion", "motion"), ("scenarios.hand_load_10.draws", "scenario"),
         ("pushes.hip_pitch.joint", "motor"), ("tests", "scenario"), ("tests.walk_test", "level"),
         ("networks.LL.experiment", "experiment"), ("methods.MOB-Net.limbs", "network"), ("sweeps.hidden.of", "method"),
-        ("scales.paper.train.walk.scenario", "scenario"), ("scales.smoke.train.motion.level", "level"),
+        ("training_sets.walk.scenario", "scenario"), ("training_sets.motion.sizes", "scale"),
         ("evaluation.tables.table_05.columns", "limb or joint"),
         ("evaluation.tables.table_06.columns.2.joints", "limb or joint"),
         ("evaluation.tables.table_05.rows.0.methods", "method"), ("evaluation.figure_05.panels", "level"),

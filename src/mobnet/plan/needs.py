@@ -87,8 +87,8 @@ def _figure_10(files: Files) -> Needs:
 NEEDS: Mapping[str, Callable[[Files], Needs]] = {
     "table_01": lambda files: {},
     "claims": _claims,
-    "data": lambda files: _recordings(files, *files.settings.sizes.train),
-    "commands": lambda files: _recordings(files, *files.settings.sizes.train),
+    "data": lambda files: _recordings(files, *files.settings.training_sets),
+    "commands": lambda files: _recordings(files, *files.settings.training_sets),
     "steps": lambda files: _recordings(files, "walk"),
     "coverage": _coverage,
     "uncertainty": lambda files: _residuals(files, *(row.data for row in files.settings.networks.values())),

@@ -131,7 +131,11 @@ class Products:
         """Yield the numbers and tables that the paper's text takes, and the pages of trainings."""
         tables, results = self.folders.tables, self.folders.results
         csvs = [tables / f"{name}.csv" for name in self.settings.evaluation.tables]
-        numbers = {"table_csvs": csvs, "claims_csv": tables / "claims.csv"}
+        numbers = {
+            "train": self.files.training_size("walk"),
+            "table_csvs": csvs,
+            "claims_csv": tables / "claims.csv",
+        }
         yield self._report_product("numbers", numbers, [tables / "numbers.tex"])
         yield self._report_product("deviations", {"markdown": Path("docs/deviations.md")}, [tables / "deviations.tex"])
         networks = {"folders": self.files.all_networks()}

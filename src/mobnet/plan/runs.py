@@ -7,8 +7,8 @@ from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
 from typing import cast
 
+from mobnet.settings.data import Recordings
 from mobnet.settings.evaluation import PushedRuns, Runs
-from mobnet.settings.scales import TrainingSet
 from mobnet.settings.settings import Settings, swept_name
 
 FIRST_TRAINING_SEED = 1000  # recordings and motions for tests count from 1
@@ -86,15 +86,15 @@ class Files:
 
     def training_seeds(self, name: str) -> list[int]:
         """Return the seeds of a training set's recordings."""
-        return [FIRST_TRAINING_SEED + i for i in range(self.training_set(name).shards)]
+        return [FIRST_TRAINING_SEED + i for i in range(self.training_size(name).shards)]
 
-    def training_set(self, name: str) -> TrainingSet:
-        """Return a training set of the scale."""
-        return self.settings.sizes.train[name]
+    def training_size(self, name: str) -> Recordings:
+        """Return number and duration of a training set's recordings."""
+        return self.settings.training_sets[name].sizes[self.settings.scale]
 
     def training(self, kind: str, name: str) -> tuple[Path, ...]:
         """Return the recordings or residuals of a training set."""
-        row = self.training_set(name)
+        row = self.settings.training_sets[name]
         return tuple(self.array(kind, row.scenario, row.level, seed) for seed in self.training_seeds(name))
 
     def tests(self, scenario: str, level: str) -> tuple[Path, ...]:
@@ -103,17 +103,17 @@ class Files:
 
     def recorded(self) -> Iterator[tuple[str, str, int]]:
         """Yield scenario, level and seed of every recording."""
-        for name, row in self.settings.sizes.train.items():
+        for name, row in self.settings.training_sets.items():
             yield from ((row.scenario, row.level, seed) for seed in self.training_seeds(name))
         for scenario, levels in self.settings.tests.items():
             yield from ((scenario, level, seed) for level in levels for seed in self.test_seeds)
 
     def duration_s(self, scenarios: Iterable[str], seed: int) -> float:
         """Return how long the longest recording of some scenarios with a seed is [s]."""
-        sizes, names = self.settings.sizes, list(scenarios)
         if seed < FIRST_TRAINING_SEED:
-            return sizes.test.shard_s
-        return max(row.shard_s for row in sizes.train.values() if row.scenario in names)
+            return self.settings.sizes.test.shard_s
+        wanted, sets = list(scenarios), self.settings.training_sets
+        return max(self.training_size(name).shard_s for name, row in sets.items() if row.scenario in wanted)
 
     def network_seeds(self, method: str, limb: str | None = None) -> tuple[int, ...]:
         """Return the seeds of a method's networks of a limb, or of that with the most; (0,) if there are none."""

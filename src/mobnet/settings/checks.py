@@ -26,6 +26,9 @@ def inconsistencies(settings: Settings) -> Iterator[Problem]:
             yield place, not_accepted(f"level of test {scenario}", level, settings.tests.get(scenario, {}))
         elif method not in accepted:
             yield place, not_accepted(f"method of test {scenario}, {level}", method, accepted)
+    for name, row in settings.training_sets.items():
+        for scale in settings.scales.keys() - row.sizes.keys():
+            yield ("training_sets", name, "sizes"), f"scale is missing: {scale}"
     yield from _metrics_without_window(settings)
     yield from _missing_places(settings)
 

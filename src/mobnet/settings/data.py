@@ -1,4 +1,4 @@
-"""What is walked and recorded: terrains, commands, motions, pushes and scenarios (section 4.3, Table 2)."""
+"""What is walked and recorded: terrains, commands, motions, pushes, scenarios, training sets (section 4.3, Table 2)."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from mobnet.settings.base import (
     CountRange,
     Flag,
     Index,
+    LevelName,
     MotionName,
     MotorName,
     NotNegative,
@@ -23,6 +24,7 @@ from mobnet.settings.base import (
     PushName,
     Range,
     Real,
+    ScaleName,
     ScenarioName,
     Section,
     Share,
@@ -201,6 +203,21 @@ class Scenario(Section):
     pushes: tuple[PushName, ...] = ()
     motion: MotionName | None = None
     draws: ScenarioName | None = None
+
+
+class Recordings(Section):
+    """Number of recordings and duration of each."""
+
+    shards: Count
+    shard_s: Positive
+
+
+class TrainingSet(Section):
+    """Recordings of a scenario that networks learn from, section 4.3; sizes by scale."""
+
+    scenario: ScenarioName
+    level: LevelName
+    sizes: dict[ScaleName, Recordings]
 
 
 class RecordingSettings(Section):

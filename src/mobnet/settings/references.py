@@ -12,14 +12,13 @@ from mobnet.settings.settings import Settings
 
 def accepted_names(settings: Settings) -> dict[str, Collection[str]]:
     """Return kind of name -> the names that exist."""
-    trained = [scale.train.keys() for scale in settings.scales.values()]
     experiments = [scale.experiments.keys() for scale in settings.scales.values()]
     terrains = [name for name in type(settings.terrain).model_fields if getattr(settings.terrain, name) is not None]
     return {
         "scale": settings.scales, "level": settings.levels, "terrain": terrains, "push": settings.pushes,
         "motion": settings.motions, "scenario": settings.scenarios, "test": settings.tests,
         "test with a window around pushes": settings.evaluation.windows,
-        "training set": set(trained[0]).intersection(*trained),
+        "training set": settings.training_sets,
         "experiment": set(experiments[0]).intersection(*experiments),
         "network": settings.networks, "method": settings.all_methods, "sweep": settings.sweeps,
         "method that runs on its own": [name for name, row in settings.methods.items() if row.of is None],

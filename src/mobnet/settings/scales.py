@@ -1,26 +1,11 @@
-"""Sizes of the training sets, the tests and the trainings."""
+"""Sizes of the tests and of the trainings."""
 
 from __future__ import annotations
 
 from pydantic import Field
 
-from mobnet.settings.base import Count, LevelName, NotNegative, Positive, ScenarioName, Section, Seeds, Share
-
-
-class TrainingSet(Section):
-    """Recordings that networks learn from, section 4.3."""
-
-    scenario: ScenarioName
-    level: LevelName
-    shards: Count
-    shard_s: Positive
-
-
-class TestSize(Section):
-    """Recordings of every test."""
-
-    shards: Count
-    shard_s: Positive
+from mobnet.settings.base import Count, NotNegative, Positive, Section, Seeds, Share
+from mobnet.settings.data import Recordings
 
 
 class Experiment(Section):
@@ -32,10 +17,9 @@ class Experiment(Section):
 
 
 class Scale(Section):
-    """One size of everything; the last four replace numbers of other sections."""
+    """One size of every test and of every training; the last four replace numbers of other sections."""
 
-    train: dict[str, TrainingSet] = Field(min_length=1)
-    test: TestSize
+    test: Recordings
     experiments: dict[str, Experiment] = Field(min_length=1)
     batch_size: Count | None = None
     stream_s: Positive | None = None

@@ -11,7 +11,16 @@ from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.settings.base import Index, LevelName, MethodNames, RobotNetworkName, ScaleName, ScenarioName, Section
 from mobnet.settings.claims import Claim
-from mobnet.settings.data import Commands, Motion, Push, RandomTorque, RecordingSettings, Scenario, Terrain
+from mobnet.settings.data import (
+    Commands,
+    Motion,
+    Push,
+    RandomTorque,
+    RecordingSettings,
+    Scenario,
+    Terrain,
+    TrainingSet,
+)  # fmt: skip
 from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.methods import Method, Observer, Sweep
 from mobnet.settings.networks import Learning, Network, NetworkRow, Training
@@ -46,6 +55,7 @@ class Settings(Section):
     motions: dict[LowerName, Motion]
     pushes: dict[LowerName, Push]
     scenarios: Annotated[dict[LowerName, Scenario], Field(min_length=1)]
+    training_sets: Annotated[dict[LowerName, TrainingSet], Field(min_length=1)]
     recording: RecordingSettings
     observer: Observer
     networks: Annotated[dict[RobotNetworkName, NetworkRow], Field(min_length=1)]

@@ -11,7 +11,6 @@ import pytest
 from mobnet.core.recording import Sensed, Truth, recording_columns
 from mobnet.evaluation.report.data_card import CARD, DRAWN, card, column_rows, columns, drawn, field_texts, sizes
 from mobnet.settings.load import load_settings
-from mobnet.settings.scales import Scale
 
 REPO = Path(__file__).parents[3]
 SETTINGS = load_settings(overrides={"scale": "default"})
@@ -44,12 +43,9 @@ def test_texts_are_those_of_the_docstring() -> None:
 
 
 def test_minutes_are_recordings_times_their_length() -> None:
-    walk = {"scenario": "w", "level": "l", "shards": 6, "shard_s": 300.0}
-    experiments = {"e": {"epochs": 1, "seeds": [0]}}
-    scale = {"train": {"walk": walk}, "test": {"shards": 3, "shard_s": 60.0}, "experiments": experiments}
-    text = sizes({"s": Scale.model_validate(scale)})
-    assert "| s | walk | w | l | 6 | 30 |" in text
-    assert "| s | test | each test | as its table asks | 3 | 3 |" in text
+    text = sizes(SETTINGS)
+    assert "| paper | walk | random_walk | all_uncertainty | 12 | 60 |" in text
+    assert "| default | test | each test | as its table asks | 3 | 3 |" in text
 
 
 @pytest.mark.parametrize(("section", "table"), list(zip(DRAWN, drawn(SETTINGS), strict=True)), ids=list(DRAWN))

@@ -9,10 +9,12 @@ from pathlib import Path
 import pytest
 
 from mobnet.evaluation.report.numbers import numbers, size_texts
+from mobnet.settings.data import Recordings
 from mobnet.settings.settings import Settings
 
 REPO = Path(__file__).parents[3]
 TABLE_05 = REPO / "tests/golden/table_05.csv"
+TRAIN = Recordings(shards=3, shard_s=600.0)
 ASKED = {  # command of the paper's text -> name of its number
     "ours": "ours@forward_walk@{}@{}@{}@rmse",
     "published": "published@forward_walk@{}@{}@{}@rmse",
@@ -24,7 +26,7 @@ ASKED = {  # command of the paper's text -> name of its number
 def defined(table: Path, claims_csv: Path, settings: Settings) -> dict[str, str]:
     """Return name -> text of the numbers of a table and of claims."""
     out = claims_csv.with_name("numbers.tex")
-    numbers(settings.scale, settings.rates, settings.sizes, [table], claims_csv, out)
+    numbers(settings.scale, settings.rates, settings.sizes, TRAIN, [table], claims_csv, out)
     return dict(re.findall(r"\\csname ([^\\]+)\\endcsname\{(.*)\}\n", out.read_text()))
 
 
@@ -67,8 +69,6 @@ def test_every_number_the_paper_asks_for_exists(texts: dict[str, str]) -> None:
 
 
 def test_sizes_are_those_of_the_scale(settings: Settings) -> None:
-    train = settings.sizes.train["walk"].model_copy(update={"shards": 3, "shard_s": 600.0})
-    sizes = settings.sizes.model_copy(update={"train": {"walk": train}})
-    found = size_texts("default", settings.rates, sizes)
+    found = size_texts("default", settings.rates, settings.sizes, TRAIN)
     assert (found["train minutes"], found["train samples"], found["scale"]) == ("30", "1.8", "default")
-    assert found["network runs"] == str(len(sizes.experiments["left_leg"].seeds))
+    assert found["network runs"] == str(len(settings.sizes.experiments["left_leg"].seeds))

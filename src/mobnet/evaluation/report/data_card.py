@@ -8,7 +8,7 @@ from __future__ import annotations
 import inspect
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from functools import reduce
 from itertools import groupby
 from operator import getitem
@@ -21,7 +21,6 @@ from mobnet.estimation.observe import residual_columns
 from mobnet.evaluation.tables.layout import markdown_table
 from mobnet.plan.runs import FIRST_TRAINING_SEED
 from mobnet.settings.load import load_settings
-from mobnet.settings.scales import Scale
 from mobnet.settings.settings import Settings
 
 CARD = Path("docs/data.md")
@@ -79,14 +78,14 @@ def main() -> None:
 
 def card(settings: Settings) -> str:
     """Return the card of a configuration as Markdown."""
-    walk = settings.sizes.train["walk"]
+    walk = settings.training_sets["walk"]
     files = FILES.format(
         rate=settings.rates.data_hz, dropped=settings.recording.dropped_before_fall_s,
         scale=settings.scale, scenario=walk.scenario, level=walk.level, seed=FIRST_TRAINING_SEED,
     )  # fmt: skip
     split = SPLIT.format(first=FIRST_TRAINING_SEED, seed=settings.seed, share=settings.learning.validation_share)
     tables = columns(settings.layout, settings.observer.gain_hz)
-    parts = [HEAD, files, "\n## Columns\n", *tables, sizes(settings.scales), split]
+    parts = [HEAD, files, "\n## Columns\n", *tables, sizes(settings), split]
     return "".join([*parts, "\n## What was drawn from what\n", *drawn(settings)])
 
 
@@ -129,13 +128,13 @@ def column_rows(field: str, found: Sequence[Column], text: str) -> Iterator[list
         text = ""
 
 
-def sizes(scales: Mapping[str, Scale]) -> str:
+def sizes(settings: Settings) -> str:
     """Return the table of the sets of every scale, lengths in [min]."""
     sets = [
         ([scale, *names], part)
-        for scale, entry in scales.items()
+        for scale, entry in settings.scales.items()
         for names, part in (
-            *(((name, part.scenario, part.level), part) for name, part in entry.train.items()),
+            *(((n, row.scenario, row.level), row.sizes[scale]) for n, row in settings.training_sets.items()),
             (("test", "each test", "as its table asks"), entry.test),
         )
     ]

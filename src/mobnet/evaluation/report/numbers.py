@@ -9,6 +9,7 @@ from mobnet.core.files import write_text
 from mobnet.evaluation.number.rows import Cell, read_rows
 from mobnet.evaluation.tables.claims import VERDICTS, Verdict, ours_text
 from mobnet.evaluation.tables.layout import number, tex_escape
+from mobnet.settings.data import Recordings
 from mobnet.settings.plant import Rates
 from mobnet.settings.scales import Scale
 
@@ -29,7 +30,15 @@ MINUTE_S = 60.0
 MILLION = 1e6
 
 
-def numbers(scale: str, rates: Rates, sizes: Scale, table_csvs: Sequence[Path], claims_csv: Path, out: Path) -> None:
+def numbers(
+    scale: str,
+    rates: Rates,
+    sizes: Scale,
+    train: Recordings,
+    table_csvs: Sequence[Path],
+    claims_csv: Path,
+    out: Path,
+) -> None:
     r"""Write the macros that the paper's text uses.
 
     \ourcell{scenario}{level}{method}{joint}{metric} and \publishedcell give a cell of any table (metric: `mean` if it
@@ -41,6 +50,7 @@ def numbers(scale: str, rates: Rates, sizes: Scale, table_csvs: Sequence[Path], 
         scale: name of the scale.
         rates: sampling rates.
         sizes: the scale.
+        train: the recordings of random walking that networks learn from.
         table_csvs: the tables of errors.
         claims_csv: the judged claims.
         out: TeX file to \input before the text.
@@ -48,7 +58,7 @@ def numbers(scale: str, rates: Rates, sizes: Scale, table_csvs: Sequence[Path], 
     Raises:
         DataError: a file is missing or damaged.
     """
-    values = {f"size@{name}": text for name, text in size_texts(scale, rates, sizes).items()}
+    values = {f"size@{name}": text for name, text in size_texts(scale, rates, sizes, train).items()}
     for path in table_csvs:
         for cell in read_rows(path, Cell):
             values |= cell_texts(cell)
@@ -80,9 +90,9 @@ def tex_definition(item: tuple[str, str]) -> str:
     return rf"\expandafter\def\csname {name}\endcsname{{{text}}}" + "\n"
 
 
-def size_texts(scale: str, rates: Rates, sizes: Scale) -> dict[str, str]:
+def size_texts(scale: str, rates: Rates, sizes: Scale, train: Recordings) -> dict[str, str]:
     """Return the sizes of a scale as texts: minutes [min], million samples, epochs, seeds."""
-    train, legs = sizes.train["walk"], sizes.experiments["left_leg"]
+    legs = sizes.experiments["left_leg"]
     return {
         "scale": tex_escape(scale),
         "train minutes": f"{train.shards * train.shard_s / MINUTE_S:g}",
