@@ -8,19 +8,29 @@ import select
 import shutil
 import subprocess
 import time
+from collections.abc import Callable
 from itertools import count
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import pytest
 
 BROWSER = shutil.which("chromium") or shutil.which("google-chrome")
 with_browser = pytest.mark.skipif(BROWSER is None, reason="no browser is installed: apt-get install chromium")
 WAIT_S = 60.0  # a busy machine
+Answer = TypeVar("Answer")
+
+
+def wait(ask: Callable[[], Answer], seconds: float = WAIT_S) -> Answer:
+    """Ask until the answer is true or the time is over, and return the last answer."""
+    end = time.monotonic() + seconds
+    while not (answer := ask()) and time.monotonic() < end:
+        time.sleep(0.02)
+    return answer
 
 
 class Browser:
-    """A headless browser, told over a pipe what to do (Chrome DevTools protocol), and what it was told of."""
+    """A headless browser that is controlled over a pipe (Chrome DevTools protocol), and the events it reported."""
 
     def __init__(self, program: str, folder: Path) -> None:
         read, self._write = os.pipe()
@@ -75,10 +85,8 @@ class Browser:
 
     def until(self, script: str, wanted: Any) -> None:
         """Wait for an expression to have a value."""
-        end = time.monotonic() + WAIT_S
-        while (seen := self.value(script)) != wanted and time.monotonic() < end:
-            time.sleep(0.02)
-        assert seen == wanted
+        wait(lambda: self.value(script) == wanted)
+        assert self.value(script) == wanted
 
     def go(self, address: str) -> None:
         """Load a page afresh."""

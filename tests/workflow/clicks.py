@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import json
-import time
 from typing import Any
 
-from browser import WAIT_S, Browser
+from browser import Browser, wait
 
 MENU = "[...document.querySelectorAll('#app li a')].map((item) => item.textContent)"
 ROWS = "[...document.querySelectorAll('#app tbody tr')].map((row) => row.cells[0].textContent)"
@@ -15,16 +14,15 @@ AGAIN_S = 2.0
 
 def click(browser: Browser, script: str, then: str) -> None:
     """Click on the element that a script finds until another one holds: styles come late and move what is clicked."""
-    browser.until(f"({script}) != null", True)
-    end = time.monotonic() + WAIT_S
-    while not browser.value(then) and time.monotonic() < end:
+
+    def again() -> bool:
         browser.value(f"(() => {{const found = ({script}); if (found) found.id = 'target'}})()")
         browser.click("#target")
         browser.value("document.querySelector('#target')?.removeAttribute('id')")
-        again = time.monotonic() + AGAIN_S
-        while not browser.value(then) and time.monotonic() < again:
-            time.sleep(0.05)
-    assert browser.value(then), then
+        return wait(lambda: browser.value(then), AGAIN_S)
+
+    browser.until(f"({script}) != null", True)
+    assert wait(lambda: browser.value(then) or again()), then
 
 
 def choose(browser: Browser, category: str) -> None:
@@ -39,7 +37,7 @@ def show(browser: Browser, name: str, kind: str) -> None:
 
 
 def explain(browser: Browser, name: str) -> str:
-    """Click on the letter i beside a result and return what is told of it."""
+    """Click on the letter i beside a result and return its description."""
     click(browser, _button(name, 1), "document.body.innerText.includes('SNAKEMAKE RULE')")
     return " ".join(browser.value("document.body.innerText").split())
 
@@ -53,16 +51,11 @@ def _button(name: str, place: int) -> str:
 
 def text_of_frame(browser: Browser) -> str:
     """Return the text of an HTML result, once its frame has loaded it."""
-    end = time.monotonic() + WAIT_S
-    while not (frame := _frame(browser))["url"].startswith("data:") and time.monotonic() < end:
-        time.sleep(0.05)
-    world = browser.tell("Page.createIsolatedWorld", frameId=frame["id"])["executionContextId"]
-    script = "document.readyState === 'complete' ? document.body.innerText : ''"
-    text = ""
-    while not text and time.monotonic() < end:
-        found = browser.tell("Runtime.evaluate", expression=script, contextId=world, returnByValue=True)
-        text = found["result"]["value"]
-    return text
+    wait(lambda: _frame(browser)["url"].startswith("data:"))
+    world = browser.tell("Page.createIsolatedWorld", frameId=_frame(browser)["id"])["executionContextId"]
+    text = "document.readyState === 'complete' ? document.body.innerText : ''"
+    asked = {"expression": text, "contextId": world, "returnByValue": True}
+    return wait(lambda: browser.tell("Runtime.evaluate", **asked)["result"]["value"])
 
 
 def _frame(browser: Browser) -> dict[str, Any]:

@@ -1,6 +1,6 @@
 """Snakemake's report: every table and figure has its caption, and a browser can click through it offline.
 
-The files shown are made up here; what marks them for the report is the workflow itself.
+The files shown are made up here; the workflow itself marks them for the report.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ def in_report(made: dict[str, str]) -> dict[str, list[str]]:
         "figures": r"figures/.*\.png",
         "tables": r"(?:tables/.*|results/\w+/compute)\.md",
         "paper": r".*main\.pdf",
+        "trainings": r".*/runs\.html",
     }
-    endings["trainings"] = r".*/runs\.html"
     return {kind: sorted(Path(name).stem for name in made if re.fullmatch(end, name)) for kind, end in endings.items()}
 
 
@@ -72,8 +72,7 @@ def report(make_project: Callable[..., Path], snakemake: Snakemake, outputs: Out
     """The report of made-up files: each table has one cell that names it, each figure is the same picture."""
     folder = make_project("report")
     made = outputs("smoke")
-    for name in made:
-        path = folder / name
+    for path in (folder / name for name in made):
         path.parent.mkdir(parents=True, exist_ok=True)
         if path.suffix == ".md":
             path.write_text(markdown_table(["name", "number"], [[path.stem, "1.25"]]))
@@ -81,8 +80,7 @@ def report(make_project: Callable[..., Path], snakemake: Snakemake, outputs: Out
             shutil.copy(ROOT / "docs" / "results" / "figure_05.png", path)
         elif path.name in ("runs.html", "main.pdf"):
             path.write_text("<h1>made up</h1>")
-    found = [Path(name).parts for name in made if name.endswith(".md")]
-    tables = [folder.joinpath(*parts) for parts in found]
+    tables = [folder / name for name in made if name.endswith(".md")]
     captions = [CAPTIONS / "tables" / f"{table.stem}.rst" for table in tables]
     pages(tables, captions, TABLE_HTML, folder / "results" / "smoke" / "pages" / "first.html")
     done = snakemake("--config", "scale=smoke", "--report", "report.html", folder=folder)
