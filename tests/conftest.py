@@ -44,13 +44,18 @@ def settings() -> Settings:
 
 
 @pytest.fixture(scope="session")
-def layout(settings: Settings) -> JointLayout:
-    return settings.layout
+def robot_table() -> RobotTable:
+    return load_section(ROOT / "configs" / "robots" / "tocabi.yaml", RobotTable)
 
 
 @pytest.fixture(scope="session")
-def robot(settings: Settings) -> WalkingRobot:
-    return for_walking(describe(settings.robot))
+def layout(robot_table: RobotTable) -> JointLayout:
+    return robot_table.layout
+
+
+@pytest.fixture(scope="session")
+def robot(robot_table: RobotTable) -> WalkingRobot:
+    return for_walking(describe(robot_table))
 
 
 @pytest.fixture(scope="session")
