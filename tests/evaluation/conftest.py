@@ -10,15 +10,15 @@ from typing import Any
 import numpy as np
 import pytest
 import yaml
+from csv_files import write_rows
 
+from mobnet.core.columns import Epoch, Score
 from mobnet.core.files import write_json
-from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout, layout_of
+from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import FEET, Recording, Sensed, Truth
 from mobnet.core.store import write_array, write_recording
 from mobnet.evaluation.measure.results import listed
-from mobnet.evaluation.measure.trainings import Epoch
 from mobnet.evaluation.number.claim import Claim
-from mobnet.evaluation.number.rows import Score, write_rows
 
 REPO = Path(__file__).parents[2]
 CONFIGURED = yaml.safe_load((REPO / "configs/config.yaml").read_text())["evaluation"]
@@ -39,20 +39,13 @@ def rng() -> np.random.Generator:
 
 
 @pytest.fixture
-def layout() -> JointLayout:
-    """Joints of the robot."""
-    table = yaml.safe_load((REPO / "configs/robots/tocabi.yaml").read_text())
-    return layout_of(table["order"], table["groups"])
-
-
-@pytest.fixture
 def config() -> dict[str, Any]:
     """The part of a resolved configuration that evaluation reads; few draws, since only the plumbing counts here."""
     return {
         "scale": "default",
         "seed": 2023,
         "robot": str(REPO / "configs/robots/tocabi.yaml"),
-        "published": str(REPO / "configs/published.yaml"),
+        "published": str(REPO / "configs/legacy_published.yaml"),
         "rates": {"data_hz": 1000},
         "evaluation": {
             "confidence": 0.95,
@@ -181,7 +174,7 @@ def write_limb_scores(tmp_path: Path, layout: JointLayout) -> Callable[..., Path
     """Write scores of a scenario: write_limb_scores(scenario, means, networks=2) -> CSV."""
 
     def write(scenario: str, means: dict[str, float], networks: int = 2) -> Path:
-        write_rows(tmp_path / f"{scenario}.csv", Score, limb_scores(layout, scenario, means, networks))
+        write_rows(tmp_path / f"{scenario}.csv", limb_scores(layout, scenario, means, networks))
         return tmp_path / f"{scenario}.csv"
 
     return write
@@ -219,7 +212,7 @@ def write_table_scores(tmp_path: Path, layout: JointLayout, config: dict[str, An
         for scenario in dict.fromkeys(row["scenario"] for row in rows):
             found[scenario] = tmp_path / f"{name}_{scenario}.csv"
             own = [row for row in rows if row["scenario"] == scenario]
-            write_rows(found[scenario], Score, table_scores(layout, own, metrics))
+            write_rows(found[scenario], table_scores(layout, own, metrics))
         return found
 
     return write
@@ -240,7 +233,7 @@ def write_budget_scores(tmp_path: Path, layout: JointLayout) -> Callable[..., Pa
                     value = k * factor * (1 + 0.1 * (test - 2)) * (joint != cut or level == "all_uncertainty")
                     run = ("motion_test", level, "MOB", 0, test, limb, joint)
                     rows.append(Score(*run, "rmse", value, layout.unit(joint)))
-        write_rows(tmp_path / "budget_scores.csv", Score, rows)
+        write_rows(tmp_path / "budget_scores.csv", rows)
         return tmp_path / "budget_scores.csv"
 
     return write
@@ -257,7 +250,7 @@ def write_training(tmp_path: Path) -> Callable[..., str]:
         folder = tmp_path / f"{method}-LL-s{seed}"
         course = [loss + epochs - 2 - k for k in range(epochs - 1)] + [loss + 0.5] * (epochs > 0)
         epochs_done = [Epoch(k + 1, x - 0.25, x, 10.0 + x, 0.005, 1.5) for k, x in enumerate(course)]
-        write_rows(folder / "metrics.csv", Epoch, epochs_done)
+        write_rows(folder / "metrics.csv", epochs_done, Epoch)
         note = {"method": method, "seed": seed, "parameters": 83712, "samples": 1620000, "seconds": 100.0 + seed}
         note["on_windows"] = {"loss": loss + 0.125}
         write_json(folder / "run.json", note | changes)
@@ -293,7 +286,7 @@ def write_results(tmp_path: Path, layout: JointLayout, write_training: Callable[
     """
 
     def write(claims: list[Claim], means: dict[str, float], pushes: bool = True) -> tuple[list[Path], list[str]]:
-        write_rows(tmp_path / "claimed.csv", Score, claimed_scores(layout, claims, means, pushes))
+        write_rows(tmp_path / "claimed.csv", claimed_scores(layout, claims, means, pushes))
         named = [cell["method"] for claim in claims for cell in claim.cells if "joint" not in cell]
         losses = {method: -4.0 + 0.1 * k for k, method in enumerate(dict.fromkeys(named))}
         folders = [
@@ -313,7 +306,7 @@ def make_scores() -> Callable[..., list[Score]]:
 @pytest.fixture
 def scores_csv(tmp_path: Path) -> Path:
     """Scores of 2 networks on 3 tests, written."""
-    write_rows(tmp_path / "scores.csv", Score, made_up_scores())
+    write_rows(tmp_path / "scores.csv", made_up_scores())
     return tmp_path / "scores.csv"
 
 
@@ -335,7 +328,7 @@ def write_push_scores(tmp_path: Path) -> Callable[..., Path]:
     """Write scores of a scenario with pushes: write_push_scores(scenario, means, pushes=2) -> CSV."""
 
     def write(scenario: str, means: dict[str, float], pushes: int = 2) -> Path:
-        write_rows(tmp_path / f"{scenario}.csv", Score, push_scores(scenario, means, pushes))
+        write_rows(tmp_path / f"{scenario}.csv", push_scores(scenario, means, pushes))
         return tmp_path / f"{scenario}.csv"
 
     return write
@@ -483,10 +476,9 @@ def told(tmp_path: Path, layout: JointLayout) -> Callable[..., dict[str, Any]]:
 
 
 @pytest.fixture(scope="session")
-def data_sets(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[str]]:
+def data_sets(tmp_path_factory: pytest.TempPathFactory, layout: JointLayout) -> dict[str, list[str]]:
     """Stems of the made-up recordings of three training sets, two each, and of a test."""
-    table = yaml.safe_load((REPO / "configs/robots/tocabi.yaml").read_text())
-    layout, folder = layout_of(table["order"], table["groups"]), tmp_path_factory.mktemp("sets")
+    folder = tmp_path_factory.mktemp("sets")
     sets = {"walk": (1.0, False), "walk_plain": (0.7, False), "motion": (0.5, True), "test": (0.9, False)}
     return {
         name: [write_steps(folder / f"{name}{k}", layout, 10 * k + len(name), *kind) for k in range(2)]

@@ -17,10 +17,8 @@ Write = Callable[..., str]
 def test_curve_is_the_mean_of_the_runs_within_their_spread(write_training: Write) -> None:
     trainings = read_trainings(write_training("GRU", seed, loss) for seed, loss in enumerate((-4.0, -3.0, -2.6)))["GRU"]
     line = curve("GRU", trainings, "validation_loss")
-    np.testing.assert_array_equal(line.x, [1, 2, 3])
-    np.testing.assert_allclose(line.mean, [-2.2, -3.2, -2.7])
-    np.testing.assert_allclose(line.low, [-3.0, -4.0, -3.5])
-    np.testing.assert_allclose(line.high, [-1.6, -2.6, -2.1])
+    assert list(line.x) == [1, 2, 3]
+    np.testing.assert_allclose(line.columns, [[-2.2, -3.2, -2.7], [-3.0, -4.0, -3.5], [-1.6, -2.6, -2.1]])
 
 
 def test_csv_holds_both_losses_of_every_kind_and_epoch(tmp_path: Path, write_training: Write) -> None:

@@ -4,9 +4,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from csv_files import read_table
 
-from mobnet.evaluation.figures.figure_20 import Size, figure_20, growth_line, sizes_of
-from mobnet.evaluation.number.rows import read_rows
+from mobnet.evaluation.figures.figure_20 import figure_20, growth_line, sizes_of
+from mobnet.evaluation.number.number import Number
 
 Write = Callable[..., str]
 
@@ -19,7 +20,7 @@ def test_rows_rise_with_the_size_that_their_panel_varies(tmp_path: Path, write_t
         for k, n in ((2, 40000), (0, 10000), (1, 20000))
     ]
     figure_20(entries, tmp_path / "out")
-    rows = read_rows(tmp_path / "out/figure_20.csv", Size)
+    rows = read_table(tmp_path / "out/figure_20.csv")
     assert len(rows) == 12
     for panel in ("parameters", "samples"):
         for base in ("MOB-Net", "FTS-e2e"):
@@ -32,8 +33,7 @@ def test_rows_rise_with_the_size_that_their_panel_varies(tmp_path: Path, write_t
 def test_a_place_is_the_mean_of_its_sound_runs(write_training: Write) -> None:
     folders = [write_training("a", 0, -4.0), write_training("a", 1, -3.0), write_training("a", 2, 9.0, diverged=True)]
     (size,) = sizes_of({"panel": "samples", "base": "MOB-Net", "folders": folders})
-    assert (size.runs, size.loss, size.loss_low, size.loss_high) == (2, -3.5, -4.0, -3.0)
-    assert (size.rmse_nm, size.rmse_low_nm, size.rmse_high_nm) == (6.5, 6.0, 7.0)
+    assert (size.loss, size.rmse) == (Number(-3.5, -4.0, -3.0, 2), Number(6.5, 6.0, 7.0, 2))
     assert sizes_of({"panel": "samples", "base": "MOB-Net", "folders": folders[2:]}) == []
 
 
@@ -41,4 +41,4 @@ def test_line_is_drawn_over_thousands(write_training: Write) -> None:
     sizes = sizes_of({"panel": "parameters", "base": "MOB-Net", "folders": [write_training("a", parameters=83712)]})
     line = growth_line(sizes, "MOB-Net")
     assert line.x == pytest.approx([83.712])
-    assert line.mean == pytest.approx([-4.0])
+    assert line.numbers == [Number(-4.0, -4.0, -4.0, 1)]

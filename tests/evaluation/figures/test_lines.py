@@ -6,12 +6,13 @@ import pytest
 from mobnet.evaluation.figures.drawing.bars import BarPanel, draw_bars
 from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from mobnet.evaluation.figures.style import COLUMN_INCH
+from mobnet.evaluation.number.number import Number
 
 
 def lines(count: int, places: int) -> list[Line]:
     """Return made-up lines."""
-    x = np.arange(1.0, places + 1)
-    return [Line(f"kind {k}", x, -x - k, -x - k - 0.5, -x - k + 0.5) for k in range(count)]
+    x = [1.0 + k for k in range(places)]
+    return [Line(f"kind {k}", x, [Number(-y - k, -y - k - 0.5, -y - k + 0.5) for y in x]) for k in range(count)]
 
 
 @pytest.mark.parametrize("sizes", [False, True])
@@ -23,7 +24,7 @@ def test_lines_show_their_means_and_differ_without_colour(sizes: bool) -> None:
         assert (axis.get_xlabel(), axis.get_ylabel()) == ("x [-]", "loss [-]")
         shown = [line for line in axis.lines if len(line.get_xdata()) == 4 and line.get_linestyle() != "None"]
         for line, own in zip(shown, drawn, strict=True):
-            np.testing.assert_array_equal(np.asarray(line.get_ydata()), own.mean)
+            np.testing.assert_array_equal(np.asarray(line.get_ydata()), own.columns[0])
         looks = {(str(line._unscaled_dash_pattern), line.get_marker()) for line in shown}  # type: ignore[attr-defined]
         assert len(looks) == len(drawn)
     assert [text.get_text() for text in figure.legends[0].get_texts()] == [line.label for line in drawn]
@@ -36,14 +37,10 @@ def test_sizes_are_marked_where_they_are_on_a_logarithmic_axis() -> None:
 
 
 def test_bars_have_their_heights_and_intervals_on_one_scale() -> None:
-    heights = {"a": np.array([1.0, 2.0]), "b": np.array([3.0, 4.0])}
-    spans = {name: np.array([height - 0.5, height + 0.25]) for name, height in heights.items()}
-    low = {name: height / 2 for name, height in heights.items()}
-    panels = [
-        BarPanel("ID", ["W", "RA"], heights, spans),
-        BarPanel("OOD", ["W", "RA"], low, {n: np.array([h, h]) for n, h in low.items()}),
-    ]
-    figure = draw_bars(panels, "RMSE [N m]")
+    heights = {"a": [1.0, 2.0], "b": [3.0, 4.0]}
+    wide = {name: [Number(height, height - 0.5, height + 0.25) for height in own] for name, own in heights.items()}
+    low = {name: [Number(height / 2) for height in own] for name, own in heights.items()}
+    figure = draw_bars([BarPanel("ID", ["W", "RA"], wide), BarPanel("OOD", ["W", "RA"], low)], "RMSE [N m]")
     first, second = figure.axes
     assert first.get_ylim() == second.get_ylim()
     assert [patch.get_height() for patch in first.patches] == [1.0, 2.0, 3.0, 4.0]
@@ -54,7 +51,7 @@ def test_bars_have_their_heights_and_intervals_on_one_scale() -> None:
 
 def test_a_run_that_leaps_flattens_no_line() -> None:
     calm, leaping = lines(2, 3)
-    leaping.high[1] = 1e6
+    leaping = Line("b", leaping.x, [Number(number.value, number.low, 1e6) for number in leaping.numbers])
     low, high = draw_lines([LinePanel("one", "x", "y", [calm, leaping])]).axes[0].get_ylim()
-    means = np.concatenate([calm.mean, leaping.mean])
+    means = np.concatenate([calm.columns[0], leaping.columns[0]])
     assert low < means.min() < means.max() < high < 100

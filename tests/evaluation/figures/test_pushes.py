@@ -5,19 +5,21 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mobnet.evaluation.figures.drawing.bars import BarPanel
 from mobnet.evaluation.figures.drawing.pushes import PushGroup, draw_pushes
 from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH
 from mobnet.evaluation.measure.curves import Curve, Panel
+from mobnet.evaluation.measure.pushes import AVERAGE, INCREASE
+from mobnet.evaluation.number.number import Number
 
 TIME = np.linspace(-0.1, 0.2, 31)
-BARS = BarPanel("errors", ["avg"], {"MOB": np.array([3.0])}, {"MOB": np.array([[2.0], [4.0]])})
+ERRORS = {"MOB": {"avg": Number(3.0, 2.0, 4.0)}}
 
 
 def group(*sizes: float) -> PushGroup:
     """Return a group of a push for each size."""
     curves = [[Curve("truth", size * np.sin(TIME)), Curve("MOB", size * np.cos(TIME))] for size in sizes]
-    return PushGroup([Panel(f"push {k}", TIME, own, {"push": TIME > 0.0}) for k, own in enumerate(curves)], BARS)
+    panels = [Panel(f"push {k}", TIME, own, {"push": TIME > 0.0}) for k, own in enumerate(curves)]
+    return PushGroup("test", panels, ERRORS, "errors")
 
 
 @pytest.mark.parametrize(
@@ -47,6 +49,14 @@ def test_curves_of_a_group_share_a_scale_that_holds_them_all() -> None:
 
 
 def test_a_group_without_pushes_is_empty() -> None:
-    empty = PushGroup([], BarPanel("errors", [], {}, {}))
+    empty = PushGroup("test", [], {}, "errors")
     figure = draw_pushes([empty, empty], "LL3", across=2)
     assert [bool(axis.lines) for axis in figure.axes if axis.get_visible()] == [False, False]
+
+
+def test_bars_are_a_push_each_and_tell_average_and_increase() -> None:
+    pushes = {"1": Number(2.0, 1.0, 3.0), AVERAGE: Number(2.0, 1.5, 2.5, published=6.5), INCREASE: Number(-1.0)}
+    bars = PushGroup("test", [], {"MOB": pushes}, "errors").bars()
+    assert bars.groups == ["1", AVERAGE]
+    assert bars.bars == {"MOB": [pushes["1"], pushes[AVERAGE]]}
+    assert bars.notes == {"MOB": ["", "2.0 (\N{MINUS SIGN}1.0)"]}

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from csv_files import read_table
 
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.coverage import (
@@ -14,7 +15,6 @@ from mobnet.evaluation.measure.coverage import (
     AREA,
     NEAREST,
     OUTSIDE,
-    Covered,
     equal_sets,
     nearest,
     outside,
@@ -23,7 +23,6 @@ from mobnet.evaluation.measure.coverage import (
     scale_of,
     visited,
 )
-from mobnet.evaluation.number.rows import read_rows
 from mobnet.evaluation.tables.coverage import coverage
 from mobnet.learning.features import limb_inputs
 
@@ -71,17 +70,17 @@ def test_distance_to_the_nearest_sample_has_its_closed_form_in_units_of_the_comm
     assert [row.measure for row in rows] == list(NEAREST)
     assert rows[0].with_rte == pytest.approx(1.0)
     assert rows[0].without_rte == pytest.approx(np.sqrt(2.0))
-    assert rows[0].ratio == pytest.approx(np.sqrt(0.5))
-    assert rows[0].low == pytest.approx(rows[0].high)
+    assert rows[0].ratio.value == pytest.approx(np.sqrt(0.5))
+    assert rows[0].ratio.low == pytest.approx(rows[0].ratio.high)
 
 
 def test_the_wider_set_visits_more_of_the_plane_and_equal_sets_equally_much(rng: np.random.Generator) -> None:
     wide = rng.uniform(-1, 1, (3000, 2))
-    assert {row.ratio for row in visited(AREA, [wide, wide], NAMES, ["LL1"], PLANE)} == {1.0}
+    assert {row.ratio.value for row in visited(AREA, [wide, wide], NAMES, ["LL1"], PLANE)} == {1.0}
     for row in visited(AREA, [wide, 0.5 * wide], NAMES, ["LL1"], PLANE):
         assert row.measure == AREA
         assert row.with_rte == pytest.approx(1.0, abs=0.02)
-        assert row.ratio == pytest.approx(4.0, rel=0.5)
+        assert row.ratio.value == pytest.approx(4.0, rel=0.5)
 
 
 def test_sets_are_made_equally_long_and_a_constant_input_keeps_its_scale(rng: np.random.Generator) -> None:
@@ -109,7 +108,7 @@ def test_equivalent_sets_come_out_even_and_tests_without_pushes_are_left_out(
         {**TEST, "scenario": "knee_swing", "pushed": "LL3", "recordings": []},
     ]
     coverage(config, training, tests, tmp_path)
-    rows = read_rows(tmp_path / "coverage.csv", Covered)
+    rows = read_table(tmp_path / "coverage.csv")
     assert {row.scenario for row in rows} == {"training", "walk_test"}
     assert all(row.with_rte == row.without_rte for row in rows)
     assert all(row.ratio == 1.0 for row in rows if row.measure in NEAREST or row.measure == AREA)

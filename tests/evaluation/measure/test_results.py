@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from csv_files import write_rows
 
+from mobnet.core.columns import Score
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.evaluation.measure.results import Results, read_results
-from mobnet.evaluation.number.rows import Score, write_rows
 
 REPO = Path(__file__).parents[3]
 WALK = {"scenario": "walk", "level": "ideal", "method": "MOB"}
@@ -24,7 +25,7 @@ def results(tmp_path: Path, write_training: Callable[..., str]) -> Results:
         for limb, joint, value in (("W", "W1", 1.0), ("W", "W2", 2.0), ("W", "W3", 3.0), ("LL", "LL1", 8.0))
         for metric, factor in (("rmse", 1.0), ("rmse_push_1", 10.0))
     ]
-    write_rows(tmp_path / "walk.csv", Score, rows)
+    write_rows(tmp_path / "walk.csv", rows)
     folders = [write_training("GRU", seed, -4.0 - seed) for seed in (0, 1)]
     folders.append(write_training("MLP", epochs=1, diverged=True))
     return read_results(REPO / "configs/robots/tocabi.yaml", [tmp_path / "walk.csv"], folders)

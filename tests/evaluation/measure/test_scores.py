@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from csv_files import read_table
 
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array, write_array
 from mobnet.evaluation.measure.scores import limb_values, score, score_run
-from mobnet.evaluation.number.rows import Score, read_rows
 
 Walk = Callable[..., dict[str, Any]]
 
@@ -46,7 +46,7 @@ def test_order_of_rows_is_that_of_the_entries(
 ) -> None:
     entries = [walk(1.0), {**walk(2.0), "test_seed": 2}]
     score(config, "forward_walk", entries, tmp_path / "scores.csv")
-    rows = read_rows(tmp_path / "scores.csv", Score)
+    rows = read_table(tmp_path / "scores.csv")
     half = len(rows) // 2
     assert [row.test_seed for row in rows] == [1] * half + [2] * half
     assert [row.joint for row in rows[:half]] == [row.joint for row in rows[half:]]

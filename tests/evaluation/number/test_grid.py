@@ -2,13 +2,14 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
+from mobnet.core.columns import Score
 from mobnet.core.errors import DataError
-from mobnet.evaluation.number.grid import Wanted, run_grid, unit_of
-from mobnet.evaluation.number.rows import Score
+from mobnet.evaluation.number.grid import Wanted, number_of, run_grid
 
 WANTED = Wanted("forward_walk", "LL", "all_uncertainty", "MOB-Net", "avg")
 Scores = Callable[..., list[Score]]
@@ -29,7 +30,7 @@ def test_order_of_rows_does_not_matter(make_scores: Scores, rng: np.random.Gener
 
 def test_a_missing_run_is_refused(make_scores: Scores) -> None:
     scores = make_scores()
-    scores.remove(next(row for row in scores if WANTED.matches(row)))
+    scores.remove(WANTED.rows(scores)[0])
     with pytest.raises(DataError, match=r"5 rows for .*'MOB-Net'.*networks \[0, 1\] on tests \[1, 2, 3\]"):
         run_grid(scores, WANTED)
 
@@ -37,16 +38,15 @@ def test_a_missing_run_is_refused(make_scores: Scores) -> None:
 def test_a_run_scored_twice_is_refused(make_scores: Scores) -> None:
     scores = make_scores()
     with pytest.raises(DataError, match="7 rows"):
-        run_grid([*scores, next(row for row in scores if WANTED.matches(row))], WANTED)
+        run_grid([*scores, WANTED.rows(scores)[0]], WANTED)
 
 
 def test_an_unknown_method_is_named(make_scores: Scores) -> None:
     with pytest.raises(DataError, match=r"no row for .*'MOB-Fantasy'"):
         run_grid(make_scores(), replace(WANTED, method="MOB-Fantasy"))
-    with pytest.raises(DataError, match="no row"):
-        unit_of([], WANTED)
 
 
-def test_unit_is_that_of_the_metric(make_scores: Scores) -> None:
-    assert unit_of(make_scores(), WANTED) == "N m"
-    assert unit_of(make_scores(), replace(WANTED, metric="roughness")) == "N m/s"
+def test_a_number_is_the_mean_over_runs_in_the_unit_of_its_metric(make_scores: Scores, config: dict[str, Any]) -> None:
+    number = number_of(make_scores(), [WANTED], config, published=1.31)
+    assert (number.value, number.runs, number.unit, number.published) == (pytest.approx(1.5), 6, "N m", 1.31)
+    assert number_of(make_scores(), [replace(WANTED, metric="roughness")], config).unit == "N m/s"

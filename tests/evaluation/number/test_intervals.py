@@ -19,12 +19,12 @@ def test_interval_contains_the_mean_and_stays_within_the_runs(
     assert summary.low is not None
     assert summary.high is not None
     assert runs.min() - 1e-12 <= summary.low <= summary.value <= summary.high <= runs.max() + 1e-12
-    assert summary.count == runs.size
+    assert summary.runs == runs.size
 
 
 def test_a_single_run_has_no_interval(config: dict[str, Any]) -> None:
     summary = summarise([np.array([[2.5]])], config)
-    assert (summary.value, summary.low, summary.high, summary.count) == (2.5, None, None, 1)
+    assert (summary.value, summary.low, summary.high, summary.runs) == (2.5, None, None, 1)
 
 
 def test_interval_scales_and_shifts_with_the_runs(config: dict[str, Any], rng: np.random.Generator) -> None:
@@ -66,7 +66,7 @@ def test_ratio_of_a_grid_and_its_multiple_is_exact_since_draws_are_shared(
 def test_a_method_without_networks_stands_for_all(config: dict[str, Any], rng: np.random.Generator) -> None:
     alone, many = rng.uniform(1.0, 2.0, (1, 3)), rng.uniform(1.0, 2.0, (2, 3))
     one, other = (summarise([grid, many], config, lambda m: m[0] / m[1]) for grid in (alone, np.tile(alone, (2, 1))))
-    assert (one.value, one.low, one.high, one.count) == pytest.approx((other.value, other.low, other.high, 6))
+    assert (one.value, one.low, one.high, one.runs) == pytest.approx((other.value, other.low, other.high, 6))
 
 
 @pytest.mark.parametrize("networks", [(2, 3), (1, 2), (3, 3)])

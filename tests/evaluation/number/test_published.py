@@ -11,7 +11,7 @@ from mobnet.core.errors import ConfigError
 from mobnet.evaluation.number.published import published_row, published_value, read_published
 
 CONFIGS = Path(__file__).parents[3] / "configs"
-PUBLISHED = CONFIGS / "published.yaml"
+PUBLISHED = CONFIGS / "legacy_published.yaml"
 TABLES = yaml.safe_load(PUBLISHED.read_text())
 
 

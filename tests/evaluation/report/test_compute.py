@@ -6,12 +6,12 @@ from dataclasses import asdict
 from pathlib import Path
 
 import pytest
+from csv_files import read_table
 
 from mobnet.core.errors import DataError
 from mobnet.core.files import write_json
 from mobnet.core.logs import Account
-from mobnet.evaluation.number.rows import read_rows
-from mobnet.evaluation.report.compute import ELAPSED, STAGES, WHOLE, Use, compute
+from mobnet.evaluation.report.compute import ELAPSED, STAGES, WHOLE, compute
 from mobnet.settings.evaluation import Compute
 
 JOBS = {  # job -> end [s], wall time [s], CPU time [s], memory [MiB]; two cores, and an hour between two runs
@@ -35,7 +35,7 @@ def made(folder: Path, jobs: dict[str, tuple[float, float, float, float]]) -> Us
         write_account(folder / "logs", name, *numbers, done=True)
     write_account(folder / "logs", "train/failed", 9000.0, 9000.0, 9000.0, 9000.0, done=False)
     compute(Compute(pause_s=60.0), folder / "logs", folder / "compute.csv")
-    return {(use.stage, use.quantity): use.value for use in read_rows(folder / "compute.csv", Use)}
+    return {(use.stage, use.quantity): use.value for use in read_table(folder / "compute.csv")}
 
 
 @pytest.fixture

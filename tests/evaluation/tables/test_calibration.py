@@ -11,11 +11,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from csv_files import read_table
 
 from mobnet.evaluation.figures.calibration import nominal_points
-from mobnet.evaluation.number.rows import read_rows
+from mobnet.evaluation.measure.calibration import Grid
+from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.report.calibration import calibration
-from mobnet.evaluation.tables.calibration import COVERAGE, CRPS, Trust, verdict
+from mobnet.evaluation.tables.calibration import COVERAGE, CRPS, verdict
 from mobnet.learning.calibration import calibrate
 
 GOLDEN = Path(__file__).parents[3] / "tests/golden"
@@ -38,9 +40,9 @@ def made(tmp_path: Path, config: dict[str, Any], told: Make) -> Path:
 
 
 def test_every_level_stands_in_the_table_before_and_after(made: Path, config: dict[str, Any]) -> None:
-    rows = read_rows(made / "calibration.csv", Trust)
+    rows = read_table(made / "calibration.csv")
     assert list(dict.fromkeys((row.test, row.pushed) for row in rows)) == [
-        ("validation", ""), ("walk_test", ""), ("knee_swing", "LL3"),
+        ("validation", None), ("walk_test", None), ("knee_swing", "LL3"),
     ]  # fmt: skip
     walk = [row for row in rows if row.test == "walk_test"]
     assert [row.share for row in walk if row.measure == COVERAGE] == config["evaluation"]["calibration"]["levels"]
@@ -55,9 +57,8 @@ def test_the_bar_is_judged_without_collision_only(made: Path, config: dict[str, 
     assert {line[1].strip(): line[-2].strip() for line in lines} == {
         "validation": "yes", "walk test": "yes", "knee swing, pushed": "",
     }  # fmt: skip
-    bar = next(row for row in read_rows(made / "calibration.csv", Trust) if row.share == 0.68)
-    strict = {**config["evaluation"]["calibration"], "tolerance": 0.0}
-    assert verdict(bar, strict) == "no"
+    grid = Grid("walk_test", "ideal", "", "MOB-Net", "LL", "N m", np.zeros(0))
+    assert [verdict(grid, Number(bar), config["evaluation"]["calibration"]) for bar in (0.64, 0.74)] == ["yes", "no"]
 
 
 def test_figure_has_a_panel_without_and_one_under_collision(made: Path, config: dict[str, Any]) -> None:

@@ -8,21 +8,21 @@ from typing import Any
 
 import numpy as np
 import pytest
+from csv_files import read_table
 
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.number.rows import Cell, read_rows
 from mobnet.evaluation.tables.error_budget import error_budget, share_gone
 
 FACTORS = {"all_uncertainty": 1.0, "exact_model": 0.8, "no_friction": 0.5, "no_load_friction": 1.0, "no_noise": 1.1}
 Write = Callable[..., Path]
-Cells = Mapping[tuple[str, str, str], Cell]
+Cells = Mapping[tuple[str, str, str], Any]
 
 
 def made(config: dict[str, Any], scores_csv: Path, out: Path) -> Cells:
     """Return the cells that are written, by joint, level and metric."""
     error_budget(config, scores_csv, out)
-    return {(cell.joint, cell.level, cell.metric): cell for cell in read_rows(out / "error_budget.csv", Cell)}
+    return {(cell.joint, cell.level, cell.metric): cell for cell in read_table(out / "error_budget.csv")}
 
 
 def test_share_gone_is_that_of_the_square_whatever_the_joint(

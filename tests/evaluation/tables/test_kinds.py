@@ -5,25 +5,25 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from csv_files import read_table
 
-from mobnet.evaluation.number.rows import read_rows
-from mobnet.evaluation.tables.kinds import Trait, kinds
+from mobnet.evaluation.tables.kinds import kinds
 
 LOSSES = {"LSTM": -5.0, "GRU": -4.5, "TCN": -4.0, "MLP-500": -3.9, "MLP": -3.5, "RNN": -3.0}
 Write = Callable[..., str]
 
 
 @pytest.fixture
-def traits(tmp_path: Path, config: dict[str, Any], write_training: Write) -> dict[tuple[str, str], Trait]:
+def traits(tmp_path: Path, config: dict[str, Any], write_training: Write) -> dict[tuple[str, str], Any]:
     """The table of made-up kinds, LSTM best; the printed rate diverges once of twice."""
     folders = [write_training(kind, seed, loss + 0.1 * seed) for kind, loss in LOSSES.items() for seed in range(5)]
     folders += [write_training("windows", 0, -9.0)]
     folders += [write_training("printed-rate", seed, epochs=2, diverged=seed == 1) for seed in range(2)]
     kinds(config, folders, tmp_path)
-    return {(row.method, row.quantity): row for row in read_rows(tmp_path / "kinds.csv", Trait)}
+    return {(row.method, row.quantity): row for row in read_table(tmp_path / "kinds.csv")}
 
 
-def test_order_is_by_validation_loss_among_the_kinds_that_the_paper_orders(traits: dict[Any, Trait]) -> None:
+def test_order_is_by_validation_loss_among_the_kinds_that_the_paper_orders(traits: dict[Any, Any]) -> None:
     order = {method: trait.value for (method, quantity), trait in traits.items() if quantity == "order"}
     assert list(order) == [*LOSSES, "windows", "printed-rate"]
     assert order == {
@@ -34,7 +34,7 @@ def test_order_is_by_validation_loss_among_the_kinds_that_the_paper_orders(trait
     }  # fmt: skip
 
 
-def test_numbers_are_means_over_runs_inside_their_intervals(traits: dict[Any, Trait]) -> None:
+def test_numbers_are_means_over_runs_inside_their_intervals(traits: dict[Any, Any]) -> None:
     loss = traits["GRU", "validation loss"]
     assert loss.value == pytest.approx(-4.3)
     assert loss.low is not None
@@ -47,7 +47,7 @@ def test_numbers_are_means_over_runs_inside_their_intervals(traits: dict[Any, Tr
     assert traits["MLP-500", "parameters"].published == 756512
 
 
-def test_runs_that_diverged_are_counted_and_left_out(traits: dict[Any, Trait], tmp_path: Path) -> None:
+def test_runs_that_diverged_are_counted_and_left_out(traits: dict[Any, Any], tmp_path: Path) -> None:
     assert (traits["printed-rate", "runs"].value, traits["printed-rate", "diverged"].value) == (2, 1)
     assert traits["printed-rate", "validation loss"].value == pytest.approx(-4.0)
     assert "| 2, 1 diverged |" in (tmp_path / "kinds.md").read_text()
@@ -58,7 +58,7 @@ def test_a_kind_that_always_diverged_comes_last_without_numbers(
 ) -> None:
     config["evaluation"] |= {"figure_17": {"methods": ["RNN", "GRU"]}, "kinds": {"variants": []}}
     kinds(config, [write_training("RNN", epochs=0, diverged=True), write_training("GRU")], tmp_path)
-    rows = read_rows(tmp_path / "kinds.csv", Trait)
+    rows = read_table(tmp_path / "kinds.csv")
     assert list(dict.fromkeys(row.method for row in rows)) == ["GRU", "RNN"]
     assert {row.value for row in rows if row.method == "RNN" and row.unit != "-"} == {None}
     assert "95%" not in (tmp_path / "kinds.md").read_text()  # a single run has no interval

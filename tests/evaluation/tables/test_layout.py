@@ -1,8 +1,22 @@
 """Text of tables: nothing TeX would choke on, columns that line up."""
 
+from pathlib import Path
+
 import pytest
 
-from mobnet.evaluation.tables.layout import GAP, RULE, long_table, markdown_table, number, span, tex_escape, tex_table
+from mobnet.evaluation.number.number import Number
+from mobnet.evaluation.tables.layout import (
+    GAP,
+    RULE,
+    Table,
+    in_blocks,
+    long_table,
+    markdown_table,
+    tex_escape,
+    tex_table,
+    with_intervals,
+    write_table,
+)  # fmt: skip
 
 
 @pytest.mark.parametrize("character", list("\\&%$#_{}~^<>|"))
@@ -32,11 +46,6 @@ def test_markdown_rows_have_the_same_cells_and_rules_are_left_out() -> None:
     assert lines == ["| a | b |", "| --- | ---: |", "| x\\|y | 1 |", "| z | 2 |"]
 
 
-def test_what_is_not_known_is_blank_not_invented() -> None:
-    assert (number(None), span(None, None), span(1.0, None)) == ("-", "", "")
-    assert (number(1.005, 1), span(1.0, 2.0)) == ("1.0", "[1.00, 2.00]")
-
-
 def test_a_long_table_repeats_its_header_and_ends_each_page_with_a_rule() -> None:
     lines = long_table("lr", r"\caption{c}", ["a_1", "b"], [["50 %", "1"], r"\multicolumn{2}{l}{why} \\"]).splitlines()
     assert lines == [
@@ -45,6 +54,34 @@ def test_a_long_table_repeats_its_header_and_ends_each_page_with_a_rule() -> Non
     ]  # fmt: skip
 
 
-def test_what_rounds_to_zero_has_no_sign() -> None:
-    assert [number(-0.004), number(-0.3, 0), number(-0.006)] == ["0.00", "0", "-0.01"]
-    assert span(-0.4, 0.4, 0) == "[0, 0]"
+BLOCKS = [(("a", "x"), [["1"], ["2"]]), (("a", "y"), [["3"]]), (("b", "y"), [["4"]])]
+
+
+def test_blocks_have_their_labels_once_and_rules_between_them() -> None:
+    assert in_blocks(BLOCKS) == [
+        ["a", "x", "1"], ["", "", "2"], RULE, ["a", "y", "3"], RULE, ["b", "y", "4"],
+    ]  # fmt: skip
+    assert in_blocks(BLOCKS, nested=True) == [
+        ["a", "x", "1"], ["", "", "2"], GAP, ["", "y", "3"], RULE, ["b", "y", "4"],
+    ]  # fmt: skip
+
+
+def test_intervals_stand_below_the_numbers_if_there_are_any() -> None:
+    numbers = [Number(1.0, 0.5, 1.5), Number(2.0)]
+    assert with_intervals(["a", "b"], numbers, 0.95) == [["a", "b", "1.00", "2.00"], ["", "95%", "[0.50, 1.50]", ""]]
+    assert with_intervals(["a", "b"], numbers[1:], 0.95) == [["a", "b", "2.00"]]
+
+
+def test_one_table_is_three_files(tmp_path: Path) -> None:
+    table = Table(
+        ("a", "b"), [("x_1", 0.25), ("y", None)], ["A_1", "B"], [["x_1", "0.25"], RULE, ["y", "-"]], note="50 %"
+    )
+    write_table(tmp_path / "t", table)
+    assert (tmp_path / "t.csv").read_text() == "a,b\nx_1,0.25\ny,\n"
+    assert (tmp_path / "t.md").read_text() == "| A_1 | B |\n| --- | ---: |\n| x_1 | 0.25 |\n| y | - |\n\n50 %\n"
+    assert (tmp_path / "t.tex").read_text().splitlines() == [
+        r"\begin{tabular}{lr}", r"\toprule", r"A\_1 & B \\", r"\midrule", r"x\_1 & 0.25 \\", r"\midrule", r"y & - \\",
+        r"\bottomrule", r"\end{tabular}", r"\par\smallskip\parbox{\linewidth}{\raggedright 50 \%}",
+    ]  # fmt: skip
+    write_table(tmp_path / "t", table, "other")
+    assert (tmp_path / "t.tex").read_text().startswith("other")

@@ -5,9 +5,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from csv_files import read_table, write_rows
 
-from mobnet.evaluation.number.rows import Score, read_rows, write_rows
-from mobnet.evaluation.tables.methods import Error, methods
+from mobnet.core.columns import Score
+from mobnet.evaluation.number.files import read_rows
+from mobnet.evaluation.tables.methods import methods
 
 MEANS = {"MOB": 9.0, "MOB-Net": 2.0, "FTS-e2e": 3.0}
 
@@ -21,7 +23,7 @@ def table(tmp_path: Path, config: dict[str, Any], write_limb_scores: Callable[..
 
 
 def test_errors_are_those_asked_for_test_by_test(table: Path) -> None:
-    errors = read_rows(table, Error)
+    errors = read_table(table)
     assert [(error.method, error.limb, error.joint) for error in errors] == [
         *((method, "LL", joint) for method in MEANS for joint in ("LL3", "avg")),
         *((method, limb, "avg") for method in ("MOB", "MOB-Net") for limb in ("W", "RA")),
@@ -50,7 +52,7 @@ def test_a_scenario_at_two_levels_is_two_tests(
     path = write_limb_scores("walk_test", {"MOB": 9.0})
     rows = read_rows(path, Score)
     clean = [Score(**{**vars(row), "level": "ideal", "value": row.value / 9}) for row in rows]
-    write_rows(path, Score, [*rows, *clean])
+    write_rows(path, [*rows, *clean])
     test = {"scenario": "walk_test", "columns": {"LL": ["avg"]}, "methods": ["MOB"]}
     config["evaluation"]["methods"] = [{**test, "level": level} for level in ("all_uncertainty", "ideal")]
     methods(config, {"walk_test": path}, tmp_path)

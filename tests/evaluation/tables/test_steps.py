@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from csv_files import read_table
 
-from mobnet.evaluation.figures.commands import Bar, commands
+from mobnet.evaluation.figures.commands import commands
 from mobnet.evaluation.measure.steps import Steps, bin_edges, bin_of, in_degrees
-from mobnet.evaluation.number.rows import read_rows
-from mobnet.evaluation.tables.steps import Followed, followed, steps
+from mobnet.evaluation.tables.steps import followed, steps
 
 Sets = dict[str, list[str]]
 
@@ -49,7 +49,7 @@ def test_turns_become_degrees_and_nothing_else_changes() -> None:
 
 def test_every_step_is_counted_once_in_every_command(tmp_path: Path, config: dict[str, Any], data_sets: Sets) -> None:
     commands(config, {"walk": data_sets["walk"], "motion": data_sets["motion"]}, tmp_path)
-    rows = read_rows(tmp_path / "commands.csv", Bar)
+    rows = read_table(tmp_path / "commands.csv")
     for name in ("walk", "motion"):
         sums = {row.command: 0 for row in rows}
         for row in rows:
@@ -61,21 +61,21 @@ def test_every_step_is_counted_once_in_every_command(tmp_path: Path, config: dic
 
 
 def test_a_set_that_falls_short_shows_it(config: dict[str, Any]) -> None:
-    rows = followed(config, "walk", made_steps([0.2, 0.19, -0.15], 0.8), 0)
+    rows = list(followed(config, made_steps([0.2, 0.19, -0.15], 0.8), 0))
     assert [row.count for row in rows] == [1, 2]
     assert all(row.ratio == pytest.approx(0.8) for row in rows)
     assert all(row.within == 0.0 for row in rows)
-    assert followed(config, "walk", made_steps([0.2], 1.1), 0)[0].within == 1.0
+    assert next(followed(config, made_steps([0.2], 1.1), 0)).within == 1.0
 
 
 def test_a_bin_around_zero_has_no_ratio_and_steps_in_place_are_left_out(config: dict[str, Any]) -> None:
-    rows = followed(config, "walk", made_steps([0.0, 0.01, -0.01, 0.2]), 0)
+    rows = list(followed(config, made_steps([0.0, 0.01, -0.01, 0.2]), 0))
     assert [(row.count, row.ratio is None) for row in rows] == [(2, True), (1, False)]
 
 
 def test_the_table_names_a_command_once(tmp_path: Path, config: dict[str, Any], data_sets: Sets) -> None:
     steps(config, {"walk": data_sets["walk"]}, tmp_path)
-    rows = read_rows(tmp_path / "steps.csv", Followed)
+    rows = read_table(tmp_path / "steps.csv")
     assert {row.command for row in rows} == {"step_x", "step_y", "turn", "duration"}
     text = (tmp_path / "steps.md").read_text()
     assert text.count("walk") == 4

@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 import yaml
+from csv_files import read_table
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array, write_array
-from mobnet.evaluation.number.rows import read_rows
-from mobnet.evaluation.tables.uncertainty import Size, note_tex, read_sizes, target_std, uncertainty, verdict
+from mobnet.evaluation.tables.layout import note_tex
+from mobnet.evaluation.tables.uncertainty import read_sizes, target_std, uncertainty, verdict
 
 Sets = dict[str, list[str]]
 
@@ -35,13 +36,13 @@ def test_standard_deviation_file_by_file_is_equivalent_to_that_of_all_samples_to
 
 def test_rows_stand_beside_the_robots_numbers(tmp_path: Path, config: dict[str, Any], data_sets: Sets) -> None:
     uncertainty(config, residuals(data_sets), tmp_path)
-    rows = {row.joint: row for row in read_rows(tmp_path / "uncertainty.csv", Size)}
+    rows = {row.joint: row for row in read_table(tmp_path / "uncertainty.csv")}
     assert list(rows) == [*(f"LL{i}" for i in range(1, 7)), "W1", "W2", "W3", *(f"V{i}" for i in range(1, 7))]
     assert rows["LL1"].value == pytest.approx(20.0, rel=0.05)  # as the made-up residuals are
     assert rows["W1"].value == pytest.approx(10.0, rel=0.05)
     assert rows["LL1"].published == 9.7
     assert rows["V1"].ratio == pytest.approx(rows["V1"].value / 47.6, rel=1e-4)
-    assert {row.within for row in rows.values() if row.limb != "LL"} == {""}
+    assert {row.within for row in rows.values() if row.limb != "LL"} == {None}
     assert rows["LL2"].within == "yes"
     assert (rows["V1"].unit, rows["V4"].unit) == ("N", "N m")
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import logging
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,20 +13,16 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from mobnet.core.files import write_text
-from mobnet.evaluation.figures.drawing.lines import COLOURS, DASHES
-from mobnet.evaluation.figures.style import STYLE, legend, save_figure
-from mobnet.evaluation.measure.calibration import STAGES, Grid, case_name
-from mobnet.evaluation.number.rows import csv_text
-
-log = logging.getLogger(__name__)
+from mobnet.core.columns import RELIABILITY
+from mobnet.evaluation.figures.style import STYLE, Look, legend, looks, save_figure
+from mobnet.evaluation.measure.calibration import Grid, case_name
+from mobnet.evaluation.number.files import write_csv
 
 PANEL_INCH, LEGEND_INCH = 1.8, 0.4  # side of a panel, height of the legend above all
 IDEAL = {"color": "0.7", "linewidth": 0.6, "linestyle": "-", "zorder": 0}
 TICKS = (0.0, 0.5, 1.0)
 LEARNED_ALPHA = 0.35  # of the lines before the scaling
 IN_DISTRIBUTION = "in distribution"
-CURVE_COLUMNS = ("panel", "method", "limb", "nominal", *STAGES)
 
 
 @dataclass(frozen=True)
@@ -69,7 +64,7 @@ def draw_reliability(panels: Sequence[ReliabilityPanel]) -> Figure:
         panels: a row a method, a column a title; where one is missing the place stays empty.
     """
     methods, titles = (list(dict.fromkeys(getattr(panel, key) for panel in panels)) for key in ("method", "title"))
-    limbs = list(dict.fromkeys(curve.label for panel in panels for curve in panel.curves))
+    styles = looks(curve.label for panel in panels for curve in panel.curves)
     with mpl.rc_context(STYLE):
         size = PANEL_INCH * max(1, len(titles)), PANEL_INCH * max(1, len(methods)) + LEGEND_INCH
         figure = Figure(figsize=size, layout="constrained")
@@ -78,7 +73,7 @@ def draw_reliability(panels: Sequence[ReliabilityPanel]) -> Figure:
             axis.set_visible(False)
         for panel in panels:
             axis = axes[methods.index(panel.method), titles.index(panel.title)]
-            draw_panel(axis, panel, limbs)
+            draw_panel(axis, panel, styles)
             axis.set_title(panel.title, loc="left", pad=3)
             axis.set_ylabel(panel.method)
         figure.supxlabel("nominal coverage [-]; pale: as learned", fontsize=STYLE["axes.labelsize"])
@@ -87,15 +82,14 @@ def draw_reliability(panels: Sequence[ReliabilityPanel]) -> Figure:
     return figure
 
 
-def draw_panel(axis: Axes, panel: ReliabilityPanel, limbs: Sequence[str]) -> None:
-    """Draw the curves [-] of one panel on the diagonal; `limbs` (n,) [-] order the colours."""
+def draw_panel(axis: Axes, panel: ReliabilityPanel, styles: Mapping[str, Look]) -> None:
+    """Draw the curves [-] of one panel on the diagonal, each limb in its look."""
     axis.set_visible(True)
     axis.plot([0.0, 1.0], [0.0, 1.0], **IDEAL)
     for curve in panel.curves:
-        place = limbs.index(curve.label) % len(COLOURS)
-        style = {"color": COLOURS[place], "linestyle": DASHES[place]}
-        axis.plot(curve.nominal, curve.before, alpha=LEARNED_ALPHA, **style)
-        axis.plot(curve.nominal, curve.after, label=curve.label, **style)
+        line = styles[curve.label].line
+        axis.plot(curve.nominal, curve.before, alpha=LEARNED_ALPHA, **line)
+        axis.plot(curve.nominal, curve.after, label=curve.label, **line)
     axis.set(xlim=(0.0, 1.0), ylim=(0.0, 1.0), xticks=TICKS, yticks=TICKS, aspect="equal")
 
 
@@ -109,9 +103,8 @@ def curve_rows(panels: Sequence[ReliabilityPanel]) -> Iterator[tuple[str, str, s
 
 def reliability(panels: Sequence[ReliabilityPanel], out_dir: Path) -> None:
     """Write the reliability diagram as calibration.pdf, .png and .csv."""
-    write_text(out_dir / "calibration.csv", csv_text(CURVE_COLUMNS, curve_rows(panels)))
+    write_csv(out_dir / "calibration.csv", RELIABILITY, curve_rows(panels))
     save_figure(draw_reliability(panels), out_dir / "calibration")
-    log.info("%s: %d panels", out_dir / "calibration.pdf", len(panels))
 
 
 def nominal_points(count: int) -> list[float]:

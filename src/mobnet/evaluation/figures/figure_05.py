@@ -2,22 +2,15 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from mobnet.evaluation.figures.drawing.curves import (
-    FROM_LIFT_OFF,
-    draw_panels,
-    write_panels,
-)
+from mobnet.evaluation.figures.drawing.curves import FROM_LIFT_OFF, draw_panels, write_panels
 from mobnet.evaluation.figures.style import save_figure
 from mobnet.evaluation.measure.curves import Panel
 from mobnet.evaluation.measure.gait import Entries, read_cycle
 from mobnet.evaluation.number.published import read_published
-
-log = logging.getLogger(__name__)
 
 
 def figure_05(config: Mapping[str, Any], entries: Entries, out_dir: Path) -> None:
@@ -39,7 +32,6 @@ def figure_05(config: Mapping[str, Any], entries: Entries, out_dir: Path) -> Non
     y_label = f"external torque of {settings['joint']} [N m]"
     write_panels(out_dir / "figure_05.csv", panels)
     save_figure(draw_panels(panels, FROM_LIFT_OFF, y_label, one_scale=True), out_dir / "figure_05")
-    log.info("%s: %d panels", out_dir / "figure_05.pdf", len(panels))
 
 
 def read_panel(config: Mapping[str, Any], entry: Mapping[str, Any], label: str) -> Panel:

@@ -6,17 +6,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from mobnet.evaluation.figures.drawing.pushes import PushGroup, bar_panel, save_pushes
+from mobnet.core.columns import Score
+from mobnet.evaluation.figures.drawing.pushes import PushGroup, save_pushes
 from mobnet.evaluation.measure.metrics import PUSHED
-from mobnet.evaluation.measure.pushes import (
-    ALL,
-    Entries,
-    push_error,
-    read_pushes,
-    wanted_of,
-)
+from mobnet.evaluation.measure.pushes import ALL, Entries, read_pushes, wanted_of
+from mobnet.evaluation.number.files import read_rows
+from mobnet.evaluation.number.grid import number_of
 from mobnet.evaluation.number.published import published_value, read_published
-from mobnet.evaluation.number.rows import Score, read_rows
 
 
 def figure_06(config: Mapping[str, Any], entries: Entries, scores_csv: Path, out_dir: Path) -> None:
@@ -33,15 +29,12 @@ def figure_06(config: Mapping[str, Any], entries: Entries, scores_csv: Path, out
         DataError: a file is missing or damaged, or a run is missing.
     """
     settings, scores = config["evaluation"]["figure_06"], read_rows(scores_csv, Score)
-    published = read_published(Path(config["published"]), "figure_06")
-    joint = settings["joint"]
-    errors = [
-        push_error(
-            config, wanted, ALL, [wanted], scores, published_value(published, wanted.level, wanted.method, joint)
-        )
-        for wanted in (wanted_of(config, settings, method, joint, PUSHED) for method in settings["methods"])
-    ]
+    published, joint = read_published(Path(config["published"]), "figure_06"), settings["joint"]
+    errors = {}
+    for method in settings["methods"]:
+        wanted = wanted_of(config, settings, method, joint, PUSHED)
+        printed = published_value(published, wanted.level, method, joint)
+        errors[method] = {ALL: number_of(scores, [wanted], config, published=printed)}
     panels = read_pushes(config, settings, entries, f"step {{}} on {joint}")[:1]
-    save_pushes(
-        [PushGroup(panels, bar_panel("error around the steps", errors))], errors, settings, out_dir / "figure_06"
-    )
+    group = PushGroup(settings["scenario"], panels, errors, "error around the steps")
+    save_pushes([group], joint, out_dir / "figure_06")

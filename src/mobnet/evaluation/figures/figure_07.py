@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -11,8 +10,6 @@ from mobnet.core.config import load_layout
 from mobnet.evaluation.figures.drawing.curves import draw_panels, write_panels
 from mobnet.evaluation.figures.style import save_figure
 from mobnet.evaluation.measure.curves import read_curves
-
-log = logging.getLogger(__name__)
 
 SIDE_BY_SIDE = 2
 
@@ -38,4 +35,3 @@ def figure_07(config: Mapping[str, Any], entries: Sequence[Mapping[str, Any]], o
     write_panels(out_dir / "figure_07.csv", panels)
     figure = draw_panels(panels, "time [s]", "external torque or force", SIDE_BY_SIDE)
     save_figure(figure, out_dir / "figure_07")
-    log.info("%s: %d panels", out_dir / "figure_07.pdf", len(panels))

@@ -6,9 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from mobnet.evaluation.figures.drawing.curves import (
-    save_leg,
-)
+from mobnet.evaluation.figures.drawing.curves import save_leg
 from mobnet.evaluation.measure.gait import Entries, read_leg
 from mobnet.evaluation.measure.metrics import rmse_in_spans
 

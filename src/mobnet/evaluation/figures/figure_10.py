@@ -6,13 +6,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from mobnet.evaluation.figures.drawing.pushes import PushGroup, bar_panel, save_pushes
-from mobnet.evaluation.measure.pushes import (
-    Entries,
-    collision_errors,
-    read_pushes,
-)
-from mobnet.evaluation.number.rows import Score, read_rows
+from mobnet.core.columns import Score
+from mobnet.evaluation.figures.drawing.pushes import PushGroup, save_pushes
+from mobnet.evaluation.measure.pushes import Entries, collision_errors, read_pushes
+from mobnet.evaluation.number.files import read_rows
 
 ROBOT = "paper (robot)"  # name of numbers that the paper measured on its robot
 
@@ -35,10 +32,9 @@ def figure_10(
     """
     settings = config["evaluation"]["figure_10"]
     rows = [row for path in scores.values() for row in read_rows(path, Score)]
-    groups, errors = [], []
+    groups = []
     for title, test in settings["tests"].items():
-        own = collision_errors(config, settings, test, rows)
+        errors = collision_errors(config, settings, test, rows)
         panels = read_pushes(config, settings, entries[title], f"{title} {{}}")
-        groups.append(PushGroup(panels, bar_panel(f"{title}: error by push", own, ROBOT)))
-        errors += own
-    save_pushes(groups, errors, settings, out_dir / "figure_10")
+        groups.append(PushGroup(test["scenario"], panels, errors, f"{title}: error by push", ROBOT))
+    save_pushes(groups, settings["joint"], out_dir / "figure_10")

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
+from mobnet.core.columns import LOSSES
 from mobnet.core.errors import DataError
-from mobnet.core.files import write_text
 from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from mobnet.evaluation.figures.style import save_figure
 from mobnet.evaluation.measure.trainings import Training, read_trainings, sound
-from mobnet.evaluation.number.rows import csv_text
+from mobnet.evaluation.number.files import write_csv
+from mobnet.evaluation.number.intervals import extremes
 
-log = logging.getLogger(__name__)
-
-HEADER = ("measure", "method", "runs", "epoch", "mean", "low", "high")
 MEASURES = {"train_loss": "training loss", "validation_loss": "validation loss"}
 
 
@@ -31,18 +28,16 @@ def figure_17(folders: Sequence[str], out_dir: Path) -> None:
     Raises:
         DataError: a file is missing or damaged, or runs of a kind have different numbers of epochs.
     """
-    found = {method: sound(trainings) for method, trainings in read_trainings(folders).items()}
-    kinds = {method: trainings for method, trainings in found.items() if trainings}
+    kinds = {method: sound(trainings) for method, trainings in read_trainings(folders).items()}
     panels, rows = [], []
     for field, name in MEASURES.items():
-        lines = [curve(method, trainings, field) for method, trainings in kinds.items()]
+        lines = [curve(method, trainings, field) for method, trainings in kinds.items() if trainings]
         panels.append(LinePanel(name.removesuffix(" loss"), "epoch", f"{name} [-]", lines))
         for line in lines:
-            columns = zip(*(column.tolist() for column in (line.x, line.mean, line.low, line.high)), strict=True)
-            rows += [(name, line.label, len(kinds[line.label]), *values) for values in columns]
-    write_text(out_dir / "figure_17.csv", csv_text(HEADER, rows))
+            points = zip(line.x, line.numbers, strict=True)
+            rows += [(name, line.label, number.runs, epoch, *number.with_ends) for epoch, number in points]
+    write_csv(out_dir / "figure_17.csv", LOSSES, rows)
     save_figure(draw_lines(panels), out_dir / "figure_17")
-    log.info("%s: %s", out_dir / "figure_17.pdf", ", ".join(kinds))
 
 
 def curve(label: str, trainings: Sequence[Training], field: str) -> Line:
@@ -51,7 +46,7 @@ def curve(label: str, trainings: Sequence[Training], field: str) -> Line:
     Args:
         label: name of the line.
         trainings: runs, all of the same number of epochs.
-        field: of `trainings.Epoch`.
+        field: of `columns.Epoch`.
 
     Raises:
         DataError: the numbers of epochs differ.
@@ -60,5 +55,4 @@ def curve(label: str, trainings: Sequence[Training], field: str) -> Line:
     if len(counts) != 1:
         raise DataError(f"{label}: runs of {', '.join(map(str, sorted(counts)))} epochs do not make one curve")
     values = np.array([[getattr(epoch, field) for epoch in training.epochs] for training in trainings])
-    epochs = np.array([epoch.epoch for epoch in trainings[0].epochs])
-    return Line(label, epochs, values.mean(axis=0), values.min(axis=0), values.max(axis=0))
+    return Line(label, [epoch.epoch for epoch in trainings[0].epochs], extremes(values))

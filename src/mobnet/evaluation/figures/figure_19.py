@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,13 +13,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from mobnet.core.files import write_text
+from mobnet.core.columns import DOTS
 from mobnet.core.store import read_array
-from mobnet.evaluation.figures.style import PAGE_INCH, SET_COLOURS, STYLE, legend, save_figure
+from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, entitle, legend, looks, save_figure
 from mobnet.evaluation.measure.windows import Pushed, evenly, pushed_of
-from mobnet.evaluation.number.rows import csv_text
-
-log = logging.getLogger(__name__)
+from mobnet.evaluation.number.files import write_csv
 
 CLOUD_INCH = 2.0  # height of a row
 TEST_COLOUR = "black"
@@ -52,15 +49,16 @@ def draw_clouds(clouds: Sequence[Cloud], test: str) -> Figure:
         test: name of the test data in the legend.
     """
     joints, sets = (list(dict.fromkeys(getattr(cloud, key) for cloud in clouds)) for key in ("joint", "training"))
+    styles = looks(sets)
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(PAGE_INCH, CLOUD_INCH * len(sets)), layout="constrained")
         axes = figure.subplots(len(sets), len(joints), sharex="col", sharey="col", squeeze=False)
         for cloud in clouds:
             row, column = sets.index(cloud.training), joints.index(cloud.joint)
-            _scatter(axes[row, column], cloud.dots, SET_COLOURS[row], f"training {cloud.training}")
+            _scatter(axes[row, column], cloud.dots, styles[cloud.training].colour, f"training {cloud.training}")
             _scatter(axes[row, column], cloud.test, TEST_COLOUR, test)
-        for letter, joint, axis in zip("abcdefgh", joints, axes[0], strict=False):
-            axis.set_title(f"({letter}) {joint}", loc="left", pad=3)
+        for k, (joint, axis) in enumerate(zip(joints, axes[0], strict=True)):
+            entitle(axis, k, joint)
         for axis in axes[-1]:
             axis.set_xlabel("velocity [rad/s]")
         for axis in axes[:, 0]:
@@ -115,9 +113,8 @@ def figure_19(
         for k, joint in enumerate(joints)
         for dot in dots[:, k].tolist()
     ]
-    write_text(out_dir / "figure_19.csv", csv_text(("kind", "set", "joint", "velocity_rad_s", "torque_nm"), rows))
+    write_csv(out_dir / "figure_19.csv", DOTS, rows)
     save_figure(draw_clouds(clouds, "test"), out_dir / "figure_19")
-    log.info("%s: %d dots", out_dir / "figure_19.pdf", len(rows))
 
 
 def read_dots(

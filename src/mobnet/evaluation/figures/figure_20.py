@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,51 +9,47 @@ from typing import Any
 
 import numpy as np
 
+from mobnet.core.columns import SIZES
 from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from mobnet.evaluation.figures.style import save_figure
 from mobnet.evaluation.measure.trainings import Training, read_trainings, sound
-from mobnet.evaluation.number.rows import write_rows
-
-log = logging.getLogger(__name__)
+from mobnet.evaluation.number.files import write_csv
+from mobnet.evaluation.number.intervals import extremes
+from mobnet.evaluation.number.number import Number
 
 TITLES = {"parameters": "size of the network", "samples": "size of the training data"}
 X_LABELS = {"parameters": "parameters [thousand]", "samples": "samples learned from [thousand]"}
-LOSSES = ("loss", "loss_low", "loss_high")
 THOUSAND = 1e3
 
 
 @dataclass(frozen=True)
 class Size:
-    """One place of Figure 20: a row of figure_20.csv.
+    """One place of Figure 20, of the trainings that did not diverge.
 
     Attributes:
         panel: what varies, `parameters` or `samples`.
         base: estimator whose network is varied.
-        method: the variation, a row of the configuration's methods.
-        parameters: of the network.
-        samples: that it learned from.
-        runs: trainings behind the means, those that diverged left out.
-        loss: mean validation loss (22) of the epoch kept [-].
-        loss_low: lowest run [-].
-        loss_high: highest run [-].
-        rmse_nm: mean over joints of the root-mean-square error on the data held out [N m], unlike the loss not in
-            units of each target's spread.
-        rmse_low_nm: lowest run [N m].
-        rmse_high_nm: highest run [N m].
+        training: one of the trainings of a variation.
+        loss: validation loss (22) of the epoch kept, mean, lowest and highest run [-].
+        rmse: mean over joints of the root-mean-square error on the data held out [N m], unlike the loss not in units
+            of each target's spread; mean, lowest and highest run.
     """
 
     panel: str
     base: str
-    method: str
-    parameters: int
-    samples: int
-    runs: int
-    loss: float
-    loss_low: float
-    loss_high: float
-    rmse_nm: float
-    rmse_low_nm: float
-    rmse_high_nm: float
+    training: Training
+    loss: Number
+    rmse: Number
+
+    @property
+    def place(self) -> int:
+        """What varies: trained parameters, or samples learned from."""
+        return getattr(self.training, self.panel)
+
+    def record(self) -> tuple[str | float | None, ...]:
+        """Return the row of figure_20.csv."""
+        of = self.training.method, self.training.parameters, self.training.samples
+        return (self.panel, self.base, *of, self.loss.runs, *self.loss.with_ends, *self.rmse.with_ends)
 
 
 def figure_20(entries: Sequence[Mapping[str, Any]], out_dir: Path) -> None:
@@ -68,17 +63,15 @@ def figure_20(entries: Sequence[Mapping[str, Any]], out_dir: Path) -> None:
     Raises:
         DataError: a file is missing or damaged.
     """
-    sizes = [size for entry in entries for size in sizes_of(entry)]
-    sizes.sort(key=lambda size: getattr(size, size.panel))
+    sizes = sorted((size for entry in entries for size in sizes_of(entry)), key=lambda size: size.place)
     panels = []
     for panel, title in TITLES.items():
-        rows = [size for size in sizes if size.panel == panel]
         bases = dict.fromkeys(entry["base"] for entry in entries if entry["panel"] == panel)
-        lines = [growth_line(own, base) for base in bases if (own := [row for row in rows if row.base == base])]
+        own = {base: [size for size in sizes if (size.panel, size.base) == (panel, base)] for base in bases}
+        lines = [growth_line(found, base) for base, found in own.items() if found]
         panels.append(LinePanel(title, X_LABELS[panel], "validation loss [-]", lines, sizes=True))
-    write_rows(out_dir / "figure_20.csv", Size, sizes)
+    write_csv(out_dir / "figure_20.csv", SIZES, [size.record() for size in sizes])
     save_figure(draw_lines(panels), out_dir / "figure_20")
-    log.info("%s: %d sizes", out_dir / "figure_20.pdf", len(sizes))
 
 
 def sizes_of(entry: Mapping[str, Any]) -> list[Size]:
@@ -87,25 +80,17 @@ def sizes_of(entry: Mapping[str, Any]) -> list[Size]:
     Raises:
         DataError: a file is missing or damaged.
     """
-    return [
-        size_of(entry["panel"], entry["base"], kept)
-        for trainings in read_trainings(entry["folders"]).values()
-        for kept in [sound(trainings)]
-        if kept
-    ]
+    found = [sound(trainings) for trainings in read_trainings(entry["folders"]).values()]
+    return [size_of(entry["panel"], entry["base"], kept) for kept in found if kept]
 
 
 def size_of(panel: str, base: str, trainings: Sequence[Training]) -> Size:
     """Return one place of the figure, loss [-] and RMSE [N m], from its runs."""
-    first = trainings[0]
-    numbers = []
-    for field in ("validation_loss", "validation_rmse"):
-        values = np.array([getattr(training.kept, field) for training in trainings])
-        numbers += [float(values.mean()), float(values.min()), float(values.max())]
-    return Size(panel, base, first.method, first.parameters, first.samples, len(trainings), *numbers)
+    kept = [training.kept for training in trainings]
+    loss, rmse = extremes(np.array([(epoch.validation_loss, epoch.validation_rmse) for epoch in kept]))
+    return Size(panel, base, trainings[0], loss, rmse)
 
 
 def growth_line(own: Sequence[Size], base: str) -> Line:
     """Return the losses (n,) [-] of an estimator's variations over the size that their panel varies."""
-    sizes = np.array([getattr(row, row.panel) for row in own]) / THOUSAND
-    return Line(base, sizes, *(np.array([getattr(row, name) for row in own]) for name in LOSSES))
+    return Line(base, [size.place / THOUSAND for size in own], [size.loss for size in own])

@@ -1,8 +1,10 @@
-"""What all figures share: colours, sizes, the legend, and one saver whose PDF and PNG never change."""
+"""What all figures share: the look of each method, sizes, the legend, and a saver whose files never change."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import logging
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -12,19 +14,8 @@ from matplotlib.figure import Figure
 
 from mobnet.core.files import atomic_path
 
-# Okabe and Ito's colours, told apart by colour-blind readers; dashes and shades differ in print without colour too.
-COLOURS = {
-    "MOB": "#0072B2",
-    "MOB-fric": "#56B4E9",
-    "MOB-Net": "#D55E00",
-    "FTS-e2e": "#CC79A7",
-}
-OTHER = "#56B4E9"
-DASHES: Mapping[str, Any] = {"MOB-fric": (0, (4, 1)), "FTS-e2e": (0, (6, 1, 1.5, 1))}
-KNOWN: Mapping[str, Mapping[str, Any]] = {  # looks of what is no estimate: on top of all, or wide below all
-    "truth": {"color": "black", "linestyle": (0, (1, 1)), "linewidth": 1.1, "zorder": 3},
-    "target": {"color": "0.72", "linewidth": 2.0, "zorder": 1},
-}
+log = logging.getLogger(__name__)
+
 STYLE: dict[Any, Any] = {
     "font.size": 8,
     "axes.labelsize": 8,
@@ -34,17 +25,80 @@ STYLE: dict[Any, Any] = {
     "axes.spines.right": False,
     "axes.linewidth": 0.6,
     "lines.linewidth": 0.9,
+    "hatch.linewidth": 0.5,
     "pdf.fonttype": 42,
     "savefig.dpi": 200,
 }
 COLUMN_INCH, PAGE_INCH = 3.4, 7.0  # width of one column of the paper and of two
-SET_COLOURS = ("#E69F00", "#56B4E9", "#009E73")  # of data sets
 LETTERS = "abcdefghijkl"
 
 
-def look_of(label: str) -> Mapping[str, Any]:
-    """Return colour and dashes of a line."""
-    return KNOWN.get(label, {"color": COLOURS.get(label, OTHER), "linestyle": DASHES.get(label, "-")})
+@dataclass(frozen=True)
+class Look:
+    """How a method is drawn: colour-blind readers tell the colours apart, print without colour dashes and hatches.
+
+    Attributes:
+        colour: of lines, bars and dots; all are of Okabe and Ito's palette.
+        dash: of lines, in Matplotlib's terms.
+        hatch: of bars.
+        marker: of places on a line.
+        width: of lines [points]; None for the usual one.
+        order: what is drawn later stands on top.
+    """
+
+    colour: str
+    dash: Any = "-"
+    hatch: str = ""
+    marker: str = "o"
+    width: float | None = None
+    order: float = 2.0
+
+    @property
+    def line(self) -> dict[str, Any]:
+        """How Matplotlib calls the look of a line."""
+        width = {} if self.width is None else {"linewidth": self.width}
+        return {"color": self.colour, "linestyle": self.dash, "zorder": self.order, **width}
+
+
+LOOKS: Mapping[str, Look] = {
+    "MOB": Look("#0072B2"),
+    "MOB-fric": Look("#56B4E9", (0, (4, 1)), "....", "s"),
+    "MOB-fric-BPF": Look("#E69F00", (0, (1, 1)), "\\\\\\\\", "v"),
+    "MOB-Net": Look("#D55E00", "-", "////", "D"),
+    "MOB-Net-Single": Look("#009E73", (0, (5, 1.5)), "xxxx", "^"),
+    "FTS-e2e": Look("#CC79A7", (0, (6, 1, 1.5, 1)), "++++", "P"),
+    "truth": Look("black", (0, (1, 1)), width=1.1, order=3.0),  # on top of all
+    "target": Look("0.72", width=2.0, order=1.0),  # wide, below all
+}
+CYCLE = (  # of what has no look of its own
+    Look("#D55E00", "-", "", "o"),
+    Look("#0072B2", (0, (5, 1.5)), "////", "s"),
+    Look("#009E73", (0, (1, 1)), "xxxx", "D"),
+    Look("#CC79A7", (0, (5, 1, 1, 1)), "....", "^"),
+    Look("#E69F00", (0, (3, 1, 1, 1, 1, 1)), "++++", "v"),
+    Look("black", (0, (8, 2)), "\\\\\\\\", "P"),
+    Look("#56B4E9", "-", "oooo", "X"),
+)
+
+
+def looks(labels: Iterable[str]) -> dict[str, Look]:
+    """Return the look of everything in a figure: a method's own, or the next of those that no method in it has."""
+    names = list(dict.fromkeys(labels))
+    taken = {LOOKS[name].colour for name in names if name in LOOKS}
+    free = [look for look in CYCLE if look.colour not in taken]
+    others = [name for name in names if name not in LOOKS]
+    return {name: LOOKS[name] if name in LOOKS else free[others.index(name) % len(free)] for name in names}
+
+
+def stacked(count: int, panel_inch: float, legend_inch: float) -> tuple[Figure, list[Axes]]:
+    """Return a figure of one column's width with panels of one scale below one another; sizes in [inch]."""
+    figure = Figure(figsize=(COLUMN_INCH, panel_inch * count + legend_inch), layout="constrained")
+    return figure, figure.subplots(count, 1, squeeze=False, sharey=True)[:, 0].tolist()
+
+
+def entitle(axis: Axes, k: int, title: str) -> None:
+    """Put the k-th letter and a title above a panel."""
+    axis.set_title(f"({LETTERS[k]}) {title}", loc="left", pad=3)
 
 
 def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, last: str = "", **look: float) -> None:
@@ -74,3 +128,4 @@ def save_figure(figure: Figure, stem: Path) -> None:
         for suffix, metadata in ((".pdf", {"CreationDate": None, "Producer": None}), (".png", {"Software": None})):
             with atomic_path(stem.with_suffix(suffix)) as temporary:
                 figure.savefig(temporary, format=suffix[1:], metadata=metadata)
+    log.info("%s.pdf: %d panels", stem, len(figure.axes))

@@ -24,6 +24,7 @@ from mobnet.core.store import read_sensed
 from mobnet.evaluation.measure.gait import foot_of
 from mobnet.evaluation.measure.windows import FLAG, Pushed, blocks_of, evenly, pushed_of
 from mobnet.evaluation.number.intervals import summarise
+from mobnet.evaluation.number.number import Number
 from mobnet.learning.features import LimbInputs, limb_inputs
 
 log = logging.getLogger(__name__)
@@ -39,7 +40,7 @@ ALL = "all"  # joints together
 
 @dataclass(frozen=True)
 class Covered:
-    """One measure of a test against both training sets: a row of coverage.csv.
+    """One measure of a test against both training sets: a row of the table.
 
     Attributes:
         scenario: test; `training` where none is needed.
@@ -50,9 +51,7 @@ class Covered:
         block_count: blocks of test samples, each contiguous in time; 0 without a test.
         with_rte: number against the training set with random torque exploration [-].
         without_rte: the same against the set without it, of equally many samples [-].
-        ratio: with over without [-]; None for the shares of test samples, which may be zero.
-        low: lower end of the ratio's interval over blocks [-]; None with fewer than two.
-        high: upper end [-].
+        ratio: with over without [-], its interval over blocks; none for the shares of test samples, which may be zero.
     """
 
     scenario: str
@@ -62,9 +61,7 @@ class Covered:
     block_count: int
     with_rte: float
     without_rte: float
-    ratio: float | None
-    low: float | None
-    high: float | None
+    ratio: Number
 
 
 @dataclass(frozen=True)
@@ -204,7 +201,7 @@ def visited(
         bounds = list(zip(*np.quantile(both, settings["cell_range"], axis=0), strict=True))
         shares.append([float(np.mean(np.histogramdd(plane, settings["cells"], bounds)[0] > 0)) for plane in planes])
     for joint, (have, lack) in zip([*joints, ALL], [*shares, np.mean(shares, axis=0).tolist()], strict=True):
-        yield Covered("training", "", measure, joint, 0, have, lack, have / lack, None, None)
+        yield Covered("training", "", measure, joint, 0, have, lack, Number(have / lack))
 
 
 def outside(
@@ -230,7 +227,7 @@ def outside(
         columns = {joint: [where[f"{quantity}.{joint}"]] for joint in joints}
         for joint, picked in (columns | {ALL: [column for (column,) in columns.values()]}).items():
             have, lack = (float(share[picked].mean()) for share in shares)
-            yield Covered(test["scenario"], test["level"], measure, joint, len(blocks), have, lack, None, None, None)
+            yield Covered(test["scenario"], test["level"], measure, joint, len(blocks), have, lack, Number(None))
 
 
 def nearest(
@@ -248,7 +245,5 @@ def nearest(
     for measure, share in NEAREST.items():
         have, lack = (np.array([[np.quantile(block, share) for block in found]]) for found in distances)
         ratio = summarise([have, lack], config, lambda means: means[0] / means[1])
-        yield Covered(
-            test["scenario"], test["level"], measure, ALL, len(blocks), float(have.mean()), float(lack.mean()),
-            ratio.value, ratio.low, ratio.high,
-        )  # fmt: skip
+        means = float(have.mean()), float(lack.mean())
+        yield Covered(test["scenario"], test["level"], measure, ALL, len(blocks), *means, ratio)

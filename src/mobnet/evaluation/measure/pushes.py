@@ -3,51 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.core.columns import Score
 from mobnet.core.config import load_layout
 from mobnet.evaluation.measure.curves import Panel, read_curves
 from mobnet.evaluation.measure.gait import SWING, foot_of
 from mobnet.evaluation.measure.metrics import PUSH
 from mobnet.evaluation.measure.windows import push_windows
-from mobnet.evaluation.number.grid import Wanted, run_grid
-from mobnet.evaluation.number.intervals import Combine, mean, summarise
+from mobnet.evaluation.number.grid import Wanted, number_of
+from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.published import published_value, read_published
-from mobnet.evaluation.number.rows import Score
 
-ALL, AVERAGE, INCREASE = "all windows", "avg", "increase"  # pushes of an error that is not one push's
+ALL, AVERAGE, INCREASE = "all windows", "avg", "increase"  # of the windows together, the mean of each push's, and that
+# mean less the error where nothing pushes
 Entries = Sequence[Mapping[str, Any]]
-
-
-@dataclass(frozen=True)
-class PushError:
-    """One error around pushes: a row of figure_06_bars.csv and figure_10_bars.csv.
-
-    Attributes:
-        scenario: the test.
-        method: estimator.
-        push: number of the push in its recording; `all windows`: those together; `avg`: mean of the errors of each;
-            `increase`: that mean less the error where nothing pushes.
-        runs: network seeds times test seeds.
-        rmse_nm: mean over runs [N m].
-        low: lower end of its interval [N m]; None with a single run.
-        high: upper end of its interval [N m]; None with a single run.
-        published: the paper's number [N m]; None where it prints none.
-    """
-
-    scenario: str
-    method: str
-    push: str
-    runs: int
-    rmse_nm: float
-    low: float | None
-    high: float | None
-    published: float | None
+PushErrors = dict[str, dict[str, Number]]  # method -> number of a push, ALL, AVERAGE or INCREASE -> error [N m]
 
 
 def wanted_of(
@@ -61,22 +36,23 @@ def wanted_of(
 
 def collision_errors(
     config: Mapping[str, Any], settings: Mapping[str, Any], test: Mapping[str, Any], scores: Sequence[Score]
-) -> list[PushError]:
+) -> PushErrors:
     """Return the errors of a test [N m], method by method: of each push, their average, and its increase.
 
     Raises:
         DataError: a run is missing.
     """
     published, joint = read_published(Path(config["published"]), "figure_10"), settings["joint"]
-    errors = []
+    errors: PushErrors = {}
     for method in test["methods"]:
         own = [wanted_of(config, test, method, joint, metric) for metric in push_metrics(scores, test["scenario"])]
+        if not own:
+            continue
         calm = wanted_of(config, settings["against"], method, joint)
         printed = published_value(published, test["scenario"], method, AVERAGE)
-        errors += [push_error(config, wanted, str(k), [wanted], scores) for k, wanted in enumerate(own, start=1)]
-        if own:
-            errors.append(push_error(config, own[0], AVERAGE, own, scores, printed, mean))
-            errors.append(push_error(config, own[0], INCREASE, [*own, calm], scores, None, increase))
+        errors[method] = {str(k): number_of(scores, [wanted], config) for k, wanted in enumerate(own, start=1)}
+        errors[method][AVERAGE] = number_of(scores, own, config, published=printed)
+        errors[method][INCREASE] = number_of(scores, [*own, calm], config, increase)
     return errors
 
 
@@ -84,24 +60,6 @@ def push_metrics(scores: Sequence[Score], scenario: str) -> list[str]:
     """Return the names of the errors of single pushes that a scenario was scored for, in order."""
     found = {row.metric for row in scores if row.scenario == scenario}
     return [PUSH.format(k) for k in range(1, len(found) + 1) if PUSH.format(k) in found]
-
-
-def push_error(
-    config: Mapping[str, Any],
-    test: Wanted,
-    push: str,
-    wanted: Sequence[Wanted],
-    scores: Sequence[Score],
-    published: float | None = None,
-    combine: Combine = mean,
-) -> PushError:
-    """Return a number made of errors [N m] of the runs of a test, with its interval.
-
-    Raises:
-        DataError: a run is missing.
-    """
-    ours = summarise([run_grid(scores, one) for one in wanted], config, combine)
-    return PushError(test.scenario, test.method, push, ours.count, ours.value, ours.low, ours.high, published)
 
 
 def increase(means: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -11,13 +11,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.core.columns import Score
 from mobnet.core.config import load_layout
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.averages import column_of, members
 from mobnet.evaluation.measure.trainings import MEASURES, Training, read_trainings, sound
+from mobnet.evaluation.number.files import read_rows
 from mobnet.evaluation.number.grid import Wanted, run_grid
-from mobnet.evaluation.number.rows import Score, read_rows
 
 METRIC = "rmse"  # of a cell that names none
 RUN = ("scenario", "level", "method")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from itertools import groupby
 from math import isnan
 from pathlib import Path
@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.core.columns import SCORES, Score
 from mobnet.core.config import load_layout
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json
@@ -20,7 +21,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.store import NOTE, read_array, spans_and_rate
 from mobnet.evaluation.measure.metrics import METRICS, PUSH, PUSHED, Spans
 from mobnet.evaluation.measure.windows import push_windows
-from mobnet.evaluation.number.rows import Score, write_rows
+from mobnet.evaluation.number.files import write_csv
 
 log = logging.getLogger(__name__)
 
@@ -46,7 +47,7 @@ def score(
         scenario: name that the rows carry.
         entries: one mapping a run: level, method, network_seed, test_seed, and the stems of the files `residual`
             and `estimate`, and `recording` where pushes count.
-        out_csv: rows of `rows.Score`.
+        out_csv: rows of `columns.Score`.
         window: around pushes, where they count: `before_s` and `after_s` [s].
 
     Raises:
@@ -54,7 +55,7 @@ def score(
     """
     layout = load_layout(Path(config["robot"]))
     rows = [row for entry in entries for row in score_run(layout, scenario, entry, window)]
-    write_rows(out_csv, Score, rows)
+    write_csv(out_csv, SCORES, [astuple(row) for row in rows])
     log.info("%s: %d runs, %d rows", out_csv, len(entries), len(rows))
 
 

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from mobnet.core.columns import Epoch
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json
-from mobnet.evaluation.number.rows import read_rows
+from mobnet.evaluation.number.files import read_rows
 
 RUN, METRICS = "run.json", "metrics.csv"
 MEASURES: Mapping[str, tuple[Callable[[Training], float], str]] = {  # name -> (of a training, unit)
@@ -19,27 +20,6 @@ MEASURES: Mapping[str, tuple[Callable[[Training], float], str]] = {  # name -> (
     "training loss at the end": (lambda training: training.last.train_loss, "-"),
     "validation loss at the end": (lambda training: training.last.validation_loss, "-"),
 }
-
-
-@dataclass(frozen=True)
-class Epoch:
-    """One epoch of a training: a line of metrics.csv.
-
-    Attributes:
-        epoch: counted from 1.
-        train_loss: mean of (22) over the training samples [-].
-        validation_loss: mean of (22) over the samples held out [-].
-        validation_rmse: mean over the joints of their root-mean-square errors [N m], V1..V3 [N].
-        rate: learning rate [-].
-        gradient_norm: mean norm of the gradient before the clip [-].
-    """
-
-    epoch: int
-    train_loss: float
-    validation_loss: float
-    validation_rmse: float
-    rate: float
-    gradient_norm: float
 
 
 @dataclass(frozen=True)

@@ -1,15 +1,18 @@
-"""Pick the runs behind one number out of the scores."""
+"""The runs behind one number, picked out of the scores, and the number that they make."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.core.columns import Score
 from mobnet.core.errors import DataError
-from mobnet.evaluation.number.rows import Score
+from mobnet.evaluation.number.intervals import Combine, mean, summarise
+from mobnet.evaluation.number.number import Number
 
 
 @dataclass(frozen=True)
@@ -17,12 +20,12 @@ class Wanted:
     """What a table cell or a claim looks at.
 
     Attributes:
-        scenario: what was walked.
+        scenario: the test.
         limb: limb of section 4.1.
         level: uncertainty level.
         method: estimator.
         joint: joint of the limb, or `avg`.
-        metric: a name of `metrics.METRICS`.
+        metric: a name of `metrics.METRICS`, or of a push.
     """
 
     scenario: str
@@ -32,9 +35,20 @@ class Wanted:
     joint: str
     metric: str = "rmse"
 
-    def matches(self, row: Score) -> bool:
-        """Return whether a row of the scores is one of the runs."""
-        return all(getattr(row, name) == value for name, value in vars(self).items())
+    def rows(self, scores: Sequence[Score]) -> list[Score]:
+        """Return the rows of its runs.
+
+        Raises:
+            DataError: no run.
+        """
+        rows = [row for row in scores if all(getattr(row, name) == value for name, value in vars(self).items())]
+        if not rows:
+            raise DataError(f"scores: no row for {self}")
+        return rows
+
+    def __str__(self) -> str:
+        """Return what is wanted as text for a message."""
+        return ", ".join(f"{name} {value!r}" for name, value in vars(self).items())
 
 
 def run_grid(scores: Sequence[Score], wanted: Wanted) -> NDArray[np.float64]:
@@ -43,32 +57,35 @@ def run_grid(scores: Sequence[Score], wanted: Wanted) -> NDArray[np.float64]:
     Raises:
         DataError: no run, two rows of the same run, or a network that misses a test.
     """
-    rows = [row for row in scores if wanted.matches(row)]
-    if not rows:
-        raise DataError(f"scores: no row for {describe(wanted)}")
+    rows = wanted.rows(scores)
     networks = sorted({row.network_seed for row in rows})
     tests = sorted({row.test_seed for row in rows})
     values = {(row.network_seed, row.test_seed): row.value for row in rows}
     if len(values) != len(rows) or len(values) != len(networks) * len(tests):
         raise DataError(
-            f"scores: {len(rows)} rows for {describe(wanted)}; "
-            f"expected one for each of networks {networks} on tests {tests}"
+            f"scores: {len(rows)} rows for {wanted}; expected one for each of networks {networks} on tests {tests}"
         )
     return np.array([[values[network, test] for test in tests] for network in networks])
 
 
-def unit_of(scores: Sequence[Score], wanted: Wanted) -> str:
-    """Return the unit of a number.
+def number_of(
+    scores: Sequence[Score],
+    wanted: Sequence[Wanted],
+    config: Mapping[str, Any],
+    combine: Combine = mean,
+    published: float | None = None,
+) -> Number:
+    """Return a number made of errors, with its interval, in the unit of the first [N m], V1..V3 [N], or the metric's.
+
+    Args:
+        scores: of all runs.
+        wanted: errors.
+        config: what intervals need.
+        combine: makes the number of their means.
+        published: the paper's number.
 
     Raises:
-        DataError: no run.
+        DataError: a run is missing.
     """
-    for row in scores:
-        if wanted.matches(row):
-            return row.unit
-    raise DataError(f"scores: no row for {describe(wanted)}")
-
-
-def describe(wanted: Wanted) -> str:
-    """Return what is wanted as text for a message."""
-    return ", ".join(f"{name} {value!r}" for name, value in vars(wanted).items())
+    number = summarise([run_grid(scores, each) for each in wanted], config, combine)
+    return replace(number, unit=wanted[0].rows(scores)[0].unit, published=published)

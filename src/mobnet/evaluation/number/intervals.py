@@ -8,34 +8,17 @@ drawing single runs would give intervals that are too narrow.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import bootstrap
+from scipy.stats import bootstrap  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
 from mobnet.core.errors import DataError
+from mobnet.evaluation.number.number import Number
 
 ALONE = np.zeros(1, dtype=np.intp)  # a single network or test is never drawn
 Combine = Callable[[NDArray[np.float64]], NDArray[np.float64]]
-
-
-@dataclass(frozen=True)
-class Summary:
-    """A number over runs.
-
-    Attributes:
-        value: the number made of the means over all runs [unit of the runs].
-        low: lower end of its interval; None with a single run.
-        high: upper end of its interval; None with a single run.
-        count: runs.
-    """
-
-    value: float
-    low: float | None
-    high: float | None
-    count: int
 
 
 def first(means: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -48,7 +31,9 @@ def mean(means: NDArray[np.float64]) -> NDArray[np.float64]:
     return means.mean(axis=0)
 
 
-def summarise(grids: Sequence[NDArray[Any]], config: Mapping[str, Any], combine: Combine = first) -> Summary:
+def summarise(
+    grids: Sequence[NDArray[Any]], config: Mapping[str, Any], combine: Combine = first, unit: str = "-"
+) -> Number:
     """Return a number made of the means of grids of runs, and its bootstrap interval, e.g. [N m].
 
     A test recording is drawn for all grids at once, and so is a network for all that have as many: seeds are shared, so
@@ -58,6 +43,7 @@ def summarise(grids: Sequence[NDArray[Any]], config: Mapping[str, Any], combine:
         grids: K grids (networks, tests); a method without networks has one row.
         config: resolved configuration: `seed`, `evaluation.confidence` (0..1), `evaluation.bootstrap_draws`.
         combine: means (K, ...) -> number (...).
+        unit: unit of the number.
 
     Raises:
         DataError: grids of different tests.
@@ -75,14 +61,20 @@ def summarise(grids: Sequence[NDArray[Any]], config: Mapping[str, Any], combine:
     count = max([1, *networks]) * tests
     drawn_from = [np.arange(n) for n in (*networks, tests) if n > 1]
     if not drawn_from:
-        return Summary(value, None, None, count)
+        return Number(value, runs=count, unit=unit)
     settings = config["evaluation"]
-    result = bootstrap(
+    result: Any = bootstrap(
         drawn_from, statistic, n_resamples=settings["bootstrap_draws"], confidence_level=settings["confidence"],
         vectorized=True, paired=False, method="percentile", rng=np.random.default_rng(config["seed"]),
     )  # fmt: skip
     low, high = result.confidence_interval
-    return Summary(value, float(low), float(high), count)
+    return Number(value, float(low), float(high), count, unit)
+
+
+def extremes(values: NDArray[np.float64]) -> list[Number]:
+    """Return n numbers, each the mean of some runs with the lowest and the highest one, of values (runs, n)."""
+    ends = np.stack([values.mean(axis=0), values.min(axis=0), values.max(axis=0)], axis=1)
+    return [Number(*map(float, row), runs=len(values)) for row in ends]
 
 
 def tests_of(grids: Sequence[NDArray[Any]]) -> int:

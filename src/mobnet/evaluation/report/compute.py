@@ -5,20 +5,17 @@ It differs from run to run, so it stands beside the results and not among those 
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import accumulate
 from pathlib import Path
 
+from mobnet.core.columns import COMPUTE
 from mobnet.core.errors import DataError
-from mobnet.core.files import read_json, write_text
+from mobnet.core.files import read_json
 from mobnet.core.logs import Account
-from mobnet.evaluation.number.rows import write_rows
-from mobnet.evaluation.tables.layout import RULE, Line, markdown_table, number, text_table
+from mobnet.evaluation.number.number import Number
+from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
 from mobnet.settings.evaluation import Compute
-
-log = logging.getLogger(__name__)
 
 STAGES = {  # stage -> its rules; those of no stage make tables and figures
     "collect": ("motion", "collect"),
@@ -35,21 +32,7 @@ HOUR_S, PERCENT = 3600.0, 100.0
 HEADER = ["Stage", "Jobs", "CPU time [h]", "Wall time [h]", "Load [%]", "Peak memory [MiB]"]
 
 
-@dataclass(frozen=True)
-class Use:
-    """One number of a stage: a row of compute.csv.
-
-    Attributes:
-        stage: a name of `STAGES`, `WHOLE` or `ELAPSED`.
-        quantity: what is counted.
-        value: the number [unit].
-        unit: unit of the number.
-    """
-
-    stage: str
-    quantity: str
-    value: float
-    unit: str
+Uses = dict[tuple[str, str], Number]  # stage (a name of `STAGES`, `WHOLE` or `ELAPSED`), quantity
 
 
 def compute(settings: Compute, accounts: Path, out: Path) -> None:
@@ -66,13 +49,12 @@ def compute(settings: Compute, accounts: Path, out: Path) -> None:
     jobs = [job for job in map(read_account, sorted(accounts.rglob("*.json"))) if job.succeeded]
     if not jobs:
         raise DataError(f"{accounts}: holds no account of a job; ./reproduce all makes them")
-    uses = [use for stage, own in by_stage(jobs) for use in uses_of(stage, own)]
-    uses += whole_run(jobs, settings.pause_s)
-    write_rows(out, Use, uses)
-    lines = compute_lines(uses)
-    write_text(out.with_suffix(".tex"), text_table("l" + "r" * (len(HEADER) - 1), HEADER, lines))
-    write_text(out.with_suffix(".md"), markdown_table(HEADER, lines))
-    log.info("%s: %d jobs", out, len(jobs))
+    uses: Uses = {}
+    for stage, own in by_stage(jobs):
+        uses |= uses_of(stage, own)
+    uses |= whole_run(jobs, settings.pause_s)
+    records = [(*of, use.value, use.unit) for of, use in uses.items()]
+    write_table(out.with_suffix(""), Table(COMPUTE, records, HEADER, compute_lines(uses)))
 
 
 def read_account(path: Path) -> Account:
@@ -97,18 +79,20 @@ def by_stage(jobs: Sequence[Account]) -> Iterator[tuple[str, Sequence[Account]]]
     yield WHOLE, jobs
 
 
-def uses_of(stage: str, jobs: Sequence[Account]) -> Iterator[Use]:
-    """Yield what jobs took together [-, h, %, MiB]; the load is CPU time over wall time."""
+def uses_of(stage: str, jobs: Sequence[Account]) -> Uses:
+    """Return what jobs took together [-, h, %, MiB]; the load is CPU time over wall time."""
     cpu_s, wall_s = sum(job.cpu_s for job in jobs), sum(job.wall_s for job in jobs)
-    yield Use(stage, "jobs", len(jobs), "-")
-    yield Use(stage, "CPU time", cpu_s / HOUR_S, "h")
-    yield Use(stage, "wall time", wall_s / HOUR_S, "h")
-    yield Use(stage, "load", PERCENT * cpu_s / wall_s if wall_s else 0.0, "%")
-    yield Use(stage, "peak memory", max(job.peak_mib for job in jobs), "MiB")
+    return {
+        (stage, "jobs"): Number(len(jobs)),
+        (stage, "CPU time"): Number(cpu_s / HOUR_S, unit="h"),
+        (stage, "wall time"): Number(wall_s / HOUR_S, unit="h"),
+        (stage, "load"): Number(PERCENT * cpu_s / wall_s if wall_s else 0.0, unit="%"),
+        (stage, "peak memory"): Number(max(job.peak_mib for job in jobs), unit="MiB"),
+    }
 
 
-def whole_run(jobs: Sequence[Account], pause_s: float) -> Iterator[Use]:
-    """Yield elapsed time [h], cores [-] (the most jobs at once), the share of them with a job and that of CPU time [%].
+def whole_run(jobs: Sequence[Account], pause_s: float) -> Uses:
+    """Return elapsed time [h], cores (the most jobs at once), the share of them with a job and that of CPU time [%].
 
     Args:
         jobs: of the run, or of several, one after another.
@@ -116,10 +100,11 @@ def whole_run(jobs: Sequence[Account], pause_s: float) -> Iterator[Use]:
     """
     cores, elapsed_s = at_once(jobs), elapsed(jobs, pause_s)
     shares = {"taken": sum(job.wall_s for job in jobs), "load": sum(job.cpu_s for job in jobs)}
-    yield Use(ELAPSED, "wall time", elapsed_s / HOUR_S, "h")
-    yield Use(ELAPSED, "cores", cores, "-")
+    uses = {(ELAPSED, "wall time"): Number(elapsed_s / HOUR_S, unit="h"), (ELAPSED, "cores"): Number(cores)}
     for name, seconds in shares.items():
-        yield Use(ELAPSED, name, PERCENT * seconds / (cores * elapsed_s) if elapsed_s else 0.0, "%")
+        share = PERCENT * seconds / (cores * elapsed_s) if elapsed_s else 0.0
+        uses[ELAPSED, name] = Number(share, unit="%")
+    return uses
 
 
 def at_once(jobs: Sequence[Account]) -> int:
@@ -136,22 +121,11 @@ def elapsed(jobs: Sequence[Account], pause_s: float) -> float:
     return ends[-1] - in_order[0].start_s - sum(gap for gap in gaps if gap > pause_s)
 
 
-def compute_lines(uses: Sequence[Use]) -> list[Line]:
+def compute_lines(uses: Uses) -> list[Line]:
     """Return the rows of text: a stage each, all jobs, and the run from its first job to its last."""
-    values = {(use.stage, use.quantity): use.value for use in uses}
-    stages = [stage for stage in dict.fromkeys(use.stage for use in uses) if stage != ELAPSED]
-    lines: list[Line] = [
-        [
-            stage,
-            number(values[stage, "jobs"], 0),
-            *(number(values[stage, name]) for name in ("CPU time", "wall time")),
-            *(number(values[stage, name], 0) for name in ("load", "peak memory")),
-        ]
-        for stage in stages
-    ]
-    cores, taken = values[ELAPSED, "cores"], values[ELAPSED, "taken"]
-    last = [
-        f"{ELAPSED} (cores: {cores:.0f}, taken: {taken:.0f} %)", "", "",
-        number(values[ELAPSED, "wall time"]), number(values[ELAPSED, "load"], 0), "",
-    ]  # fmt: skip
-    return [*lines[:-1], RULE, lines[-1], last]
+    stages = list(dict.fromkeys(stage for stage, _ in uses if stage != ELAPSED))
+    digits = {"jobs": 0, "CPU time": 2, "wall time": 2, "load": 0, "peak memory": 0}
+    lines: list[Line] = [[stage, *(uses[stage, name].text(k) for name, k in digits.items())] for stage in stages]
+    cores, taken, wall, load = (uses[ELAPSED, name] for name in ("cores", "taken", "wall time", "load"))
+    name = f"{ELAPSED} (cores: {cores.text(0)}, taken: {taken.text(0)} %)"
+    return [*lines[:-1], RULE, lines[-1], [name, "", "", wall.text(), load.text(0), ""]]

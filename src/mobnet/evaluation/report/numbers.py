@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from mobnet.core.files import write_text
-from mobnet.evaluation.number.rows import Cell, read_rows
-from mobnet.evaluation.tables.claims import VERDICTS, Verdict, ours_text
-from mobnet.evaluation.tables.layout import number, tex_escape
+from mobnet.evaluation.number.files import read_numbers
+from mobnet.evaluation.number.number import Number, number_text
+from mobnet.evaluation.tables.claims import VERDICTS, ours_text
+from mobnet.evaluation.tables.layout import tex_escape
 from mobnet.settings.data import Recordings
 from mobnet.settings.plant import Rates
 from mobnet.settings.scales import Scale
@@ -60,28 +61,29 @@ def numbers(
     """
     values = {f"size@{name}": text for name, text in size_texts(scale, rates, sizes, train).items()}
     for path in table_csvs:
-        for cell in read_rows(path, Cell):
-            values |= cell_texts(cell)
-    verdicts = read_rows(claims_csv, Verdict)
-    for row in verdicts:
-        values |= claim_texts(row)
-    values |= {f"size@{kind}": str(sum(row.verdict == kind for row in verdicts)) for kind in VERDICTS}
+        for of, number in read_numbers(path):
+            values |= cell_texts(of, number)
+    verdicts = read_numbers(claims_csv)
+    for of, number in verdicts:
+        values |= claim_texts(of, number)
+    values |= {f"size@{kind}": str(sum(of["verdict"] == kind for of, _ in verdicts)) for kind in VERDICTS}
     values["size@claims"] = str(len(verdicts))
     write_text(out, LOOKUP + "".join(map(tex_definition, values.items())))
 
 
-def cell_texts(cell: Cell) -> dict[str, str]:
-    """Return the names and TeX texts of a cell, ours and the paper's."""
-    metric = "mean" if "+" in cell.metric else cell.metric
-    where = "@".join((cell.scenario, cell.level, cell.method, cell.joint, metric))
-    return {f"ours@{where}": number(cell.value), f"published@{where}": number(cell.published)}
+def cell_texts(of: Mapping[str, str], number: Number) -> dict[str, str]:
+    """Return the names and TeX texts of a cell, ours and the paper's; `of`: columns `ERRORS` of its row."""
+    metric = "mean" if "+" in of["metric"] else of["metric"]
+    where = "@".join((of["scenario"], of["level"], of["method"], of["joint"], metric))
+    return {f"ours@{where}": number.text(), f"published@{where}": number_text(number.published)}
 
 
-def claim_texts(row: Verdict) -> dict[str, str]:
-    """Return the names and TeX texts of a claim."""
-    value, interval = ours_text(row)
-    texts = {"claimed": number(row.published), "found": value, "span": interval, "verdict": row.verdict}
-    return {f"{name}@{row.claim}": tex_escape(text) for name, text in (texts | {"cause": row.cause}).items()}
+def claim_texts(of: Mapping[str, str], number: Number) -> dict[str, str]:
+    """Return the names and TeX texts of a claim; `of`: columns `CLAIMS` of its row."""
+    value, interval = ours_text(number)
+    texts = {"claimed": number_text(number.published), "found": value, "span": interval}
+    texts |= {name: of[name] for name in ("verdict", "cause")}
+    return {f"{name}@{of['claim']}": tex_escape(text) for name, text in texts.items()}
 
 
 def tex_definition(item: tuple[str, str]) -> str:

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from mobnet.core.files import read_json
 from mobnet.evaluation.measure.trainings import METRICS, RUN, Epoch
-from mobnet.evaluation.number.rows import read_rows
+from mobnet.evaluation.number.files import read_rows
 
 SETTINGS = ("name", "method", "limb", "seed", "target", "settings", "fingerprint", "provenance")  # keys of run.json
 DATED = "run-00000000_000000-"  # `wandb leet` opens only folders that are named by a date; a fixed one, for equal names

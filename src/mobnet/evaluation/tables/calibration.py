@@ -2,96 +2,56 @@
 
 from __future__ import annotations
 
-import logging
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from mobnet.core.files import write_text
+from mobnet.core.columns import CALIBRATION
 from mobnet.evaluation.measure.calibration import STAGES, Grid, case_name
 from mobnet.evaluation.number.intervals import summarise
-from mobnet.evaluation.number.rows import write_rows
-from mobnet.evaluation.tables.layout import RULE, Line, markdown_table, number, span, text_table
-
-log = logging.getLogger(__name__)
+from mobnet.evaluation.number.number import Number, interval_text
+from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
 
 COVERAGE, NLL, CRPS = "coverage", "nll", "crps"
 
-
-@dataclass(frozen=True)
-class Trust:
-    """One measure of one limb in one test: a row of calibration.csv.
-
-    Attributes:
-        test: scenario, or `validation`.
-        level: uncertainty level; empty for held-out data.
-        pushed: joint that is pushed where only samples around pushes count, else empty.
-        method: estimator.
-        limb: limb of section 4.1.
-        measure: `coverage`, `nll` or `crps`, a mean over the limb's joints.
-        share: nominal share of the coverage [-]; None for the others.
-        run_count: networks times tests.
-        before: mean over runs with the standard deviation as learned [unit].
-        before_low: lower end of its interval [unit]; None with a single run.
-        before_high: upper end [unit].
-        after: mean over runs with the scaled standard deviation [unit].
-        low: lower end of its interval [unit]; None with a single run.
-        high: upper end [unit].
-        unit: unit of the limb's torques and of the CRPS; coverage is a share [-], likelihood in [nats].
-    """
-
-    test: str
-    level: str
-    pushed: str
-    method: str
-    limb: str
-    measure: str
-    share: float | None
-    run_count: int
-    before: float
-    before_low: float | None
-    before_high: float | None
-    after: float
-    low: float | None
-    high: float | None
-    unit: str
+Trust = Mapping[tuple[str, float | None], tuple[Number, Number]]  # measure, nominal share [-] -> as learned, scaled
 
 
 def trust_table(config: Mapping[str, Any], grids: Sequence[Grid], out_dir: Path) -> None:
     """Write calibration.csv, .tex and .md; the latter two hold some methods only.
 
     Args:
-        config: resolved configuration: `seed`, `evaluation.calibration` and what intervals need.
+        config: resolved configuration: `seed`, `evaluation.calibration` (levels, share and tolerance [-] of the bar,
+            methods) and what intervals need.
         grids: of held-out data, then of the tests.
         out_dir: gets the three files.
     """
-    settings = config["evaluation"]["calibration"]
-    rows = [row for grid in grids for row in trust_rows(config, grid, settings["levels"])]
-    write_rows(out_dir / "calibration.csv", Trust, rows)
-    write_table([row for row in rows if row.method in settings["methods"]], config["evaluation"], out_dir)
-    log.info("%s: %d rows", out_dir / "calibration.csv", len(rows))
+    settings, confidence = config["evaluation"]["calibration"], config["evaluation"]["confidence"]
+    trusts = [(grid, trust_of(config, grid, settings["levels"])) for grid in grids]
+    records = [
+        (grid.test, grid.level, grid.pushed, grid.method, grid.limb, *measure, after.runs,
+         *before.with_ends, *after.with_ends, grid.unit)
+        for grid, trust in trusts for measure, (before, after) in trust.items()
+    ]  # fmt: skip
+    blocks: dict[str, list[list[str]]] = {}
+    for grid, trust in trusts:
+        if grid.method in settings["methods"]:
+            line = [grid.method, grid.limb, *limb_texts(grid, trust, settings)]
+            blocks.setdefault(case_name(grid.test, grid.pushed), []).append(line)
+    lines = in_blocks(([test], own) for test, own in blocks.items())
+    header = table_header(settings, confidence)
+    align = "lll" + "r" * (len(header) - 4) + "l"
+    write_table(out_dir / "calibration", Table(CALIBRATION, records, header, lines, left=3, align=align))
 
 
-def write_table(rows: Sequence[Trust], evaluation: Mapping[str, Any], out_dir: Path) -> None:
-    """Write the rows as TeX and Markdown; `evaluation` holds the bar's share and the confidence [-]."""
-    settings = evaluation["calibration"]
-    header, lines = table_header(settings, evaluation["confidence"]), table_lines(rows, settings)
-    columns = "lll" + "r" * (len(header) - 4) + "l"
-    write_text(out_dir / "calibration.tex", text_table(columns, header, lines))
-    write_text(out_dir / "calibration.md", markdown_table(header, lines, left=3))
-
-
-def trust_rows(config: Mapping[str, Any], grid: Grid, levels: Sequence[float]) -> Iterator[Trust]:
-    """Yield the measures of a limb's runs with their intervals: coverage of nominal shares [-], then NLL and CRPS."""
-    head = grid.test, grid.level, grid.pushed, grid.method, grid.limb
+def trust_of(config: Mapping[str, Any], grid: Grid, levels: Sequence[float]) -> Trust:
+    """Return the measures of a limb's runs with their intervals: coverage of nominal shares [-], then NLL and CRPS."""
     measures = [*((COVERAGE, level, k) for k, level in enumerate(levels)), (NLL, None, -2), (CRPS, None, -1)]
+    found = {}
     for measure, share, place in measures:
         before, after = (summarise([grid.values[:, :, stage, place]], config) for stage in range(len(STAGES)))
-        yield Trust(
-            *head, measure, share, after.count, before.value, before.low, before.high, after.value, after.low,
-            after.high, grid.unit,
-        )  # fmt: skip
+        found[measure, share] = before, after
+    return found
 
 
 def table_header(settings: Mapping[str, Any], confidence: float) -> list[str]:
@@ -104,36 +64,20 @@ def table_header(settings: Mapping[str, Any], confidence: float) -> list[str]:
     ]  # fmt: skip
 
 
-def table_lines(rows: Sequence[Trust], settings: Mapping[str, Any]) -> list[Line]:
-    """Return the rows of text, one for each limb and unit of a method in a test, a rule between tests."""
-    lines: list[Line] = []
-    groups: dict[tuple[str, ...], list[Trust]] = {}
-    for row in rows:
-        groups.setdefault((case_name(row.test, row.pushed), row.method, row.limb, row.unit), []).append(row)
-    before = None
-    for (test, method, limb, _), group in groups.items():
-        if before not in (None, test):
-            lines.append(RULE)
-        lines.append(["" if test == before else test, method, limb, *limb_texts(group, settings)])
-        before = test
-    return lines
-
-
-def limb_texts(rows: Sequence[Trust], settings: Mapping[str, Any]) -> list[str]:
+def limb_texts(grid: Grid, trust: Trust, settings: Mapping[str, Any]) -> list[str]:
     """Return the numbers of a limb as texts: coverage in %, NLL [nats], CRPS with its unit, and the bar's verdict."""
-    covered = {row.share: row for row in rows if row.measure == COVERAGE}
-    nll, crps = (next(row for row in rows if row.measure == measure) for measure in (NLL, CRPS))
-    bar = covered[settings["share"]]
+    learned, bar = trust[COVERAGE, settings["share"]]
+    scaled = [trust[COVERAGE, level][1] for level in settings["levels"]]
     ends = [None if end is None else 100.0 * end for end in (bar.low, bar.high)]
     return [
-        f"{bar.before:.1%}", *(f"{covered[level].after:.1%}" for level in settings["levels"]), span(*ends, digits=1),
-        number(nll.before), number(nll.after), number(crps.before, 3), f"{crps.after:.3f} {crps.unit}",
-        verdict(bar, settings),
+        *(f"{number.value:.1%}" for number in (learned, *scaled)), interval_text(*ends, digits=1),
+        *(number.text() for number in trust[NLL, None]), trust[CRPS, None][0].text(3),
+        f"{trust[CRPS, None][1].value:.3f} {grid.unit}", verdict(grid, bar, settings),
     ]  # fmt: skip
 
 
-def verdict(bar: Trust, settings: Mapping[str, Any]) -> str:
+def verdict(grid: Grid, bar: Number, settings: Mapping[str, Any]) -> str:
     """Return whether the scaled coverage keeps the bar [-], `yes` or `no`; under collision there is none."""
-    if bar.pushed:
+    if grid.pushed or bar.value is None:
         return ""
-    return "yes" if abs(bar.after - settings["share"]) <= settings["tolerance"] else "no"
+    return "yes" if abs(bar.value - settings["share"]) <= settings["tolerance"] else "no"

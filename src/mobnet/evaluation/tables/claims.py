@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from mobnet.core.files import write_text
+from mobnet.core.columns import CLAIMS
 from mobnet.evaluation.measure.results import Results, read_results
 from mobnet.evaluation.number.claim import Claim, inside, read_claims, rule_text
-from mobnet.evaluation.number.intervals import Summary, summarise
+from mobnet.evaluation.number.intervals import summarise
+from mobnet.evaluation.number.number import Number, number_text
 from mobnet.evaluation.number.quantities import QUANTITIES
-from mobnet.evaluation.number.rows import write_rows
-from mobnet.evaluation.tables.layout import Line, long_table, markdown_table, number, span, tex_escape
+from mobnet.evaluation.tables.layout import Line, Table, long_table, tex_escape, write_table
 
 log = logging.getLogger(__name__)
 
@@ -27,37 +27,38 @@ COLUMNS = r">{\raggedright\arraybackslash}p{.385\linewidth}>{\raggedright\arrayb
 
 @dataclass(frozen=True)
 class Verdict:
-    """A claim, our number and what follows: a row of claims.csv.
+    """A claim, our number and what follows.
 
     Attributes:
-        claim: short name.
-        printed: where the paper says it.
-        says: the claim in our words.
-        published: the paper's number [unit]; None where it gives none.
-        value: ours [unit]; None where the tests are too short to hold what it is about, or all trainings diverged.
-        low: lower end of its interval [unit]; None with a single run or none.
-        high: upper end of its interval [unit]; None with a single run or none.
-        seed_count: runs behind it.
-        unit: unit of the numbers.
+        claim: what the paper says.
+        ours: our number; none where the tests are too short to hold what it is about, or all trainings diverged.
         differs: whether the interval leaves out equality, `yes` or `no`; empty without interval or comparison.
-        rule: when the claim counts as reproduced.
         verdict: one of `VERDICTS`, from the value alone.
-        cause: why it is not reproduced, as far as it was tested.
     """
 
-    claim: str
-    printed: str
-    says: str
-    published: float | None
-    value: float | None
-    low: float | None
-    high: float | None
-    seed_count: int
-    unit: str
+    claim: Claim
+    ours: Number
     differs: str
-    rule: str
     verdict: str
-    cause: str
+
+    @property
+    def cause(self) -> str:
+        """Why it is not reproduced, as far as it was tested."""
+        return "" if self.verdict == REPRODUCED else self.claim.cause
+
+    def record(self) -> tuple[str | int | float | None, ...]:
+        """Return the row of claims.csv."""
+        claim, ours = self.claim, self.ours
+        return (
+            claim.name, claim.printed, claim.says, ours.published, *ours.with_ends, ours.runs, ours.unit, self.differs,
+            rule_text(claim.reproduced), self.verdict, self.cause,
+        )  # fmt: skip
+
+    def line(self) -> list[str]:
+        """Return the texts of a row of the table."""
+        claim, unit = self.claim, "" if self.claim.unit == "-" else f" {self.claim.unit}"
+        own = [claim.says, claim.printed, number_text(claim.published), *ours_text(self.ours)]
+        return [*own, self.differs, rule_text(claim.reproduced) + unit, self.verdict]
 
 
 def claims(
@@ -79,13 +80,13 @@ def claims(
     results = read_results(Path(config["robot"]), scores, folders)
     verdicts = [judge(config, claim, results) for claim in read_claims(claims_yaml)]
     header = [text.format(config["evaluation"]["confidence"]) for text in HEADER]
-    lines = [claim_line(verdict) for verdict in verdicts]
+    lines = [verdict.line() for verdict in verdicts]
     full = [[*line, verdict.cause] for line, verdict in zip(lines, verdicts, strict=True)]
-    write_rows(out_dir / "claims.csv", Verdict, verdicts)
-    write_text(out_dir / "claims.tex", long_table(COLUMNS, CAPTION, header, list(with_causes(verdicts, lines))))
-    write_text(out_dir / "claims.md", markdown_table([*header, "Cause"], full, left=len(header) + 1))
-    for verdict in verdicts:
-        log.info("%s: %s (%s, %s)", verdict.claim, verdict.verdict, number(verdict.value), verdict.rule)
+    table = Table(CLAIMS, [each.record() for each in verdicts], [*header, "Cause"], full, left=len(header) + 1)
+    tex = long_table(COLUMNS, CAPTION, header, list(with_causes(verdicts, lines)))
+    write_table(out_dir / "claims", table, tex)
+    for each in verdicts:
+        log.info("%s: %s (%s, %s)", each.claim.name, each.verdict, each.ours.text(), rule_text(each.claim.reproduced))
 
 
 def with_causes(verdicts: Sequence[Verdict], lines: Sequence[Line]) -> Iterator[Line]:
@@ -107,38 +108,28 @@ def judge(config: Mapping[str, Any], claim: Claim, results: Results) -> Verdict:
     quantity = QUANTITIES[claim.quantity]
     grids = [results.grid(cell) for cell in claim.cells]
     held = [grid for grid in grids if grid is not None]
-    ours = summarise(held, config, quantity.made) if len(held) == len(grids) else None
-    verdict = verdict_of(ours, claim)
-    numbers = (ours.value, ours.low, ours.high, ours.count) if ours else (None, None, None, 0)
-    return Verdict(
-        claim.name, claim.printed, claim.says, claim.published, *numbers, claim.unit, differs(ours, quantity.equality),
-        rule_text(claim.reproduced), verdict, "" if verdict == REPRODUCED else claim.cause,
-    )  # fmt: skip
+    measured = len(held) == len(grids)
+    ours = summarise(held, config, quantity.made, claim.unit) if measured else Number(None, unit=claim.unit)
+    ours = replace(ours, published=claim.published)
+    return Verdict(claim, ours, differs(ours, quantity.equality), verdict_of(ours, claim))
 
 
-def verdict_of(ours: Summary | None, claim: Claim) -> str:
+def verdict_of(ours: Number, claim: Claim) -> str:
     """Return one of `VERDICTS` for our number, in the claim's unit, such as [N m] or [-]."""
-    if ours is None:
+    if ours.value is None:
         return "not measured"
     met = (inside(ours.value, claim.reproduced), inside(ours.value, claim.direction), True)
     return VERDICTS[met.index(True)]
 
 
-def differs(ours: Summary | None, equality: float | None) -> str:
+def differs(ours: Number, equality: float | None) -> str:
     """Return whether an interval leaves out equality [unit], `yes` or `no`; nothing where one of them is missing."""
-    if ours is None or ours.low is None or ours.high is None or equality is None:
+    if ours.low is None or ours.high is None or equality is None:
         return ""
     return "no" if ours.low <= equality <= ours.high else "yes"
 
 
-def claim_line(verdict: Verdict) -> list[str]:
-    """Return the texts of a row of the table."""
-    unit = "" if verdict.unit == "-" else f" {verdict.unit}"
-    own = [verdict.says, verdict.printed, number(verdict.published), *ours_text(verdict)]
-    return [*own, verdict.differs, verdict.rule + unit, verdict.verdict]
-
-
-def ours_text(verdict: Verdict) -> tuple[str, str]:
+def ours_text(ours: Number) -> tuple[str, str]:
     """Return our number and its interval as text; small ones with a unit get a digit more."""
-    digits = 2 if verdict.unit == "-" or abs(verdict.value or 0.0) >= 1 else 3
-    return number(verdict.value, digits), span(verdict.low, verdict.high, digits)
+    digits = 2 if ours.unit == "-" or abs(ours.value or 0.0) >= 1 else 3
+    return ours.text(digits), ours.interval(digits)

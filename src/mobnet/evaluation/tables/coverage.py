@@ -2,22 +2,14 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from mobnet.core.files import write_text
-from mobnet.evaluation.measure.coverage import (
-    ALL,
-    NEAREST,
-    Covered,
-    covered,
-)
-from mobnet.evaluation.number.rows import write_rows
-from mobnet.evaluation.tables.layout import RULE, Line, markdown_table, number, span, text_table
-
-log = logging.getLogger(__name__)
+from mobnet.core.columns import COVERAGE
+from mobnet.evaluation.measure.coverage import ALL, NEAREST, Covered, covered
+from mobnet.evaluation.number.number import number_text
+from mobnet.evaluation.tables.layout import Line, Table, in_blocks, write_table
 
 
 def coverage(
@@ -38,24 +30,22 @@ def coverage(
         DataError: a file or a column is missing.
     """
     rows, confidence = covered(config, training, tests), config["evaluation"]["confidence"]
+    records = [
+        (row.scenario, row.level, row.measure, row.joint, row.block_count, row.with_rte, row.without_rte,
+         *row.ratio.with_ends)
+        for row in rows
+    ]  # fmt: skip
     header = ["Test", "Level", "Measure", "With RTE", "Without RTE", "Ratio", f"{confidence:.0%}"]
     lines = coverage_lines([row for row in rows if row.joint == ALL])
-    write_rows(out_dir / "coverage.csv", Covered, rows)
-    write_text(out_dir / "coverage.tex", text_table("lllrrrr", header, lines))
-    write_text(out_dir / "coverage.md", markdown_table(header, lines, left=3))
-    log.info("%s: %d rows", out_dir / "coverage.csv", len(rows))
+    write_table(out_dir / "coverage", Table(COVERAGE, records, header, lines, left=3))
 
 
 def coverage_lines(rows: Sequence[Covered]) -> list[Line]:
     """Return the rows of text, a rule between tests; shares in %."""
-    lines: list[Line] = []
-    before = None
+    blocks: dict[tuple[str, str], list[list[str]]] = {}
     for row in rows:
-        first = (row.scenario, row.level) != before
-        if first and before is not None:
-            lines.append(RULE)
-        before = row.scenario, row.level
-        names = [row.scenario.replace("_", " "), row.level.replace("_", " ")] if first else ["", ""]
-        values = [f"{v:.1%}" if row.measure not in NEAREST else number(v) for v in (row.with_rte, row.without_rte)]
-        lines.append([*names, row.measure, *values, number(row.ratio), span(row.low, row.high)])
-    return lines
+        values = row.with_rte, row.without_rte
+        texts = [number_text(value) if row.measure in NEAREST else f"{value:.1%}" for value in values]
+        labels = row.scenario.replace("_", " "), row.level.replace("_", " ")
+        blocks.setdefault(labels, []).append([row.measure, *texts, row.ratio.text(), row.ratio.interval()])
+    return in_blocks(blocks.items())

@@ -2,28 +2,25 @@
 
 from __future__ import annotations
 
-import logging
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from mobnet.control.parameters import DURATION
+from mobnet.core.columns import DATA
 from mobnet.core.config import read_yaml
-from mobnet.core.files import read_json, write_text
+from mobnet.core.files import read_json
 from mobnet.core.recording import COMMAND, recording_columns
 from mobnet.core.store import read_array
 from mobnet.evaluation.measure.steps import CHOICES, KEYS, UNITS, Sets, in_degrees, read_steps
 from mobnet.evaluation.measure.upper_body import upper_body
-from mobnet.evaluation.number.rows import write_rows
-from mobnet.evaluation.tables.layout import markdown_table, text_table
+from mobnet.evaluation.number.number import Number
+from mobnet.evaluation.tables.layout import Table, write_table
 from mobnet.robot.description import load_robot
 from mobnet.robot.nominal import NominalModel
-
-log = logging.getLogger(__name__)
 
 Found = tuple[str, str, float, str]  # quantity, part, value, unit
 
@@ -40,25 +37,7 @@ FORMATS: Mapping[str, Callable[[float], str]] = {
 PLAIN = "{:.3f}".format
 
 
-@dataclass(frozen=True)
-class Fact:
-    """One number about a training set: a row of data.csv.
-
-    Attributes:
-        set: training set.
-        quantity: what is counted or measured.
-        part: command, terrain or joint that it belongs to; empty where it is the whole set's.
-        value: the number [unit].
-        unit: unit; empty for a count, `-` for a share.
-        published: the paper's number [unit]; None where it gives none.
-    """
-
-    set: str
-    quantity: str
-    part: str
-    value: float
-    unit: str
-    published: float | None
+Facts = Mapping[tuple[str, str, str], Number]  # set, quantity, part (empty: the whole set's)
 
 
 def data(config: Mapping[str, Any], sets: Sets, out_dir: Path) -> None:
@@ -75,22 +54,20 @@ def data(config: Mapping[str, Any], sets: Sets, out_dir: Path) -> None:
     """
     printed = read_yaml(Path(config["published"]))["data"]["sets"]
     nominal = NominalModel(load_robot(Path(config["robot"])))
-    rows: list[Fact] = []
+    facts: dict[tuple[str, str, str], Number] = {}
     for name, texts in sets.items():
-        stems = list(map(Path, texts))
-        known = printed.get(name, {})
+        stems, known = list(map(Path, texts)), printed.get(name, {})
         found = [
             *extent(stems, list(config["terrain"])),
             *commanded(config, stems, nominal),
             *upper_body(config, stems, nominal),
         ]
-        rows += [Fact(name, *fact, _published(config, known, *fact[:2])) for fact in found]
+        for quantity, part, value, unit in found:
+            facts[name, quantity, part] = Number(value, unit=unit, published=_published(config, known, quantity, part))
+    records = [(*of, fact.value, fact.unit, fact.published) for of, fact in facts.items()]
     header = ["", *(name.replace("_", " ") for name in sets), "Paper"]
-    lines = fact_lines([row for row in rows if row.part not in nominal.robot.layout.actuated], list(sets))
-    write_rows(out_dir / "data.csv", Fact, rows)
-    write_text(out_dir / "data.tex", text_table("l" + "r" * len(header[1:]), header, lines))
-    write_text(out_dir / "data.md", markdown_table(header, lines))
-    log.info("%s: %d facts", out_dir / "data.csv", len(rows))
+    shown = {of: fact for of, fact in facts.items() if of[2] not in nominal.robot.layout.actuated}
+    write_table(out_dir / "data", Table(DATA, records, header, fact_lines(shown, list(sets))))
 
 
 def extent(stems: Sequence[Path], terrains: Sequence[str]) -> Iterator[Found]:
@@ -152,15 +129,16 @@ def _published(config: Mapping[str, Any], known: Mapping[str, float], quantity: 
     return known.get(quantity)
 
 
-def fact_lines(rows: Sequence[Fact], sets: Sequence[str]) -> list[list[str]]:
+def fact_lines(facts: Facts, sets: Sequence[str]) -> list[list[str]]:
     """Return the rows of text: a quantity a row, a set a column, the paper's number last."""
     lines = []
-    for quantity, part, unit in dict.fromkeys((row.quantity, row.part, row.unit) for row in rows):
-        own = {row.set: row for row in rows if (row.quantity, row.part) == (quantity, part)}
+    for quantity, part in dict.fromkeys((quantity, part) for _, quantity, part in facts):
+        own = [facts.get((name, quantity, part)) for name in sets]
+        unit, *_ = (fact.unit for fact in own if fact)
         show = FORMATS.get(unit, PLAIN)
+        printed = [show(fact.published) for fact in own if fact and fact.published is not None]
         label = f"{quantity}, {part.replace('_', ' ')}" if part else quantity
-        cells = [show(own[name].value) if name in own else "-" for name in sets]
-        printed = next((row.published for row in own.values() if row.published is not None), None)
         label += f" [{unit}]" if unit not in ("", "-") else ""
-        lines.append([label, *cells, "-" if printed is None else show(printed)])
+        texts = [show(fact.value) if fact and fact.value is not None else "-" for fact in own]
+        lines.append([label, *texts, *(printed[:1] or ["-"])])
     return lines

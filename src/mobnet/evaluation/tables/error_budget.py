@@ -2,27 +2,28 @@
 
 from __future__ import annotations
 
-import logging
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.core.columns import ERRORS, Score
 from mobnet.core.config import load_layout
-from mobnet.core.files import write_text
 from mobnet.evaluation.measure.averages import Column, columns_of
 from mobnet.evaluation.measure.metrics import PERCENT
+from mobnet.evaluation.number.files import read_rows
 from mobnet.evaluation.number.grid import Wanted, run_grid
 from mobnet.evaluation.number.intervals import mean, summarise
-from mobnet.evaluation.number.rows import Cell, Score, read_rows, write_rows
-from mobnet.evaluation.tables.layout import RULE, Line, markdown_table, number, span, text_table
-
-log = logging.getLogger(__name__)
+from mobnet.evaluation.number.number import Number
+from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
 
 METRIC, GONE = "rmse", "gone"
 DIGITS = {METRIC: 2, GONE: 0}
+SIGN = {METRIC: "", GONE: " %"}
+
+Cells = Mapping[tuple[str, str, str, str], Number]  # scenario, level, method, METRIC or GONE
 
 
 def error_budget(config: Mapping[str, Any], scores_csv: Path, out_dir: Path) -> None:
@@ -38,35 +39,41 @@ def error_budget(config: Mapping[str, Any], scores_csv: Path, out_dir: Path) -> 
         DataError: a run is missing.
     """
     settings, layout = config["evaluation"]["error_budget"], load_layout(Path(config["robot"]))
-    parts, scores = columns_of(layout, settings["joints"]), read_rows(scores_csv, Score)
-    cells = {part: list(cells_of(config, part, settings["tests"], scores)) for part in parts}
+    scores = read_rows(scores_csv, Score)
+    budgets = {
+        part: cells_of(config, part, settings["tests"], scores) for part in columns_of(layout, settings["joints"])
+    }
+    records = [
+        (*run, part.name, ours.runs, metric, *ours.with_ends, ours.unit, None)
+        for part, cells in budgets.items()
+        for (*run, metric), ours in cells.items()
+    ]
     first, *others = (test["label"] for test in settings["tests"])
     header = ["Joint", "Unit", first, *(text for label in others for text in (label, "gone"))]
-    lines = budget_lines(cells, config["evaluation"]["confidence"])
-    write_rows(out_dir / "error_budget.csv", Cell, [cell for own in cells.values() for cell in own])
-    write_text(out_dir / "error_budget.tex", text_table("ll" + "r" * (len(header) - 2), header, lines))
-    write_text(out_dir / "error_budget.md", markdown_table(header, lines, left=2))
-    log.info("%s: %d joints and means", out_dir / "error_budget.csv", len(parts))
+    lines = budget_lines(budgets, config["evaluation"]["confidence"])
+    write_table(out_dir / "error_budget", Table(ERRORS, records, header, lines, left=2))
 
 
 def cells_of(
     config: Mapping[str, Any], part: Column, tests: Sequence[Mapping[str, Any]], scores: Sequence[Score]
-) -> Iterator[Cell]:
-    """Yield, test by test, the RMSE [N m] of a joint or a mean and the share [%] of the square that a source makes.
+) -> Cells:
+    """Return, test by test, the RMSE [N m] of a joint or a mean and the share [%] of the square that a source makes.
 
     Raises:
         DataError: a run is missing.
     """
     full: list[NDArray[np.float64]] = []
+    cells = {}
     for test in tests:
-        run = (test["scenario"], test["level"], test["methods"][0])
-        grids = [run_grid(scores, Wanted(run[0], limb, *run[1:], joint, METRIC)) for limb, joint in part.joints]
-        found = [(METRIC, part.unit, summarise(grids, config, mean))]
+        scenario, level, method = test["scenario"], test["level"], test["methods"][0]
+        wanted = [Wanted(scenario, limb, level, method, joint, METRIC) for limb, joint in part.joints]
+        grids = [run_grid(scores, each) for each in wanted]
+        cells[scenario, level, method, METRIC] = summarise(grids, config, mean, part.unit)
         if full:
-            found.append((GONE, "%", summarise([grid**2 for grid in (*full, *grids)], config, share_gone)))
-        for metric, unit, ours in found:
-            yield Cell(*run, part.name, ours.count, metric, ours.value, ours.low, ours.high, unit, None)
+            squares = [grid**2 for grid in (*full, *grids)]
+            cells[scenario, level, method, GONE] = summarise(squares, config, share_gone, "%")
         full = full or grids
+    return cells
 
 
 def share_gone(means: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -75,19 +82,19 @@ def share_gone(means: NDArray[np.float64]) -> NDArray[np.float64]:
     return PERCENT * (1.0 - after.sum(axis=0) / before.sum(axis=0))
 
 
-def budget_lines(cells: Mapping[Column, Sequence[Cell]], confidence: float) -> list[Line]:
+def budget_lines(budgets: Mapping[Column, Cells], confidence: float) -> list[Line]:
     """Return the lines of text, RMSE [N m] and share gone [%] in turn; intervals and a rule below each mean.
 
     Args:
-        cells: of each joint or mean, test by test.
+        budgets: numbers of each joint or mean, test by test.
         confidence: of the intervals, a share [-].
     """
     lines: list[Line] = []
-    for part, own in cells.items():
-        sign = {METRIC: "", GONE: " %"}
-        lines.append([part.name, part.unit, *(number(c.value, DIGITS[c.metric]) + sign[c.metric] for c in own)])
+    for part, cells in budgets.items():
+        own = [(metric, ours) for (*_, metric), ours in cells.items()]
+        lines.append([part.name, part.unit, *(ours.text(DIGITS[metric]) + SIGN[metric] for metric, ours in own)])
         if len(part.joints) > 1:
-            if own[0].low is not None:
-                lines.append([f"{confidence:.0%}", "", *(span(c.low, c.high, DIGITS[c.metric]) for c in own)])
+            if own[0][1].low is not None:
+                lines.append([f"{confidence:.0%}", "", *(ours.interval(DIGITS[metric]) for metric, ours in own)])
             lines.append(RULE)
     return lines[:-1] if lines[-1] == RULE else lines

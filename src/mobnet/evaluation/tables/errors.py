@@ -1,24 +1,68 @@
-"""Tables of the paper, ours beside the printed numbers: a row is a method in a test, a column a joint or a mean."""
+"""Tables of errors beside the printed numbers: a row is a method in a test, a column a joint or a mean."""
 
 from __future__ import annotations
 
-import logging
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import islice, pairwise
 from pathlib import Path
 from typing import Any
 
+from mobnet.core.columns import ERRORS, Score
 from mobnet.core.config import load_layout
-from mobnet.core.files import write_text
 from mobnet.evaluation.measure.averages import Column, columns_of
-from mobnet.evaluation.number.grid import Wanted, run_grid, unit_of
-from mobnet.evaluation.number.intervals import mean, summarise
+from mobnet.evaluation.measure.scores import AVERAGE
+from mobnet.evaluation.number.files import read_rows
+from mobnet.evaluation.number.grid import Wanted, number_of
+from mobnet.evaluation.number.number import Number, number_text
 from mobnet.evaluation.number.published import published_row, read_published
-from mobnet.evaluation.number.rows import Cell, Score, read_rows, write_rows
-from mobnet.evaluation.tables.error_text import TableRow, look_of, table_markdown, table_tex
-
-log = logging.getLogger(__name__)
+from mobnet.evaluation.tables.layout import Line, Table, in_blocks, text_table, write_table
 
 METRIC = "rmse"  # of a row that names none
+OURS, PAPER = ("ours", "ours, simulated"), ("paper", "paper, robot")  # where they simulated, and where they measured
+PART = "\\par\\medskip\n"  # between the parts of a table that is wider than a page
+
+
+@dataclass(frozen=True)
+class TableRow:
+    """A method in a test.
+
+    Attributes:
+        labels: what stands before the method, such as the uncertainty level, (k,).
+        run: scenario, level and method.
+        metric: of columns that have none of their own.
+        numbers: column -> its number [N m], V1..V3 [N], or the metric's unit.
+    """
+
+    labels: tuple[str, ...]
+    run: tuple[str, str, str]
+    metric: str
+    numbers: Mapping[Column, Number]
+
+    def part(self, first: int, end: int) -> TableRow:
+        """Return the row with a span of its columns only."""
+        return replace(self, numbers=dict(islice(self.numbers.items(), first, end)))
+
+
+@dataclass(frozen=True)
+class Look:
+    """How a table is laid out.
+
+    Attributes:
+        header: heads of the labels, (k,).
+        robot: whether the printed numbers were measured on the robot.
+        floor: level and method of the row that later averages are compared with, or None.
+        confidence: of the intervals, a share [-].
+        parts: columns that begin a further tabular in TeX; intervals then stand on two lines.
+        names: what methods are called, where it is not their name.
+    """
+
+    header: tuple[str, ...]
+    robot: bool
+    floor: Mapping[str, str] | None
+    confidence: float
+    parts: tuple[str, ...] = ()
+    names: Mapping[str, str] = field(default_factory=dict)
 
 
 def table(config: Mapping[str, Any], name: str, scores: Mapping[str, Path], out_dir: Path) -> None:
@@ -34,14 +78,31 @@ def table(config: Mapping[str, Any], name: str, scores: Mapping[str, Path], out_
         DataError: a run that the table needs is missing.
         ConfigError: the published numbers do not fit the table, or a column is not well formed.
     """
-    spec = config["evaluation"]["tables"][name]
-    entry = read_published(Path(config["published"]), name)
+    spec, entry = config["evaluation"]["tables"][name], read_published(Path(config["published"]), name)
+    look = Look(
+        tuple(spec["header"]), entry.get("robot", False), entry.get("floor"), config["evaluation"]["confidence"],
+        tuple(spec.get("parts", ())), spec.get("names", {}),
+    )  # fmt: skip
     rows = table_rows(config, spec, entry, scores)
-    write_rows(out_dir / f"{name}.csv", Cell, [cell for row in rows for cell in row.cells])
-    look = look_of(spec, entry, config["evaluation"]["confidence"])
-    write_text(out_dir / f"{name}.tex", table_tex(rows, look))
-    write_text(out_dir / f"{name}.md", table_markdown(rows, look))
-    log.info("%s: %d rows", out_dir / f"{name}.csv", len(rows))
+    records = [
+        (*row.run, column.name, ours.runs, "+".join(column.metrics or (row.metric,)), *ours.with_ends, ours.unit,
+         ours.published)
+        for row in rows for column, ours in row.numbers.items()
+    ]  # fmt: skip
+    write_error_table(out_dir / name, records, rows, look)
+
+
+def write_error_table(stem: Path, records: Sequence[Any], rows: Sequence[TableRow], look: Look) -> None:
+    """Write a table of errors; in TeX one that is wider than a page becomes some, one below the other."""
+    names = [column.name for column in rows[0].numbers]
+    texts = []
+    for first, end in pairwise([0, *map(names.index, look.parts), len(names)]):
+        part = [row.part(first, end) for row in rows]
+        header = header_of(part[0], look)
+        align = "l" * (len(header) - end + first) + "r" * (end - first)
+        texts.append(text_table(align, header, table_lines(part, look, stacked=bool(look.parts))))
+    header, lines = header_of(rows[0], look), table_lines(rows, look)
+    write_table(stem, Table(ERRORS, records, header, lines, len(header) - len(names)), PART.join(texts))
 
 
 def table_rows(
@@ -64,36 +125,76 @@ def table_rows(
     rows = []
     for test in spec["rows"]:
         for method in test["methods"]:
+            run, metric = (test["scenario"], test["level"], method), test.get("metric", METRIC)
             printed = published_row(entry, test["paper"], method) if "paper" in test else {}
-            cells = cells_of(config, columns, test, method, read[test["scenario"]], printed)
-            rows.append(TableRow(tuple(test["labels"]), tuple(cells)))
+            own = [score for score in read[run[0]] if (score.scenario, score.level, score.method) == run]
+            numbers = {
+                column: cell_of(config, column, run, metric, own, printed.get(column.name)) for column in columns
+            }
+            rows.append(TableRow(tuple(test["labels"]), run, metric, numbers))
     return rows
 
 
-def cells_of(
-    config: Mapping[str, Any],
-    columns: Sequence[Column],
-    test: Mapping[str, Any],
-    method: str,
-    scores: Sequence[Score],
-    printed: Mapping[str, float | None],
-) -> Iterator[Cell]:
-    """Yield the cells [N m] of a method in a test, column by column; without a number where a run has too few pushes.
+def cell_of(
+    config: Mapping[str, Any], column: Column, run: tuple[str, str, str], metric: str, scores: Sequence[Score],
+    published: float | None,
+) -> Number:  # fmt: skip
+    """Return the number of a column [N m] over the runs of a method in a test; none where a run has too few pushes.
 
     Raises:
         DataError: a run is missing.
     """
-    run = (test["scenario"], test["level"], method)
-    own = [score for score in scores if (score.scenario, score.level, score.method) == run]
-    held = {score.metric for score in own}
-    for column in columns:
-        metrics, known = column.metrics or (test.get("metric", METRIC),), printed.get(column.name)
-        what = (*run, column.name)
-        if held and not held.issuperset(metrics):
-            yield Cell(*what, 0, "+".join(metrics), None, None, None, column.unit, known)
-            continue
-        wanted = [Wanted(run[0], limb, *run[1:], joint, metric) for limb, joint in column.joints for metric in metrics]
-        ours = summarise([run_grid(own, each) for each in wanted], config, mean)
-        yield Cell(
-            *what, ours.count, "+".join(metrics), ours.value, ours.low, ours.high, unit_of(own, wanted[0]), known
-        )
+    metrics, held = column.metrics or (metric,), {score.metric for score in scores}
+    if held and not held.issuperset(metrics):
+        return Number(None, unit=column.unit, published=published)
+    wanted = [Wanted(run[0], limb, *run[1:], joint, name) for limb, joint in column.joints for name in metrics]
+    return number_of(scores, wanted, config, published=published)
+
+
+def header_of(row: TableRow, look: Look) -> list[str]:
+    """Return the heads of the columns; where torques [N m] and forces stand side by side, forces have their unit."""
+    units = {column.name: number.unit for column, number in row.numbers.items()}
+    mixed = len(set(units.values())) > 1
+    return [*look.header, "Method", "", *(f"{name} [N]" if mixed and units[name] == "N" else name for name in units)]
+
+
+def table_lines(rows: Sequence[TableRow], look: Look, stacked: bool = False) -> list[Line]:
+    """Return the lines of text, row by row; a rule stands where the first label changes.
+
+    Args:
+        rows: methods in tests, numbers in [N m].
+        look: how they are laid out.
+        stacked: whether the ends of an interval stand one below the other.
+    """
+    blocks, over = [], None
+    for row in rows:
+        blocks.append((row.labels, row_lines(row, over, look, stacked)))
+        if look.floor and row.run[1:] == (look.floor["level"], look.floor["method"]):
+            over = row
+    return in_blocks(blocks, nested=True)
+
+
+def row_lines(row: TableRow, over: TableRow | None, look: Look, stacked: bool) -> list[list[str]]:
+    """Return a method's lines [N m]: ours, then its interval and the paper's numbers, if there are any."""
+    ours, share = list(row.numbers.values()), f"{look.confidence:.0%}"
+    lines = [[OURS[look.robot], *with_increase(row, over, "value")]]
+    if any(number.low is not None for number in ours):
+        lines += [
+            [f"{share} from", *(number_text(number.low) for number in ours)],
+            [f"{share} to", *(number_text(number.high) for number in ours)],
+        ] if stacked else [[share, *(number.interval() for number in ours)]]  # fmt: skip
+    if any(number.published is not None for number in ours):
+        lines.append([PAPER[look.robot], *with_increase(row, over, "published")])
+    method = look.names.get(row.run[2], row.run[2])
+    return [["" if k else method, *line] for k, line in enumerate(lines)]
+
+
+def with_increase(row: TableRow, over: TableRow | None, name: str) -> list[str]:
+    """Return the numbers of a row [N m]; its average carries the increase over a floor, as the paper prints it."""
+    texts = []
+    for column, number in row.numbers.items():
+        value, base = getattr(number, name), over and getattr(over.numbers[column], name)
+        texts.append(number_text(value))
+        if column.name == AVERAGE and value is not None and base is not None:
+            texts[-1] += f" ({value - base:+.2f})"
+    return texts

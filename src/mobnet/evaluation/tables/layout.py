@@ -1,9 +1,21 @@
-"""Tables as TeX and Markdown text. Only booktabs is needed in TeX, and longtable for a table of several pages."""
+"""The one writer of tables: all numbers as CSV, and what a reader sees as TeX and Markdown.
+
+In TeX only booktabs is needed, and longtable for a table of several pages.
+"""
 
 from __future__ import annotations
 
+import logging
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from mobnet.core.files import write_text
+from mobnet.evaluation.number.files import Field, write_csv
+from mobnet.evaluation.number.number import Number
+
+log = logging.getLogger(__name__)
 
 TEX_SPECIAL = {
     "\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "$": r"\$", "#": r"\#", "_": r"\_", "{": r"\{", "}": r"\}",
@@ -15,6 +27,71 @@ RULE = r"\midrule"
 GAP = r"\addlinespace"
 
 Line = Sequence[str] | str  # cells of a row, or a rule or a gap between rows
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table as its three files hold it.
+
+    Attributes:
+        columns: names of the columns of the CSV file.
+        rows: its rows.
+        header: heads of the columns that a reader sees.
+        lines: rows of text below them, `RULE` or `GAP`.
+        left: leading columns that are set flush left; the others hold numbers and are set flush right.
+        align: TeX column specification where it is another one.
+        note: text below the table.
+    """
+
+    columns: Sequence[str]
+    rows: Iterable[Sequence[Field]]
+    header: Sequence[str]
+    lines: Sequence[Line]
+    left: int = 1
+    align: str = ""
+    note: str = ""
+
+
+def write_table(stem: Path, table: Table, tex: str = "") -> None:
+    """Write a table as `stem.csv`, .tex and .md; `tex` takes the place of one tabular environment of plain text."""
+    align = table.align or "l" * table.left + "r" * (len(table.header) - table.left)
+    tabular = tex or text_table(align, table.header, table.lines)
+    markdown = markdown_table(table.header, table.lines, table.left)
+    write_csv(stem.with_suffix(".csv"), table.columns, table.rows)
+    write_text(stem.with_suffix(".tex"), tabular + (note_tex(table.note) if table.note else ""))
+    write_text(stem.with_suffix(".md"), markdown + (f"\n{table.note}\n" if table.note else ""))
+    log.info("%s.csv: %d lines of text", stem, len(table.lines))
+
+
+def in_blocks(blocks: Iterable[tuple[Sequence[str], Sequence[Sequence[str]]]], *, nested: bool = False) -> list[Line]:
+    """Return the lines of blocks, the labels of a block before its first line and a rule between blocks.
+
+    Args:
+        blocks: labels (k,), and the cells of each line after the labels.
+        nested: whether a label is left out while it and those before it stay the same; while the first one does, blocks
+            have a gap between them instead of a rule.
+    """
+    lines: list[Line] = []
+    before: Sequence[str] = ()
+    for labels, own in blocks:
+        if lines:
+            lines.append(GAP if nested and labels[:1] == before[:1] else RULE)
+        same = [nested and labels[: k + 1] == before[: k + 1] for k in range(len(labels))]
+        first = ["" if repeated else label for label, repeated in zip(labels, same, strict=True)]
+        lines += [[*([""] * len(labels) if k else first), *cells] for k, cells in enumerate(own)]
+        before = labels
+    return lines
+
+
+def with_intervals(
+    labels: Sequence[str], numbers: Sequence[Number], confidence: float, digits: int = 2
+) -> list[list[str]]:
+    """Return a line of numbers and, where there are any, one of their intervals; `confidence` is a share [-]."""
+    lines = [[*labels, *(number.text(digits) for number in numbers)]]
+    if any(number.low is not None for number in numbers):
+        blank = [""] * (len(labels) - 1)
+        lines.append([*blank, f"{confidence:.0%}", *(number.interval(digits) for number in numbers)])
+    return lines
 
 
 def tex_escape(text: str) -> str:
@@ -74,11 +151,6 @@ def markdown_table(header: Sequence[str], lines: Sequence[Line], left: int = 1) 
     return "".join("| " + " | ".join(cell.replace("|", r"\|") for cell in row) + " |\n" for row in rows)
 
 
-def number(value: float | None, digits: int = 2) -> str:
-    """Return a number with fixed digits and no minus before zero, or a dash where there is none."""
-    return "-" if value is None else f"{round(value, digits) + 0.0:.{digits}f}"
-
-
-def span(low: float | None, high: float | None, digits: int = 2) -> str:
-    """Return an interval in brackets, or nothing where there is none."""
-    return "" if low is None or high is None else f"[{number(low, digits)}, {number(high, digits)}]"
+def note_tex(note: str) -> str:
+    """Return a note to stand under a table."""
+    return rf"\par\smallskip\parbox{{\linewidth}}{{\raggedright {tex_escape(note)}}}" + "\n"

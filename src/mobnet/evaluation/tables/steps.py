@@ -2,49 +2,36 @@
 
 from __future__ import annotations
 
-import logging
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import astuple, dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from mobnet.core.files import write_text
+from mobnet.core.columns import STEPS
 from mobnet.core.recording import COMMAND
-from mobnet.evaluation.measure.steps import (
-    UNITS,
-    Sets,
-    Steps,
-    bin_edges,
-    bin_of,
-    read_sets,
-)
-from mobnet.evaluation.number.rows import write_rows
-from mobnet.evaluation.tables.layout import RULE, Line, markdown_table, number, text_table
+from mobnet.evaluation.measure.steps import UNITS, Sets, Steps, bin_edges, bin_of, read_sets
+from mobnet.evaluation.number.number import number_text
+from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
 
-log = logging.getLogger(__name__)
+HEADER = ["Set", "Command", "from", "to", "Steps", "Commanded", "Measured", "Ratio", "Within"]
 
 
 @dataclass(frozen=True)
 class Followed:
-    """What came of a command: a row of steps.csv.
+    """What came of a command.
 
     Attributes:
-        set: data set.
-        command: quantity of Table 2.
-        bin_from: lower end of the bin [unit].
-        bin_to: upper end of the bin [unit].
+        bin_from: lower end of the bin [unit of the command].
+        bin_to: upper end of the bin [unit of the command].
         count: steps of the foot that leads.
-        commanded: mean [unit].
-        measured: mean [unit].
-        ratio: measured over commanded [-]; None in a bin around zero.
-        within: share of the steps that lie within the tolerance of their own command [-]; None in a bin around zero.
-        unit: unit of the numbers.
+        commanded: mean [unit of the command].
+        measured: mean [unit of the command].
+        ratio: measured over commanded; None in a bin around zero.
+        within: share of the steps that lie within the tolerance of their own command; None in a bin around zero.
     """
 
-    set: str
-    command: str
     bin_from: float
     bin_to: float
     count: int
@@ -52,7 +39,14 @@ class Followed:
     measured: float
     ratio: float | None
     within: float | None
-    unit: str
+
+    def texts(self, digits: int) -> list[str]:
+        """Return the row of text."""
+        low, high, given, made = (
+            number_text(value, digits) for value in (self.bin_from, self.bin_to, self.commanded, self.measured)
+        )
+        within = "-" if self.within is None else f"{self.within:.0%}"
+        return [low, high, str(self.count), given, made, number_text(self.ratio), within]
 
 
 def steps(config: Mapping[str, Any], sets: Sets, out_dir: Path) -> None:
@@ -66,47 +60,34 @@ def steps(config: Mapping[str, Any], sets: Sets, out_dir: Path) -> None:
     Raises:
         DataError: a file is missing, or a set holds no step.
     """
-    rows = []
-    for name, found in read_sets(config, sets).items():
-        for column in range(found.measured.shape[1]):
-            rows += followed(config, name, found, column)
-    header = ["Set", "Command", "from", "to", "Steps", "Commanded", "Measured", "Ratio", "Within"]
-    lines = followed_lines(rows)
-    write_rows(out_dir / "steps.csv", Followed, rows)
-    write_text(out_dir / "steps.tex", text_table("llrrrrrrr", header, lines))
-    write_text(out_dir / "steps.md", markdown_table(header, lines, left=2))
-    log.info("%s: %d bins", out_dir / "steps.csv", len(rows))
+    rows = {
+        (name, column): list(followed(config, found, column))
+        for name, found in read_sets(config, sets).items()
+        for column in range(found.measured.shape[1])
+    }
+    records = [
+        (name, COMMAND[column][0], *astuple(row), UNITS[column]) for (name, column), own in rows.items() for row in own
+    ]
+    lines = in_blocks(
+        (
+            [name, f"{COMMAND[column][0].replace('_', ' ')} [{UNITS[column]}]"],
+            [row.texts(1 if UNITS[column] == "deg" else 3) for row in own],
+        )
+        for (name, column), own in rows.items()
+    )
+    write_table(out_dir / "steps", Table(STEPS, records, HEADER, lines, left=2))
 
 
-def followed(config: Mapping[str, Any], name: str, found: Steps, column: int) -> list[Followed]:
-    """Return the rows of one command in one set, empty bins left out."""
+def followed(config: Mapping[str, Any], found: Steps, column: int) -> Iterator[Followed]:
+    """Yield the rows of one command in one set, empty bins left out."""
     settings = config["evaluation"]["steps"]
     edges = bin_edges(config, column, settings["bins"])
     follows = found.follows(column)
     wanted, got = found.commanded[follows, column], found.measured[follows, column]
     where, near = bin_of(wanted, edges), np.abs(got - wanted) <= settings["tolerance"] * np.abs(wanted)
-    rows = []
     for k in np.unique(where):
         own, low, high = where == k, float(edges[k]), float(edges[k + 1])
         means = float(wanted[own].mean()), float(got[own].mean())
         clear = low * high >= 0.0  # a bin around zero has no meaningful ratio
         ratios = (means[1] / means[0], float(near[own].mean())) if clear else (None, None)
-        rows.append(Followed(name, COMMAND[column][0], low, high, int(own.sum()), *means, *ratios, UNITS[column]))
-    return rows
-
-
-def followed_lines(rows: Sequence[Followed]) -> list[Line]:
-    """Return the rows of text, a rule between commands."""
-    lines: list[Line] = []
-    before = None
-    for row in rows:
-        first = (row.set, row.command) != before
-        if first and before is not None:
-            lines.append(RULE)
-        before = row.set, row.command
-        digits = 1 if row.unit == "deg" else 3
-        within = "-" if row.within is None else f"{row.within:.0%}"
-        names = [row.set, f"{row.command.replace('_', ' ')} [{row.unit}]"] if first else ["", ""]
-        numbers = [number(value, digits) for value in (row.bin_from, row.bin_to, row.commanded, row.measured)]
-        lines.append([*names, *numbers[:2], str(row.count), *numbers[2:], number(row.ratio), within])
-    return lines
+        yield Followed(low, high, int(own.sum()), *means, *ratios)

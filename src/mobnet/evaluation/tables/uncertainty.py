@@ -2,51 +2,23 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.core.columns import UNCERTAINTY
 from mobnet.core.config import load_layout, read_yaml
 from mobnet.core.errors import ConfigError
-from mobnet.core.files import write_text
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
-from mobnet.evaluation.number.rows import write_rows
-from mobnet.evaluation.tables.layout import RULE, Line, markdown_table, number, tex_escape, text_table
-
-log = logging.getLogger(__name__)
+from mobnet.evaluation.number.number import number_text
+from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
 
 RESIDUAL, TRUTH = "r.", "tau_ext_lp."  # columns of a residual file
-
-
-@dataclass(frozen=True)
-class Size:
-    """Size of one joint's uncertainty torque: a row of uncertainty.csv.
-
-    Attributes:
-        limb: limb of section 4.1.
-        joint: joint.
-        set: training set that the limb's network learns from.
-        value: standard deviation of r - tau_ext_lp, the target of section 4.2.3 [unit].
-        unit: unit of the number.
-        published: the robot's standard deviation [unit]; None where it is not known.
-        ratio: ours over the robot's [-]; None where that is not known.
-        within: `yes` or `no`: the ratio lies within the bounds; empty where none are set.
-    """
-
-    limb: str
-    joint: str
-    set: str
-    value: float
-    unit: str
-    published: float | None
-    ratio: float | None
-    within: str
+HEADER = ["Limb", "Joint", "Set", "Unit", "Simulated", "Robot", "Ratio", "In bounds"]
 
 
 def uncertainty(config: Mapping[str, Any], sets: Mapping[str, Sequence[str]], out_dir: Path) -> None:
@@ -64,22 +36,21 @@ def uncertainty(config: Mapping[str, Any], sets: Mapping[str, Sequence[str]], ou
     """
     layout = load_layout(Path(config["robot"]))
     settings, entry = config["evaluation"]["uncertainty"], read_sizes(Path(config["published"]), layout)
-    rows: list[Size] = []
-    limbs = [name for name in config["networks"] if name in layout.groups]  # not those that hold several
-    for limb in limbs:
+    records, blocks = [], []
+    for limb in (name for name in config["networks"] if name in layout.groups):  # not those that hold several
         name, joints = config["networks"][limb]["data"], layout.limb(limb)
-        values = target_std(list(map(Path, sets[name])), joints)
+        values = target_std(list(map(Path, sets[name])), joints).tolist()
         known = entry["std"].get(limb, [None] * len(joints))
-        for joint, value, theirs in zip(joints, values.tolist(), known, strict=True):
-            ratio = None if theirs is None else value / theirs
+        lines = []
+        for joint, value, theirs in zip(joints, values, known, strict=True):
+            ratio, unit = None if theirs is None else value / theirs, layout.unit(joint)
             within = verdict(ratio, settings["ratio"].get(limb))
-            rows.append(Size(limb, joint, name, value, layout.unit(joint), theirs, ratio, within))
-    header = ["Limb", "Joint", "Set", "Unit", "Simulated", "Robot", "Ratio", "In bounds"]
-    lines, note = size_lines(rows), entry["note"]
-    write_rows(out_dir / "uncertainty.csv", Size, rows)
-    write_text(out_dir / "uncertainty.tex", text_table("llllrrrl", header, lines) + note_tex(note))
-    write_text(out_dir / "uncertainty.md", markdown_table(header, lines, left=4) + f"\n{note}\n")
-    log.info("%s: %d joints", out_dir / "uncertainty.csv", len(rows))
+            records.append((limb, joint, name, value, unit, theirs, ratio, within))
+            texts = number_text(value, 1), number_text(theirs, 1), number_text(ratio)
+            lines.append([joint, "" if lines else name, unit, *texts, within])
+        blocks.append(([limb], lines))
+    table = Table(UNCERTAINTY, records, HEADER, in_blocks(blocks), left=4, align="llllrrrl", note=entry["note"])
+    write_table(out_dir / "uncertainty", table)
 
 
 def read_sizes(path: Path, layout: JointLayout) -> dict[str, Any]:
@@ -121,22 +92,3 @@ def verdict(ratio: float | None, bounds: Sequence[float] | None) -> str:
     if ratio is None or bounds is None:
         return ""
     return "yes" if bounds[0] <= ratio <= bounds[1] else "no"
-
-
-def size_lines(rows: Sequence[Size]) -> list[Line]:
-    """Return the rows of text, a rule between limbs."""
-    lines: list[Line] = []
-    before = ""
-    for row in rows:
-        first = row.limb != before
-        if first and before:
-            lines.append(RULE)
-        before = row.limb
-        names = [row.limb if first else "", row.joint, row.set if first else "", row.unit]
-        lines.append([*names, number(row.value, 1), number(row.published, 1), number(row.ratio), row.within])
-    return lines
-
-
-def note_tex(note: str) -> str:
-    """Return a note to stand under a table."""
-    return rf"\par\smallskip\parbox{{\linewidth}}{{\raggedright {tex_escape(note)}}}" + "\n"

@@ -12,35 +12,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from mobnet.evaluation.figures.drawing.lines import (
-    LEGEND,
-    stacked,
-)
-from mobnet.evaluation.figures.style import COLOURS, STYLE, legend
+from mobnet.evaluation.figures.drawing.lines import LEGEND, LEGEND_INCH, PANEL_INCH
+from mobnet.evaluation.figures.style import STYLE, entitle, legend, looks, stacked
+from mobnet.evaluation.number.number import Number
 
-SHADES = ("#D55E00", "#56B4E9", "#E69F00", "#009E73")  # of methods without a colour of their own
-HATCHES = ("", "////", "xxxx", "....")
 BAR_SHARE = 0.8  # of the distance between two groups of bars
 NOTE_POINTS = 6.0  # size of a note
 NOTE_ROOM = {0: 0.15, 90: 0.6}  # angle of notes [deg] -> room for them above the highest bar, as a share of it [-]
 PAPER = {"marker": "D", "markersize": 3.5, "color": "white", "markeredgecolor": "black", "markeredgewidth": 0.8}
-
-
-def draw_bars(panels: Sequence[BarPanel], y_label: str) -> Figure:
-    """Draw groups of bars, a bar a method with its interval, a panel a test (Figure 18).
-
-    Args:
-        panels: heights (n,) [N m] and intervals (2, n) [N m].
-        y_label: name and unit of the heights.
-    """
-    with mpl.rc_context({**STYLE, "hatch.linewidth": 0.5}):
-        figure, axes = stacked(len(panels))
-        for letter, axis, panel in zip("abcdefgh", axes, panels, strict=False):
-            draw_bar_panel(axis, panel)
-            axis.set(ylabel=y_label)
-            axis.set_title(f"({letter}) {panel.title}", loc="left", pad=3)
-        legend(figure, axes, **LEGEND)
-    return figure
 
 
 @dataclass(frozen=True)
@@ -50,46 +29,71 @@ class BarPanel:
     Attributes:
         title: the test.
         groups: names of the groups of bars (n,).
-        heights: method -> height of its bar in each group (n,) [N m].
-        spans: method -> ends of the intervals (2, n) [N m]; equal to the height where there is none.
-        published: method -> the paper's number in each group (n,) [N m]; nan where it prints none.
-        source: name of those numbers in the legend.
+        bars: method -> its number in each group, with its interval and the paper's number (n,) [N m].
+        source: name of the paper's numbers in the legend.
         notes: method -> what is written above its bar in each group (n,).
     """
 
     title: str
     groups: Sequence[str]
-    heights: Mapping[str, NDArray[Any]]
-    spans: Mapping[str, NDArray[Any]]
-    published: Mapping[str, NDArray[Any]] = field(default_factory=dict)
+    bars: Mapping[str, Sequence[Number]]
     source: str = "paper"
     notes: Mapping[str, Sequence[str]] = field(default_factory=dict)
 
 
+def draw_bars(panels: Sequence[BarPanel], y_label: str) -> Figure:
+    """Draw groups of bars, a bar a method with its interval, a panel a test (Figure 18).
+
+    Args:
+        panels: numbers and intervals [N m].
+        y_label: name and unit of the heights.
+    """
+    with mpl.rc_context(STYLE):
+        figure, axes = stacked(len(panels), PANEL_INCH, LEGEND_INCH)
+        for k, (axis, panel) in enumerate(zip(axes, panels, strict=True)):
+            draw_bar_panel(axis, panel)
+            axis.set(ylabel=y_label)
+            entitle(axis, k, panel.title)
+        legend(figure, axes, **LEGEND)
+    return figure
+
+
 def draw_bar_panel(axis: Axes, panel: BarPanel, note_deg: int = 0) -> None:
-    """Draw a panel's bars (n,) [N m] side by side in their groups; `note_deg` is the angle of its notes [deg]."""
-    places, width = np.arange(len(panel.groups)), BAR_SHARE / max(1, len(panel.heights))
-    for k, (method, heights) in enumerate(panel.heights.items()):
-        x = places + (k - (len(panel.heights) - 1) / 2) * width
-        low, high = panel.spans[method]
+    """Draw a panel's bars [N m] side by side in their groups; `note_deg` is the angle of its notes [deg]."""
+    places, width = np.arange(len(panel.groups)), BAR_SHARE / max(1, len(panel.bars))
+    styles = looks(panel.bars)
+    for k, (method, numbers) in enumerate(panel.bars.items()):
+        x = places + (k - (len(panel.bars) - 1) / 2) * width
+        heights, low, high, published = columns_of(numbers)
         axis.bar(
-            x, heights, width, label=method, hatch=HATCHES[k % len(HATCHES)], edgecolor="black", linewidth=0.4,
-            color=COLOURS.get(method, SHADES[k % len(SHADES)]),
-            yerr=[heights - low, high - heights], error_kw={"linewidth": 0.8, "capsize": 2.0},
+            x, heights, width, label=method, hatch=styles[method].hatch, edgecolor="black", linewidth=0.4,
+            color=styles[method].colour, yerr=[heights - low, high - heights],
+            error_kw={"linewidth": 0.8, "capsize": 2.0},
         )  # fmt: skip
-        if np.isfinite(panel.published.get(method, np.nan)).any():
-            axis.plot(x + width / 4, panel.published[method], linestyle="", label=panel.source, zorder=4, **PAPER)
+        if np.isfinite(published).any():
+            axis.plot(x + width / 4, published, linestyle="", label=panel.source, zorder=4, **PAPER)
         if method in panel.notes:
             _notes(axis, x, panel, method, note_deg)
     axis.set_xticks(places, panel.groups)
     axis.tick_params(axis="x", length=0.0)
 
 
+def columns_of(numbers: Sequence[Number]) -> NDArray[np.float64]:
+    """Return value, lower and upper end and the paper's number (4, n) [N m], nan where it prints none.
+
+    Where there is no interval, its ends are the value.
+    """
+    rows = [
+        (number.value, *((number.value,) * 2 if number.low is None else (number.low, number.high)), number.published)
+        for number in numbers
+    ]
+    return np.array(rows, dtype=np.float64).reshape(-1, 4).T
+
+
 def _notes(axis: Axes, x: NDArray[Any], panel: BarPanel, method: str, angle_deg: int) -> None:
-    """Write a method's notes at places (n,) [-]: above its bars, or, at an angle [deg], above all bars of the group."""
-    ends = panel.spans if angle_deg else {method: panel.spans[method]}
-    marks = [panel.published[name] for name in ends if name in panel.published]
-    tops = np.nanmax([*(high for _, high in ends.values()), *marks], axis=0)
+    """Write a method's notes at places (n,): above its bars, or, at an angle [deg], above all bars of the group."""
+    below = [columns_of(numbers)[2:] for name, numbers in panel.bars.items() if angle_deg or name == method]
+    tops = np.nanmax(np.concatenate(below), axis=0)
     for place, top, note in zip(x, tops, panel.notes[method], strict=True):
         axis.annotate(
             note, (place, top), (0.0, 4.0), textcoords="offset points", fontsize=NOTE_POINTS, rotation=angle_deg,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -13,20 +12,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from mobnet.core.files import write_text
 from mobnet.evaluation.figures.style import (
     COLUMN_INCH,
-    LETTERS,
     PAGE_INCH,
     STYLE,
+    entitle,
     legend,
-    look_of,
+    looks,
     save_figure,
-)
+)  # fmt: skip
 from mobnet.evaluation.measure.curves import Panel
-from mobnet.evaluation.number.rows import csv_text
-
-log = logging.getLogger(__name__)
+from mobnet.evaluation.number.files import write_csv
 
 FLAGS: Mapping[str, tuple[float, Mapping[str, Any]]] = {  # name -> lower edge of the mark on the panel [-], its look
     "swing": (0.0, {"color": "#009E73", "alpha": 0.15}),
@@ -39,14 +35,9 @@ SIDE_BY_SIDE, HEIGHT_INCH = 3, 1.5  # panels of a leg's joints
 
 
 def draw_panels(
-    panels: Sequence[Panel],
-    x_label: str,
-    y_label: str,
-    columns: int = 1,
-    *,
-    height_inch: float = PANEL_INCH,
+    panels: Sequence[Panel], x_label: str, y_label: str, columns: int = 1, *, height_inch: float = PANEL_INCH,
     one_scale: bool = False,
-) -> Figure:
+) -> Figure:  # fmt: skip
     """Draw panels in rows, one column of the paper wide or, with several side by side, two (Figures 5, 7, 8 and 9).
 
     Args:
@@ -65,9 +56,9 @@ def draw_panels(
         axes: list[Axes] = grid.ravel().tolist()
         for spare in axes[len(panels) :]:
             spare.set_visible(False)
-        for letter, axis, panel in zip(LETTERS, axes, panels, strict=False):
+        for k, (axis, panel) in enumerate(zip(axes, panels, strict=False)):
             draw_panel(axis, panel)
-            axis.set_title(f"({letter}) {panel.title}", loc="left", pad=3)
+            entitle(axis, k, panel.title)
         axes[0].set_xlim(min(panel.time[0] for panel in panels), max(panel.time[-1] for panel in panels))
         figure.supxlabel(x_label, fontsize=STYLE["axes.labelsize"])
         figure.supylabel(y_label, fontsize=STYLE["axes.labelsize"])
@@ -79,24 +70,31 @@ def draw_panel(axis: Axes, panel: Panel) -> None:
     """Draw the curves (T,) [N m] of one panel with their bands, and mark where its flags hold."""
     across = axis.get_xaxis_transform()
     for name, flags in panel.flags.items():
-        bottom, look = FLAGS[name]
+        bottom, mark = FLAGS[name]
         if np.any(flags):
             axis.fill_between(
-                panel.time, bottom, 1.0, where=flags.astype(bool), transform=across, linewidth=0.0, label=name, **look
+                panel.time, bottom, 1.0, where=flags.astype(bool), transform=across, linewidth=0.0, label=name, **mark
             )
+    styles = looks(curve.label for curve in panel.curves)
     for curve in panel.curves:
-        look = look_of(curve.label)
-        axis.plot(panel.time, curve.values, label=curve.label, **look)
+        look = styles[curve.label]
+        axis.plot(panel.time, curve.values, label=curve.label, **look.line)
         if curve.std is not None:
             low, high = curve.values - curve.std, curve.values + curve.std
             axis.fill_between(
-                panel.time, low, high, color=look["color"], alpha=BAND_ALPHA, linewidth=0.0, zorder=1.5,
+                panel.time, low, high, color=look.colour, alpha=BAND_ALPHA, linewidth=0.0, zorder=1.5,
                 label=f"{curve.label} \N{PLUS-MINUS SIGN} 1 std",
             )  # fmt: skip
 
 
+def save_leg(panels: Sequence[Panel], y_label: str, stem: Path) -> None:
+    """Write a leg's panels [N m] as CSV, PDF and PNG."""
+    write_panels(stem.with_suffix(".csv"), panels)
+    save_figure(draw_panels(panels, FROM_LIFT_OFF, y_label, SIDE_BY_SIDE, height_inch=HEIGHT_INCH), stem)
+
+
 def write_panels(path: Path, panels: Sequence[Panel]) -> None:
-    """Write the plotted numbers as CSV, a row a panel and sample: time [s], flags [-], curves [N m], V1..V3 [N].
+    """Write the plotted numbers as CSV, a row a panel and sample: time [s], flags, curves [N m], V1..V3 [N].
 
     A curve that another panel has and this one has not leaves its field empty.
     """
@@ -106,21 +104,14 @@ def write_panels(path: Path, panels: Sequence[Panel]) -> None:
     for panel, own in zip(panels, columns, strict=True):
         values = [own[name].tolist() if name in own else [None] * len(panel.time) for name in names]
         rows += [(panel.title, *row) for row in zip(*values, strict=True)]
-    write_text(path, csv_text(["panel", *names], rows))
+    write_csv(path, ["panel", *names], rows)
 
 
 def columns_of(panel: Panel) -> dict[str, NDArray[Any]]:
-    """Return name -> plotted numbers (T,): time [s], flags [-], curves and their deviations [N m], V1..V3 [N]."""
+    """Return name -> plotted numbers (T,): time [s], flags, curves and their deviations [N m], V1..V3 [N]."""
     columns = {"time_s": panel.time, **{name: flags.astype(np.int64) for name, flags in panel.flags.items()}}
     for curve in panel.curves:
         columns[curve.label] = curve.values
         if curve.std is not None:
             columns[f"{curve.label} std"] = curve.std
     return columns
-
-
-def save_leg(panels: Sequence[Panel], y_label: str, stem: Path) -> None:
-    """Write a leg's panels [N m] as CSV, PDF and PNG."""
-    write_panels(stem.with_suffix(".csv"), panels)
-    save_figure(draw_panels(panels, FROM_LIFT_OFF, y_label, SIDE_BY_SIDE, height_inch=HEIGHT_INCH), stem)
-    log.info("%s.pdf: %d panels", stem, len(panels))

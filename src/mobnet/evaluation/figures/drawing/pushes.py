@@ -2,107 +2,71 @@
 
 from __future__ import annotations
 
-import logging
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from mobnet.core.columns import PUSH_ERRORS
 from mobnet.evaluation.figures.drawing.bars import BarPanel, draw_bar_panel
 from mobnet.evaluation.figures.drawing.curves import LEGEND_INCH, draw_panel, write_panels
-from mobnet.evaluation.figures.style import COLUMN_INCH, LETTERS, PAGE_INCH, STYLE, legend, save_figure
+from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, STYLE, entitle, legend, save_figure
 from mobnet.evaluation.measure.curves import Panel
-from mobnet.evaluation.measure.pushes import (
-    INCREASE,
-    PushError,
-)
-from mobnet.evaluation.number.rows import write_rows
-
-log = logging.getLogger(__name__)
+from mobnet.evaluation.measure.pushes import INCREASE, PushErrors
+from mobnet.evaluation.number.files import write_csv
 
 MINUS = "\N{MINUS SIGN}"
 CURVES_INCH, BARS_INCH = 1.4, 1.7  # height of a row of curves and of the bars
 LEGEND_COLUMNS = 4  # entries in a row, in one column of the paper
 
 
-def bar_panel(title: str, errors: Sequence[PushError], source: str = "paper") -> BarPanel:
-    """Return a panel: a group for each push and for what is made of all, in each a bar a method [N m].
-
-    Args:
-        title: of the panel.
-        errors: method by method, those of an increase last.
-        source: name of the paper's numbers.
-    """
-    shown = [error for error in errors if error.push != INCREASE]
-    rows = by_method(shown)
-    return BarPanel(
-        title,
-        list(dict.fromkeys(error.push for error in shown)),
-        {method: np.array([error.rmse_nm for error in row]) for method, row in rows.items()},
-        {method: spans_of(row) for method, row in rows.items()},
-        {method: printed_of(row) for method, row in rows.items()},
-        source,
-        {method: notes_of(row) for method, row in by_method(errors).items()},
-    )
-
-
-def by_method(errors: Iterable[PushError]) -> dict[str, list[PushError]]:
-    """Return method -> its errors, in order."""
-    rows: dict[str, list[PushError]] = {}
-    for error in errors:
-        rows.setdefault(error.method, []).append(error)
-    return rows
-
-
-def spans_of(errors: Sequence[PushError]) -> NDArray[np.float64]:
-    """Return the ends of errors' intervals (2, n) [N m], the error itself where it has none."""
-    ends = [(e.rmse_nm, e.rmse_nm) if e.low is None or e.high is None else (e.low, e.high) for e in errors]
-    return np.array(ends).T
-
-
-def printed_of(errors: Sequence[PushError]) -> NDArray[np.float64]:
-    """Return the paper's numbers (n,) [N m]; nan where it prints none."""
-    return np.array([np.nan if error.published is None else error.published for error in errors])
-
-
-def notes_of(errors: Sequence[PushError]) -> list[str]:
-    """Return what stands above a method's bars: at the last its error [N m] and, if that is known, its increase."""
-    *own, last = errors
-    text = f"{last.rmse_nm:.1f}"
-    if last.push == INCREASE:
-        *own, average = own
-        text = f"{average.rmse_nm:.1f} ({last.rmse_nm:+.1f})"
-    return [""] * len(own) + [text.replace("-", MINUS)]
-
-
-def save_pushes(
-    groups: Sequence[PushGroup], errors: Sequence[PushError], settings: Mapping[str, Any], stem: Path
-) -> None:
-    """Write curves and errors [N m] as CSV, and the figure."""
-    across, note_deg = (1, 0) if len(groups) == 1 else (2, 90)
-    write_panels(stem.with_suffix(".csv"), [panel for group in groups for panel in group.panels])
-    write_rows(stem.with_name(f"{stem.name}_bars.csv"), PushError, errors)
-    save_figure(draw_pushes(groups, settings["joint"], across, note_deg), stem)
-    log.info("%s.pdf: %d errors", stem, len(errors))
-
-
 @dataclass(frozen=True)
 class PushGroup:
-    """Curves of some pushes and the bars of their errors.
+    """Curves of some pushes and their errors.
 
     Attributes:
+        scenario: the test.
         panels: a push each.
-        bars: errors.
+        errors: of each method [N m].
+        title: of the errors' panel.
+        source: name of the paper's numbers.
     """
 
+    scenario: str
     panels: Sequence[Panel]
-    bars: BarPanel
+    errors: PushErrors
+    title: str
+    source: str = "paper"
+
+    def bars(self) -> BarPanel:
+        """Return the errors as bars: a group for each push and for what is made of all, in each a bar a method [N m].
+
+        Above the last bar of a method stands its error and, where it is known, the increase.
+        """
+        shown = {method: {k: n for k, n in own.items() if k != INCREASE} for method, own in self.errors.items()}
+        notes = {}
+        for method, own in self.errors.items():
+            *_, last = shown[method].values()
+            more = f" ({own[INCREASE].value:+.1f})" if INCREASE in own else ""
+            notes[method] = [""] * (len(shown[method]) - 1) + [(last.text(1) + more).replace("-", MINUS)]
+        groups = list(dict.fromkeys(push for own in shown.values() for push in own))
+        return BarPanel(self.title, groups, {k: list(own.values()) for k, own in shown.items()}, self.source, notes)
+
+
+def save_pushes(groups: Sequence[PushGroup], joint: str, stem: Path) -> None:
+    """Write curves and errors [N m] as CSV, and the figure."""
+    rows = [
+        (group.scenario, method, push, error.runs, *error.with_ends, error.published)
+        for group in groups for method, own in group.errors.items() for push, error in own.items()
+    ]  # fmt: skip
+    across, note_deg = (1, 0) if len(groups) == 1 else (2, 90)
+    write_panels(stem.with_suffix(".csv"), [panel for group in groups for panel in group.panels])
+    write_csv(stem.with_name(f"{stem.name}_bars.csv"), PUSH_ERRORS, rows)
+    save_figure(draw_pushes(groups, joint, across, note_deg), stem)
 
 
 def draw_pushes(groups: Sequence[PushGroup], joint: str, across: int = 1, note_deg: int = 0) -> Figure:
@@ -119,18 +83,18 @@ def draw_pushes(groups: Sequence[PushGroup], joint: str, across: int = 1, note_d
         [f"{k}.{row * across + i}" for k in range(len(groups)) for i in range(across)] for row in range(rows)
     ]
     places.append([f"{k}.bars" for k in range(len(groups)) for _ in range(across)])
-    with mpl.rc_context({**STYLE, "hatch.linewidth": 0.5}):
+    with mpl.rc_context(STYLE):
         size = COLUMN_INCH if len(groups) == 1 else PAGE_INCH, CURVES_INCH * rows + BARS_INCH + LEGEND_INCH
         figure = Figure(figsize=size, layout="constrained")
         axes = figure.subplot_mosaic(places, height_ratios=[*[CURVES_INCH] * rows, BARS_INCH])
         for k, group in enumerate(groups):
             bars = axes[f"{k}.bars"]
-            draw_bar_panel(bars, group.bars, note_deg)
-            bars.set_title(f"({LETTERS[2 * k + 1]}) {group.bars.title}", loc="left", pad=3)
+            draw_bar_panel(bars, group.bars(), note_deg)
+            entitle(bars, 2 * k + 1, group.title)
             bars.set_ylabel("RMSE [N m]")
             curves = [axes[f"{k}.{i}"] for i in range(rows * across)]
             _curves(curves, group, across, joint)
-            curves[0].set_title(f"({LETTERS[2 * k]}) {curves[0].get_title(loc='left')}", loc="left", pad=3)
+            entitle(curves[0], 2 * k, curves[0].get_title(loc="left"))
         legend(figure, list(axes.values()), LEGEND_COLUMNS * len(groups))
     return figure
 

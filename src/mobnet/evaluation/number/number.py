@@ -1,0 +1,49 @@
+"""A number with its interval and what the paper prints, and how numbers are written."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number made of runs.
+
+    Attributes:
+        value: the number [unit]; None where there is none.
+        low: lower end of its interval, or the lowest run [unit]; None with a single run.
+        high: upper end of its interval, or the highest run [unit]; None with a single run.
+        runs: how many runs it is made of.
+        unit: unit of all of them.
+        published: the paper's number [unit]; None where it prints none.
+    """
+
+    value: float | None
+    low: float | None = None
+    high: float | None = None
+    runs: int = 0
+    unit: str = "-"
+    published: float | None = None
+
+    @property
+    def with_ends(self) -> tuple[float | None, float | None, float | None]:
+        """The number and the ends of its interval [unit]."""
+        return self.value, self.low, self.high
+
+    def text(self, digits: int = 2) -> str:
+        """Return the number as text."""
+        return number_text(self.value, digits)
+
+    def interval(self, digits: int = 2) -> str:
+        """Return the interval as text."""
+        return interval_text(self.low, self.high, digits)
+
+
+def number_text(value: float | None, digits: int = 2) -> str:
+    """Return a number with fixed digits and no minus before zero, or a dash where there is none."""
+    return "-" if value is None else f"{round(value, digits) + 0.0:.{digits}f}"
+
+
+def interval_text(low: float | None, high: float | None, digits: int = 2) -> str:
+    """Return an interval in brackets, or nothing where there is none."""
+    return "" if low is None or high is None else f"[{number_text(low, digits)}, {number_text(high, digits)}]"

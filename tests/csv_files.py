@@ -1,0 +1,30 @@
+"""CSV files in tests: rows as objects whose fields are numbers where they can be, None where they are empty."""
+
+import csv
+from collections.abc import Sequence
+from dataclasses import astuple, fields
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+from mobnet.core.columns import Score
+from mobnet.evaluation.number.files import write_csv
+
+
+def write_rows(path: Path, rows: Sequence[Any], kind: type[Any] = Score) -> None:
+    """Write dataclass rows, one column a field."""
+    write_csv(path, [field.name for field in fields(kind)], [astuple(row) for row in rows])
+
+
+def read_table(path: Path) -> list[SimpleNamespace]:
+    """Read a CSV file."""
+    with path.open(newline="", encoding="utf-8") as file:
+        return [SimpleNamespace(**{name: _value(text) for name, text in row.items()}) for row in csv.DictReader(file)]
+
+
+def _value(text: str) -> str | float | None:
+    """Return a field as a number if it is one, as None if it is empty."""
+    try:
+        return float(text) if text else None
+    except ValueError:
+        return text
