@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 from benchmarks.__main__ import Row, misses, table
-from benchmarks.jobs import CONFIG, Cost, run
+from benchmarks.jobs import ROOT, Cost, run
 
 from mobnet.core.config import FIRST_TRAINING_SEED, load_config
 from mobnet.core.files import read_json
@@ -29,6 +29,7 @@ from mobnet.evaluation.tables.data import commanded
 from mobnet.robot.description import load_robot
 from mobnet.robot.nominal import NominalModel
 
+CONFIG = ROOT / "configs" / "config.yaml"
 SETS = {"motion": "random_motion", "walk": "random_walk"}  # the slower one goes first
 SEEDS, SECONDS, PROCESSES = 6, 600.0, 2
 WALL_BAR_S, DISK_BAR_GB, MEMORY_BAR_MB, FALLS_BAR = 600.0, 4.0, 3000.0, 2.0

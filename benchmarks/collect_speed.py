@@ -9,7 +9,6 @@ repeats them to the bit. A fall counts against us: what is walked anew after it 
 
 from __future__ import annotations
 
-import copy
 import statistics
 import tempfile
 import time
@@ -20,13 +19,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.control.compiled import compiled
-from mobnet.core.config import FIRST_TRAINING_SEED, load_config
+from mobnet.plan.jobs import walk_settings
+from mobnet.plan.runs import FIRST_TRAINING_SEED
+from mobnet.settings.jobs import WalkSettings
+from mobnet.settings.load import load_settings
 from mobnet.simulation.engine import Plant
 from mobnet.simulation.native import call_step
 from mobnet.simulation.record import collect
 from mobnet.simulation.simulator import Simulator
 
-CONFIG = Path(__file__).parents[1] / "configs" / "config.yaml"
 SCENARIO, LEVEL, SEED = "random_walk", "all_uncertainty", FIRST_TRAINING_SEED
 COLLECTED_S, WARM_UP_S = 75.0, 1.0  # simulated time
 UNNOTED_S, NOTED_S = 7.0, 0.5  # simulated in turns
@@ -43,15 +44,15 @@ class Inputs(NamedTuple):
 
 def main() -> list[dict[str, float | str]]:
     """Return two rows: times real time, and the share of a collection's CPU time that bare mj_step would take."""
-    config = load_config(CONFIG)
-    walks = [_on(config, terrain) for terrain in config["scenarios"][SCENARIO]["terrain"]]
+    full = walk_settings(load_settings(), SCENARIO, LEVEL)
+    walks = [_on(full, terrain) for terrain in full.scenario.terrain]
     with tempfile.TemporaryDirectory() as folder:
         stem = Path(folder) / "recording"
-        collect(config, SCENARIO, LEVEL, SEED, WARM_UP_S, stem)  # loads or compiles the loop
+        collect(full, SEED, WARM_UP_S, stem)  # loads or compiles the loop
         noted = [_noted_steps(walk) for walk in walks]
         turns = [_turn(walks, noted, stem) for _ in range(ROUNDS)]
     collection, bare = (statistics.median(column) for column in zip(*turns, strict=True))
-    speeds = [COLLECTED_S / (ours * _steps(config)) for ours, _ in turns]
+    speeds = [COLLECTED_S / (ours * _steps(full)) for ours, _ in turns]
     ratios = [reference / ours for ours, reference in turns]
     return [
         {"name": "collection, full setting, against real time", "ours": statistics.median(speeds), "reference": 1.0,
@@ -62,19 +63,17 @@ def main() -> list[dict[str, float | str]]:
     ]  # fmt: skip
 
 
-def _on(config: dict[str, Any], terrain: str) -> dict[str, Any]:
-    """Return the configuration with the scenario on one terrain alone."""
-    changed = copy.deepcopy(config)
-    changed["scenarios"][SCENARIO]["terrain"] = [terrain]
-    return changed
+def _on(settings: WalkSettings, terrain: str) -> WalkSettings:
+    """Return the settings of a walk on one terrain alone."""
+    return settings.model_copy(update={"scenario": settings.scenario.model_copy(update={"terrain": (terrain,)})})
 
 
-def _turn(walks: list[dict[str, Any]], noted: list[tuple[Simulator, Inputs]], stem: Path) -> tuple[float, float]:
+def _turn(walks: list[WalkSettings], noted: list[tuple[Simulator, Inputs]], stem: Path) -> tuple[float, float]:
     """Return the CPU time [s] of a step of the collections, all they do counted, and of a bare step; in turns."""
     ours = bare = steps = 0.0
     for walk, (simulator, inputs) in zip(walks, noted, strict=True):
         started = time.process_time()
-        collect(walk, SCENARIO, LEVEL, SEED, COLLECTED_S, stem)
+        collect(walk, SEED, COLLECTED_S, stem)
         between = time.process_time()
         _replay(simulator.plant, *inputs)
         ended = time.process_time()
@@ -82,26 +81,26 @@ def _turn(walks: list[dict[str, Any]], noted: list[tuple[Simulator, Inputs]], st
     return ours / (len(walks) * _steps(walks[0])), bare / steps
 
 
-def _steps(config: dict[str, Any]) -> float:
+def _steps(settings: WalkSettings) -> float:
     """Return the steps of a collection without a fall; those before its first sample count too."""
-    return (COLLECTED_S + config["recording"]["settle_s"]) * config["rates"]["plant_hz"]
+    return (COLLECTED_S + settings.recording.settle_s) * settings.rates.plant_hz
 
 
-def _noted_steps(config: dict[str, Any]) -> tuple[Simulator, Inputs]:
+def _noted_steps(settings: WalkSettings) -> tuple[Simulator, Inputs]:
     """Walk what is collected, with notes in stretches spread evenly over it; return the plant and the notes."""
-    simulator = Simulator(config, SCENARIO, LEVEL, SEED)
+    simulator = Simulator(settings, SEED)
     simulator.start()
     plant, data, walking = simulator.plant, simulator.world.data, simulator.setting
     before = (plant.qpos, plant.qvel, data.qacc_warmstart)  # what a step changes; the loop sets the others
     live = (*before, plant.ctrl, plant.qfrc_applied, plant.xfrc_applied.ravel())
     values: list[list[NDArray[np.float64]]] = [[] for _ in live]
-    unnoted = np.zeros((round(UNNOTED_S * config["rates"]["data_hz"]), simulator.width), np.float32)
+    unnoted = np.zeros((round(UNNOTED_S * settings.rates.data_hz), simulator.width), np.float32)
     for _ in range(round(COLLECTED_S / (UNNOTED_S + NOTED_S))):
         simulator.setting = walking
         if simulator.run(unnoted) < len(unnoted):
             break  # a fall
         simulator.setting = walking._replace(plant=plant._replace(every=1))
-        for _ in range(round(NOTED_S * config["rates"]["plant_hz"])):
+        for _ in range(round(NOTED_S * settings.rates.plant_hz)):
             states = [array.copy() for array in before]
             simulator.run(unnoted[:1])
             for column, array in zip(values, [*states, *live[len(before) :]], strict=True):

@@ -14,12 +14,12 @@ import time
 from pathlib import Path
 from typing import NamedTuple
 
-from mobnet.core.config import load_config
+from mobnet.plan.jobs import walk_settings
+from mobnet.settings.load import load_settings
 from mobnet.simulation.motion import make_motion
 from mobnet.simulation.record import collect
 
 ROOT = Path(__file__).parents[1]
-CONFIG = ROOT / "configs" / "config.yaml"
 LEVEL = "all_uncertainty"
 MEGABYTE = 1 / 1024  # kilobytes, as Linux counts
 
@@ -53,11 +53,12 @@ def run(kind: str, name: str, seed: int, seconds: float, stem: Path, motion_stem
 
 def main(kind: str, name: str, seed: str, seconds: str, stem: str, motion_stem: str | None = None) -> None:
     """Do one job in this process and print its cost."""
-    config = load_config(CONFIG)
+    settings = load_settings()
+    length = int(seed), float(seconds), Path(stem)
     if kind == "motion":
-        make_motion(config, name, int(seed), float(seconds), Path(stem))
+        make_motion(settings.seed, settings.robot, settings.motions[name], name, *length)
     else:
-        collect(config, name, LEVEL, int(seed), float(seconds), Path(stem), Path(motion_stem) if motion_stem else None)
+        collect(walk_settings(settings, name, LEVEL), *length, Path(motion_stem) if motion_stem else None)
     used = resource.getrusage(resource.RUSAGE_SELF)
     print(json.dumps({"cpu_s": used.ru_utime + used.ru_stime, "peak_mb": used.ru_maxrss * MEGABYTE}))
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pytest
@@ -12,7 +11,8 @@ from numpy.typing import NDArray
 from mobnet.control.kinematics import update
 from mobnet.control.parameters import State, WalkingParameters, empty_state, walking_parameters
 from mobnet.control.walker import Walker, make_walker
-from mobnet.robot.description import RobotDescription
+from mobnet.robot.description import WalkingRobot
+from mobnet.settings.settings import Settings
 
 Array = NDArray[np.float64]
 GRAVITY = 9.81
@@ -20,13 +20,19 @@ COMMAND = np.array([0.12, 0.05, 0.15, 0.8, 0.05])  # step x, y [m], turn [rad], 
 
 
 @pytest.fixture(scope="session")
-def par(full_config: dict[str, Any]) -> WalkingParameters:
-    return walking_parameters(full_config["walking"])
+def par(settings: Settings) -> WalkingParameters:
+    return walking_parameters(settings.walking)
 
 
 @pytest.fixture
-def walker(robot: RobotDescription, par: WalkingParameters) -> Walker:
-    return make_walker(robot, par, 1.0, GRAVITY)
+def make(robot: WalkingRobot, settings: Settings) -> Callable[[], Walker]:
+    """A function that makes controllers with buffers of their own."""
+    return lambda: make_walker(robot, settings.walking, 1.0, GRAVITY)
+
+
+@pytest.fixture
+def walker(make: Callable[[], Walker]) -> Walker:
+    return make()
 
 
 @pytest.fixture
@@ -40,7 +46,7 @@ def stepping() -> State:
 
 
 @pytest.fixture
-def random_pose(walker: Walker, robot: RobotDescription) -> Callable[[int], tuple[Array, Array]]:
+def random_pose(walker: Walker, robot: WalkingRobot) -> Callable[[int], tuple[Array, Array]]:
     """A function seed -> position (nq,), velocity (nv,), with the walker's pose updated to them."""
 
     def draw(seed: int) -> tuple[Array, Array]:

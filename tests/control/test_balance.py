@@ -140,7 +140,8 @@ def test_duration_converges_to_the_closed_form_of_a_reference_run_early_or_late(
     par: WalkingParameters, swinging: State, ahead_s: float
 ) -> None:
     """Without dead band and ankle, a DCM that is `ahead_s` ahead of its reference ends the step that much sooner."""
-    free = par._replace(timing_band_m=0.0, timing_ankle_m=0.0)
+    free = par.copy()
+    free.timing_band_m = free.timing_ankle_m = 0.0
     swinging.lift = [*swinging.target, 0.158]
     now = swinging.t
     swinging.t = now + ahead_s
@@ -155,7 +156,9 @@ def test_duration_of_a_step_on_its_reference_stays_also_without_a_dead_band(
     par: WalkingParameters, swinging: State
 ) -> None:
     swinging.lift = [*swinging.target, 0.158]
-    adapt_duration(par._replace(timing_band_m=0.0), swinging, double_support(par, swinging), TICK_S, np.zeros(3))
+    free = par.copy()
+    free.timing_band_m = 0.0
+    adapt_duration(free, swinging, double_support(par, swinging), TICK_S, np.zeros(3))
     assert swinging.total == pytest.approx(swinging.commanded, abs=1e-12)
 
 

@@ -1,29 +1,29 @@
-"""Parameters are exactly the `walking` section; the state starts at zero."""
+"""Parameters are exactly the section of the configuration; the state starts at zero."""
 
 from __future__ import annotations
 
 from typing import Any
 
+import numba
 import numpy as np
-import pytest
+from pydantic import create_model
 
 from mobnet.control.parameters import STATE, WalkingParameters, empty_state, walking_parameters
-from mobnet.core.errors import ConfigError
+from mobnet.settings.settings import Settings
 
 
-def test_parameters_are_the_section_in_order_of_the_tuple(full_config: dict[str, Any], par: WalkingParameters) -> None:
-    for name, value in full_config["walking"].items():
-        np.testing.assert_array_equal(getattr(par, name), value)
-    assert set(full_config["walking"]) == set(par._fields)
+def test_parameters_are_the_section(settings: Settings, par: WalkingParameters) -> None:
+    assert par.dtype.names == tuple(type(settings.walking).model_fields)
+    for name, value in settings.walking:
+        np.testing.assert_array_equal(par[name], value)
 
 
-@pytest.mark.parametrize("key", ["dcm_gian", "dcm_gain"])
-def test_unknown_and_missing_keys_are_named(full_config: dict[str, Any], key: str) -> None:
-    settings = dict(full_config["walking"])
-    if settings.pop(key, None) is None:
-        settings[key] = 1.0
-    with pytest.raises(ConfigError, match=f"walking: key: '{key}' is not accepted"):
-        walking_parameters(settings)
+def test_type_of_compiled_code_changes_with_the_fields_and_their_order(settings: Settings) -> None:
+    """Cached machine code is found by it."""
+    turned_round: Any = {name: (object, value) for name, value in reversed(dict(settings.walking).items())}
+    same, other = walking_parameters(settings.walking), walking_parameters(create_model("Other", **turned_round)())
+    assert numba.typeof(same) == numba.typeof(walking_parameters(settings.walking))
+    assert numba.typeof(same) != numba.typeof(other)
 
 
 def test_state_starts_at_zero_and_states_do_not_share_memory() -> None:

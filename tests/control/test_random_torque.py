@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 import pytest
 from scipy.stats import kstest
 
-from mobnet.control.random_torque import RandomTorque, advance_random_torque, make_random_torque
+from mobnet.control.random_torque import Exploration, advance_random_torque, make_exploration
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
+from mobnet.settings.settings import Settings
 
 TICK_S, TICKS = 0.0005, 100_000
 P_VALUE = 1e-3
 
 
 @pytest.fixture(scope="module")
-def history(full_config: dict[str, Any], layout: JointLayout) -> tuple[RandomTorque, np.ndarray]:
+def history(settings: Settings, layout: JointLayout) -> tuple[Exploration, np.ndarray]:
     """The law and 50 s of its torque (T, nu)."""
-    law = make_random_torque(full_config["random_torque"], layout, True)
+    law = make_exploration(settings.random_torque, layout, True)
     rng, rows = np.random.default_rng(4), np.zeros((TICKS, layout.nu))
     for row in rows:
         advance_random_torque(law, rng, TICK_S)
@@ -34,7 +34,7 @@ def periods(torque: np.ndarray) -> list[tuple[bool, int, float]]:
     return [(torque[a] != 0, b - a, torque[a]) for a, b in pairwise(edges)]
 
 
-def test_on_and_off_periods_are_uniform(history: tuple[RandomTorque, np.ndarray]) -> None:
+def test_on_and_off_periods_are_uniform(history: tuple[Exploration, np.ndarray]) -> None:
     """The reference is U(0.1, 0.5) s of section 4.3, by a Kolmogorov-Smirnov test."""
     law, rows = history
     drawn = [period for column in rows.T for period in periods(column)]
@@ -45,7 +45,7 @@ def test_on_and_off_periods_are_uniform(history: tuple[RandomTorque, np.ndarray]
         assert kstest(lengths, "uniform", args=uniform).pvalue > P_VALUE
 
 
-def test_torque_is_uniform_up_to_each_joint_s_amplitude(history: tuple[RandomTorque, np.ndarray]) -> None:
+def test_torque_is_uniform_up_to_each_joint_s_amplitude(history: tuple[Exploration, np.ndarray]) -> None:
     """The reference is U(-a, a) of section 4.3, by a Kolmogorov-Smirnov test."""
     law, rows = history
     sizes = [value / law.amplitude[j] for j, column in enumerate(rows.T) for on, _, value in periods(column) if on]
@@ -53,7 +53,7 @@ def test_torque_is_uniform_up_to_each_joint_s_amplitude(history: tuple[RandomTor
     assert (np.abs(rows) <= law.amplitude).all()
 
 
-def test_joints_switch_independently_and_on_alternates_with_off(history: tuple[RandomTorque, np.ndarray]) -> None:
+def test_joints_switch_independently_and_on_alternates_with_off(history: tuple[Exploration, np.ndarray]) -> None:
     on = (history[1] != 0).astype(float)
     correlation = np.corrcoef(on.T) - np.eye(on.shape[1])
     assert np.abs(correlation).max() < 0.5
@@ -63,8 +63,8 @@ def test_joints_switch_independently_and_on_alternates_with_off(history: tuple[R
         assert all(a != b for a, b in pairwise(states))
 
 
-def test_amplitudes_are_those_of_section_4_3(full_config: dict[str, Any], layout: JointLayout) -> None:
-    law = make_random_torque(full_config["random_torque"], layout, True)
+def test_amplitudes_are_those_of_section_4_3(settings: Settings, layout: JointLayout) -> None:
+    law = make_exploration(settings.random_torque, layout, True)
     amplitude = dict(zip(layout.actuated, law.amplitude, strict=True))
     for limb in ("LL", "RL", "W"):
         assert {amplitude[joint] for joint in layout.limb(limb)} == {50.0}
@@ -73,15 +73,15 @@ def test_amplitudes_are_those_of_section_4_3(full_config: dict[str, Any], layout
     assert (law.shortest, law.longest) == (0.1, 0.5)
 
 
-def test_absent_exploration_stays_zero(full_config: dict[str, Any], layout: JointLayout) -> None:
-    law = make_random_torque(full_config["random_torque"], layout, False)
+def test_absent_exploration_stays_zero(settings: Settings, layout: JointLayout) -> None:
+    law = make_exploration(settings.random_torque, layout, False)
     rng = np.random.default_rng(0)
     for _ in range(3000):
         advance_random_torque(law, rng, TICK_S)
     assert not law.value.any()
 
 
-def test_amplitudes_that_do_not_fit_their_limb_are_refused(full_config: dict[str, Any], layout: JointLayout) -> None:
-    settings = {**full_config["random_torque"], "arms_nm": [3.0, 15.0]}
-    with pytest.raises(ConfigError, match=r"random_torque.arms_nm: 2 values; accepted: 1 or 8 \(LA\)"):
-        make_random_torque(settings, layout, True)
+def test_amplitudes_that_do_not_fit_their_limb_are_refused(settings: Settings, layout: JointLayout) -> None:
+    law = settings.random_torque.model_copy(update={"arms_nm": (3.0, 15.0)})
+    with pytest.raises(ConfigError, match=r"random_torque.arms_nm: 2 values; accepted: 8 \(LA\)"):
+        make_exploration(law, layout, True)

@@ -10,7 +10,7 @@ import pytest
 from mobnet.control.geometry import yaw_roll_pitch_matrix
 from mobnet.control.parameters import DURATION, State, WalkingParameters, empty_state
 from mobnet.control.phases import correct_load, feel_slope
-from mobnet.control.walker import Walker, foot_yaw, make_walker, vertical_force
+from mobnet.control.walker import Walker, foot_yaw, vertical_force
 from mobnet.control.walking import walk
 from mobnet.robot.description import RobotDescription
 from mobnet.simulation.start import start_standing, start_walking
@@ -228,11 +228,11 @@ def disturbed(walk: Walk, seed: int) -> None:
 @pytest.mark.parametrize("seconds", [0.1, 0.3, 0.6])
 @pytest.mark.parametrize("yaw", [0.0, 0.7, np.pi - 0.01])
 def test_torques_are_invariant_to_where_the_robot_is_and_looks(
-    walking: Walk, robot: RobotDescription, turned: Callable, seconds: float, yaw: float
+    walking: Walk, make: Callable, robot: RobotDescription, turned: Callable, seconds: float, yaw: float
 ) -> None:
     walking.to(seconds)
     disturbed(walking, 0)
-    image = Walk(make_walker(robot, walking.walker.par, 1.0, walking.walker.gravity), robot)
+    image = Walk(make(), robot)
     image.q, image.v, image.s = turned(walking.q, walking.v, walking.s, yaw, np.array([0.6, -1.2]))
     image.wrenches = walking.wrenches
     for _ in range(10):
@@ -243,11 +243,11 @@ def test_torques_are_invariant_to_where_the_robot_is_and_looks(
 
 @pytest.mark.parametrize("seconds", [0.1, 0.6])
 def test_mirrored_state_gives_mirrored_torques(
-    walking: Walk, robot: RobotDescription, mirrored: Callable, seconds: float
+    walking: Walk, make: Callable, robot: RobotDescription, mirrored: Callable, seconds: float
 ) -> None:
     """Up to the table's own asymmetry, which moves the centre of mass a little."""
     walking.to(seconds)
-    image = Walk(make_walker(robot, walking.walker.par, 1.0, walking.walker.gravity), robot)
+    image = Walk(make(), robot)
     image.q, image.v, image.s = mirrored(walking.q, walking.v, walking.s)
     image.wrenches = walking.wrenches[::-1] * [1, -1, 1, -1, 1, -1]
     walking.tick()

@@ -209,11 +209,11 @@ def test_swing_torque_is_zero_on_the_reference_and_forgets_the_integral(
 
 def test_posture_torque_is_a_spring_and_a_damper_about_a_moving_target(walker: Walker, random_pose: Callable) -> None:
     q, v = random_pose(0)
-    par, tau, upper = walker.par, np.zeros(len(q) - 7), walker.upper
-    wanted = np.random.default_rng(1).normal(size=len(par.posture_rad))
-    posture_torque(par, upper, q, v, par.posture_rad, wanted, tau)
-    error, rate = par.posture_rad - q[7 + upper :], wanted - v[6 + upper :]
-    expected = par.posture_stiffness_nm_rad * error + par.posture_damping_nms_rad * rate
+    tau, upper, (stiffness, damping) = np.zeros(len(q) - 7), walker.upper, np.random.default_rng(1).random((2, 21))
+    wanted = np.random.default_rng(2).normal(size=len(walker.posture))
+    posture_torque(stiffness, damping, upper, q, v, walker.posture, wanted, tau)
+    error, rate = walker.posture - q[7 + upper :], wanted - v[6 + upper :]
+    expected = stiffness * error + damping * rate
     np.testing.assert_allclose(tau[upper:], expected, rtol=1e-12)
     np.testing.assert_array_equal(tau[:upper], 0)
 
@@ -221,5 +221,6 @@ def test_posture_torque_is_a_spring_and_a_damper_about_a_moving_target(walker: W
 def test_posture_torque_is_zero_on_a_motion_that_is_followed(walker: Walker, random_pose: Callable) -> None:
     q, v = random_pose(2)
     tau = np.zeros(len(q) - 7)
-    posture_torque(walker.par, walker.upper, q, v, q[7 + walker.upper :], v[6 + walker.upper :], tau)
+    stiffness, damping = walker.posture_stiffness, walker.posture_damping
+    posture_torque(stiffness, damping, walker.upper, q, v, q[7 + walker.upper :], v[6 + walker.upper :], tau)
     np.testing.assert_array_equal(tau, 0)

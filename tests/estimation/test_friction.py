@@ -17,6 +17,7 @@ from mobnet.estimation.friction import Friction, FrictionModel, build, read_fric
 from mobnet.estimation.observer import low_pass
 from mobnet.estimation.recipe import Recipe
 from mobnet.estimation.regression import TERMS
+from mobnet.settings.settings import Settings
 from mobnet.simulation.friction import friction_torque, make_friction
 
 GAIN_HZ, RATE_HZ = 100.0, 1000.0
@@ -32,23 +33,19 @@ def fitted(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def table_4(full_config: dict[str, Any], layout: JointLayout) -> Friction:
+def table_4(settings: Settings, layout: JointLayout) -> Friction:
     """Friction of the plant, in the form of the fit."""
-    plant = make_friction(
-        full_config["plant"], np.array([joint[1] == "L" for joint in layout.actuated]), ["stribeck", "load"]
-    )
+    legs = np.array([joint[1] == "L" for joint in layout.actuated])
+    plant = make_friction(settings.plant, legs, ["stribeck", "load"])
     dry = {"coulomb": np.full(layout.nu, plant.coulomb), "static": np.full(layout.nu, plant.static)}
     terms = {**dry, "viscous": plant.viscous, "load": plant.load}
     return Friction(terms, np.full(layout.nu, plant.stribeck), plant.smoothing)
 
 
-def test_it_has_the_form_of_the_plants_friction(
-    full_config: dict[str, Any], layout: JointLayout, table_4: Friction
-) -> None:
+def test_it_has_the_form_of_the_plants_friction(settings: Settings, layout: JointLayout, table_4: Friction) -> None:
     """Equivalent to the simulator's own formula of (23) with Table 4's numbers."""
-    plant = make_friction(
-        full_config["plant"], np.array([joint[1] == "L" for joint in layout.actuated]), ["stribeck", "load"]
-    )
+    legs = np.array([joint[1] == "L" for joint in layout.actuated])
+    plant = make_friction(settings.plant, legs, ["stribeck", "load"])
     rng = np.random.default_rng(0)
     velocity, torque = rng.normal(0, 1, (20, layout.nu)), rng.normal(0, 50, (20, layout.nu))
     expected = [

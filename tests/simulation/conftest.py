@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -11,31 +10,39 @@ import numpy as np
 import pytest
 
 from mobnet.core.recording import recording_columns, recording_width
+from mobnet.plan.jobs import walk_settings
+from mobnet.settings.jobs import WalkSettings
+from mobnet.settings.load import load_settings
 from mobnet.simulation.simulator import Simulator
 from mobnet.simulation.start import start_standing
 
-IN_PLACE = {"step_x_m": 0.0, "step_y_m": 0.0, "turn_deg": 0.0, "duration_s": 0.7, "foot_height_m": 0.05}
+PLACE = {"step_x_m": 0.0, "step_y_m": 0.0, "turn_deg": 0.0, "duration_s": 0.7, "foot_height_m": 0.05}
+WALK = {**PLACE, "step_x_m": 0.1, "step_y_m": 0.05, "turn_deg": 8.0}
 MADE_UP = {  # scenarios of the tests
-    "flat_walk": {"terrain": ["flat"], "commands": {**IN_PLACE, "step_x_m": 0.1, "step_y_m": 0.05, "turn_deg": 8.0}},
-    "flat_place": {"terrain": ["flat"], "commands": IN_PLACE},
-    "checks_place": {"terrain": ["checks"], "commands": IN_PLACE},
+    "flat_walk": {"terrain": ["flat"], "commands": WALK, "random_torque": False},
+    "flat_place": {"terrain": ["flat"], "commands": PLACE, "random_torque": False},
+    "checks_place": {"terrain": ["checks"], "commands": PLACE, "random_torque": False},
 }
 
 
-@pytest.fixture
-def config(full_config: dict[str, Any]) -> dict[str, Any]:
-    """A configuration to change, with the tests' own scenarios."""
-    config = copy.deepcopy(full_config)
-    config["scenarios"] |= {name: {**row, "random_torque": False} for name, row in MADE_UP.items()}
-    return config
+@pytest.fixture(scope="session")
+def walk_of() -> Callable[..., WalkSettings]:
+    """A function (scenario, level, **sections) -> what its walk takes of the configuration, changed by the sections."""
+
+    def make(scenario: str, level: str, **sections: dict[str, Any]) -> WalkSettings:
+        scenarios = sections.pop("scenarios", {})
+        changed = {name: {**MADE_UP.get(name, {}), **scenarios.get(name, {})} for name in {**MADE_UP, **scenarios}}
+        return walk_settings(load_settings(overrides={**sections, "scenarios": changed}), scenario, level)
+
+    return make
 
 
 @pytest.fixture
-def simulate(config: dict[str, Any]) -> Callable[..., Simulator]:
-    """A function (scenario, level, seed, standing) -> a started simulator."""
+def simulate(walk_of: Callable[..., WalkSettings]) -> Callable[..., Simulator]:
+    """A function (scenario, level, seed, standing, **sections) -> a started simulator."""
 
-    def make(scenario: str, level: str, seed: int = 1, standing: bool = False) -> Simulator:
-        simulator = Simulator(config, scenario, level, seed)
+    def make(scenario: str, level: str, seed: int = 1, standing: bool = False, **sections: dict[str, Any]) -> Simulator:
+        simulator = Simulator(walk_of(scenario, level, **sections), seed)
         simulator.start()
         if standing:
             start = start_standing(simulator.walker, simulator.robot, simulator.state, simulator.commands[0])

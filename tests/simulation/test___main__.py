@@ -28,19 +28,8 @@ def at_home(monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture) -
 @pytest.mark.sim
 def test_it_draws_a_walking_robot(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     clip, picture = tmp_path / "walk.gif", tmp_path / "walk.png"
-    words = [
-        "--seconds",
-        "1.2",
-        "--video",
-        str(clip),
-        "--width",
-        "201",
-        "--picture",
-        str(picture),
-        "--terrain",
-        "plates",
-    ]
-    assert command.main(words) == 0
+    words = f"--seconds 1.2 --video {clip} --width 201 --picture {picture} --terrain plates"
+    assert command.main(words.split()) == 0
     if "not drawn" in caplog.text:
         pytest.skip(caplog.messages[0])
     with Image.open(clip) as frames:
@@ -84,7 +73,7 @@ def test_ctrl_c_is_one_line(monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogC
     def stop(_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(command, "load_config", stop)
+    monkeypatch.setattr(command, "load_settings", stop)
     assert command.main([]) == 130
     assert [len(message.splitlines()) for message in caplog.messages] == [1]
 
@@ -99,10 +88,10 @@ def test_ctrl_c_is_one_line(monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogC
         (["--width", "10"], "--width: 10 is not accepted; accepted: 160 to 1920"),
         (["--video", "walk.avi"], "--video: '.avi' is not accepted; accepted: .gif, .mp4, .webp"),
         (["--picture", "walk.jpg"], "--picture: 'walk.jpg' is not accepted; accepted: NAME.png"),
-        (["--scenario", "moon"], "scenario: 'moon' is not accepted; accepted: "),
-        (["--level", "perfect"], "level: 'perfect' is not accepted; accepted: "),
+        (["--scenario", "moon"], "--scenario: 'moon' is not accepted; accepted: "),
+        (["--level", "perfect"], "--level: 'perfect' is not accepted; accepted: "),
         (["--terrain", "stairs"], "terrain: 'stairs' is not accepted; accepted: checks, flat, plates, slope"),
-        (["--config", "nowhere.yaml"], "nowhere.yaml"),
+        (["--config", "nowhere"], "nowhere/main.yaml: file is missing"),
     ],
 )
 def test_what_is_not_accepted_is_named_in_one_line(

@@ -70,16 +70,15 @@ def sole_torque(simulator: Simulator) -> np.ndarray:
 
 
 @pytest.fixture
-def pushed_walk(config: dict[str, Any], simulate: Callable) -> Callable[[str, Any], Simulator]:
+def pushed_walk(simulate: Callable) -> Callable[[str, Any], Simulator]:
     """A function (terrain, pushes) -> a random walk with random torque on a terrain, pushed again and again."""
     law = {"pause_s": [0.01, 0.1], "force_n": [20.0, 60.0], "duration_s": [0.05, 0.2], "shape": "half_sine"}
     points = {"left": "left_sole", "right": "right_sole", "torso": "torso", "hand": "right_hand"}
-    config["pushes"] = {name: {**law, "point": point, "direction": "any"} for name, point in points.items()}
+    laws = {name: {**law, "point": point, "direction": "any"} for name, point in points.items()}
 
     def make(terrain: str, pushes: Any = tuple(points)) -> Simulator:
         row = {"terrain": [terrain], "commands": "random", "random_torque": True, "pushes": list(pushes)}
-        config["scenarios"]["pushed_walk"] = row
-        return simulate("pushed_walk", "all_uncertainty")
+        return simulate("pushed_walk", "all_uncertainty", pushes=laws, scenarios={"pushed_walk": row})
 
     return make
 

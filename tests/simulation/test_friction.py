@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import pytest
 
+from mobnet.settings.settings import Settings
 from mobnet.simulation.friction import Friction, friction_torque, make_friction
 
 LEG, ARM = 0, 1
 
 
 @pytest.fixture
-def friction(full_config: dict[str, Any]) -> Friction:
-    return make_friction(full_config["plant"], np.array([True, False]), ["stribeck", "load"])
+def friction(settings: Settings) -> Friction:
+    return make_friction(settings.plant, np.array([True, False]), ["stribeck", "load"])
 
 
 @pytest.mark.parametrize("rate", [-3.0, -0.2, 0.2, 1.51, 6.0])
@@ -51,6 +50,6 @@ def test_fast_joint_tends_to_coulomb_and_viscous_friction(friction: Friction) ->
     assert friction_torque(friction, LEG, 100.0, 0.0) == pytest.approx(-5.0 - 400.0, rel=1e-12)
 
 
-def test_absent_friction_is_zero(full_config: dict[str, Any]) -> None:
-    absent = make_friction(full_config["plant"], np.array([True, False]), [])
+def test_absent_friction_is_zero(settings: Settings) -> None:
+    absent = make_friction(settings.plant, np.array([True, False]), [])
     assert [friction_torque(absent, joint, 2.0, 100.0) for joint in (LEG, ARM)] == [0.0, 0.0]

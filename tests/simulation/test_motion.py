@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import copy
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from mobnet.core.config import FIRST_TRAINING_SEED
-from mobnet.core.errors import ConfigError, SimulationError
+from mobnet.core.errors import SimulationError
 from mobnet.core.store import read_array
+from mobnet.plan.runs import FIRST_TRAINING_SEED
 from mobnet.robot.description import RobotDescription
+from mobnet.settings.data import Motion
+from mobnet.settings.settings import Settings
 from mobnet.simulation.motion import (
     band_limited,
     hand_targets,
@@ -30,19 +31,27 @@ NAME = "random_motion"
 
 
 @pytest.fixture(scope="module")
-def made(full_config: dict[str, Any], tmp_path_factory: pytest.TempPathFactory) -> dict[int, tuple[Array, dict]]:
+def motion(settings: Settings) -> Motion:
+    return settings.motions[NAME]
+
+
+@pytest.fixture(scope="module")
+def make(settings: Settings) -> Callable[..., None]:
+    """A function (motion, seed, seconds, out) that writes a motion."""
+    return lambda motion, *rest: make_motion(settings.seed, settings.robot, motion, NAME, *rest)
+
+
+@pytest.fixture(scope="module")
+def made(
+    motion: Motion, make: Callable[..., None], tmp_path_factory: pytest.TempPathFactory
+) -> dict[int, tuple[Array, dict]]:
     """Knots (T, n) [rad] and notes of a test seed and of the four variants of a part."""
     folder, result = tmp_path_factory.mktemp("motions"), {}
     for seed in (1, *range(FIRST_TRAINING_SEED, FIRST_TRAINING_SEED + 4)):
-        make_motion(full_config, NAME, seed, SECONDS, folder / f"s{seed}")
+        make(motion, seed, SECONDS, folder / f"s{seed}")
         knots, meta = read_array(folder / f"s{seed}")
         result[seed] = np.asarray(knots, dtype=float), meta
     return result
-
-
-@pytest.fixture
-def settings(full_config: dict[str, Any]) -> dict[str, Any]:
-    return copy.deepcopy(full_config["motions"][NAME])
 
 
 def test_columns_are_the_joints_above_the_legs_in_order(
@@ -54,28 +63,30 @@ def test_columns_are_the_joints_above_the_legs_in_order(
     assert len(knots) == SECONDS * meta["rate_hz"] + 1
 
 
-def test_motion_begins_at_rest_in_the_posture(made: dict[int, tuple[Array, dict]], full_config: dict[str, Any]) -> None:
+def test_motion_begins_at_rest_in_the_posture(made: dict[int, tuple[Array, dict]], robot: RobotDescription) -> None:
     for knots, _ in made.values():
-        np.testing.assert_allclose(knots[0], full_config["walking"]["posture_rad"], atol=1e-6)
+        np.testing.assert_allclose(knots[0], robot.posture.angle, atol=1e-6)
         np.testing.assert_allclose(knots[1], knots[0], atol=1e-6)
         assert np.abs(knots[-1] - knots[0]).max() > 0.2
 
 
-def test_same_seed_same_knots(made: dict[int, tuple[Array, dict]], full_config: dict[str, Any], tmp_path: Path) -> None:
-    make_motion(full_config, NAME, 1, 5.0, tmp_path / "again")
+def test_same_seed_same_knots(
+    made: dict[int, tuple[Array, dict]], motion: Motion, make: Callable[..., None], tmp_path: Path
+) -> None:
+    make(motion, 1, 5.0, tmp_path / "again")
     again, _ = read_array(tmp_path / "again")
     same = len(again) - 50  # the filter of a shorter motion sees its end
     np.testing.assert_array_equal(again[:same], made[1][0][:same].astype(np.float32))
 
 
 def test_knots_stay_apart_slow_and_within_the_working_range(
-    made: dict[int, tuple[Array, dict]], settings: dict[str, Any], robot: RobotDescription
+    made: dict[int, tuple[Array, dict]], motion: Motion, robot: RobotDescription
 ) -> None:
-    limits = working_range(robot, settings)
-    top = settings["speed_share"] * np.array([joint.velocity_limit for joint in robot.joints[12:]])
+    limits = working_range(motion)
+    top = motion.speed_share * np.array([joint.velocity_limit for joint in robot.joints[12:]])
     for knots, meta in made.values():
-        assert meta["clearance_m"] >= settings["clearance_least_m"]
-        assert 0.1 < meta["hand_speed_mean_m_s"] < meta["hand_speed_max_m_s"] < 2 * settings["hand_speed_max_m_s"]
+        assert meta["clearance_m"] >= motion.clearance_least_m
+        assert 0.1 < meta["hand_speed_mean_m_s"] < meta["hand_speed_max_m_s"] < 2 * motion.hand_speed_max_m_s
         assert (knots > limits[:, 0] - 1e-4).all()
         assert (knots < limits[:, 1] + 1e-4).all()
         assert (np.abs(np.diff(knots, axis=0)) * meta["rate_hz"] <= top + 1e-3).all()
@@ -101,14 +112,14 @@ def test_four_training_seeds_are_variants_of_one_part_and_tests_stand_alone() ->
     assert {part for part, _ in tests}.isdisjoint(part for part, _ in pairs)
 
 
-def test_a_variant_differs_in_speed_and_in_the_place_of_the_hands(robot: RobotDescription, settings: dict) -> None:
+def test_a_variant_differs_in_speed_and_in_the_place_of_the_hands(robot: RobotDescription, motion: Motion) -> None:
     """The offset moves both hands' targets by the same amount, mirrored; speed stretches time and nothing else."""
     waves = np.random.default_rng(0).uniform(-1, 1, (5, 6))
     offset, centre = np.array([0.01, 0.02, 0.03]), shoulder(robot)
-    moved = hand_targets(centre + offset, settings, waves) - hand_targets(centre, settings, waves)
+    moved = hand_targets(centre + offset, motion, waves) - hand_targets(centre, motion, waves)
     np.testing.assert_allclose(moved, np.broadcast_to([offset, offset * [1, -1, 1]], (5, 2, 3)), atol=1e-15)
     time = np.arange(100) / 50
-    slow, fast = (band_limited(speed * time, 3, settings, np.random.default_rng(5)) for speed in (0.5, 1.0))
+    slow, fast = (band_limited(speed * time, 3, motion, np.random.default_rng(5)) for speed in (0.5, 1.0))
     np.testing.assert_allclose(slow[::2], fast[:50], atol=1e-12)
 
 
@@ -118,23 +129,23 @@ def test_variants_of_a_part_are_not_the_same_motion(made: dict[int, tuple[Array,
         assert np.abs(made[seed][0] - first).mean() > 0.05
 
 
-def test_targets_fill_their_range_evenly_within_the_band(settings: dict[str, Any]) -> None:
+def test_targets_fill_their_range_evenly_within_the_band(motion: Motion) -> None:
     time = np.arange(200000) / 50
-    signal = band_limited(time, 2, settings, np.random.default_rng(1))
+    signal = band_limited(time, 2, motion, np.random.default_rng(1))
     assert np.abs(signal).max() <= 1
     np.testing.assert_allclose(np.quantile(signal, [0.1, 0.25, 0.5, 0.75, 0.9]), [-0.8, -0.5, 0, 0.5, 0.8], atol=0.06)
     power = np.abs(np.fft.rfft(signal * np.hanning(len(time))[:, None], axis=0)) ** 2
     frequency = np.fft.rfftfreq(len(time), 1 / 50)
-    lowest, highest = settings["band_hz"]
+    lowest, highest = motion.band_hz
     inside = (frequency > lowest - 0.01) & (frequency < highest + 0.01)
     assert power[inside].sum() > 0.95 * power.sum()
 
 
-def test_arms_are_stretched_from_the_shoulder(robot: RobotDescription, settings: dict[str, Any]) -> None:
+def test_arms_are_stretched_from_the_shoulder(robot: RobotDescription, motion: Motion) -> None:
     """Straight ahead and to the outside, at the distances of the configuration."""
-    settings |= {"hand_azimuth_rad": [0.0, np.pi], "hand_elevation_rad": [-1.0, 1.0], "hand_distance_m": [0.2, 0.6]}
-    centre = shoulder(robot)
-    ahead, aside = hand_targets(centre, settings, np.array([[-1, 0, 1, -1, 0, 1], [0, 0, -1, 0, 0, -1.0]]))
+    spans = {"hand_azimuth_rad": (0.0, np.pi), "hand_elevation_rad": (-1.0, 1.0), "hand_distance_m": (0.2, 0.6)}
+    centre, motion = shoulder(robot), motion.model_copy(update=spans)
+    ahead, aside = hand_targets(centre, motion, np.array([[-1, 0, 1, -1, 0, 1], [0, 0, -1, 0, 0, -1.0]]))
     np.testing.assert_allclose(ahead[0], centre + [0.6, 0, 0], atol=1e-12)
     np.testing.assert_allclose(aside[0], centre + [0, 0.2, 0], atol=1e-12)
     np.testing.assert_allclose(aside[1], (centre + [0, 0.2, 0]) * [1, -1, 1], atol=1e-12)
@@ -147,15 +158,7 @@ def test_smooth_step_has_no_jump_in_speed() -> None:
     assert np.abs(np.diff(y, 2)).max() < 1e-7
 
 
-def test_too_near_is_refused(full_config: dict[str, Any], tmp_path: Path) -> None:
-    config = copy.deepcopy(full_config)
-    config["motions"][NAME]["clearance_least_m"] = 0.12
+def test_too_near_is_refused(motion: Motion, make: Callable[..., None], tmp_path: Path) -> None:
     with pytest.raises(SimulationError, match=r"between two solids at .* s is not accepted; accepted: >= 0.12"):
-        make_motion(config, NAME, 1, 3.0, tmp_path / "near")
+        make(motion.model_copy(update={"clearance_least_m": 0.12}), 1, 3.0, tmp_path / "near")
     assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.parametrize(("name", "seconds", "message"), [("dance", 1.0, "'dance' is not"), (NAME, 0.0, "0.0 is not")])
-def test_what_cannot_be_is_refused(full_config: dict, tmp_path: Path, name: str, seconds: float, message: str) -> None:
-    with pytest.raises(ConfigError, match=message):
-        make_motion(full_config, name, 1, seconds, tmp_path / "none")

@@ -9,17 +9,21 @@ from numba import njit
 
 from mobnet.core.errors import SimulationError
 from mobnet.robot.description import RobotDescription
+from mobnet.settings.data import Flat
+from mobnet.settings.settings import Settings
 from mobnet.simulation import native
 from mobnet.simulation.native import READ, addresses_at, bind, c_struct, call_step, doubles_at, ints_at, offsets
+from mobnet.simulation.terrain import draw_terrain
 from mobnet.simulation.world import World, make_world
 
 POINTERS = ("qpos", "qvel", "ctrl", "qfrc_applied", "xpos", "sensordata", "efc_type", "efc_J", "efc_force", "contact")
 
 
 @pytest.fixture
-def world(full_config: dict, robot: RobotDescription) -> World:
+def world(settings: Settings, robot: RobotDescription) -> World:
     """Feet on the ground, so that there are contact rows."""
-    world = make_world(full_config, robot, "flat", "ideal", np.random.default_rng(0))
+    flat = draw_terrain(Flat(), np.random.default_rng(0))
+    world = make_world(robot, flat, settings.plant, settings.levels["ideal"], settings.rates.plant_hz)
     world.data.qpos[2] = 2 * robot.leg.link_length - robot.leg.hip_pos[2] - robot.sole.height - 1e-3
     mujoco.mj_forward(world.model, world.data)
     return world

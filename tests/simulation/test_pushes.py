@@ -4,28 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from itertools import pairwise
-from typing import Any
+from typing import Any, get_args
 
 import mujoco
 import numpy as np
 import pytest
 
 from mobnet.core.errors import ConfigError
+from mobnet.settings.data import Direction, Phase, Push
 from mobnet.simulation import engine
-from mobnet.simulation.pushes import make_pushes
+from mobnet.simulation.pushes import DIRECTIONS, PHASES, SHAPES
 from mobnet.simulation.simulator import Simulator
 
 NV = 39
 LL3 = 6 + 2
 
 
-def pushed(
-    simulate: Callable, config: dict[str, Any], scenario: str = "flat_place", **rows: dict[str, Any]
-) -> Simulator:
-    """Return a started walk of the ideal plant with these pushes."""
-    config["pushes"] = rows
-    config["scenarios"][scenario]["pushes"] = list(rows)
-    return simulate(scenario, "ideal")
+def pushed(simulate: Callable, **rows: dict[str, Any]) -> Simulator:
+    """Return a started walk of the ideal plant in place with these pushes."""
+    return simulate("flat_place", "ideal", pushes=rows, scenarios={"flat_place": {"pushes": list(rows)}})
 
 
 def watch(simulator: Simulator, run: Callable, seconds: float) -> list[dict[str, Any]]:
@@ -43,12 +40,10 @@ def watch(simulator: Simulator, run: Callable, seconds: float) -> list[dict[str,
     return seen
 
 
-def test_force_at_a_point_enters_through_its_jacobian(
-    simulate: Callable, run: Callable, config: dict[str, Any]
-) -> None:
+def test_force_at_a_point_enters_through_its_jacobian(simulate: Callable, run: Callable) -> None:
     """The reference is mj_jacSite; contacts are subtracted by MuJoCo's own contact forces."""
     row = {"point": "left_hand", "at_s": [0.0], "force_n": [30.0, 30.0], "duration_s": [9.0, 9.0], "direction": "down"}
-    simulator = pushed(simulate, config, load={**row, "shape": "step"})
+    simulator = pushed(simulate, load={**row, "shape": "step"})
     run(simulator, 2.2)
     model, data = simulator.world.model, simulator.world.data
     tau_ext, linear = np.zeros(NV), np.zeros((3, NV))
@@ -70,11 +65,9 @@ def test_force_at_a_point_enters_through_its_jacobian(
     np.testing.assert_allclose(push[3:], np.cross(arm, push[:3]), atol=0.02)  # the point is of the step before
 
 
-def test_torque_on_a_joint_is_external_torque_of_that_joint_alone(
-    simulate: Callable, run: Callable, config: dict[str, Any]
-) -> None:
+def test_torque_on_a_joint_is_external_torque_of_that_joint_alone(simulate: Callable, run: Callable) -> None:
     row = {"joint": "LL3", "during": "left_swing", "share": [0.4, 0.4], "at_s": [0.0], "torque_nm": [30.0, 30.0]}
-    seen = watch(pushed(simulate, config, step={**row, "duration_s": [0.1, 0.1], "shape": "step"}), run, 4.0)
+    seen = watch(pushed(simulate, step={**row, "duration_s": [0.1, 0.1], "shape": "step"}), run, 4.0)
     torque = np.array([moment["tau_ext"] for moment in seen])
     on = np.array([moment["state"]["active"][0] for moment in seen]) > 0
     assert on.sum() == pytest.approx(100, abs=2)
@@ -88,12 +81,10 @@ def test_torque_on_a_joint_is_external_torque_of_that_joint_alone(
     assert first["share"] == pytest.approx(0.4, abs=0.05)
 
 
-def test_half_sine_has_its_peak_and_length_and_the_foot_feels_it(
-    simulate: Callable, run: Callable, config: dict[str, Any]
-) -> None:
+def test_half_sine_has_its_peak_and_length_and_the_foot_feels_it(simulate: Callable, run: Callable) -> None:
     row = {"point": "left_sole", "during": "left_swing", "share": [0.4, 0.4], "at_s": [0.0], "force_n": [50.0, 50.0]}
     row |= {"duration_s": [0.1, 0.1], "direction": "horizontal", "shape": "half_sine"}
-    seen = watch(pushed(simulate, config, foot=row), run, 4.0)
+    seen = watch(pushed(simulate, foot=row), run, 4.0)
     on = [moment for moment in seen if moment["state"]["active"][0]]
     felt = np.array([np.linalg.norm(moment["wrench"][:3]) for moment in on])
     assert len(on) == pytest.approx(100, abs=2)
@@ -103,12 +94,10 @@ def test_half_sine_has_its_peak_and_length_and_the_foot_feels_it(
 
 
 @pytest.mark.parametrize(("phase", "side"), [("left_support", 1.0), ("right_support", -1.0), ("right_swing", 1.0)])
-def test_phase_and_time_of_a_push_are_kept(
-    simulate: Callable, run: Callable, config: dict[str, Any], phase: str, side: float
-) -> None:
+def test_phase_and_time_of_a_push_are_kept(simulate: Callable, run: Callable, phase: str, side: float) -> None:
     row = {"point": "torso", "during": phase, "share": [0.5, 0.5], "at_s": [0.5, 2.0], "force_n": [5.0, 5.0]}
     row |= {"duration_s": [0.05, 0.05], "direction": "any", "shape": "step"}
-    seen = watch(pushed(simulate, config, torso=row), run, 6.0)
+    seen = watch(pushed(simulate, torso=row), run, 6.0)
     begun = [b for a, b in pairwise(seen) if b["state"]["count"][0] > a["state"]["count"][0]]
     assert len(begun) == 2
     for moment, earliest in zip(begun, (0.5, 2.0), strict=True):
@@ -116,11 +105,9 @@ def test_phase_and_time_of_a_push_are_kept(
         assert (moment["side"], moment["swinging"]) == (side, 1)
 
 
-def test_random_pushes_pause_as_asked_and_point_anywhere(
-    simulate: Callable, run: Callable, config: dict[str, Any]
-) -> None:
+def test_random_pushes_pause_as_asked_and_point_anywhere(simulate: Callable, run: Callable) -> None:
     row = {"point": "torso", "pause_s": [0.05, 0.2], "force_n": [1.0, 2.0], "duration_s": [0.01, 0.02]}
-    seen = watch(pushed(simulate, config, torso={**row, "direction": "any", "shape": "step"}), run, 12.0)
+    seen = watch(pushed(simulate, torso={**row, "direction": "any", "shape": "step"}), run, 12.0)
     starts = [b for a, b in pairwise(seen) if b["state"]["count"][0] > a["state"]["count"][0]]
     gaps = np.diff([moment["clock"] for moment in starts])
     assert len(starts) > 60
@@ -134,9 +121,9 @@ def test_random_pushes_pause_as_asked_and_point_anywhere(
     assert 1.0 <= sizes.min() < 1.1 < 1.9 < sizes.max() <= 2.0
 
 
-def test_push_of_the_knee_goes_against_its_front(simulate: Callable, run: Callable, config: dict[str, Any]) -> None:
+def test_push_of_the_knee_goes_against_its_front(simulate: Callable, run: Callable) -> None:
     row = {"point": "left_knee_front", "at_s": [0.0], "force_n": [9.0, 9.0], "duration_s": [1.0, 1.0]}
-    simulator = pushed(simulate, config, knee={**row, "direction": "backward", "shape": "step"})
+    simulator = pushed(simulate, knee={**row, "direction": "backward", "shape": "step"})
     forward = None
     while not simulator.setting.pushes.state["active"][0]:
         forward = simulator.world.data.body("L_Knee_Link").xmat.reshape(3, 3)[:, 0].copy()
@@ -145,17 +132,13 @@ def test_push_of_the_knee_goes_against_its_front(simulate: Callable, run: Callab
     np.testing.assert_allclose(simulator.setting.pushes.state["direction"][0], -forward, atol=0.01)
 
 
-@pytest.mark.parametrize(
-    ("row", "message"),
-    [
-        ({"point": "nose", "force_n": [1, 2], "direction": "any"}, r"pushes\.odd\.point: 'nose' is not accepted"),
-        ({"joint": "LL9", "torque_nm": [1, 2]}, r"pushes\.odd\.joint: 'LL9' is not accepted"),
-    ],
-)
-def test_unknown_place_is_named(simulate: Callable, row: dict[str, Any], message: str) -> None:
-    simulator = simulate("flat_place", "ideal")
-    row = {"pause_s": [1, 2], "duration_s": [1, 2], "shape": "step", **row}
-    with pytest.raises(ConfigError, match=message):
-        make_pushes({"odd": row}, ["odd"], simulator.world.model, simulator.robot)
-    with pytest.raises(ConfigError, match=r"push: 'even' is not accepted; accepted: odd"):
-        make_pushes({"odd": row}, ["even"], simulator.world.model, simulator.robot)
+def test_unknown_point_is_named(simulate: Callable) -> None:
+    row = {"point": "nose", "pause_s": [1, 2], "force_n": [1, 2], "duration_s": [1, 2], "direction": "any"}
+    with pytest.raises(ConfigError, match=r"^pushes\.odd\.point: 'nose' is not accepted; accepted: .*torso"):
+        pushed(simulate, odd={**row, "shape": "step"})
+
+
+def test_words_of_the_configuration_are_all_known() -> None:
+    assert set(get_args(Phase)) == set(PHASES)
+    assert set(get_args(Direction)) == set(DIRECTIONS)
+    assert set(get_args(Push.model_fields["shape"].annotation)) == set(SHAPES)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from mobnet.robot.description import RobotDescription
+from mobnet.settings.data import Motion
+from mobnet.settings.settings import Settings
 from mobnet.simulation.motion import working_range
 from mobnet.simulation.reaching import Reacher, leg_space
 
@@ -22,18 +22,18 @@ KNEES = np.array([[0.25, 0.1, -0.5], [0.25, -0.1, -0.5]])  # where thighs are wh
 
 
 @pytest.fixture
-def settings(full_config: dict[str, Any]) -> dict[str, Any]:
-    return full_config["motions"]["random_motion"]
+def motion(settings: Settings) -> Motion:
+    return settings.motions["random_motion"]
 
 
 @pytest.fixture
-def posture(full_config: dict[str, Any]) -> Array:
-    return np.array(full_config["walking"]["posture_rad"])
+def posture(robot: RobotDescription) -> Array:
+    return robot.posture.angle
 
 
 @pytest.fixture
-def reacher(robot: RobotDescription, settings: dict[str, Any], posture: Array) -> Reacher:
-    return Reacher(robot, settings, working_range(robot, settings), posture)
+def reacher(robot: RobotDescription, motion: Motion, posture: Array) -> Reacher:
+    return Reacher(robot, motion, working_range(motion), posture)
 
 
 def knots_to(reacher: Reacher, hands: Array, posture: Array) -> Array:
@@ -49,32 +49,30 @@ def test_hands_come_to_targets_that_are_free(reacher: Reacher, posture: Array) -
 
 
 @pytest.mark.parametrize("hands", [INSIDE, THROUGH, KNEES], ids=["chest", "each other", "knees"])
-def test_hands_stop_before_the_robot(reacher: Reacher, posture: Array, settings: dict[str, Any], hands: Array) -> None:
+def test_hands_stop_before_the_robot(reacher: Reacher, posture: Array, motion: Motion, hands: Array) -> None:
     nearest, _ = reacher.look(knots_to(reacher, hands, posture))
-    assert settings["clearance_m"] - 0.015 < nearest.min() < settings["clearance_m"] + 0.01
+    assert motion.clearance_m - 0.015 < nearest.min() < motion.clearance_m + 0.01
 
 
 def test_joints_keep_their_ranges_and_speeds(
-    reacher: Reacher, posture: Array, settings: dict[str, Any], robot: RobotDescription
+    reacher: Reacher, posture: Array, motion: Motion, robot: RobotDescription
 ) -> None:
-    limits = working_range(robot, settings)
+    limits = working_range(motion)
     knots = np.concatenate([knots_to(reacher, hands, posture) for hands in (-2 * ASIDE, 3 * ASIDE, INSIDE)])
     assert (knots >= limits[:, 0] - TOLERANCE).all()
     assert (knots <= limits[:, 1] + TOLERANCE).all()
-    limit = settings["speed_share"] * np.array([joint.velocity_limit for joint in robot.joints[-knots.shape[1] :]])
-    speed = np.abs(np.diff(knots, axis=0)).max(axis=0) * settings["knot_hz"]
-    assert (speed <= limit + TOLERANCE * settings["knot_hz"]).all()
+    limit = motion.speed_share * np.array([joint.velocity_limit for joint in robot.joints[-knots.shape[1] :]])
+    speed = np.abs(np.diff(knots, axis=0)).max(axis=0) * motion.knot_hz
+    assert (speed <= limit + TOLERANCE * motion.knot_hz).all()
     assert (speed / limit).max() == pytest.approx(1.0, abs=0.01)
 
 
-def test_a_mirrored_target_gives_a_mirrored_motion(
-    robot: RobotDescription, settings: dict[str, Any], posture: Array
-) -> None:
+def test_a_mirrored_target_gives_a_mirrored_motion(robot: RobotDescription, motion: Motion, posture: Array) -> None:
     """Left hand aside and right hand down, and the other way round."""
     hands = np.array([[0.35, 0.45, 0.1], [0.1, -0.4, -0.2]])
     ends = []
     for target in (hands, hands[::-1] * [1, -1, 1]):
-        ends.append(knots_to(Reacher(robot, settings, working_range(robot, settings), posture), target, posture)[-1])
+        ends.append(knots_to(Reacher(robot, motion, working_range(motion), posture), target, posture)[-1])
     left, right, waist = slice(3, 11), slice(13, 21), slice(0, 3)
     np.testing.assert_allclose(ends[0][left], -ends[1][right], atol=1e-4)
     np.testing.assert_allclose(ends[0][waist], ends[1][waist] * [-1, 1, -1], atol=1e-4)

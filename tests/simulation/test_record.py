@@ -6,25 +6,31 @@ import math
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
 
 from mobnet.control.kinematics import update
 from mobnet.control.parameters import DURATION, STEP_X, STEP_Y, TURN
-from mobnet.core.config import load_layout
-from mobnet.core.errors import ConfigError, SimulationError
+from mobnet.core.errors import SimulationError
+from mobnet.core.joints import JointLayout
 from mobnet.core.recording import FEET
 from mobnet.core.store import read_array, read_recording
 from mobnet.estimation.observe import observe
 from mobnet.robot.description import RobotDescription
+from mobnet.settings.data import RecordingSettings
+from mobnet.settings.jobs import WalkSettings
+from mobnet.settings.settings import Settings
 from mobnet.simulation.record import Course, collect, record
 from mobnet.simulation.self_collision import Clearance
 from mobnet.simulation.simulator import Simulator
 
-SETTINGS = {"chunk_s": 1.0, "settle_s": 2.0, "dropped_before_fall_s": 3.0, "episode_s": 1000.0}
+RECORDING = RecordingSettings(
+    fall_height_m=0.65, dropped_before_fall_s=3.0, chunk_s=1.0, settle_s=2.0, clearance_hz=50.0, episode_s=1000.0,
+    episode_steps=4000,
+)  # fmt: skip
 RATE_HZ = 10.0
+Walk = Callable[..., WalkSettings]
 TERRAINS = ("a", "b", "c")
 
 
@@ -58,7 +64,8 @@ class Faller:
 def fill(episodes: list[float], seconds: int, **settings: float) -> tuple[np.ndarray, Course, Faller]:
     """Return rows at 10 Hz and how a planned sequence of episodes went."""
     faller, kept = Faller(episodes), []
-    course = record(faller, seconds * 10, {**SETTINGS, **settings}, RATE_HZ, kept.append)  # type: ignore[arg-type]
+    recording = RECORDING.model_copy(update=settings)
+    course = record(faller, seconds * 10, recording, RATE_HZ, kept.append)  # type: ignore[arg-type]
     return np.concatenate(kept), course, faller
 
 
@@ -133,7 +140,7 @@ def test_samples_are_handed_on_while_the_robot_walks() -> None:
         held.append(faller.simulated - settled - handed)
         handed += len(rows)
 
-    record(faller, 1000, SETTINGS, RATE_HZ, keep)  # type: ignore[arg-type]
+    record(faller, 1000, RECORDING, RATE_HZ, keep)  # type: ignore[arg-type]
     dropped, chunk = 30, 10
     assert max(held[:40]) <= dropped + chunk
     assert len(held) > 90
@@ -144,17 +151,17 @@ def test_setting_that_cannot_be_walked_is_refused() -> None:
         fill([15] * 30, 5)
 
 
-def test_robot_that_keeps_falling_leaves_no_file(config: dict[str, Any], tmp_path: Path) -> None:
-    config["recording"]["fall_height_m"] = 5.0
+def test_robot_that_keeps_falling_leaves_no_file(walk_of: Walk, tmp_path: Path) -> None:
+    settings = walk_of("flat_walk", "ideal", recording={"fall_height_m": 5.0})
     with pytest.raises(SimulationError, match="21 falls in 0 s"):
-        collect(config, "flat_walk", "ideal", 1, 1.0, tmp_path / "s1")
+        collect(settings, 1, 1.0, tmp_path / "s1")
     assert not list(tmp_path.iterdir())
 
 
-def test_chunks_of_a_walk_are_what_one_long_run_gives(config: dict[str, Any]) -> None:
+def test_chunks_of_a_walk_are_what_one_long_run_gives(walk_of: Walk) -> None:
     """The reference is a single call of the plant's loop over settling and all samples."""
-    settings = {**config["recording"], "settle_s": 0.2, "chunk_s": 0.13, "dropped_before_fall_s": 0.25}
-    streamed, once = (Simulator(config, "random_walk", "all_uncertainty", 1) for _ in range(2))
+    settings = RECORDING.model_copy(update={"settle_s": 0.2, "chunk_s": 0.13, "dropped_before_fall_s": 0.25})
+    streamed, once = (Simulator(walk_of("random_walk", "all_uncertainty"), 1) for _ in range(2))
     kept: list[np.ndarray] = []
     course = record(streamed, 1000, settings, 1000.0, kept.append)
     once.start(0.0)
@@ -178,23 +185,23 @@ def test_pushed_robot_falls_and_walks_again(simulate: Callable) -> None:
         data.xfrc_applied[body, 1] = 2000.0 if len(starts) == 1 else 0.0
 
     simulator.start, kept = push_first, []
-    course = record(simulator, 1000, {**SETTINGS, "settle_s": 0.5}, 1000.0, kept.append)
+    course = record(simulator, 1000, RECORDING.model_copy(update={"settle_s": 0.5}), 1000.0, kept.append)
     assert (course.segments, course.falls, len(starts)) == ([(0, 1000)], 1, 2)
     rows = np.concatenate(kept)
     assert np.isfinite(rows).all()
     assert rows[:, 2].min() > 0.8
 
 
-def test_same_seed_gives_the_same_bytes_and_another_does_not(config: dict[str, Any], tmp_path: Path) -> None:
+def test_same_seed_gives_the_same_bytes_and_another_does_not(walk_of: Walk, tmp_path: Path) -> None:
     for name, seed in (("a", 1), ("b", 1), ("c", 2)):
-        collect(config, "random_walk", "all_uncertainty", seed, 0.5, tmp_path / name)
+        collect(walk_of("random_walk", "all_uncertainty"), seed, 0.5, tmp_path / name)
     a, b, c = ((tmp_path / f"{name}.parquet").read_bytes() for name in "abc")
     assert a == b
     assert a != c
 
 
-def test_file_says_what_it_holds(config: dict[str, Any], layout: Any, tmp_path: Path) -> None:
-    collect(config, "forward_walk", "sensor_noise", 4, 0.3, tmp_path / "s4")
+def test_file_says_what_it_holds(walk_of: Walk, layout: JointLayout, tmp_path: Path) -> None:
+    collect(walk_of("forward_walk", "sensor_noise"), 4, 0.3, tmp_path / "s4")
     recording = read_recording(tmp_path / "s4", layout)
     meta = recording.meta
     assert (meta["scenario"], meta["level"], meta["seed"], meta["falls"]) == ("forward_walk", "sensor_noise", 4, 0)
@@ -202,40 +209,41 @@ def test_file_says_what_it_holds(config: dict[str, Any], layout: Any, tmp_path: 
     np.testing.assert_allclose(np.linalg.norm(recording.sensed.q[:, 3:7], axis=1), 1, atol=1e-6)
 
 
-def test_file_names_the_terrain_of_each_segment(config: dict[str, Any], layout: Any, tmp_path: Path) -> None:
-    config["recording"] |= {"episode_s": 0.2, "settle_s": 0.1}
-    collect(config, "random_walk", "all_uncertainty", 2, 1.5, tmp_path / "s2")
+def test_file_names_the_terrain_of_each_segment(walk_of: Walk, layout: JointLayout, tmp_path: Path) -> None:
+    settings = walk_of("random_walk", "all_uncertainty", recording={"episode_s": 0.2, "settle_s": 0.1})
+    collect(settings, 2, 1.5, tmp_path / "s2")
     recording = read_recording(tmp_path / "s2", layout)
     terrains = recording.meta["terrains"]
     assert [end - start for start, end in recording.segments] == [200] * 7 + [100]
     assert len(terrains) == len(recording.segments)
-    assert set(terrains) <= set(config["scenarios"]["random_walk"]["terrain"])
+    assert set(terrains) <= set(settings.scenario.terrain)
     assert len(set(terrains)) > 1
 
 
 @pytest.mark.parametrize("hits", [False, True])
 def test_file_says_how_near_the_robot_came_to_itself(
-    config: dict[str, Any], robot: RobotDescription, layout: Any, tmp_path: Path, hits: bool
+    walk_of: Walk, robot: RobotDescription, layout: JointLayout, tmp_path: Path, hits: bool
 ) -> None:
     """The reference is the clearance of the stored poses; a hand held in the chest is a collision."""
+    settings = walk_of("stand", "ideal", recording={"settle_s": 0.1})
     if hits:
-        config["walking"]["posture_rad"][3:10] = [0.0, 0.1, 1.6, -0.5, -2.1, 0.2, -1.1]
-    config["recording"] |= {"settle_s": 0.1}
-    collect(config, "stand", "ideal", 1, 0.5, tmp_path / "s1")
+        posture = settings.robot.posture
+        arm = posture["LA"].model_copy(update={"angle_rad": (0.0, 0.1, 1.6, -0.5, -2.1, 0.2, -1.1, 0.0)})
+        held = settings.robot.model_copy(update={"posture": {**posture, "LA": arm}})
+        settings = settings.model_copy(update={"robot": held})
+    collect(settings, 1, 0.5, tmp_path / "s1")
     recording = read_recording(tmp_path / "s1", layout)
     nearest = Clearance(robot).nearest(recording.sensed.q[::20].astype(float))
     assert recording.meta["clearance_min_m"] == pytest.approx(nearest.min(), abs=1e-3)
-    looked = 0.5 * config["recording"]["clearance_hz"]
+    looked = 0.5 * settings.recording.clearance_hz
     assert recording.meta["self_collisions"] == (looked if hits else 0)
 
 
-def test_command_is_that_of_the_step_being_made(config: dict[str, Any], layout: Any, tmp_path: Path) -> None:
+def test_command_is_that_of_the_step_being_made(walk_of: Walk, layout: JointLayout, tmp_path: Path) -> None:
     """Table 2's five, zero while the robot stands."""
-    config["recording"] |= {"settle_s": 0.0}
-    config["scenarios"]["flat_stand"] = {"terrain": ["flat"], "commands": "stand", "random_torque": False}
-    for name in ("flat_walk", "flat_stand"):
-        collect(config, name, "ideal", 1, 4.0, tmp_path / name)
-    walk, still = (read_recording(tmp_path / name, layout).sensed.command for name in ("flat_walk", "flat_stand"))
+    for name in ("flat_walk", "stand"):
+        collect(walk_of(name, "ideal", recording={"settle_s": 0.0}), 1, 4.0, tmp_path / name)
+    walk, still = (read_recording(tmp_path / name, layout).sensed.command for name in ("flat_walk", "stand"))
     in_place = [0.0, 0.0, 0.0, 0.7, 0.05]
     np.testing.assert_allclose(walk[0], in_place, atol=1e-6)
     np.testing.assert_allclose(walk[-1], [0.1, 0.05, np.deg2rad(8.0), 0.7, 0.05], atol=1e-6)
@@ -243,38 +251,14 @@ def test_command_is_that_of_the_step_being_made(config: dict[str, Any], layout: 
     np.testing.assert_array_equal(still, 0)
 
 
-@pytest.mark.parametrize(
-    ("scenario", "level", "seconds", "message"),
-    [
-        ("moon_walk", "ideal", 1.0, "scenario: 'moon_walk' is not accepted; accepted: "),
-        ("forward_walk", "perfect", 1.0, "level: 'perfect' is not accepted; accepted: all_uncertainty, "),
-        ("forward_walk", "ideal", -1.0, "duration_s: -1.0 is not accepted; accepted: > 0"),
-        ("forward_walk", "ideal", 0.0, "duration_s: 0.0 is not accepted"),
-        ("forward_walk", "ideal", math.nan, "duration_s: nan is not accepted"),
-    ],
-)
-def test_errors_are_one_line_and_name_the_value(
-    config: dict[str, Any], tmp_path: Path, scenario: str, level: str, seconds: float, message: str
-) -> None:
-    with pytest.raises(ConfigError, match=message) as caught:
-        collect(config, scenario, level, 1, seconds, tmp_path / "s1")
-    assert "\n" not in str(caught.value)
-    assert not list(tmp_path.iterdir())
-
-
-def test_unknown_terrain_of_a_scenario_is_named(config: dict[str, Any], tmp_path: Path) -> None:
-    config["scenarios"]["flat_walk"]["terrain"] = ["stairs"]
-    with pytest.raises(ConfigError, match="terrain: 'stairs' is not accepted; accepted: checks, flat"):
-        collect(config, "flat_walk", "ideal", 1, 1.0, tmp_path / "s1")
-
-
 @pytest.mark.sim
 @pytest.mark.slow
 def test_residual_of_the_ideal_level_meets_the_row_of_table_5(
-    config: dict[str, Any], layout: Any, tmp_path: Path
+    walk_of: Walk, settings: Settings, layout: JointLayout, tmp_path: Path
 ) -> None:
-    collect(config, "forward_walk", "ideal", 1, 10.0, tmp_path / "s1")
-    observe(config, tmp_path / "s1", tmp_path / "r1")
+    collect(walk_of("forward_walk", "ideal"), 1, 10.0, tmp_path / "s1")
+    gravity, level = settings.plant.gravity_m_s2, settings.levels["ideal"]
+    observe(settings.robot, level, gravity, settings.observer, tmp_path / "s1", tmp_path / "r1")
     array, _ = read_array(tmp_path / "r1")
     residual, truth = np.split(np.asarray(array, dtype=float), 2, axis=1)
     rmse = dict(zip(layout.names, np.sqrt(np.mean((residual - truth) ** 2, axis=0)), strict=True))
@@ -286,10 +270,9 @@ def test_residual_of_the_ideal_level_meets_the_row_of_table_5(
 
 @pytest.mark.sim
 @pytest.mark.slow
-def test_unpushed_robot_steps_where_it_should(config: dict[str, Any], simulate: Callable, run: Callable) -> None:
+def test_unpushed_robot_steps_where_it_should(simulate: Callable, run: Callable) -> None:
     """Uneven ground, random torque and all uncertainty move footfalls by less than 2 cm and 2 deg, root mean square."""
-    config["scenarios"]["random_walk"]["pushes"] = []
-    simulator = simulate("random_walk", "all_uncertainty")
+    simulator = simulate("random_walk", "all_uncertainty", scenarios={"random_walk": {"pushes": []}})
     log = run(simulator, 20.0)
     assert log.done == len(log.rows)
     errors = step_errors(simulator, log["q"].astype(float), log["swing"] > 0.5)
@@ -342,9 +325,9 @@ def step_errors(simulator: Simulator, q: np.ndarray, air: np.ndarray) -> np.ndar
 
 
 @pytest.mark.sim
-def test_a_standing_scenario_stands_through_all_uncertainty(config: dict[str, Any], tmp_path: Path) -> None:
-    collect(config, "stand", "all_uncertainty", 1, 10.0, tmp_path / "stand")
-    recording = read_recording(tmp_path / "stand", load_layout(Path(config["robot"])))
+def test_a_standing_scenario_stands_through_all_uncertainty(walk_of: Walk, layout: JointLayout, tmp_path: Path) -> None:
+    collect(walk_of("stand", "all_uncertainty"), 1, 10.0, tmp_path / "stand")
+    recording = read_recording(tmp_path / "stand", layout)
     assert recording.meta["falls"] == 0
     assert not recording.sensed.swing.any()
     assert recording.truth.contact.all()

@@ -39,8 +39,8 @@ except DrawingError as error:
 
 
 @pytest.fixture(scope="module")
-def terrain(full_config):
-    return draw_terrain("checks", full_config["terrain"], np.random.default_rng(0))
+def terrain(settings):
+    return draw_terrain(settings.terrain.checks, np.random.default_rng(0))
 
 
 @pytest.fixture(scope="module")
@@ -115,9 +115,9 @@ def test_a_picture_has_the_size_asked_for(robot, terrain, upright, pixels):
     assert pixels.shape == (*SMALL[::-1], 3)
 
 
-def test_the_terrain_that_was_drawn_is_seen(full_config, robot, upright, pixels):
+def test_the_terrain_that_was_drawn_is_seen(settings, robot, upright, pixels):
     """Two draws of plates give two pictures, the same draw the same one."""
-    a, b, c = (draw_terrain("plates", full_config["terrain"], np.random.default_rng(seed)) for seed in (1, 1, 2))
+    a, b, c = (draw_terrain(settings.terrain.plates, np.random.default_rng(seed)) for seed in (1, 1, 2))
     a, b, c = (draw(render.picture_model(robot, terrain, (200, 150)), upright) for terrain in (a, b, c))
     np.testing.assert_array_equal(a, b)
     assert np.mean((a != c).any(axis=2)) > 0.05

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -11,6 +9,7 @@ from numpy.typing import NDArray
 from mobnet.core.errors import DataError
 from mobnet.core.joints import NQ_BASE
 from mobnet.robot.description import RobotDescription
+from mobnet.settings.settings import Settings
 from mobnet.simulation.self_collision import REACH_M, Clearance, held_together
 
 Array = NDArray[np.float64]
@@ -32,12 +31,11 @@ def clearance(robot: RobotDescription) -> Clearance:
 
 
 @pytest.fixture(scope="module")
-def standing(full_config: dict[str, Any], robot: RobotDescription) -> Array:
+def standing(robot: RobotDescription) -> Array:
     """Standing with bent knees in the walking posture (nq,)."""
     q = np.zeros(robot.layout.nq)
     q[3] = 1.0
-    posture = full_config["walking"]["posture_rad"]
-    q[-len(posture) :] = posture
+    q[-len(robot.posture.angle) :] = robot.posture.angle
     return with_angles(robot, q, STANDING)
 
 
@@ -69,10 +67,10 @@ def test_hand_on_hand_is_seen(clearance: Clearance, robot: RobotDescription, sta
 
 
 def test_nothing_is_near_in_the_posture_however_a_leg_walks(
-    clearance: Clearance, robot: RobotDescription, standing: Array, full_config: dict[str, Any]
+    clearance: Clearance, robot: RobotDescription, standing: Array, settings: Settings
 ) -> None:
     assert clearance.pair(standing) is None
-    for yaw, roll, pitch, knee in full_config["motions"]["random_motion"]["leg_poses_rad"]:
+    for yaw, roll, pitch, knee in settings.motions["random_motion"].leg_poses_rad:
         lifted = {"LL1": yaw, "LL2": roll, "LL3": pitch, "LL4": knee, "LL5": -pitch - knee}
         assert clearance.nearest(with_angles(robot, standing, lifted)[None])[0] > 0.02
 

@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pytest
 
-from mobnet.core.errors import ConfigError
-from mobnet.simulation.sensing import make_sensors, read_sensors
+from mobnet.simulation.sensing import read_sensors
 
 READINGS, TICK_S = 3000, 0.0005
 
 
 @pytest.mark.parametrize(("level", "power"), [("sensor_noise", 1.0), ("all_uncertainty", 1.0), ("printed_noise", 0.5)])
-def test_measured_noise_is_that_of_table_3(
-    simulate: Callable, config: dict[str, Any], level: str, power: float
-) -> None:
+def test_measured_noise_is_that_of_table_3(simulate: Callable, level: str, power: float) -> None:
     """Its numbers are standard deviations, or, to the letter, variances."""
     simulator = simulate("flat_place", level, standing=True)
     plant, sensors, rng = simulator.plant, simulator.sensors, np.random.default_rng(0)
@@ -26,7 +22,7 @@ def test_measured_noise_is_that_of_table_3(
         read_sensors(sensors, simulator.walker, plant.qpos, plant.qvel, plant.sensordata, rng, TICK_S)
         readings.append(np.concatenate([sensors.q[7:] - plant.qpos[7:], sensors.v[3:], sensors.acc_base_in_base]))
     joints, omega, rates, acc = np.split(np.array(readings), np.cumsum([33, 3, 33]), axis=1)
-    noise = {name: number**power for name, number in config["plant"]["noise_std"].items()}
+    noise = {name: number**power for name, number in simulator.settings.plant.noise_std}
     assert joints.std() == pytest.approx(noise["joint_position_rad"], rel=0.02)
     assert rates.std() == pytest.approx(noise["joint_velocity_rad_s"], rel=0.02)
     assert omega.std() == pytest.approx(noise["base_angular_velocity_rad_s"], rel=0.05)
@@ -75,12 +71,3 @@ def test_sensed_base_converges_from_a_wrong_velocity(simulate: Callable, run: Ca
     simulator.sensors.v[:3] += [0.05, -0.05, 0.02]
     run(simulator, 2.0)
     np.testing.assert_allclose(simulator.sensors.v[:3], simulator.plant.qvel[:3], atol=3e-3)
-
-
-def test_unknown_base_state_is_named(simulate: Callable, config: dict[str, Any]) -> None:
-    simulator = simulate("flat_place", "ideal")
-    config["levels"]["ideal"]["base_state"] = "guessed"
-    with pytest.raises(
-        ConfigError, match=r"levels.ideal.base_state: 'guessed' is not accepted; accepted: sensed, true_"
-    ):
-        make_sensors(config, "ideal", simulator.world.model)

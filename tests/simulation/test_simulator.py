@@ -14,24 +14,27 @@ from mobnet.control.parameters import DURATION, FOOT_HEIGHT
 from mobnet.control.upper_body import UpperBody, follow
 from mobnet.robot.description import SIDES
 from mobnet.robot.plant import sole_name
+from mobnet.settings.jobs import WalkSettings
 from mobnet.simulation.simulator import STREAMS, Simulator
 from mobnet.simulation.start import CLEARANCE_M
 from mobnet.simulation.world import ground_height
 
 TERRAINS = ["checks", "plates", "slope", "flat"]
 LEVEL = "all_uncertainty"
-PUSH = {"point": "torso", "at_s": [-0.5], "force_n": [40.0, 60.0], "duration_s": [0.1, 0.3], "direction": "any"}
+PUSH = {"point": "torso", "at_s": [0.0], "force_n": [40.0, 60.0], "duration_s": [0.1, 0.3], "direction": "any"}
 P_VALUE = 1e-3
 
 
 @pytest.fixture
-def scenario(config: dict[str, Any]) -> Callable[..., None]:
-    """A function (name, **row) that adds a random walk over all terrains, changed by what is given."""
+def prepare(walk_of: Callable[..., WalkSettings]) -> Callable[..., Simulator]:
+    """A function (name, level, seed, upper, sections, **row) -> a random walk over all terrains, changed by the row."""
 
-    def add(name: str, **row: Any) -> None:
-        config["scenarios"][name] = {"terrain": TERRAINS, "commands": "random", "random_torque": False, **row}
+    def make(name: str, level: str = LEVEL, seed: int = 7, upper: Any = None, sections: Any = None, **row: Any) -> Any:
+        alone = {"terrain": TERRAINS, "commands": "random", "random_torque": False}
+        settings = walk_of(name, level, scenarios={"alone": alone, name: {**alone, **row}}, **(sections or {}))
+        return Simulator(settings, seed, upper)
 
-    return add
+    return make
 
 
 def streams(simulator: Simulator) -> dict[str, Any]:
@@ -47,16 +50,14 @@ def begun(simulator: Simulator) -> tuple[Any, ...]:
 
 @pytest.mark.parametrize("change", [{"pushes": ["shove"]}, {"random_torque": True}])
 def test_scenarios_that_draw_the_same_have_equal_episodes_but_for_their_pushes(
-    config: dict[str, Any], scenario: Callable, run: Callable, change: dict[str, Any]
+    prepare: Callable, run: Callable, change: dict[str, Any]
 ) -> None:
     """Terrain, place, commands and noise are the same, to the bit until the first push or random torque."""
-    config["pushes"] = {"shove": {**PUSH, "shape": "half_sine"}}
-    scenario("alone")
-    scenario("disturbed", draws="alone", **change)
-    alone, disturbed = (Simulator(config, name, LEVEL, 7) for name in ("alone", "disturbed"))
+    pushes = {"pushes": {"shove": {**PUSH, "shape": "half_sine"}}}
+    alone, disturbed = prepare("alone"), prepare("disturbed", sections=pushes, draws="alone", **change)
     for _ in range(4):
         assert begun(alone) == begun(disturbed)
-    until = 1.5 if "pushes" in change else 0.0  # s after an episode's start
+    until = 2.0 if "pushes" in change else 0.0  # s after an episode's start
     if until:
         np.testing.assert_array_equal(run(alone, until).rows, run(disturbed, until).rows)
     quiet, moved = run(alone, 0.3), run(disturbed, 0.3)
@@ -66,30 +67,24 @@ def test_scenarios_that_draw_the_same_have_equal_episodes_but_for_their_pushes(
     assert theirs == ours
 
 
-def test_other_scenarios_and_other_seeds_draw_otherwise(config: dict[str, Any], scenario: Callable) -> None:
-    scenario("alone")
-    scenario("another")
-    first = begun(Simulator(config, "alone", LEVEL, 7))
-    for simulator in (Simulator(config, "another", LEVEL, 7), Simulator(config, "alone", LEVEL, 8)):
+def test_other_scenarios_and_other_seeds_draw_otherwise(prepare: Callable) -> None:
+    first = begun(prepare("alone"))
+    for simulator in (prepare("another"), prepare("alone", seed=8)):
         other = begun(simulator)
         assert (other[1] != first[1], other[2] != first[2]) == (True, True)
 
 
-def test_streams_of_random_numbers_are_independent_of_each_other(config: dict[str, Any], scenario: Callable) -> None:
-    scenario("alone")
-    simulator = Simulator(config, "alone", LEVEL, 7)
+def test_streams_of_random_numbers_are_independent_of_each_other(prepare: Callable) -> None:
+    simulator = prepare("alone")
     assert set(simulator.rng) == set(STREAMS)
     draws = np.array([rng.standard_normal(2000) for rng in simulator.rng.values()])
     assert np.abs(np.corrcoef(draws) - np.eye(len(STREAMS))).max() < 0.1
 
 
 @pytest.mark.parametrize("seed", [1000, 1001])
-def test_kinds_of_episodes_take_turns_in_an_order_that_the_seed_decides(
-    config: dict[str, Any], scenario: Callable, seed: int
-) -> None:
+def test_kinds_of_episodes_take_turns_in_an_order_that_the_seed_decides(prepare: Callable, seed: int) -> None:
     kinds = ["stand", "random"]
-    scenario("both", terrain=["flat"], commands=kinds)
-    simulator = Simulator(config, "both", "ideal", seed)
+    simulator = prepare("both", seed=seed, terrain=["flat"], commands=kinds)
     seen = []
     for _ in range(5):
         simulator.start()
@@ -97,10 +92,9 @@ def test_kinds_of_episodes_take_turns_in_an_order_that_the_seed_decides(
     assert seen == [kinds[(seed + episode) % 2] for episode in range(5)]
 
 
-def test_narrowed_commands_replace_their_range_alone(config: dict[str, Any], scenario: Callable) -> None:
-    scenario("wide", terrain=["flat"])
-    scenario("narrow", terrain=["flat"], narrowed={"duration_s": [0.7], "foot_height_m": [0.055]})
-    wide, narrow = (Simulator(config, name, "ideal", 1) for name in ("wide", "narrow"))
+def test_narrowed_commands_replace_their_range_alone(prepare: Callable) -> None:
+    ranges = {"duration_s": [0.7], "foot_height_m": [0.055]}
+    wide, narrow = prepare("wide", terrain=["flat"]), prepare("narrow", terrain=["flat"], narrowed=ranges)
     wide.start()
     narrow.start()
     assert set(narrow.commands[:, DURATION]) == {0.7}
@@ -110,11 +104,9 @@ def test_narrowed_commands_replace_their_range_alone(config: dict[str, Any], sce
         assert narrow.commands[:, column].max() == pytest.approx(wide.commands[:, column].max())
 
 
-def test_episodes_begin_anywhere_on_any_terrain_facing_anywhere(config: dict[str, Any], scenario: Callable) -> None:
+def test_episodes_begin_anywhere_on_any_terrain_facing_anywhere(prepare: Callable) -> None:
     """Yaw and place are uniform; a terrain is built once and comes once a round, in random order."""
-    scenario("walk", terrain=["flat", "checks"])
-    config["recording"]["episode_steps"] = 10
-    simulator = Simulator(config, "walk", "ideal", 1)
+    simulator = prepare("walk", terrain=["flat", "checks"], sections={"recording": {"episode_steps": 10}})
     yaws, places, settings = [], [], []
     for _ in range(80):
         simulator.start()
@@ -147,12 +139,11 @@ def soles_over_ground(simulator: Simulator) -> list[float]:
 @pytest.mark.parametrize("commands", ["stand", "random"])
 @pytest.mark.parametrize("terrain", TERRAINS)
 def test_start_stands_on_the_ground_wherever_it_is_and_faces(
-    config: dict[str, Any], scenario: Callable, run: Callable, terrain: str, commands: str
+    prepare: Callable, run: Callable, terrain: str, commands: str
 ) -> None:
     """Just over the highest point under a sole, in no solid; the feet soon carry the weight, after a bump at most."""
-    scenario("begin", terrain=[terrain], commands=commands)
-    simulator = Simulator(config, "begin", "ideal", 3)
-    weight = simulator.robot.mass * config["plant"]["gravity_m_s2"]
+    simulator = prepare("begin", "ideal", 3, terrain=[terrain], commands=commands)
+    weight = simulator.robot.mass * simulator.walker.gravity
     for _ in range(8):
         simulator.start()
         over = soles_over_ground(simulator)
@@ -176,13 +167,12 @@ def motion() -> UpperBody:
 
 @pytest.mark.parametrize("motion_s", [0.0, 3.0, 7.25])
 def test_motion_is_where_it_should_be_when_the_first_sample_is_kept(
-    config: dict[str, Any], scenario: Callable, run: Callable, motion: UpperBody, motion_s: float
+    prepare: Callable, run: Callable, motion: UpperBody, motion_s: float
 ) -> None:
     """The episode begins the time to settle earlier, with the joints where the motion is then."""
-    scenario("move", terrain=["flat"], commands="stand")
-    simulator = Simulator(config, "move", "ideal", 1, motion)
+    simulator = prepare("move", "ideal", 1, motion, terrain=["flat"], commands="stand")
     simulator.start(motion_s)
-    settle, upper = config["recording"]["settle_s"], simulator.walker.upper
+    settle, upper = simulator.settings.recording.settle_s, simulator.walker.upper
     q, v = np.zeros(21), np.zeros(21)
     follow(motion._replace(start=np.zeros(1)), motion_s - settle, q, v)
     np.testing.assert_allclose(simulator.plant.qpos[7 + upper :], q, atol=1e-12)
@@ -195,23 +185,21 @@ def test_motion_is_where_it_should_be_when_the_first_sample_is_kept(
 
 def test_motors_can_move_what_friction_holds_and_keep_the_table_s_limit(simulate: Callable) -> None:
     simulator = simulate("flat_place", "all_uncertainty")
-    least, table = simulator.config["plant"]["motor_limit_min_nm"], simulator.robot.torque_limits
-    friction = simulator.config["plant"]["friction"]
-    limits = simulator.plant.limits
+    plant, table, limits = simulator.settings.plant, simulator.robot.torque_limits, simulator.plant.limits
+    least = plant.motor_limit_min_nm
     assert (limits >= least).all()
-    assert least > friction["coulomb_nm"] + friction["loss_others_nm"]
+    assert least > plant.friction.coulomb_nm + plant.friction.loss_others_nm
     np.testing.assert_array_equal(limits[table >= least], table[table >= least])
 
 
-def test_nothing_of_an_episode_is_left_in_the_next(config: dict[str, Any], scenario: Callable, run: Callable) -> None:
-    config["pushes"] = {"shove": {**PUSH, "at_s": [-2.0], "duration_s": [90.0, 90.0], "shape": "step"}}
-    scenario("pushed", terrain=["flat"], pushes=["shove"])
-    simulator = Simulator(config, "pushed", "ideal", 1)
+def test_nothing_of_an_episode_is_left_in_the_next(prepare: Callable, run: Callable) -> None:
+    pushes = {"shove": {**PUSH, "duration_s": [90.0, 90.0], "shape": "step"}}
+    simulator = prepare("pushed", "ideal", 1, sections={"pushes": pushes}, terrain=["flat"], pushes=["shove"])
     simulator.start()
-    run(simulator, 0.2)
+    run(simulator, 2.2)
     assert np.abs(simulator.plant.xfrc_applied).max() > 20
     simulator.start()
     for left in (simulator.plant.xfrc_applied, simulator.sensors.wrenches, simulator.state.integral):
         np.testing.assert_array_equal(left, 0)
     assert simulator.setting.pushes.state["active"].tolist() == [0]
-    assert simulator.state.clock == -config["recording"]["settle_s"]
+    assert simulator.state.clock == -simulator.settings.recording.settle_s

@@ -78,7 +78,7 @@ def test_standing_start_is_at_rest(simulator: Simulator) -> None:
 def test_moving_upper_body_starts_at_the_reference_and_its_velocity(simulator: Simulator, begin: Callable) -> None:
     walker = simulator.walker
     rng = np.random.default_rng(0)
-    walker.posture[:] = walker.par.posture_rad + rng.uniform(-0.2, 0.2, len(walker.posture))
+    walker.posture[:] = simulator.robot.posture.angle + rng.uniform(-0.2, 0.2, len(walker.posture))
     walker.posture_rate[:] = rng.normal(size=len(walker.posture))
     q, v = begin(walker, simulator.robot, simulator.state, simulator.commands[0])
     np.testing.assert_array_equal(q[7 + walker.upper :], walker.posture)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import mujoco
 import numpy as np
@@ -12,9 +11,12 @@ from numpy.typing import NDArray
 
 from mobnet.core.errors import ConfigError
 from mobnet.robot.plant import SOLE_TYPE, TERRAIN_TYPE
-from mobnet.simulation.terrain import REACH_M, TERRAIN_GROUP, TERRAINS, Terrain, add_terrain, draw_terrain, frustum
+from mobnet.settings import data
+from mobnet.settings.settings import Settings
+from mobnet.simulation.terrain import REACH_M, TERRAIN_GROUP, Terrain, add_terrain, draw_terrain, frustum
 
 SEEDS = range(4)
+TERRAINS = tuple(data.Terrain.model_fields)
 Heights = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 
@@ -34,9 +36,9 @@ def build(terrain: Terrain, half_width: float | None = None) -> tuple[mujoco.MjM
 
 
 @pytest.fixture
-def draw(full_config: dict[str, Any]) -> Callable[..., Terrain]:
+def draw(settings: Settings) -> Callable[..., Terrain]:
     """A function (name, seed) -> a terrain."""
-    return lambda name, seed=0: draw_terrain(name, full_config["terrain"], np.random.default_rng(seed))
+    return lambda name, seed=0: draw_terrain(dict(settings.terrain)[name], np.random.default_rng(seed))
 
 
 def test_checks_are_up_and_down_in_turn(draw: Callable[..., Terrain]) -> None:
@@ -142,10 +144,10 @@ def test_a_wider_terrain_is_the_same_terrain(draw: Callable[..., Terrain]) -> No
         np.testing.assert_allclose(build(terrain, 6.0)[1](points), build(terrain)[1](points), atol=1e-9)
 
 
-def test_plates_without_room_are_named(full_config: dict[str, Any]) -> None:
-    row = {**full_config["terrain"]["plates"], "period_m": 1.0}
+def test_plates_without_room_are_named(settings: Settings) -> None:
+    plates = settings.terrain.plates.model_copy(update={"period_m": 1.0})
     with pytest.raises(ConfigError, match=r"no room for a plate of \[0\.\d+, 0\.\d+\] m in a period of 1\.0 m"):
-        draw_terrain("plates", {"plates": row}, np.random.default_rng(0))
+        draw_terrain(plates, np.random.default_rng(0))
 
 
 def test_flat_is_the_ground_alone(draw: Callable[..., Terrain]) -> None:
@@ -166,8 +168,3 @@ def test_frustum_is_symmetric_and_stands_on_the_ground() -> None:
     corners = frustum(np.array([0.15, 0.3]), np.array([0.14, 0.29]), 0.015)
     np.testing.assert_allclose(corners.mean(axis=0), [0, 0, 0.0075], atol=1e-15)
     np.testing.assert_array_equal(np.abs(corners[corners[:, 2] == 0]), np.tile([0.15, 0.3, 0.0], (4, 1)))
-
-
-def test_unknown_terrain_is_named(full_config: dict[str, Any]) -> None:
-    with pytest.raises(ConfigError, match="terrain: 'stairs' is not accepted; accepted: checks, flat, plates, slope"):
-        draw_terrain("stairs", full_config["terrain"], np.random.default_rng(0))

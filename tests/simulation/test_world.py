@@ -2,22 +2,34 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
 
 import mujoco
 import numpy as np
 import pytest
 
-from mobnet.core.errors import ConfigError
 from mobnet.robot.description import RobotDescription
+from mobnet.settings.settings import Settings
+from mobnet.simulation.terrain import draw_terrain
 from mobnet.simulation.world import World, ground_height, leg_mask, make_world
 
-RNG = np.random.default_rng(0)
+Build = Callable[..., World]
 
 
-def test_options_are_those_the_truth_is_aligned_with(full_config: dict[str, Any], robot: RobotDescription) -> None:
-    option = make_world(full_config, robot, "checks", "ideal", RNG).model.opt
-    assert option.timestep == 1 / full_config["rates"]["plant_hz"] == 0.0005
+@pytest.fixture
+def build(settings: Settings, robot: RobotDescription) -> Build:
+    """A function (terrain, level, seed) -> a world."""
+
+    def make(terrain: str, level: str = "ideal", seed: int = 0) -> World:
+        drawn = draw_terrain(dict(settings.terrain)[terrain], np.random.default_rng(seed))
+        return make_world(robot, drawn, settings.plant, settings.levels[level], settings.rates.plant_hz)
+
+    return make
+
+
+def test_options_are_those_the_truth_is_aligned_with(build: Build) -> None:
+    option = build("checks").model.opt
+    assert option.timestep == 0.0005
     assert option.integrator == mujoco.mjtIntegrator.mjINT_EULER
     assert option.jacobian == mujoco.mjtJacobian.mjJAC_DENSE  # the truth reads dense contact rows
     assert option.noslip_iterations == 0
@@ -25,26 +37,24 @@ def test_options_are_those_the_truth_is_aligned_with(full_config: dict[str, Any]
 
 
 @pytest.mark.parametrize(("level", "present"), [("ideal", 0), ("sensor_noise", 0), ("all_uncertainty", 1)])
-def test_level_switches_friction_loss(
-    full_config: dict[str, Any], robot: RobotDescription, level: str, present: int
-) -> None:
-    model = make_world(full_config, robot, "flat", level, RNG).model
+def test_level_switches_friction_loss(build: Build, robot: RobotDescription, level: str, present: int) -> None:
+    model = build("flat", level).model
     np.testing.assert_array_equal(model.dof_frictionloss[:6], 0)
     np.testing.assert_array_equal(model.dof_frictionloss[6:], present * np.where(leg_mask(robot), 10.0, 8.0))
     assert not model.dof_damping.any()
 
 
-def test_every_geom_has_the_configured_contact(full_config: dict[str, Any], robot: RobotDescription) -> None:
-    model, plant = make_world(full_config, robot, "checks", "ideal", RNG).model, full_config["plant"]
+def test_every_geom_has_the_configured_contact(build: Build, settings: Settings) -> None:
+    model, plant = build("checks").model, settings.plant
     touching = model.geom_contype != 0
-    assert set(model.geom_friction[touching, 0]) == {plant["contact_friction"]}
-    expected = [plant["contact_time_constant_s"], plant["contact_damping_ratio"]]
+    assert set(model.geom_friction[touching, 0]) == {plant.contact_friction}
+    expected = [plant.contact_time_constant_s, plant.contact_damping_ratio]
     np.testing.assert_allclose(model.geom_solref[touching], np.tile(expected, (touching.sum(), 1)))
 
 
-def test_plant_keeps_the_true_masses_at_every_level(full_config: dict[str, Any], robot: RobotDescription) -> None:
-    for level in full_config["levels"]:
-        mass = make_world(full_config, robot, "flat", level, RNG).model.body_mass.sum()
+def test_plant_keeps_the_true_masses_at_every_level(build: Build, settings: Settings, robot: RobotDescription) -> None:
+    for level in settings.levels:
+        mass = build("flat", level).model.body_mass.sum()
         assert mass == pytest.approx(robot.mass, rel=1e-12)
 
 
@@ -52,20 +62,10 @@ def test_leg_mask_is_the_first_twelve_motors(robot: RobotDescription) -> None:
     np.testing.assert_array_equal(np.flatnonzero(leg_mask(robot)), np.arange(12))
 
 
-@pytest.mark.parametrize(("terrain", "level"), [("stairs", "ideal"), ("flat", "perfect")])
-def test_unknown_terrain_or_level_is_named(
-    full_config: dict[str, Any], robot: RobotDescription, terrain: str, level: str
-) -> None:
-    with pytest.raises(ConfigError, match=r"(stairs|perfect)' is not accepted; accepted: "):
-        make_world(full_config, robot, terrain, level, RNG)
-
-
 @pytest.mark.parametrize("name", ["checks", "flat", "plates", "slope"])
-def test_rays_find_the_heights_of_what_stands_there(
-    full_config: dict[str, Any], robot: RobotDescription, name: str
-) -> None:
+def test_rays_find_the_heights_of_what_stands_there(build: Build, name: str) -> None:
     """The pieces' own figures tell the height without a ray; the robot, half above, is not ground."""
-    world = make_world(full_config, robot, name, "ideal", np.random.default_rng(3))
+    world = build(name, seed=3)
     points = np.random.default_rng(4).uniform(-0.5, 0.5, (500, 2)) * world.period
     np.testing.assert_allclose(ground_height(world, points), heights_of_pieces(world, points), atol=1e-6)
 
@@ -85,8 +85,8 @@ def heights_of_pieces(world: World, points: np.ndarray) -> np.ndarray:
     return highest
 
 
-def test_heights_survive_a_reset(full_config: dict[str, Any], robot: RobotDescription) -> None:
-    world = make_world(full_config, robot, "slope", "ideal", RNG)
+def test_heights_survive_a_reset(build: Build) -> None:
+    world = build("slope")
     points = np.random.default_rng(5).uniform(-1.0, 1.0, (50, 2))
     before = ground_height(world, points)
     mujoco.mj_resetData(world.model, world.data)
@@ -94,7 +94,7 @@ def test_heights_survive_a_reset(full_config: dict[str, Any], robot: RobotDescri
     assert np.ptp(before) > 0.01
 
 
-def test_same_generator_builds_the_same_world(full_config: dict[str, Any], robot: RobotDescription) -> None:
-    a, b, c = (make_world(full_config, robot, "plates", "ideal", np.random.default_rng(s)) for s in (1, 1, 2))
+def test_same_generator_builds_the_same_world(build: Build) -> None:
+    a, b, c = (build("plates", seed=seed) for seed in (1, 1, 2))
     np.testing.assert_array_equal(a.model.geom_pos, b.model.geom_pos)
     assert a.model.geom_pos.shape != c.model.geom_pos.shape or not np.array_equal(a.model.geom_pos, c.model.geom_pos)

@@ -5,91 +5,19 @@ A command is a row (5,): step x, step y [m], turn [rad], duration [s], foot heig
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mobnet.core.errors import ConfigError, not_accepted
-
-Array = NDArray[np.float64]
+from mobnet.settings.walking import Walking
 
 STEP_X, STEP_Y, TURN, DURATION, FOOT_HEIGHT = range(5)  # columns of a command
 SIDES = (1.0, -1.0)  # of the left, right leg: +y is left
 State = np.record  # one record of STATE; its fields are attributes
-
-
-class WalkingParameters(NamedTuple):
-    """Numbers of the walking controller; units stand in configs/config.yaml, `walking`."""
-
-    foot_spacing_m: float
-    zmp_offset_x_m: float
-    toe_in_max_rad: float
-    double_support_share: float
-    velocity_filter: float
-    com_height_min_m: float
-    dcm_gain: float
-    vertical_damping_hz: float
-    sole_x_m: Array
-    sole_y_m: float
-    double_support_shift_m: Array
-    pelvis_height_m: float
-    pelvis_height_rate_hz: float
-    pelvis_height_speed_m_s: float
-    foothold_band_m: Array
-    foothold_change_max_m: Array
-    foothold_x_max_m: float
-    foothold_y_m: Array
-    foothold_gain: float
-    foothold_speed_m_s: float
-    foothold_freeze_s: float
-    timing_band_m: float
-    timing_ankle_m: float
-    timing_rate: float
-    timing_freeze_s: float
-    timing_soonest_s: float
-    timing_dcm_min_m: float
-    timing_dcm_lost_m: float
-    step_min_s: float
-    step_shorter_max_s: float
-    step_longer_max_s: float
-    swing_speed_max_m_s: float
-    touch_force_n: float
-    late_max_s: float
-    early_max_s: float
-    swing_apex: float
-    swing_xy_share: float
-    swing_level_share: float
-    descent_speed_m_s: float
-    descent_acceleration_m_s2: float
-    descent_depth_m: float
-    joint_speed_max_rad_s: float
-    ankle_damping_nms: float
-    ankle_integral_hz: float
-    ankle_leak_hz: float
-    ankle_tilt_leak_hz: float
-    ankle_tilt: float
-    ankle_integral_max_nm: float
-    guard_stiffness_nm: float
-    guard_edge_nm: float
-    guard_damping_nms: float
-    guard_band: Array
-    stand_load_min: float
-    stand_shift_m: Array
-    base_time_constant_s: float
-    load_gain: float
-    load_filter: float
-    stumble_m: float
-    stumble_sunk_m: float
-    slope_rate_hz: float
-    slope_max: float
-    leg_stiffness_nm_rad: Array
-    leg_damping_nms_rad: Array
-    unloaded_stiffness: float
-    posture_rad: Array
-    posture_stiffness_nm_rad: Array
-    posture_damping_nms_rad: Array
+if TYPE_CHECKING:
+    WalkingParameters = Walking  # a type checker sees the fields and their units
+else:
+    WalkingParameters = np.record
 
 
 STATE = np.dtype(
@@ -120,20 +48,15 @@ STATE = np.dtype(
 )  # fmt: skip
 
 
-def walking_parameters(settings: Mapping[str, Any]) -> WalkingParameters:
-    """Build the parameters from the `walking` section of the configuration.
+def walking_parameters(walking: Walking) -> WalkingParameters:
+    """Return the numbers of the walking controller as one record, in which pairs and lists are arrays.
 
-    Raises:
-        ConfigError: a key is unknown or missing.
+    The type of a record says where each of its fields lies. Machine code that was compiled and cached for other fields
+    is therefore never used, although the sections of the configuration are no part of the code's hash.
     """
-    names = WalkingParameters._fields
-    for key in set(settings) ^ set(names):
-        raise ConfigError(not_accepted("walking: key", key, names))
-    values: dict[str, Any] = {
-        name: np.array(value, dtype=float) if isinstance(value, list) else float(value)
-        for name, value in settings.items()
-    }
-    return WalkingParameters(**values)
+    numbers = walking.model_dump()
+    layout = np.dtype([(name, "f8", np.shape(value)) for name, value in numbers.items()])
+    return np.array([tuple(numbers.values())], dtype=layout).view(np.recarray)[0]
 
 
 def empty_state() -> State:

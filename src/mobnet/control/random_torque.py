@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,12 +10,12 @@ from numpy.typing import NDArray
 from mobnet.control.compiled import compiled
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
+from mobnet.settings.data import RandomTorque
 
 Array = NDArray[np.float64]
-LIMBS = dict.fromkeys(("LL", "RL", "W"), "legs_waist_nm") | {"LA": "arms_nm", "RA": "arms_nm", "N": "neck_nm"}
 
 
-class RandomTorque(NamedTuple):
+class Exploration(NamedTuple):
     """Law and state of the exploration.
 
     Attributes:
@@ -36,26 +35,25 @@ class RandomTorque(NamedTuple):
     on: NDArray[np.int64]
 
 
-def make_random_torque(settings: Mapping[str, Any], layout: JointLayout, present: bool) -> RandomTorque:
-    """Build the exploration of section 4.3 from the `random_torque` section.
+def make_exploration(settings: RandomTorque, layout: JointLayout, present: bool) -> Exploration:
+    """Build the exploration of section 4.3; all amplitudes are zero where it is not present.
 
     Raises:
-        ConfigError: a list of amplitudes does not fit its limb.
+        ConfigError: the amplitudes of an arm are not as many as its joints.
     """
+    legs_waist, arms, neck = settings.legs_waist_nm, settings.arms_nm, settings.neck_nm
     amplitude = np.zeros(layout.nu)
-    for limb, key in LIMBS.items():
-        joints, bound = layout.limb(limb), np.ravel(settings[key])
-        if len(bound) not in (1, len(joints)):
-            raise ConfigError(f"random_torque.{key}: {len(bound)} values; accepted: 1 or {len(joints)} ({limb})")
+    for limb, bound in {"LL": legs_waist, "RL": legs_waist, "W": legs_waist, "LA": arms, "RA": arms, "N": neck}.items():
+        joints = layout.limb(limb)
+        if isinstance(bound, tuple) and len(bound) != len(joints):
+            raise ConfigError(f"random_torque.arms_nm: {len(bound)} values; accepted: {len(joints)} ({limb})")
         amplitude[layout.columns(joints) - len(layout.virtual)] = bound
-    shortest, longest = map(float, settings["period_s"])
-    return RandomTorque(
-        amplitude * present, shortest, longest, np.zeros(layout.nu), np.zeros(layout.nu), np.zeros(layout.nu, np.int64)
-    )
+    nu = layout.nu
+    return Exploration(amplitude * present, *settings.period_s, np.zeros(nu), np.zeros(nu), np.zeros(nu, np.int64))
 
 
 @compiled
-def advance_random_torque(law: RandomTorque, rng: np.random.Generator, dt: float) -> None:
+def advance_random_torque(law: Exploration, rng: np.random.Generator, dt: float) -> None:
     """Advance every joint's on and off periods by dt [s]; a new period draws its length and, if on, its torque."""
     for j in range(len(law.amplitude)):
         law.left[j] -= dt

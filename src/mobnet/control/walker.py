@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from mobnet.control.compiled import compiled
 from mobnet.control.kinematics import Pose, Tree, empty_pose, tree_of
 from mobnet.control.leg_ik import LegGeometry
-from mobnet.control.parameters import WalkingParameters
+from mobnet.control.parameters import WalkingParameters, walking_parameters
 from mobnet.robot.description import SIDES, WalkingRobot
+from mobnet.settings.walking import Walking
 
 Array = NDArray[np.float64]
 
@@ -31,6 +32,8 @@ class Walker(NamedTuple):
         sole: centre of the sole in the foot (3,) [m].
         gravity: gravity [m/s^2].
         wrench: measured wrenches of the ground about the ankles, foot axes (2, 6) [N, N m]; filled by each tick.
+        posture_stiffness: of the joints above the legs (nu - upper,) [N m/rad].
+        posture_damping: of these joints (nu - upper,) [N m s/rad].
         posture: wanted positions of the joints above the legs (nu - upper,) [rad], written by what moves them.
         posture_rate: wanted velocities of these joints (nu - upper,) [rad/s].
         work: scratch (3,).
@@ -47,17 +50,19 @@ class Walker(NamedTuple):
     sole: Array
     gravity: float
     wrench: Array
+    posture_stiffness: Array
+    posture_damping: Array
     posture: Array
     posture_rate: Array
     work: Array
 
 
-def make_walker(robot: WalkingRobot, par: WalkingParameters, mass_ratio: float, gravity_m_s2: float) -> Walker:
+def make_walker(robot: WalkingRobot, walking: Walking, mass_ratio: float, gravity_m_s2: float) -> Walker:
     """Build what the controller knows of a robot, with masses mass_ratio times those of its table.
 
     Args:
         robot: the robot.
-        par: numbers of the controller.
+        walking: numbers of the controller.
         mass_ratio: of the nominal model.
         gravity_m_s2: gravity [m/s^2].
     """
@@ -66,7 +71,7 @@ def make_walker(robot: WalkingRobot, par: WalkingParameters, mass_ratio: float, 
     actuator = {name: i for i, name in enumerate(robot.layout.actuated)}
     limbs = [robot.layout.limb(robot.feet[side].limb) for side in SIDES]
     return Walker(
-        par=par,
+        par=walking_parameters(walking),
         tree=tree,
         pose=empty_pose(tree),
         leg=LegGeometry(np.array(robot.leg.hip_pos, dtype=float), float(robot.leg.link_length)),
@@ -77,8 +82,10 @@ def make_walker(robot: WalkingRobot, par: WalkingParameters, mass_ratio: float, 
         sole=np.array([*robot.sole.centre[:2], robot.sole.height]),
         gravity=float(gravity_m_s2),
         wrench=np.zeros((2, 6)),
-        posture=par.posture_rad.copy(),
-        posture_rate=np.zeros(len(par.posture_rad)),
+        posture_stiffness=robot.posture.stiffness,
+        posture_damping=robot.posture.damping,
+        posture=robot.posture.angle.copy(),
+        posture_rate=np.zeros(len(robot.posture.angle)),
         work=np.zeros(3),
     )
 

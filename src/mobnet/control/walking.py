@@ -99,4 +99,6 @@ def _torques(walker: Walker, s: State, stance: int, q: Array, v: Array, dt: floa
             point[1] += pose.position[foot, 1] + np.sin(yaw) * par.zmp_offset_x_m - s.zmp_nominal[1]
         point[2] = pose.position[foot, 2] + walker.sole[2]
         stance_torque(par, walker.tree, pose, s, k, first, foot, q, v, walker.wrench[k], point, dt, tau)
-    posture_torque(par, walker.upper, q, v, walker.posture, walker.posture_rate, tau)
+    posture_torque(
+        walker.posture_stiffness, walker.posture_damping, walker.upper, q, v, walker.posture, walker.posture_rate, tau
+    )

@@ -183,12 +183,13 @@ def swing_torque(par: WalkingParameters, s: State, k: int, first: int, q: Array,
 
 @compiled
 def posture_torque(
-    par: WalkingParameters, first: int, q: Array, v: Array, target: Array, rate: Array, tau: Array
+    stiffness: Array, damping: Array, first: int, q: Array, v: Array, target: Array, rate: Array, tau: Array
 ) -> None:
     """Add the torques of the joints from actuator `first` on to tau (nu,) [N m], (W46).
 
     Args:
-        par: numbers of the controller.
+        stiffness: torque of a position error (n,) [N m/rad].
+        damping: torque of a velocity error (n,) [N m s/rad].
         first: first actuator above the legs.
         q: sensed generalized position (nq,).
         v: sensed generalized velocity (nv,).
@@ -198,5 +199,5 @@ def posture_torque(
     """
     for j in range(len(target)):
         joint = first + j
-        tau[joint] += par.posture_stiffness_nm_rad[j] * (target[j] - q[7 + joint])
-        tau[joint] += par.posture_damping_nms_rad[j] * (rate[j] - v[6 + joint])
+        tau[joint] += stiffness[j] * (target[j] - q[7 + joint])
+        tau[joint] += damping[j] * (rate[j] - v[6 + joint])

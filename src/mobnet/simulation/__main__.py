@@ -10,13 +10,14 @@ import sys
 import tempfile
 import time
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 from mobnet.control.upper_body import UpperBody
-from mobnet.core.config import load_config
 from mobnet.core.errors import ConfigError, DrawingError, MobnetError, not_accepted
+from mobnet.plan.jobs import walk_settings
+from mobnet.settings.load import CONFIGS, load_settings
+from mobnet.settings.settings import Settings
 from mobnet.simulation.clip import check_ending, save_clip
 from mobnet.simulation.motion import make_motion
 from mobnet.simulation.record import read_motion
@@ -64,9 +65,7 @@ def _parse(words: list[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--picture", type=Path, metavar="FILE", help=".png of the first left step in mid-stride after that time"
     )
-    parser.add_argument(
-        "--config", type=Path, default=Path("configs/config.yaml"), help="where these keys stand (%(default)s)"
-    )
+    parser.add_argument("--config", type=Path, default=CONFIGS, metavar="FOLDER", help="where these keys stand")
     return parser.parse_args(words)
 
 
@@ -113,27 +112,43 @@ def _simulator(options: argparse.Namespace, seconds: float) -> Simulator:
     """Return a started simulator; its upper body moves for the seconds to come, for some time if they have no end.
 
     Raises:
-        ConfigError: scenario, level or terrain are not accepted.
+        ConfigError: the configuration, scenario, level or terrain is not accepted.
     """
-    config = load_config(options.config)
-    scenario = config["scenarios"].get(options.scenario, {})  # an unknown one is the simulator's to name
-    if options.terrain:
-        scenario["terrain"] = [options.terrain]
-    upper = None
-    if "motion" in scenario:
+    settings = _settings(options)
+    motion, upper = settings.scenarios[options.scenario].motion, None
+    if motion is not None:
         moved_s = min(seconds, MOTION_S) + LOOKED_FOR_S
         log.info("%.0f s of motion of the upper body are made first", moved_s)
-        upper = _motion(config, scenario["motion"], options.seed, moved_s)
-    simulator = Simulator(config, options.scenario, options.level, options.seed, upper)
+        upper = _motion(settings, motion, options.seed, moved_s)
+    simulator = Simulator(walk_settings(settings, options.scenario, options.level), options.seed, upper)
     simulator.start()
     return simulator
 
 
-def _motion(config: Mapping[str, Any], name: str, seed: int, seconds: float) -> UpperBody:
+def _settings(options: argparse.Namespace) -> Settings:
+    """Return the configuration in which the scenario walks on the terrain that is asked for.
+
+    Raises:
+        ConfigError: the configuration, scenario, level or terrain is not accepted.
+    """
+    settings = load_settings(options.config)
+    for option, name, accepted in (
+        ("scenario", options.scenario, settings.scenarios),
+        ("level", options.level, settings.levels),
+    ):
+        if name not in accepted:
+            raise ConfigError(not_accepted(f"--{option}", name, accepted))
+    if options.terrain is None:
+        return settings
+    return load_settings(options.config, {"scenarios": {options.scenario: {"terrain": [options.terrain]}}})
+
+
+def _motion(settings: Settings, name: str, seed: int, seconds: float) -> UpperBody:
     """Return a motion of the upper body as the workflow makes it."""
     with tempfile.TemporaryDirectory() as folder:
-        make_motion(config, name, seed, seconds, Path(folder) / name)
-        return read_motion(Path(folder) / name)
+        out = Path(folder) / name
+        make_motion(settings.seed, settings.robot, settings.motions[name], name, seed, seconds, out)
+        return read_motion(out)
 
 
 def _draw(simulator: Simulator, options: argparse.Namespace, seconds: float) -> None:

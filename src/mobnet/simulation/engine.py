@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mobnet.control.compiled import compiled
 from mobnet.control.geometry import clip
 from mobnet.control.parameters import State
-from mobnet.control.random_torque import RandomTorque, advance_random_torque
+from mobnet.control.random_torque import Exploration, advance_random_torque
 from mobnet.control.upper_body import UpperBody, follow
 from mobnet.control.walker import Walker
 from mobnet.control.walking import walk
@@ -90,7 +90,7 @@ def make_plant(
 
 @compiled(allocating=True)
 def run(
-    plant: Plant, walker: Walker, sensors: Sensors, s: State, commands: Array, upper: UpperBody, torque: RandomTorque,
+    plant: Plant, walker: Walker, sensors: Sensors, s: State, commands: Array, upper: UpperBody, torque: Exploration,
     pushes: Pushes, rng_noise: np.random.Generator, rng_torque: np.random.Generator, rng_pushes: np.random.Generator,
     log: NDArray[np.float32],
 ) -> int:  # fmt: skip
@@ -128,7 +128,7 @@ def run(
 
 
 @compiled
-def _explore(walker: Walker, s: State, torque: RandomTorque, rng: np.random.Generator, dt: float, tau: Array) -> None:
+def _explore(walker: Walker, s: State, torque: Exploration, rng: np.random.Generator, dt: float, tau: Array) -> None:
     """Add the random torque to the desired torques tau (nu,) [N m], but not to a leg that carries load."""
     advance_random_torque(torque, rng, dt)
     swing = -1 if s.swinging == 0 else (1 if s.side > 0 else 0)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
-from typing import Any, NamedTuple
+from collections.abc import Collection
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.control.compiled import compiled
+from mobnet.settings.plant import FrictionTerm, Plant
 
 Array = NDArray[np.float64]
 
@@ -33,22 +34,22 @@ class Friction(NamedTuple):
     load: Array
 
 
-def make_friction(plant: Mapping[str, Any], legs: NDArray[np.bool_], terms: Collection[str]) -> Friction:
-    """Build the friction of a plant.
+def make_friction(plant: Plant, legs: NDArray[np.bool_], terms: Collection[FrictionTerm]) -> Friction:
+    """Build the friction of a plant, (23) and Table 4.
 
     Args:
-        plant: the configuration's `plant`.
-        legs: which joints are a leg's (nu,).
-        terms: those of (23) that are there: `stribeck`, viscous friction with it, and `load`; others play no part here.
+        plant: numbers of Table 4.
+        legs: which joints belong to a leg (nu,).
+        terms: terms of (23) that are there: `stribeck` with the viscous one, `load`; `loss` is left to MuJoCo.
     """
-    figures, speed, load = plant["friction"], float("stribeck" in terms), float("load" in terms)
+    table, speed, load = plant.friction, float("stribeck" in terms), float("load" in terms)
     return Friction(
-        coulomb=speed * figures["coulomb_nm"],
-        static=speed * figures["static_nm"],
-        stribeck=figures["stribeck_rad_s"],
-        smoothing=plant["friction_smoothing_rad_s"],
-        viscous=speed * np.where(legs, figures["viscous_legs_nms"], figures["viscous_others_nms"]),
-        load=load * np.where(legs, figures["load_legs_per_nm"], 0.0),
+        coulomb=speed * table.coulomb_nm,
+        static=speed * table.static_nm,
+        stribeck=table.stribeck_rad_s,
+        smoothing=plant.friction_smoothing_rad_s,
+        viscous=speed * np.where(legs, table.viscous_legs_nms, table.viscous_others_nms),
+        load=load * np.where(legs, table.load_legs_per_nm, 0.0),
     )
 
 

@@ -9,20 +9,20 @@ from __future__ import annotations
 
 import logging
 import zlib
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 from scipy.special import erf
 
-from mobnet.core.config import FIRST_TRAINING_SEED
-from mobnet.core.errors import ConfigError, SimulationError, not_accepted
+from mobnet.core.errors import SimulationError
 from mobnet.core.provenance import provenance
 from mobnet.core.store import write_array
-from mobnet.robot.description import RobotDescription, load_robot
+from mobnet.plan.runs import FIRST_TRAINING_SEED
+from mobnet.robot.description import RobotDescription, describe, for_walking
+from mobnet.settings.data import Motion
+from mobnet.settings.robot import RobotTable
 from mobnet.simulation.reaching import Reacher
 
 log = logging.getLogger(__name__)
@@ -31,28 +31,33 @@ BOTH_SIDES = np.array([[1.0, 1.0, 1.0], [1.0, -1.0, 1.0]])  # the right side is 
 HAND_WAVES = 6  # azimuth, elevation and distance of two hands
 
 
-def make_motion(config: Mapping[str, Any], name: str, seed: int, duration_s: float, out_stem: Path) -> None:
+def make_motion(
+    root_seed: int, robot: RobotTable, motion: Motion, name: str, seed: int, duration_s: float, out: Path
+) -> None:
     """Write knots of joint targets [rad] of the joints above the legs, columns q_ref.<joint> (section 4.3).
 
+    Args:
+        root_seed: root of all random numbers of the configuration.
+        robot: table of the robot.
+        motion: numbers of the motion.
+        name: of the motion; it draws by it.
+        seed: number of the recording that it is made for.
+        duration_s: time that it covers [s].
+        out: where to write, path without a suffix.
+
     Raises:
-        ConfigError: the motion or its duration is not accepted.
         SimulationError: the motion comes too near to the robot itself.
     """
-    if name not in config["motions"]:
-        raise ConfigError(not_accepted("motion", name, config["motions"]))
-    if not duration_s > 0:
-        raise ConfigError(f"duration_s: {duration_s} is not accepted; accepted: > 0")
-    settings = config["motions"][name]
-    robot = load_robot(Path(config["robot"]))
-    part, variant = part_and_variant(seed, len(settings["variants"]))
-    rng = np.random.default_rng(np.random.SeedSequence([config["seed"], zlib.crc32(name.encode()), part]))
-    reacher = Reacher(robot, settings, working_range(robot, settings), np.array(config["walking"]["posture_rad"]))
-    knots = plan(robot, settings, reacher, variant, rng, duration_s)
-    names = robot.layout.actuated[-knots.shape[1] :]
-    figures = {"motion": name, "seed": seed, "part": part, "variant": variant, **measured(reacher, settings, knots)}
-    log.info("%s: %s", out_stem.name, figures)
-    meta = {"rate_hz": settings["knot_hz"], **figures, "provenance": provenance(config)}
-    write_array(out_stem, knots, [(f"q_ref.{joint}", "rad", "joint") for joint in names], meta)
+    described = for_walking(describe(robot))
+    part, variant = part_and_variant(seed, len(motion.variants))
+    rng = np.random.default_rng(np.random.SeedSequence([root_seed, zlib.crc32(name.encode()), part]))
+    reacher = Reacher(described, motion, working_range(motion), described.posture.angle)
+    knots = plan(described, motion, reacher, variant, rng, duration_s)
+    figures = {"motion": name, "seed": seed, "part": part, "variant": variant, **measured(reacher, motion, knots)}
+    log.info("%s: %s", out.name, figures)
+    settings = {"seed": root_seed, "robot": robot.model_dump(mode="json"), "motion": motion.model_dump(mode="json")}
+    meta = {"rate_hz": motion.knot_hz, **figures, "provenance": provenance(settings)}
+    write_array(out, knots, [(f"q_ref.{joint}", "rad", "joint") for joint in described.posture.joints], meta)
 
 
 def part_and_variant(seed: int, variants: int) -> tuple[int, int]:
@@ -62,50 +67,48 @@ def part_and_variant(seed: int, variants: int) -> tuple[int, int]:
 
 
 def plan(
-    robot: RobotDescription, settings: Mapping[str, Any], reacher: Reacher, variant: int, rng: np.random.Generator,
+    robot: RobotDescription, settings: Motion, reacher: Reacher, variant: int, rng: np.random.Generator,
     duration_s: float,
 ) -> Array:  # fmt: skip
     """Return knots (T, n) [rad] that start at rest where the reacher is."""
-    change, limits = settings["variants"][variant], working_range(robot, settings)
-    time = np.arange(round(duration_s * settings["knot_hz"]) + 1) / settings["knot_hz"]
-    waves = band_limited(change["speed"] * time, HAND_WAVES + len(limits), settings, rng)
-    hands = hand_targets(shoulder(robot) + change["hand_offset_m"], settings, waves[:, :HAND_WAVES])
+    change, limits = settings.variants[variant], working_range(settings)
+    time = np.arange(round(duration_s * settings.knot_hz) + 1) / settings.knot_hz
+    waves = band_limited(change.speed * time, HAND_WAVES + len(limits), settings, rng)
+    hands = hand_targets(shoulder(robot) + np.array(change.hand_offset_m), settings, waves[:, :HAND_WAVES])
     joints = limits.mean(axis=1) + 0.5 * np.diff(limits)[:, 0] * waves[:, HAND_WAVES:]
-    share = smooth_step((time - settings["still_s"]) / settings["ease_s"])
+    share = smooth_step((time - settings.still_s) / settings.ease_s)
     place, posture = reacher.hand_positions(), reacher.configuration.q
     knots = np.zeros((len(time), len(limits)))
     for i, s in enumerate(share):
         knots[i] = reacher.step(place + s * (hands[i] - place), posture + s * (joints[i] - posture))
-    return gaussian_filter1d(knots, settings["smoothing_s"] * settings["knot_hz"], axis=0, mode="nearest")
+    return gaussian_filter1d(knots, settings.smoothing_s * settings.knot_hz, axis=0, mode="nearest")
 
 
-def measured(reacher: Reacher, settings: Mapping[str, Any], knots: Array) -> dict[str, float]:
+def measured(reacher: Reacher, settings: Motion, knots: Array) -> dict[str, float]:
     """Return the least distance [m] and the hands' speeds [m/s], seen from the pelvis, along knots (T, n) [rad].
 
     Raises:
         SimulationError: the motion comes nearer than is allowed.
     """
     nearest, hands = reacher.look(knots)
-    if nearest.min() < settings["clearance_least_m"]:
-        when = np.argmin(nearest) / settings["knot_hz"]
+    if nearest.min() < settings.clearance_least_m:
+        when = np.argmin(nearest) / settings.knot_hz
         raise SimulationError(
             f"motion: {nearest.min():.3f} m between two solids at {when:.2f} s is not accepted; "
-            f"accepted: >= {settings['clearance_least_m']}"
+            f"accepted: >= {settings.clearance_least_m}"
         )
-    speed = np.linalg.norm(np.gradient(hands, 1.0 / settings["knot_hz"], axis=0), axis=-1)
+    speed = np.linalg.norm(np.gradient(hands, 1.0 / settings.knot_hz, axis=0), axis=-1)
     values = {"clearance_m": nearest.min(), "hand_speed_mean_m_s": speed.mean(), "hand_speed_max_m_s": speed.max()}
     return {name: round(float(value), 4) for name, value in values.items()}
 
 
-def working_range(robot: RobotDescription, settings: Mapping[str, Any]) -> Array:
+def working_range(settings: Motion) -> Array:
     """Return the working range (n, 2) [rad] of the joints above the legs: the right arm's mirrors the left one's."""
-    rows = {limb: np.array(settings[key], dtype=float) for limb, key in (("W", "waist_rad"), ("N", "neck_rad"))}
-    rows["LA"] = np.array(settings["arm_rad"], dtype=float)
-    rows["RA"] = -rows["LA"][:, ::-1]
-    return np.concatenate([rows[limb] for limb in ("W", "LA", "N", "RA")])
+    left = np.array(settings.arm_rad)
+    return np.concatenate([settings.waist_rad, left, settings.neck_rad, -left[:, ::-1]])
 
 
-def hand_targets(centre: Array, settings: Mapping[str, Any], waves: Array) -> Array:
+def hand_targets(centre: Array, settings: Motion, waves: Array) -> Array:
     """Return hands (T, 2, 3) [m] in the chest's frame from waves (T, 6) in -1..1: azimuth, elevation, distance.
 
     Args:
@@ -113,7 +116,7 @@ def hand_targets(centre: Array, settings: Mapping[str, Any], waves: Array) -> Ar
         settings: spans of azimuth, elevation and distance.
         waves: left hand, then right hand.
     """
-    spans = np.array([settings[key] for key in ("hand_azimuth_rad", "hand_elevation_rad", "hand_distance_m")])
+    spans = np.array([settings.hand_azimuth_rad, settings.hand_elevation_rad, settings.hand_distance_m])
     azimuth, elevation, distance = np.moveaxis(
         spans.mean(axis=1) + 0.5 * np.diff(spans)[:, 0] * waves.reshape(-1, 2, 3), -1, 0
     )
@@ -129,9 +132,9 @@ def shoulder(robot: RobotDescription) -> Array:
     return np.sum([link.pos for link in links], axis=0)
 
 
-def band_limited(time: Array, count: int, settings: Mapping[str, Any], rng: np.random.Generator) -> Array:
+def band_limited(time: Array, count: int, settings: Motion, rng: np.random.Generator) -> Array:
     """Return signals (T, count), spread evenly over -1..1, of sines within the band [Hz] at time (T,) [s]."""
-    waves, (lowest, highest) = settings["waves"], settings["band_hz"]
+    waves, (lowest, highest) = settings.waves, settings.band_hz
     frequency = 2 * np.pi * rng.uniform(lowest, highest, (waves, count))
     phase = rng.uniform(0, 2 * np.pi, (waves, count))
     total = np.zeros((len(time), count))

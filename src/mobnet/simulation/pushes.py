@@ -5,7 +5,7 @@ The plant feels them like contacts; they are part of the external torque. Those 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import mujoco
@@ -17,16 +17,15 @@ from mobnet.control.parameters import State
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.robot.description import RobotDescription
+from mobnet.settings.data import Direction, Phase, Push
 
 Array = NDArray[np.float64]
-DIRECTIONS = ("any", "horizontal", "down", "backward")  # backward: against the x axis of the pushed body
+DIRECTIONS: tuple[Direction, ...] = ("any", "horizontal", "down", "backward")  # the last: against the body's x axis
 ANY, HORIZONTAL, DOWN, BACKWARD = range(4)
 SHAPES = ("step", "half_sine")
 HALF_SINE = 1
-PHASES = ("always", "left_swing", "right_swing", "left_support", "right_support")
+PHASES: tuple[Phase, ...] = ("always", "left_swing", "right_swing", "left_support", "right_support")
 SHARE_WINDOW = 0.05  # [-] of a step: a push whose moment has passed by more waits for the next step
-
-DEFAULTS = {"during": PHASES[0], "share": (0.0, 0.0), "pause_s": (0.0, 0.0), "direction": DIRECTIONS[0]}
 
 LAW = np.dtype([
     ("site", "i8"), ("body", "i8"), ("dof", "i8"), ("phase", "i8"), ("direction", "i8"), ("shape", "i8"),
@@ -56,53 +55,37 @@ class Pushes(NamedTuple):
     state: NDArray[Any]
 
 
-def make_pushes(
-    settings: Mapping[str, Any], names: Sequence[str], model: mujoco.MjModel, robot: RobotDescription
-) -> Pushes:
-    """Build the pushes of a scenario from rows of the `pushes` section.
+def make_pushes(settings: Mapping[str, Push], model: mujoco.MjModel, robot: RobotDescription) -> Pushes:
+    """Build the pushes of a scenario from their names and laws.
 
     Raises:
-        ConfigError: a push, its point or its joint is unknown.
+        ConfigError: the robot has no such point.
     """
-    laws, times = [], []
-    for name in names:
-        if name not in settings:
-            raise ConfigError(not_accepted("push", name, settings))
-        laws.append(_law(name, settings[name], model, robot))
-        times.append(settings[name].get("at_s", ()))
-    padded = np.full((len(names), 1 + max(map(len, times), default=0)), np.inf)  # the last one never comes
+    laws = [_law(name, row, model, robot) for name, row in settings.items()]
+    times = [row.at_s or () for row in settings.values()]
+    padded = np.full((len(laws), 1 + max(map(len, times), default=0)), np.inf)  # the last one never comes
     for k, row in enumerate(times):
         padded[k, : len(row)] = row
-    return Pushes(np.array(laws, dtype=LAW), padded, np.zeros(len(names), dtype=STATE))
+    return Pushes(np.array(laws, dtype=LAW), padded, np.zeros(len(laws), dtype=STATE))
 
 
-def _law(name: str, settings: Mapping[str, Any], model: mujoco.MjModel, robot: RobotDescription) -> tuple[Any, ...]:
-    """Return a record of LAW from a row of the `pushes` section."""
-    row = {**DEFAULTS, **settings}
-    return (
-        *_target(name, row, model, robot), PHASES.index(row["during"]), DIRECTIONS.index(row["direction"]),
-        SHAPES.index(row["shape"]), "at_s" in row, row["share"], row["pause_s"],
-        row["torque_nm"] if "joint" in row else row["force_n"], row["duration_s"],
-    )  # fmt: skip
-
-
-def _target(name: str, row: Mapping[str, Any], model: mujoco.MjModel, robot: RobotDescription) -> tuple[int, int, int]:
-    """Return site, body and -1 of a push on a point; -1, -1 and the place in the generalized velocity of a joint's."""
-    if "joint" in row:
-        return -1, -1, N_VIRTUAL + _index(f"pushes.{name}.joint", row["joint"], robot.layout.actuated)
-    site = _index(f"pushes.{name}.point", row["point"], [model.site(i).name for i in range(model.nsite)])
-    return site, int(model.site_bodyid[site]), -1
-
-
-def _index(key: str, name: str, accepted: Sequence[str]) -> int:
-    """Return the place of a name among those accepted.
+def _law(name: str, row: Push, model: mujoco.MjModel, robot: RobotDescription) -> tuple[Any, ...]:
+    """Return a record of LAW.
 
     Raises:
-        ConfigError: it is not one of them.
+        ConfigError: the robot has no such point.
     """
-    if name not in accepted:
-        raise ConfigError(not_accepted(key, name, accepted))
-    return list(accepted).index(name)
+    if row.joint is not None:
+        target = -1, -1, N_VIRTUAL + robot.layout.actuated.index(row.joint)
+    else:
+        points = [model.site(i).name for i in range(model.nsite)]
+        if row.point not in points:
+            raise ConfigError(not_accepted(f"pushes.{name}.point", row.point, points))
+        target = points.index(row.point), int(model.site_bodyid[points.index(row.point)]), -1
+    return (
+        *target, PHASES.index(row.during), DIRECTIONS.index(row.direction), SHAPES.index(row.shape),
+        row.at_s is not None, row.share, row.pause_s or (0.0, 0.0), row.force_n or row.torque_nm, row.duration_s,
+    )  # fmt: skip
 
 
 def reset_pushes(pushes: Pushes, start_s: float, rng: np.random.Generator) -> None:

@@ -5,8 +5,7 @@ The guard is MuJoCo's collision detection: the robot's own solids, and the space
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import mink
 import mujoco
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.errors import SimulationError
 from mobnet.robot.description import SIDES, RobotDescription
+from mobnet.settings.data import Motion
 from mobnet.simulation.self_collision import check_spec, collide
 
 Array = NDArray[np.float64]
@@ -48,9 +48,9 @@ class ClearanceLimit(mink.Limit):
 
 
 class Reacher:
-    """Follows targets knot by knot from a posture; `settings` is a row of `motions` in the configuration."""
+    """Follows targets knot by knot from a posture."""
 
-    def __init__(self, robot: RobotDescription, settings: Mapping[str, Any], limits: Array, posture: Array) -> None:
+    def __init__(self, robot: RobotDescription, settings: Motion, limits: Array, posture: Array) -> None:
         """Build model, tasks and limits.
 
         Args:
@@ -59,27 +59,25 @@ class Reacher:
             limits: working range of the joints above the legs (n, 2) [rad].
             posture: where to start (n,) [rad].
         """
-        model = upper_body(robot, limits, settings["guard_m"], settings["leg_poses_rad"])
-        self.dt, self.reach = 1.0 / settings["knot_hz"], settings["guard_m"]
-        self.lead = settings["hand_speed_max_m_s"] * self.dt / settings["gain"]
+        model = upper_body(robot, limits, settings.guard_m, settings.leg_poses_rad)
+        self.dt, self.reach = 1.0 / settings.knot_hz, settings.guard_m
+        self.lead = settings.hand_speed_max_m_s * self.dt / settings.gain
         self.configuration = mink.Configuration(model, posture)
         self.hands = [
-            mink.FrameTask(f"{side}_hand", "site", settings["hand_cost"], 0.0, gain=settings["gain"]) for side in SIDES
+            mink.FrameTask(f"{side}_hand", "site", settings.hand_cost, 0.0, gain=settings.gain) for side in SIDES
         ]
-        cost = np.full(model.nv, settings["arm_cost"])
+        cost = np.full(model.nv, settings.arm_cost)
         free = [model.joint(name).id for limb in ("W", "N") for name in robot.layout.limb(limb)]
-        cost[free] = settings["trunk_cost"]
-        self.posture = mink.PostureTask(model, cost, gain=settings["gain"])
-        self.inertia = mink.PostureTask(model, settings["inertia_cost"])
+        cost[free] = settings.trunk_cost
+        self.posture = mink.PostureTask(model, cost, gain=settings.gain)
+        self.inertia = mink.PostureTask(model, settings.inertia_cost)
         self.before = posture
         names = robot.layout.actuated[-model.nv :]
-        speeds = {
-            joint.id: settings["speed_share"] * joint.velocity_limit for joint in robot.joints if joint.id in names
-        }
+        speeds = {joint.id: settings.speed_share * joint.velocity_limit for joint in robot.joints if joint.id in names}
         self.limits = [
             mink.ConfigurationLimit(model),
             mink.VelocityLimit(model, speeds),
-            ClearanceLimit(model, settings["clearance_m"], settings["gain"]),
+            ClearanceLimit(model, settings.clearance_m, settings.gain),
         ]
         self.chest = model.body(model.site("torso").bodyid[0]).id
 

@@ -5,19 +5,20 @@ from __future__ import annotations
 import logging
 import time
 from collections import deque
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.control.upper_body import UpperBody
-from mobnet.core.errors import ConfigError, SimulationError
+from mobnet.core.errors import SimulationError
 from mobnet.core.provenance import provenance
 from mobnet.core.recording import recording_columns
 from mobnet.core.store import array_writer, read_array
+from mobnet.settings.data import RecordingSettings
+from mobnet.settings.jobs import WalkSettings
 from mobnet.simulation.self_collision import Clearance
 from mobnet.simulation.simulator import Simulator
 
@@ -57,57 +58,44 @@ class Watch:
         self.collisions += int((distances < 0.0).sum())
 
 
-def collect(
-    config: Mapping[str, Any],
-    scenario: str,
-    level: str,
-    seed: int,
-    duration_s: float,
-    out_stem: Path,
-    motion_stem: Path | None = None,
-) -> None:
-    """Simulate a scenario and write the Recording `out_stem`.parquet and .json (section 4.3).
+def collect(settings: WalkSettings, seed: int, duration_s: float, out: Path, motion: Path | None = None) -> None:
+    """Simulate a scenario and write the Recording `out`.parquet and .json (section 4.3).
 
     A fall ends a segment; what came in the last seconds before it is dropped and a new episode goes on until
     `duration_s` [s] are kept. Samples are written while the robot walks: memory does not grow with the duration.
 
     Args:
-        config: the resolved configuration.
-        scenario: key of `scenarios`.
-        level: key of `levels`.
+        settings: the scenario at its level.
         seed: number of the recording.
         duration_s: kept time [s].
-        out_stem: where to write, path without a suffix.
-        motion_stem: knots of the upper body's motion; None holds the posture.
+        out: where to write, path without a suffix.
+        motion: knots of the upper body's motion; None holds the posture.
 
     Raises:
-        ConfigError: scenario, level or duration are not accepted.
         SimulationError: the robot keeps falling.
     """
-    if not duration_s > 0:
-        raise ConfigError(f"duration_s: {duration_s} is not accepted; accepted: > 0")
     started = time.perf_counter()
-    upper = read_motion(motion_stem) if motion_stem else None
-    simulator = Simulator(config, scenario, level, seed, upper)
-    rate, samples = config["rates"]["data_hz"], round(duration_s * config["rates"]["data_hz"])
-    columns = [column for group in recording_columns(simulator.robot.layout).values() for column in group]
-    every = round(rate / config["recording"]["clearance_hz"])
-    watch = Watch(Clearance(simulator.robot), every, simulator.robot.layout.nq)
-    with array_writer(out_stem, columns) as writer:
+    simulator = Simulator(settings, seed, read_motion(motion) if motion else None)
+    layout, rate = simulator.robot.layout, settings.rates.data_hz
+    samples = round(duration_s * rate)
+    columns = [column for group in recording_columns(layout).values() for column in group]
+    watch = Watch(Clearance(simulator.robot), round(rate / settings.recording.clearance_hz), layout.nq)
+    with array_writer(out, columns) as writer:
 
         def keep(rows: Rows) -> None:
             writer.append(rows)
             watch.look(rows)
 
-        course = record(simulator, samples, config["recording"], rate, keep)
+        course = record(simulator, samples, settings.recording, rate, keep)
         wall_s = round(time.perf_counter() - started, 1)
         meta = {
-            "rate_hz": rate, "scenario": scenario, "level": level, "seed": seed, "falls": course.falls,
-            "terrains": course.terrains, "clearance_min_m": round(watch.nearest, 4),
-            "self_collisions": watch.collisions, "wall_s": wall_s, "provenance": provenance(config),
+            "rate_hz": rate, "scenario": settings.scenario_name, "level": settings.level_name, "seed": seed,
+            "falls": course.falls, "terrains": course.terrains, "clearance_min_m": round(watch.nearest, 4),
+            "self_collisions": watch.collisions, "wall_s": wall_s,
+            "provenance": provenance(settings.model_dump(mode="json")),
         }  # fmt: skip
         writer.close(meta, course.segments)
-    log.info("%s: %d samples, %d falls, %.1f x real time", out_stem.name, samples, course.falls, duration_s / wall_s)
+    log.info("%s: %d samples, %d falls, %.1f x real time", out.name, samples, course.falls, duration_s / wall_s)
 
 
 def read_motion(stem: Path) -> UpperBody:
@@ -121,7 +109,7 @@ def read_motion(stem: Path) -> UpperBody:
 
 
 def record(
-    simulator: Simulator, samples: int, settings: Mapping[str, Any], rate_hz: float, keep: Callable[[Rows], None]
+    simulator: Simulator, samples: int, settings: RecordingSettings, rate_hz: float, keep: Callable[[Rows], None]
 ) -> Course:
     """Walk until `samples` are kept, handing them on in order, rows (n, C); return how it went.
 
@@ -131,7 +119,7 @@ def record(
     course, end, reported = Course(), 0, time.perf_counter()
     while end < samples:
         begin = end
-        longest = min(samples - begin, round(settings["episode_s"] * rate_hz))
+        longest = min(samples - begin, round(settings.episode_s * rate_hz))
         for rows in _episode(simulator, longest, settings, rate_hz, begin, course):
             keep(rows)
             end += len(rows)
@@ -147,14 +135,14 @@ def record(
 
 
 def _episode(
-    simulator: Simulator, longest: int, settings: Mapping[str, Any], rate_hz: float, begin: int, course: Course
+    simulator: Simulator, longest: int, settings: RecordingSettings, rate_hz: float, begin: int, course: Course
 ) -> Iterator[Rows]:
     """Yield the samples worth keeping of an episode of at most `longest` samples; count its fall.
 
     The last seconds are held back until it is known that no fall follows them.
     """
-    chunk, settle = round(settings["chunk_s"] * rate_hz), round(settings["settle_s"] * rate_hz)
-    dropped = round(settings["dropped_before_fall_s"] * rate_hz)
+    chunk, settle = round(settings.chunk_s * rate_hz), round(settings.settle_s * rate_hz)
+    dropped = round(settings.dropped_before_fall_s * rate_hz)
     simulator.start(begin / rate_hz)
     width = simulator.width
     fallen = simulator.run(np.zeros((settle, width), dtype=np.float32)) < settle
@@ -170,7 +158,7 @@ def _episode(
             yield held.popleft()
     if fallen:
         course.falls += 1
-        log.warning("fall %d: its last %g s are dropped", course.falls, settings["dropped_before_fall_s"])
+        log.warning("fall %d: its last %g s are dropped", course.falls, settings.dropped_before_fall_s)
     rest = np.concatenate(held) if held else np.zeros((0, width), dtype=np.float32)
     rest = rest[: max(0, len(rest) - dropped)] if fallen else rest
     if len(rest):

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
@@ -13,11 +12,10 @@ from numpy.typing import NDArray
 from mobnet.control.base_state import update_base
 from mobnet.control.compiled import compiled
 from mobnet.control.walker import Walker, vertical_force
-from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.robot.description import SIDES
+from mobnet.settings.plant import Level, NoiseStd
 
 Array = NDArray[np.float64]
-BASE_STATES = ("true_state", "sensed")
 NOISE = {"none": lambda _: 0.0, "std": float, "variance": math.sqrt}  # how the numbers of Table 3 are read
 
 
@@ -57,22 +55,15 @@ class Sensors(NamedTuple):
     loads: Array
 
 
-def make_sensors(config: Mapping[str, Any], level: str, model: mujoco.MjModel) -> Sensors:
-    """Build the sensors of a plant at an uncertainty level (section 5.1).
-
-    Raises:
-        ConfigError: the level's base state is unknown.
-    """
-    settings = config["levels"][level]
-    if settings["base_state"] not in BASE_STATES:
-        raise ConfigError(not_accepted(f"levels.{level}.base_state", settings["base_state"], BASE_STATES))
-    noise, std = config["plant"]["noise_std"], NOISE[settings["noise"]]
+def make_sensors(noise: NoiseStd, level: Level, model: mujoco.MjModel) -> Sensors:
+    """Build the sensors of a plant at an uncertainty level (section 5.1) from the numbers of Table 3."""
+    std = NOISE[level.noise]
     return Sensors(
-        q_std=std(noise["joint_position_rad"]),
-        v_std=std(noise["joint_velocity_rad_s"]),
-        acc_std=std(noise["base_acceleration_m_s2"]),
-        omega_std=std(noise["base_angular_velocity_rad_s"]),
-        sensed_base=int(settings["base_state"] == "sensed"),
+        q_std=std(noise.joint_position_rad),
+        v_std=std(noise.joint_velocity_rad_s),
+        acc_std=std(noise.base_acceleration_m_s2),
+        omega_std=std(noise.base_angular_velocity_rad_s),
+        sensed_base=int(level.base_state == "sensed"),
         gyro=int(model.sensor("imu_gyro").adr[0]),
         acc=int(model.sensor("imu_acc").adr[0]),
         force=np.array([model.sensor(f"{side}_foot_force").adr[0] for side in SIDES], dtype=np.int64),

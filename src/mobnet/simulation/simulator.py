@@ -3,27 +3,27 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Mapping
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.control.commands import fixed_commands, random_commands
-from mobnet.control.parameters import empty_state, walking_parameters
-from mobnet.control.random_torque import make_random_torque
+from mobnet.control.parameters import empty_state
+from mobnet.control.random_torque import make_exploration
 from mobnet.control.upper_body import UpperBody, follow
 from mobnet.control.walker import make_walker
-from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.recording import recording_width
-from mobnet.robot.description import for_walking, load_robot
+from mobnet.robot.description import describe, for_walking
+from mobnet.settings.data import CommandSource, FixedCommand
+from mobnet.settings.jobs import WalkSettings
 from mobnet.simulation.engine import Plant, make_plant, run
 from mobnet.simulation.friction import make_friction
 from mobnet.simulation.native import bind
 from mobnet.simulation.pushes import Pushes, make_pushes, reset_pushes
 from mobnet.simulation.sensing import Sensors, make_sensors
 from mobnet.simulation.start import raise_start, start_standing, start_walking, turn
+from mobnet.simulation.terrain import draw_terrain
 from mobnet.simulation.world import World, ground_height, leg_mask, make_world
 
 Array = NDArray[np.float64]
@@ -46,39 +46,32 @@ class Setting(NamedTuple):
 class Simulator:
     """A plant and its controller at one level, one episode after another."""
 
-    def __init__(
-        self, config: Mapping[str, Any], scenario: str, level: str, seed: int, upper: UpperBody | None = None
-    ) -> None:
-        """Prepare a scenario; scenario and level are keys of the configuration.
+    def __init__(self, settings: WalkSettings, seed: int, upper: UpperBody | None = None) -> None:
+        """Prepare a scenario.
 
         Args:
-            config: the resolved configuration.
-            scenario: what is walked.
-            level: uncertainty level of section 5.1.
+            settings: the scenario at its level.
             seed: number of the recording; commands, noise and the rest have streams of their own.
             upper: motion of the joints above the legs; None holds the posture.
 
         Raises:
-            ConfigError: the scenario, the level or a figure of them is not accepted.
+            ConfigError: the robot cannot walk, or lacks a point that is pushed, or plates find no room.
         """
-        if scenario not in config["scenarios"]:
-            raise ConfigError(not_accepted("scenario", scenario, config["scenarios"]))
-        self.config, self.level, self.settings = config, level, config["scenarios"][scenario]
-        self.robot = for_walking(load_robot(Path(config["robot"])))
-        par = walking_parameters(config["walking"])
-        ratio = _level(config, level)["nominal_mass_ratio"]
-        self.walker = make_walker(self.robot, par, ratio, config["plant"]["gravity_m_s2"])
-        self.torque = make_random_torque(config["random_torque"], self.robot.layout, self.settings["random_torque"])
-        self.upper = upper or UpperBody(par.posture_rad[None].copy(), 1.0, np.zeros(1))
+        self.settings, scenario = settings, settings.scenario
+        self.robot = for_walking(describe(settings.robot))
+        ratio, gravity = settings.level.nominal_mass_ratio, settings.plant.gravity_m_s2
+        self.walker = make_walker(self.robot, settings.walking, ratio, gravity)
+        self.torque = make_exploration(settings.random_torque, self.robot.layout, scenario.random_torque)
+        self.upper = upper or UpperBody(self.robot.posture.angle[None].copy(), 1.0, np.zeros(1))
         self.state = empty_state()
-        draws = self.settings.get("draws", scenario)  # scenarios that differ in their pushes alone draw the same
-        seeds = np.random.SeedSequence([config["seed"], zlib.crc32(draws.encode()), seed]).spawn(len(STREAMS))
+        draws = scenario.draws or settings.scenario_name  # scenarios that differ in their pushes alone draw the same
+        seeds = np.random.SeedSequence([settings.seed, zlib.crc32(draws.encode()), seed]).spawn(len(STREAMS))
         self.rng = {name: np.random.default_rng(stream) for name, stream in zip(STREAMS, seeds, strict=True)}
         self.episode = seed  # the first of the scenario's kinds of episodes depends on the seed
         self.commands: Array = np.zeros((0, 0))
         self.terrains: dict[str, Setting] = {}
         self.coming: list[str] = []  # terrains until all have been walked once more
-        self.setting = self._setting(self.settings["terrain"][0])
+        self.setting = self._setting(scenario.terrain[0])
 
     @property
     def world(self) -> World:
@@ -103,15 +96,16 @@ class Simulator:
     def _setting(self, terrain: str) -> Setting:
         """Return a terrain with the robot on it, built once a recording."""
         if terrain not in self.terrains:
-            config, level = self.config, self.config["levels"][self.level]
-            world = make_world(config, self.robot, terrain, self.level, self.rng["terrain"])
-            friction = make_friction(config["plant"], leg_mask(self.robot), level["friction"])
-            every = round(config["rates"]["plant_hz"] / config["rates"]["data_hz"])
-            limits = np.maximum(self.robot.torque_limits, config["plant"]["motor_limit_min_nm"])
-            fall_height = config["recording"]["fall_height_m"]
-            plant = make_plant(world, bind(world.model, world.data), friction, limits, fall_height, every)
-            sensors = make_sensors(config, self.level, world.model)
-            pushes = make_pushes(config["pushes"], self.settings.get("pushes", []), world.model, self.robot)
+            settings, plant, rates = self.settings, self.settings.plant, self.settings.rates
+            drawn = draw_terrain(dict(settings.terrain)[terrain], self.rng["terrain"])
+            world = make_world(self.robot, drawn, plant, settings.level, rates.plant_hz)
+            friction = make_friction(plant, leg_mask(self.robot), settings.level.friction)
+            every = round(rates.plant_hz / rates.data_hz)
+            limits = np.maximum(self.robot.torque_limits, plant.motor_limit_min_nm)
+            native, fall_height = bind(world.model, world.data), settings.recording.fall_height_m
+            sensors = make_sensors(plant.noise_std, settings.level, world.model)
+            pushes = make_pushes(settings.pushes, world.model, self.robot)
+            plant = make_plant(world, native, friction, limits, fall_height, every)
             self.terrains[terrain] = Setting(terrain, world, plant, sensors, pushes)
         return self.terrains[terrain]
 
@@ -122,13 +116,13 @@ class Simulator:
         begins where its motion is at motion_s [s] less the time to settle.
         """
         if not self.coming:
-            self.coming = self.rng["place"].permutation(self.settings["terrain"]).tolist()
+            self.coming = self.rng["place"].permutation(self.settings.scenario.terrain).tolist()
         self.setting = self._setting(self.coming.pop())
-        wanted = self.settings["commands"]
-        kind = wanted[self.episode % len(wanted)] if isinstance(wanted, list) else wanted
+        wanted = self.settings.scenario.commands
+        kind = wanted[self.episode % len(wanted)] if isinstance(wanted, tuple) else wanted
         self.episode += 1
         self.commands = self._commands(kind)
-        clock = -self.config["recording"]["settle_s"]
+        clock = -self.settings.recording.settle_s
         self.upper.start[0] = motion_s
         follow(self.upper, clock, self.walker.posture, self.walker.posture_rate)
         begin = start_standing if kind == STAND else start_walking
@@ -140,13 +134,13 @@ class Simulator:
         reset_pushes(self.setting.pushes, clock, self.rng["pushes"])
         self._put(q, v)
 
-    def _commands(self, kind: Any) -> Array:
+    def _commands(self, kind: CommandSource | FixedCommand) -> Array:
         """Return the commands of an episode (n, 5)."""
-        commands = self.config["commands"]
-        if isinstance(kind, Mapping):
-            return fixed_commands(kind, commands["random"]["in_place_steps"])
-        steps = self.config["recording"]["episode_steps"]
-        return random_commands({**commands, **self.settings.get("narrowed", {})}, self.rng["commands"], steps)
+        commands, narrowed = self.settings.commands, self.settings.scenario.narrowed
+        if isinstance(kind, FixedCommand):
+            return fixed_commands(kind, commands.random.in_place_steps)
+        ranges = commands.model_copy(update={name: value for name, value in narrowed if value is not None})
+        return random_commands(ranges, self.rng["commands"], self.settings.recording.episode_steps)
 
     def _sole_points(self, yaw: float) -> Array:
         """Return points (n, 2) [m] under both soles of a start that faces yaw [rad]."""
@@ -173,14 +167,3 @@ class Simulator:
             self.plant, self.walker, self.sensors, self.state, self.commands, self.upper, self.torque,
             self.setting.pushes, rng["noise"], rng["torque"], rng["pushes"], rows,
         )  # fmt: skip
-
-
-def _level(config: Mapping[str, Any], level: str) -> Mapping[str, Any]:
-    """Return a level's row.
-
-    Raises:
-        ConfigError: the level is unknown.
-    """
-    if level not in config["levels"]:
-        raise ConfigError(not_accepted("level", level, config["levels"]))
-    return config["levels"][level]

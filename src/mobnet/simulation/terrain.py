@@ -5,18 +5,18 @@ Whatever stands on the even ground is a frustum: its sides slope, or a tilted so
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple
+from collections.abc import Iterator
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.core.errors import ConfigError
 from mobnet.robot.plant import SOLE_TYPE, TERRAIN_TYPE
+from mobnet.settings.data import Checks, Flat, Plates, Slope
 
 Array = NDArray[np.float64]
-TERRAINS = ("checks", "flat", "plates", "slope")
 TERRAIN_GROUP = 0  # geom group of the ground and what stands on it
 GROUND_RGBA = (0.55, 0.57, 0.60, 1.0)
 WOOD_RGBA = (0.75, 0.63, 0.45, 1.0)
@@ -56,26 +56,25 @@ class Terrain(NamedTuple):
     pieces: tuple[Piece, ...] = ()
 
 
-def draw_terrain(name: str, settings: Mapping[str, Any], rng: np.random.Generator) -> Terrain:
+def draw_terrain(row: Checks | Flat | Plates | Slope, rng: np.random.Generator) -> Terrain:
     """Draw a terrain of section 4.3; checks and flat ground are always the same.
 
     Args:
-        name: key of `settings`.
-        settings: section `terrain` of the configuration.
+        row: sizes of the terrain.
         rng: decides where plates lie and which way a slope goes.
 
     Raises:
-        ConfigError: the terrain is unknown, or its plates find no room.
+        ConfigError: the plates find no room.
     """
-    if name == "checks":
-        return _checks(settings[name])
-    if name == "plates":
-        return _plates(settings[name], rng)
-    if name == "slope":
-        return _slope(settings[name], rng)
-    if name == "flat":
-        return Terrain(FLAT_PERIOD_M)
-    raise ConfigError(not_accepted("terrain", name, TERRAINS))
+    match row:
+        case Checks():
+            return _checks(row)
+        case Plates():
+            return _plates(row, rng)
+        case Slope():
+            return _slope(row, rng)
+        case Flat():
+            return Terrain(FLAT_PERIOD_M)
 
 
 def top_of(terrain: Terrain) -> float:
@@ -83,38 +82,38 @@ def top_of(terrain: Terrain) -> float:
     return max((piece.height for piece in terrain.pieces), default=0.0)
 
 
-def _checks(row: Mapping[str, Any]) -> Terrain:
+def _checks(row: Checks) -> Terrain:
     """Return every other cell of a checkerboard (Figure 3 a)."""
-    half = np.full(2, row["cell_m"] / 2)
-    cells = tuple(Piece(half, half - row["bevel_m"], row["height_m"], sign * half) for sign in (1, -1))
-    return Terrain(2 * row["cell_m"], cells)
+    half = np.full(2, row.cell_m / 2)
+    cells = tuple(Piece(half, half - row.bevel_m, row.height_m, sign * half) for sign in (1, -1))
+    return Terrain(2 * row.cell_m, cells)
 
 
-def _plates(row: Mapping[str, Any], rng: np.random.Generator) -> Terrain:
+def _plates(row: Plates, rng: np.random.Generator) -> Terrain:
     """Return plates at random places that do not touch each other, across the period's edge neither (Figure 3 b)."""
-    period = row["period_m"]
+    period = row.period_m
     plates: list[Piece] = []
-    for size in row["sizes_m"]:
+    for size in row.sizes_m:
         half = np.array(size) / 2
         for _ in range(DRAWS_MAX):
             place, yaw = rng.uniform(-0.5, 0.5, 2) * period, rng.uniform(0, np.pi)
-            plate = Piece(half, half - row["bevel_m"], row["height_m"], place, yaw)
-            if all(_apart(plate, other, period, row["gap_m"]) for other in (*plates, plate)):
+            plate = Piece(half, half - row.bevel_m, row.height_m, place, yaw)
+            if all(_apart(plate, other, period, row.gap_m) for other in (*plates, plate)):
                 plates.append(plate)
                 break
         else:
-            raise ConfigError(f"terrain.plates: no room for a plate of {size} m in a period of {period} m")
+            raise ConfigError(f"terrain.plates: no room for a plate of {list(size)} m in a period of {period} m")
     return Terrain(period, tuple(plates))
 
 
-def _slope(row: Mapping[str, Any], rng: np.random.Generator) -> Terrain:
+def _slope(row: Slope, rng: np.random.Generator) -> Terrain:
     """Return even ground, a slope up, even ground and a slope down, along x or y (Figure 3 c)."""
-    run, even = row["slope_m"], row["even_m"]
+    run, even = row.slope_m, row.even_m
     period = 2 * (run + even)
     along, place = rng.integers(2), rng.uniform(-0.5, 0.5) * period
     bottom, top, centre = np.full(2, np.inf), np.full(2, np.inf), np.zeros(2)
     bottom[along], top[along], centre[along] = even / 2 + run, even / 2, place
-    return Terrain(period, (Piece(bottom, top, run * np.tan(np.deg2rad(row["angle_deg"])), centre),))
+    return Terrain(period, (Piece(bottom, top, run * np.tan(np.deg2rad(row.angle_deg)), centre),))
 
 
 def _apart(a: Piece, b: Piece, period: float, gap: float) -> bool:

@@ -24,7 +24,7 @@ LOOKED_FOR_S = 3.0  # a left step comes within this time
 
 def walk(simulator: Simulator, seconds: float, every_s: float) -> Iterator[Array]:
     """Walk a started simulator; yield q (nq,) [m, rad] now and after every so many seconds, until a fall."""
-    samples = round(every_s * simulator.config["rates"]["data_hz"])
+    samples = round(every_s * simulator.settings.rates.data_hz)
     rows = np.zeros((samples, simulator.width), dtype=np.float32)
     end = simulator.state.clock + seconds - every_s / 2
     yield simulator.world.data.qpos.copy()

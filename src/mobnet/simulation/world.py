@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.plant import robot_spec
-from mobnet.simulation.terrain import TERRAIN_GROUP, Terrain, add_terrain, draw_terrain, top_of
+from mobnet.settings.plant import Level, Plant
+from mobnet.simulation.terrain import TERRAIN_GROUP, Terrain, add_terrain, top_of
 
 DOWN = np.array([0.0, 0.0, -1.0])
 RAY_M = 1.0  # rays begin this high over the highest point
@@ -39,34 +37,24 @@ class World:
         return self.terrain.period
 
 
-def make_world(
-    config: Mapping[str, Any], robot: RobotDescription, terrain: str, level: str, rng: np.random.Generator
-) -> World:
-    """Compile the robot on a terrain; the level switches friction loss on or off.
+def make_world(robot: RobotDescription, terrain: Terrain, plant: Plant, level: Level, rate_hz: float) -> World:
+    """Compile the robot on a terrain.
 
     Args:
-        config: the resolved configuration.
         robot: its figures.
-        terrain: key of `terrain` in the configuration.
-        level: key of `levels`.
-        rng: draws the terrain.
-
-    Raises:
-        ConfigError: terrain or level is unknown.
+        terrain: as drawn.
+        plant: contact, solver and friction.
+        level: switches friction loss on or off.
+        rate_hz: rate of the plant [1/s].
     """
-    if level not in config["levels"]:
-        raise ConfigError(not_accepted("level", level, config["levels"]))
-    plant = config["plant"]
     spec = robot_spec(robot)
-    drawn = draw_terrain(terrain, config["terrain"], rng)
-    add_terrain(spec, drawn)
-    _set_options(spec, plant, config["rates"]["plant_hz"])
+    add_terrain(spec, terrain)
+    _set_options(spec, plant, rate_hz)
     model = spec.compile()
-    if "loss" in config["levels"][level]["friction"]:
-        legs = leg_mask(robot)
-        loss = np.where(legs, plant["friction"]["loss_legs_nm"], plant["friction"]["loss_others_nm"])
+    if "loss" in level.friction:
+        loss = np.where(leg_mask(robot), plant.friction.loss_legs_nm, plant.friction.loss_others_nm)
         model.dof_frictionloss[-robot.layout.nu :] = loss
-    return World(model, mujoco.MjData(model), drawn)
+    return World(model, mujoco.MjData(model), terrain)
 
 
 def ground_height(world: World, points: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -86,17 +74,17 @@ def leg_mask(robot: RobotDescription) -> NDArray[np.bool_]:
     return np.array([name in legs for name in robot.layout.actuated])
 
 
-def _set_options(spec: mujoco.MjSpec, plant: Mapping[str, Any], rate_hz: float) -> None:
+def _set_options(spec: mujoco.MjSpec, plant: Plant, rate_hz: float) -> None:
     """Set integrator, solver and contact; what the truth's alignment needs (one contact force a step) is Euler's."""
     option = spec.option
     option.timestep = 1.0 / rate_hz
-    option.gravity = [0.0, 0.0, -plant["gravity_m_s2"]]
+    option.gravity = [0.0, 0.0, -plant.gravity_m_s2]
     option.integrator = mujoco.mjtIntegrator.mjINT_EULER
     option.solver = mujoco.mjtSolver.mjSOL_NEWTON
-    option.iterations = plant["solver_iterations"]
-    option.tolerance = plant["solver_tolerance"]
+    option.iterations = plant.solver_iterations
+    option.tolerance = plant.solver_tolerance
     option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
     option.cone = mujoco.mjtCone.mjCONE_PYRAMIDAL
     for geom in spec.geoms:
-        geom.friction[0] = plant["contact_friction"]
-        geom.solref = [plant["contact_time_constant_s"], plant["contact_damping_ratio"]]
+        geom.friction[0] = plant.contact_friction
+        geom.solref = [plant.contact_time_constant_s, plant.contact_damping_ratio]
