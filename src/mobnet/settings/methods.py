@@ -30,7 +30,7 @@ class Observer(Section):
     """
 
     gain_hz: Positive
-    torque: Literal["mean", "sample"] = "mean"
+    torque: Literal["mean", "sample"]
 
 
 class Method(Section):
