@@ -9,28 +9,60 @@ from typing import Any
 
 import pytest
 
+from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
+from mobnet.learning.dataset import LimbData, load_limb_data
+from mobnet.learning.train import train
+from mobnet.settings.networks import Training
+from mobnet.settings.settings import Settings
 
 
 @dataclass(frozen=True)
 class Small:
-    """A small configuration and its data on disk."""
+    """Trainings of few samples, and their data on disk."""
 
-    config: dict[str, Any]
+    settings: Settings
     recordings: list[Path]
     residuals: list[Path]
+
+    @property
+    def layout(self) -> JointLayout:
+        return self.settings.layout
+
+    def training(self, method: str = "MOB-Net", limb: str = "LL", *, epochs: int = 5, **learning: Any) -> Training:
+        """Return a method's training with a small GRU, and with changes of how it learns."""
+        training = self.settings.training(method, limb)
+        hidden = 16 if training.network.cell == "GRU" else training.network.hidden
+        changes = {
+            "network": training.network.model_copy(update={"hidden": hidden, "horizon_steps": 25}),
+            "learning": training.learning.model_copy(update={"stream_s": 0.5, **learning}),
+            "epochs": epochs,
+            "epoch_samples": None,
+        }
+        return training.model_copy(update=changes)
+
+    def data(self, training: Training) -> LimbData:
+        """Return the data of a training."""
+        return load_limb_data(self.layout, training.network, training.target, self.recordings, self.residuals)
+
+    def arguments(self, training: Training, folder: Path) -> dict[str, Any]:
+        """Return what `train` gets; results go below a folder."""
+        places = {"out": folder / "out", "state": folder / "state"}
+        data = {"recordings": self.recordings, "residuals": self.residuals}
+        return {"root_seed": 1, "layout": self.layout, "training": training, "seed": 0, **data, **places}
+
+    def train(self, training: Training, folder: Path) -> Path:
+        """Train, and return the folder of the result."""
+        train(**self.arguments(training, folder))
+        return folder / "out"
 
 
 @pytest.fixture
 def small(
-    full_config: dict[str, Any],
+    settings: Settings,
     tmp_path: Path,
     made_up: Callable[..., Recording],
     write_pair: Callable[[Path, Recording], tuple[Path, Path]],
 ) -> Small:
-    networks = full_config["networks"] | {"LL": full_config["networks"]["LL"] | {"hidden": 16, "horizon_steps": 25}}
-    learning = full_config["learning"] | {"batch_size": 4, "stream_s": 0.5}
-    sizes = {"experiments": {"left_leg": {"epochs": 5, "seeds": [0]}}}
     stems = [write_pair(tmp_path / "data", made_up(seed, 4.0, segments=2)) for seed in (0, 1)]
-    config = full_config | {"networks": networks, "learning": learning, "sizes": sizes}
-    return Small(config, [a for a, _ in stems], [b for _, b in stems])
+    return Small(settings, *map(list, zip(*stems, strict=True)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,11 +14,11 @@ from safetensors import safe_open
 from scipy.special import ndtr
 
 from mobnet.learning.calibration import calibrate, predict, scale_for
+from mobnet.learning.deployed.networks import STD_SCALE, WEIGHTS
 from mobnet.learning.gaussian import coverage, half_width
-from mobnet.learning.networks import STD_SCALE, WEIGHTS
 from mobnet.learning.optimisation import Samples
 from mobnet.learning.streams import deal
-from mobnet.learning.train import RUN, train
+from mobnet.learning.train import RUN
 
 Array = NDArray[np.float64]
 HORIZON = 10
@@ -55,7 +56,7 @@ def test_large_errors_widen_the_likely_factor_alone(rng: np.random.Generator) ->
     assert found.likelihood_scale[0] > 4.0
 
 
-def test_what_is_told_was_not_learned_there(rng: np.random.Generator) -> None:
+def test_the_fit_is_measured_where_it_was_not_learned(rng: np.random.Generator) -> None:
     """Errors that double half way: the first half's factor makes the second's interval half as wide as it should be."""
     error = rng.normal(size=(20000, 1)) * np.repeat([1.0, 2.0], 10000)[:, None]
     after = calibrate(error, np.ones_like(error), 0.68, [0.68]).after.coverage[0, 0]
@@ -79,13 +80,12 @@ def test_predictions_come_in_the_order_of_time() -> None:
 
 
 @pytest.mark.parametrize("wanted", [True, False])
-def test_factors_are_stored_where_they_are_declared_and_told_in_any_case(
-    small: object, tmp_path: Path, wanted: bool
+def test_factors_are_stored_where_they_are_declared_and_noted_in_any_case(
+    small: Any, tmp_path: Path, wanted: bool
 ) -> None:
-    small.config["learning"]["calibrate"] = wanted
-    train(small.config, "MOB-Net", "LL", 0, small.recordings, small.residuals, tmp_path / "out", tmp_path / "state")
-    note = json.loads((tmp_path / "out" / RUN).read_text())["calibration"]
-    with safe_open(tmp_path / "out" / WEIGHTS, framework="numpy") as file:
+    out = small.train(small.training(calibrate=wanted, epochs=1), tmp_path)
+    note = json.loads((out / RUN).read_text())["calibration"]
+    with safe_open(out / WEIGHTS, framework="numpy") as file:
         assert (STD_SCALE in file.keys()) == wanted  # noqa: SIM118, not a dict
         if wanted:
             np.testing.assert_allclose(file.get_tensor(STD_SCALE), note["scale"], rtol=1e-6)

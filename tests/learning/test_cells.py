@@ -2,50 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
 import pytest
 import torch
 from torch import Tensor, nn
 
-from mobnet.core.errors import ConfigError
-from mobnet.learning.cells import Block, Lstm
+from mobnet.learning.cells import CELLS, Block, Lstm
 from mobnet.learning.model import LimbNetwork, build_network, parameter_count
+from mobnet.settings.networks import SIZES, Cell
+from mobnet.settings.settings import Settings
 
 STD_MIN = 1e-6
-TCN = {"cell": "TCN", "hidden": 32, "kernel_steps": 3, "dilations": [2, 4, 8], "dropout": 0.2, "window_steps": 50}
-PUBLISHED = {  # section 6.1
-    "GRU": ({"cell": "GRU", "hidden": 150}, 83712),
-    "LSTM": ({"cell": "LSTM", "hidden": 128}, 83468),
-    "RNN": ({"cell": "RNN", "hidden": 268}, 83628),
-    "TCN": ({**TCN, "head": 40}, 83956),
-    "MLP": ({"cell": "MLP", "hidden": 55, "window_steps": 50}, 83227),
-    "MLP-500": ({"cell": "MLP", "hidden": 500, "window_steps": 50}, 756512),
-}
-SMALL: dict[str, dict[str, Any]] = {
-    "GRU": {"cell": "GRU", "hidden": 8},
-    "LSTM": {"cell": "LSTM", "hidden": 8},
-    "RNN": {"cell": "RNN", "hidden": 8},
-    "TCN": {**TCN, "hidden": 4, "dilations": [1, 2], "window_steps": 5, "head": 6},
-    "MLP": {"cell": "MLP", "hidden": 8, "window_steps": 5},
-    "constant": {"cell": "constant"},
+PUBLISHED = {"GRU": 83712, "LSTM": 83468, "RNN": 83628, "TCN": 83956, "MLP": 83227, "MLP-500": 756512}  # section 6.1
+SMALL = {
+    **{kind: Cell(cell=kind, hidden=8) for kind in ("GRU", "LSTM", "RNN")},
+    "TCN": Cell(cell="TCN", hidden=4, kernel_steps=3, dilations=(1, 2), dropout=0.2, window_steps=5, head=6),
+    "MLP": Cell(cell="MLP", hidden=8, window_steps=5),
+    "constant": Cell(cell="constant"),
 }
 LOOKS_BACK = {"MLP": 4, "TCN": 4 + 2 * 2 * (1 + 2)}  # samples before the present one
 
 
-def _network(row: Mapping[str, Any], inputs: int = 3, joints: int = 2) -> LimbNetwork:
-    return build_network(row, inputs, joints, STD_MIN, seed=0).eval()
+def _network(cell: Cell, inputs: int = 3, joints: int = 2) -> LimbNetwork:
+    return build_network(cell, inputs, joints, STD_MIN, seed=0).eval()
 
 
 def _inputs(steps: int, lanes: int = 4, inputs: int = 3) -> Tensor:
     return torch.randn(steps, lanes, inputs, generator=torch.Generator().manual_seed(0))
 
 
-@pytest.mark.parametrize("kind", PUBLISHED)
-def test_size_is_the_published_one(kind: str) -> None:
-    row, size = PUBLISHED[kind]
-    assert parameter_count(build_network(row, 30, 6, STD_MIN, seed=0)) == size
+def test_every_kind_can_be_built() -> None:
+    assert set(CELLS) == set(SIZES) == set(SMALL)
+
+
+@pytest.mark.parametrize("method", PUBLISHED)
+def test_size_is_the_published_one(method: str, settings: Settings) -> None:
+    network = build_network(settings.network(method, "LL"), 30, 6, STD_MIN, seed=0)
+    assert parameter_count(network) == PUBLISHED[method]
 
 
 def test_a_constant_learns_a_mean_and_a_deviation_per_joint_and_nothing_else() -> None:
@@ -85,7 +77,7 @@ def test_it_is_causal_and_lanes_do_not_mix(kind: str) -> None:
 
 @pytest.mark.parametrize("kind", LOOKS_BACK)
 def test_a_window_ends_where_it_should(kind: str) -> None:
-    wide = {**SMALL[kind], "hidden": 16}  # so wide that some path through the ReLUs is open
+    wide = SMALL[kind].model_copy(update={"hidden": 16})  # so wide that some path through the ReLUs is open
     network, x = _network(wide, inputs=1), _inputs(40, lanes=1, inputs=1).requires_grad_()
     network(x, network.fresh_state(1))[0][-1].sum().backward()
     assert x.grad is not None
@@ -135,10 +127,11 @@ def test_dropout_acts_in_training_alone() -> None:
     assert not torch.equal(network(x, state)[0], network(x, state)[0])
 
 
-@pytest.mark.parametrize("kind", PUBLISHED)
-def test_gradients_in_bfloat16_are_those_of_float32(kind: str) -> None:
+@pytest.mark.parametrize("method", PUBLISHED)
+def test_gradients_in_bfloat16_are_those_of_float32(method: str, settings: Settings) -> None:
     """At the published sizes: one of them met a NaN in torch's bfloat16 convolution."""
-    network = build_network({**PUBLISHED[kind][0], "dropout": 0.0}, 30, 6, STD_MIN, seed=0)
+    cell = settings.network(method, "LL").model_copy(update={"dropout": 0.0})
+    network = build_network(cell, 30, 6, STD_MIN, seed=0)
     x, gradients = _inputs(50, 64, 30), {}
     for precision in (torch.float32, torch.bfloat16):
         network.precision = precision
@@ -159,8 +152,3 @@ def test_lstm_state_is_hidden_and_cell_state() -> None:
     expected, (h, c) = nn.LSTM.forward(cell, x, (state[:1], state[1:]))
     assert torch.equal(features, expected)
     assert torch.equal(after, torch.cat([h, c]))
-
-
-def test_an_unknown_cell_is_refused() -> None:
-    with pytest.raises(ConfigError, match="'CfC' is not accepted; accepted: GRU, LSTM, MLP, RNN, TCN, constant"):
-        build_network({"cell": "CfC"}, 3, 2, STD_MIN, seed=0)

@@ -12,6 +12,7 @@ from mobnet.learning import checkpoint
 from mobnet.learning.cells import Gru
 from mobnet.learning.checkpoint import Progress
 from mobnet.learning.model import LimbNetwork
+from mobnet.learning.tracking import Epoch
 
 Pair = tuple[LimbNetwork, torch.optim.Adam]
 
@@ -33,10 +34,15 @@ def advance(pair: Pair) -> None:
     pair[1].step()
 
 
+def epoch(number: int, validation_loss: float) -> Epoch:
+    """Return an epoch of some loss."""
+    return Epoch(number, 0.0, validation_loss, 0.0, 0.0, 0.0)
+
+
 @pytest.fixture
 def saved(tmp_path: Path) -> tuple[Path, Pair, Progress]:
     pair = trained(3)
-    done = Progress([{"epoch": 1, "validation_loss": 0.5}], checkpoint.copy_weights(pair[0]), 2.5)
+    done = Progress([epoch(1, 0.5)], checkpoint.copy_weights(pair[0]), 2.5)
     checkpoint.save(tmp_path / "c.safetensors", "print", *pair, done)
     return tmp_path / "c.safetensors", pair, done
 
@@ -45,7 +51,7 @@ def test_a_resumed_pair_takes_the_same_next_step(saved: tuple[Path, Pair, Progre
     path, pair, done = saved
     other = trained(0)
     found = checkpoint.resume(path, "print", *other)
-    assert (found.rows, found.seconds, found.epoch) == (done.rows, done.seconds, 1)
+    assert (found.epochs, found.seconds) == (done.epochs, done.seconds)
     assert all(torch.equal(found.best[name], tensor) for name, tensor in done.best.items())
     for both in (pair, other):
         advance(both)
@@ -59,7 +65,7 @@ def test_a_checkpoint_of_another_run_is_not_used_and_says_so(
     network, optimizer = trained(0)
     before = checkpoint.copy_weights(network)
     with caplog.at_level(logging.WARNING):
-        assert checkpoint.resume(saved[0], "other", network, optimizer).epoch == 0
+        assert checkpoint.resume(saved[0], "other", network, optimizer).epochs == []
     assert "starting afresh" in caplog.text
     assert all(torch.equal(before[name], tensor) for name, tensor in network.state_dict().items())
 
@@ -68,17 +74,17 @@ def test_a_damaged_checkpoint_is_not_used_and_says_so(
     saved: tuple[Path, Pair, Progress], caplog: pytest.LogCaptureFixture
 ) -> None:
     saved[0].write_bytes(saved[0].read_bytes()[:100])
-    assert checkpoint.resume(saved[0], "print", *trained(0)).epoch == 0
+    assert checkpoint.resume(saved[0], "print", *trained(0)).epochs == []
     assert "damaged" in caplog.text
 
 
 def test_without_a_checkpoint_a_training_starts_at_the_first_epoch(tmp_path: Path) -> None:
-    assert checkpoint.resume(tmp_path / "none", "print", *trained(0)).epoch == 0
+    assert checkpoint.resume(tmp_path / "none", "print", *trained(0)).epochs == []
 
 
 def test_the_first_of_equal_epochs_is_the_best() -> None:
-    rows = [{"epoch": i, "validation_loss": loss} for i, loss in enumerate([3.0, 1.0, 2.0, 1.0])]
-    assert Progress(rows).best_row() is rows[1]
+    epochs = [epoch(number, loss) for number, loss in enumerate([3.0, 1.0, 2.0, 1.0], start=1)]
+    assert Progress(epochs).best_epoch() is epochs[1]
 
 
 def test_the_same_training_writes_the_same_bytes(saved: tuple[Path, Pair, Progress], tmp_path: Path) -> None:

@@ -5,17 +5,17 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
-from mobnet.core.errors import ConfigError, DataError
+from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
-from mobnet.core.methods import network_row
 from mobnet.core.recording import Recording
 from mobnet.core.store import read_array, write_array
-from mobnet.learning.dataset import LimbData, load_limb_data, read_target, scale_of
+from mobnet.learning.dataset import LimbData, load_limb_data, scale_of
+from mobnet.settings.methods import Target
+from mobnet.settings.settings import Settings
 
 Write = Callable[[Path, Recording], tuple[Path, Path]]
 
@@ -26,10 +26,10 @@ def stems(tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write) 
 
 
 @pytest.fixture
-def load(stems: list[tuple[Path, Path]], full_config: dict[str, Any], layout: JointLayout) -> Callable[..., LimbData]:
-    def load(target: str) -> LimbData:
+def load(stems: list[tuple[Path, Path]], settings: Settings) -> Callable[..., LimbData]:
+    def load(target: Target) -> LimbData:
         recordings, residuals = zip(*stems, strict=True)
-        return load_limb_data(layout, network_row(full_config, "MOB-Net", "LL"), target, recordings, residuals)
+        return load_limb_data(settings.layout, settings.network("MOB-Net", "LL"), target, recordings, residuals)
 
     return load
 
@@ -67,11 +67,6 @@ def test_z_scores_come_from_the_given_rows_alone() -> None:
     assert scale.std[3] == 1.0
 
 
-def test_an_unknown_target_is_refused(stems: list[tuple[Path, Path]]) -> None:
-    with pytest.raises(ConfigError, match="'all' is not accepted; accepted: external, uncertainty"):
-        read_target(stems[0][1], ["LL1"], "all")
-
-
 def test_a_missing_column_is_named(stems: list[tuple[Path, Path]], load: Callable[..., LimbData]) -> None:
     array, meta = read_array(stems[1][1])
     columns = [tuple(column.values()) for column in meta["columns"]]
@@ -81,11 +76,10 @@ def test_a_missing_column_is_named(stems: list[tuple[Path, Path]], load: Callabl
         load("external")
 
 
-def test_a_residual_of_another_recording_is_refused(
-    stems: list[tuple[Path, Path]], full_config: dict[str, Any], layout: JointLayout
-) -> None:
+def test_a_residual_of_another_recording_is_refused(stems: list[tuple[Path, Path]], settings: Settings) -> None:
+    limb = settings.network("MOB-Net", "LL")
     with pytest.raises(DataError, match=r"2000 rows, but its recording .* has 1000"):
-        load_limb_data(layout, network_row(full_config, "MOB-Net", "LL"), "external", [stems[0][0]], [stems[1][1]])
+        load_limb_data(settings.layout, limb, "external", [stems[0][0]], [stems[1][1]])
 
 
 def test_recordings_at_two_rates_are_refused(stems: list[tuple[Path, Path]], load: Callable[..., LimbData]) -> None:

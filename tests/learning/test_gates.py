@@ -7,7 +7,7 @@ import pytest
 import torch
 
 from mobnet.learning.gates import rational_tanh, read, write
-from mobnet.learning.precision import memory
+from mobnet.learning.gru import memory
 
 VALUES = torch.tensor([0.0, -0.0, 1.0, 1.00390625, 1.01171875, -3.14159, 3e-39, 65504.0, torch.inf, -torch.inf])
 

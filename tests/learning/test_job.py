@@ -1,4 +1,4 @@
-"""What a training depends on."""
+"""Random numbers, learning rates and the fingerprint of a repetition of a training."""
 
 from __future__ import annotations
 
@@ -9,47 +9,48 @@ import numpy as np
 import pytest
 import torch
 
-from mobnet.core.errors import ConfigError
-from mobnet.learning.job import Job, job_of
+from mobnet.learning.job import Job
+from mobnet.settings.settings import Settings
+
+CPU = torch.device("cpu")
 
 
 @pytest.fixture
-def job(full_config: dict[str, Any]) -> Job:
-    return replace(job_of(full_config, "MOB-Net", "LL", 0), epochs=200)
+def job(settings: Settings) -> Job:
+    return Job(settings.training("MOB-Net", "LL"), seed=0, root_seed=2023)
 
 
-def test_rate_falls_linearly_to_a_hundredth_over_the_first_half_at_the_papers_size(full_config: dict[str, Any]) -> None:
-    job = job_of(full_config | {"sizes": full_config["scales"]["paper"]}, "MOB-Net", "LL", 0)
+def changed(job: Job, **values: Any) -> Job:
+    """Return a job whose training, network or learning has other values."""
+    parts = {name: getattr(job.training, name) for name in ("network", "learning")}
+    training = {key: value for key, value in values.items() if key in type(job.training).model_fields}
+    for name, part in parts.items():
+        training[name] = part.model_copy(update={k: v for k, v in values.items() if k in type(part).model_fields})
+    return replace(job, training=job.training.model_copy(update=training))
+
+
+def test_rate_falls_linearly_to_a_hundredth_over_the_first_half_at_the_papers_size(settings: Settings) -> None:
+    job = Job(settings.model_copy(update={"scale": "paper"}).training("MOB-Net", "LL"), 0, 0)
     rates = np.array([job.rate(epoch) for epoch in range(200)])
     assert rates[0] == 0.005
     np.testing.assert_allclose(np.diff(rates[:101]), -0.005 * 0.99 / 100)
     np.testing.assert_allclose(rates[100:], 5e-5)
 
 
-def test_rate_of_a_short_run_falls_to_its_very_end(full_config: dict[str, Any]) -> None:
+def test_rate_of_a_short_run_falls_to_its_very_end(job: Job) -> None:
     """At 20 epochs the share of the default scale ends with the last epoch but one."""
-    job = replace(job_of(full_config | {"sizes": full_config["scales"]["default"]}, "MOB-Net", "LL", 0), epochs=20)
-    rates = np.array([job.rate(epoch) for epoch in range(job.epochs)])
+    short = changed(job, epochs=20)
+    rates = np.array([short.rate(epoch) for epoch in range(20)])
     assert (np.diff(rates) < 0).all()
     np.testing.assert_allclose(rates[[0, -1]], [0.005, 5e-5])
-
-
-def test_one_epoch_trains_at_the_first_rate(job: Job) -> None:
-    assert replace(job, epochs=1).rate(0) == 0.005
-
-
-def test_sizes_of_the_scale_lie_over_the_settings(full_config: dict[str, Any]) -> None:
-    sizes = {"experiments": {"left_leg": {"epochs": 3, "seeds": [0]}}, "batch_size": 2}
-    job = job_of(full_config | {"sizes": sizes}, "MOB-Net", "LL", 0)
-    assert (job.epochs, job.settings["batch_size"]) == (3, 2)
-    assert job.settings["stream_s"] == full_config["learning"]["stream_s"]
+    assert changed(job, epochs=1).rate(0) == 0.005
 
 
 @pytest.mark.parametrize("rate_hz", [1000.0, 500.0, 0.1])
 def test_a_stream_is_whole_horizons_and_at_least_one(job: Job, rate_hz: float) -> None:
     stream = job.stream(rate_hz)
     assert stream % job.horizon == 0
-    assert stream == max(job.horizon, round(job.settings["stream_s"] * rate_hz))
+    assert stream == max(job.horizon, round(job.training.learning.stream_s * rate_hz))
 
 
 def test_random_numbers_differ_by_purpose_and_repeat(job: Job) -> None:
@@ -60,21 +61,21 @@ def test_random_numbers_differ_by_purpose_and_repeat(job: Job) -> None:
 
 
 def test_methods_share_which_data_they_learn_from(job: Job) -> None:
-    other = replace(job, method="FTS-e2e")
-    assert job.shared_generator("data").integers(1 << 60) == other.shared_generator("data").integers(1 << 60)
+    other, again = changed(job, method="FTS-e2e"), replace(job, seed=1)
+    shared = [run.shared_generator("data").integers(1 << 60) for run in (job, other, again)]
+    assert shared[0] == shared[1] != shared[2]
     assert job.generator("data").integers(1 << 60) != other.generator("data").integers(1 << 60)
-    again = replace(job, seed=1)
-    assert again.shared_generator("data").integers(1 << 60) != job.shared_generator("data").integers(1 << 60)
 
 
-@pytest.mark.parametrize(
-    "change", [{"seed": 1}, {"epochs": 9}, {"settings": {"precision": "auto"}}, {"target": "external"}]
-)
-def test_fingerprint_changes_with_the_job(job: Job, change: dict[str, Any]) -> None:
-    cpu = torch.device("cpu")
-    assert job.fingerprint("data", cpu) == job.fingerprint("data", cpu)
-    assert job.fingerprint("data", cpu) != replace(job, **change).fingerprint("data", cpu)
-    assert job.fingerprint("data", cpu) != job.fingerprint("other", cpu)
+@pytest.mark.parametrize("change", [{"epochs": 9}, {"rate_first": 0.1}, {"hidden": 9}, {"target": "external"}])
+def test_fingerprint_changes_with_the_training(job: Job, change: dict[str, Any]) -> None:
+    assert job.fingerprint("data", CPU) == job.fingerprint("data", CPU)
+    assert job.fingerprint("data", CPU) != changed(job, **change).fingerprint("data", CPU)
+
+
+def test_fingerprint_changes_with_seeds_and_data(job: Job) -> None:
+    others = [replace(job, seed=1).fingerprint("data", CPU), replace(job, root_seed=1).fingerprint("data", CPU)]
+    assert len({job.fingerprint("data", CPU), job.fingerprint("other", CPU), *others}) == 4
 
 
 def test_fingerprint_depends_on_the_number_format_in_use(job: Job, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -82,21 +83,13 @@ def test_fingerprint_depends_on_the_number_format_in_use(job: Job, monkeypatch: 
     found = []
     for has in (True, False):
         monkeypatch.setattr(torch.cpu, "get_capabilities", lambda has=has: {"avx512_bf16": has})
-        found.append((job.precision(torch.device("cpu")), job.fingerprint("data", torch.device("cpu"))))
+        found.append((job.precision(CPU), job.fingerprint("data", CPU)))
     assert [precision for precision, _ in found] == [torch.bfloat16, torch.float32]
     assert found[0][1] != found[1][1]
 
 
 @pytest.mark.parametrize("cell", ["LSTM", "RNN", "TCN", "MLP", "constant"])
 def test_only_a_gru_has_bfloat16_products(job: Job, cell: str) -> None:
-    settings = {**job.settings, "precision": "bfloat16"}
-    assert replace(job, settings=settings).precision(torch.device("cpu")) == torch.bfloat16
-    other = replace(job, settings=settings, row={**job.row, "cell": cell})
-    assert other.precision(torch.device("cpu")) == torch.float32
-
-
-def test_unknown_names_are_refused(full_config: dict[str, Any]) -> None:
-    with pytest.raises(ConfigError, match="'MOB' is not accepted; accepted: FTS-e2e, "):
-        job_of(full_config, "MOB", "LL", 0)
-    with pytest.raises(ConfigError, match="'tail' is not accepted"):
-        job_of(full_config, "MOB-Net", "tail", 0)
+    gru = changed(job, precision="bfloat16")
+    assert gru.precision(CPU) == torch.bfloat16
+    assert changed(gru, cell=cell).precision(CPU) == torch.float32

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,17 +15,15 @@ from safetensors.numpy import save_file
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
+from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
+from mobnet.learning.deployed.networks import NOTE, WEIGHTS, load_network
 from mobnet.learning.features import limb_inputs
-from mobnet.learning.limbs import LimbNetworks, load_limb_networks
-from mobnet.learning.networks import NOTE, WEIGHTS, load_network
-from mobnet.learning.train import train
+from mobnet.settings.networks import Limb
 
 
 @pytest.fixture
-def folder(small: object, tmp_path: Path) -> Path:
-    small.config["sizes"]["experiments"]["left_leg"]["epochs"] = 1
-    train(small.config, "FTS-e2e", "LL", 0, small.recordings, small.residuals, tmp_path / "LL", tmp_path / "state")
-    return tmp_path / "LL"
+def folder(small: Any, tmp_path: Path) -> Path:
+    return small.train(small.training("FTS-e2e", epochs=1), tmp_path)
 
 
 def test_together_they_predict_what_each_predicts(
@@ -32,7 +31,7 @@ def test_together_they_predict_what_each_predicts(
 ) -> None:
     """Limbs together and each alone are equivalent."""
     network, sensed = load_network(folder), made_up(3, 0.1).sensed
-    x = limb_inputs(layout, {"Q": ["LL"], "T": ["LL"]})(sensed)
+    x = limb_inputs(layout, Limb(joints=("LL",), Q=("LL",), T=("LL",)))(sensed)
     both = LimbNetworks([network, network], layout).run(sensed)
     np.testing.assert_array_equal(both.mean, np.tile(network.run(x).mean, 2))
     np.testing.assert_array_equal(both.std, np.tile(network.run(x).std, 2))

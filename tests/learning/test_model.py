@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 import torch
 
-from mobnet.core.errors import ConfigError
-from mobnet.core.joints import JointLayout
 from mobnet.learning.cells import Gru
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import LimbNetwork, build_network, parameter_count, seeded
+from mobnet.settings.networks import Cell
+from mobnet.settings.settings import Settings
 
 SIZES = {"LL": 83712, "RL": 83712, "RA": 144816, "LA": 144816, "W": 152406, "V": 168012}  # Table 1
 STD_MIN = 1e-6
-SPECTRAL = {"cell": "GRU", "hidden": 24, "spectral": True, "input_gain": 16.0}
+PLAIN = Cell(cell="GRU", hidden=24)
+SPECTRAL = Cell(cell="GRU", hidden=24, spectral=True, input_gain=16.0)
 
 
 @pytest.mark.parametrize("limb", SIZES)
-def test_size_is_the_published_one(limb: str, full_config: dict[str, Any], layout: JointLayout) -> None:
-    row = full_config["networks"][limb]
+def test_size_is_the_published_one(limb: str, settings: Settings) -> None:
+    row, layout = settings.network("MOB-Net", limb), settings.layout
     network = build_network(row, len(limb_inputs(layout, row).names), len(layout.limb(limb)), STD_MIN, seed=0)
     assert parameter_count(network) == SIZES[limb]
 
@@ -33,9 +32,8 @@ def test_std_never_falls_below_its_clip() -> None:
 
 
 def test_initial_weights_depend_on_the_seed_alone() -> None:
-    row = {"hidden": 8, "cell": "GRU"}
     before = torch.get_rng_state()
-    first, again, other = (build_network(row, 3, 2, STD_MIN, seed) for seed in (1, 1, 2))
+    first, again, other = (build_network(PLAIN, 3, 2, STD_MIN, seed) for seed in (1, 1, 2))
     assert torch.equal(first.head.weight, again.head.weight)
     assert not torch.equal(first.head.weight, other.head.weight)
     assert torch.equal(torch.get_rng_state(), before)
@@ -55,7 +53,7 @@ def test_torch_draws_on_as_if_nothing_had_been_drawn_in_between() -> None:
 
 def test_spectral_norm_adds_no_parameters_and_keeps_the_largest_singular_values_at_one() -> None:
     network = build_network(SPECTRAL, 6, 2, STD_MIN, seed=0)
-    assert parameter_count(network) == parameter_count(build_network({**SPECTRAL, "spectral": False}, 6, 2, STD_MIN, 0))
+    assert parameter_count(network) == parameter_count(build_network(PLAIN, 6, 2, STD_MIN, 0))
     for _ in range(200):  # a step of the power iteration each
         network(torch.zeros(1, 1, 6), network.fresh_state(1))
     tensors = network.deployable()
@@ -93,14 +91,9 @@ def test_torch_runs_a_normalised_gru_too() -> None:
     torch.testing.assert_close(ours, theirs, rtol=1e-5, atol=1e-5)
 
 
-def test_only_a_gru_can_be_normalised() -> None:
-    with pytest.raises(ConfigError, match="cell of a network with `spectral`: 'LSTM' is not accepted; accepted: GRU"):
-        build_network({**SPECTRAL, "cell": "LSTM"}, 6, 2, STD_MIN, seed=0)
-
-
 def test_products_are_rounded_in_training_alone() -> None:
     """What is validated is what runs on the robot, in float32."""
-    network = build_network({"cell": "GRU", "hidden": 24}, 6, 2, STD_MIN, seed=0)
+    network = build_network(PLAIN, 6, 2, STD_MIN, seed=0)
     x, state = torch.randn(20, 4, 6, generator=torch.Generator().manual_seed(0)), network.fresh_state(4)
     exact = network(x, state)
     network.precision = torch.bfloat16

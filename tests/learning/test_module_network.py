@@ -12,19 +12,24 @@ import torch
 from safetensors.torch import save_file
 
 from mobnet.core.errors import DataError
-from mobnet.core.joints import JointLayout
-from mobnet.learning.dataset import load_limb_data
+from mobnet.learning.deployed.module_network import CHUNK, ModuleNetwork
+from mobnet.learning.deployed.networks import (
+    NOTE,
+    STD_SCALE,
+    WEIGHTS,
+    ConstantNetwork,
+    Deployed,
+    Network,
+    load_network,
+)
 from mobnet.learning.model import LimbNetwork, build_network
-from mobnet.learning.module_network import CHUNK, ModuleNetwork
-from mobnet.learning.networks import NOTE, STD_SCALE, WEIGHTS, ConstantNetwork, Deployed, Network, load_network
 from mobnet.learning.streams import split
-from mobnet.learning.train import train
+from mobnet.settings.networks import SIZES, Cell, CellKind
 
 INPUTS, JOINTS, STEPS, STD_MIN = 5, 2, 300, 1e-6
-WINDOW = {"window_steps": 10, "kernel_steps": 3, "dilations": [2, 4], "dropout": 0.2, "head": 12}
-ROWS: dict[str, dict[str, Any]] = {
-    cell: {"cell": cell, "hidden": 16, **WINDOW} for cell in ("GRU", "LSTM", "RNN", "TCN", "MLP", "constant")
-}
+WINDOW: dict[str, Any] = {"window_steps": 10, "kernel_steps": 3, "dilations": (2, 4), "dropout": 0.2, "head": 12}
+CELLS = {kind: Cell(cell=kind, hidden=16, **WINDOW) for kind in SIZES}
+KINDS: dict[CellKind, type[Deployed]] = {"GRU": Network, "constant": ConstantNetwork}  # by NumPy; the others by torch
 SCALES = {
     "input.mean": torch.linspace(-1.0, 1.0, INPUTS),
     "input.std": torch.linspace(0.5, 1.5, INPUTS),
@@ -34,17 +39,18 @@ SCALES = {
 }
 
 
-def _model(row: dict[str, Any]) -> LimbNetwork:
+def _model(kind: CellKind) -> LimbNetwork:
     """Return a network with weights as large as trained ones."""
-    model = build_network(row, INPUTS, JOINTS, STD_MIN, seed=0)
+    model = build_network(CELLS[kind], INPUTS, JOINTS, STD_MIN, seed=0)
     with torch.no_grad():
         for parameter in model.parameters():
             parameter *= 1.5
     return model
 
 
-def _save(folder: Path, model: LimbNetwork, row: dict[str, Any]) -> Deployed:
-    note = {"limb": "LL", "joints": ["a", "b"], "inputs": list("vwxyz"), "std_min": STD_MIN, "network": row}
+def _save(folder: Path, model: LimbNetwork, cell: Cell) -> Deployed:
+    network = {"data": "walk", **cell.model_dump(mode="json")}  # a training notes more than the cell
+    note = {"limb": "LL", "joints": ["a", "b"], "inputs": list("vwxyz"), "std_min": STD_MIN, "network": network}
     save_file(model.deployable() | SCALES, folder / WEIGHTS, {NOTE: json.dumps(note)})
     return load_network(folder)
 
@@ -54,13 +60,13 @@ def x() -> np.ndarray:
     return np.random.default_rng(0).normal(size=(STEPS, INPUTS)).astype(np.float32)
 
 
-@pytest.mark.parametrize("cell", ROWS)
-def test_step_agrees_with_run(cell: str, x: np.ndarray, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("kind", CELLS)
+def test_step_agrees_with_run(kind: CellKind, x: np.ndarray, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Sample by sample, in chunks and all at once are equivalent."""
-    network = _save(tmp_path, _model(ROWS[cell]), ROWS[cell])
-    assert isinstance(network, {"GRU": Network, "constant": ConstantNetwork}.get(cell, ModuleNetwork))
+    network = _save(tmp_path, _model(kind), CELLS[kind])
+    assert isinstance(network, KINDS.get(kind, ModuleNetwork))
     whole, state = network.run(x), network.init()
-    monkeypatch.setattr("mobnet.learning.module_network.CHUNK", 7)
+    monkeypatch.setattr("mobnet.learning.deployed.module_network.CHUNK", 7)
     in_chunks = network.run(x)
     np.testing.assert_allclose(in_chunks.mean, whole.mean, rtol=1e-5, atol=1e-5)
     for k in range(STEPS):
@@ -69,29 +75,29 @@ def test_step_agrees_with_run(cell: str, x: np.ndarray, tmp_path: Path, monkeypa
         np.testing.assert_allclose(result.std, whole.std[k], rtol=1e-5)
 
 
-@pytest.mark.parametrize("cell", ROWS)
-def test_run_agrees_with_the_module(cell: str, x: np.ndarray, tmp_path: Path) -> None:
+@pytest.mark.parametrize("kind", CELLS)
+def test_run_agrees_with_the_module(kind: CellKind, x: np.ndarray, tmp_path: Path) -> None:
     """The module as trained is the reference, z-scores by hand."""
-    model = _model(ROWS[cell])
+    model = _model(kind)
     zscored = (torch.from_numpy(x) - SCALES["input.mean"]) / SCALES["input.std"]
     with torch.no_grad():
         mean, std, _ = model.eval()(zscored[:, None], model.fresh_state(1))
-    result = _save(tmp_path, model, ROWS[cell]).run(x)
+    result = _save(tmp_path, model, CELLS[kind]).run(x)
     expected = mean[:, 0] * SCALES["target.std"] + SCALES["target.mean"]
     np.testing.assert_allclose(result.mean, expected.numpy(), rtol=1e-5, atol=1e-5)
     np.testing.assert_allclose(result.std, (std[:, 0] * SCALES["target.std"] * SCALES[STD_SCALE]).numpy(), rtol=1e-5)
 
 
-@pytest.mark.parametrize("cell", ROWS)
-def test_step_leaves_the_given_state_alone(cell: str, x: np.ndarray, tmp_path: Path) -> None:
-    network = _save(tmp_path, _model(ROWS[cell]), ROWS[cell])
+@pytest.mark.parametrize("kind", CELLS)
+def test_step_leaves_the_given_state_alone(kind: CellKind, x: np.ndarray, tmp_path: Path) -> None:
+    network = _save(tmp_path, _model(kind), CELLS[kind])
     state = network.init()
     network.step(state, x[0])
-    assert state is None if cell == "constant" else not np.asarray(state).any()
+    assert state is None if kind == "constant" else not np.asarray(state).any()
 
 
 def test_a_recording_longer_than_a_chunk_has_no_seam(x: np.ndarray, tmp_path: Path) -> None:
-    network = _save(tmp_path, _model(ROWS["TCN"]), ROWS["TCN"])
+    network = _save(tmp_path, _model("TCN"), CELLS["TCN"])
     long = np.tile(x, (CHUNK // STEPS + 2, 1))
     periods = network.run(long).mean.reshape(-1, STEPS, JOINTS)
     for period in periods[2:]:
@@ -100,24 +106,27 @@ def test_a_recording_longer_than_a_chunk_has_no_seam(x: np.ndarray, tmp_path: Pa
 
 def test_weights_of_another_size_are_refused(tmp_path: Path) -> None:
     with pytest.raises(DataError, match=f"{WEIGHTS}: not the weights of a limb network .*size mismatch"):
-        _save(tmp_path, _model(ROWS["LSTM"]), {**ROWS["LSTM"], "hidden": 8})
+        _save(tmp_path, _model("LSTM"), CELLS["LSTM"].model_copy(update={"hidden": 8}))
+
+
+def test_a_cell_without_its_sizes_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(DataError, match=f"{WEIGHTS}: not the weights of a limb network .*hidden is missing"):
+        _save(tmp_path, _model("LSTM"), CELLS["LSTM"].model_copy(update={"hidden": None}))
 
 
 @pytest.mark.parametrize(
     ("method", "limb", "kind"),
     [("TCN", "LL", ModuleNetwork), ("GRU-spectral", "LL", Network), ("MOB-Net", "N", ConstantNetwork)],
 )
-def test_what_a_training_leaves_predicts_what_it_was_validated_to(
-    method: str, limb: str, kind: type, small: object, layout: JointLayout, tmp_path: Path
+def test_a_trained_network_on_a_robot_errs_as_in_its_validation(
+    method: str, limb: str, kind: type, small: Any, tmp_path: Path
 ) -> None:
     """From recordings to a network on a robot, whose error on the recordings is that of the last validation."""
-    small.config["sizes"]["experiments"] = {name: {"epochs": 1, "seeds": [0]} for name in ("kinds", "neck")}
-    train(small.config, method, limb, 0, small.recordings, small.residuals, tmp_path / limb, tmp_path / "state")
-    network, note = load_network(tmp_path / limb), json.loads((tmp_path / limb / "run.json").read_text())
-    row = note["settings"]["network"]
+    training = small.training(method, limb, epochs=1)
+    out = small.train(training, tmp_path)
+    network, note, data = load_network(out), json.loads((out / "run.json").read_text()), small.data(training)
     assert type(network) is kind
-    data = load_limb_data(layout, row, "uncertainty", small.recordings, small.residuals)
-    _, held_out = split(data.segments, small.config["learning"]["validation_share"])
+    _, held_out = split(data.segments, training.learning.validation_share)
     errors = [(network.run(data.inputs[a:b]).mean - data.targets[a:b]) for a, b in held_out]
     rmse = np.sqrt(np.square(np.concatenate(errors)).mean(axis=0)).mean()
     assert rmse == pytest.approx(note["best"]["validation_rmse"], rel=0.1)  # lanes and ends of streams differ

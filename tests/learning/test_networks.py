@@ -12,8 +12,9 @@ from safetensors.torch import save_file
 
 from mobnet.core.errors import DataError
 from mobnet.learning.cells import Gru
+from mobnet.learning.deployed.networks import NOTE, STD_SCALE, WEIGHTS, Deployed, load_network
 from mobnet.learning.model import LimbNetwork, build_network
-from mobnet.learning.networks import NOTE, STD_SCALE, WEIGHTS, Deployed, load_network
+from mobnet.settings.networks import Cell
 
 INPUTS, HIDDEN, JOINTS, STEPS = 30, 150, 6, 400
 STD_MIN = 1e-6
@@ -25,7 +26,13 @@ SCALES = {
     "target.mean": torch.linspace(-2.0, 2.0, JOINTS),
     "target.std": torch.linspace(1.0, 11.0, JOINTS),
 }
-NOTES = {"limb": "LL", "joints": list("abcdef"), "inputs": [f"x{i}" for i in range(INPUTS)], "std_min": STD_MIN}
+NOTES = {
+    "limb": "LL",
+    "joints": list("abcdef"),
+    "inputs": [f"x{i}" for i in range(INPUTS)],
+    "std_min": STD_MIN,
+    "network": {"cell": "GRU", "hidden": HIDDEN},
+}
 Pair = tuple[LimbNetwork, Deployed]
 
 
@@ -62,8 +69,8 @@ def test_run_agrees_with_torch(pair: Pair, x: np.ndarray) -> None:
 
 def test_a_normalised_network_runs_as_a_plain_one(tmp_path: Path, x: np.ndarray) -> None:
     """Torch with norm and gain is the reference."""
-    row = {"cell": "GRU", "hidden": 24, "spectral": True, "input_gain": 16.0}
-    model = build_network(row, INPUTS, JOINTS, STD_MIN, seed=0).eval()
+    cell = Cell(cell="GRU", hidden=24, spectral=True, input_gain=16.0)
+    model = build_network(cell, INPUTS, JOINTS, STD_MIN, seed=0).eval()
     zscored = (torch.from_numpy(x) - SCALES["input.mean"]) / SCALES["input.std"]
     with torch.no_grad():
         mean, _, _ = model(zscored[:, None], model.fresh_state(1))

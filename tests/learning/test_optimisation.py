@@ -13,6 +13,7 @@ from mobnet.learning.loss import gaussian_loss
 from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.learning.optimisation import LAST_STEP, SEQUENCES, Samples, train_epoch, validate
 from mobnet.learning.streams import deal, epoch_plan, window_plan
+from mobnet.settings.networks import Cell, CellKind
 
 HORIZON = 10
 
@@ -59,10 +60,10 @@ def test_training_lowers_the_loss(network: LimbNetwork, samples: Samples) -> Non
     assert losses[-1] < losses[0] - 0.3
 
 
-@pytest.mark.parametrize("row", [{"cell": "TCN"}, {"cell": "MLP"}, {"cell": "LSTM"}, {"cell": "constant"}], ids=str)
-def test_every_cell_learns_on_streams(row: dict[str, object], samples: Samples) -> None:
-    small = {"hidden": 8, "window_steps": 4, "kernel_steps": 2, "dilations": [1, 2], "dropout": 0.1, "head": 8}
-    network = build_network({**small, **row}, 3, 2, 1e-6, seed=0)
+@pytest.mark.parametrize("kind", ["TCN", "MLP", "LSTM", "constant"])
+def test_every_cell_learns_on_streams(kind: CellKind, samples: Samples) -> None:
+    cell = Cell(cell=kind, hidden=8, window_steps=4, kernel_steps=2, dilations=(1, 2), dropout=0.1, head=8)
+    network = build_network(cell, 3, 2, 1e-6, seed=0)
     samples.targets.add_(1.0)  # what even a constant can learn
     optimizer = torch.optim.Adam(network.parameters(), lr=1e-2)
     plan = epoch_plan([(0, 600)], 100, HORIZON, 4, np.random.default_rng(0))

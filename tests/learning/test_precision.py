@@ -1,12 +1,11 @@
-"""The number format of products: who gets which, and what a product of either is."""
+"""The number format of products follows the setting, the CPU and the device."""
 
 from __future__ import annotations
 
 import pytest
 import torch
 
-from mobnet.core.errors import ConfigError
-from mobnet.learning.precision import PRECISIONS, UNITS, memory, precision_name, precision_of, product
+from mobnet.learning.precision import PRECISIONS, UNITS, precision_name, precision_of
 
 CPU, GPU = torch.device("cpu"), torch.device("cuda")
 
@@ -39,28 +38,3 @@ def test_a_named_format_is_that_format_on_any_cpu(monkeypatch: pytest.MonkeyPatc
 @pytest.mark.parametrize("setting", ["auto", *PRECISIONS])
 def test_a_gpu_computes_in_float32(setting: str) -> None:
     assert precision_of(setting, GPU) == torch.float32
-
-
-def test_error_names_the_accepted_ones() -> None:
-    with pytest.raises(ConfigError, match=r"half.*auto, bfloat16, float32"):
-        precision_of("half", CPU)
-
-
-@pytest.mark.parametrize("precision", PRECISIONS.values())
-def test_products_are_those_of_the_rounded_factors(precision: torch.dtype) -> None:
-    generator = torch.Generator().manual_seed(0)
-    a, b = (torch.randn(shape, generator=generator).to(precision) for shape in ((7, 40), (5, 40)))
-    expected = (a.double() @ b.double().T).float()
-    found, given = product(a, b.T), torch.empty(7, 5, dtype=precision)
-    product(a, b.T, out=given)
-    unit = torch.finfo(precision).eps
-    assert found.dtype == precision
-    assert torch.equal(found, given)
-    torch.testing.assert_close(found.float(), expected, rtol=unit, atol=10 * torch.finfo(torch.float32).eps)
-
-
-@pytest.mark.parametrize("precision", PRECISIONS.values())
-def test_memory_is_the_tensors_own(precision: torch.dtype) -> None:
-    tensor = torch.ones(3, dtype=precision)
-    memory(tensor)[1] = 0
-    assert tensor.tolist() == [1.0, 0.0, 1.0]

@@ -2,108 +2,103 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 import torch
 
-from mobnet.core.config import load_layout
 from mobnet.core.errors import TrainingError
 from mobnet.learning.checkpoint import CHECKPOINT
-from mobnet.learning.dataset import LimbData, load_limb_data
-from mobnet.learning.job import Job, job_of
+from mobnet.learning.dataset import LimbData
+from mobnet.learning.job import Job
 from mobnet.learning.precision import PRECISIONS
 from mobnet.learning.tracking import METRICS
 from mobnet.learning.trainer import Trainer
 
-Setting = tuple[Job, LimbData]
+EPOCHS = 5
 
 
 @pytest.fixture
-def setting(small: object) -> Setting:
-    job = job_of(small.config, "MOB-Net", "LL", 0)
-    layout = load_layout(Path(small.config["robot"]))
-    return job, load_limb_data(layout, job.row, job.target, small.recordings, small.residuals)
+def data(small: Any) -> LimbData:
+    return small.data(small.training())
 
 
-def test_it_learns_and_keeps_the_best_epoch(setting: Setting, tmp_path: Path) -> None:
-    done = Trainer(*setting).run(tmp_path)
-    losses = [row["validation_loss"] for row in done.rows]
-    assert done.epoch == setting[0].epochs
+@pytest.fixture
+def trainer(small: Any, data: LimbData) -> Callable[..., Trainer]:
+    """Return a function of changes of how a network learns that sets a training up."""
+    return lambda epochs=EPOCHS, **learning: Trainer(Job(small.training(epochs=epochs, **learning), 0, 1), data)
+
+
+def test_it_learns_and_keeps_the_best_epoch(trainer: Callable[..., Trainer], tmp_path: Path) -> None:
+    done = trainer().run(tmp_path)
+    losses = [epoch.validation_loss for epoch in done.epochs]
+    assert [epoch.epoch for epoch in done.epochs] == list(range(1, EPOCHS + 1))
     assert losses[-1] < losses[0]
-    assert done.best_row()["validation_loss"] == min(losses)
+    assert done.best_epoch().validation_loss == min(losses)
 
 
-def test_scales_do_not_see_the_validation_blocks(setting: Setting) -> None:
-    job, data = setting
-    before = Trainer(job, data).scales
+def test_scales_do_not_see_the_validation_blocks(trainer: Callable[..., Trainer], data: LimbData) -> None:
+    before = trainer().scales
     for _, end in data.segments:
         data.inputs[end - 100 : end] += 5.0
-    after = Trainer(job, data).scales
-    np.testing.assert_array_equal(before[0].mean, after[0].mean)
+    np.testing.assert_array_equal(before[0].mean, trainer().scales[0].mean)
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)
-def test_two_runs_are_the_same_to_the_bit(setting: Setting, precision: str, tmp_path: Path) -> None:
-    job, data = setting
-    job.settings["precision"] = precision
-    first, second = (Trainer(replace(job, epochs=2), data).run(tmp_path / name) for name in "ab")
-    assert first.rows == second.rows
+def test_two_runs_are_the_same_to_the_bit(trainer: Callable[..., Trainer], precision: str, tmp_path: Path) -> None:
+    first, second = (trainer(epochs=2, precision=precision).run(tmp_path / name) for name in "ab")
+    assert first.epochs == second.epochs
     assert all(torch.equal(first.best[name], tensor) for name, tensor in second.best.items())
 
 
 @pytest.mark.parametrize("how", ["bound", "nan"])
-def test_a_training_that_diverges_says_what_to_try(setting: Setting, how: str, tmp_path: Path) -> None:
-    job, data = setting
-    if how == "bound":
-        job.settings["divergence_loss"] = -100.0
-    else:
+def test_a_training_that_diverges_says_what_to_try(
+    trainer: Callable[..., Trainer], data: LimbData, how: str, tmp_path: Path
+) -> None:
+    if how == "nan":
         data.targets[20] = np.nan
     with pytest.raises(TrainingError, match=r"MOB-Net-LL-s0: epoch 1: training loss .* at rate 0.005 .*rate_first"):
-        Trainer(job, data).run(tmp_path)
+        trainer(**({"divergence_loss": -100.0} if how == "bound" else {})).run(tmp_path)
     assert not (tmp_path / CHECKPOINT).exists()
 
 
-def test_windows_give_other_weights_than_streams(setting: Setting, tmp_path: Path) -> None:
-    job, data = setting
-    streams = Trainer(job, data).run(tmp_path / "a")
-    job.settings["sequences"] = "windows"
-    windows = Trainer(job, data).run(tmp_path / "b")
-    assert windows.rows[-1]["train_loss"] < windows.rows[0]["train_loss"]
+def test_a_training_that_may_diverge_says_so_and_keeps_its_first_weights(
+    trainer: Callable[..., Trainer], tmp_path: Path
+) -> None:
+    diverging = trainer(divergence_loss=-100.0, may_diverge=True)
+    first = diverging.network.head.weight.detach().clone()
+    done = diverging.run(tmp_path)
+    assert done.diverged
+    assert not done.epochs
+    assert torch.equal(done.best["head.weight"], first)
+
+
+def test_windows_give_other_weights_than_streams(trainer: Callable[..., Trainer], tmp_path: Path) -> None:
+    streams, windows = (trainer(sequences=how).run(tmp_path / how) for how in ("carried", "windows"))
+    assert windows.epochs[-1].train_loss < windows.epochs[0].train_loss
     assert not torch.equal(streams.best["head.weight"], windows.best["head.weight"])
 
 
-def test_dropout_is_drawn_from_seed_and_epoch_alone(setting: Setting, tmp_path: Path) -> None:
-    job, data = setting
-    row = {
-        "cell": "TCN",
-        "hidden": 8,
-        "kernel_steps": 3,
-        "dilations": [1],
-        "dropout": 0.5,
-        "window_steps": 5,
-        "head": 8,
-    }
-    job = replace(job, row={**job.row, **row}, epochs=1)
-    results = []
+def test_dropout_is_drawn_from_seed_and_epoch_alone(small: Any, data: LimbData, tmp_path: Path) -> None:
+    training, results = small.training("TCN", epochs=1), []
     for seed in (0, 1):
         torch.manual_seed(seed)  # as whatever ran before in this process may have left it
-        results.append(Trainer(job, data).run(tmp_path / str(seed)).rows)
+        results.append(Trainer(Job(training, 0, 1), data).run(tmp_path / str(seed)).epochs)
     assert results[0] == results[1]
 
 
-def test_re_run_windows_are_scored_in_physical_units(setting: Setting, tmp_path: Path) -> None:
-    job, data = setting
-    trainer = Trainer(job, data)
-    done = trainer.run(tmp_path)
-    scored = trainer.on_windows(done)
-    assert scored == trainer.on_windows(done)
-    assert scored["rmse"] == pytest.approx(done.best_row()["validation_rmse"], rel=0.5)
+def test_re_run_windows_are_scored_in_physical_units(trainer: Callable[..., Trainer], tmp_path: Path) -> None:
+    trained = trainer()
+    done = trained.run(tmp_path)
+    scored = trained.on_windows(done)
+    assert scored == trained.on_windows(done)
+    assert scored["rmse"] == pytest.approx(done.best_epoch().validation_rmse, rel=0.5)
 
 
-def test_every_epoch_is_on_disk(setting: Setting, tmp_path: Path) -> None:
-    Trainer(*setting).run(tmp_path)
-    assert len((tmp_path / METRICS).read_text().splitlines()) == setting[0].epochs + 1
+def test_every_epoch_is_on_disk(trainer: Callable[..., Trainer], tmp_path: Path) -> None:
+    trainer().run(tmp_path)
+    assert len((tmp_path / METRICS).read_text().splitlines()) == EPOCHS + 1
     assert (tmp_path / CHECKPOINT).exists()

@@ -1,1 +1,1 @@
-"""Limb networks of MOB-Net (section 4): inputs, streams, loss, training, and running them on a robot."""
+"""Limb networks of MOB-Net (section 4): inputs, cells, loss, training, and `deployed`, which runs them on a robot."""

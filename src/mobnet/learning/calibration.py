@@ -28,8 +28,8 @@ class Calibration:
     """How far off the standard deviations of n joints are, and what corrects them.
 
     Attributes:
-        scale: factor on the standard deviation (n,) [-].
-        likelihood_scale: factor that would make the data most likely (n,) [-]; for comparison only.
+        scale: factor on the standard deviation (n,).
+        likelihood_scale: factor that would make the data most likely (n,); for comparison only.
         before: fit of the standard deviations as learned, on the second half of the data.
         after: fit of the scaled ones there, with factors that the first half gives.
     """
@@ -40,7 +40,7 @@ class Calibration:
     after: Fit
 
     def note(self, joints: Sequence[str], shares: Sequence[float]) -> dict[str, Any]:
-        """Return it for `run.json`, joints (n,) and nominal shares (k,) [-] named."""
+        """Return it for `run.json`, joints (n,) and nominal shares (k,) named."""
         return {
             "joints": list(joints),
             "shares": list(shares),
@@ -59,8 +59,8 @@ def calibrate(error: NDArray[Any], std: NDArray[Any], share: float, shares: Sequ
     Args:
         error: prediction minus target in the order of time (T, n) [N m].
         std: predicted standard deviation (T, n) [N m].
-        share: errors inside its central interval shall be this share [-].
-        shares: nominal shares of the coverage told (k,) [-].
+        share: errors inside its central interval shall be this share.
+        shares: nominal shares of the coverage told (k,).
     """
     cut = len(error) // 2
     halved = scale_for(error[:cut], std[:cut], share)
@@ -73,7 +73,7 @@ def calibrate(error: NDArray[Any], std: NDArray[Any], share: float, shares: Sequ
 
 
 def scale_for(error: NDArray[Any], std: NDArray[Any], share: float) -> Array:
-    """Return the factor (n,) [-] on std (T, n) [N m] that puts a share [-] of errors (T, n) [N m] into its interval."""
+    """Return the factor (n,) on std (T, n) [N m] that puts a share of errors (T, n) [N m] into its interval."""
     return np.quantile(np.abs(error) / std, share, axis=0) / half_width(share)
 
 

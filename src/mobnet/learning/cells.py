@@ -7,16 +7,16 @@ looks at a window its last inputs. So all kinds train on streams, run on a robot
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Protocol
+from typing import Protocol
 
 import torch
 from torch import Tensor, nn
 
-from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.learning.gru import run_gru
+from mobnet.settings.networks import SIZES, Cell, CellKind
 
 
-class Cell(Protocol):
+class CellModule(Protocol):
     """What a network needs of its cell; each one is an `nn.Module` too."""
 
     @property
@@ -163,36 +163,33 @@ class Constant(nn.Module):
         return x[..., :0], state
 
 
-def _tcn(inputs: int, row: Mapping[str, Any]) -> Cell:
-    """Return the TCN of a row: blocks of `hidden` channels, one per dilation, then a layer of `head` units."""
-    width, kernel, dropout = row["hidden"], row["kernel_steps"], row["dropout"]
+def _tcn(
+    inputs: int,
+    hidden: int,
+    window_steps: int,
+    kernel_steps: int,
+    dilations: Sequence[int],
+    dropout: float,
+    head: int,
+) -> CellModule:
+    """Return a TCN: blocks of `hidden` channels, one for each dilation, then a layer of `head` units."""
     blocks = [
-        Block(inputs if i == 0 else width, width, kernel, dilation, dropout)
-        for i, dilation in enumerate(row["dilations"])
+        Block(inputs if i == 0 else hidden, hidden, kernel_steps, dilation, dropout)
+        for i, dilation in enumerate(dilations)
     ]
-    return Window(inputs, row["head"], row["window_steps"], blocks)
+    return Window(inputs, head, window_steps, blocks)
 
 
-CELLS: Mapping[str, Callable[[int, Mapping[str, Any]], Cell]] = {
-    "GRU": lambda inputs, row: Gru(inputs, row["hidden"]),
-    "LSTM": lambda inputs, row: Lstm(inputs, row["hidden"]),
-    "RNN": lambda inputs, row: Rnn(inputs, row["hidden"]),
-    "MLP": lambda inputs, row: Window(inputs, row["hidden"], row["window_steps"]),
+CELLS: Mapping[CellKind, Callable[..., CellModule]] = {  # each takes the number of inputs and its `SIZES` by name
+    "GRU": lambda inputs, hidden: Gru(inputs, hidden),
+    "LSTM": lambda inputs, hidden: Lstm(inputs, hidden),
+    "RNN": lambda inputs, hidden: Rnn(inputs, hidden),
+    "MLP": lambda inputs, hidden, window_steps: Window(inputs, hidden, window_steps),
     "TCN": _tcn,
-    "constant": lambda inputs, row: Constant(),
+    "constant": lambda inputs: Constant(),
 }
 
 
-def build_cell(row: Mapping[str, Any], inputs: int) -> Cell:
-    """Build the cell of a row of Table 1 or section 6.1 with torch's default initial weights.
-
-    Args:
-        row: names the `cell` and its sizes.
-        inputs: number of inputs n_in.
-
-    Raises:
-        ConfigError: the cell is unknown.
-    """
-    if row["cell"] not in CELLS:
-        raise ConfigError(not_accepted("cell", row["cell"], CELLS))
-    return CELLS[row["cell"]](inputs, row)
+def build_cell(cell: Cell, inputs: int) -> CellModule:
+    """Build a cell of Table 1 or section 6.1, n_in inputs wide, with torch's default initial weights."""
+    return CELLS[cell.cell](inputs, **{name: getattr(cell, name) for name in SIZES[cell.cell]})

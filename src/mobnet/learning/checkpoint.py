@@ -1,4 +1,4 @@
-"""What a training is at the end of an epoch, in one file, so that a killed run goes on to the same result.
+"""The state of a training at the end of an epoch, in one file: a killed training goes on from there to the same result.
 
 One safetensors file holds tensors and, as its note, the numbers: a file is either whole or absent. Every random draw
 of an epoch comes from a generator seeded by seed and epoch, so there is no generator state to keep.
@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import logging
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 import torch
@@ -18,9 +18,9 @@ from safetensors.torch import save_file
 from torch import Tensor, nn
 
 from mobnet.core.files import atomic_path
+from mobnet.learning.tracking import Epoch
 
 CHECKPOINT = "checkpoint.safetensors"
-Row = Mapping[str, float]  # one epoch's line of metrics.csv
 
 log = logging.getLogger(__name__)
 
@@ -30,25 +30,20 @@ class Progress:
     """How far a training has come.
 
     Attributes:
-        rows: metrics of the finished epochs.
+        epochs: the finished epochs.
         best: weights at the epoch of the smallest validation loss.
         seconds: time spent so far [s], over all its starts.
         diverged: True if the loss ran away and the training stopped there; it is never resumed.
     """
 
-    rows: list[Row] = field(default_factory=list)
+    epochs: list[Epoch] = field(default_factory=list)
     best: dict[str, Tensor] = field(default_factory=dict)
     seconds: float = 0.0
     diverged: bool = False
 
-    @property
-    def epoch(self) -> int:
-        """Number of finished epochs."""
-        return len(self.rows)
-
-    def best_row(self) -> Row:
-        """Return the metrics of the epoch with the smallest validation loss, the first of equals."""
-        return min(self.rows, key=lambda row: row["validation_loss"])
+    def best_epoch(self) -> Epoch:
+        """Return the epoch with the smallest validation loss, the first of equals."""
+        return min(self.epochs, key=lambda epoch: epoch.validation_loss)
 
 
 def copy_weights(network: nn.Module) -> dict[str, Tensor]:
@@ -70,7 +65,7 @@ def save(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.opti
     tensors |= {f"best.{name}": tensor for name, tensor in done.best.items()}
     for index, state in optimizer.state_dict()["state"].items():
         tensors |= {f"optimizer.{index}.{key}": value.detach().cpu().clone() for key, value in state.items()}
-    note = {"fingerprint": fingerprint, "rows": [dict(row) for row in done.rows], "seconds": done.seconds}
+    note = {"fingerprint": fingerprint, "epochs": list(map(asdict, done.epochs)), "seconds": done.seconds}
     with atomic_path(path) as temporary:
         save_file(tensors, temporary, {"note": json.dumps(note)})
 
@@ -106,8 +101,8 @@ def resume(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.op
         index, key = name.split(".")
         state.setdefault(int(index), {})[key] = tensor
     optimizer.load_state_dict({**optimizer.state_dict(), "state": state})
-    done = Progress(note["rows"], _below("best.", tensors), note["seconds"])
-    log.info("%s: resuming after epoch %d", path, done.epoch)
+    done = Progress([Epoch(**row) for row in note["epochs"]], _below("best.", tensors), note["seconds"])
+    log.info("%s: resuming after epoch %d", path, len(done.epochs))
     return done
 
 

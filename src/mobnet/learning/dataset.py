@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.errors import ConfigError, DataError, not_accepted
+from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array, spans_and_rate
 from mobnet.learning.features import LimbInputs, limb_inputs
 from mobnet.learning.streams import Span
+from mobnet.settings.methods import Target
+from mobnet.settings.networks import Limb
 
-TARGETS = ("uncertainty", "external")  # r - tau_e of section 4.2.3, and tau_e of the end-to-end rival
-CONSTANT = 1e-9  # [-] an input that moves less than this share of its mean counts as constant
+CONSTANT = 1e-9  # an input that moves less than this share of its mean counts as constant
 
 
 @dataclass(frozen=True)
@@ -59,31 +59,31 @@ class LimbData:
 
 def load_limb_data(
     layout: JointLayout,
-    row: Mapping[str, Any],
-    target: str,
-    recording_stems: Sequence[Path],
-    residual_stems: Sequence[Path],
+    limb: Limb,
+    target: Target,
+    recordings: Sequence[Path],
+    residuals: Sequence[Path],
 ) -> LimbData:
     """Read recordings and residuals of one limb into RAM, inputs (N, n_in) and target torques (N, n) [N, N m].
 
     Args:
         layout: the robot's joints.
-        row: a row of Table 1; `joints` names the limbs whose joints it learns.
+        limb: what the network of Table 1 predicts and sees.
         target: `uncertainty`, r - tau_e of section 4.2.3, or `external`, tau_e, both low-passed alike.
-        recording_stems: recordings.
-        residual_stems: residual file of each recording, in the same order.
+        recordings: stems of the recordings.
+        residuals: stem of the residual file of each recording, in the same order.
 
     Raises:
-        ConfigError: a limb or the target is not known.
+        ConfigError: a limb is not known.
         DataError: a file is damaged, or a residual does not belong to its recording.
     """
-    inputs, joints = limb_inputs(layout, row), joints_of(layout, row)
+    inputs, joints = limb_inputs(layout, limb), joints_of(layout, limb)
     parts: list[tuple[NDArray[np.float32], NDArray[np.float32]]] = []
     segments: list[Span] = []
     rates: set[float] = set()
-    for recording_stem, residual_stem in zip(recording_stems, residual_stems, strict=True):
+    for recording, residual in zip(recordings, residuals, strict=True):
         offset = sum(len(x) for x, _ in parts)
-        x, y, spans, rate_hz = _load_one(inputs, joints, target, recording_stem, residual_stem)
+        x, y, spans, rate_hz = _load_one(inputs, joints, target, recording, residual)
         parts.append((x, y))
         segments += [(offset + start, offset + end) for start, end in spans]
         rates.add(rate_hz)
@@ -93,46 +93,42 @@ def load_limb_data(
     return LimbData(xs, ys, tuple(segments), inputs.names, joints, rates.pop())
 
 
-def joints_of(layout: JointLayout, row: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return the joints that a network of Table 1 learns, limb by limb, (n,).
+def joints_of(layout: JointLayout, limb: Limb) -> tuple[str, ...]:
+    """Return the joints whose torques a network of Table 1 predicts, limb by limb, (n,).
 
     Raises:
         ConfigError: a limb is not known.
     """
-    return tuple(joint for limb in row["joints"] for joint in layout.limb(limb))
+    return tuple(joint for name in limb.joints for joint in layout.limb(name))
 
 
 def _load_one(
     inputs: LimbInputs,
     joints: Sequence[str],
-    target: str,
-    recording_stem: Path,
-    residual_stem: Path,
+    target: Target,
+    recording: Path,
+    residual: Path,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], tuple[Span, ...], float]:
     """Return inputs, targets, segments and rate of one recording."""
-    recorded, meta = read_array(recording_stem, inputs.recorded)
-    torque = read_target(residual_stem, joints, target)
+    recorded, meta = read_array(recording, inputs.recorded)
+    torque = read_target(residual, joints, target)
     if len(torque) != len(recorded):
         raise DataError(
-            f"{residual_stem}.parquet: {len(torque)} rows, but its recording {recording_stem}.parquet has "
-            f"{len(recorded)}"
+            f"{residual}.parquet: {len(torque)} rows, but its recording {recording}.parquet has {len(recorded)}"
         )
     return inputs.from_recorded(recorded), torque, *spans_and_rate(meta)
 
 
-def read_target(residual_stem: Path, joints: Sequence[str], target: str) -> NDArray[np.float32]:
+def read_target(stem: Path, joints: Sequence[str], target: Target) -> NDArray[np.float32]:
     """Return the torque to learn of some joints, (T, n) [N, N m], from a residual file.
 
     Raises:
-        ConfigError: the target is not known.
         DataError: the file is damaged or a column is missing.
     """
-    if target not in TARGETS:
-        raise ConfigError(not_accepted("target", target, TARGETS))
-    external, _ = read_array(residual_stem, [f"tau_ext_lp.{joint}" for joint in joints])
+    external, _ = read_array(stem, [f"tau_ext_lp.{joint}" for joint in joints])
     if target == "external":
         return external
-    residual, _ = read_array(residual_stem, [f"r.{joint}" for joint in joints])
+    residual, _ = read_array(stem, [f"r.{joint}" for joint in joints])
     return residual - external
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,6 +13,7 @@ from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Sensed
 from mobnet.robot.frames import QUATERNION, rotation
+from mobnet.settings.networks import Limb
 
 OMEGA = slice(3, N_VIRTUAL)  # of the generalized velocity, base axes
 ROTATION_NAMES = tuple(f"R.{row}{column}" for column in (1, 2) for row in (1, 2, 3))
@@ -27,7 +28,7 @@ class LimbInputs:
 
     Attributes:
         names: name of each input, (n_in,): q^g [rad] and v^g [rad/s] of each limb in `Q`, tau_d^g [N m] of each limb
-            in `T`, then U^V: two columns of the pelvis rotation [-], its angular velocity [rad/s] and its linear
+            in `T`, then U^V: two columns of the pelvis rotation, its angular velocity [rad/s] and its linear
             acceleration as the IMU reads it [m/s^2], both in pelvis axes.
         columns: where they stand in `signals`, (n_in,).
     """
@@ -74,7 +75,7 @@ def signals(sensed: Sensed) -> NDArray[np.float32]:
 
 
 def _first_columns(quaternion: NDArray[Any]) -> NDArray[np.float64]:
-    """Return the first two columns of the rotations (..., 6) [-] of quaternions w x y z (..., 4)."""
+    """Return the first two columns of the rotations (..., 6) of quaternions w x y z (..., 4)."""
     columns = rotation(quaternion)[..., :2]
     return np.swapaxes(columns, -1, -2).reshape(*columns.shape[:-2], -1)
 
@@ -84,15 +85,15 @@ def signal_names(layout: JointLayout) -> tuple[str, ...]:
     return (*(f"{signal}.{j}" for signal in ("q", "v", "tau_des") for j in layout.actuated), *BASE_NAMES)
 
 
-def limb_inputs(layout: JointLayout, row: Mapping[str, Any]) -> LimbInputs:
-    """Build the inputs of a row of Table 1 from its limbs `Q` and `T`; the width of x^g is (n_in,).
+def limb_inputs(layout: JointLayout, limb: Limb) -> LimbInputs:
+    """Build the inputs of a network of Table 1 from its limbs `Q` and `T`; the width of x^g is (n_in,).
 
     Raises:
         ConfigError: a limb is unknown, or is the virtual one, which has no encoders or motors.
     """
-    encoders = [_actuated(layout, limb) for limb in row["Q"]]
+    encoders = [_actuated(layout, name) for name in limb.Q]
     names = [f"{signal}.{joint}" for joints in encoders for signal in ("q", "v") for joint in joints]
-    names += [f"tau_des.{joint}" for limb in row["T"] for joint in _actuated(layout, limb)]
+    names += [f"tau_des.{joint}" for name in limb.T for joint in _actuated(layout, name)]
     names += BASE_NAMES
     where = {name: i for i, name in enumerate(signal_names(layout))}
     return LimbInputs(tuple(names), np.array([where[name] for name in names], dtype=np.intp))

@@ -18,7 +18,7 @@ class Fit:
     """Measures of n predicted torques over their samples.
 
     Attributes:
-        coverage: share of errors inside the central interval of each nominal share (k, n) [-].
+        coverage: share of errors inside the central interval of each nominal share (k, n).
         nll: mean negative logarithm of the predicted density (n,) [nats], of torques in [N m], V1..V3 in [N].
         crps: mean continuous ranked probability score (n,) [N m], V1..V3 [N].
     """
@@ -29,17 +29,17 @@ class Fit:
 
 
 def fit_of(error: NDArray[Any], std: NDArray[Any], shares: Sequence[float]) -> Fit:
-    """Return how well errors (T, n) [N m] fit predicted standard deviations (T, n) [N m]; nominal shares (k,) [-]."""
+    """Return how well errors (T, n) [N m] fit predicted standard deviations (T, n) [N m]; nominal shares (k,)."""
     return Fit(coverage(error, std, shares), likelihood(error, std), ranked_score(error, std))
 
 
 def half_width(share: float) -> float:
-    """Return half the width of the central interval that holds a share of a Gaussian [-], in standard deviations."""
+    """Return half the width of the central interval that holds a share of a Gaussian, in standard deviations."""
     return float(ndtri((1.0 + share) / 2.0))
 
 
 def coverage(error: NDArray[Any], std: NDArray[Any], shares: Sequence[float]) -> Array:
-    """Return the share of errors (T, n) [N m] inside each central interval, (k, n) [-]."""
+    """Return the share of errors (T, n) [N m] inside each central interval, (k, n)."""
     ratio = np.abs(error) / std
     return np.array([(ratio <= half_width(share)).mean(axis=0) for share in shares])
 

@@ -10,11 +10,12 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import torch
+from numpy.typing import NDArray
 from torch import Tensor, nn
 
 from mobnet.learning.gates import step_backward, step_forward
-from mobnet.learning.precision import memory, product
 
 
 class FusedGru(torch.autograd.Function):
@@ -81,3 +82,15 @@ def run_gru(cell: nn.GRU, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
     weights = cell.weight_ih_l0, cell.weight_hh_l0, cell.bias_ih_l0, cell.bias_hh_l0
     states = FusedGru.apply(x, state[0], precision, *weights)
     return states, states[-1:]
+
+
+def product(a: Tensor, b: Tensor, out: Tensor | None = None) -> Tensor:
+    """Return the product (m, n) of two matrices (m, k) and (k, n) of one format; NumPy is the faster one in float32."""
+    if a.dtype == torch.float32:
+        return torch.from_numpy(np.matmul(a.numpy(), b.numpy(), out=None if out is None else out.numpy()))
+    return torch.mm(a, b, out=out)
+
+
+def memory(tensor: Tensor) -> NDArray[Any]:
+    """Return a tensor's memory for compiled loops: float32 as it is, bfloat16, which NumPy lacks, as uint16."""
+    return tensor.numpy() if tensor.dtype == torch.float32 else tensor.view(torch.uint16).numpy()

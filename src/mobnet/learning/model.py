@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
 
 import torch
 from torch import Tensor, nn
 from torch.nn.utils import parametrize
 from torch.nn.utils.parametrizations import spectral_norm
 
-from mobnet.core.errors import ConfigError, not_accepted
-from mobnet.learning.cells import Cell, build_cell
+from mobnet.learning.cells import CellModule, build_cell
+from mobnet.settings.networks import Cell
 
 
 class LimbNetwork(nn.Module):
@@ -26,16 +25,16 @@ class LimbNetwork(nn.Module):
         precision: number format of the cell's products in training; otherwise, as on the robot, float32.
     """
 
-    def __init__(self, cell: Cell, joints: int, std_min: float) -> None:
+    def __init__(self, cell: CellModule, joints: int, std_min: float) -> None:
         """Put a linear layer with torch's default initial weights on a cell.
 
         Args:
             cell: turns inputs into features.
             joints: number of joints n.
-            std_min: smallest standard deviation, z-scored [-].
+            std_min: smallest standard deviation, z-scored.
         """
         super().__init__()
-        self.cell: Cell = cell
+        self.cell: CellModule = cell
         with warnings.catch_warnings():  # torch warns that a layer without inputs has no weights to start from
             warnings.filterwarnings("ignore", "Initializing zero-element tensors")
             self.head = nn.Linear(cell.width, 2 * joints)
@@ -97,25 +96,20 @@ def seeded(seed: int) -> Iterator[None]:
         yield
 
 
-def build_network(row: Mapping[str, Any], inputs: int, joints: int, std_min: float, seed: int) -> LimbNetwork:
-    """Build the network of a row of Table 1 or section 6.1, its initial weights drawn from a seed.
+def build_network(cell: Cell, inputs: int, joints: int, std_min: float, seed: int) -> LimbNetwork:
+    """Build a network of Table 1 or section 6.1, its initial weights drawn from a seed.
 
     Args:
-        row: names the `cell` and its sizes; `spectral` and `input_gain` for the norm of the authors' code.
+        cell: kind and sizes of its cell, and the norm of the authors' code.
         inputs: number of inputs n_in.
         joints: number of joints n.
-        std_min: smallest standard deviation, z-scored [-].
+        std_min: smallest standard deviation, z-scored.
         seed: of the initial weights; torch's own stream is untouched.
-
-    Raises:
-        ConfigError: the cell is unknown, or cannot be normalised.
     """
     with seeded(seed):
-        network = LimbNetwork(build_cell(row, inputs), joints, std_min)
-        if row.get("spectral", False):
-            if row["cell"] != "GRU":
-                raise ConfigError(not_accepted("cell of a network with `spectral`", row["cell"], ["GRU"]))
-            network.normalise(row["input_gain"])
+        network = LimbNetwork(build_cell(cell, inputs), joints, std_min)
+        if cell.spectral:
+            network.normalise(cell.input_gain)
     return network
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import logging
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -12,18 +13,20 @@ import numpy as np
 import torch
 from safetensors.torch import save_file
 
-from mobnet.core.config import load_layout
 from mobnet.core.files import atomic_path, write_json
+from mobnet.core.joints import JointLayout
 from mobnet.core.provenance import provenance
 from mobnet.learning.calibration import Calibration
 from mobnet.learning.checkpoint import CHECKPOINT, Progress
 from mobnet.learning.dataset import LimbData, load_limb_data
-from mobnet.learning.job import job_of
+from mobnet.learning.deployed.networks import NOTE, STD_SCALE, WEIGHTS
+from mobnet.learning.job import Job
 from mobnet.learning.model import parameter_count
-from mobnet.learning.networks import NOTE, STD_SCALE, WEIGHTS
 from mobnet.learning.precision import precision_name
 from mobnet.learning.tracking import METRICS, write_metrics
 from mobnet.learning.trainer import Trainer
+from mobnet.settings.base import Section
+from mobnet.settings.networks import Training
 
 RUN = "run.json"
 
@@ -31,93 +34,96 @@ log = logging.getLogger(__name__)
 
 
 def train(
-    config: Mapping[str, Any],
-    method: str,
-    limb: str,
+    root_seed: int,
+    layout: JointLayout,
+    training: Training,
     seed: int,
-    recording_stems: Sequence[Path],
-    residual_stems: Sequence[Path],
-    out_dir: Path,
-    state_dir: Path,
+    recordings: Sequence[Path],
+    residuals: Sequence[Path],
+    out: Path,
+    state: Path,
 ) -> None:
     """Train one limb network of Table 1 by (22) and keep the epoch that validates best.
 
     Args:
-        config: resolved configuration.
-        method: row of its methods.
-        limb: limb group.
+        root_seed: root of every random number.
+        layout: the robot's joints.
+        training: the network and how it learns.
         seed: number of the repetition.
-        recording_stems: recordings to learn from.
-        residual_stems: their residual files, in the same order.
-        out_dir: gets `weights.safetensors`, `metrics.csv` and, last, `run.json`; nothing before the training is done.
-        state_dir: gets a checkpoint and `metrics.csv` at each epoch; a killed training goes on from there to the same
-            weights. The checkpoint goes when the training is done.
+        recordings: stems of the recordings to learn from.
+        residuals: stems of their residual files, in the same order.
+        out: folder that gets `weights.safetensors`, `metrics.csv` and, last, `run.json`; nothing before the training is
+            done.
+        state: folder that gets a checkpoint and `metrics.csv` at each epoch; a killed training goes on from there to
+            the same weights. The checkpoint is deleted when the training is done.
 
     Raises:
-        ConfigError: method or limb is unknown.
         DataError: a recording or a residual is damaged or too short.
         TrainingError: the loss diverged, where `learning.may_diverge` does not allow it.
     """
     torch.set_num_threads(1)  # more are slower beside another training, and give other weights
-    job = job_of(config, method, limb, seed)
-    layout = load_layout(Path(config["robot"]))
-    data = load_limb_data(layout, job.row, job.target, recording_stems, residual_stems)
+    job = Job(training, seed, root_seed)
+    data = load_limb_data(layout, training.network, training.target, recordings, residuals)
     trainer = Trainer(job, data)
-    done = trainer.run(state_dir)
+    done = trainer.run(state)
     calibration = trainer.calibrate(done)
-    note = run_note(config, trainer, data, done, calibration)
-    write_weights(out_dir / WEIGHTS, trainer, data, done, calibration)
-    write_metrics(out_dir / METRICS, done.rows)
-    write_json(out_dir / RUN, note)
-    (state_dir / CHECKPOINT).unlink(missing_ok=True)
-    log.info("%s: done after epoch %d", job.name, done.epoch)
+    note = run_note(trainer, data, done, calibration)
+    write_weights(out / WEIGHTS, trainer, data, done, calibration)
+    write_metrics(out / METRICS, done.epochs)
+    write_json(out / RUN, note)
+    (state / CHECKPOINT).unlink(missing_ok=True)
+    log.info("%s: done after epoch %d", job.name, len(done.epochs))
 
 
 def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress, calibration: Calibration) -> None:
-    """Write the best weights with z-scores, (n_in,) and (n,) [N, N m], and factors on std (n,) [-], atomically."""
+    """Write the best weights with z-scores, (n_in,) and (n,) [N, N m], and factors on std (n,), atomically."""
+    training = trainer.job.training
     trainer.network.load_state_dict(done.best)
     tensors = trainer.network.deployable()
     for name, scale in zip(("input", "target"), trainer.scales, strict=True):
         tensors |= {f"{name}.mean": torch.from_numpy(scale.mean), f"{name}.std": torch.from_numpy(scale.std)}
-    if trainer.job.settings["calibrate"]:
+    if training.learning.calibrate:
         tensors[STD_SCALE] = torch.from_numpy(calibration.scale.astype(np.float32))
     note = {
-        "limb": trainer.job.limb,
+        "limb": training.limb,
         "joints": data.joints,
         "inputs": data.input_names,
-        "std_min": trainer.job.settings["std_min"],
-        "network": dict(trainer.job.row),
+        "std_min": training.learning.std_min,
+        "network": json_of(training.network),
     }
     with atomic_path(path) as temporary:
         save_file(tensors, temporary, {NOTE: json.dumps(note)})
 
 
-def run_note(
-    config: Mapping[str, Any], trainer: Trainer, data: LimbData, done: Progress, calibration: Calibration
-) -> dict[str, Any]:
-    """Return what `run.json` tells: settings, sizes, the best epoch, calibration, time [s] and provenance."""
-    job = trainer.job
+def run_note(trainer: Trainer, data: LimbData, done: Progress, calibration: Calibration) -> dict[str, Any]:
+    """Return the content of `run.json`: settings, sizes, the best epoch, calibration, time [s] and provenance."""
+    job, training = trainer.job, trainer.job.training
     return {
         "name": job.name,
-        "method": job.method,
-        "limb": job.limb,
+        "method": training.method,
+        "limb": training.limb,
         "seed": job.seed,
-        "target": job.target,
+        "target": training.target,
         "settings": {
-            **job.settings,
-            "epochs": job.epochs,
-            "epoch_samples": job.epoch_samples,
-            "network": dict(job.row),
+            **json_of(training.learning),
+            "epochs": training.epochs,
+            "epoch_samples": training.epoch_samples,
+            "network": json_of(training.network),
         },
         "parameters": parameter_count(trainer.network),
         "samples": trainer.samples,
         "diverged": done.diverged,
-        "best": dict(done.best_row()) if done.rows else None,
+        "best": asdict(done.best_epoch()) if done.epochs else None,
         "on_windows": trainer.on_windows(done),
-        "calibration": calibration.note(data.joints, job.settings["calibration_levels"]),
+        "calibration": calibration.note(data.joints, training.learning.calibration_levels),
         "seconds": round(done.seconds, 1),
         "device": trainer.device.type,
         "precision": precision_name(trainer.network.precision),
         "fingerprint": trainer.fingerprint,
-        "provenance": provenance(config),
+        "provenance": provenance({"seed": job.root_seed, **json_of(training)}),
     }
+
+
+def json_of(section: Section) -> dict[str, Any]:
+    """Return a section as JSON, without the keys that have their defaults."""
+    return section.model_dump(mode="json", exclude_defaults=True)

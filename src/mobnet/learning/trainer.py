@@ -15,13 +15,13 @@ from torch import Tensor
 from mobnet.core.errors import TrainingError
 from mobnet.learning import checkpoint
 from mobnet.learning.calibration import Calibration, calibrate, predict
-from mobnet.learning.checkpoint import CHECKPOINT, Progress, Row
+from mobnet.learning.checkpoint import CHECKPOINT, Progress
 from mobnet.learning.dataset import LimbData, Scale, scale_of
 from mobnet.learning.job import Job
 from mobnet.learning.model import build_network, seeded
 from mobnet.learning.optimisation import EVERY_STEP, LAST_STEP, SEQUENCES, Samples, train_epoch, validate
 from mobnet.learning.streams import Plan, some_of, split, validation_plan, window_plan
-from mobnet.learning.tracking import METRICS, write_metrics
+from mobnet.learning.tracking import METRICS, Epoch, write_metrics
 
 log = logging.getLogger(__name__)
 
@@ -50,21 +50,22 @@ class Trainer:
         self.job = job
         self.device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
         self.fingerprint = job.fingerprint(data.digest(), self.device)
-        blocks, held_out = split(data.segments, job.settings["validation_share"])
-        stream, parts = job.stream(data.rate_hz), job.settings.get("data_parts", 1)
-        self._blocks = some_of(blocks, stream, parts, job.shared_generator("data"))
+        network, learning = job.training.network, job.training.learning
+        blocks, held_out = split(data.segments, learning.validation_share)
+        stream = job.stream(data.rate_hz)
+        self._blocks = some_of(blocks, stream, learning.data_parts, job.shared_generator("data"))
         self.scales = scale_of(data.inputs, self._blocks), scale_of(data.targets, self._blocks)
         arrays = (data.inputs, data.targets)
         self._samples = Samples(*(self._scaled(*pair) for pair in zip(arrays, self.scales, strict=True)))
-        self._shape = (stream, job.horizon, job.settings["batch_size"])
+        self._shape = (stream, job.horizon, learning.batch_size)
         self._validation = validation_plan(held_out, *self._shape)
         lanes = self._validation.rows.shape[1]
         self._windows = window_plan(held_out, stream, job.horizon, lanes, job.generator("windows"))
         sizes = len(data.input_names), len(data.joints)
-        self.network = build_network(job.row, *sizes, job.settings["std_min"], self._seed("weights")).to(self.device)
+        self.network = build_network(network, *sizes, learning.std_min, self._seed("weights")).to(self.device)
         self.network.precision = job.precision(self.device)
-        betas = tuple(job.settings["optimizer_betas"])
-        self._optimizer = torch.optim.Adam(self.network.parameters(), lr=job.rate(0), betas=betas)
+        parameters, betas = self.network.parameters(), learning.optimizer_betas
+        self._optimizer = torch.optim.Adam(parameters, lr=job.rate(0), betas=betas)
 
     @property
     def samples(self) -> int:
@@ -93,23 +94,23 @@ class Trainer:
         path = state_dir / CHECKPOINT
         first = checkpoint.copy_weights(self.network)
         done = checkpoint.resume(path, self.fingerprint, self.network, self._optimizer)
-        while done.epoch < self.job.epochs:
+        while len(done.epochs) < self.job.training.epochs:
             started = time.monotonic()
             try:
-                row = self._epoch(done.epoch)
+                epoch = self._epoch(len(done.epochs))
             except TrainingError as error:
-                if not self.job.settings["may_diverge"]:
+                if not self.job.training.learning.may_diverge:
                     raise
                 log.warning("%s", error)
                 done.diverged = True
                 break
-            done.rows.append(row)
-            if done.best_row() is row:
+            done.epochs.append(epoch)
+            if done.best_epoch() is epoch:
                 done.best = checkpoint.copy_weights(self.network)
             done.seconds += time.monotonic() - started
             checkpoint.save(path, self.fingerprint, self.network, self._optimizer, done)
-            write_metrics(state_dir / METRICS, done.rows)
-            self._report(row, done)
+            write_metrics(state_dir / METRICS, done.epochs)
+            self._report(done)
         done.best = done.best or first
         return done
 
@@ -117,8 +118,8 @@ class Trainer:
         """Return how far off the best weights' standard deviations (n,) [N, N m] are on the validation blocks."""
         self.network.load_state_dict(done.best)
         error, std = predict(self.network, self._samples, self._validation, self.job.horizon)
-        unit, settings = self.scales[1].std.astype(np.float64), self.job.settings
-        return calibrate(error * unit, std * unit, settings["calibration_share"], settings["calibration_levels"])
+        unit, learning = self.scales[1].std.astype(np.float64), self.job.training.learning
+        return calibrate(error * unit, std * unit, learning.calibration_share, learning.calibration_levels)
 
     def on_windows(self, done: Progress) -> dict[str, float]:
         """Return the best weights' loss (22) and RMSE [N, N m] where every sample re-runs its window from zero."""
@@ -131,42 +132,36 @@ class Trainer:
         loss, rmse = validate(self.network, self._samples, plan, self.job.horizon, scored)
         return loss, float((rmse.numpy() * self.scales[1].std).mean())
 
-    def _epoch(self, epoch: int) -> Row:
-        """Train and validate once; return the epoch's metrics."""
-        job, rate = self.job, self.job.rate(epoch)
+    def _epoch(self, epoch: int) -> Epoch:
+        """Train and validate once."""
+        job, rate, learning = self.job, self.job.rate(epoch), self.job.training.learning
         for group in self._optimizer.param_groups:
             group["lr"] = rate
-        plan_of, scored = SEQUENCES[job.settings["sequences"]]
-        plan = plan_of(self._blocks, *self._shape, job.generator("epoch", epoch), job.epoch_samples)
-        clip = job.settings["gradient_norm"]
+        plan_of, scored = SEQUENCES[learning.sequences]
+        plan = plan_of(self._blocks, *self._shape, job.generator("epoch", epoch), job.training.epoch_samples)
         with seeded(self._seed("dropout", epoch)):
-            loss, norm = train_epoch(self.network, self._optimizer, self._samples, plan, job.horizon, clip, scored)
+            loss, norm = train_epoch(
+                self.network, self._optimizer, self._samples, plan, job.horizon, learning.gradient_norm, scored
+            )
         self._check("training", epoch, loss, rate)
         validation, rmse = self._validate(self._validation)
         self._check("validation", epoch, validation, rate)
-        return {
-            "epoch": epoch + 1,
-            "train_loss": loss,
-            "validation_loss": validation,
-            "validation_rmse": rmse,
-            "rate": rate,
-            "gradient_norm": norm,
-        }
+        return Epoch(epoch + 1, loss, validation, rmse, rate, norm)
 
     def _check(self, kind: str, epoch: int, loss: float, rate: float) -> None:
         """Raise if a loss (22) is not finite, or the training diverged."""
-        bound = self.job.settings["divergence_loss"]
+        bound = self.job.training.learning.divergence_loss
         if not math.isfinite(loss) or (kind == "training" and loss > bound):
             raise TrainingError(
                 f"{self.job.name}: epoch {epoch + 1}: {kind} loss {loss:g} at rate {rate:g} (accepted: finite, at most "
                 f"{bound:g}); try a smaller learning.rate_first or learning.gradient_norm, and look for outliers"
             )
 
-    def _report(self, row: Row, done: Progress) -> None:
-        """Log an epoch with its losses, rate and the time left."""
-        left = done.seconds / done.epoch * (self.job.epochs - done.epoch)
+    def _report(self, done: Progress) -> None:
+        """Log the last epoch with its losses and rate, and the time left."""
+        last, epochs = done.epochs[-1], self.job.training.epochs
         log.info(
             "%s: epoch %d/%d, loss %.3f, validation %.3f (%.3g N m), rate %.2g, %.0f s left",
-            self.job.name, done.epoch, self.job.epochs, row["train_loss"], row["validation_loss"],
-            row["validation_rmse"], row["rate"], left,
+            self.job.name, last.epoch, epochs, last.train_loss, last.validation_loss, last.validation_rmse, last.rate,
+            done.seconds / last.epoch * (epochs - last.epoch),
         )  # fmt: skip

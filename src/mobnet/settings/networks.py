@@ -20,6 +20,7 @@ from mobnet.settings.base import (
 )  # fmt: skip
 
 CellKind = Literal["GRU", "LSTM", "RNN", "TCN", "MLP", "constant"]
+Precision = Literal["auto", "float32", "bfloat16"]
 SIZES: dict[CellKind, tuple[str, ...]] = {  # what a kind of cell needs to be told
     "GRU": ("hidden",),
     "LSTM": ("hidden",),
@@ -113,7 +114,7 @@ class Learning(Section):
     validation_share: Share
     sequences: Literal["carried", "windows"]
     stream_s: Positive
-    precision: Literal["auto", "float32", "bfloat16"]
+    precision: Precision
     divergence_loss: Positive
     may_diverge: Flag
     calibrate: Flag

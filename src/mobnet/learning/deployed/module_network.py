@@ -9,8 +9,9 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from mobnet.learning.deployed.networks import Array, Deployed, Prediction
 from mobnet.learning.model import build_network
-from mobnet.learning.networks import Array, Deployed, Prediction
+from mobnet.settings.networks import Cell
 
 CHUNK = 2000  # samples of a recording run at once, so that memory does not grow with its length
 
@@ -18,17 +19,17 @@ CHUNK = 2000  # samples of a recording run at once, so that memory does not grow
 class ModuleNetwork(Deployed):
     """A network of any cell with its z-scores, dropout off; the state is the cell's, (rows, 1, columns)."""
 
-    def __init__(self, tensors: Mapping[str, Array], *names: Any, row: Mapping[str, Any]) -> None:
+    def __init__(self, tensors: Mapping[str, Array], *names: Any, cell: Cell) -> None:
         """Build the module and load its weights.
 
         Args:
             tensors: `cell.*`, `head.*` and the z-scores of `Deployed`.
             names: the other arguments of `Deployed`.
-            row: row of Table 1 or section 6.1, its `cell` and sizes; norms are in the weights already.
+            cell: kind and sizes of its cell.
         """
         super().__init__(tensors, *names)
         sizes = len(self.input_names), len(self.joints), float(self.std_min)
-        self._module = build_network({**row, "spectral": False}, *sizes, seed=0).eval()
+        self._module = build_network(cell, *sizes, seed=0).eval()
         weights = {name: tensor for name, tensor in tensors.items() if name.startswith(("cell.", "head."))}
         self._module.load_state_dict({name: torch.from_numpy(np.array(tensor)) for name, tensor in weights.items()})
 

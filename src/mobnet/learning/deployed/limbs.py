@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
+from mobnet.learning.deployed.networks import Deployed, Prediction, load_network
 from mobnet.learning.features import signal_names, signals
-from mobnet.learning.networks import Deployed, Prediction, load_network
 
 State = tuple[Any, ...]  # state of each network, such as (hidden,) of a GRU
 

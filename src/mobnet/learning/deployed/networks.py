@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from safetensors import SafetensorError, safe_open
 
 from mobnet.core.errors import DataError
+from mobnet.settings.networks import Cell, CellKind
 
 WEIGHTS = "weights.safetensors"
 NOTE = "note"  # one entry of the file's metadata: more would be written in an order that changes
@@ -45,7 +46,7 @@ class Deployed(ABC):
         limb: name of the limb.
         joints: names of the joints, (n,).
         input_names: names of the inputs, (n_in,).
-        std_scale: factors that are in its standard deviations, (n,) [-].
+        std_scale: factors that are in its standard deviations, (n,).
     """
 
     def __init__(
@@ -60,11 +61,11 @@ class Deployed(ABC):
 
         Args:
             tensors: `cell.*`, `head.*`, `input.mean|std` (n_in,), `target.mean|std` (n,) [N, N m] and, perhaps,
-                `std.scale` (n,) [-].
+                `std.scale` (n,).
             limb: name of the limb.
             joints: names of the joints.
             input_names: names of the inputs.
-            std_min: smallest standard deviation, z-scored [-].
+            std_min: smallest standard deviation, z-scored.
         """
         self.limb, self.joints, self.input_names = limb, joints, input_names
         self.std_min = np.float32(std_min)
@@ -167,7 +168,7 @@ class Network(Deployed):
         return new + opened[h:] * (state - new)
 
 
-WITHOUT_TORCH = {"GRU": Network, "constant": ConstantNetwork}
+WITHOUT_TORCH: Mapping[CellKind, Callable[..., Deployed]] = {"GRU": Network, "constant": ConstantNetwork}
 
 
 def load_network(folder: Path) -> Deployed:
@@ -184,7 +185,7 @@ def load_network(folder: Path) -> Deployed:
         return _deployed(tensors, note)
     except FileNotFoundError:
         raise DataError(f"{path}: file is missing") from None
-    except (SafetensorError, KeyError, TypeError, RuntimeError) as error:
+    except (SafetensorError, KeyError, TypeError, ValueError, RuntimeError) as error:
         why = " ".join(str(error).split())  # torch lists all it misses line by line
         raise DataError(f"{path}: not the weights of a limb network ({why})") from None
 
@@ -192,9 +193,9 @@ def load_network(folder: Path) -> Deployed:
 def _deployed(tensors: Mapping[str, Array], note: Mapping[str, Any]) -> Deployed:
     """Return the network that a file's tensors and note describe."""
     common = note["limb"], tuple(note["joints"]), tuple(note["inputs"]), note["std_min"]
-    row = note.get("network", {"cell": "GRU"})  # files without it are older than the other cells
-    if row["cell"] in WITHOUT_TORCH:
-        return WITHOUT_TORCH[row["cell"]](tensors, *common)
-    from mobnet.learning.module_network import ModuleNetwork  # torch starts slowly, and MOB-Net does without
+    cell = Cell.model_validate({key: value for key, value in note["network"].items() if key in Cell.model_fields})
+    if cell.cell in WITHOUT_TORCH:
+        return WITHOUT_TORCH[cell.cell](tensors, *common)
+    from mobnet.learning.deployed.module_network import ModuleNetwork  # torch starts slowly, and MOB-Net does without
 
-    return ModuleNetwork(tensors, *common, row=row)
+    return ModuleNetwork(tensors, *common, cell=cell)
