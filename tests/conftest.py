@@ -17,6 +17,7 @@ from mobnet.core.config import resolve
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Recording, Sensed, Truth, recording_columns
 from mobnet.core.store import write_array, write_recording
+from mobnet.estimation.recipe import Recipe
 from mobnet.robot.description import RobotDescription, WalkingRobot, describe, for_walking
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.load import load_section, load_settings
@@ -46,6 +47,18 @@ def settings() -> Settings:
 @pytest.fixture(scope="session")
 def robot_table() -> RobotTable:
     return load_section(ROOT / "configs" / "robots" / "tocabi.yaml", RobotTable)
+
+
+@pytest.fixture(scope="session")
+def recipe_of(settings: Settings) -> Callable[..., Recipe]:
+    """Return a function of a method's name, its level, its files and other methods that makes its recipe."""
+
+    def recipe(name: str, level: str = "all_uncertainty", **changes: Any) -> Recipe:
+        methods = changes.pop("methods", settings.all_methods)
+        observing = settings.levels[level], settings.plant.gravity_m_s2, settings.observer
+        return Recipe(name, methods, settings.robot, *observing, RATE_HZ, **changes)
+
+    return recipe
 
 
 @pytest.fixture(scope="session")

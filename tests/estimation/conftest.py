@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-import yaml
 from numpy.typing import NDArray
 
 from mobnet.core.recording import COMMAND, FEET, Sensed
@@ -17,16 +14,8 @@ from mobnet.robot.description import RobotDescription
 from mobnet.robot.dynamics import inverse_dynamics
 from mobnet.robot.nominal import NominalModel
 
-REPO = Path(__file__).parents[2]
 SUB_STEPS = 2  # plant ticks in a sample
 Array = NDArray[np.float64]
-
-
-@pytest.fixture
-def config() -> dict[str, Any]:
-    """The repository's configuration with an absolute robot path."""
-    config = yaml.safe_load((REPO / "configs" / "config.yaml").read_text())
-    return {**config, "robot": str(REPO / config["robot"])}
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,9 @@ import pytest
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.recording import Recording, Sensed, Truth, recording_columns
 from mobnet.core.store import read_array, read_recording, read_sensed, write_recording
+from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observe import observe, observer_of
-from mobnet.estimation.observer import MomentumObserver, low_pass
+from mobnet.estimation.observer import MomentumObserver
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.dynamics import inverse_dynamics
 from mobnet.robot.nominal import NominalModel

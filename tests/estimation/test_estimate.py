@@ -5,32 +5,36 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-import pytest
 from safetensors.numpy import save_file
 
-from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
 from mobnet.core.store import read_array
 from mobnet.estimation.estimate import estimate, run_segments, std_scales, table_of
 from mobnet.estimation.methods import build_estimator
-from mobnet.learning.networks import NOTE, STD_SCALE, WEIGHTS, Z_SCORES
+from mobnet.estimation.recipe import Recipe
+from mobnet.learning.deployed.networks import NOTE, STD_SCALE, WEIGHTS, Z_SCORES
+from mobnet.settings.settings import Settings
 
 Write = Callable[[Path, Recording], tuple[Path, Path]]
 
 
 def test_each_segment_starts_from_a_fresh_state(
-    full_config: dict[str, Any], tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write
+    settings: Settings,
+    recipe_of: Callable[..., Recipe],
+    tmp_path: Path,
+    made_up: Callable[..., Recording],
+    write_pair: Write,
 ) -> None:
     recording = made_up(0, 0.4, segments=2)
     stem, _ = write_pair(tmp_path, recording)
-    estimate(full_config, "MOB", stem, {}, tmp_path / "out")
+    given = settings.robot, settings.levels["all_uncertainty"], settings.plant.gravity_m_s2, settings.observer
+    estimate(*given, "MOB", settings.methods, {}, None, stem, tmp_path / "out")
     array, meta = read_array(tmp_path / "out")
-    estimator = build_estimator(full_config, "MOB", {}, "all_uncertainty", 1000.0)
+    estimator = build_estimator(recipe_of("MOB"))
     for span in recording.spans():
         alone = estimator.estimate(recording.sensed[span]).tau_ext
         np.testing.assert_allclose(array[span], alone, atol=1e-3 * np.abs(alone).max())
@@ -49,9 +53,8 @@ def test_std_columns_follow_if_there_are_any(layout: JointLayout) -> None:
     assert len(table_of(Estimate(tau), ["V1", "LL2"], layout)[1]) == 2
 
 
-def test_a_method_without_a_std_gets_none(full_config: dict[str, Any], made_up: Callable[..., Recording]) -> None:
-    estimator = build_estimator(full_config, "MOB", {}, "ideal", 1000.0)
-    assert run_segments(estimator, made_up(0, 0.1)).std is None
+def test_a_method_without_a_std_gets_none(recipe_of: Callable[..., Recipe], made_up: Callable[..., Recording]) -> None:
+    assert run_segments(build_estimator(recipe_of("MOB", "ideal")), made_up(0, 0.1)).std is None
 
 
 def test_factors_are_told_joint_by_joint_and_are_one_where_none_are_stored(tmp_path: Path) -> None:
@@ -62,18 +65,8 @@ def test_factors_are_told_joint_by_joint_and_are_one_where_none_are_stored(tmp_p
     for limb, more in (("LA", {}), ("RA", {STD_SCALE: np.array([0.5, 2.0], np.float32)})):
         (tmp_path / limb).mkdir()
         note = {"limb": limb, "joints": [f"{limb}1", f"{limb}2"], "inputs": ["q.W1"], "std_min": 1e-6}
+        note["network"] = {"cell": "GRU", "hidden": 1}
         save_file(tensors | more, tmp_path / limb / WEIGHTS, {NOTE: json.dumps(note)})
     told = std_scales({limb: tmp_path / limb for limb in ("LA", "RA")})
     assert told == {"LA1": 1.0, "LA2": 1.0, "RA1": 0.5, "RA2": 2.0}
     assert std_scales({}) == {}
-
-
-def test_a_recording_that_names_no_level_is_refused(
-    full_config: dict[str, Any], tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write
-) -> None:
-    stem, _ = write_pair(tmp_path, made_up(0, 0.1))
-    path = stem.with_suffix(".json")
-    path.write_text(path.read_text().replace('"level"', '"lever"'))
-    with pytest.raises(DataError, match="key 'level' is missing"):
-        estimate(full_config, "MOB", stem, {}, tmp_path / "out")
-    assert not (tmp_path / "out.parquet").exists()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -10,22 +10,27 @@ import pytest
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.files import read_json
-from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
 from mobnet.estimation.fitting import write_fit
-from mobnet.estimation.friction import read_friction
+from mobnet.estimation.kinds.friction import read_friction
+from mobnet.settings.settings import Settings
+
+
+def fit(settings: Settings, method: str, training: Mapping[str, Any], folder: Path) -> Path:
+    """Fit a method, and return the file."""
+    networks, out = {limb: settings.network(method, limb) for limb in training}, folder / f"{method}.json"
+    write_fit(settings.layout, settings.observer, settings.method(method), networks, training, out)
+    return out
 
 
 def test_what_it_writes_is_what_the_kind_reads(
-    full_config: dict[str, Any],
-    layout: JointLayout,
+    settings: Settings,
     made_up: Callable[..., Recording],
     write_pair: Callable[[Path, Recording], tuple[Path, Path]],
     tmp_path: Path,
 ) -> None:
-    pair, out = write_pair(tmp_path, made_up(1, 1.0)), tmp_path / "fits" / "MOB-fric.json"
-    limbs = full_config["methods"]["MOB-fric"]["fitted"]
-    write_fit(full_config, "MOB-fric", {limb: [pair] for limb in limbs}, out)
+    pair, layout, limbs = write_pair(tmp_path, made_up(1, 1.0)), settings.layout, settings.method("MOB-fric").fitted
+    out = fit(settings, "MOB-fric", {limb: [pair] for limb in limbs}, tmp_path / "fits")
     fitted = {joint for limb in limbs for joint in layout.limb(limb)}
     assert set(read_json(out)["joints"]) == fitted
     chosen = dict(zip(layout.actuated, read_friction(out, layout.actuated).stribeck, strict=True))
@@ -35,13 +40,13 @@ def test_what_it_writes_is_what_the_kind_reads(
 
 
 @pytest.mark.parametrize("method", ["MOB", "MOB-Net", "MOB-fric-BPF"])
-def test_methods_that_are_not_fitted_are_refused(method: str, full_config: dict[str, Any], tmp_path: Path) -> None:
+def test_methods_that_are_not_fitted_are_refused(method: str, settings: Settings, tmp_path: Path) -> None:
     with pytest.raises(
-        ConfigError, match=f"method to fit: '{method}' is not accepted; accepted: MOB-fric, MOB-fric-load"
+        ConfigError, match=rf"{method}.json: method of kind .* with `fitted` \[\] is not fitted; accepted"
     ):
-        write_fit(full_config, method, {}, tmp_path / "out.json")
+        fit(settings, method, {}, tmp_path)
 
 
-def test_other_limbs_than_the_rows_are_refused(full_config: dict[str, Any], tmp_path: Path) -> None:
-    with pytest.raises(ConfigError, match=r"limbs to fit of method MOB-fric: \['LL'\] is not accepted"):
-        write_fit(full_config, "MOB-fric", {"LL": []}, tmp_path / "out.json")
+def test_other_limbs_than_the_methods_are_refused(settings: Settings, tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match=r"MOB-fric.json: limbs to fit: \['LL'\] is not accepted; accepted: \['LA'"):
+        fit(settings, "MOB-fric", {"LL": []}, tmp_path)

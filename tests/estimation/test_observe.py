@@ -12,8 +12,9 @@ import pytest
 
 from mobnet.core.recording import Recording, Sensed, Truth
 from mobnet.core.store import read_array, write_recording
+from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observe import observe, observer_of, residual_columns
-from mobnet.estimation.observer import MomentumObserver, low_pass
+from mobnet.estimation.observer import MomentumObserver
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.plant import SOLE_TYPE, TERRAIN_TYPE, robot_spec

@@ -11,7 +11,8 @@ import pytest
 
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.recording import Sensed
-from mobnet.estimation.observer import MomentumObserver, exact_pole, low_pass
+from mobnet.estimation.low_pass import exact_pole, low_pass
+from mobnet.estimation.observer import MomentumObserver
 from mobnet.robot.dynamics import mass_matrix, momentum_and_beta
 from mobnet.robot.frames import rotation
 from mobnet.robot.nominal import NominalModel

@@ -1,33 +1,42 @@
-"""A recipe holds the files that its row needs, no more and no fewer."""
+"""A recipe holds the files that its method needs, no more and no fewer."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from mobnet.core.errors import ConfigError
 from mobnet.estimation.recipe import Recipe
 
-LEVEL, RATE_HZ = "all_uncertainty", 1000.0
+
+@pytest.mark.parametrize(
+    ("method", "limbs", "fitted", "message"),
+    [
+        ("MOB2", [], False, "method: 'MOB2' is not accepted; accepted: FTS-e2e, "),
+        ("MOB", ["LL"], False, r"networks of method MOB: \['LL'\] is not accepted; accepted: \[\]"),
+        ("FTS-e2e", ["LL"], False, r"networks of method FTS-e2e: \['LL'\] is not accepted; accepted: \['LL', 'RL'\]"),
+        ("MOB-fric", [], False, "'MOB-fric' with the fit None; accepted: the file that rule `fit` writes"),
+        ("MOB-fric-BPF", [], False, "'MOB-fric-BPF' with the fit None"),
+        ("MOB", [], True, "'MOB' with the fit .*; accepted: none"),
+    ],
+)
+def test_files_that_do_not_fit_the_method_are_refused(
+    method: str, limbs: list[str], fitted: bool, message: str, recipe_of: Callable[..., Recipe], tmp_path: Path
+) -> None:
+    with pytest.raises(ConfigError, match=message):
+        recipe_of(method, networks=dict.fromkeys(limbs, tmp_path), fitted=tmp_path if fitted else None)
 
 
-def test_a_fit_must_be_there_where_the_row_is_fitted(full_config: dict[str, Any], tmp_path: Path) -> None:
-    with pytest.raises(ConfigError, match="'MOB-fric' with the fit None; accepted: the file that rule `fit` writes"):
-        Recipe(full_config, "MOB-fric", LEVEL, RATE_HZ)
-    with pytest.raises(ConfigError, match=r"'MOB' with the fit .*; accepted: none"):
-        Recipe(full_config, "MOB", LEVEL, RATE_HZ, fitted=tmp_path)
+def test_a_method_of_another_takes_the_others_files(recipe_of: Callable[..., Recipe], tmp_path: Path) -> None:
+    assert recipe_of("MOB-fric-BPF", fitted=tmp_path).method.of == "MOB-fric"
 
 
-def test_a_method_of_another_needs_the_others_files(full_config: dict[str, Any], tmp_path: Path) -> None:
-    recipe = Recipe(full_config, "MOB-fric-BPF", LEVEL, RATE_HZ, fitted=tmp_path)
-    assert recipe.row["of"] == "MOB-fric"
-    with pytest.raises(ConfigError, match="'MOB-fric-BPF' with the fit None"):
-        Recipe(full_config, "MOB-fric-BPF", LEVEL, RATE_HZ)
+def test_without_limbs_there_are_no_networks(recipe_of: Callable[..., Recipe]) -> None:
+    assert recipe_of("MOB").limb_networks() is None
 
 
-def test_without_limbs_there_are_no_networks(full_config: dict[str, Any]) -> None:
-    recipe = Recipe(full_config, "MOB", LEVEL, RATE_HZ)
-    assert recipe.limb_networks() is None
-    assert recipe.observer().nominal.mass_ratio == full_config["levels"][LEVEL]["nominal_mass_ratio"]
+def test_the_observer_knows_the_robot_as_the_level_says(recipe_of: Callable[..., Recipe]) -> None:
+    for level, ratio in (("all_uncertainty", 0.9), ("ideal", 1.0)):
+        assert recipe_of("MOB", level).observer().nominal.mass_ratio == ratio

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -15,14 +14,14 @@ from mobnet.core.errors import DataError
 from mobnet.core.joints import N_VIRTUAL, JointLayout
 from mobnet.core.recording import Recording
 from mobnet.core.store import write_array, write_recording
+from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observe import residual_columns
-from mobnet.estimation.observer import low_pass
-from mobnet.estimation.regression import fit
+from mobnet.estimation.regression import Law, regress
 
 GAIN_HZ, RATE_HZ, SMOOTHING = 100.0, 1000.0, 0.02
 TRUE = {"coulomb_nm": 12.0, "static_nm": 9.0, "viscous_nms": 3.0, "load_per_nm": 0.002, "stribeck_rad_s": 0.3}
-ROW = {"kind": "friction", "fitted": ["LL"], "terms": ["coulomb", "static", "viscous", "load"],
-       "smoothing_rad_s": SMOOTHING, "stribeck_rad_s": [0.1, 0.3, 1.0]}  # fmt: skip
+LAW = Law(("coulomb", "static", "viscous", "load"), SMOOTHING, (0.1, 0.3, 1.0), GAIN_HZ)
+LEG = tuple(f"LL{i}" for i in range(1, 7))
 Array = NDArray[np.float64]
 Pair = tuple[Path, Path]
 Write = Callable[..., Pair]
@@ -36,9 +35,9 @@ def friction(recording: Recording, numbers: Mapping[str, float]) -> Array:
     return -np.tanh(v / SMOOTHING) * (dry + numbers["load_per_nm"] * tau**2) - numbers["viscous_nms"] * v
 
 
-@pytest.fixture
-def config(full_config: dict[str, Any]) -> dict[str, Any]:
-    return {**full_config, "methods": {"F": ROW, "plain": {**ROW, "terms": ["coulomb", "viscous"]}}}
+def fit(*pairs: Pair, law: Law = LAW, joints: tuple[str, ...] = LEG) -> dict[str, dict[str, float]]:
+    """Return the regressed friction; joints of the left leg have load."""
+    return regress(law, joints, LEG, pairs)
 
 
 @pytest.fixture
@@ -66,18 +65,17 @@ def pair(write: Write, made_up: Callable[..., Recording]) -> Pair:
     return write("one", recording, friction(recording, TRUE))
 
 
-def test_known_friction_is_recovered(config: dict[str, Any], pair: Pair, layout: JointLayout) -> None:
+def test_known_friction_is_recovered(pair: Pair) -> None:
     """The closed form of (23) behind the low-pass of (11): an unfiltered regressor leaves several N m."""
-    found = fit(config, "F", {"LL": [pair]})
-    assert tuple(found["joints"]) == layout.limb("LL")
-    assert found["smoothing_rad_s"] == SMOOTHING
-    for row in found["joints"].values():
+    found = fit(pair)
+    assert tuple(found) == LEG
+    for row in found.values():
         assert row["stribeck_rad_s"] == TRUE["stribeck_rad_s"]
         assert {key: row[key] for key in TRUE} == pytest.approx(TRUE, rel=1e-3)
         assert row["left_rms_nm"] < 1e-3 < row["target_rms_nm"]
 
 
-def test_recordings_add_up(config: dict[str, Any], write: Write, made_up: Callable[..., Recording]) -> None:
+def test_recordings_add_up(write: Write, made_up: Callable[..., Recording]) -> None:
     """Two recordings, in either order, are equivalent to one of two segments."""
     whole = made_up(3, 4.0, segments=2)
     torque = friction(whole, TRUE) + np.random.default_rng(0).normal(0, 5, whole.sensed.tau_motor.shape)
@@ -85,55 +83,41 @@ def test_recordings_add_up(config: dict[str, Any], write: Write, made_up: Callab
     for k, span in enumerate(whole.spans()):
         half = replace(whole, sensed=whole.sensed[span], truth=whole.truth[span], segments=((0, 2000),))
         pairs.append(write(f"half{k}", half, torque[span]))
-    one = fit(config, "F", {"LL": [write("whole", whole, torque)]})["joints"]
+    one = fit(write("whole", whole, torque))
     for order in (pairs, pairs[::-1]):
-        for joint, row in fit(config, "F", {"LL": order})["joints"].items():
+        for joint, row in fit(*order).items():
             assert row == pytest.approx(one[joint], rel=1e-6, abs=1e-9)
 
 
-def test_friction_never_drives(config: dict[str, Any], write: Write, made_up: Callable[..., Recording]) -> None:
+def test_friction_never_drives(write: Write, made_up: Callable[..., Recording]) -> None:
     """No factor falls below zero, even where the torque pushes along with the motion."""
     recording = made_up(3, 2.0)
-    pair = write("driven", recording, -friction(recording, TRUE))
-    for row in fit(config, "F", {"LL": [pair]})["joints"].values():
+    for row in fit(write("driven", recording, -friction(recording, TRUE))).values():
         assert [row[key] for key in TRUE if key != "stribeck_rad_s"] == [0.0] * 4
         assert row["left_rms_nm"] == pytest.approx(row["target_rms_nm"])
 
 
-def test_a_joint_at_rest_has_no_friction(
-    config: dict[str, Any], write: Write, made_up: Callable[..., Recording]
-) -> None:
+def test_a_joint_at_rest_has_no_friction(write: Write, made_up: Callable[..., Recording]) -> None:
     recording = made_up(3, 1.0)
     still = replace(recording, sensed=replace(recording.sensed, v=np.zeros_like(recording.sensed.v)))
-    pair = write("still", still, np.ones_like(recording.sensed.tau_motor))
-    for row in fit(config, "F", {"LL": [pair]})["joints"].values():
+    for row in fit(write("still", still, np.ones_like(recording.sensed.tau_motor))).values():
         assert [row[key] for key in TRUE if key != "stribeck_rad_s"] == [0.0] * 4
 
 
-def test_only_named_terms_are_fitted(config: dict[str, Any], pair: Pair) -> None:
-    for row in fit(config, "plain", {"LL": [pair]})["joints"].values():
+def test_only_named_terms_are_fitted(pair: Pair) -> None:
+    for row in fit(pair, law=replace(LAW, terms=("coulomb", "viscous"))).values():
         assert row["load_per_nm"] == 0.0
         assert row["static_nm"] == row["coulomb_nm"] > 0.0
 
 
-def test_load_needs_a_limb_whose_network_sees_the_torque(
-    config: dict[str, Any], pair: Pair, layout: JointLayout
-) -> None:
-    """Section 4.2.2: load-dependent friction in the legs alone."""
-    config["methods"]["F"] = {**ROW, "fitted": ["LA", "LL"]}
-    joints = fit(config, "F", {"LA": [pair], "LL": [pair]})["joints"]
-    assert {joint for joint, row in joints.items() if row["load_per_nm"] > 0} == set(layout.limb("LL"))
-    assert list(joints) == [joint for joint in layout.actuated if joint in joints]
-
-
-def test_same_data_twice_give_the_same_numbers(config: dict[str, Any], pair: Pair) -> None:
-    assert fit(config, "F", {"LL": [pair]}) == fit(config, "F", {"LL": [pair]})
+def test_same_data_twice_give_the_same_numbers(pair: Pair) -> None:
+    assert fit(pair) == fit(pair)
 
 
 def test_a_residual_of_another_recording_is_refused(
-    config: dict[str, Any], pair: Pair, write: Write, made_up: Callable[..., Recording]
+    pair: Pair, write: Write, made_up: Callable[..., Recording]
 ) -> None:
     short = made_up(0, 0.5)
     other = write("short", short, friction(short, TRUE))
     with pytest.raises(DataError, match=r"one-residual\.parquet: 4000 rows, but its recording has 500"):
-        fit(config, "F", {"LL": [(other[0], pair[1])]})
+        fit((other[0], pair[1]))

@@ -10,25 +10,32 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.config import load_layout
 from mobnet.core.estimator import Estimate, Estimator
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Column, SensedRecording, recording_columns
 from mobnet.core.store import read_sensed, write_array
 from mobnet.estimation.methods import build_estimator
-from mobnet.estimation.observe import CARRIED, level_of
-from mobnet.learning.networks import load_network
+from mobnet.estimation.observe import CARRIED
+from mobnet.estimation.recipe import Recipe
+from mobnet.learning.deployed.networks import load_network
+from mobnet.settings.methods import Method, Observer
+from mobnet.settings.plant import Level
+from mobnet.settings.robot import RobotTable
 
 log = logging.getLogger(__name__)
 
 
 def estimate(
-    config: Mapping[str, Any],
+    robot: RobotTable,
+    level: Level,
+    gravity_m_s2: float,
+    observer: Observer,
     method: str,
-    recording_stem: Path,
-    network_dirs: Mapping[str, Path],
-    out_stem: Path,
-    fitted: Path | None = None,
+    methods: Mapping[str, Method],
+    networks: Mapping[str, Path],
+    fitted: Path | None,
+    recording: Path,
+    out: Path,
 ) -> None:
     """Write a method's external torque for a recording, as Table 5 scores it.
 
@@ -36,39 +43,41 @@ def estimate(
     segments are the recording's, and each is run from a fresh state.
 
     Args:
-        config: resolved configuration.
-        method: row of its methods.
-        recording_stem: the recording, path without a suffix.
-        network_dirs: limb -> folder of its trained network; empty for MOB.
-        out_stem: where to write, path without a suffix.
+        robot: the robot's table.
+        level: uncertainty level at which the recording was made.
+        gravity_m_s2: acceleration of gravity [m/s^2].
+        observer: the observer's settings.
+        method: name of the method.
+        methods: the method and, if it runs on another one, that one too, by name.
+        networks: limb -> folder of its trained network; empty for a method without limbs.
         fitted: what rule `fit` wrote, for a method that is fitted without networks.
+        recording: path without a suffix.
+        out: where to write, path without a suffix.
 
     Raises:
-        ConfigError: method or level is unknown, or networks do not match the method's limbs.
+        ConfigError: the method's kind is unknown, or networks do not match the method's limbs.
         DataError: the recording, a network or the fit is damaged.
     """
-    layout = load_layout(Path(config["robot"]))
-    recording = read_sensed(recording_stem, layout)
-    level = level_of(recording, recording_stem)
-    estimator = build_estimator(config, method, network_dirs, level, recording.rate_hz, fitted)
-    array, columns = table_of(run_segments(estimator, recording), estimator.joints, layout)
+    layout, read = robot.layout, read_sensed(recording, robot.layout)
+    recipe = Recipe(method, methods, robot, level, gravity_m_s2, observer, read.rate_hz, networks, fitted)
+    estimator = build_estimator(recipe)
+    array, columns = table_of(run_segments(estimator, read), estimator.joints, layout)
     meta = {
-        "rate_hz": recording.rate_hz,
-        **{key: recording.meta[key] for key in CARRIED if key in recording.meta},
+        "rate_hz": read.rate_hz,
+        **{key: read.meta[key] for key in CARRIED if key in read.meta},
         "method": method,
-        "networks": {limb: folder.name for limb, folder in network_dirs.items()},
-        "std_scale": std_scales(network_dirs),
+        "networks": {limb: folder.name for limb, folder in networks.items()},
+        "std_scale": std_scales(networks),
     }
-    write_array(out_stem, array, columns, meta, recording.segments)
-    log.info("%s: %s of %d samples, %d joints", out_stem, method, len(array), len(estimator.joints))
+    write_array(out, array, columns, meta, read.segments)
+    log.info("%s: %s of %d samples, %d joints", out, method, len(array), len(estimator.joints))
 
 
-def std_scales(network_dirs: Mapping[str, Path]) -> dict[str, float]:
-    """Return joint -> factor [-] that is in its networks' standard deviation, learned after their training."""
-    networks = [load_network(folder) for folder in network_dirs.values()]
+def std_scales(networks: Mapping[str, Path]) -> dict[str, float]:
+    """Return joint -> factor in its network's standard deviation, learned after its training."""
     return {
         joint: factor
-        for network in networks
+        for network in map(load_network, networks.values())
         for joint, factor in zip(network.joints, network.std_scale.tolist(), strict=True)
     }
 

@@ -5,33 +5,45 @@ from __future__ import annotations
 import logging
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.files import write_json
-from mobnet.core.methods import method_row
-from mobnet.estimation.methods import fitted_kind
+from mobnet.core.joints import JointLayout
+from mobnet.estimation.methods import kind_of
+from mobnet.estimation.recipe import options_of
+from mobnet.settings.methods import Method, Observer
+from mobnet.settings.networks import Network
 
 log = logging.getLogger(__name__)
 
 
 def write_fit(
-    config: Mapping[str, Any], method: str, training: Mapping[str, Sequence[tuple[Path, Path]]], out: Path
+    layout: JointLayout,
+    observer: Observer,
+    method: Method,
+    networks: Mapping[str, Network],
+    training: Mapping[str, Sequence[tuple[Path, Path]]],
+    out: Path,
 ) -> None:
     """Fit a method to training sets and write what `build` of its kind reads, as JSON; section 5.2 fits MOB-fric.
 
     Args:
-        config: resolved configuration.
-        method: row of its methods, which names `fitted` limbs.
+        layout: the robot's joints.
+        observer: the observer's settings.
+        method: the method, which names `fitted` limbs.
+        networks: limb -> the network of Table 1 whose joints are fitted, for each of these limbs.
         training: limb -> stems of the recordings and residuals of the limb's training set.
-        out: file to write.
+        out: file to write, named after the method.
 
     Raises:
-        ConfigError: the method is unknown or is not fitted, or the limbs are not those of its row.
+        ConfigError: the method's kind is not one that is fitted, or the limbs are not those that the method names.
         DataError: a recording is damaged.
     """
-    kind, limbs = fitted_kind(config, method), method_row(config, method)["fitted"]
-    if set(limbs) != set(training):
-        raise ConfigError(not_accepted(f"limbs to fit of method {method}", sorted(training), [sorted(limbs)]))
-    write_json(out, kind.fit(config, method, training))
-    log.info("%s: %s of %s", out, method, ", ".join(limbs))
+    kind = kind_of(out.stem, method)
+    if not hasattr(kind, "fit") or not method.fitted:
+        raise ConfigError(f"{out}: method of kind {method.kind!r} with `fitted` {list(method.fitted)} is not fitted; "
+                          "accepted: a kind with a function `fit`, and one or more limbs")  # fmt: skip
+    if set(method.fitted) != set(training):
+        raise ConfigError(not_accepted(f"{out}: limbs to fit", sorted(training), [sorted(method.fitted)]))
+    write_json(out, kind.fit(layout, observer, options_of(out.stem, method, kind.Options), networks, training))
+    log.info("%s: %s", out, ", ".join(method.fitted))

@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Column, Recording, SensedRecording, recording_columns
+from mobnet.core.recording import Column, Recording, recording_columns
 from mobnet.core.store import read_recording, write_array
-from mobnet.estimation.observer import MomentumObserver, TorqueKind, low_pass
+from mobnet.estimation.low_pass import low_pass
+from mobnet.estimation.observer import MomentumObserver, TorqueKind
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.methods import Observer
@@ -78,17 +78,6 @@ def observer_of(
         ConfigError: a gain or a rate is not positive.
     """
     return MomentumObserver(NominalModel(robot, level.nominal_mass_ratio, gravity_m_s2), gain_hz, rate_hz, torque)
-
-
-def level_of(recording: SensedRecording, stem: Path) -> str:
-    """Return the uncertainty level a recording was made at.
-
-    Raises:
-        DataError: the recording does not say.
-    """
-    if "level" not in recording.meta:
-        raise DataError(f"{stem}.json: key 'level' is missing; it holds {', '.join(recording.meta)}")
-    return recording.meta["level"]
 
 
 def residual_and_truth(

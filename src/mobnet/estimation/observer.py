@@ -18,10 +18,10 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.recording import Sensed
+from mobnet.estimation.low_pass import exact_pole, filtered
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
 
@@ -112,7 +112,7 @@ class MomentumObserver:
         raw = np.zeros_like(p)
         raw[1:] = np.diff(p, axis=0) * self.rate_hz - (beta[1:] + beta[:-1]) / 2
         raw[1:, self._motors] -= self._mean_torque(sensed.tau_motor[1:], sensed.tau_motor[:-1])
-        return _filtered(raw, self.pole)
+        return filtered(raw, self.pole)
 
     def _mean_torque(self, now: NDArray[Any], before: NDArray[Any]) -> NDArray[Any]:
         """Return u_k from the motors' torque logged at t_k and at t_{k-1}, (..., nu) [N m]."""
@@ -126,35 +126,3 @@ class MomentumObserver:
             p[rows], beta[rows] = momentum_and_beta(self.nominal, sensed.q[rows], sensed.v[rows])
             log.info("momentum of %d of %d samples", min(rows.stop, len(sensed)), len(sensed))
         return p, beta
-
-
-def exact_pole(gain_hz: float, rate_hz: float) -> float:
-    """Return gamma = exp(-K_0 T), the sampled pole of (11) [-].
-
-    Raises:
-        ConfigError: a gain or a rate is not positive.
-    """
-    if gain_hz <= 0 or rate_hz <= 0:
-        raise ConfigError(f"observer gain {gain_hz} 1/s at {rate_hz} Hz; accepted: numbers above 0")
-    return float(np.exp(-gain_hz / rate_hz))
-
-
-def low_pass(x: NDArray[Any], gain_hz: float, rate_hz: float) -> Array:
-    """Return x (T, ...) behind the low-pass of (11), sampled as the observer is: zero at the first sample, same pole.
-
-    Args:
-        x: means over each sample (T, ...).
-        gain_hz: K_0 of (7) [1/s].
-        rate_hz: samples per second [Hz].
-
-    Raises:
-        ConfigError: a gain or a rate is not positive.
-    """
-    start_at_zero = np.array(x, dtype=np.float64)
-    start_at_zero[:1] = 0.0
-    return _filtered(start_at_zero, exact_pole(gain_hz, rate_hz))
-
-
-def _filtered(x: Array, pole: float) -> Array:
-    """Return y_k = pole y_{k-1} + (1 - pole) x_k along time, (T, ...)."""
-    return np.asarray(lfilter([1 - pole], [1, -pole], x, axis=0))

@@ -1,19 +1,47 @@
-"""What an estimator is made of: a method's row and the files that belong to it."""
+"""What an estimator is built from: a method, what the observer knows, and the files that belong to the method.
+
+The workflow reads kinds before it starts, for their options. So this module and the kinds import quickly: the observer,
+which needs Pinocchio, is imported when one is built.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import ValidationError
 
 from mobnet.core.errors import ConfigError, not_accepted
-from mobnet.core.methods import method_row, source_of
-from mobnet.estimation.observe import observer_of
-from mobnet.estimation.observer import MomentumObserver
-from mobnet.learning.limbs import LimbNetworks, load_limb_networks
-from mobnet.robot.description import RobotDescription, load_robot
+from mobnet.core.joints import JointLayout
+from mobnet.core.recording import Sensed
+from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
+from mobnet.settings.base import Section
+from mobnet.settings.load import problems
+from mobnet.settings.methods import Method, Observer
+from mobnet.settings.plant import Level
+from mobnet.settings.robot import RobotTable
+
+Kind = TypeVar("Kind", bound=Section)
+
+
+class ResidualObserver(Protocol):
+    """An observer of the residual r of (9) of all joints, (nv,); its state is explicit."""
+
+    def init(self) -> Any:
+        """Return the state before the first sample."""
+        ...
+
+    def step(self, state: Any, sample: Sensed) -> tuple[Any, NDArray[np.float64]]:
+        """Take one sample (1-D arrays); return the new state and r, (nv,) [N] and [N m]."""
+        ...
+
+    def residual(self, sensed: Sensed) -> NDArray[np.float64]:
+        """Return r over one contiguous recording, (T, nv) [N] and [N m], from a fresh state."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -21,17 +49,23 @@ class Recipe:
     """All that `build` of a kind of estimator may use.
 
     Attributes:
-        config: resolved configuration.
-        method: row of its methods.
+        name: the method's name.
+        methods: the method and, if it runs on another one, that one too, by name.
+        robot: the robot's table.
         level: uncertainty level of section 5.1, which says how wrong the observer's nominal model is.
+        gravity_m_s2: acceleration of gravity [m/s^2].
+        observing: the observer's settings.
         rate_hz: samples per second [Hz].
         networks: limb -> folder of its trained network; empty for a method without limbs.
-        fitted: file of what `fit` of the kind found; None for a method that is not fitted.
+        fitted: file that rule `fit` wrote; None for a method that is not fitted.
     """
 
-    config: Mapping[str, Any]
-    method: str
-    level: str
+    name: str
+    methods: Mapping[str, Method]
+    robot: RobotTable
+    level: Level
+    gravity_m_s2: float
+    observing: Observer
     rate_hz: float
     networks: Mapping[str, Path] = field(default_factory=dict)
     fitted: Path | None = None
@@ -40,33 +74,47 @@ class Recipe:
         """Check that the files are those that the method needs.
 
         Raises:
-            ConfigError: the method is unknown, or networks or fit are not the ones that its row names.
+            ConfigError: the method is unknown, or networks or fit are not the ones that it names.
         """
-        row = method_row(self.config, source_of(self.config, self.method))
-        limbs = row.get("limbs", [])
-        if set(limbs) != set(self.networks):
-            raise ConfigError(not_accepted(f"networks of method {self.method}", sorted(self.networks), [sorted(limbs)]))
-        if ("fitted" in row) != (self.fitted is not None):
-            accepted = "the file that rule `fit` writes" if "fitted" in row else "none"
-            raise ConfigError(f"method {self.method!r} with the fit {self.fitted}; accepted: {accepted}")
+        source = self._row(self.method.of or self.name)
+        if set(source.limbs) != set(self.networks):
+            accepted = [sorted(source.limbs)]
+            raise ConfigError(not_accepted(f"networks of method {self.name}", sorted(self.networks), accepted))
+        if bool(source.fitted) != (self.fitted is not None):
+            accepted = "the file that rule `fit` writes" if source.fitted else "none"
+            raise ConfigError(f"method {self.name!r} with the fit {self.fitted}; accepted: {accepted}")
+
+    def _row(self, name: str) -> Method:
+        """Return one of the methods."""
+        if name not in self.methods:
+            raise ConfigError(not_accepted("method", name, self.methods))
+        return self.methods[name]
 
     @property
-    def row(self) -> Mapping[str, Any]:
-        """The method's row."""
-        return method_row(self.config, self.method)
+    def method(self) -> Method:
+        """The method."""
+        return self._row(self.name)
 
-    @cached_property
-    def robot(self) -> RobotDescription:
-        """The robot's table."""
-        return load_robot(Path(self.config["robot"]))
+    @property
+    def layout(self) -> JointLayout:
+        """The robot's joints."""
+        return self.robot.layout
 
-    def observer(self) -> MomentumObserver:
-        """Return the momentum observer of the level's nominal model.
+    def options(self, section: type[Kind]) -> Kind:
+        """Return the method's own numbers as the section `Options` of its kind.
 
         Raises:
-            ConfigError: the level is not configured.
+            ConfigError: a number is not accepted.
         """
-        return observer_of(self.config, self.robot, self.level, self.rate_hz)
+        return options_of(self.name, self.method, section)
+
+    def observer(self) -> ResidualObserver:
+        """Return the momentum observer of the level's nominal model."""
+        from mobnet.estimation.observe import observer_of
+        from mobnet.robot.description import describe
+
+        gain_hz, torque = self.observing.gain_hz, self.observing.torque
+        return observer_of(describe(self.robot), self.level, self.gravity_m_s2, gain_hz, self.rate_hz, torque)
 
     def limb_networks(self) -> LimbNetworks | None:
         """Return the method's networks side by side, or None if it names no limbs.
@@ -74,4 +122,17 @@ class Recipe:
         Raises:
             DataError: weights are missing or damaged.
         """
-        return load_limb_networks(self.networks, self.robot.layout) if self.networks else None
+        return load_limb_networks(self.networks, self.layout) if self.networks else None
+
+
+def options_of(name: str, method: Method, section: type[Kind]) -> Kind:
+    """Return a method's own numbers as the section of its kind.
+
+    Raises:
+        ConfigError: one line for each number that is not accepted.
+    """
+    try:
+        return section.model_validate(method.options)
+    except ValidationError as error:
+        lines = [f"methods.{name}.options.{'.'.join(map(str, at))}: {text}" for at, text in problems(error, section)]
+        raise ConfigError("\n".join(lines)) from None

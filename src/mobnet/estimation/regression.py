@@ -7,19 +7,18 @@ gathered in one pass; then each joint takes the grid's velocity that leaves the 
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import scipy  # its parts are imported where they are used first: the workflow imports kinds before it starts
 from numpy.typing import NDArray
-from scipy.optimize import nnls
 
-from mobnet.core.config import load_layout
 from mobnet.core.errors import DataError
-from mobnet.core.methods import method_row, network_row
-from mobnet.core.store import read_array
-from mobnet.estimation.observer import low_pass
+from mobnet.core.store import read_array, spans_and_rate
+from mobnet.estimation.low_pass import low_pass
 
 Array = NDArray[np.float64]
 Pair = tuple[Path, Path]  # stems of a recording and of its residual
@@ -28,33 +27,47 @@ SIGN, VISCOUS, LOAD, STATIC = range(4)  # columns; one of `static` for each Stri
 log = logging.getLogger(__name__)
 
 
-def fit(config: Mapping[str, Any], method: str, training: Mapping[str, Sequence[Pair]]) -> dict[str, Any]:
-    """Regress the friction of a method's joints.
+@dataclass(frozen=True)
+class Law:
+    """What is regressed.
+
+    Attributes:
+        terms: terms of `TERMS` that friction is made of.
+        smoothing: width of the sign function [rad/s].
+        stribeck: Stribeck velocities of which each joint takes one (k,) [rad/s].
+        gain_hz: K_0 of (7) [1/s], of the low-pass that the regressors pass.
+    """
+
+    terms: Collection[str]
+    smoothing: float
+    stribeck: Sequence[float]
+    gain_hz: float
+
+
+def regress(
+    law: Law, joints: Sequence[str], loaded: Collection[str], pairs: Sequence[Pair]
+) -> dict[str, dict[str, float]]:
+    """Regress the friction of some joints.
 
     Args:
-        config: resolved configuration.
-        method: row of its methods: `terms`, `smoothing_rad_s` and the grid `stribeck_rad_s`.
-        training: limb -> stems of the recordings and residuals of its training set.
+        law: what is regressed.
+        joints: actuated joints (n,).
+        loaded: joints that may have the term `load`.
+        pairs: recordings and residuals.
 
     Returns:
-        `smoothing_rad_s`, and `joints`: name -> factors of (23), units in the keys, and the root mean square of the
-        target and of what is left of it [N m].
+        Joint -> factors of (23), units in the keys, and the root mean square of the target and of what is left of it
+        [N m].
 
     Raises:
         DataError: a recording is damaged.
     """
-    row, layout = method_row(config, method), load_layout(Path(config["robot"]))
-    joints: dict[str, Any] = {}
-    for limb, pairs in training.items():
-        names = [joint for group in network_row(config, method, limb)["joints"] for joint in layout.limb(group)]
-        sums = _sums(config, row, [name for name in names if name in layout.actuated], pairs)
-        loaded = {joint for group in config["networks"][limb]["T"] for joint in layout.limb(group)}
-        for joint, products in sums.items():
-            terms = [term for term in TERMS if term in row["terms"] and (term != "load" or joint in loaded)]
-            joints[joint] = _solve(products, terms, row["stribeck_rad_s"])
-            log.info("%s: %.2f of %.2f N m left", joint, joints[joint]["left_rms_nm"], joints[joint]["target_rms_nm"])
-    ordered = {joint: joints[joint] for joint in layout.actuated if joint in joints}
-    return {"smoothing_rad_s": row["smoothing_rad_s"], "joints": ordered}
+    found = {}
+    for joint, products in _sums(law, joints, pairs).items():
+        terms = [term for term in TERMS if term in law.terms and (term != "load" or joint in loaded)]
+        found[joint] = _solve(products, terms, law.stribeck)
+        log.info("%s: %.2f of %.2f N m left", joint, found[joint]["left_rms_nm"], found[joint]["target_rms_nm"])
+    return found
 
 
 def regressors(
@@ -72,38 +85,37 @@ def regressors(
     return {"coulomb": sign * (1 - fade), "static": sign * fade, "viscous": velocity, "load": sign * torque**2}
 
 
-def _sums(
-    config: Mapping[str, Any], row: Mapping[str, Any], joints: Sequence[str], pairs: Sequence[Pair]
-) -> dict[str, Array]:
+def _sums(law: Law, joints: Sequence[str], pairs: Sequence[Pair]) -> dict[str, Array]:
     """Return joint -> mean products (m, m) of the columns of `_columns` over all recordings."""
-    gain_hz, m = config["observer"]["gain_hz"], STATIC + len(row["stribeck_rad_s"]) + 1
+    m = STATIC + len(law.stribeck) + 1
     sums, count = {joint: np.zeros((m, m)) for joint in joints}, 0
-    for recording_stem, residual_stem in pairs:
-        velocity, torque, meta = _halves(recording_stem, ("v", "tau_motor"), joints)
-        residual, external, _ = _halves(residual_stem, ("r", "tau_ext_lp"), joints)
-        if len(residual) != len(velocity):
-            raise DataError(f"{residual_stem}.parquet: {len(residual)} rows, but its recording has {len(velocity)}")
-        for span in (slice(start, end) for start, end in meta["segments"]):
+    for recording, residual in pairs:
+        velocity, torque, spans, rate_hz = _halves(recording, ("v", "tau_motor"), joints)
+        observed, external, _, _ = _halves(residual, ("r", "tau_ext_lp"), joints)
+        if len(observed) != len(velocity):
+            raise DataError(f"{residual}.parquet: {len(observed)} rows, but its recording has {len(velocity)}")
+        for span in (slice(*ends) for ends in spans):
             for i, joint in enumerate(joints):
-                columns = low_pass(_columns(row, velocity[span, i], torque[span, i]), gain_hz, meta["rate_hz"])
-                columns = np.column_stack([columns, external[span, i] - residual[span, i]])
+                columns = low_pass(_columns(law, velocity[span, i], torque[span, i]), law.gain_hz, rate_hz)
+                columns = np.column_stack([columns, external[span, i] - observed[span, i]])
                 sums[joint] += columns.T @ columns
             count += span.stop - span.start
-        log.info("%s: %d joints", recording_stem, len(joints))
+        log.info("%s: %d joints", recording, len(joints))
     return {joint: products / max(1, count) for joint, products in sums.items()}
 
 
-def _halves(stem: Path, signals: tuple[str, str], joints: Sequence[str]) -> tuple[Array, Array, Mapping[str, Any]]:
-    """Return two signals of some joints (T, n) each from a file, and its description."""
+def _halves(
+    stem: Path, signals: tuple[str, str], joints: Sequence[str]
+) -> tuple[Array, Array, Sequence[tuple[int, int]], float]:
+    """Return two signals of some joints (T, n) each from a file, its segments and its rate [Hz]."""
     array, meta = read_array(stem, [f"{signal}.{joint}" for signal in signals for joint in joints])
     first, second = np.split(array.astype(np.float64), 2, axis=1)
-    return first, second, meta
+    return first, second, *spans_and_rate(meta)
 
 
-def _columns(row: Mapping[str, Any], velocity: Array, torque: Array) -> Array:
+def _columns(law: Law, velocity: Array, torque: Array) -> Array:
     """Return what one joint's friction may be made of, (T, m - 1): sign, viscous, load, static for each velocity."""
-    grid = np.array(row["stribeck_rad_s"])
-    tried = regressors(velocity[:, None], torque[:, None], row["smoothing_rad_s"], grid)
+    tried = regressors(velocity[:, None], torque[:, None], law.smoothing, np.array(law.stribeck))
     sign = tried["coulomb"][:, :1] + tried["static"][:, :1]
     return np.column_stack([sign, tried["viscous"], tried["load"], tried["static"]])
 
@@ -142,5 +154,5 @@ def _non_negative(products: Array, terms: Sequence[str], static: int) -> tuple[d
     root = (vectors * np.sqrt(np.maximum(values, 0.0))).T
     size = np.linalg.norm(root[:, :-1], axis=0)
     size[size == 0] = 1.0  # a joint that never moved
-    factors, left = nnls(root[:, :-1] / size, root[:, -1])
+    factors, left = scipy.optimize.nnls(root[:, :-1] / size, root[:, -1])
     return dict(zip(terms, (factors / size).tolist(), strict=True)), float(left)

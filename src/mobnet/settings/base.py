@@ -12,6 +12,7 @@ from typing import Annotated, TypeVar
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, JsonValue
 
 Number = TypeVar("Number", int, float)
+Item = TypeVar("Item")
 
 
 class Section(BaseModel):
@@ -38,7 +39,7 @@ def _ordered(bounds: tuple[Number, Number]) -> tuple[Number, Number]:
     return bounds
 
 
-def _distinct(values: tuple[Number, ...]) -> tuple[Number, ...]:
+def distinct(values: tuple[Item, ...]) -> tuple[Item, ...]:
     """Check that no value occurs twice."""
     if len(set(values)) < len(values):
         raise ValueError("each value may occur once")
@@ -64,8 +65,8 @@ PositivePair = tuple[Positive, Positive]
 RealPair = tuple[Real, Real]
 Vector3 = tuple[Real, Real, Real]
 Choices = Annotated[tuple[Positive, ...], Field(min_length=1)]
-InnerShares = Annotated[tuple[InnerShare, ...], Field(min_length=1), AfterValidator(_distinct)]
-Seeds = Annotated[tuple[Index, ...], Field(min_length=1), AfterValidator(_distinct)]
+InnerShares = Annotated[tuple[InnerShare, ...], Field(min_length=1), AfterValidator(distinct)]
+Seeds = Annotated[tuple[Index, ...], Field(min_length=1), AfterValidator(distinct)]
 
 LevelName = Annotated[str, Named("level")]
 TerrainName = Annotated[str, Named("terrain")]

@@ -5,20 +5,26 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+import pytest
 
+from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
-from mobnet.estimation.direct import DirectEstimator
+from mobnet.estimation.kinds.direct import DirectEstimator
+from mobnet.estimation.methods import build_estimator
+from mobnet.estimation.recipe import Recipe
+from mobnet.learning.deployed.limbs import LimbNetworks
+from mobnet.learning.deployed.networks import GRU_TENSORS, Z_SCORES, Network
 from mobnet.learning.features import limb_inputs
-from mobnet.learning.limbs import LimbNetworks
-from mobnet.learning.networks import GRU_TENSORS, Z_SCORES, Network
+from mobnet.settings.methods import Method
+from mobnet.settings.networks import Limb
 
 HIDDEN = 5
 
 
 def network(limb: str, layout: JointLayout, rng: np.random.Generator) -> Network:
     """Return a random network of a leg, z-scores included."""
-    joints, inputs = layout.limb(limb), limb_inputs(layout, {"Q": [limb], "T": [limb]}).names
+    joints, inputs = layout.limb(limb), limb_inputs(layout, Limb(joints=(limb,), Q=(limb,), T=(limb,))).names
     gates, n_in, n_out = 3 * HIDDEN, len(inputs), len(joints)
     shapes = [(gates, n_in), (gates, HIDDEN), (gates,), (gates,), (2 * n_out, HIDDEN), (2 * n_out,)]
     shapes += [(n_in,), (n_in,), (n_out,), (n_out,)]
@@ -36,3 +42,8 @@ def test_it_returns_what_its_networks_predict(layout: JointLayout, made_up: Call
     assert estimator.joints == layout.limb("RL") + layout.limb("LL")
     np.testing.assert_array_equal(result.tau_ext, predicted.mean)
     np.testing.assert_array_equal(result.std, predicted.std)
+
+
+def test_a_method_without_networks_is_refused(recipe_of: Callable[..., Recipe]) -> None:
+    with pytest.raises(ConfigError, match="method 'b' of kind 'direct' names no limbs"):
+        build_estimator(recipe_of("b", methods={"b": Method(kind="direct")}))

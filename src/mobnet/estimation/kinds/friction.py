@@ -14,24 +14,41 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import AfterValidator, Field
 
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import read_json
-from mobnet.core.joints import N_VIRTUAL, JointLayout
+from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
-from mobnet.estimation.observer import exact_pole, low_pass
+from mobnet.estimation.kinds.residual import ResidualEstimator
+from mobnet.estimation.low_pass import exact_pole, low_pass
 from mobnet.estimation.recipe import Recipe
-from mobnet.estimation.regression import TERMS, fit, regressors
-from mobnet.estimation.residual import ResidualEstimator
-from mobnet.learning.networks import Prediction
-
-__all__ = ["Friction", "FrictionModel", "build", "fit", "read_friction"]
+from mobnet.estimation.regression import TERMS, Law, Pair, regress, regressors
+from mobnet.learning.deployed.networks import Prediction
+from mobnet.settings.base import Choices, Positive, Section, distinct
+from mobnet.settings.methods import Observer
+from mobnet.settings.networks import Network
 
 Array = NDArray[np.float64]
+Term = Literal["coulomb", "static", "viscous", "load"]
+
+
+class Options(Section):
+    """Numbers of the regression.
+
+    Attributes:
+        terms: terms of (23) that are fitted; `load` only for joints whose network sees the torque.
+        smoothing_rad_s: width of the sign function.
+        stribeck_rad_s: Stribeck velocities of which each joint takes one.
+    """
+
+    terms: Annotated[tuple[Term, ...], Field(min_length=1), AfterValidator(distinct)]
+    smoothing_rad_s: Positive
+    stribeck_rad_s: Choices
 
 
 @dataclass(frozen=True)
@@ -71,6 +88,7 @@ class FrictionModel:
             rate_hz: samples per second [Hz].
         """
         self.joints = layout.names
+        self._base = len(layout.virtual)  # generalized velocities without a motor
         self._friction = friction
         self._gain_hz, self._rate_hz, self._pole = gain_hz, rate_hz, exact_pole(gain_hz, rate_hz)
 
@@ -90,22 +108,55 @@ class FrictionModel:
 
     def _torque(self, sensed: Sensed) -> Array:
         """Return the friction torque before the filter, (..., nv) [N, N m]."""
-        friction = self._friction.torque(sensed.v[..., N_VIRTUAL:], sensed.tau_motor)
-        return np.concatenate([np.zeros((*friction.shape[:-1], N_VIRTUAL)), friction], axis=-1)
+        friction = self._friction.torque(sensed.v[..., self._base :], sensed.tau_motor)
+        return np.concatenate([np.zeros((*friction.shape[:-1], self._base)), friction], axis=-1)
 
 
 def build(recipe: Recipe) -> ResidualEstimator:
     """Build MOB-fric: the residual less the fitted friction.
 
     Raises:
-        ConfigError: the level is not configured.
         DataError: the fit is missing or damaged, or of another robot.
     """
-    layout, gain_hz = recipe.robot.layout, recipe.config["observer"]["gain_hz"]
+    layout = recipe.layout
     if recipe.fitted is None:
-        raise DataError(f"method {recipe.method!r} has no fitted friction; accepted: a row that names `fitted` limbs")
+        raise DataError(f"method {recipe.name!r} has no fitted friction; accepted: a method that names `fitted` limbs")
     friction = read_friction(recipe.fitted, layout.actuated)
-    return ResidualEstimator(recipe.observer(), FrictionModel(layout, friction, gain_hz, recipe.rate_hz))
+    model = FrictionModel(layout, friction, recipe.observing.gain_hz, recipe.rate_hz)
+    return ResidualEstimator(recipe.observer(), layout, model)
+
+
+def fit(
+    layout: JointLayout,
+    observer: Observer,
+    options: Options,
+    networks: Mapping[str, Network],
+    training: Mapping[str, Sequence[Pair]],
+) -> dict[str, Any]:
+    """Regress the friction of the joints of some limbs.
+
+    Args:
+        layout: the robot's joints.
+        observer: the observer's settings.
+        options: terms, the sign function and the grid.
+        networks: limb -> its network, whose joints are fitted and whose `T` says which joints may have load.
+        training: limb -> recordings and residuals.
+
+    Returns:
+        `smoothing_rad_s`, and `joints`: name -> factors of (23), units in the keys, and the root mean square of the
+        target and of what is left of it [N m].
+
+    Raises:
+        DataError: a recording is damaged.
+    """
+    law = Law(options.terms, options.smoothing_rad_s, options.stribeck_rad_s, observer.gain_hz)
+    found: dict[str, Mapping[str, float]] = {}
+    for limb, pairs in training.items():
+        learned, seen = ([joint for group in groups for joint in layout.limb(group)]
+                         for groups in (networks[limb].joints, networks[limb].T))  # fmt: skip
+        found |= regress(law, [joint for joint in learned if joint in layout.actuated], seen, pairs)
+    ordered = {joint: found[joint] for joint in layout.actuated if joint in found}
+    return {"smoothing_rad_s": options.smoothing_rad_s, "joints": ordered}
 
 
 def read_friction(path: Path, joints: Sequence[str]) -> Friction:

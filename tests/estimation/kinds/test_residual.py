@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from mobnet.core.recording import Recording, Sensed
+from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import MomentumObserver
-from mobnet.estimation.residual import ResidualEstimator
-from mobnet.learning.networks import Prediction
+from mobnet.learning.deployed.networks import Prediction
 from mobnet.robot.nominal import NominalModel
 
 LIMB = ("LL3", "LL1")  # not in the robot's order
@@ -40,7 +40,7 @@ def observer(nominal: NominalModel) -> MomentumObserver:
 def test_without_a_model_it_is_the_observer(observer: MomentumObserver, made_up: Callable[..., Recording]) -> None:
     """With no model it is equivalent to the observer alone, to the bit."""
     sensed = made_up(0, 0.1).sensed
-    estimator = ResidualEstimator(observer)
+    estimator = ResidualEstimator(observer, observer.nominal.robot.layout)
     result = estimator.estimate(sensed)
     assert estimator.joints == observer.nominal.robot.layout.names
     assert result.std is None
@@ -51,8 +51,8 @@ def test_a_model_is_subtracted_from_its_own_joints(
     observer: MomentumObserver, made_up: Callable[..., Recording]
 ) -> None:
     sensed = made_up(0, 0.1).sensed
-    estimator = ResidualEstimator(observer, Constant())
-    columns = observer.nominal.robot.layout.columns(LIMB)
+    layout = observer.nominal.robot.layout
+    estimator, columns = ResidualEstimator(observer, layout, Constant()), layout.columns(LIMB)
     result = estimator.estimate(sensed)
     np.testing.assert_allclose(result.tau_ext, observer.residual(sensed)[:, columns] - OFFSET)
     state = estimator.init()

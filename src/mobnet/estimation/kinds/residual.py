@@ -1,4 +1,4 @@
-"""External torque as what a model of the uncertainty leaves of the residual, eq. (15)."""
+"""External torque as the residual without what a model of the uncertainty predicts, eq. (15)."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.estimator import Estimate
+from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
-from mobnet.estimation.observer import MomentumObserver, ObserverState
-from mobnet.estimation.recipe import Recipe
-from mobnet.learning.networks import Prediction
+from mobnet.estimation.recipe import Recipe, ResidualObserver
+from mobnet.learning.deployed.networks import Prediction
 
-State = tuple[ObserverState, Any]  # of the observer and of the uncertainty model
+State = tuple[Any, Any]  # of the observer and of the uncertainty model
 
 
 class UncertaintyModel(Protocol):
@@ -44,14 +44,16 @@ class ResidualEstimator:
         joints: names of the estimated joints, (n,): the uncertainty model's, or all of the robot's without one.
     """
 
-    def __init__(self, observer: MomentumObserver, uncertainty: UncertaintyModel | None = None) -> None:
+    def __init__(
+        self, observer: ResidualObserver, layout: JointLayout, uncertainty: UncertaintyModel | None = None
+    ) -> None:
         """Join an observer and a model of what it cannot know.
 
         Args:
-            observer: momentum observer of the nominal model.
+            observer: observer of the robot's residual.
+            layout: the robot's joints.
             uncertainty: predicts the uncertainty torque; None for MOB.
         """
-        layout = observer.nominal.robot.layout
         self.joints = layout.names if uncertainty is None else uncertainty.joints
         self._observer, self._uncertainty = observer, uncertainty
         self._columns = layout.columns(self.joints)
@@ -80,10 +82,9 @@ class ResidualEstimator:
 
 
 def build(recipe: Recipe) -> ResidualEstimator:
-    """Build MOB, or MOB-Net of the row's limbs.
+    """Build MOB, or MOB-Net of the method's limbs.
 
     Raises:
-        ConfigError: the level is not configured.
         DataError: weights are missing or damaged.
     """
-    return ResidualEstimator(recipe.observer(), recipe.limb_networks())
+    return ResidualEstimator(recipe.observer(), recipe.layout, recipe.limb_networks())

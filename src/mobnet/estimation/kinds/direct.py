@@ -6,7 +6,7 @@ from mobnet.core.errors import ConfigError
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Sensed
 from mobnet.estimation.recipe import Recipe
-from mobnet.learning.limbs import LimbNetworks, State
+from mobnet.learning.deployed.limbs import LimbNetworks, State
 
 
 class DirectEstimator:
@@ -41,13 +41,13 @@ class DirectEstimator:
 
 
 def build(recipe: Recipe) -> DirectEstimator:
-    """Build FTS-e2e of the row's limbs.
+    """Build FTS-e2e of the method's limbs.
 
     Raises:
-        ConfigError: the row names no limbs.
+        ConfigError: the method names no limbs.
         DataError: weights are missing or damaged.
     """
     networks = recipe.limb_networks()
     if networks is None:
-        raise ConfigError(f"method {recipe.method!r} of kind 'direct' names no limbs; accepted: one or more networks")
+        raise ConfigError(f"method {recipe.name!r} of kind 'direct' names no limbs; accepted: one or more networks")
     return DirectEstimator(networks)

@@ -12,8 +12,10 @@ from numpy.typing import NDArray
 from mobnet.core.errors import ConfigError
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Recording, Sensed
-from mobnet.estimation.band_pass import BandPassEstimator
+from mobnet.estimation.kinds.band_pass import BandPassEstimator
 from mobnet.estimation.methods import build_estimator
+from mobnet.estimation.recipe import Recipe
+from mobnet.settings.methods import Method
 
 RATE_HZ, BAND_HZ, ORDER = 1000.0, (2.0, 15.0), 2
 
@@ -81,7 +83,17 @@ def test_bands_that_cannot_be_are_refused(band_hz: tuple[float, float]) -> None:
         BandPassEstimator(Given(np.zeros(1)), band_hz, ORDER, RATE_HZ)
 
 
-def test_a_row_without_band_is_refused(full_config: dict[str, Any]) -> None:
-    config = full_config | {"methods": {"MOB": {"kind": "residual"}, "b": {"kind": "band_pass", "of": "MOB"}}}
-    with pytest.raises(ConfigError, match="method 'b' of kind 'band_pass': accepted: `of`, `band_hz` and `order`"):
-        build_estimator(config, "b", {}, "ideal", RATE_HZ)
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"of": None}, "method 'b' of kind 'band_pass' names no method to filter; accepted: `of`"),
+        ({"options": {}}, "methods.b.options.band_hz: key is missing\nmethods.b.options.order: key is missing"),
+    ],
+)
+def test_a_method_without_another_one_or_a_band_is_refused(
+    change: dict[str, Any], message: str, recipe_of: Callable[..., Recipe]
+) -> None:
+    whole = {"kind": "band_pass", "of": "MOB", "options": {"band_hz": list(BAND_HZ), "order": ORDER}}
+    methods = {"MOB": Method(kind="residual"), "b": Method.model_validate({**whole, **change})}
+    with pytest.raises(ConfigError, match=message):
+        build_estimator(recipe_of("b", methods=methods))

@@ -13,11 +13,12 @@ import pytest
 from mobnet.core.errors import DataError
 from mobnet.core.joints import N_VIRTUAL, JointLayout
 from mobnet.core.recording import Recording
-from mobnet.estimation.friction import Friction, FrictionModel, build, read_friction
-from mobnet.estimation.observer import low_pass
+from mobnet.estimation.kinds.friction import Friction, FrictionModel, Options, build, fit, read_friction
+from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.recipe import Recipe
 from mobnet.estimation.regression import TERMS
 from mobnet.settings.settings import Settings
+from mobnet.simulation.friction import Friction as PlantFriction
 from mobnet.simulation.friction import friction_torque, make_friction
 
 GAIN_HZ, RATE_HZ = 100.0, 1000.0
@@ -33,19 +34,22 @@ def fitted(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def table_4(settings: Settings, layout: JointLayout) -> Friction:
-    """Friction of the plant, in the form of the fit."""
+def plant(settings: Settings, layout: JointLayout) -> PlantFriction:
+    """Friction of the plant with Table 4's numbers."""
     legs = np.array([joint[1] == "L" for joint in layout.actuated])
-    plant = make_friction(settings.plant, legs, ["stribeck", "load"])
+    return make_friction(settings.plant, legs, ["stribeck", "load"])
+
+
+@pytest.fixture
+def table_4(plant: PlantFriction, layout: JointLayout) -> Friction:
+    """The same in the form of the fit."""
     dry = {"coulomb": np.full(layout.nu, plant.coulomb), "static": np.full(layout.nu, plant.static)}
     terms = {**dry, "viscous": plant.viscous, "load": plant.load}
     return Friction(terms, np.full(layout.nu, plant.stribeck), plant.smoothing)
 
 
-def test_it_has_the_form_of_the_plants_friction(settings: Settings, layout: JointLayout, table_4: Friction) -> None:
-    """Equivalent to the simulator's own formula of (23) with Table 4's numbers."""
-    legs = np.array([joint[1] == "L" for joint in layout.actuated])
-    plant = make_friction(settings.plant, legs, ["stribeck", "load"])
+def test_it_has_the_form_of_the_plants_friction(plant: PlantFriction, layout: JointLayout, table_4: Friction) -> None:
+    """Equivalent to the simulator's own formula of (23)."""
     rng = np.random.default_rng(0)
     velocity, torque = rng.normal(0, 1, (20, layout.nu)), rng.normal(0, 50, (20, layout.nu))
     expected = [
@@ -75,10 +79,9 @@ def test_prediction_is_the_filtered_torque_and_the_base_has_none(
 
 
 def test_joints_that_were_not_fitted_are_those_of_the_observer(
-    full_config: dict[str, Any], layout: JointLayout, fitted: Path, made_up: Callable[..., Recording]
+    recipe_of: Callable[..., Recipe], layout: JointLayout, fitted: Path, made_up: Callable[..., Recording]
 ) -> None:
-    recipe = Recipe(full_config, "MOB-fric", "all_uncertainty", RATE_HZ, fitted=fitted)
-    sensed = made_up(2, 0.1).sensed
+    recipe, sensed = recipe_of("MOB-fric", fitted=fitted), made_up(2, 0.1).sensed
     estimator = build(recipe)
     difference = estimator.estimate(sensed).tau_ext - recipe.observer().residual(sensed)
     changed = [joint for joint, column in zip(estimator.joints, difference.T, strict=True) if column.any()]
@@ -110,3 +113,22 @@ def test_files_that_are_no_fit_are_refused(
     path.write_text(json.dumps(found))
     with pytest.raises(DataError, match=message):
         read_friction(path, layout.actuated)
+
+
+def test_load_needs_a_limb_whose_network_sees_the_torque(
+    settings: Settings,
+    made_up: Callable[..., Recording],
+    write_pair: Callable[[Path, Recording], tuple[Path, Path]],
+    tmp_path: Path,
+) -> None:
+    """Section 4.2.2: load-dependent friction in the legs alone."""
+    pair, layout, limbs = write_pair(tmp_path, made_up(3, 1.0)), settings.layout, ("LA", "LL")
+    options = Options(terms=("coulomb", "load"), smoothing_rad_s=0.02, stribeck_rad_s=(0.1, 0.3))
+    networks = {limb: settings.network("MOB-fric", limb) for limb in limbs}
+    found = fit(layout, settings.observer, options, networks, {limb: [pair] for limb in limbs})
+    joints = found["joints"]
+    assert found["smoothing_rad_s"] == 0.02
+    assert list(joints) == [joint for joint in layout.actuated if joint in layout.limb("LA") + layout.limb("LL")]
+    loaded = {joint for joint, row in joints.items() if row["load_per_nm"] > 0}
+    assert loaded
+    assert loaded <= set(layout.limb("LL"))

@@ -6,20 +6,33 @@ estimate of the external torque, only of how that changes.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import scipy  # its parts are imported where they are used first: the workflow imports kinds before it starts
 from numpy.typing import NDArray
-from scipy.signal import butter, sosfilt
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.estimator import Estimate, Estimator
 from mobnet.core.recording import Sensed
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe
+from mobnet.settings.base import Count, PositiveRange, Section
 
 Array = NDArray[np.float64]
 State = tuple[Any, Array]  # of the filtered method, and of the filter (sections, 2, n) [N, N m]
+
+
+class Options(Section):
+    """Numbers of the filter.
+
+    Attributes:
+        order: of the low-pass that the band-pass is made from; the band-pass has twice as many poles.
+    """
+
+    band_hz: PositiveRange
+    order: Count
 
 
 class BandPassEstimator:
@@ -35,7 +48,7 @@ class BandPassEstimator:
         Args:
             inner: estimator to filter.
             band_hz: lower and upper cut-off frequency [Hz], [2, 15] in section 5.3.
-            order: of the low-pass that the band-pass is made from; the band-pass has twice as many poles.
+            order: order of the low-pass that the band-pass is made from.
             rate_hz: samples per second [Hz].
 
         Raises:
@@ -46,7 +59,9 @@ class BandPassEstimator:
             raise ConfigError(f"band_hz: {[low, high]} is not accepted; accepted: 0 < low < high < {rate_hz / 2}")
         self.joints = inner.joints
         self._inner = inner
-        self._sections: Array = np.asarray(butter(order, (low, high), "bandpass", fs=rate_hz, output="sos"))
+        self._sections: Array = np.asarray(
+            scipy.signal.butter(order, (low, high), "bandpass", fs=rate_hz, output="sos")
+        )
 
     def init(self) -> State:
         """Return the state before the first sample: a filter at rest."""
@@ -55,13 +70,13 @@ class BandPassEstimator:
     def step(self, state: State, sample: Sensed) -> tuple[State, Estimate]:
         """Take one sample (1-D arrays); return the new state and the band's part of tau_e, (n,) [N, N m]."""
         inner, estimate = self._inner.step(state[0], sample)
-        filtered, after = sosfilt(self._sections, estimate.tau_ext[None], axis=0, zi=state[1])
+        filtered, after = scipy.signal.sosfilt(self._sections, estimate.tau_ext[None], axis=0, zi=state[1])
         return (inner, after), Estimate(filtered[0])
 
     def estimate(self, sensed: Sensed) -> Estimate:
         """Return the band's part of tau_e of one contiguous recording, (T, n) [N, N m], from a fresh state."""
         whole = self._inner.estimate(sensed).tau_ext
-        return Estimate(sosfilt(self._sections, whole, axis=0, zi=self._at_rest())[0])
+        return Estimate(scipy.signal.sosfilt(self._sections, whole, axis=0, zi=self._at_rest())[0])
 
     def _at_rest(self) -> Array:
         """Return the zero state of the filter, (sections, 2, n) [N, N m]."""
@@ -69,14 +84,14 @@ class BandPassEstimator:
 
 
 def build(recipe: Recipe) -> BandPassEstimator:
-    """Build the band-pass and the method that the row's `of` names.
+    """Build the band-pass and the method that `of` names.
 
     Raises:
-        ConfigError: the row names no band or no method, or the other method cannot be built.
+        ConfigError: the method names no other one, its options are not accepted, or the other one cannot be built.
         DataError: a file of the other method is missing or damaged.
     """
-    row = recipe.row
-    if "of" not in row or "band_hz" not in row:
-        raise ConfigError(f"method {recipe.method!r} of kind 'band_pass': accepted: `of`, `band_hz` and `order`")
-    inner = build_estimator(recipe.config, row["of"], recipe.networks, recipe.level, recipe.rate_hz, recipe.fitted)
-    return BandPassEstimator(inner, row["band_hz"], row["order"], recipe.rate_hz)
+    options = recipe.options(Options)
+    if recipe.method.of is None:
+        raise ConfigError(f"method {recipe.name!r} of kind 'band_pass' names no method to filter; accepted: `of`")
+    inner = build_estimator(replace(recipe, name=recipe.method.of))
+    return BandPassEstimator(inner, options.band_hz, options.order, recipe.rate_hz)

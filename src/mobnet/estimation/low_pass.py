@@ -1,0 +1,45 @@
+"""The low-pass of (11) in discrete time, with the pole of the observer: exact for what is constant over a sample."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import scipy  # its parts are imported where they are used first: the workflow imports kinds before it starts
+from numpy.typing import NDArray
+
+from mobnet.core.errors import ConfigError
+
+Array = NDArray[np.float64]
+
+
+def exact_pole(gain_hz: float, rate_hz: float) -> float:
+    """Return gamma = exp(-K_0 T), the sampled pole of (11).
+
+    Raises:
+        ConfigError: a gain or a rate is not positive.
+    """
+    if gain_hz <= 0 or rate_hz <= 0:
+        raise ConfigError(f"observer gain {gain_hz} 1/s at {rate_hz} Hz; accepted: numbers above 0")
+    return float(np.exp(-gain_hz / rate_hz))
+
+
+def low_pass(x: NDArray[Any], gain_hz: float, rate_hz: float) -> Array:
+    """Return x (T, ...) behind the low-pass of (11), sampled as the observer is: zero at the first sample, same pole.
+
+    Args:
+        x: means over each sample (T, ...).
+        gain_hz: K_0 of (7) [1/s].
+        rate_hz: samples per second [Hz].
+
+    Raises:
+        ConfigError: a gain or a rate is not positive.
+    """
+    start_at_zero = np.array(x, dtype=np.float64)
+    start_at_zero[:1] = 0.0
+    return filtered(start_at_zero, exact_pole(gain_hz, rate_hz))
+
+
+def filtered(x: Array, pole: float) -> Array:
+    """Return y_k = pole y_{k-1} + (1 - pole) x_k along time, (T, ...)."""
+    return np.asarray(scipy.signal.lfilter([1 - pole], [1, -pole], x, axis=0))
