@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
-import yaml
 
-from mobnet.core.config import resolve
 from mobnet.core.estimator import Estimator
 from mobnet.core.recording import Sensed
+from mobnet.settings.load import load_settings
 
 from .checks import CHECKS
 
-CONFIG = Path(__file__).parents[2] / "configs" / "config.yaml"
-METHODS = list(resolve(yaml.safe_load(CONFIG.read_text()))["methods"])
+METHODS = list(load_settings().all_methods)
 Build = Callable[..., Estimator]
 
 
@@ -38,7 +35,7 @@ def test_mob_net_with_a_zero_network_is_mob(build: Build, sensed: Sensed) -> Non
     np.testing.assert_array_equal(net.estimate(sensed).tau_ext, mob.estimate(sensed).tau_ext[:, where])
 
 
-def test_the_band_pass_hears_what_the_friction_model_leaves(build: Build, sensed: Sensed) -> None:
+def test_the_band_pass_filters_what_the_friction_model_estimates(build: Build, sensed: Sensed) -> None:
     """A method of another is built on the other's fit."""
     inner, outer = build("MOB-fric"), build("MOB-fric-BPF")
     assert inner.joints == outer.joints

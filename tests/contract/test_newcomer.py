@@ -8,23 +8,24 @@ import sys
 import textwrap
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 import yaml
 
-import mobnet.estimation
-from mobnet.core.config import check_config
 from mobnet.core.errors import ConfigError
 from mobnet.core.estimator import Estimator
 from mobnet.core.recording import Sensed
-from mobnet.estimation.methods import build_estimator
+from mobnet.estimation import kinds
+from mobnet.estimation.methods import build_estimator, check_methods
+from mobnet.estimation.recipe import Recipe
+from mobnet.settings.load import load_settings
+from mobnet.settings.settings import Settings
 
 from .checks import CHECKS
 
 ROOT = Path(__file__).parents[2]
-LEVEL, RATE_HZ = "all_uncertainty", 1000.0
+NAME = "MOB-quiet"
 
 
 def example(language: str) -> str:
@@ -34,30 +35,36 @@ def example(language: str) -> str:
 
 
 @pytest.fixture(scope="module")
-def config() -> dict[str, Any]:
-    """The configuration with the example's row, as a user has it in the file."""
-    config = yaml.safe_load((ROOT / "configs" / "config.yaml").read_text())
-    config["robot"] = str(ROOT / config["robot"])
-    config["methods"] |= yaml.safe_load(example("yaml"))
-    return config
+def extended() -> Settings:
+    """The configuration with the example's row."""
+    return load_settings(overrides={"scale": "smoke", "methods": yaml.safe_load(example("yaml"))})
 
 
 @pytest.fixture
 def added(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """The example's file among the modules of the package."""
+    """The example's file among the kinds."""
     (tmp_path / "dead_band.py").write_text(example("python"))
-    monkeypatch.setattr(mobnet.estimation, "__path__", [*mobnet.estimation.__path__, str(tmp_path)])
+    monkeypatch.setattr(kinds, "__path__", [*kinds.__path__, str(tmp_path)])
     yield
-    sys.modules.pop("mobnet.estimation.dead_band", None)
+    sys.modules.pop(f"{kinds.__name__}.dead_band", None)
 
 
 @pytest.fixture
-def estimator(config: dict[str, Any], added: None) -> Estimator:
-    return build_estimator(config, "MOB-quiet", {}, LEVEL, RATE_HZ)
+def estimator(extended: Settings, recipe_of: Callable[..., Recipe], added: None) -> Estimator:
+    return build_estimator(recipe_of(NAME, methods=extended.methods))
 
 
-def test_one_row_is_a_valid_configuration(config: dict[str, Any]) -> None:
-    check_config(config)
+@pytest.mark.usefixtures("added")
+def test_one_file_and_one_row_are_accepted_beside_all_other_methods(extended: Settings) -> None:
+    check_methods(extended.all_methods)
+    wide = extended.method(NAME).model_copy(update={"options": {"width_nm": -2.0}})
+    with pytest.raises(ConfigError, match=f"^methods.{NAME}.options.width_nm: -2.0 is not accepted; .*greater than 0$"):
+        check_methods({**extended.methods, NAME: wide})
+
+
+def test_without_its_file_the_kind_is_named(extended: Settings) -> None:
+    with pytest.raises(ConfigError, match=f"^methods.{NAME}.kind: 'dead_band' is not accepted; accepted: band_pass, "):
+        check_methods(extended.methods)
 
 
 @pytest.mark.parametrize("check", CHECKS, ids=[check.__name__ for check in CHECKS])
@@ -67,19 +74,13 @@ def test_the_example_keeps_the_contract(
     check(estimator, sensed)
 
 
-def test_the_example_does_what_it_says(config: dict[str, Any], estimator: Estimator, sensed: Sensed) -> None:
+def test_the_example_does_what_it_says(
+    extended: Settings, recipe_of: Callable[..., Recipe], estimator: Estimator, sensed: Sensed
+) -> None:
     """The residual, nearer to zero by the band's half width."""
-    residual = build_estimator(config, "MOB", {}, LEVEL, RATE_HZ).estimate(sensed).tau_ext
-    quiet = estimator.estimate(sensed).tau_ext
-    width = config["methods"]["MOB-quiet"]["options"]["width_nm"]
+    residual, quiet = (made.estimate(sensed).tau_ext for made in (build_estimator(recipe_of("MOB")), estimator))
+    width = extended.method(NAME).options["width_nm"]
     np.testing.assert_allclose(np.abs(residual - quiet), np.minimum(np.abs(residual), width), atol=1e-9)
-
-
-def test_without_its_file_the_kind_is_named(config: dict[str, Any]) -> None:
-    with pytest.raises(
-        ConfigError, match="kind of method MOB-quiet: 'dead_band' is not accepted; accepted: band_pass, "
-    ):
-        build_estimator(config, "MOB-quiet", {}, LEVEL, RATE_HZ)
 
 
 def test_the_example_is_in_the_house_style(tmp_path: Path) -> None:
