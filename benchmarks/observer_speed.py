@@ -7,28 +7,27 @@ from __future__ import annotations
 
 import statistics
 import time
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from mobnet.core.config import load_config
 from mobnet.core.joints import NQ_BASE, JointLayout
 from mobnet.core.recording import COMMAND, FEET, Sensed
 from mobnet.estimation.observe import observer_of
 from mobnet.estimation.observer import MomentumObserver
-from mobnet.robot.description import load_robot
+from mobnet.robot.description import describe
+from mobnet.settings.load import load_settings
 
-CONFIG = Path(__file__).parents[1] / "configs" / "config.yaml"
 LEVEL = "all_uncertainty"
 SAMPLES, ROUNDS = 5000, 5
 
 
 def main() -> list[dict[str, float | str]]:
     """Return one row: microseconds a sample of both, and their ratio over the turns."""
-    config = load_config(CONFIG)
-    robot, rate = load_robot(Path(config["robot"])), config["rates"]["data_hz"]
-    observer = observer_of(config, robot, LEVEL, rate)
+    settings = load_settings()
+    robot, rate, observing = describe(settings.robot), settings.rates.data_hz, settings.observer
+    level, gravity = settings.levels[LEVEL], settings.plant.gravity_m_s2
+    observer = observer_of(robot, level, gravity, observing.gain_hz, rate, observing.torque)
     sensed = _motion(robot.layout, rate)
     turns = [_turn(observer, sensed) for _ in range(ROUNDS + 1)][1:]
     ours, loop = (statistics.median(column) / SAMPLES * 1e6 for column in zip(*turns, strict=True))

@@ -6,26 +6,26 @@ Weights are random: the time does not depend on them. All run in one thread, in 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from pathlib import Path
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 import torch
 from numpy.typing import NDArray
 
-from mobnet.core.config import load_config, load_layout
 from mobnet.core.joints import NQ_BASE, JointLayout
 from mobnet.core.recording import COMMAND, FEET, Sensed
+from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observe import observer_of
-from mobnet.estimation.residual import ResidualEstimator
+from mobnet.learning.dataset import joints_of
+from mobnet.learning.deployed.limbs import LimbNetworks
+from mobnet.learning.deployed.networks import Network
 from mobnet.learning.features import limb_inputs, signals
-from mobnet.learning.limbs import LimbNetworks
 from mobnet.learning.model import LimbNetwork, build_network
-from mobnet.learning.networks import Network
-from mobnet.robot.description import load_robot
+from mobnet.robot.description import describe
+from mobnet.settings.load import load_settings
+from mobnet.settings.networks import Training
 
-CONFIG = Path(__file__).parents[1] / "configs" / "config.yaml"
 TICKS, WARM_UP = 3000, 200
 TICK_S = 1e-3  # the robot's, section 4.1
 Row = dict[str, float | str]
@@ -35,14 +35,16 @@ Tick = Callable[[Sensed], None]
 def main() -> list[Row]:
     """Return a row for the networks alone and one for a whole tick: microseconds (p50, p99) and ticks above 1 ms."""
     torch.set_num_threads(1)
-    config = load_config(CONFIG, "default")
-    config["robot"] = str(CONFIG.parents[1] / config["robot"])
-    layout = load_layout(Path(config["robot"]))
-    six = [limb for limb in config["methods"]["MOB-Net"]["limbs"] if config["networks"][limb]["cell"] == "GRU"]
-    models = {limb: _model(config, layout, limb) for limb in six}
-    networks = LimbNetworks([_network(config, layout, limb, model) for limb, model in models.items()], layout)
-    observer = observer_of(config, load_robot(Path(config["robot"])), "all_uncertainty", config["rates"]["data_hz"])
-    ticks = [_stepper(networks), _stepper(ResidualEstimator(observer, networks)), _eager(config, layout, models)]
+    settings = load_settings(overrides={"scale": "default"})
+    layout, level = settings.layout, settings.levels["all_uncertainty"]
+    trainings = {limb: settings.training("MOB-Net", limb) for limb in settings.method("MOB-Net").limbs}
+    six = {limb: training for limb, training in trainings.items() if training.network.cell == "GRU"}
+    models = {limb: _model(training, layout) for limb, training in six.items()}
+    networks = LimbNetworks([_network(six[limb], layout, model) for limb, model in models.items()], layout)
+    known = describe(settings.robot), level, settings.plant.gravity_m_s2
+    observer = observer_of(*known, settings.observer.gain_hz, settings.rates.data_hz, settings.observer.torque)
+    whole_tick = ResidualEstimator(observer, layout, networks)
+    ticks = [_stepper(networks), _stepper(whole_tick), _eager(six, layout, models)]
     ours, whole, eager = _times(ticks, layout)
     return [
         _row("six networks, one tick, against torch eager", ours, eager),
@@ -87,10 +89,10 @@ def _stepper(estimator: Any) -> Tick:
     return tick
 
 
-def _eager(config: dict[str, Any], layout: JointLayout, models: dict[str, LimbNetwork]) -> Tick:
+def _eager(trainings: Mapping[str, Training], layout: JointLayout, models: Mapping[str, LimbNetwork]) -> Tick:
     """Return a tick of the same networks in torch."""
     states = {limb: model.fresh_state(1) for limb, model in models.items()}
-    columns = {limb: limb_inputs(layout, config["networks"][limb]).columns for limb in models}
+    columns = {limb: limb_inputs(layout, trainings[limb].network).columns for limb in models}
 
     @torch.inference_mode()
     def tick(sample: Sensed) -> None:
@@ -103,20 +105,20 @@ def _eager(config: dict[str, Any], layout: JointLayout, models: dict[str, LimbNe
     return tick
 
 
-def _model(config: dict[str, Any], layout: JointLayout, limb: str) -> LimbNetwork:
+def _model(training: Training, layout: JointLayout) -> LimbNetwork:
     """Return a limb's network with its first weights."""
-    row = config["networks"][limb]
-    sizes = len(limb_inputs(layout, row).names), len(layout.limb(limb))
-    return build_network(row, *sizes, config["learning"]["std_min"], seed=0)
+    network = training.network
+    sizes = len(limb_inputs(layout, network).names), len(joints_of(layout, network))
+    return build_network(network, *sizes, training.learning.std_min, seed=0)
 
 
-def _network(config: dict[str, Any], layout: JointLayout, limb: str, model: LimbNetwork) -> Network:
+def _network(training: Training, layout: JointLayout, model: LimbNetwork) -> Network:
     """Return the same network as it runs on a robot."""
-    names, joints = limb_inputs(layout, config["networks"][limb]).names, layout.limb(limb)
+    names, joints = limb_inputs(layout, training.network).names, joints_of(layout, training.network)
     tensors = {name: tensor.numpy() for name, tensor in model.state_dict().items()}
     for kind, count in (("input", len(names)), ("target", len(joints))):
         tensors |= {f"{kind}.mean": np.zeros(count, np.float32), f"{kind}.std": np.ones(count, np.float32)}
-    return Network(tensors, limb, joints, names, model.std_min)
+    return Network(tensors, training.limb, joints, names, model.std_min)
 
 
 def _sample(layout: JointLayout, rng: np.random.Generator) -> Sensed:

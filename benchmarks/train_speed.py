@@ -8,23 +8,22 @@ from __future__ import annotations
 import statistics
 import time
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import torch
 from torch import Tensor, nn
 from torch.utils.data import DataLoader, TensorDataset
 
-from mobnet.core.config import load_config, load_layout
+from mobnet.learning.dataset import joints_of
 from mobnet.learning.features import limb_inputs
-from mobnet.learning.job import Job, job_of
+from mobnet.learning.job import Job
 from mobnet.learning.loss import gaussian_loss
 from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.learning.optimisation import Samples, train_epoch
 from mobnet.learning.precision import PRECISIONS, precision_of
 from mobnet.learning.streams import epoch_plan
+from mobnet.settings.load import load_settings
 
-CONFIG = Path(__file__).parents[1] / "configs" / "config.yaml"
 UPDATES, ROUNDS = 40, 5  # updates in a turn, turns
 BAR = 2.0  # times nn.GRU + DataLoader
 
@@ -35,15 +34,15 @@ def main() -> list[dict[str, float | str]]:
     The format that this CPU trains in has to keep the bar.
     """
     torch.set_num_threads(1)
-    config = load_config(CONFIG, "default")
-    job = job_of(config, "MOB-Net", "LL", 0)
-    layout = load_layout(CONFIG.parents[1] / config["robot"])
-    sizes = len(limb_inputs(layout, job.row).names), len(layout.limb("LL"))
+    settings = load_settings(overrides={"scale": "default"})
+    job = Job(settings.training("MOB-Net", "LL"), 0, settings.seed)
+    leg, learning = job.training.network, job.training.learning
+    sizes = len(limb_inputs(settings.layout, leg).names), len(joints_of(settings.layout, leg))
     generator = torch.Generator().manual_seed(0)
-    data = [torch.randn(UPDATES * job.settings["batch_size"] * job.horizon, n, generator=generator) for n in sizes]
+    data = [torch.randn(UPDATES * learning.batch_size * job.horizon, n, generator=generator) for n in sizes]
 
     def network(precision: torch.dtype) -> LimbNetwork:
-        built = build_network(job.row, *sizes, job.settings["std_min"], seed=0)
+        built = build_network(leg, *sizes, learning.std_min, seed=0)
         built.precision = precision
         return built
 
@@ -72,12 +71,12 @@ def _speed(epoch: Callable[[], object], rows: int) -> float:
 def _ours(job: Job, network: LimbNetwork, inputs: Tensor, targets: Tensor) -> Callable[[], object]:
     """Return one epoch as this package trains."""
     optimizer = torch.optim.Adam(network.parameters(), lr=job.rate(0))
-    samples, horizon = Samples(inputs, targets), job.horizon
+    samples, horizon, learning = Samples(inputs, targets), job.horizon, job.training.learning
     rng = np.random.default_rng(0)
 
     def epoch() -> object:
-        plan = epoch_plan([(0, len(inputs))], job.stream(1000.0), horizon, job.settings["batch_size"], rng)
-        return train_epoch(network, optimizer, samples, plan, horizon, job.settings["gradient_norm"])
+        plan = epoch_plan([(0, len(inputs))], job.stream(1000.0), horizon, learning.batch_size, rng)
+        return train_epoch(network, optimizer, samples, plan, horizon, learning.gradient_norm)
 
     return epoch
 
@@ -85,8 +84,9 @@ def _ours(job: Job, network: LimbNetwork, inputs: Tensor, targets: Tensor) -> Ca
 def _theirs(job: Job, network: LimbNetwork, inputs: Tensor, targets: Tensor) -> Callable[[], object]:
     """Return one epoch of the usual loop: shuffled windows from a DataLoader, zero state, nn.GRU."""
     optimizer = torch.optim.Adam(network.parameters(), lr=job.rate(0))
+    learning = job.training.learning
     windows = TensorDataset(*(tensor.unflatten(0, (-1, job.horizon)) for tensor in (inputs, targets)))
-    loader = DataLoader(windows, batch_size=job.settings["batch_size"], shuffle=True)
+    loader = DataLoader(windows, batch_size=learning.batch_size, shuffle=True)
 
     def epoch() -> None:
         for x, target in loader:
@@ -96,7 +96,7 @@ def _theirs(job: Job, network: LimbNetwork, inputs: Tensor, targets: Tensor) -> 
             loss = gaussian_loss(mean, std, target.transpose(0, 1))
             optimizer.zero_grad()
             loss.backward()
-            nn.utils.clip_grad_norm_(network.parameters(), job.settings["gradient_norm"])
+            nn.utils.clip_grad_norm_(network.parameters(), learning.gradient_norm)
             optimizer.step()
 
     return epoch
