@@ -6,23 +6,19 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.core import provenance as module
 from mobnet.core.provenance import commit, provenance
 
 
-def test_provenance_is_the_same_twice_and_follows_the_settings() -> None:
-    assert provenance({"a": 1}) == provenance({"a": 1})
-    assert provenance({"a": 1})["config"] != provenance({"a": 2})["config"]
-
-
-def test_provenance_names_commit_lock_and_config() -> None:
+def test_provenance_names_commit_lock_and_config_and_follows_the_settings() -> None:
     assert list(provenance({})) == ["commit", "lock", "config"]
     assert all(provenance({}).values())
+    assert provenance({"a": 1, "b": 2}) == provenance({"b": 2, "a": 1})
+    assert provenance({"a": 1})["config"] != provenance({"a": 2})["config"]
 
 
 def test_outside_of_git_and_without_a_lock_both_are_unknown(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     commit.cache_clear()
-    monkeypatch.setattr(module, "ROOT", Path("/"))
-    monkeypatch.setattr(module, "LOCK", tmp_path / "environment.lock")
+    monkeypatch.setattr("mobnet.core.provenance.ROOT", Path("/"))
+    monkeypatch.setattr("mobnet.core.provenance.LOCK", tmp_path / "environment.lock")
     assert provenance({})["commit"] == provenance({})["lock"] == "unknown"
     commit.cache_clear()

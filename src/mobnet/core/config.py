@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Mapping
 from pathlib import Path
@@ -87,8 +86,3 @@ def load_layout(robot: Path) -> JointLayout:
     table = read_yaml(robot)
     legs = {side: table["feet"][side]["limb"] for side in ("left", "right")}
     return layout_of(table["order"], table["groups"], legs)
-
-
-def config_hash(config: Mapping[str, Any]) -> str:
-    """Return a short hash of a (part of a) configuration, independent of key order."""
-    return hashlib.sha256(json.dumps(config, sort_keys=True).encode()).hexdigest()[:16]

@@ -4,28 +4,28 @@ from __future__ import annotations
 
 import functools
 import hashlib
+import json
 import subprocess
 from collections.abc import Mapping
-from typing import Any
 
 from mobnet.core.code import LOCK, ROOT, SHORT
-from mobnet.core.config import config_hash
 
 UNKNOWN = "unknown"
 
 
-def provenance(config: Mapping[str, Any]) -> dict[str, str]:
-    """Return what a result file notes of its origin: `commit`, `lock` and `config`.
+def provenance(settings: Mapping[str, object]) -> dict[str, str]:
+    """Return the origin of a result, as its note has it: `commit`, `lock` and `config`.
 
     Args:
-        config: settings that the result depends on.
+        settings: what the result depends on, as JSON.
 
     Returns:
         commit: git commit, with `-changed` where the checkout differs from it; `unknown` outside of git.
         lock: short hash of environment.lock.
-        config: short hash of the settings.
+        config: short hash of the settings, independent of the order of keys.
     """
-    return {"commit": commit(), "lock": lock_hash(), "config": config_hash(config)}
+    written = json.dumps(settings, sort_keys=True).encode()
+    return {"commit": commit(), "lock": lock_hash(), "config": hashlib.sha256(written).hexdigest()[:SHORT]}
 
 
 @functools.cache
