@@ -1,14 +1,16 @@
-"""Table N of the paper = rule = configuration = file = test = a row of docs/map.md; nothing is an orphan."""
+"""Table N of the paper = product = configuration = file = test = a row of docs/map.md; nothing is an orphan."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
-from typing import NamedTuple
+from functools import reduce
+from typing import Any, NamedTuple
 
 import pytest
 
-from mobnet.core.config import read_yaml
+from mobnet.core.code import start_of
+from mobnet.plan.plan import make_plan
+from mobnet.settings.load import load_settings
 
 from .conftest import ROOT
 
@@ -16,11 +18,11 @@ TABLES = [f"Table {n}" for n in (*range(1, 12), 13)]
 FIGURES = [f"Figure {n}" for n in (*range(5, 11), *range(12, 21))]
 SECTIONS = ["Section 6.1", "Section 6.2", "Section 6.3", "Section 7"]
 NUMBERED = re.compile(r"(?:table|figure)_\d\d")
-Outputs = Callable[[str], dict[str, str]]
+MAIN = load_settings(overrides={"scale": "default"})
 
 
-class Row(NamedTuple):
-    """A row of the map."""
+class Item(NamedTuple):
+    """A row of the map's first table."""
 
     paper: str
     shows: str
@@ -30,60 +32,80 @@ class Row(NamedTuple):
     state: str
 
 
-def rows() -> list[Row]:
-    """Return the rows of the map's first table."""
-    text = (ROOT / "docs" / "map.md").read_text().split("\n## ")[0]
-    lines = [line.strip("|").split("|") for line in text.splitlines() if line.startswith("|")]
-    return [Row(*(cell.strip().strip("`") for cell in line)) for line in lines[2:]]
+class System(NamedTuple):
+    """A row of the map's second table."""
+
+    paper: str
+    here: str
+    test: str
+    state: str
 
 
-MAKES = [row for row in rows() if row.rule != "-"]
+def rows(part: int) -> list[list[str]]:
+    """Return the cells of one of the map's tables."""
+    lines = [line for line in (ROOT / "docs/map.md").read_text().split("\n## ")[part].splitlines() if line[:1] == "|"]
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
 
 
-def rules() -> set[str]:
-    """Return the names of the workflow's rules."""
-    texts = [path.read_text() for path in (ROOT / "workflow" / "rules").glob("*.smk")]
-    return set(re.findall(r"^rule (\w+):", "\n".join(texts), re.MULTILINE))
+ITEMS = [Item(*(cell.strip("`") for cell in row)) for row in rows(0)]
+SYSTEMS = [System(*row) for row in rows(1)]
+MADE = [item for item in ITEMS if item.rule != "-"]
 
 
-def configured() -> set[str]:
-    """Return the numbered tables and figures that the configuration describes."""
-    settings = read_yaml(ROOT / "configs" / "config.yaml")["evaluation"]
-    return {key for key in (*settings, *settings["tables"]) if NUMBERED.fullmatch(key)}
+@pytest.fixture(scope="module")
+def outputs() -> dict[str, str]:
+    """File -> rule of every product at the main scale."""
+    products = make_plan(MAIN, with_pdf=True).products
+    return {name: product.name for product in products for name in product.outputs}
+
+
+def numbered(names: Any) -> set[str]:
+    """Return the numbered tables and figures among some names."""
+    return {found for name in names for found in NUMBERED.findall(name)}
 
 
 def test_everything_the_paper_numbers_is_on_the_map_once() -> None:
-    named = [row.paper for row in rows()]
+    named = [item.paper for item in ITEMS]
     assert [name for name in (*TABLES, *FIGURES, *SECTIONS) if named.count(name) != 1] == []
 
 
-def test_a_row_is_made_or_says_what_it_waits_for() -> None:
-    for row in rows():
-        known = row.state.startswith(("done", "input: ", "to do, ")) or "to do, " in row.state
-        assert known, row
-        assert row.state.startswith("done") == (row.rule != "-"), row
+@pytest.mark.parametrize("item", ITEMS, ids=[item.paper for item in ITEMS])
+def test_an_item_is_made_or_an_input_or_to_do(item: Item, outputs: dict[str, str]) -> None:
+    if item.state == "done":
+        assert outputs[item.file] == item.rule
+        assert (ROOT / item.test).is_file()
+    elif item.state.startswith("input: "):
+        assert found(item.state.removeprefix("input: `"))
+        assert (ROOT / item.file).is_file()
+    else:
+        assert item[2:] == ("-", "-", "-", "to do")
 
 
-@pytest.mark.parametrize("row", MAKES, ids=[row.rule for row in MAKES])
-def test_row_has_rule_script_file_and_test(row: Row, outputs: Outputs) -> None:
-    assert row.rule in rules()
-    assert (ROOT / "workflow" / "scripts" / f"{row.rule}.py").is_file()
-    assert outputs("default")[row.file] == row.rule
-    assert (ROOT / row.test).is_file()
+@pytest.mark.parametrize("system", SYSTEMS, ids=[system.paper for system in SYSTEMS])
+def test_a_system_exists_or_is_to_do(system: System) -> None:
+    if system.state == "done":
+        assert [name for name in re.findall(r"`([^`]+)`", f"{system.here} {system.test}") if not found(name)] == []
+        assert system.test != "-"
+    else:
+        assert system[1:] == ("-", "-", "to do")
 
 
-def test_no_table_or_figure_is_an_orphan(outputs: Outputs) -> None:
-    on_map = {name for row in MAKES for name in NUMBERED.findall(row.file)}
-    made = {name for path in outputs("default") for name in NUMBERED.findall(path)}
-    numbered = {rule for rule in rules() if NUMBERED.fullmatch(rule)}
-    assert on_map == made == configured()
-    assert numbered <= made
+def found(name: str) -> bool:
+    """Return whether a name is a file, a module or a key of the configuration."""
+    if "/" in name:
+        return (ROOT / name).exists()
+    if name.startswith("mobnet."):
+        return start_of(name).is_file()
+
+    def below(section: Any, key: str) -> Any:
+        return section[key] if isinstance(section, dict) else getattr(section, key)
+
+    return reduce(below, name.split("."), MAIN) is not None
 
 
-def test_the_paper_shows_every_table_and_figure() -> None:
-    text = (ROOT / "paper" / "main.tex").read_text()
-    assert [name for name in configured() if name not in text] == []
-
-
-def test_every_rule_has_a_script_and_every_script_a_rule() -> None:
-    assert rules() == {path.stem for path in (ROOT / "workflow" / "scripts").glob("*.py")}
+def test_no_numbered_table_or_figure_is_an_orphan(outputs: dict[str, str]) -> None:
+    evaluation = MAIN.evaluation
+    configured = numbered((*type(evaluation).model_fields, *evaluation.tables))
+    assert numbered(item.file for item in MADE) == numbered(outputs) == configured
+    text = (ROOT / "paper/main.tex").read_text()
+    assert [name for name in configured if name not in text] == []
