@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 import torch
 
+from mobnet.core.columns import Epoch
 from mobnet.learning import checkpoint
 from mobnet.learning.cells import Gru
 from mobnet.learning.checkpoint import Progress
 from mobnet.learning.model import LimbNetwork
-from mobnet.learning.tracking import Epoch
 
 Pair = tuple[LimbNetwork, torch.optim.Adam]
 

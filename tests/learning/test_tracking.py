@@ -5,7 +5,8 @@ from __future__ import annotations
 import csv
 from pathlib import Path
 
-from mobnet.learning.tracking import METRICS, Epoch, write_metrics
+from mobnet.core.columns import Epoch
+from mobnet.learning.tracking import METRICS, write_metrics
 
 EPOCHS = [Epoch(number, *(10.0 * number + k for k in range(5))) for number in (1, 2, 3)]
 

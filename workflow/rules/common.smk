@@ -17,7 +17,7 @@ shell.prefix(f"exec 9<>'{ROOT}/.cache/run.lock'; flock -s 9; ")
 
 try:
     SETTINGS = load_settings(ROOT / "configs", config)
-    check_methods(SETTINGS.all_methods)
+    check_methods(SETTINGS.methods)
     PLAN = make_plan(SETTINGS, with_pdf=not missing_packages())
 except MobnetError as error:
     sys.exit(str(error))

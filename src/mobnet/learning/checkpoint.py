@@ -17,8 +17,8 @@ from safetensors import SafetensorError, safe_open
 from safetensors.torch import save_file
 from torch import Tensor, nn
 
+from mobnet.core.columns import Epoch
 from mobnet.core.files import atomic_path
-from mobnet.learning.tracking import Epoch
 
 CHECKPOINT = "checkpoint.safetensors"
 

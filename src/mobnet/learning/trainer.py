@@ -12,6 +12,7 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor
 
+from mobnet.core.columns import Epoch
 from mobnet.core.errors import TrainingError
 from mobnet.learning import checkpoint
 from mobnet.learning.calibration import Calibration, calibrate, predict
@@ -21,7 +22,7 @@ from mobnet.learning.job import Job
 from mobnet.learning.model import build_network, seeded
 from mobnet.learning.optimisation import EVERY_STEP, LAST_STEP, SEQUENCES, Samples, train_epoch, validate
 from mobnet.learning.streams import Plan, some_of, split, validation_plan, window_plan
-from mobnet.learning.tracking import METRICS, Epoch, write_metrics
+from mobnet.learning.tracking import METRICS, write_metrics
 
 log = logging.getLogger(__name__)
 

@@ -1,9 +1,10 @@
-"""Trained networks as they run on a robot agree with torch."""
+"""Trained networks of every cell run on a robot as they were trained."""
 
 from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,43 +12,51 @@ import torch
 from safetensors.torch import save_file
 
 from mobnet.core.errors import DataError
-from mobnet.learning.cells import Gru
-from mobnet.learning.deployed.networks import NOTE, STD_SCALE, WEIGHTS, Deployed, load_network
+from mobnet.learning.deployed import module_network
+from mobnet.learning.deployed.module_network import CHUNK, ModuleNetwork
+from mobnet.learning.deployed.networks import (
+    NOTE,
+    STD_SCALE,
+    WEIGHTS,
+    ConstantNetwork,
+    Deployed,
+    Network,
+    load_network,
+)
 from mobnet.learning.model import LimbNetwork, build_network
-from mobnet.settings.networks import Cell
+from mobnet.learning.streams import split
+from mobnet.settings.networks import SIZES, Cell, CellKind
 
-INPUTS, HIDDEN, JOINTS, STEPS = 30, 150, 6, 400
-STD_MIN = 1e-6
-
-
+INPUTS, JOINTS, STEPS, STD_MIN = 30, 6, 400, 1e-6
+WINDOW: dict[str, Any] = {"window_steps": 10, "kernel_steps": 3, "dilations": (2, 4), "dropout": 0.2, "head": 12}
+CELLS = {kind: Cell(cell=kind, hidden=150 if kind == "GRU" else 16, **WINDOW) for kind in SIZES}
+KINDS: dict[CellKind, type[Deployed]] = {"GRU": Network, "constant": ConstantNetwork}  # by NumPy; the others by torch
+FACTORS = torch.linspace(0.5, 3.0, JOINTS)
 SCALES = {
     "input.mean": torch.linspace(-1.0, 1.0, INPUTS),
     "input.std": torch.linspace(0.5, 1.5, INPUTS),
-    "target.mean": torch.linspace(-2.0, 2.0, JOINTS),
-    "target.std": torch.linspace(1.0, 11.0, JOINTS),
+    "target.mean": torch.linspace(-3.0, 40.0, JOINTS),
+    "target.std": torch.linspace(1.0, 20.0, JOINTS),
 }
-NOTES = {
-    "limb": "LL",
-    "joints": list("abcdef"),
-    "inputs": [f"x{i}" for i in range(INPUTS)],
-    "std_min": STD_MIN,
-    "network": {"cell": "GRU", "hidden": HIDDEN},
-}
-Pair = tuple[LimbNetwork, Deployed]
 
 
-def save(folder: Path, model: LimbNetwork, **more: torch.Tensor) -> Deployed:
-    """Write a network with its z-scores and read it back."""
-    save_file(model.deployable() | SCALES | more, folder / WEIGHTS, {NOTE: json.dumps(NOTES)})
+def model_of(cell: Cell) -> LimbNetwork:
+    """Return a network with weights as large as trained ones."""
+    model = build_network(cell, INPUTS, JOINTS, STD_MIN, seed=0)
+    with torch.no_grad():
+        for parameter in model.parameters():
+            parameter *= 1.5
+    return model
+
+
+def deployed(folder: Path, model: LimbNetwork, cell: Cell, without: str = "", **more: torch.Tensor) -> Deployed:
+    """Write a network with its z-scores, and read it back."""
+    tensors = {name: tensor for name, tensor in (model.deployable() | SCALES | more).items() if name != without}
+    network = {"data": "walk", **cell.model_dump(mode="json")}  # a training notes more than the cell
+    names = {"joints": list("abcdef"), "inputs": [f"x{i}" for i in range(INPUTS)]}
+    note = {"limb": "LL", **names, "std_min": STD_MIN, "network": network}
+    save_file(tensors, folder / WEIGHTS, {NOTE: json.dumps(note)})
     return load_network(folder)
-
-
-@pytest.fixture
-def pair(tmp_path: Path) -> Pair:
-    """A network in torch, and the same read back from its file, z-scores included."""
-    torch.manual_seed(0)
-    model = LimbNetwork(Gru(INPUTS, HIDDEN), JOINTS, STD_MIN)
-    return model, save(tmp_path, model)
 
 
 @pytest.fixture
@@ -55,56 +64,63 @@ def x() -> np.ndarray:
     return np.random.default_rng(0).normal(size=(STEPS, INPUTS)).astype(np.float32)
 
 
-def test_run_agrees_with_torch(pair: Pair, x: np.ndarray) -> None:
-    """Torch is the reference."""
-    model, network = pair
-    zscored = (torch.from_numpy(x) - SCALES["input.mean"]) / SCALES["input.std"]
-    with torch.no_grad():
-        mean, std, _ = model(zscored[:, None], model.fresh_state(1))
-    result = network.run(x)
-    expected = mean[:, 0] * SCALES["target.std"] + SCALES["target.mean"]
-    np.testing.assert_allclose(result.mean, expected.numpy(), atol=1e-4)
-    np.testing.assert_allclose(result.std, (std[:, 0] * SCALES["target.std"]).numpy(), rtol=1e-4)
-
-
-def test_a_normalised_network_runs_as_a_plain_one(tmp_path: Path, x: np.ndarray) -> None:
-    """Torch with norm and gain is the reference."""
-    cell = Cell(cell="GRU", hidden=24, spectral=True, input_gain=16.0)
-    model = build_network(cell, INPUTS, JOINTS, STD_MIN, seed=0).eval()
-    zscored = (torch.from_numpy(x) - SCALES["input.mean"]) / SCALES["input.std"]
-    with torch.no_grad():
-        mean, _, _ = model(zscored[:, None], model.fresh_state(1))
-    expected = mean[:, 0] * SCALES["target.std"] + SCALES["target.mean"]
-    np.testing.assert_allclose(save(tmp_path, model).run(x).mean, expected.numpy(), atol=1e-4)
-
-
-def test_std_scale_multiplies_the_standard_deviation_alone(pair: Pair, x: np.ndarray, tmp_path: Path) -> None:
-    factors = torch.linspace(0.5, 3.0, JOINTS)
-    plain, scaled = pair[1].run(x), save(tmp_path, pair[0], **{STD_SCALE: factors}).run(x)
-    np.testing.assert_array_equal(scaled.mean, plain.mean)
-    np.testing.assert_allclose(scaled.std, plain.std * factors.numpy(), rtol=1e-6)
-
-
-def test_step_agrees_with_run(pair: Pair, x: np.ndarray) -> None:
-    """Sample by sample and all at once are equivalent."""
-    _, network = pair
+@pytest.mark.parametrize("kind", CELLS)
+def test_step_agrees_with_run(kind: CellKind, x: np.ndarray, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sample by sample, in chunks and all at once are equivalent."""
+    network = deployed(tmp_path, model_of(CELLS[kind]), CELLS[kind])
+    assert isinstance(network, KINDS.get(kind, ModuleNetwork))
     whole, state = network.run(x), network.init()
+    monkeypatch.setattr(module_network, "CHUNK", 7)
+    np.testing.assert_allclose(network.run(x).mean, whole.mean, rtol=1e-5, atol=1e-5)
     for k in range(STEPS):
         state, result = network.step(state, x[k])
         np.testing.assert_allclose(result.mean, whole.mean[k], rtol=1e-5, atol=1e-5)
         np.testing.assert_allclose(result.std, whole.std[k], rtol=1e-5)
 
 
-def test_step_leaves_the_given_state_alone(pair: Pair, x: np.ndarray) -> None:
-    state = pair[1].init()
-    pair[1].step(state, x[0])
-    assert not state.any()
+@pytest.mark.parametrize("kind", [*CELLS, "spectral"])
+def test_run_agrees_with_the_module(kind: str, x: np.ndarray, tmp_path: Path) -> None:
+    """The module as trained is the reference, z-scores by hand; a norm and a gain are in the deployed weights."""
+    cell = Cell(cell="GRU", hidden=24, spectral=True, input_gain=16.0) if kind == "spectral" else CELLS[kind]
+    model = model_of(cell).eval()
+    zscored = (torch.from_numpy(x) - SCALES["input.mean"]) / SCALES["input.std"]
+    with torch.no_grad():
+        mean, std, _ = model(zscored[:, None], model.fresh_state(1))
+    result = deployed(tmp_path, model, cell).run(x)
+    expected = mean[:, 0] * SCALES["target.std"] + SCALES["target.mean"]
+    np.testing.assert_allclose(result.mean, expected.numpy(), rtol=1e-5, atol=1e-5)
+    np.testing.assert_allclose(result.std, (std[:, 0] * SCALES["target.std"]).numpy(), rtol=1e-5)
 
 
-def test_huge_inputs_give_finite_torques(pair: Pair, x: np.ndarray) -> None:
-    result = pair[1].run(1e6 * x)
+@pytest.mark.parametrize("kind", CELLS)
+def test_step_leaves_the_given_state_alone(kind: CellKind, x: np.ndarray, tmp_path: Path) -> None:
+    network = deployed(tmp_path, model_of(CELLS[kind]), CELLS[kind])
+    state = network.init()
+    network.step(state, x[0])
+    assert state is None if kind == "constant" else not np.asarray(state).any()
+
+
+@pytest.mark.parametrize("kind", CELLS)
+def test_factors_multiply_the_standard_deviation_alone(kind: CellKind, x: np.ndarray, tmp_path: Path) -> None:
+    model = model_of(CELLS[kind])
+    plain = deployed(tmp_path, model, CELLS[kind]).run(x)
+    scaled = deployed(tmp_path, model, CELLS[kind], **{STD_SCALE: FACTORS}).run(x)
+    np.testing.assert_array_equal(scaled.mean, plain.mean)
+    np.testing.assert_allclose(scaled.std, plain.std * FACTORS.numpy(), rtol=1e-6)
+
+
+def test_huge_inputs_give_finite_torques(x: np.ndarray, tmp_path: Path) -> None:
+    result = deployed(tmp_path, model_of(CELLS["GRU"]), CELLS["GRU"]).run(1e6 * x)
     assert np.isfinite(result.mean).all()
     assert (result.std > 0).all()
+
+
+def test_a_recording_longer_than_a_chunk_has_no_seam(x: np.ndarray, tmp_path: Path) -> None:
+    network = deployed(tmp_path, model_of(CELLS["TCN"]), CELLS["TCN"])
+    long = np.tile(x, (CHUNK // STEPS + 2, 1))
+    periods = network.run(long).mean.reshape(-1, STEPS, JOINTS)
+    for period in periods[2:]:
+        np.testing.assert_allclose(period, periods[1], rtol=1e-5, atol=1e-5)
 
 
 @pytest.mark.parametrize("damage", [b"", b"no weights", None])
@@ -115,9 +131,36 @@ def test_damaged_weights_are_named(damage: bytes | None, tmp_path: Path) -> None
         load_network(tmp_path)
 
 
-def test_a_tensor_that_is_missing_is_named(pair: Pair, tmp_path: Path) -> None:
-    tensors = pair[0].deployable() | SCALES
-    del tensors["cell.bias_hh_l0"]
-    save_file(tensors, tmp_path / WEIGHTS, {NOTE: json.dumps(NOTES)})
-    with pytest.raises(DataError, match=rf"{WEIGHTS}: not the weights of a limb network \('cell.bias_hh_l0'\)"):
-        load_network(tmp_path)
+@pytest.mark.parametrize(
+    ("kind", "noted", "without", "why"),
+    [
+        ("GRU", {}, "cell.bias_hh_l0", "'cell.bias_hh_l0'"),
+        ("LSTM", {}, "cell.bias_hh_l0", "cell.bias_hh_l0"),
+        ("LSTM", {"hidden": 8}, "", "size mismatch"),
+        ("LSTM", {"hidden": None}, "", "hidden is missing"),
+    ],
+)
+def test_weights_that_do_not_fit_their_note_are_refused(
+    kind: CellKind, noted: dict[str, Any], without: str, why: str, tmp_path: Path
+) -> None:
+    cell = CELLS[kind]
+    with pytest.raises(DataError, match=f"{WEIGHTS}: not the weights of a limb network .*{why}"):
+        deployed(tmp_path, model_of(cell), cell.model_copy(update=noted), without)
+
+
+@pytest.mark.parametrize(
+    ("method", "limb", "kind"),
+    [("TCN", "LL", ModuleNetwork), ("GRU-spectral", "LL", Network), ("MOB-Net", "N", ConstantNetwork)],
+)
+def test_a_trained_network_on_a_robot_errs_as_in_its_validation(
+    method: str, limb: str, kind: type, small: Any, tmp_path: Path
+) -> None:
+    """From recordings to a network on a robot, whose error on the recordings is that of the last validation."""
+    training = small.training(method, limb, epochs=1)
+    out = small.train(training, tmp_path)
+    network, note, data = load_network(out), json.loads((out / "run.json").read_text()), small.data(training)
+    assert type(network) is kind
+    _, held_out = split(data.segments, training.learning.validation_share)
+    errors = [(network.run(data.inputs[a:b]).mean - data.targets[a:b]) for a, b in held_out]
+    rmse = np.sqrt(np.square(np.concatenate(errors)).mean(axis=0)).mean()
+    assert rmse == pytest.approx(note["best"]["validation_rmse"], rel=0.1)  # lanes and ends of streams differ
