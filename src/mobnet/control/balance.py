@@ -1,6 +1,8 @@
 """From the error of the DCM to a ground force, a new foothold and a new step duration.
 
-The equations (W2) to (W20) are derived in docs/notes/0019-walking-controller.md.
+The equations (W2) to (W20) are derived in docs/notes/0019-walking-controller.md. Arguments that recur: `par`, numbers
+of the controller; `s`, its state; `pose`, kinematics of the sensed state; `ankle`, the stance ankle (3,) [m]; `dt`, a
+tick [s]; `work`, scratch (3,).
 """
 
 from __future__ import annotations
@@ -37,16 +39,7 @@ def measure_dcm(par: WalkingParameters, s: State, pose: Pose, gravity_m_s2: floa
 
 @compiled
 def ground_force(par: WalkingParameters, s: State, pose: Pose, ankle: Array, gravity_m_s2: float, work: Array) -> None:
-    """Fill error, zmp (2,) [m] and force (3,) [N]: the ZMP that pulls the DCM back, within the support, (W13) to (W15).
-
-    Args:
-        par: numbers of the controller.
-        s: state; error, zmp and force are written.
-        pose: kinematics of the sensed state.
-        ankle: stance ankle (3,) [m].
-        gravity_m_s2: gravity [m/s^2].
-        work: scratch (3,).
-    """
+    """Fill error, zmp (2,) [m], force (3,) [N]: the ZMP that pulls the DCM back, within the support, (W13) to (W15)."""
     for i in range(2):
         s.error[i] = s.dcm[i] - s.dcm_reference[i]
     # The ZMP moves by more than the error (W13); the ground can push only from below a sole, which limits it (W14).
@@ -78,15 +71,7 @@ def ground_force(par: WalkingParameters, s: State, pose: Pose, ankle: Array, gra
 
 @compiled
 def adapt_foothold(par: WalkingParameters, s: State, ankle: Array, dt: float, work: Array) -> None:
-    """Move the swing foot's target (2,) [m] to where the DCM error will need it, at a limited speed, (W16) and (W17).
-
-    Args:
-        par: numbers of the controller.
-        s: state; target and target_velocity are written.
-        ankle: stance ankle (3,) [m].
-        dt: tick [s].
-        work: scratch (3,).
-    """
+    """Move the swing foot's target (2,) [m] to where the DCM error will need it, at a limited speed, (W16), (W17)."""
     remaining = s.total - s.t
     # The foot may touch the ground already, and a target that moves would drag it; a late foot is free again.
     if 0.0 <= remaining <= par.foothold_freeze_s:
@@ -115,15 +100,7 @@ def adapt_foothold(par: WalkingParameters, s: State, ankle: Array, dt: float, wo
 
 @compiled
 def adapt_duration(par: WalkingParameters, s: State, double_support: float, dt: float, work: Array) -> None:
-    """Move the step's duration s.total [s] to when the lateral DCM will be where the next foot wants it, (W20).
-
-    Args:
-        par: numbers of the controller.
-        s: state; total is written.
-        double_support: duration of double support [s].
-        dt: tick [s].
-        work: scratch (3,).
-    """
+    """Move the step's duration s.total [s] to when the lateral DCM will be where the next foot wants it, (W20)."""
     if s.total - s.t <= par.timing_freeze_s:
         return
     shortest = max(par.step_min_s, s.commanded - par.step_shorter_max_s)

@@ -114,15 +114,7 @@ def feel_slope(par: WalkingParameters, s: State, foot: Array, dt: float) -> None
 
 @compiled
 def stand_reference(walker: Walker, s: State, ankle: Array, other: Array, stance: int) -> None:
-    """Fill the reference of a robot that stands, (W24): DCM over the middle of the feet, load as the ZMP asks for.
-
-    Args:
-        walker: what the controller knows of the robot.
-        s: state; dcm_reference, load and zmp_nominal are written.
-        ankle: stance ankle (3,) [m].
-        other: the other ankle (3,) [m].
-        stance: stance foot (0 left, 1 right).
-    """
+    """Fill the reference of a robot that stands on its ankles (3,) [m]: DCM over the middle of the feet, (W24)."""
     par = walker.par
     offset_x, offset_y = np.cos(s.stance_yaw) * par.zmp_offset_x_m, np.sin(s.stance_yaw) * par.zmp_offset_x_m
     s.dcm_reference[0] = 0.5 * (ankle[0] + other[0]) + offset_x

@@ -43,11 +43,7 @@ def swing_height(par: WalkingParameters, s: State, ground: float, span: float, u
 def swing_foot(par: WalkingParameters, s: State, double_support: float, ground: float) -> None:
     """Fill foot (3,) [m], foot_velocity (3,) [m/s], foot_rotation (3, 3), foot_yaw_rate [rad/s], (W32) to (W34).
 
-    Args:
-        par: numbers of the controller.
-        s: state; the four fields are written.
-        double_support: duration of double support [s].
-        ground: height of the ankle [m] when the sole stands on the ground under the target.
+    Double support lasts double_support [s]; the ankle is at height ground [m] when the sole stands under the target.
     """
     span = s.total - double_support
     u = (s.t - double_support) / span

@@ -1,7 +1,10 @@
 """From the ground's force and the feet's targets to joint torques.
 
 Stance legs transmit the force to the ground, the swing leg and the upper body follow their references. The equations
-(W39) to (W46) are derived in docs/notes/0019-walking-controller.md.
+(W39) to (W46) are derived in docs/notes/0019-walking-controller.md. Arguments that recur: `par`, numbers of the
+controller; `tree`, the nominal model; `pose`, its kinematics in the sensed state; `s`, the controller's state; `k`, a
+leg (0 left, 1 right) with its `first` actuator and the body of its `foot`; `q` (nq,) and `v` (nv,), sensed position
+and velocity; `wrench` (6,) [N, N m], measured wrench of the ground about the ankle, foot axes; `dt`, a tick [s].
 """
 
 from __future__ import annotations
@@ -45,17 +48,6 @@ def leg_reference(
 
     A swing leg brings its foot to the target, seen from the measured pelvis. A stance leg brings the pelvis to its
     level orientation, height and yaw over the measured foot; the pelvis' place in x and y is left to the pendulum.
-
-    Args:
-        par: numbers of the controller.
-        leg: sizes of the left leg.
-        tree: bodies of the nominal model.
-        pose: kinematics of the sensed state.
-        s: state; the references of leg k are written.
-        k: leg.
-        first: first actuator of the leg.
-        foot: body of its foot.
-        swings: whether the leg swings.
     """
     side = LEFT_SIDE if k == 0 else RIGHT_SIDE
     rates, arm, swept = s.v_reference[k], vector3(), vector3()
@@ -87,23 +79,7 @@ def stance_torque(
     par: WalkingParameters, tree: Tree, pose: Pose, s: State, k: int, first: int, foot: int,
     q: Array, v: Array, wrench: Array, point: Array, dt: float, tau: Array,
 ) -> None:  # fmt: skip
-    """Add the torques of a stance leg to tau (nu,) [N m], (W41) and (W42).
-
-    Args:
-        par: numbers of the controller.
-        tree: bodies of the nominal model.
-        pose: kinematics of the sensed state.
-        s: state; the ankle's integrals are advanced.
-        k: leg (0 left, 1 right), which carries the share load[k] of the ground's force.
-        first: first actuator of the leg.
-        foot: body of its foot.
-        q: sensed generalized position (nq,).
-        v: sensed generalized velocity (nv,).
-        wrench: measured wrench of the ground about the ankle, foot axes (6,) [N, N m].
-        point: where the ground pushes this foot (3,) [m].
-        dt: tick [s].
-        tau: desired torques (nu,) [N m].
-    """
+    """Add the torques of a stance leg that the ground pushes at point (3,) [m] to tau (nu,) [N m], (W41) and (W42)."""
     load, arm, force = s.load[k], vector3(), vector3()
     for i in range(3):
         force[i] = load * s.force[i]
@@ -131,16 +107,7 @@ def _ankle_correction(
 ) -> float:
     """Return the torque [N m] that corrects the ankle's moment, (W43), and keeps the foot from tipping, (W44).
 
-    Args:
-        par: numbers of the controller.
-        pose: kinematics of the sensed state.
-        s: state; integral[k, which] is advanced.
-        k: leg (0 left, 1 right).
-        which: axis of the ankle, 0 for pitch, 1 for roll.
-        foot: body of the foot.
-        push: wanted moment of the ground about that axis [N m].
-        wrench: measured wrench of the ground about the ankle, foot axes (6,) [N, N m].
-        dt: tick [s].
+    The ankle's axis is pitch where `which` is 0, else roll; `push` is the wanted moment of the ground about it [N m].
     """
     rotation = pose.rotation[foot]
     sin_roll, sin_pitch = rotation[2, 1], -rotation[2, 0]
@@ -187,15 +154,7 @@ def posture_torque(
 ) -> None:
     """Add the torques of the joints from actuator `first` on to tau (nu,) [N m], (W46).
 
-    Args:
-        stiffness: torque of a position error (n,) [N m/rad].
-        damping: torque of a velocity error (n,) [N m s/rad].
-        first: first actuator above the legs.
-        q: sensed generalized position (nq,).
-        v: sensed generalized velocity (nv,).
-        target: wanted joint positions (n,) [rad].
-        rate: wanted joint velocities (n,) [rad/s].
-        tau: desired torques (nu,) [N m].
+    Stiffness (n,) [N m/rad] and damping (n,) [N m s/rad] hold them at a target (n,) [rad] with a rate (n,) [rad/s].
     """
     for j in range(len(target)):
         joint = first + j

@@ -1,4 +1,4 @@
-"""Moving pictures: frames into a GIF, an animated WebP, or an MP4 where the machine has ffmpeg."""
+"""Clips: frames written as a GIF, an animated WebP, or an MP4 where the machine has ffmpeg."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ from mobnet.simulation.sensing import Sensors, read_sensors
 from mobnet.simulation.world import World
 
 Array = NDArray[np.float64]
-FIRST_CONTACT_ROW = int(mujoco.mjtConstraint.mjCNSTR_CONTACT_FRICTIONLESS)  # equality, friction loss, limits: before
+FIRST_CONTACT_ROW = int(mujoco.mjtConstraint.mjCNSTR_CONTACT_FRICTIONLESS)  # after equalities, friction loss and limits
 CONTACT_FORCE_N = 1.0  # a foot that the ground pushes harder touches it
 LEG_JOINTS = 6
 
@@ -47,10 +47,10 @@ class Plant(NamedTuple):
         sensordata: readings of the step just taken.
         friction: numbers of (23).
         limits: motor limits (nu,) [N m].
-        period: of the terrain [m].
-        fall_height: pelvis below this is a fall [m].
+        period: length after which the terrain repeats [m].
+        fall_height: height of the pelvis below which the robot has fallen [m].
         dt: step [s].
-        every: steps a sample.
+        every: steps in a sample.
     """
 
     native: Native

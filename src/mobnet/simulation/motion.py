@@ -1,8 +1,8 @@
-"""Random motion of the upper body (section 4.3): band-limited targets of both hands, waist and head, made safe.
+"""Random motion of the upper body (section 4.3): band-limited targets of both hands, waist and head, without collision.
 
-The paper records a person for 15 minutes and multiplies that by four with other speeds and offset hand targets. Here
-the person is a sum of sines. Training seeds count from `FIRST_TRAINING_SEED`: each is one variant of one part of the
-base motion, and the variants of a part share its targets.
+The paper records a person for 15 minutes and makes four variants of it with other speeds and offset hand targets. Here
+sums of sines replace the person. Training seeds count from `FIRST_TRAINING_SEED`: each is one variant of one part of
+the base motion, and the variants of a part share its targets.
 """
 
 from __future__ import annotations

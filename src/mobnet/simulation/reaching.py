@@ -1,6 +1,7 @@
 """The upper body on a fixed pelvis follows hand and posture targets by differential inverse kinematics (mink).
 
-The guard is MuJoCo's collision detection: the robot's own solids, and the space in which the legs walk, keep apart.
+MuJoCo's collision detection tells where the robot's own solids, and the space in which the legs walk, come near each
+other; the inverse kinematics keeps them apart.
 """
 
 from __future__ import annotations

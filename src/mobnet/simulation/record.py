@@ -25,7 +25,7 @@ from mobnet.simulation.simulator import Simulator
 log = logging.getLogger(__name__)
 Rows = NDArray[np.float32]
 REPORT_WALL_S = 5.0  # between two lines of progress
-FALLS_MAX = 20  # more falls than this in one recording: something is wrong with the setting
+FALLS_MAX = 20  # more falls in one recording mean that the setting cannot be walked
 
 
 @dataclass
@@ -44,7 +44,7 @@ class Course:
 
 
 class Watch:
-    """Looks now and then whether the robot touches itself (section 4.3: self-collision does not occur)."""
+    """Looks for self-collision in some of the samples that come in (section 4.3: it does not occur)."""
 
     def __init__(self, clearance: Clearance, every: int, nq: int) -> None:
         """Look at each `every`-th sample of a chunk, at its first nq columns."""
@@ -52,7 +52,7 @@ class Watch:
         self.nearest, self.collisions = clearance.reach, 0
 
     def look(self, rows: Rows) -> None:
-        """Note the smallest distance [m] in some samples (n, C) and in how many solids overlap."""
+        """Note the smallest distance [m] in some of the samples (n, C), and in how many of them solids overlap."""
         distances = self.clearance.nearest(rows[:: self.every, : self.nq].astype(np.float64))
         self.nearest = min(self.nearest, float(distances.min()))
         self.collisions += int((distances < 0.0).sum())

@@ -25,7 +25,7 @@ SIZE = (1000, 750)  # width, height [pixels]
 CAMERA = {"distance": 3.85, "azimuth": 134.0, "elevation": -8.0}  # [m], [deg], [deg]
 VIEW_DEG = 30.0  # a long lens: little distortion
 EYE_FROM_PELVIS_M = (0.02, 0.0, -0.08)
-WIDE_M = 9.0  # half width of the terrain: past where the fog ends
+WIDE_M = 9.0  # half width of the terrain, beyond the end of the fog
 EXTENT_M = 2.0  # the scene's size that MuJoCo scales shadow and fog by
 FOG = (1.8, 4.4)  # start and end, in extents
 SKY_RGB = (0.86, 0.91, 0.96)
@@ -34,7 +34,6 @@ SUN_DIRECTION = np.array([-0.48, 0.29, -0.87])
 SUN_DISTANCE_M = 5.0
 SHADOW_PIXELS, SAMPLES = 8192, 8  # of the shadow's map, of a pixel
 SHADOW_CLIP = 2.5  # half width of the shadow's map, in extents; at its edge shadows speckle
-logging.getLogger("OpenGL").setLevel(logging.WARNING)  # it tells of every optional part it lacks
 
 
 def save_picture(robot: RobotDescription, terrain: Terrain, q: NDArray[Any], path: Path) -> None:
@@ -49,7 +48,7 @@ def save_picture(robot: RobotDescription, terrain: Terrain, q: NDArray[Any], pat
 
 
 def picture_model(robot: RobotDescription, terrain: Terrain, size: tuple[int, int] = SIZE) -> mujoco.MjModel:
-    """Compile the robot on more of its terrain under a sky; nothing of it enters a simulation.
+    """Compile the robot under a sky on a wider part of its terrain, for pictures only.
 
     Args:
         robot: figures of the robot.
@@ -133,6 +132,7 @@ def _off_screen(model: mujoco.MjModel) -> Iterator[mujoco.MjrContext]:
     Raises:
         DrawingError: the machine has no EGL; PyOpenGL tells so by errors of many kinds.
     """
+    logging.getLogger("OpenGL").setLevel(logging.WARNING)  # at its import it names every optional part that is missing
     with contextlib.ExitStack() as stack:
         try:
             from mujoco.egl import GLContext  # needs EGL, which only pictures need

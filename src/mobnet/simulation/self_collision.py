@@ -1,8 +1,8 @@
-"""Does the robot touch itself? Smallest distance between its own solids (section 4.3: none in the random motion).
+"""Self-collision: the smallest distance between the robot's own solids (section 4.3: it does not occur).
 
-The solids are the robot's shapes. Every pair is checked whose bodies can really meet. Not checked are bodies that
-joints hold together: at most `NEIGHBOURS` joints apart, or joined at one point by a hip or waist whose axes meet. Their
-shapes overlap by construction, or would touch only far outside any working range (a forearm folded flat).
+The solids are the robot's shapes. Pairs of bodies that cannot really meet are not checked: bodies at most `NEIGHBOURS`
+joints apart, and bodies joined by a hip or a waist whose axes meet in one point. Their shapes overlap by construction,
+or would touch only far outside any working range (a forearm folded flat).
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from mobnet.robot.description import RobotDescription
 from mobnet.robot.parts import Body
 from mobnet.robot.plant import SHAPE_GROUP, robot_spec
 
-REACH_M = 0.06  # distances beyond this are not told apart; what is near costs time
+REACH_M = 0.06  # larger distances are not measured, because they cost time
 NEIGHBOURS = 2  # joints
 OWN_TYPE = 1  # contype and conaffinity of the robot's own solids in the check model
 
@@ -31,7 +31,7 @@ class Clearance:
 
         Args:
             robot: figures and shapes of the robot.
-            reach_m: largest distance that is told apart [m].
+            reach_m: largest distance that is measured [m].
         """
         self.reach = reach_m
         self.model = check_spec(robot, reach_m).compile()
@@ -96,7 +96,7 @@ def held_together(robot: RobotDescription, body: Body, other: Body) -> bool:
 
 
 def _to_base(robot: RobotDescription, body: Body) -> frozenset[str]:
-    """Return the names of a body and of all it hangs on."""
+    """Return the names of a body and of all bodies between it and the world."""
     parents = {link.name: link.parent for link in robot.bodies}
     names, name = set(), body.name
     while name in parents:

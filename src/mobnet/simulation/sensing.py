@@ -1,4 +1,4 @@
-"""What the robot's sensors say of the plant: noise of Table 3, and the base state the robot works out itself."""
+"""Sensor readings of the plant: noise of Table 3, and the base state that the robot estimates."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ class Sensors(NamedTuple):
     """Noise, addresses and readings.
 
     Attributes:
-        q_std: of joint positions [rad].
-        v_std: of joint velocities [rad/s].
-        acc_std: of the base's acceleration [m/s^2].
-        omega_std: of the base's angular velocity [rad/s].
+        q_std: noise of joint positions, a standard deviation [rad].
+        v_std: noise of joint velocities [rad/s].
+        acc_std: noise of the base's acceleration [m/s^2].
+        omega_std: noise of the base's angular velocity [rad/s].
         sensed_base: 1 if base position and velocity come from proprioception, 0 if they are the plant's.
         gyro: first entry of the gyroscope in sensordata.
         acc: first entry of the accelerometer.
@@ -82,7 +82,7 @@ def read_sensors(
 ) -> None:
     """Fill the readings from the plant after a step of dt [s]: qpos (nq,), qvel (nv,), sensordata of that step."""
     for k in range(2):
-        for i in range(3):  # MuJoCo gives what the foot does to the sole
+        for i in range(3):  # MuJoCo gives the wrench of the foot on the sole
             sensors.wrenches[k, i] = -sensordata[sensors.force[k] + i]
             sensors.wrenches[k, 3 + i] = -sensordata[sensors.torque[k] + i]
         sensors.loads[k] = vertical_force(walker, k)

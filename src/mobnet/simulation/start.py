@@ -1,6 +1,6 @@
-"""A start in the middle of a step: a still start needs a shift of weight that friction spoils.
+"""Start of an episode, standing or in the middle of a step: from rest, friction spoils the first shift of weight.
 
-On ground at height zero, facing along x; `turn` puts it elsewhere.
+The start is on ground at height zero, facing along x; `turn` and `raise_start` move it elsewhere.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Uneven ground (Figure 3) that repeats, so that a robot which has walked one period can be put back.
 
-Whatever stands on the even ground is a frustum: its sides slope, or a tilted sole jams on them.
+Whatever stands on the even ground is a frustum, because a tilted sole would jam at vertical sides.
 """
 
 from __future__ import annotations
