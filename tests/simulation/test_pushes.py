@@ -9,7 +9,6 @@ from typing import Any, get_args
 import numpy as np
 import pytest
 
-from mobnet.core.errors import ConfigError
 from mobnet.settings.data import Direction, Phase, Push
 from mobnet.simulation.pushes import DIRECTIONS, PHASES, SHAPES
 from mobnet.simulation.simulator import Simulator
@@ -114,12 +113,6 @@ def test_push_of_the_knee_goes_against_its_front(simulate: Callable, run: Callab
         run(simulator, 0.001)
     assert forward is not None
     np.testing.assert_allclose(simulator.setting.pushes.state["direction"][0], -forward, atol=0.01)
-
-
-def test_unknown_point_is_named(simulate: Callable) -> None:
-    row = {"point": "nose", "pause_s": [1, 2], "force_n": [1, 2], "duration_s": [1, 2], "direction": "any"}
-    with pytest.raises(ConfigError, match=r"^pushes\.odd\.point: 'nose' is not accepted; accepted: .*torso"):
-        pushed(simulate, odd={**row, "shape": "step"})
 
 
 def test_words_of_the_configuration_are_all_known() -> None:

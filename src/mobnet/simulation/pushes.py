@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from mobnet.control.compiled import compiled
 from mobnet.control.parameters import State
-from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Direction, Phase, Push
@@ -56,32 +55,21 @@ class Pushes(NamedTuple):
 
 
 def make_pushes(settings: Mapping[str, Push], model: mujoco.MjModel, robot: RobotDescription) -> Pushes:
-    """Build the pushes of a scenario from their names and laws.
-
-    Raises:
-        ConfigError: the robot has no such point.
-    """
-    laws = [_law(name, row, model, robot) for name, row in settings.items()]
-    times = [row.at_s or () for row in settings.values()]
-    padded = np.full((len(laws), 1 + max(map(len, times), default=0)), np.inf)  # the last one never comes
+    """Build the pushes of a scenario, in the order of their rows."""
+    rows = settings.values()
+    times = [row.at_s or () for row in rows]
+    padded = np.full((len(rows), 1 + max(map(len, times), default=0)), np.inf)  # the last one never comes
     for k, row in enumerate(times):
         padded[k, : len(row)] = row
-    return Pushes(np.array(laws, dtype=LAW), padded, np.zeros(len(laws), dtype=STATE))
+    laws = np.array([_law(row, model, robot) for row in rows], dtype=LAW)
+    return Pushes(laws, padded, np.zeros(len(rows), dtype=STATE))
 
 
-def _law(name: str, row: Push, model: mujoco.MjModel, robot: RobotDescription) -> tuple[Any, ...]:
-    """Return a record of LAW.
-
-    Raises:
-        ConfigError: the robot has no such point.
-    """
-    if row.joint is not None:
-        target = -1, -1, N_VIRTUAL + robot.layout.actuated.index(row.joint)
-    else:
-        points = [model.site(i).name for i in range(model.nsite)]
-        if row.point not in points:
-            raise ConfigError(not_accepted(f"pushes.{name}.point", row.point, points))
-        target = points.index(row.point), int(model.site_bodyid[points.index(row.point)]), -1
+def _law(row: Push, model: mujoco.MjModel, robot: RobotDescription) -> tuple[Any, ...]:
+    """Return a record of LAW."""
+    target = -1, -1, N_VIRTUAL + robot.layout.actuated.index(row.joint) if row.joint else -1
+    if row.point:
+        target = model.site(row.point).id, int(model.site(row.point).bodyid[0]), -1
     return (
         *target, PHASES.index(row.during), DIRECTIONS.index(row.direction), SHAPES.index(row.shape),
         row.at_s is not None, row.share, row.pause_s or (0.0, 0.0), row.force_n or row.torque_nm, row.duration_s,

@@ -55,7 +55,7 @@ class Simulator:
             upper: motion of the joints above the legs; None holds the posture.
 
         Raises:
-            ConfigError: the robot cannot walk, or lacks a point that is pushed, or plates find no room.
+            ConfigError: the robot cannot walk, or plates find no room.
         """
         self.settings, scenario = settings, settings.scenario
         self.robot = for_walking(describe(settings.robot))
