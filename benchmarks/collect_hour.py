@@ -19,9 +19,9 @@ import numpy as np
 from benchmarks.__main__ import Row, misses, table
 from benchmarks.jobs import ROOT, Cost, run
 
+from mobnet.core.columns import COMMAND
 from mobnet.core.config import FIRST_TRAINING_SEED, load_config
 from mobnet.core.files import read_json
-from mobnet.core.recording import COMMAND
 from mobnet.evaluation.figures.commands import bars
 from mobnet.evaluation.measure.steps import KEYS, UNITS, in_degrees, read_steps
 from mobnet.evaluation.measure.upper_body import upper_body

@@ -11,8 +11,9 @@ from typing import Any
 
 import numpy as np
 
+from mobnet.core.columns import COMMAND, FEET
 from mobnet.core.joints import NQ_BASE, JointLayout
-from mobnet.core.recording import COMMAND, FEET, Sensed
+from mobnet.core.recording import Sensed
 from mobnet.estimation.observe import observer_of
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.robot.description import describe

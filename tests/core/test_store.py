@@ -15,9 +15,10 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
+from mobnet.core.columns import recording_columns, recording_width
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording, recording_columns, recording_width
+from mobnet.core.recording import Recording
 from mobnet.core.store import (
     GROUP_ROWS,
     array_writer,

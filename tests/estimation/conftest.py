@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from mobnet.core.recording import COMMAND, FEET, Sensed
+from mobnet.core.columns import COMMAND, FEET
+from mobnet.core.recording import Sensed
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.dynamics import inverse_dynamics
 from mobnet.robot.nominal import NominalModel

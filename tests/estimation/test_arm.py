@@ -10,8 +10,9 @@ import mujoco
 import numpy as np
 import pytest
 
+from mobnet.core.columns import recording_columns
 from mobnet.core.errors import ConfigError, DataError
-from mobnet.core.recording import Recording, Sensed, Truth, recording_columns
+from mobnet.core.recording import Recording, Sensed, Truth
 from mobnet.core.store import read_array, read_recording, read_sensed, write_recording
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observe import observe, observer_of

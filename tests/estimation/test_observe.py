@@ -10,10 +10,11 @@ import mujoco
 import numpy as np
 import pytest
 
+from mobnet.core.columns import residual_columns
 from mobnet.core.recording import Recording, Sensed, Truth
 from mobnet.core.store import read_array, write_recording
 from mobnet.estimation.low_pass import low_pass
-from mobnet.estimation.observe import observe, observer_of, residual_columns
+from mobnet.estimation.observe import observe, observer_of
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel

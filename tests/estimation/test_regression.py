@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from mobnet.core.columns import residual_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import N_VIRTUAL, JointLayout
 from mobnet.core.recording import Recording
 from mobnet.core.store import write_array, write_recording
 from mobnet.estimation.low_pass import low_pass
-from mobnet.estimation.observe import residual_columns
 from mobnet.estimation.regression import Law, regress
 
 GAIN_HZ, RATE_HZ, SMOOTHING = 100.0, 1000.0, 0.02

@@ -12,10 +12,10 @@ import pytest
 import yaml
 from csv_files import write_rows
 
-from mobnet.core.columns import Epoch, Score
+from mobnet.core.columns import FEET, Epoch, Score
 from mobnet.core.files import write_json
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
-from mobnet.core.recording import FEET, Recording, Sensed, Truth
+from mobnet.core.recording import Recording, Sensed, Truth
 from mobnet.core.store import write_array, write_recording
 from mobnet.evaluation.measure.results import listed
 from mobnet.evaluation.number.claim import Claim

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mobnet.core.recording import recording_columns, recording_width
+from mobnet.core.columns import recording_columns, recording_width
 from mobnet.plan.jobs import walk_settings
 from mobnet.settings.jobs import WalkSettings
 from mobnet.settings.load import load_settings

@@ -12,9 +12,9 @@ import pytest
 
 from mobnet.control.kinematics import update
 from mobnet.control.parameters import DURATION, STEP_X, STEP_Y, TURN
+from mobnet.core.columns import FEET
 from mobnet.core.errors import SimulationError
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import FEET
 from mobnet.core.store import read_array, read_recording
 from mobnet.estimation.observe import observe
 from mobnet.robot.description import RobotDescription

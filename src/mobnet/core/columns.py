@@ -2,7 +2,70 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, fields
+
+from mobnet.core.joints import JointLayout
+
+Column = tuple[str, str, str]  # name, unit, frame
+
+# Recordings, residuals and estimates: a column is `<signal>.<joint>`, of a foot `<signal>.<foot>`.
+FEET = ("left_foot", "right_foot")
+COMMAND = (("step_x", "m"), ("step_y", "m"), ("turn", "rad"), ("duration", "s"), ("foot_height", "m"))  # Table 2
+VELOCITY, DESIRED, MOTOR, SWING, CONTACT, PUSHED = "v", "tau_des", "tau_motor", "swing", "contact", "pushed"
+EXTERNAL = "tau_ext"  # of a recording: true; of an estimate: estimated
+RESIDUAL, EXTERNAL_LP = "r", "tau_ext_lp"  # r of (9), and the true external torque behind the observer's low-pass, (15)
+STD = "std"  # standard deviation that an estimate comes with
+
+
+def named(signal: str, names: Iterable[str]) -> list[str]:
+    """Return the columns of a signal of some joints or feet (n,)."""
+    return [f"{signal}.{name}" for name in names]
+
+
+def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:
+    """Return field -> columns (name, unit, frame) of a stored recording, in file order; some fields may have none."""
+    actuated, xyz, wxyz = layout.actuated, "xyz" if layout.virtual else "", "wxyz" if layout.virtual else ""
+    feet = [foot for foot in FEET if foot.removesuffix("_foot") in layout.legs]
+    wrench = [(f"{kind}_{axis}", unit) for kind, unit in (("force", "N"), ("moment", "N m")) for axis in "xyz"]
+    base_v = [(f"v.base_{a}", "m/s", "world") for a in xyz] + [(f"v.omega_{a}", "rad/s", "base") for a in xyz]
+    base_q = [(f"q.base_{a}", "m", "world") for a in xyz] + [(f"q.quat_{a}", "-", "world") for a in wxyz]
+    return {
+        "q": base_q + [(f"q.{j}", "rad", "joint") for j in actuated],
+        "v": base_v + [(f"{VELOCITY}.{j}", "rad/s", "joint") for j in actuated],
+        "acc_base_in_base": [(f"acc.{a}", "m/s^2", "base") for a in xyz],
+        "tau_des": [(f"{DESIRED}.{j}", "N m", "joint") for j in actuated],
+        "tau_motor": [(f"{MOTOR}.{j}", "N m", "joint") for j in actuated],
+        "swing": [(f"{SWING}.{foot}", "-", "plan") for foot in feet],
+        "command": [(f"command.{name}", unit, "stance foot") for name, unit in COMMAND if feet],
+        "tau_ext": [
+            (f"{EXTERNAL}.{j}", layout.unit(j), "world" if i < len(xyz) else "joint")
+            for i, j in enumerate(layout.names)
+        ],
+        **{
+            f"wrench_{foot}": [(f"wrench_{foot}.{name}", unit, foot) for name, unit in wrench if foot in feet]
+            for foot in FEET
+        },
+        "contact": [(f"{CONTACT}.{foot}", "-", "ground") for foot in feet],
+        "pushed": [(PUSHED, "-", "scenario")],
+    }
+
+
+def recording_width(layout: JointLayout) -> int:
+    """Return the number of columns of a stored recording."""
+    return sum(map(len, recording_columns(layout).values()))
+
+
+def torque_columns(layout: JointLayout, signals: Iterable[str], joints: Iterable[str]) -> list[Column]:
+    """Return the columns of torques of some joints, signal by signal, each with the unit and frame of its joint."""
+    known = dict(zip(layout.names, recording_columns(layout)[EXTERNAL], strict=True))
+    wanted = list(joints)
+    return [(f"{signal}.{joint}", *known[joint][1:]) for signal in signals for joint in wanted]
+
+
+def residual_columns(layout: JointLayout) -> list[Column]:
+    """Return name, unit and frame of the columns of a residual file, (2 nv,)."""
+    return torque_columns(layout, (RESIDUAL, EXTERNAL_LP), layout.names)
 
 
 @dataclass(frozen=True)

@@ -8,12 +8,6 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from mobnet.core.joints import JointLayout
-
-FEET = ("left_foot", "right_foot")
-COMMAND = (("step_x", "m"), ("step_y", "m"), ("turn", "rad"), ("duration", "s"), ("foot_height", "m"))  # Table 2
-Column = tuple[str, str, str]  # name, unit, frame
-
 
 @dataclass(frozen=True)
 class Sensed:
@@ -104,35 +98,3 @@ class Recording(SensedRecording):
     """
 
     truth: Truth
-
-
-def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:
-    """Return field -> columns (name, unit, frame) of a stored recording, in file order; some fields may have none."""
-    actuated, xyz, wxyz = layout.actuated, "xyz" if layout.virtual else "", "wxyz" if layout.virtual else ""
-    feet = [foot for foot in FEET if foot.removesuffix("_foot") in layout.legs]
-    wrench = [(f"{kind}_{axis}", unit) for kind, unit in (("force", "N"), ("moment", "N m")) for axis in "xyz"]
-    base_v = [(f"v.base_{a}", "m/s", "world") for a in xyz] + [(f"v.omega_{a}", "rad/s", "base") for a in xyz]
-    base_q = [(f"q.base_{a}", "m", "world") for a in xyz] + [(f"q.quat_{a}", "-", "world") for a in wxyz]
-    return {
-        "q": base_q + [(f"q.{j}", "rad", "joint") for j in actuated],
-        "v": base_v + [(f"v.{j}", "rad/s", "joint") for j in actuated],
-        "acc_base_in_base": [(f"acc.{a}", "m/s^2", "base") for a in xyz],
-        "tau_des": [(f"tau_des.{j}", "N m", "joint") for j in actuated],
-        "tau_motor": [(f"tau_motor.{j}", "N m", "joint") for j in actuated],
-        "swing": [(f"swing.{foot}", "-", "plan") for foot in feet],
-        "command": [(f"command.{name}", unit, "stance foot") for name, unit in COMMAND if feet],
-        "tau_ext": [
-            (f"tau_ext.{j}", layout.unit(j), "world" if i < len(xyz) else "joint") for i, j in enumerate(layout.names)
-        ],
-        **{
-            f"wrench_{foot}": [(f"wrench_{foot}.{name}", unit, foot) for name, unit in wrench if foot in feet]
-            for foot in FEET
-        },
-        "contact": [(f"contact.{foot}", "-", "ground") for foot in feet],
-        "pushed": [("pushed", "-", "scenario")],
-    }
-
-
-def recording_width(layout: JointLayout) -> int:
-    """Return the number of columns of a stored recording."""
-    return sum(map(len, recording_columns(layout).values()))

@@ -18,10 +18,11 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
+from mobnet.core.columns import Column, recording_columns
 from mobnet.core.errors import DataError
 from mobnet.core.files import atomic_path, read_json, write_json
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Column, Recording, Sensed, SensedRecording, Truth, recording_columns
+from mobnet.core.recording import Recording, Sensed, SensedRecording, Truth
 
 ARRAY, NOTE = ".parquet", ".json"
 # Note 0010 has the measurements behind these numbers.

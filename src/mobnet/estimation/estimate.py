@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.core.columns import EXTERNAL, STD, Column, torque_columns
 from mobnet.core.estimator import Estimate, Estimator
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Column, SensedRecording, recording_columns
+from mobnet.core.recording import SensedRecording
 from mobnet.core.store import read_sensed, write_array
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.observe import CARRIED
@@ -96,7 +97,5 @@ def run_segments(estimator: Estimator, recording: SensedRecording) -> Estimate:
 
 def table_of(result: Estimate, joints: Sequence[str], layout: JointLayout) -> tuple[NDArray[Any], list[Column]]:
     """Return the array (T, n) or (T, 2 n) [N, N m] and the columns that a file of estimates holds."""
-    described = dict(zip(layout.names, recording_columns(layout)["tau_ext"], strict=True))
-    quantities = {"tau_ext": result.tau_ext} | ({} if result.std is None else {"std": result.std})
-    columns = [(f"{name}.{joint}", *described[joint][1:]) for name in quantities for joint in joints]
-    return np.concatenate(list(quantities.values()), axis=1), columns
+    signals = {EXTERNAL: result.tau_ext} | ({} if result.std is None else {STD: result.std})
+    return np.concatenate(list(signals.values()), axis=1), torque_columns(layout, signals, joints)

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Column, Recording, recording_columns
+from mobnet.core.columns import residual_columns
+from mobnet.core.recording import Recording
 from mobnet.core.store import read_recording, write_array
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observer import MomentumObserver, TorqueKind
@@ -89,13 +89,3 @@ def residual_and_truth(
         residual[span] = observer.residual(recording.sensed[span])
         truth[span] = low_pass(recording.truth.tau_ext[span], observer.gain_hz, recording.rate_hz)
     return residual, truth
-
-
-def residual_columns(layout: JointLayout) -> list[Column]:
-    """Return name, unit and frame of the columns of a residual file, (2 nv,)."""
-    torque = recording_columns(layout)["tau_ext"]
-    return [
-        (f"{quantity}.{joint}", unit, frame)
-        for quantity in ("r", "tau_ext_lp")
-        for joint, (_, unit, frame) in zip(layout.names, torque, strict=True)
-    ]

@@ -16,6 +16,7 @@ import numpy as np
 import scipy  # its parts are imported where they are used first: the workflow imports kinds before it starts
 from numpy.typing import NDArray
 
+from mobnet.core.columns import EXTERNAL_LP, MOTOR, RESIDUAL, VELOCITY, named
 from mobnet.core.errors import DataError
 from mobnet.core.store import read_array, spans_and_rate
 from mobnet.estimation.low_pass import low_pass
@@ -90,8 +91,8 @@ def _sums(law: Law, joints: Sequence[str], pairs: Sequence[Pair]) -> dict[str, A
     m = STATIC + len(law.stribeck) + 1
     sums, count = {joint: np.zeros((m, m)) for joint in joints}, 0
     for recording, residual in pairs:
-        velocity, torque, spans, rate_hz = _halves(recording, ("v", "tau_motor"), joints)
-        observed, external, _, _ = _halves(residual, ("r", "tau_ext_lp"), joints)
+        velocity, torque, spans, rate_hz = _halves(recording, (VELOCITY, MOTOR), joints)
+        observed, external, _, _ = _halves(residual, (RESIDUAL, EXTERNAL_LP), joints)
         if len(observed) != len(velocity):
             raise DataError(f"{residual}.parquet: {len(observed)} rows, but its recording has {len(velocity)}")
         for span in (slice(*ends) for ends in spans):
@@ -108,7 +109,7 @@ def _halves(
     stem: Path, signals: tuple[str, str], joints: Sequence[str]
 ) -> tuple[Array, Array, Sequence[tuple[int, int]], float]:
     """Return two signals of some joints (T, n) each from a file, its segments and its rate [Hz]."""
-    array, meta = read_array(stem, [f"{signal}.{joint}" for signal in signals for joint in joints])
+    array, meta = read_array(stem, [name for signal in signals for name in named(signal, joints)])
     first, second = np.split(array.astype(np.float64), 2, axis=1)
     return first, second, *spans_and_rate(meta)
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.core.columns import EXTERNAL_LP, RESIDUAL, named
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array, spans_and_rate
@@ -125,10 +126,10 @@ def read_target(stem: Path, joints: Sequence[str], target: Target) -> NDArray[np
     Raises:
         DataError: the file is damaged or a column is missing.
     """
-    external, _ = read_array(stem, [f"tau_ext_lp.{joint}" for joint in joints])
+    external, _ = read_array(stem, named(EXTERNAL_LP, joints))
     if target == "external":
         return external
-    residual, _ = read_array(stem, [f"r.{joint}" for joint in joints])
+    residual, _ = read_array(stem, named(RESIDUAL, joints))
     return residual - external
 
 

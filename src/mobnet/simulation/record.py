@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.control.upper_body import UpperBody
+from mobnet.core.columns import recording_columns
 from mobnet.core.errors import SimulationError
 from mobnet.core.provenance import provenance
-from mobnet.core.recording import recording_columns
 from mobnet.core.store import array_writer, read_array
 from mobnet.settings.data import RecordingSettings
 from mobnet.settings.jobs import WalkSettings

@@ -13,7 +13,7 @@ from mobnet.control.parameters import empty_state
 from mobnet.control.random_torque import make_exploration
 from mobnet.control.upper_body import UpperBody, follow
 from mobnet.control.walker import make_walker
-from mobnet.core.recording import recording_width
+from mobnet.core.columns import recording_width
 from mobnet.robot.description import describe, for_walking
 from mobnet.settings.data import CommandSource, FixedCommand
 from mobnet.settings.jobs import WalkSettings

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mobnet.core.columns import recording_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import recording_columns
 from mobnet.core.store import write_array
 from mobnet.evaluation.measure.windows import Pushed, blocks_of, evenly, push_windows, pushed_of, runs
 

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.core.recording import Sensed, Truth, recording_columns
+from mobnet.core.columns import recording_columns
+from mobnet.core.recording import Sensed, Truth
 from mobnet.evaluation.report.data_card import CARD, DRAWN, card, column_rows, columns, drawn, field_texts, sizes
 from mobnet.settings.load import load_settings
 

@@ -12,8 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from mobnet.core.columns import COMMANDS
-from mobnet.core.recording import COMMAND
+from mobnet.core.columns import COMMAND, COMMANDS
 from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, legend, looks, save_figure
 from mobnet.evaluation.measure.steps import KEYS, UNITS, Sets, bin_edges, bin_of, read_sets
 from mobnet.evaluation.number.files import write_csv

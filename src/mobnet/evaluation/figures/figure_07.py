@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from mobnet.core.columns import PUSHED
 from mobnet.core.config import load_layout
 from mobnet.evaluation.figures.drawing.curves import draw_panels, write_panels
 from mobnet.evaluation.figures.style import save_figure
@@ -28,7 +29,7 @@ def figure_07(config: Mapping[str, Any], entries: Sequence[Mapping[str, Any]], o
         ConfigError: a joint is not estimated by a method.
     """
     settings, robot = config["evaluation"]["figure_07"], Path(config["robot"])
-    curves = read_curves(robot, entries, settings["joints"], {"push": "pushed"})
+    curves = read_curves(robot, entries, settings["joints"], {"push": PUSHED})
     start, end = (round(settings[key] * curves.rate_hz) for key in ("start_s", "end_s"))
     rows, layout = slice(start, end, settings["every"]), load_layout(robot)
     panels = [curves.panel(f"{joint} [{layout.unit(joint)}]", joint, rows, band=True) for joint in settings["joints"]]

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from mobnet.core.columns import DOTS
+from mobnet.core.columns import DESIRED, DOTS, VELOCITY
 from mobnet.core.store import read_array
 from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, entitle, legend, looks, save_figure
 from mobnet.evaluation.measure.windows import Pushed, evenly, pushed_of
@@ -128,7 +128,7 @@ def read_dots(
         count: dots wanted of all recordings together; fewer where they hold fewer.
         pushed: look at these samples only.
     """
-    names = [f"{quantity}.{joint}" for joint in joints for quantity in ("v", "tau_des")]
+    names = [f"{quantity}.{joint}" for joint in joints for quantity in (VELOCITY, DESIRED)]
     arrays = []
     for stem in stems:
         array, meta = read_array(stem, names)

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.core.columns import STD, named
 from mobnet.core.config import load_layout
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json
@@ -30,7 +31,6 @@ log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
 Key = tuple[str, str, str]  # method, limb, unit of its torques
 VALIDATION = "validation"  # what the rows of held-out data are called
-STD = "std."  # columns of an estimate file
 STAGES = ("before", "after")  # the scaling; keys of a training's note too
 
 
@@ -176,7 +176,7 @@ def read_told(estimate: Path, residual: Path, layout: JointLayout) -> Told:
     return Told(
         pair.joints,
         pair.estimate.astype(np.float64) - pair.truth,
-        read_array(estimate, [STD + joint for joint in pair.joints])[0].astype(np.float64),
+        read_array(estimate, named(STD, pair.joints))[0].astype(np.float64),
         np.array([scale.get(joint, 1.0) for joint in pair.joints]),
         pair.spans,
     )

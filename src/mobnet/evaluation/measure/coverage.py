@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from mobnet.core.columns import DESIRED, FEET, VELOCITY
 from mobnet.core.config import load_layout
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import FEET
 from mobnet.core.store import read_sensed
 from mobnet.evaluation.measure.gait import foot_of
 from mobnet.evaluation.measure.windows import FLAG, Pushed, blocks_of, evenly, pushed_of
@@ -32,7 +32,7 @@ log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
 Blocks = Sequence[NDArray[Any]]  # one array (n, ...) a block of test samples
 WITH, WITHOUT = "with RTE", "without RTE"  # names of the training sets
-OUTSIDE = {"v": "outside velocity", "tau_des": "outside torque"}
+OUTSIDE = {VELOCITY: "outside velocity", DESIRED: "outside torque"}
 AREA, AIR_AREA = "visited cells", "visited cells, swing"
 NEAREST = {"nearest, median": 0.5, "nearest, 95 %": 0.95}
 ALL = "all"  # joints together

@@ -10,16 +10,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.core.columns import RESIDUAL, STD, named
 from mobnet.core.config import load_layout
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.files import read_json
 from mobnet.core.store import NOTE, read_array
-from mobnet.evaluation.measure.calibration import STD
 from mobnet.evaluation.measure.metrics import Spans
 from mobnet.evaluation.measure.scores import read_pair
 from mobnet.evaluation.measure.windows import FLAG
 
-RESIDUAL = "r."  # columns of a residual file
 TRUTH, TARGET = "truth", "target"  # labels: tau_e, and what is learned of the uncertainty, r - tau_e (section 4.2.3)
 
 
@@ -143,7 +142,7 @@ def read_curves(
         pair = pairs[entry["method"]]
         estimates[entry["method"]] = pair.estimate[:, places_of(wanted, pair.joints, entry["estimate"])]
         stds[entry["method"]] = read_std(Path(entry["estimate"]), wanted)
-    residual, _ = read_array(Path(entries[0]["residual"]), [RESIDUAL + joint for joint in wanted])
+    residual, _ = read_array(Path(entries[0]["residual"]), named(RESIDUAL, wanted))
     marks = [read_array(Path(entries[0]["recording"]), [column])[0][:, 0] > FLAG for column in flags.values()]
     return Curves(
         wanted, first.truth[:, places_of(wanted, first.joints, "truth")], residual, estimates, stds,
@@ -166,5 +165,5 @@ def places_of(joints: Sequence[str], held: Sequence[str], where: str) -> list[in
 def read_std(estimate: Path, joints: Sequence[str]) -> NDArray[np.float32] | None:
     """Return the standard deviation of joints (T, n) [N m], V1..V3 [N]; None if the file of an estimate has none."""
     held = {column["name"] for column in read_json(estimate.with_suffix(NOTE))["columns"]}
-    names = [STD + joint for joint in joints]
+    names = named(STD, joints)
     return read_array(estimate, names)[0] if held.issuperset(names) else None

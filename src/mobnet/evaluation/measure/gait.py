@@ -9,13 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.core.columns import FEET, SWING
 from mobnet.core.config import load_layout, read_yaml
 from mobnet.core.errors import ConfigError, DataError, not_accepted
-from mobnet.core.recording import FEET
 from mobnet.evaluation.measure.curves import Curves, read_curves
 from mobnet.evaluation.measure.metrics import Spans
 
-SWING = "swing."  # columns of a recording
 Entries = Sequence[Mapping[str, Any]]
 
 
@@ -41,7 +40,7 @@ def read_cycle(
         ConfigError: the first joint belongs to no leg.
     """
     robot, start_s = Path(config["robot"]), config["sizes"].get("figure_start_s", settings["start_s"])
-    curves = read_curves(robot, entries, joints, {"swing": SWING + foot_of(robot, joints[0])})
+    curves = read_curves(robot, entries, joints, {"swing": f"{SWING}.{foot_of(robot, joints[0])}"})
     rows = gait_cycle(curves.flags["swing"], curves.spans, round(start_s * curves.rate_hz))
     if rows is None:
         length_s = len(curves.truth) / curves.rate_hz

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.columns import Score
+from mobnet.core.columns import PUSHED, SWING, Score
 from mobnet.core.config import load_layout
 from mobnet.evaluation.measure.curves import Panel, read_curves
-from mobnet.evaluation.measure.gait import SWING, foot_of
+from mobnet.evaluation.measure.gait import foot_of
 from mobnet.evaluation.measure.metrics import PUSH
 from mobnet.evaluation.measure.windows import push_windows
 from mobnet.evaluation.number.grid import Wanted, number_of
@@ -81,7 +81,7 @@ def read_pushes(config: Mapping[str, Any], settings: Mapping[str, Any], entries:
         ConfigError: the joint belongs to no leg, or is not estimated.
     """
     robot, joint = Path(config["robot"]), settings["joint"]
-    curves = read_curves(robot, entries, [joint], {"swing": SWING + foot_of(robot, joint), "push": "pushed"})
+    curves = read_curves(robot, entries, [joint], {"swing": f"{SWING}.{foot_of(robot, joint)}", "push": PUSHED})
     recording = Path(entries[0]["recording"])
     windows = push_windows(recording, len(curves.truth), settings["before_s"], settings["after_s"])
     panels = []

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.columns import SCORES, Score
+from mobnet.core.columns import EXTERNAL, EXTERNAL_LP, SCORES, Score, named
 from mobnet.core.config import load_layout
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json
@@ -26,8 +26,6 @@ from mobnet.evaluation.number.files import write_csv
 log = logging.getLogger(__name__)
 
 AVERAGE = "avg"
-ESTIMATE = "tau_ext."  # columns of an estimate file
-TRUTH = "tau_ext_lp."  # columns of a residual file
 
 
 def score(
@@ -140,12 +138,12 @@ def read_pair(estimate_stem: Path, residual_stem: Path, layout: JointLayout) -> 
                 f"{estimate_stem}.json: {key} is {meta[key]}, but {residual_meta[key]} in {residual_stem}.json"
             )
     held = [column["name"] for column in meta["columns"]]
-    joints = tuple(joint for joint in layout.names if ESTIMATE + joint in held)
+    joints = tuple(joint for joint in layout.names if f"{EXTERNAL}.{joint}" in held)
     if not joints:
-        raise DataError(f"{estimate_stem}.json: no column {ESTIMATE}<joint>; it holds {', '.join(held)}")
+        raise DataError(f"{estimate_stem}.json: no column {EXTERNAL}.<joint>; it holds {', '.join(held)}")
     return Pair(
         joints,
-        read_array(estimate_stem, [ESTIMATE + joint for joint in joints])[0],
-        read_array(residual_stem, [TRUTH + joint for joint in joints])[0],
+        read_array(estimate_stem, named(EXTERNAL, joints))[0],
+        read_array(residual_stem, named(EXTERNAL_LP, joints))[0],
         *spans_and_rate(meta),
     )

@@ -13,9 +13,9 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from mobnet.control.parameters import DURATION, STEP_Y, TURN
+from mobnet.core.columns import FEET, recording_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import NQ_BASE
-from mobnet.core.recording import FEET, recording_columns
 from mobnet.core.store import read_array
 from mobnet.evaluation.measure.metrics import Spans
 from mobnet.robot.description import SIDES, load_robot

@@ -10,8 +10,8 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
+from mobnet.core.columns import recording_columns
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE
-from mobnet.core.recording import recording_columns
 from mobnet.core.store import read_array
 from mobnet.evaluation.measure.steps import Array
 from mobnet.robot.description import SIDES, RobotDescription

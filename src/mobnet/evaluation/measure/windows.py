@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.core.columns import CONTACT, EXTERNAL, FEET, PUSHED, SWING
 from mobnet.core.errors import DataError
-from mobnet.core.recording import FEET
 from mobnet.core.store import read_array
 from mobnet.evaluation.measure.metrics import Spans
 
@@ -40,7 +40,7 @@ class Pushed:
         Raises:
             DataError: a file or a column is missing.
         """
-        names = [f"swing.{FEET[0]}", f"contact.{FEET[0]}", f"tau_ext.{self.joint}"]
+        names = [*(f"{signal}.{FEET[0]}" for signal in (SWING, CONTACT)), f"{EXTERNAL}.{self.joint}"]
         array, meta = read_array(stem, names)
         free = (array[:, 0] > FLAG) & (array[:, 1] < FLAG) if self.leg else np.ones(len(array), dtype=bool)
         return runs(
@@ -60,7 +60,7 @@ def push_windows(stem: Path, rows: int, before_s: float, after_s: float) -> Span
     Raises:
         DataError: a file or a column is missing, or the samples are not as many.
     """
-    pushed, meta = read_array(stem, ["pushed"])
+    pushed, meta = read_array(stem, [PUSHED])
     if len(pushed) != rows:
         raise DataError(f"{stem}.json: rows is {len(pushed)}, but its estimates have {rows}")
     before, after = (round(time_s * meta["rate_hz"]) for time_s in (before_s, after_s))

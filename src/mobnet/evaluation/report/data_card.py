@@ -14,10 +14,10 @@ from itertools import groupby
 from operator import getitem
 from pathlib import Path
 
+from mobnet.core.columns import Column, recording_columns, residual_columns
 from mobnet.core.files import write_text
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Column, Sensed, Truth, recording_columns
-from mobnet.estimation.observe import residual_columns
+from mobnet.core.recording import Sensed, Truth
 from mobnet.evaluation.tables.layout import markdown_table
 from mobnet.plan.runs import FIRST_TRAINING_SEED
 from mobnet.settings.load import load_settings

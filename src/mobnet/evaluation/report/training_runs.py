@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from mobnet.core.columns import Epoch
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json
-from mobnet.evaluation.measure.trainings import METRICS, RUN, Epoch, Training, read_training
+from mobnet.evaluation.measure.trainings import METRICS, RUN, Training, read_training
 
 SETTINGS = ("target", "settings", "fingerprint", "provenance")  # keys of run.json that say what was trained on what
 SHOWN = ("name", "limb", "device", "precision")  # keys that are shown as they are

@@ -13,8 +13,9 @@ from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
 
+from mobnet.core.columns import Epoch
 from mobnet.core.files import read_json
-from mobnet.evaluation.measure.trainings import METRICS, RUN, Epoch
+from mobnet.evaluation.measure.trainings import METRICS, RUN
 from mobnet.evaluation.number.files import read_rows
 
 SETTINGS = ("name", "method", "limb", "seed", "target", "settings", "fingerprint", "provenance")  # keys of run.json

@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 
 from mobnet.control.parameters import DURATION
-from mobnet.core.columns import DATA
+from mobnet.core.columns import COMMAND, DATA, recording_columns
 from mobnet.core.config import read_yaml
 from mobnet.core.files import read_json
-from mobnet.core.recording import COMMAND, recording_columns
 from mobnet.core.store import read_array
 from mobnet.evaluation.measure.steps import CHOICES, KEYS, UNITS, Sets, in_degrees, read_steps
 from mobnet.evaluation.measure.upper_body import upper_body

@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mobnet.core.columns import STEPS
-from mobnet.core.recording import COMMAND
+from mobnet.core.columns import COMMAND, STEPS
 from mobnet.evaluation.measure.steps import UNITS, Sets, Steps, bin_edges, bin_of, read_sets
 from mobnet.evaluation.number.number import number_text
 from mobnet.evaluation.tables.layout import Table, in_blocks, write_table

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.columns import UNCERTAINTY
+from mobnet.core.columns import EXTERNAL_LP, RESIDUAL, UNCERTAINTY, named
 from mobnet.core.config import load_layout, read_yaml
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
@@ -17,7 +17,6 @@ from mobnet.core.store import read_array
 from mobnet.evaluation.number.number import number_text
 from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
 
-RESIDUAL, TRUTH = "r.", "tau_ext_lp."  # columns of a residual file
 HEADER = ["Limb", "Joint", "Set", "Unit", "Simulated", "Robot", "Ratio", "In bounds"]
 
 
@@ -75,7 +74,7 @@ def target_std(stems: Sequence[Path], joints: Sequence[str]) -> NDArray[np.float
     Raises:
         DataError: a file or a column is missing.
     """
-    names = [prefix + joint for prefix in (RESIDUAL, TRUTH) for joint in joints]
+    names = [*named(RESIDUAL, joints), *named(EXTERNAL_LP, joints)]
     count, mean, spread = 0, np.zeros(len(joints)), np.zeros(len(joints))
     for stem in stems:
         array = read_array(stem, names)[0].astype(np.float64)
