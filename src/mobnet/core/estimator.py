@@ -1,4 +1,4 @@
-"""The interface between those who estimate an external torque and those who use it, batch or in a closed loop."""
+"""The interface of estimators of the external torque, for whole recordings and for a closed loop."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class Estimate:
 
     Attributes:
         tau_ext: mean of the external torque (..., n) [N, N m], tau_e of (15).
-        std: its standard deviation (..., n) [N, N m], sigma_u of (18); None from a method that has none.
+        std: its standard deviation (..., n) [N, N m], sigma_u of (18); None where the method gives none.
     """
 
     tau_ext: NDArray[Any]

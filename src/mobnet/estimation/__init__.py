@@ -1,1 +1,1 @@
-"""From what a robot senses to the torque its surroundings exert: observer, residual and direct estimators."""
+"""Estimating the external torque from what a robot senses: the observer, kinds of estimators and their fits."""

@@ -1,4 +1,4 @@
-"""The rule `estimate`: from a recording and trained networks to a method's external torque."""
+"""The rule `estimate`: it runs a method on a recording and writes the external torque."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def estimate(
 ) -> None:
     """Write a method's external torque for a recording, as Table 5 scores it.
 
-    Columns are `tau_ext.<joint>` [N, N m] of the method's joints and, from a method that has them, `std.<joint>`;
+    Columns are `tau_ext.<joint>` [N, N m] of the method's joints and, where the method gives it, `std.<joint>`;
     segments are the recording's, and each is run from a fresh state.
 
     Args:

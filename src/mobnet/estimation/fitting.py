@@ -1,4 +1,4 @@
-"""The rule `fit`: what a method without networks learns from the training sets."""
+"""The rule `fit`: it fits a method without networks to the training sets."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """From a method of the configuration to an estimator; its `kind` names a module of `mobnet.estimation.kinds`.
 
 Such a module has a function `build(recipe) -> Estimator` and, where a kind has numbers of its own, a section `Options`.
-A kind that is fitted without networks also has `fit(layout, observer, options, networks, training)`, which returns JSON.
+A kind that is fitted without networks also has `fit(layout, observer, options, networks, training)`; it returns JSON.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Regression of the friction model of (23) on r - tau_e, joint by joint, one recording at a time.
 
-Linear in all but the Stribeck velocity: sums of products of all columns, for every Stribeck velocity of a grid, are
-gathered in one pass; then each joint takes the grid's velocity that leaves the smallest error (docs/notes/0015).
+The model is linear in all but the Stribeck velocity. One pass sums the products of all columns, for every Stribeck
+velocity of a grid; then each joint takes the velocity of the grid with the smallest error (docs/notes/0015).
 """
 
 from __future__ import annotations
@@ -57,8 +57,7 @@ def regress(
         pairs: recordings and residuals.
 
     Returns:
-        Joint -> factors of (23), units in the keys, and the root mean square of the target and of what is left of it
-        [N m].
+        Joint -> factors of (23), units in the keys, and the root mean squares of the target and of the error [N m].
 
     Raises:
         DataError: a recording is damaged.
@@ -115,7 +114,7 @@ def _halves(
 
 
 def _columns(law: Law, velocity: Array, torque: Array) -> Array:
-    """Return what one joint's friction may be made of, (T, m - 1): sign, viscous, load, static for each velocity."""
+    """Return the regressors of one joint, (T, m - 1): sign, viscous, load, static for each Stribeck velocity."""
     tried = regressors(velocity[:, None], torque[:, None], law.smoothing, np.array(law.stribeck))
     sign = tried["coulomb"][:, :1] + tried["static"][:, :1]
     return np.column_stack([sign, tried["viscous"], tried["load"], tried["static"]])
@@ -143,9 +142,9 @@ def _solve(products: Array, terms: Sequence[str], grid: Sequence[float]) -> dict
 
 
 def _non_negative(products: Array, terms: Sequence[str], static: int) -> tuple[dict[str, float], float]:
-    """Return the factors, none negative, that leave the smallest mean square, and the root of that [N m].
+    """Return the factors, none negative, with the smallest mean square error, and the root of that [N m].
 
-    A square root of the columns' mean products stands for the columns: least squares do not see the difference.
+    A square root of the columns' mean products takes the place of the columns: the least-squares problem is the same.
     """
     unit = np.eye(len(products))
     faded = unit[static] if "static" in terms else 0.0

@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Calibration:
-    """How far off the standard deviations of n joints are, and what corrects them.
+    """Factors that correct the standard deviations of n joints, and how well these fit before and after.
 
     Attributes:
         scale: factor on the standard deviation (n,).
@@ -40,7 +40,7 @@ class Calibration:
     after: Fit
 
     def note(self, joints: Sequence[str], shares: Sequence[float]) -> dict[str, Any]:
-        """Return it for `run.json`, joints (n,) and nominal shares (k,) named."""
+        """Return it as JSON for `run.json`, with the names of the joints (n,) and the nominal shares (k,)."""
         return {
             "joints": list(joints),
             "shares": list(shares),
@@ -54,13 +54,13 @@ class Calibration:
 
 
 def calibrate(error: NDArray[Any], std: NDArray[Any], share: float, shares: Sequence[float]) -> Calibration:
-    """Learn the factors, and tell how well those of one half of the data hold on the other.
+    """Learn the factors; test those of the first half of the data on the second half.
 
     Args:
         error: prediction minus target in the order of time (T, n) [N m].
         std: predicted standard deviation (T, n) [N m].
-        share: errors inside its central interval shall be this share.
-        shares: nominal shares of the coverage told (k,).
+        share: share of the errors that its central interval shall hold.
+        shares: nominal shares at which the coverage is measured (k,).
     """
     cut = len(error) // 2
     halved = scale_for(error[:cut], std[:cut], share)

@@ -1,7 +1,7 @@
-"""Cells of section 6.1: what stands before the linear layer, the GRU of Table 1 or one of its rivals.
+"""Cells of section 6.1, the part of a network before its linear layer: the GRU of Table 1 and its alternatives.
 
-Every cell runs over a stretch of time with a state that is carried: a recurrent one carries its hidden state, one that
-looks at a window its last inputs. So all kinds train on streams, run on a robot and start afresh in the same way.
+Every cell runs over a stretch of time and carries a state: a recurrent one its hidden state, one that sees a window its
+last inputs. So all kinds train on streams, run on a robot and start afresh in the same way.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class CellModule(Protocol):
 
 
 class Carried:
-    """What torch's recurrent modules share here: the hidden state is both the features and what is carried."""
+    """Shared by torch's recurrent modules: the hidden state is both the features and the state that is carried."""
 
     hidden_size: int
     rows = 1
@@ -111,7 +111,7 @@ class Block(nn.Module):
 
 
 class Window(nn.Module):
-    """One hidden tanh layer over the last samples: of the inputs (MLP), or of what blocks make of them (TCN).
+    """One hidden tanh layer over the last samples: of the inputs (MLP), or of the output of blocks (TCN).
 
     The state is the last inputs (past, B, n_in), zeros at a fresh start.
 
@@ -127,7 +127,7 @@ class Window(nn.Module):
             inputs: number of inputs n_in.
             hidden: units of the layer.
             steps: samples in a window [samples].
-            blocks: what comes before the layer.
+            blocks: blocks before the layer.
         """
         super().__init__()
         self.blocks = nn.Sequential(*blocks)
@@ -138,8 +138,8 @@ class Window(nn.Module):
     def run(self, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
         """Return features (h, B, width) for inputs (h, B, n_in), unitless, and the last inputs (past, B, n_in).
 
-        Time and lanes are the sides of a picture, the inputs its channels: such a convolution reads the samples as
-        they lie in memory, channels last, once for all windows that they stand in.
+        To the convolution, time and lanes are the axes of an image and the inputs its channels: it reads the samples as
+        they lie in memory, channels last, once for all windows that contain them.
         """
         samples = torch.cat([state, x])
         with torch.autocast(x.device.type, enabled=False):  # in bfloat16 a block's gradient is NaN, torch 2.13
@@ -148,7 +148,7 @@ class Window(nn.Module):
 
 
 class Constant(nn.Module):
-    """No features at all: what is left of a network is the bias of its linear layer, a learned mean and deviation.
+    """No features: the network consists of the bias of its linear layer, a learned mean and standard deviation.
 
     Attributes:
         width: number of features per sample, 0.

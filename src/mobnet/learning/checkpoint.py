@@ -71,7 +71,7 @@ def save(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.opti
 
 
 def resume(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.optim.Optimizer) -> Progress:
-    """Load a checkpoint of the same run into network and optimizer; say why if it cannot be used.
+    """Load a checkpoint of the same run into network and optimizer; log why if it cannot be used.
 
     Args:
         path: checkpoint file; absent means a fresh start.

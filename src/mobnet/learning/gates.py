@@ -1,6 +1,6 @@
 """One time step of the GRU's gates, forward and back, as compiled loops (Cho et al. 2014, as `torch.nn.GRU` has it).
 
-Each loop writes one array: with more, the compiler gives up on showing that they do not overlap, and on vectors.
+Each loop writes one array: with more of them the compiler cannot show that they do not overlap, and does not vectorize.
 """
 
 from __future__ import annotations

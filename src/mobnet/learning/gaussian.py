@@ -1,4 +1,4 @@
-"""How well Gaussian predictions fit what came: coverage, likelihood and the continuous ranked probability score."""
+"""Goodness of Gaussian predictions: coverage, likelihood and the continuous ranked probability score."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The GRU of Table 1 on a CPU, forward and back through time: what `torch.nn.GRU` computes, in less time.
+"""The GRU of Table 1 on a CPU, forward and back through time: it computes what `torch.nn.GRU` does, in less time.
 
 Per step only two products forward, one back and the compiled loops over the gates remain, on memory that stays in the
 cache; the gradients of the weights are one large product each, after the loop. All products but those of the inputs are
@@ -19,7 +19,7 @@ from mobnet.learning.gates import step_backward, step_forward
 
 
 class FusedGru(torch.autograd.Function):
-    """GRU over a stretch of time with a hand-written way back through it, to the weights alone."""
+    """GRU over a stretch of time with a hand-written backward pass, to the weights alone."""
 
     @staticmethod
     def forward(ctx: Any, x: Tensor, state: Tensor, precision: torch.dtype, *weights: Tensor) -> Tensor:

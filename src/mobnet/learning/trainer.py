@@ -84,13 +84,13 @@ class Trainer:
         return torch.from_numpy(scaled).to(self.device)
 
     def run(self, state_dir: Path) -> Progress:
-        """Run all epochs, or those that a killed run left, and return metrics and best weights.
+        """Run all epochs, or those that a killed run did not finish, and return metrics and best weights.
 
         Args:
             state_dir: gets a checkpoint and `metrics.csv` at each epoch.
 
         Raises:
-            TrainingError: the loss is not finite or above `divergence_loss`, and the job may not diverge.
+            TrainingError: the loss is not finite or above `divergence_loss`, and the training may not diverge.
         """
         path = state_dir / CHECKPOINT
         first = checkpoint.copy_weights(self.network)

@@ -1,1 +1,1 @@
-"""Kinds of estimators, one a module: a method of the configuration names its kind."""
+"""Kinds of estimators: each is a module, which methods of the configuration name as their `kind`."""

@@ -1,7 +1,7 @@
 """MOB-fric-BPF of section 5.3: another method's output through a band-pass, as a signal that detects collisions.
 
-The band leaves out what changes slowly, an error of the model and just so a steady load: what comes out of it is no
-estimate of the external torque, only of how that changes.
+The band-pass removes whatever changes slowly: errors of the model, but also a steady load. Its output is therefore no
+estimate of the external torque, only of its changes.
 """
 
 from __future__ import annotations
@@ -28,7 +28,8 @@ class Options(Section):
     """Numbers of the filter.
 
     Attributes:
-        order: of the low-pass that the band-pass is made from; the band-pass has twice as many poles.
+        band_hz: lower and upper cut-off frequency.
+        order: order of the low-pass that the band-pass is made from; the band-pass has twice as many poles.
     """
 
     band_hz: PositiveRange

@@ -1,4 +1,4 @@
-"""External torque straight from networks trained on it: FTS-e2e, the end-to-end rival of section 5.1."""
+"""FTS-e2e of section 5.1: networks that are trained on the external torque and predict it without an observer."""
 
 from __future__ import annotations
 

@@ -1,12 +1,12 @@
-"""MOB-fric of section 5.2: the residual less a joint friction model, regressed on r - tau_e of the training data.
+"""MOB-fric of section 5.2: the residual minus a friction model of the joints, regressed on r - tau_e of training data.
 
-In the form of (23), with every number of a joint regressed and none below zero, so that friction takes energy:
+The model has the form of (23). Every number of a joint is regressed, and none is negative, so that friction dissipates:
 
     tau_f = -tanh(v / smoothing) (coulomb (1 - fade) + static fade + load tau_m^2) - viscous v
     fade = exp(-|v| / stribeck)
 
-v and tau_m are the sensed joint velocity and the motor's torque. Regressors pass through the low-pass of (11), as what
-they explain has.
+v and tau_m are the sensed joint velocity and the motor's torque. Regressors pass through the low-pass of (11), as the
+residual has.
 """
 
 from __future__ import annotations
@@ -113,7 +113,7 @@ class FrictionModel:
 
 
 def build(recipe: Recipe) -> ResidualEstimator:
-    """Build MOB-fric: the residual less the fitted friction.
+    """Build MOB-fric: the residual minus the fitted friction.
 
     Raises:
         DataError: the fit is missing or damaged, or of another robot.

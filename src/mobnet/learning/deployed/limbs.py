@@ -1,4 +1,4 @@
-"""Several limb networks run as one: section 4.1's six independent networks, outputs concatenated."""
+"""Several limb networks run as one: the six independent networks of section 4.1 with their outputs concatenated."""
 
 from __future__ import annotations
 

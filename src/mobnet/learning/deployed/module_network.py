@@ -1,4 +1,4 @@
-"""Trained networks of any cell as they run on a robot, by the torch module that was trained (section 6.1)."""
+"""Trained networks of any cell of section 6.1 as they run on a robot, by the torch module that was trained."""
 
 from __future__ import annotations
 

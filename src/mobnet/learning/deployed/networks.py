@@ -21,7 +21,7 @@ from mobnet.core.errors import DataError
 from mobnet.settings.networks import Cell, CellKind
 
 WEIGHTS = "weights.safetensors"
-NOTE = "note"  # one entry of the file's metadata: more would be written in an order that changes
+NOTE = "note"  # the only entry of the file's metadata: several would be written in an order that changes
 GRU_TENSORS = (
     *(f"cell.{kind}_{source}_l0" for kind in ("weight", "bias") for source in ("ih", "hh")),
     *("head.weight", "head.bias"),
@@ -57,7 +57,7 @@ class Deployed(ABC):
         input_names: tuple[str, ...],
         std_min: float,
     ) -> None:
-        """Take the z-scores; weights, by the names torch gives them, are what each kind takes besides.
+        """Take the z-scores; each kind also takes its weights, which have the names that torch gives them.
 
         Args:
             tensors: `cell.*`, `head.*`, `input.mean|std` (n_in,), `target.mean|std` (n,) [N, N m] and, perhaps,
@@ -186,7 +186,7 @@ def load_network(folder: Path) -> Deployed:
     except FileNotFoundError:
         raise DataError(f"{path}: file is missing") from None
     except (SafetensorError, KeyError, TypeError, ValueError, RuntimeError) as error:
-        why = " ".join(str(error).split())  # torch lists all it misses line by line
+        why = " ".join(str(error).split())  # torch lists missing weights line by line
         raise DataError(f"{path}: not the weights of a limb network ({why})") from None
 
 
