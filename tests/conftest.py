@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from mobnet.core.columns import recording_columns
 from mobnet.core.config import resolve
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
-from mobnet.core.recording import Recording, Sensed, Truth
-from mobnet.core.store import write_array, write_recording
+from mobnet.core.recording import Recording, Sensed, Truth, write_recording
+from mobnet.core.store import write_array
 from mobnet.estimation.recipe import Recipe
 from mobnet.robot.description import RobotDescription, WalkingRobot, describe, for_walking
 from mobnet.robot.nominal import NominalModel

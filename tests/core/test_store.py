@@ -6,28 +6,16 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from mobnet.core.columns import recording_columns, recording_width
 from mobnet.core.errors import DataError
-from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording
-from mobnet.core.store import (
-    GROUP_ROWS,
-    array_writer,
-    read_array,
-    read_recording,
-    read_sensed,
-    write_array,
-    write_recording,
-)
+from mobnet.core.store import GROUP_ROWS, array_writer, read_array, write_array
 
 COLUMNS = [("a", "m", "world"), ("b", "rad", "joint")]
 META = {"rate_hz": 1000.0}
@@ -38,12 +26,6 @@ def array_stem(tmp_path: Path) -> Path:
     stem = tmp_path / "run" / "s1"
     write_array(stem, np.arange(20.0).reshape(10, 2), COLUMNS, META)
     return stem
-
-
-@pytest.fixture
-def recording_stem(tmp_path: Path, made_up: Callable[..., Recording], layout: JointLayout) -> Path:
-    write_recording(tmp_path / "s1", made_up(seconds=0.2), layout)
-    return tmp_path / "s1"
 
 
 @pytest.mark.parametrize("rows", [0, 1, GROUP_ROWS - 1, GROUP_ROWS, GROUP_ROWS + 1])
@@ -59,35 +41,6 @@ def test_array_round_trip_is_identity_in_float32_and_gives_the_same_bytes_again(
     assert meta == {"rows": rows, "segments": [[0, rows]], "rate_hz": 1000.0, "columns": columns}
     write_array(tmp_path / "s1", array, COLUMNS, META)
     assert (tmp_path / "s1.parquet").read_bytes() == written
-
-
-def test_recording_round_trip_is_identity_in_float32(
-    tmp_path: Path, made_up: Callable[..., Recording], layout: JointLayout
-) -> None:
-    recording = made_up(seconds=0.3, segments=3)
-    write_recording(tmp_path / "s1", recording, layout)
-    read = read_recording(tmp_path / "s1", layout)
-    assert read.segments == recording.segments
-    for part in ("sensed", "truth"):
-        for name, value in vars(getattr(recording, part)).items():
-            np.testing.assert_array_equal(getattr(getattr(read, part), name), value.astype(np.float32), err_msg=name)
-
-
-def test_columns_are_found_by_name_in_any_order(recording_stem: Path, layout: JointLayout) -> None:
-    before = read_recording(recording_stem, layout)
-    array, meta = read_array(recording_stem)
-    order = np.random.default_rng(0).permutation(array.shape[1])
-    columns = [tuple(meta["columns"][i].values()) for i in order]
-    write_array(recording_stem.with_name("s2"), array[:, order], columns, META)
-    after = read_recording(recording_stem.with_name("s2"), layout)
-    np.testing.assert_array_equal(after.sensed.q, before.sensed.q)
-    np.testing.assert_array_equal(after.truth.contact, before.truth.contact)
-
-
-def test_every_column_has_one_name_unit_and_frame(layout: JointLayout) -> None:
-    columns = [column for group in recording_columns(layout).values() for column in group]
-    assert len({name for name, _, _ in columns}) == len(columns) == recording_width(layout)
-    assert all(all(column) for column in columns)
 
 
 def foreign(path: Path, array: np.ndarray, names: str = "ab") -> None:
@@ -142,15 +95,6 @@ def test_missing_file_is_named(array_stem: Path, ending: str) -> None:
     array_stem.with_suffix(ending).unlink()
     with pytest.raises(DataError, match=rf"s1\{ending}: file is missing"):
         read_array(array_stem)
-
-
-def test_missing_column_is_named(recording_stem: Path, layout: JointLayout) -> None:
-    array, meta = read_array(recording_stem)
-    keep = [i for i, column in enumerate(meta["columns"]) if column["name"] != "tau_des.LL3"]
-    columns = [tuple(meta["columns"][i].values()) for i in keep]
-    write_array(recording_stem, array[:, keep], columns, META)
-    with pytest.raises(DataError, match=r"s1\.parquet: column 'tau_des\.LL3' is missing; it holds \d+ columns: q"):
-        read_recording(recording_stem, layout)
 
 
 def test_array_that_does_not_fit_its_columns_is_refused(tmp_path: Path) -> None:
@@ -214,17 +158,6 @@ def test_nothing_appears_when_the_block_does_not_end_well(array_stem: Path) -> N
     assert {path: path.read_bytes() for path in array_stem.parent.iterdir()} == files
 
 
-def test_wanted_columns_are_read_in_the_order_asked_for(recording_stem: Path) -> None:
-    array, meta = read_array(recording_stem)
-    names = [column["name"] for column in meta["columns"]]
-    picked = np.random.default_rng(0).permutation(len(names))[:9]
-    some, meta_again = read_array(recording_stem, [names[i] for i in picked])
-    np.testing.assert_array_equal(some, array[:, picked])
-    assert some.flags.c_contiguous
-    assert meta_again == meta
-    assert read_array(recording_stem, [])[0].shape == (len(array), 0)
-
-
 def test_only_wanted_columns_are_read(tmp_path: Path) -> None:
     array = np.random.default_rng(0).normal(size=(300, 2))
     write_array(tmp_path / "s1", array, COLUMNS, META)
@@ -233,32 +166,6 @@ def test_only_wanted_columns_are_read(tmp_path: Path) -> None:
     np.testing.assert_array_equal(read_array(tmp_path / "s1", ["b"])[0][:, 0], array[:, 1].astype(np.float32))
     with pytest.raises(DataError, match="damaged"):
         read_array(tmp_path / "s1", ["a"])
-
-
-def test_sensed_part_is_that_of_the_recording_and_needs_no_truth(recording_stem: Path, layout: JointLayout) -> None:
-    recording = read_recording(recording_stem, layout)
-    sensed_only = [(n, u, f) for field in list(recording_columns(layout).items())[:7] for n, u, f in field[1]]
-    assert not [name for name, _, _ in sensed_only if name.startswith(("tau_ext", "wrench", "contact"))]
-    array, meta = read_array(recording_stem, [name for name, _, _ in sensed_only])
-    write_array(recording_stem.with_name("log"), array, sensed_only, {"rate_hz": meta["rate_hz"]})
-    for stem in (recording_stem, recording_stem.with_name("log")):
-        log = read_sensed(stem, layout)
-        assert not hasattr(log, "truth")
-        assert (log.segments, log.rate_hz) == (recording.segments, recording.rate_hz)
-        for name, value in vars(recording.sensed).items():
-            np.testing.assert_array_equal(getattr(log.sensed, name), value, err_msg=name)
-    with pytest.raises(DataError, match=r"column 'tau_ext\.V1' is missing"):
-        read_recording(recording_stem.with_name("log"), layout)
-
-
-def test_parquet_alone_says_what_its_columns_are(recording_stem: Path, layout: JointLayout) -> None:
-    schema = pq.read_schema(recording_stem.with_suffix(".parquet"))
-    columns = [column for group in recording_columns(layout).values() for column in group]
-    described = [(f.name, f.metadata[b"unit"].decode(), f.metadata[b"frame"].decode()) for f in schema]
-    assert described == columns
-    assert {str(field.type) for field in schema} == {"float"}
-    frame = pd.read_parquet(recording_stem.with_suffix(".parquet"), columns=["tau_ext.LL3", "q.base_x"])
-    np.testing.assert_array_equal(frame.to_numpy(), read_array(recording_stem, ["tau_ext.LL3", "q.base_x"])[0])
 
 
 WRITER = """

@@ -12,8 +12,8 @@ import pytest
 
 from mobnet.core.columns import recording_columns
 from mobnet.core.errors import ConfigError, DataError
-from mobnet.core.recording import Recording, Sensed, Truth
-from mobnet.core.store import read_array, read_recording, read_sensed, write_recording
+from mobnet.core.recording import Recording, Sensed, Truth, read_recording, read_sensed, write_recording
+from mobnet.core.store import read_array
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observe import observe, observer_of
 from mobnet.estimation.observer import MomentumObserver

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from mobnet.core.columns import residual_columns
-from mobnet.core.recording import Recording, Sensed, Truth
-from mobnet.core.store import read_array, write_recording
+from mobnet.core.recording import Recording, Sensed, Truth, write_recording
+from mobnet.core.store import read_array
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observe import observe, observer_of
 from mobnet.estimation.observer import MomentumObserver

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from mobnet.core.columns import residual_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import N_VIRTUAL, JointLayout
-from mobnet.core.recording import Recording
-from mobnet.core.store import write_array, write_recording
+from mobnet.core.recording import Recording, write_recording
+from mobnet.core.store import write_array
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.regression import Law, regress
 

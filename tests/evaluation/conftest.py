@@ -15,8 +15,8 @@ from csv_files import write_rows
 from mobnet.core.columns import FEET, Epoch, Score
 from mobnet.core.files import write_json
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
-from mobnet.core.recording import Recording, Sensed, Truth
-from mobnet.core.store import write_array, write_recording
+from mobnet.core.recording import Recording, Sensed, Truth, write_recording
+from mobnet.core.store import write_array
 from mobnet.evaluation.measure.results import listed
 from mobnet.evaluation.number.claim import Claim
 

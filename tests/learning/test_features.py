@@ -10,8 +10,8 @@ import pytest
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
-from mobnet.core.recording import Recording
-from mobnet.core.store import read_array, read_sensed, write_recording
+from mobnet.core.recording import Recording, read_sensed, write_recording
+from mobnet.core.store import read_array
 from mobnet.learning.features import limb_inputs, signal_names, signals
 from mobnet.robot.frames import rotation
 from mobnet.settings.networks import Limb

@@ -15,7 +15,8 @@ from mobnet.control.parameters import DURATION, STEP_X, STEP_Y, TURN
 from mobnet.core.columns import FEET
 from mobnet.core.errors import SimulationError
 from mobnet.core.joints import JointLayout
-from mobnet.core.store import read_array, read_recording
+from mobnet.core.recording import read_recording
+from mobnet.core.store import read_array
 from mobnet.estimation.observe import observe
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import RecordingSettings

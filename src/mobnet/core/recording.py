@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
+from pathlib import Path
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
+
+from mobnet.core.columns import recording_columns
+from mobnet.core.joints import JointLayout
+from mobnet.core.store import read_array, spans_and_rate, write_array
 
 
 @dataclass(frozen=True)
@@ -98,3 +104,46 @@ class Recording(SensedRecording):
     """
 
     truth: Truth
+
+
+def write_recording(stem: Path, recording: Recording, layout: JointLayout) -> None:
+    """Write a recording as one array of all fields, (T, C)."""
+    columns = recording_columns(layout)
+    fields = {**vars(recording.sensed), **vars(recording.truth)}
+    parts = [fields[name] for name in columns]
+    flat = [column for group in columns.values() for column in group]
+    meta = {"rate_hz": recording.rate_hz, **recording.meta}
+    write_array(stem, np.concatenate(parts, axis=1), flat, meta, recording.segments)
+
+
+def read_sensed(stem: Path, layout: JointLayout) -> SensedRecording:
+    """Read the sensed signals of a recording, float32, and not its truth: an estimator gets no more.
+
+    Columns are found by name, so a robot's log may have others too and in any order.
+
+    Raises:
+        DataError: a file is missing or damaged, or a column is missing.
+    """
+    values, meta = _read_fields(stem, layout, list(Sensed.__dataclass_fields__))
+    return SensedRecording(Sensed(**values), *spans_and_rate(meta), meta)
+
+
+def read_recording(stem: Path, layout: JointLayout) -> Recording:
+    """Read a recording, sensed and truth, float32; columns are found by name.
+
+    Raises:
+        DataError: a file is missing or damaged, or a column is missing.
+    """
+    values, meta = _read_fields(stem, layout, [*Sensed.__dataclass_fields__, *Truth.__dataclass_fields__])
+    sensed, truth = ({name: values[name] for name in part.__dataclass_fields__} for part in (Sensed, Truth))
+    return Recording(Sensed(**sensed), *spans_and_rate(meta), meta, Truth(**truth))
+
+
+def _read_fields(
+    stem: Path, layout: JointLayout, fields: Sequence[str]
+) -> tuple[dict[str, NDArray[np.float32]], dict[str, Any]]:
+    """Return fields of a recording, each (T, C) and a view of one array, and the file's description."""
+    columns = recording_columns(layout)
+    array, meta = read_array(stem, [name for field in fields for name, _, _ in columns[field]])
+    ends = np.cumsum([len(columns[field]) for field in fields])
+    return dict(zip(fields, np.split(array, ends[:-1], axis=1), strict=True)), meta

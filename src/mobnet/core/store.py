@@ -1,4 +1,4 @@
-"""Writing and reading arrays and recordings; nothing else does so.
+"""Writing and reading arrays; nothing else does so.
 
 An array is two files: `NAME.parquet`, float32, one row for each sample, with unit and frame of each column, and
 `NAME.json` with its columns, row count, segments and provenance. The JSON file is written last, so an array that has
@@ -18,11 +18,9 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from mobnet.core.columns import Column, recording_columns
+from mobnet.core.columns import Column
 from mobnet.core.errors import DataError
 from mobnet.core.files import atomic_path, read_json, write_json
-from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording, Sensed, SensedRecording, Truth
 
 ARRAY, NOTE = ".parquet", ".json"
 # Note 0010 has the measurements behind these numbers.
@@ -68,7 +66,7 @@ class ArrayWriter:
             if self.rows % GROUP_ROWS == 0:
                 self._store(GROUP_ROWS)
 
-    def close(self, meta: Mapping[str, Any], segments: Sequence[tuple[int, int]] | None = None) -> None:
+    def close(self, meta: Mapping[str, object], segments: Sequence[tuple[int, int]] | None = None) -> None:
         """Describe the rows, of which no more follow; the files appear when the writer's block ends.
 
         Args:
@@ -126,7 +124,7 @@ def write_array(
     stem: Path,
     array: NDArray[Any],
     columns: Sequence[Column],
-    meta: Mapping[str, Any],
+    meta: Mapping[str, object],
     segments: Sequence[tuple[int, int]] | None = None,
 ) -> None:
     """Write `stem.parquet` (float32) and then `stem.json`.
@@ -216,49 +214,6 @@ def check_finite(name: str, rows: NDArray[Any], names: Sequence[str], first: int
         raise DataError(
             f"{name}: column {names[column]!r}, row {first + row}: {rows[row, column]} (accepted: finite numbers)"
         )
-
-
-def write_recording(stem: Path, recording: Recording, layout: JointLayout) -> None:
-    """Write a recording as one array of all fields, (T, C)."""
-    columns = recording_columns(layout)
-    fields = {**vars(recording.sensed), **vars(recording.truth)}
-    parts = [fields[name] for name in columns]
-    flat = [column for group in columns.values() for column in group]
-    meta = {"rate_hz": recording.rate_hz, **recording.meta}
-    write_array(stem, np.concatenate(parts, axis=1), flat, meta, recording.segments)
-
-
-def read_sensed(stem: Path, layout: JointLayout) -> SensedRecording:
-    """Read the sensed signals of a recording, float32, and not its truth: an estimator gets no more.
-
-    Columns are found by name, so a robot's log may have others too and in any order.
-
-    Raises:
-        DataError: a file is missing or damaged, or a column is missing.
-    """
-    values, meta = _read_fields(stem, layout, list(Sensed.__dataclass_fields__))
-    return SensedRecording(Sensed(**values), *spans_and_rate(meta), meta)
-
-
-def read_recording(stem: Path, layout: JointLayout) -> Recording:
-    """Read a recording, sensed and truth, float32; columns are found by name.
-
-    Raises:
-        DataError: a file is missing or damaged, or a column is missing.
-    """
-    values, meta = _read_fields(stem, layout, [*Sensed.__dataclass_fields__, *Truth.__dataclass_fields__])
-    sensed, truth = ({name: values[name] for name in part.__dataclass_fields__} for part in (Sensed, Truth))
-    return Recording(Sensed(**sensed), *spans_and_rate(meta), meta, Truth(**truth))
-
-
-def _read_fields(
-    stem: Path, layout: JointLayout, fields: Sequence[str]
-) -> tuple[dict[str, NDArray[np.float32]], dict[str, Any]]:
-    """Return fields of a recording, each (T, C) and a view of one array, and the file's description."""
-    columns = recording_columns(layout)
-    array, meta = read_array(stem, [name for field in fields for name, _, _ in columns[field]])
-    ends = np.cumsum([len(columns[field]) for field in fields])
-    return dict(zip(fields, np.split(array, ends[:-1], axis=1), strict=True)), meta
 
 
 def spans_and_rate(meta: Mapping[str, Any]) -> tuple[tuple[tuple[int, int], ...], float]:

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from mobnet.core.columns import EXTERNAL, STD, Column, torque_columns
 from mobnet.core.estimator import Estimate, Estimator
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import SensedRecording
-from mobnet.core.store import read_sensed, write_array
+from mobnet.core.recording import SensedRecording, read_sensed
+from mobnet.core.store import write_array
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.observe import CARRIED
 from mobnet.estimation.recipe import Recipe

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.columns import residual_columns
-from mobnet.core.recording import Recording
-from mobnet.core.store import read_recording, write_array
+from mobnet.core.recording import Recording, read_recording
+from mobnet.core.store import write_array
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observer import MomentumObserver, TorqueKind
 from mobnet.robot.description import RobotDescription, describe

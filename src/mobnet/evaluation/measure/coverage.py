@@ -20,7 +20,7 @@ from scipy.spatial import cKDTree
 from mobnet.core.columns import DESIRED, FEET, VELOCITY
 from mobnet.core.config import load_layout
 from mobnet.core.joints import JointLayout
-from mobnet.core.store import read_sensed
+from mobnet.core.recording import read_sensed
 from mobnet.evaluation.measure.gait import foot_of
 from mobnet.evaluation.measure.windows import FLAG, Pushed, blocks_of, evenly, pushed_of
 from mobnet.evaluation.number.intervals import summarise
