@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, TypeVar, get_type_hints
 
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.core.files import write_text
+from mobnet.core.files import read_text, write_text
 from mobnet.evaluation.number.number import Number
 
 Row = TypeVar("Row")
@@ -41,7 +41,7 @@ def read_rows(path: Path, kind: type[Row]) -> list[Row]:
     hints = get_type_hints(kind)
     return [
         kind(**{name: _parse(row[name], hint, f"{path}:{line}: {name}") for name, hint in hints.items()})
-        for line, row in enumerate(_dicts(path, list(hints)), start=2)
+        for line, row in enumerate(read_texts(path, list(hints)), start=2)
     ]
 
 
@@ -53,19 +53,23 @@ def read_numbers(path: Path) -> list[tuple[dict[str, str], Number]]:
     """
     names = ("value", "low", "high", "published")
     found: list[tuple[dict[str, str], Number]] = []
-    for line, row in enumerate(_dicts(path, [*names, "unit"]), start=2):
+    for line, row in enumerate(read_texts(path, [*names, "unit"]), start=2):
         numbers = {name: _parse(row[name], float | None, f"{path}:{line}: {name}") for name in names}
         found.append((row, Number(**numbers, unit=row["unit"])))
     return found
 
 
-def _dicts(path: Path, needed: Sequence[str]) -> list[dict[str, str]]:
-    """Return the rows of a CSV file as mappings from column to text."""
-    try:
-        text = path.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise DataError(f"{path}: file is missing") from None
-    reader = csv.DictReader(io.StringIO(text))
+def read_texts(path: Path, needed: Sequence[str] = ()) -> list[dict[str, str]]:
+    """Read the rows of a CSV file as mappings from column to text.
+
+    Args:
+        path: the file.
+        needed: columns that it must have.
+
+    Raises:
+        DataError: the file or a column is missing.
+    """
+    reader = csv.DictReader(io.StringIO(read_text(path)))
     held = reader.fieldnames or ()
     missing = [name for name in needed if name not in held]
     if missing:

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import argparse
-import csv
 import logging
 import shutil
 import sys
@@ -14,8 +13,9 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from mobnet.core.errors import DataError, MobnetError
-from mobnet.core.files import atomic_path, write_json, write_text
+from mobnet.core.files import atomic_path, read_text, write_json, write_text
 from mobnet.core.provenance import provenance
+from mobnet.evaluation.number.files import read_texts
 from mobnet.evaluation.report.manifest import damaged_files
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
@@ -109,8 +109,7 @@ def cell_differences(old: Mapping[str, str], new: Mapping[str, str]) -> Iterator
 
 def read_keyed(path: Path) -> Rows:
     """Read a tidy CSV as (values of the naming columns) -> row."""
-    with path.open(newline="", encoding="utf-8") as file:
-        return {tuple(row[key] for key in KEYS if key in row): row for row in csv.DictReader(file)}
+    return {tuple(row[key] for key in KEYS if key in row): row for row in read_texts(path)}
 
 
 def main(words: list[str]) -> int:
@@ -123,8 +122,8 @@ def main(words: list[str]) -> int:
     try:
         if options.command == "snapshot":
             write_snapshot(load_settings(), TABLES, FIGURES, COMPUTE, SNAPSHOT)
-            table = (SNAPSHOT / f"{HEADLINE}.md").read_text(encoding="utf-8")
-            write_text(README, with_headline(README.read_text(encoding="utf-8"), table))
+            table = read_text(SNAPSHOT / f"{HEADLINE}.md")
+            write_text(README, with_headline(read_text(README), table))
             return 0
         compares = options.command == "compare"
         found = compare_snapshot(SNAPSHOT, TABLES) if compares else damaged_files(options.manifest)
