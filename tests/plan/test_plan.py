@@ -10,9 +10,9 @@ import pytest
 
 from mobnet.core.errors import ConfigError
 from mobnet.plan.call import Call, call_of, parameters
-from mobnet.plan.needs import NEEDS
+from mobnet.plan.captions import Shown, shown
+from mobnet.plan.needs import needs_of
 from mobnet.plan.plan import Plan, make_plan
-from mobnet.plan.products import FIGURES, TABLES
 from mobnet.plan.runs import SweptSize, files_in
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
@@ -158,8 +158,25 @@ def test_a_push_reruns_the_walks_that_it_comes_in(plan: Plan) -> None:
     assert moved == ["knee_swing"]
 
 
-def test_every_table_and_figure_has_its_needs() -> None:
-    assert set(NEEDS) == {*TABLES, *FIGURES}
+def test_scores_and_runs_follow_from_the_section_of_a_product(plan: Plan) -> None:
+    settings = plan.settings.evaluation
+    figure, rows, panels = settings.figure_06, settings.methods, settings.figure_18
+    assert needs_of(plan.files, "figure_06", figure, ["runs", "seed"]) == {"runs": plan.files.first_runs(figure)}
+    for name, section, tests in (
+        ("figure_06", figure, [figure.scenario]), ("methods", rows, [row.scenario for row in rows]),
+        ("figure_18", panels, panels.panels),
+    ):  # fmt: skip
+        assert needs_of(plan.files, name, section, ["scores"]) == {"scores": plan.files.scores(tests)}
+    with pytest.raises(ConfigError, match=r"bins: its section lacks .*'scenario'"):
+        needs_of(plan.files, "bins", settings.steps, ["runs"])
+
+
+def test_a_caption_is_optional() -> None:
+    assert shown("figures/figure_07.png") == Shown(
+        "figures", "Figure 7: a load of 30 N on the left hand", Path("workflow/report/figures/figure_07.rst")
+    )
+    assert shown("results/smoke/pages/other.html") == Shown("tables", "other", None)
+    assert shown("tables/table_05.csv") is None
 
 
 def test_a_call_takes_what_the_signature_names() -> None:

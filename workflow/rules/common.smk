@@ -7,6 +7,7 @@ from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
 from mobnet.estimation.methods import check_methods
 from mobnet.evaluation.report.paper import missing_packages
+from mobnet.plan.captions import shown
 from mobnet.plan.plan import make_plan
 from mobnet.settings.load import load_settings
 
@@ -25,7 +26,6 @@ except MobnetError as error:
 config["scale"] = SETTINGS.scale  # the report names it
 RECORDING = "{scenario}", "{level}", "s{seed}"  # place of what belongs to a recording
 LOGS = PLAN.folders.results / "logs"
-SHOWN = {"runs.html": "trainings", "main.pdf": "paper", ".html": "tables", ".png": "figures"}  # kinds of captions
 
 
 wildcard_constraints:
@@ -50,11 +50,9 @@ def array(*place):
 
 
 def flagged(name):
-    """Mark an output for Snakemake: a folder, or a file that the report shows with the caption of its kind."""
-    path, output = Path(name), ensure(name, non_empty=True) if Path(name).suffix else directory(name)
-    kind = SHOWN.get(path.name, SHOWN.get(path.suffix))
-    if kind is None:
+    """Mark an output for Snakemake: a folder, or a file that the report shows with its caption."""
+    output, how = ensure(name, non_empty=True) if Path(name).suffix else directory(name), shown(name)
+    if how is None:
         return output
-    caption = f"report/{kind}/{path.stem}.rst"
-    labels = {"file": path.stem, "shows": (ROOT / "workflow" / caption).read_text(encoding="utf-8").splitlines()[0]}
-    return report(output, caption=f"../{caption}", category=kind.capitalize(), labels=labels)
+    labels = {"file": Path(name).stem, "shows": how.title}
+    return report(output, caption=how.caption and ROOT / how.caption, category=how.heading.capitalize(), labels=labels)

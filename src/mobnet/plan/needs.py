@@ -4,26 +4,68 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
+from typing import Any, cast
 
-from mobnet.plan.runs import Files
+from mobnet.core.errors import ConfigError
+from mobnet.plan.runs import Files, Run
 from mobnet.settings.evaluation import Runs
+from mobnet.settings.names import uses
 
 Needs = Mapping[str, object]
+TESTS = ("test", "test with a window around pushes")  # kinds of names in a section
 
 
-def _scores(files: Files, scenarios: Iterable[str]) -> Needs:
-    """Return the scores of some tests, each once."""
-    return {"scores": files.scores(dict.fromkeys(scenarios))}
+def needs_of(files: Files, name: str, section: Any, parameters: Iterable[str]) -> Needs:
+    """Return what a product is made from: its own entry of `NEEDS`, or what its function's parameters usually mean.
+
+    Args:
+        files: recordings, networks and runs.
+        name: the product.
+        section: its section of the configuration.
+        parameters: names that its function takes.
+
+    Raises:
+        ConfigError: a parameter has its usual meaning, and the section lacks what this needs.
+    """
+    if name in NEEDS:
+        return NEEDS[name](files)
+    try:
+        return {parameter: USUAL[parameter](files, section) for parameter in parameters if parameter in USUAL}
+    except AttributeError as error:
+        raise ConfigError(f"{name}: its section lacks what a function of it asks for: {error}") from None
 
 
-def _recordings(files: Files, *names: str) -> Needs:
-    """Return the recordings of training sets."""
-    return {"sets": {name: files.training("recordings", name) for name in names}}
+def _scores(files: Files, section: Any) -> Mapping[str, Path]:
+    """Return the scores of the tests that a section, or a tuple of them, names."""
+    parts = cast("tuple[Any, ...]", section if isinstance(section, tuple) else (section,))
+    named = [test for part in parts for _, kind, test in uses(part, type(part)) if kind in TESTS]
+    return files.scores(dict.fromkeys(named))
 
 
-def _residuals(files: Files, *names: str) -> Needs:
-    """Return the residuals of training sets."""
-    return {"sets": {name: files.training("residuals", name) for name in dict.fromkeys(names)}}
+def _runs(files: Files, section: Any) -> tuple[Run, ...]:
+    """Return the first run of each method of a section."""
+    return files.first_runs(section)
+
+
+def _folders(files: Files, section: Any) -> tuple[Path, ...]:
+    """Return the trained networks of a section's methods and limb."""
+    return files.network_folders(section.methods, section.limb)
+
+
+def _sets(files: Files, section: Any) -> Mapping[str, tuple[Path, ...]]:
+    """Return the recordings of every training set."""
+    return {name: files.training("recordings", name) for name in files.settings.training_sets}
+
+
+def _steps(files: Files) -> Needs:
+    """Return the recordings of random walking."""
+    return {"sets": {"walk": files.training("recordings", "walk")}}
+
+
+def _uncertainty(files: Files) -> Needs:
+    """Return the residuals of the training sets that networks learn from."""
+    names = dict.fromkeys(row.data for row in files.settings.networks.values())
+    return {"sets": {name: files.training("residuals", name) for name in names}}
 
 
 def _coverage(files: Files) -> Needs:
@@ -36,22 +78,17 @@ def _coverage(files: Files) -> Needs:
     }
 
 
-def _kinds(files: Files) -> tuple[Path, ...]:
-    """Return the trained networks of Figure 17."""
-    figure = files.settings.evaluation.figure_17
-    return files.network_folders(figure.methods, figure.limb)
-
-
-def _kinds_and_variants(files: Files) -> tuple[Path, ...]:
+def _kinds(files: Files) -> Needs:
     """Return the trained networks of Figure 17 and of its variants."""
     figure, variants = files.settings.evaluation.figure_17, files.settings.evaluation.kinds.variants
-    return files.network_folders((*figure.methods, *variants), figure.limb)
+    return {"folders": files.network_folders((*figure.methods, *variants), figure.limb)}
 
 
 def _claims(files: Files) -> Needs:
     """Return the scores of every test, and the trainings of the kinds and sizes of the left leg's networks."""
+    kinds = _folders(files, files.settings.evaluation.figure_17)
     sizes = [folder for size in files.swept_sizes() for folder in size.folders]
-    return {**_scores(files, files.settings.tests), "folders": tuple(dict.fromkeys([*_kinds(files), *sizes]))}
+    return {"scores": files.scores(files.settings.tests), "folders": tuple(dict.fromkeys([*kinds, *sizes]))}
 
 
 def _calibration(files: Files) -> Needs:
@@ -70,42 +107,28 @@ def _figure_05(files: Files) -> Needs:
     return {"runs": tuple(run for panel in panels for run in files.first_runs(panel))}
 
 
-def _figure_06(files: Files) -> Needs:
-    """Return the first runs and the scores of Figure 6."""
-    figure = files.settings.evaluation.figure_06
-    return {"runs": files.first_runs(figure), **_scores(files, [figure.scenario])}
-
-
 def _figure_10(files: Files) -> Needs:
     """Return the first runs of each panel and the scores of Figure 10."""
     figure = files.settings.evaluation.figure_10
-    tests = (*figure.tests.values(), figure.against)
     runs = {title: files.first_runs(test) for title, test in figure.tests.items()}
-    return {"runs": runs, **_scores(files, [test.scenario for test in tests])}
+    return {"runs": runs, "scores": _scores(files, figure)}
 
 
-NEEDS: Mapping[str, Callable[[Files], Needs]] = {
-    "table_01": lambda files: {},
+USUAL: Mapping[str, Callable[[Files, Any], object]] = {  # parameter -> what it gets
+    "scores": _scores,
+    "runs": _runs,
+    "folders": _folders,
+    "sets": _sets,
+}
+NEEDS: Mapping[str, Callable[[Files], Needs]] = {  # products that need something else
     "claims": _claims,
-    "data": lambda files: _recordings(files, *files.settings.training_sets),
-    "commands": lambda files: _recordings(files, *files.settings.training_sets),
-    "steps": lambda files: _recordings(files, "walk"),
+    "steps": _steps,
     "coverage": _coverage,
-    "uncertainty": lambda files: _residuals(files, *(row.data for row in files.settings.networks.values())),
-    "kinds": lambda files: {"folders": _kinds_and_variants(files)},
-    "methods": lambda files: _scores(files, [row.scenario for row in files.settings.evaluation.methods]),
+    "uncertainty": _uncertainty,
+    "kinds": _kinds,
     "calibration": _calibration,
-    "error_budget": lambda files: _scores(
-        files, [row.scenario for row in files.settings.evaluation.error_budget.tests]
-    ),
     "figure_05": _figure_05,
-    "figure_06": _figure_06,
-    "figure_07": lambda files: {"runs": files.first_runs(files.settings.evaluation.figure_07)},
-    "figure_08": lambda files: {"runs": files.first_runs(files.settings.evaluation.figure_08)},
-    "figure_09": lambda files: {"runs": files.first_runs(files.settings.evaluation.figure_09)},
     "figure_10": _figure_10,
-    "figure_17": lambda files: {"folders": _kinds(files)},
-    "figure_18": lambda files: _scores(files, files.settings.evaluation.figure_18.panels),
     "figure_19": _coverage,
     "figure_20": lambda files: {"sizes_of_networks": files.swept_sizes()},
 }

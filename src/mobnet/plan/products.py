@@ -7,30 +7,17 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from mobnet.plan.call import Job, call_of
-from mobnet.plan.needs import NEEDS
+from mobnet.core.code import start_of
+from mobnet.plan.call import Job, call_of, parameters
+from mobnet.plan.captions import shown
+from mobnet.plan.needs import needs_of
 from mobnet.plan.runs import ARRAY, COURSE, WEIGHTS, Files, files_in
+from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.settings import Settings
 
 EVALUATION = "mobnet.evaluation"
 TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their rules: the code hash reads Python only
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "png", "csv")  # endings of a table's and of a figure's files
-TABLES = (
-    "table_01",
-    "claims",
-    "data",
-    "steps",
-    "coverage",
-    "uncertainty",
-    "kinds",
-    "methods",
-    "calibration",
-    "error_budget",
-)
-FIGURES = (
-    "figure_05", "figure_06", "figure_07", "figure_08", "figure_09", "figure_10",
-    "figure_17", "figure_18", "figure_19", "figure_20", "commands", "calibration",
-)  # fmt: skip
 BARS = ("figure_06", "figure_10")  # figures whose bars have a CSV of their own
 
 
@@ -87,13 +74,17 @@ class Products:
     @property
     def table_names(self) -> list[str]:
         """Names of all tables."""
-        return ["table_01", *self.settings.evaluation.tables, *TABLES[1:]]
+        return [*self.settings.evaluation.tables, *_made_in("tables")]
+
+    @property
+    def figure_names(self) -> list[str]:
+        """Names of all figures."""
+        return _made_in("figures")
 
     def all(self) -> list[Product]:
         """Return every product, each after those that it needs."""
-        shown = [*self._tables(), *self._figures()]
-        texts = list(self._texts())
-        return [*shown, *texts, *self._report([*shown, *texts])]
+        made = [*self._tables_and_figures(), *self._texts()]
+        return [*made, *self._report(made)]
 
     def stored(self) -> list[str]:
         """Return every file that products are made from, also those that could be made again."""
@@ -109,23 +100,19 @@ class Products:
         fits = dict.fromkeys(str(path) for run in runs for path in self.files.fit(run.method))
         return [*pairs, *trained, *fits, *map(str, self.files.scores(scenarios).values())]
 
-    def _tables(self) -> Iterator[Product]:
-        """Yield all tables."""
-        for name in self.table_names:
-            outputs = [self.folders.tables / f"{name}.{ending}" for ending in TABLE]
-            if name in self.settings.evaluation.tables:
-                yield self._product(name, f"{EVALUATION}.tables.errors:errors", self._needs(name), outputs)
-            elif name != "calibration":
-                yield self._product(name, f"{EVALUATION}.tables.{name}:{name}", self._needs(name), outputs)
-
-    def _figures(self) -> Iterator[Product]:
-        """Yield all figures."""
-        for name in FIGURES:
-            outputs = [self.folders.figures / f"{name}.{ending}" for ending in FIGURE]
+    def _tables_and_figures(self) -> Iterator[Product]:
+        """Yield all tables and figures."""
+        tables, figures = self.table_names, self.figure_names
+        for name in dict.fromkeys([*tables, *figures]):
+            outputs = [self.folders.figures / f"{name}.{ending}" for ending in FIGURE if name in figures]
             outputs += [self.folders.figures / f"{name}_bars.csv"] if name in BARS else []
-            outputs += [self.folders.tables / f"{name}.{ending}" for ending in TABLE] if name == "calibration" else []
-            floor = "report" if name == "calibration" else "figures"  # its table is made with it
-            yield self._product(name, f"{EVALUATION}.{floor}.{name}:{name}", self._needs(name), outputs)
+            outputs += [self.folders.tables / f"{name}.{ending}" for ending in TABLE if name in tables]
+            floor = "tables" if name not in figures else "figures" if name not in tables else "report"
+            is_entry = name in self.settings.evaluation.tables
+            function = f"{EVALUATION}.tables.errors:errors" if is_entry else f"{EVALUATION}.{floor}.{name}:{name}"
+            asked = [parameter for some in parameters(function) for parameter in some]
+            needs = needs_of(self.files, name, self._own(name).get("settings"), asked)
+            yield self._product(name, function, needs, outputs)
 
     def _texts(self) -> Iterator[Product]:
         """Yield the numbers and tables that the paper's text takes, and the pages of trainings."""
@@ -152,16 +139,16 @@ class Products:
         yield self._report_product("compute", accounts, compute)
         texts = [tables / f"{name}.tex" for name in (*self.table_names, "numbers", "deviations")] + [compute[1]]
         sources = {"main": Path("paper/main.tex"), "references": Path("paper/refs.bib"), "tables": texts}
-        figures = [self.folders.figures / f"{name}.pdf" for name in FIGURES]
+        figures = [self.folders.figures / f"{name}.pdf" for name in self.figure_names]
         built = [paper / "build.json", *([paper / "main.pdf"] if self.with_pdf else [])]
         yield self._report_product("paper", {**sources, "figures": figures}, built)
-        shown = [*(tables / f"{name}.md" for name in self.table_names), results / "compute.md"]
-        captions = [Path(f"workflow/report/tables/{path.stem}.rst") for path in shown]
-        pages = [results / "pages" / f"{path.stem}.html" for path in shown]
-        needs = {"tables": shown, "captions": captions, "template": TEMPLATES / "table.html"}
+        listed = [*(tables / f"{name}.md" for name in self.table_names), results / "compute.md"]
+        pages = [results / "pages" / f"{path.stem}.html" for path in listed]
+        captions = [found.caption for page in pages if (found := shown(str(page)))]
+        needs = {"tables": listed, "captions": captions, "template": TEMPLATES / "table.html"}
         yield self._report_product("pages", needs, pages)
-        listed = [*map(Path, self.stored()), *outputs, *compute, *built, *pages]
-        yield self._report_product("manifest", {"files": listed}, [self.folders.manifest])
+        results_of_all = [*map(Path, self.stored()), *outputs, *compute, *built, *pages]
+        yield self._report_product("manifest", {"files": results_of_all}, [self.folders.manifest])
 
     def _report_product(self, name: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:
         """Return a product of the module of its name in `report`."""
@@ -194,9 +181,8 @@ class Products:
         own = {"name": name, "settings": section, "published": printed}
         return {key: value for key, value in own.items() if value is not None}
 
-    def _needs(self, name: str) -> Mapping[str, object]:
-        """Return scores, runs, recordings or trainings behind a table or a figure."""
-        table = self.settings.evaluation.tables.get(name)
-        if table is None:
-            return NEEDS[name](self.files)
-        return {"scores": self.files.scores(dict.fromkeys(row.scenario for row in table.rows))}
+
+def _made_in(floor: str) -> list[str]:
+    """Return the sections of the configuration that have a module of their name in a folder of `evaluation`."""
+    modules = {path.stem for path in start_of(f"{EVALUATION}.{floor}").parent.glob("*.py")}
+    return [name for name in ("claims", *Evaluation.model_fields) if name in modules]

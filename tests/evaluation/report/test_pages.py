@@ -42,6 +42,8 @@ def test_every_table_gets_its_page_and_one_without_a_caption_is_named(tmp_path: 
     pages(tables, captions, TEMPLATE, out)
     for name in names:
         assert f"<h1>title of {name}</h1>" in (out.parent / f"{name}.html").read_text()
+    pages(tables, [None, captions[1]], TEMPLATE, out)
+    assert "<h1>one</h1>" in out.read_text()
     captions[1].unlink()
     with pytest.raises(DataError, match=r"two\.rst: file is missing"):
         pages(tables, captions, TEMPLATE, out)

@@ -14,7 +14,7 @@ from mobnet.evaluation.report.numbers import numbers
 from mobnet.evaluation.report.paper import PACKAGES, PaperError, copy_sources, missing_packages, paper
 from mobnet.evaluation.tables.claims import CAPTION
 from mobnet.evaluation.tables.layout import long_table, text_table
-from mobnet.plan.products import FIGURES, Folders, Products
+from mobnet.plan.products import Folders, Products
 from mobnet.plan.runs import Files
 from mobnet.settings.data import Recordings
 from mobnet.settings.settings import Settings
@@ -89,7 +89,7 @@ def test_the_paper_itself_builds_from_the_golden_tables(tmp_path: Path, claims_c
     for name in products.table_names:
         write_tex(golden / f"{name}.csv", tmp_path / f"{name}.tex")
     tables = [tmp_path / f"{name}.tex" for name in (*products.table_names, "numbers", "deviations", "compute")]
-    figures = [tmp_path / f"{name}.pdf" for name in FIGURES]
+    figures = [tmp_path / f"{name}.pdf" for name in products.figure_names]
     for path in figures:
         Figure().savefig(path)
     main, references = REPO / "paper/main.tex", REPO / "paper/refs.bib"

@@ -17,12 +17,12 @@ log = logging.getLogger(__name__)
 WARNING = 2  # docutils stops at a fault of this level
 
 
-def pages(tables: Sequence[Path], captions: Sequence[Path], template: Path, out: Path) -> None:
+def pages(tables: Sequence[Path], captions: Sequence[Path | None], template: Path, out: Path) -> None:
     """Write a page for each table, beside the first one.
 
     Args:
         tables: Markdown files.
-        captions: the caption of each table (reStructuredText), its title in the first line.
+        captions: the caption of each table (reStructuredText), its title in the first line; None: the table's name.
         template: HTML with the places of title, text and table.
         out: page of the first table.
 
@@ -30,7 +30,8 @@ def pages(tables: Sequence[Path], captions: Sequence[Path], template: Path, out:
         DataError: a table or its caption is missing.
     """
     for table, caption in zip(tables, captions, strict=True):
-        write_text(out.parent / f"{table.stem}.html", table_page(template, read_text(table), read_text(caption)))
+        text = read_text(caption) if caption else table.stem
+        write_text(out.parent / f"{table.stem}.html", table_page(template, read_text(table), text))
     log.info("%s: %d pages", out.parent, len(tables))
 
 

@@ -1,0 +1,36 @@
+"""How the report shows a file: its heading, its title and its caption."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+CAPTIONS = Path("workflow/report")
+HEADINGS = {"runs.html": "trainings", "main.pdf": "paper", ".html": "tables", ".png": "figures"}
+
+
+@dataclass(frozen=True)
+class Shown:
+    """How the report shows a file.
+
+    Attributes:
+        heading: kind of the file, and folder of its caption.
+        title: first line of its caption, or its own name.
+        caption: reStructuredText file; None where there is none.
+    """
+
+    heading: str
+    title: str
+    caption: Path | None
+
+
+def shown(file: str) -> Shown | None:
+    """Return how the report shows a file; None if it does not."""
+    path = Path(file)
+    heading = HEADINGS.get(path.name, HEADINGS.get(path.suffix))
+    if heading is None:
+        return None
+    caption = CAPTIONS / heading / f"{path.stem}.rst"
+    if not caption.is_file():
+        return Shown(heading, path.stem, None)
+    return Shown(heading, caption.read_text(encoding="utf-8").splitlines()[0], caption)
