@@ -29,8 +29,9 @@ NAME = "MOB-quiet"
 
 
 def example(language: str) -> str:
-    """Return the guide's only block of a language."""
-    (block,) = re.findall(rf"^ *```{language}\n(.*?)^ *```$", (ROOT / "CONTRIBUTING.md").read_text(), re.DOTALL | re.M)
+    """Return the only block of a language on the guide's page of methods."""
+    page = (ROOT / "CONTRIBUTING.md").read_text().split("\n## Add a method")[1].split("\n## ")[0]
+    (block,) = re.findall(rf"^ *```{language}\n(.*?)^ *```$", page, re.DOTALL | re.M)
     return textwrap.dedent(block)
 
 
