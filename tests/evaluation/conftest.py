@@ -19,6 +19,9 @@ from mobnet.core.recording import Recording, Sensed, Truth, write_recording
 from mobnet.core.store import write_array
 from mobnet.evaluation.measure.results import listed
 from mobnet.evaluation.number.claim import Claim
+from mobnet.plan.runs import Run
+from mobnet.settings.evaluation import CalibrationTest, Evaluation
+from mobnet.settings.settings import Settings
 
 REPO = Path(__file__).parents[2]
 CONFIGURED = yaml.safe_load((REPO / "configs/config.yaml").read_text())["evaluation"]
@@ -36,6 +39,26 @@ OFF = {"all_uncertainty": 1.0, "exact_model": 0.8, "no_friction": 0.5, "no_load_
 def rng() -> np.random.Generator:
     """Random numbers, the same in every run."""
     return np.random.default_rng(5)
+
+
+@pytest.fixture(scope="session")
+def evaluation(settings: Settings) -> Evaluation:
+    """Tables and figures of made-up runs: few draws, since only the plumbing counts, joints and times that they have."""
+    whole, methods = settings.evaluation, {"methods": ("MOB", "MOB-Net")}
+    collisions = {title: test.model_copy(update=methods) for title, test in whole.figure_10.tests.items()}
+    changes: dict[str, dict[str, Any]] = {
+        "statistics": {"bootstrap_draws": 200},
+        "figure_06": methods,
+        "figure_07": {"joints": ("W2", "V3"), "start_s": 0.5, "end_s": 1.0, "every": 5},
+        "figure_10": {"tests": collisions, "against": whole.figure_10.against.model_copy(update=methods)},
+        "figure_18": {"limbs": ("W", "RA"), "methods": ("MOB-Net", "MOB-Net-Single")},
+        "figure_19": {"joints": ("LL2", "LL3"), "dots": 12, "test_dots": 8},
+        "coverage": {"samples": 400, "every": 2, "cells": 10, "tests": whole.coverage.tests[:1]},
+        "calibration": {"points": 9, "methods": ("MOB-Net",)},
+        "commands": {"bins": 5},
+    }
+    sections = {name: getattr(whole, name).model_copy(update=own) for name, own in changes.items()}
+    return whole.model_copy(update=sections)
 
 
 @pytest.fixture
@@ -240,13 +263,13 @@ def write_budget_scores(tmp_path: Path, layout: JointLayout) -> Callable[..., Pa
 
 
 @pytest.fixture
-def write_training(tmp_path: Path) -> Callable[..., str]:
+def write_training(tmp_path: Path) -> Callable[..., Path]:
     """Write a made-up training: write_training(method, seed=0, loss=-4.0, epochs=3, **changes of run.json) -> folder.
 
     Its validation loss falls by one an epoch to `loss` at the last but one, and ends half above it.
     """
 
-    def write(method: str, seed: int = 0, loss: float = -4.0, epochs: int = 3, **changes: Any) -> str:
+    def write(method: str, seed: int = 0, loss: float = -4.0, epochs: int = 3, **changes: Any) -> Path:
         folder = tmp_path / f"{method}-LL-s{seed}"
         course = [loss + epochs - 2 - k for k in range(epochs - 1)] + [loss + 0.5] * (epochs > 0)
         epochs_done = [Epoch(k + 1, x - 0.25, x, 10.0 + x, 0.005, 1.5) for k, x in enumerate(course)]
@@ -254,7 +277,7 @@ def write_training(tmp_path: Path) -> Callable[..., str]:
         note = {"method": method, "seed": seed, "parameters": 83712, "samples": 1620000, "seconds": 100.0 + seed}
         note["on_windows"] = {"loss": loss + 0.125}
         write_json(folder / "run.json", note | changes)
-        return str(folder)
+        return folder
 
     return write
 
@@ -279,13 +302,13 @@ def claimed_scores(layout: JointLayout, claims: list[Claim], means: dict[str, fl
 
 
 @pytest.fixture
-def write_results(tmp_path: Path, layout: JointLayout, write_training: Callable[..., str]) -> Callable[..., Any]:
+def write_results(tmp_path: Path, layout: JointLayout, write_training: Callable[..., Path]) -> Callable[..., Any]:
     """Write what claims name: write_results(claims, means, pushes=True) -> files of scores, folders of trainings.
 
     Losses rise from method to method in the order in which claims name them.
     """
 
-    def write(claims: list[Claim], means: dict[str, float], pushes: bool = True) -> tuple[list[Path], list[str]]:
+    def write(claims: list[Claim], means: dict[str, float], pushes: bool = True) -> tuple[list[Path], list[Path]]:
         write_rows(tmp_path / "claimed.csv", claimed_scores(layout, claims, means, pushes))
         named = [cell["method"] for claim in claims for cell in claim.cells if "joint" not in cell]
         losses = {method: -4.0 + 0.1 * k for k, method in enumerate(dict.fromkeys(named))}
@@ -343,17 +366,17 @@ def write_walk(
     joints: list[str],
     std: float | None,
     calm: bool,
-) -> dict[str, Any]:
-    """Write recording, residual and estimate of a made-up walk that is pushed in every swing, and return its entry.
+) -> Run:
+    """Write recording, residual and estimate of a made-up walk that is pushed in every swing.
 
     Args:
         folder: gets the files.
         layout: joints.
         error: constant error of the estimate of every joint [N m]; the residual's is 5.
         steps: gait cycles.
-        method: name in the entry.
+        method: of the run.
         joints: names in the estimate.
-        std: standard deviation that the estimate tells [N m]; None: none.
+        std: standard deviation that the estimate has [N m]; None: none.
         calm: whether nothing pushes.
     """
     rows = 2 * STEP_ROWS * steps
@@ -376,13 +399,18 @@ def write_walk(
         columns += [(f"std.{joint}", layout.unit(joint), "joint") for joint in joints]
         estimate = np.concatenate([estimate, np.full(estimate.shape, std)], axis=1)
     write_array(folder / "estimate", estimate, columns, {"rate_hz": RATE_HZ})
-    stems = {name: folder / name for name in ("recording", "residual", "estimate")}
-    return {"level": "all_uncertainty", "method": method, "network_seed": 0, "test_seed": 1, **stems}
+    return run_of(folder, method)
+
+
+def run_of(folder: Path, method: str) -> Run:
+    """Return the run of a method whose files stand in a folder."""
+    stems = (folder / name for name in ("recording", "residual", "estimate"))
+    return Run("forward_walk", "all_uncertainty", method, 0, 1, *stems)
 
 
 @pytest.fixture
-def walk(tmp_path: Path, layout: JointLayout) -> Callable[..., dict[str, Any]]:
-    """Write a made-up walk: walk(error, steps=4, method="MOB-Net", joints=JOINTS, std=None, calm=False) -> entry."""
+def walk(tmp_path: Path, layout: JointLayout) -> Callable[..., Run]:
+    """Write a made-up walk: walk(error, steps=4, method="MOB-Net", joints=JOINTS, std=None, calm=False) -> its run."""
 
     def write(
         error: float,
@@ -391,14 +419,14 @@ def walk(tmp_path: Path, layout: JointLayout) -> Callable[..., dict[str, Any]]:
         joints: list[str] = JOINTS,
         std: float | None = None,
         calm: bool = False,
-    ) -> dict[str, Any]:
+    ) -> Run:
         folder = tmp_path / f"{method}-{error}-{steps}-{joints[0]}-{std}-{calm}"
         return write_walk(folder, layout, error, steps, method, joints, std, calm)
 
     return write
 
 
-def write_steps(stem: Path, layout: JointLayout, seed: int, size: float = 1.0, stands: bool = False) -> str:
+def write_steps(stem: Path, layout: JointLayout, seed: int, size: float = 1.0, stands: bool = False) -> Path:
     """Write a recording of 20 s of random steps and motion, and its residual beside it; return the recording's stem.
 
     Args:
@@ -430,17 +458,17 @@ def write_steps(stem: Path, layout: JointLayout, seed: int, size: float = 1.0, s
     ]
     residual = np.concatenate([size * 20.0 * rng.normal(size=v.shape), truth.tau_ext], axis=1)
     write_array(stem.with_name(f"{stem.name}_residual"), residual, columns, {"rate_hz": RATE_HZ}, spans)
-    return str(stem)
+    return stem
 
 
-def write_told(folder: Path, layout: JointLayout, seed: int, scale: float | None) -> dict[str, Path]:
-    """Write an estimate of the left leg whose errors have the spread that it names, ten times that around pushes.
+def write_predicted(folder: Path, layout: JointLayout, seed: int, scale: float | None) -> Run:
+    """Write an estimate of the left leg whose errors have the spread that it predicts, ten times that around pushes.
 
     Args:
-        folder: gets recording (what tells pushes only), residual and estimate.
+        folder: gets recording (only the columns that show pushes), residual and estimate.
         layout: joints.
         seed: of the errors.
-        scale: factor that is in the standard deviations and told of them; None: not told.
+        scale: factor that is noted beside the standard deviations; None: not noted.
     """
     rng, rows = np.random.default_rng(seed), 2000
     air = (np.arange(rows) % (2 * STEP_ROWS) < STEP_ROWS).astype(float)
@@ -457,26 +485,24 @@ def write_told(folder: Path, layout: JointLayout, seed: int, scale: float | None
     meta = {"rate_hz": RATE_HZ} | ({} if scale is None else {"std_scale": dict.fromkeys(JOINTS, scale)})
     estimate = np.concatenate([truth[:, layout.columns(JOINTS)] + error, std], axis=1)
     write_array(folder / "estimate", estimate, columns, meta)
-    return {name: folder / name for name in ("recording", "residual", "estimate")}
+    return run_of(folder, "MOB-Net")
 
 
 @pytest.fixture
-def told(tmp_path: Path, layout: JointLayout) -> Callable[..., dict[str, Any]]:
-    """Write a run that tells its own spread: told(seed, scale=1.0, pushed=None, scenario="walk_test") -> test."""
+def predicted(tmp_path: Path, layout: JointLayout) -> Callable[..., tuple[CalibrationTest, list[Run]]]:
+    """Write a run that predicts its own spread: predicted(seed, scale=1.0, pushed=None) -> test, runs."""
 
-    def write(
-        seed: int, scale: float | None = 1.0, pushed: str | None = None, scenario: str = "walk_test"
-    ) -> dict[str, Any]:
-        stems = write_told(tmp_path / f"told{seed}-{pushed}", layout, seed, scale)
-        run = {"method": "MOB-Net", "network_seed": 0, "test_seed": 1, **stems}
-        test = {"scenario": scenario, "level": "all_uncertainty", "limbs": ["LL"], "runs": [run]}
-        return test | ({"pushed": pushed} if pushed else {})
+    def write(seed: int, scale: float | None = 1.0, pushed: str | None = None) -> tuple[CalibrationTest, list[Run]]:
+        run = write_predicted(tmp_path / f"predicted{seed}-{pushed}", layout, seed, scale)
+        scenario, level = "knee_swing" if pushed else "walk_test", "all_uncertainty"
+        test = CalibrationTest(scenario=scenario, level=level, pushed=pushed, methods=("MOB-Net",), limbs=("LL",))
+        return test, [run]
 
     return write
 
 
 @pytest.fixture(scope="session")
-def data_sets(tmp_path_factory: pytest.TempPathFactory, layout: JointLayout) -> dict[str, list[str]]:
+def data_sets(tmp_path_factory: pytest.TempPathFactory, layout: JointLayout) -> dict[str, list[Path]]:
     """Stems of the made-up recordings of three training sets, two each, and of a test."""
     folder = tmp_path_factory.mktemp("sets")
     sets = {"walk": (1.0, False), "walk_plain": (0.7, False), "motion": (0.5, True), "test": (0.9, False)}

@@ -69,12 +69,13 @@ def _uncertainty(files: Files) -> Needs:
 
 
 def _coverage(files: Files) -> Needs:
-    """Return the training sets with and without random torque exploration, and the tests compared with them."""
+    """Return the training sets with and without random torque exploration, the tests, and what the network sees."""
     sets = {"with RTE": "walk", "without RTE": "walk_plain"}
-    tests = files.settings.evaluation.coverage.tests
+    settings = files.settings.evaluation.coverage
     return {
         "training": {label: files.training("recordings", name) for label, name in sets.items()},
-        "tests": tuple(files.tests(test.scenario, test.level) for test in tests),
+        "tests": tuple(files.tests(test.scenario, test.level) for test in settings.tests),
+        "ports": files.settings.robot.networks[settings.limb],
     }
 
 

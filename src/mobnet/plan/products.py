@@ -174,11 +174,16 @@ class Products:
         }
 
     def _own(self, name: str) -> dict[str, object]:
-        """Return a product's own name, section of the configuration and numbers of the paper."""
+        """Return a product's own name, section of the configuration and numbers of the paper.
+
+        The chosen scale may replace the start of a gait cycle [s] that the section names.
+        """
         evaluation, published = self.settings.evaluation, self.settings.published
         section = evaluation.tables.get(name) or getattr(evaluation, name, None)
         printed = published.tables.get(name) or getattr(published, name, None)
-        own = {"name": name, "settings": section, "published": printed}
+        shortened = self.settings.sizes.figure_start_s
+        start_s = getattr(section, "start_s", None) if shortened is None else shortened
+        own = {"name": name, "settings": section, "published": printed, "start_s": start_s}
         return {key: value for key, value in own.items() if value is not None}
 
 

@@ -11,7 +11,7 @@ from mobnet.core.errors import DataError
 from mobnet.evaluation.figures.figure_17 import curve, figure_17
 from mobnet.evaluation.measure.trainings import read_trainings
 
-Write = Callable[..., str]
+Write = Callable[..., Path]
 
 
 def test_curve_is_the_mean_of_the_runs_within_their_spread(write_training: Write) -> None:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
 
 import pytest
 from csv_files import read_table, write_rows
@@ -13,21 +13,35 @@ from mobnet.core.joints import JointLayout
 from mobnet.evaluation.figures.figure_18 import UPPER_BODY, figure_18, panel_of
 from mobnet.evaluation.number.files import read_rows
 from mobnet.evaluation.number.number import Number
+from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.settings import Settings
 
 MEANS = {"MOB-Net": 2.0, "MOB-Net-Single": 3.0}
 Write = Callable[..., Path]
+Draw = Callable[[dict[str, object], dict[str, Path]], None]
 
 
 @pytest.fixture
-def bars(tmp_path: Path, config: dict[str, Any], write_limb_scores: Write) -> list[Any]:
+def draw(tmp_path: Path, settings: Settings, evaluation: Evaluation) -> Draw:
+    """Return a function of (changes of the section, scores) that writes the figure."""
+
+    def write(changes: dict[str, object], scores: dict[str, Path]) -> None:
+        section = evaluation.figure_18.model_copy(update=changes)
+        figure_18(section, settings.layout, evaluation.statistics, settings.seed, scores, tmp_path / "out")
+
+    return write
+
+
+@pytest.fixture
+def bars(tmp_path: Path, draw: Draw, write_limb_scores: Write) -> list[SimpleNamespace]:
     """The bars of made-up scores; out of distribution all errors are twice as large."""
     scores = {"motion_test": write_limb_scores("motion_test", MEANS)}
     scores["hand_wrench"] = write_limb_scores("hand_wrench", {name: 2 * mean for name, mean in MEANS.items()})
-    figure_18(config, scores, tmp_path)
-    return read_table(tmp_path / "figure_18.csv")
+    draw({}, scores)
+    return read_table(tmp_path / "out/figure_18.csv")
 
 
-def test_every_test_method_limb_and_joint_has_its_bar(bars: list[Any], layout: JointLayout) -> None:
+def test_every_test_method_limb_and_joint_has_its_bar(bars: list[SimpleNamespace], layout: JointLayout) -> None:
     assert len(bars) == len({(bar.scenario, bar.method, bar.limb, bar.joint) for bar in bars})
     assert len(bars) == 2 * 2 * (1 + 1 + len(layout.limb("W")) + 1 + len(layout.limb("RA")))
     for bar in bars:
@@ -38,15 +52,14 @@ def test_every_test_method_limb_and_joint_has_its_bar(bars: list[Any], layout: J
         assert bar.runs == 4
 
 
-def test_limbs_count_by_their_joints(tmp_path: Path, config: dict[str, Any], write_limb_scores: Write) -> None:
+def test_limbs_count_by_their_joints(tmp_path: Path, draw: Draw, write_limb_scores: Write) -> None:
     path = write_limb_scores("motion_test", {"MOB-Net": 1.0}, networks=1)
     rows = read_rows(path, Score)
     waist = [row for row in rows if row.limb == "W"]
     tripled = [Score(**{**vars(row), "value": 3 * row.value}) for row in waist]
     write_rows(path, [row for row in rows if row.limb != "W"] + tripled)
-    config["evaluation"]["figure_18"] |= {"methods": ["MOB-Net"], "panels": {"motion_test": "ID"}}
-    figure_18(config, {"motion_test": path}, tmp_path)
-    found = {(bar.limb, bar.joint): bar.rmse_nm for bar in read_table(tmp_path / "figure_18.csv")}
+    draw({"methods": ("MOB-Net",), "panels": {"motion_test": "ID"}}, {"motion_test": path})
+    found = {(bar.limb, bar.joint): bar.rmse_nm for bar in read_table(tmp_path / "out/figure_18.csv")}
     assert found[UPPER_BODY, "avg"] == pytest.approx((3 * 3.0 + 8 * 1.0) / 11, rel=1e-5)  # six digits stand in the file
     assert found["W", "avg"] == pytest.approx(3.0)
 
@@ -58,8 +71,8 @@ def test_panel_holds_a_group_a_limb_and_a_bar_a_method() -> None:
     assert panel.bars == {method: [Number(2.0)] * 3 for method in MEANS}
 
 
-def test_a_missing_method_is_named(tmp_path: Path, config: dict[str, Any], write_limb_scores: Write) -> None:
+def test_a_missing_method_is_named(tmp_path: Path, draw: Draw, write_limb_scores: Write) -> None:
     scores = {name: write_limb_scores(name, {"MOB-Net": 1.0}) for name in ("motion_test", "hand_wrench")}
     with pytest.raises(DataError, match="MOB-Net-Single"):
-        figure_18(config, scores, tmp_path / "out")
+        draw({}, scores)
     assert not (tmp_path / "out").exists()

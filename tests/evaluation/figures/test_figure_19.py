@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-import csv
+from collections import Counter
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
+from csv_files import read_table
 
 from mobnet.core.errors import DataError
 from mobnet.core.store import read_array
 from mobnet.evaluation.figures.figure_19 import figure_19, read_dots
 from mobnet.evaluation.measure.windows import Pushed
+from mobnet.settings.evaluation import Evaluation
 
-Sets = dict[str, list[str]]
+Sets = dict[str, list[Path]]
 
 
 def test_dots_are_samples_in_the_order_of_time(data_sets: Sets) -> None:
-    stems = list(map(Path, data_sets["walk"]))
+    stems = data_sets["walk"]
     dots = read_dots(stems, ["LL3", "LL4"], 100)
     whole = np.concatenate([read_array(stem, ["v.LL3", "tau_des.LL3", "v.LL4", "tau_des.LL4"])[0] for stem in stems])
     assert dots.shape == (100, 2, 2)
@@ -26,23 +27,18 @@ def test_dots_are_samples_in_the_order_of_time(data_sets: Sets) -> None:
 
 
 def test_a_test_without_pushes_gives_no_dots(data_sets: Sets) -> None:
-    assert read_dots([Path(data_sets["test"][0])], ["LL3"], 10, Pushed("LL3", 1e6, 0.1)).shape == (0, 1, 2)
+    assert read_dots(data_sets["test"][:1], ["LL3"], 10, Pushed("LL3", 1e6, 0.1)).shape == (0, 1, 2)
 
 
-def test_every_set_has_the_dots_asked_for(tmp_path: Path, config: dict[str, Any], data_sets: Sets) -> None:
+def test_every_set_has_the_dots_asked_for(tmp_path: Path, evaluation: Evaluation, data_sets: Sets) -> None:
     training = {"with RTE": data_sets["walk"], "without RTE": data_sets["walk_plain"]}
-    tests = [{"scenario": "walk_test", "recordings": data_sets["test"]}]
-    figure_19(config, training, tests, tmp_path)
-    rows = list(csv.DictReader((tmp_path / "figure_19.csv").read_text().splitlines()))
-    counts = {
-        key: sum((row["set"], row["joint"]) == key for row in rows) for key in {(r["set"], r["joint"]) for r in rows}
-    }
-    assert counts == {(name, joint): 12 for name in training for joint in ("LL2", "LL3")} | {
-        ("walk_test", joint): 8 for joint in ("LL2", "LL3")
-    }
+    figure_19(evaluation.figure_19, evaluation.coverage, training, [data_sets["test"]], tmp_path)
+    counts = Counter((row.set, row.joint) for row in read_table(tmp_path / "figure_19.csv"))
+    dots = {**dict.fromkeys(training, 12), "walk_test": 8}
+    assert counts == {(name, joint): count for name, count in dots.items() for joint in ("LL2", "LL3")}
     assert (tmp_path / "figure_19.png").read_bytes().startswith(b"\x89PNG")
 
 
 def test_an_unknown_joint_is_named(data_sets: Sets) -> None:
     with pytest.raises(DataError, match=r"v\.XX1"):
-        read_dots([Path(data_sets["walk"][0])], ["XX1"], 5)
+        read_dots(data_sets["walk"][:1], ["XX1"], 5)

@@ -8,18 +8,19 @@ from csv_files import read_table
 
 from mobnet.evaluation.figures.figure_20 import figure_20, growth_line, sizes_of
 from mobnet.evaluation.number.number import Number
+from mobnet.plan.runs import SweptSize
 
-Write = Callable[..., str]
+Write = Callable[..., Path]
 
 
 def test_rows_rise_with_the_size_that_their_panel_varies(tmp_path: Path, write_training: Write) -> None:
-    entries = [
-        {"panel": panel, "base": base, "folders": [write_training(f"{base}-{panel[0]}{k}", 0, -3.0 - k, **{panel: n})]}
+    swept = [
+        SweptSize(panel, base, (write_training(f"{base}-{panel[0]}{k}", 0, -3.0 - k, **{panel: n}),))
         for panel in ("parameters", "samples")
         for base in ("MOB-Net", "FTS-e2e")
         for k, n in ((2, 40000), (0, 10000), (1, 20000))
     ]
-    figure_20(entries, tmp_path / "out")
+    figure_20(swept, tmp_path / "out")
     rows = read_table(tmp_path / "out/figure_20.csv")
     assert len(rows) == 12
     for panel in ("parameters", "samples"):
@@ -31,14 +32,17 @@ def test_rows_rise_with_the_size_that_their_panel_varies(tmp_path: Path, write_t
 
 
 def test_a_place_is_the_mean_of_its_sound_runs(write_training: Write) -> None:
-    folders = [write_training("a", 0, -4.0), write_training("a", 1, -3.0), write_training("a", 2, 9.0, diverged=True)]
-    (size,) = sizes_of({"panel": "samples", "base": "MOB-Net", "folders": folders})
+    good, lost = (
+        (write_training("a", 0, -4.0), write_training("a", 1, -3.0)),
+        write_training("a", 2, 9.0, diverged=True),
+    )
+    (size,) = sizes_of(SweptSize("samples", "MOB-Net", (*good, lost)))
     assert (size.loss, size.rmse) == (Number(-3.5, -4.0, -3.0, 2), Number(6.5, 6.0, 7.0, 2))
-    assert sizes_of({"panel": "samples", "base": "MOB-Net", "folders": folders[2:]}) == []
+    assert sizes_of(SweptSize("samples", "MOB-Net", (lost,))) == []
 
 
 def test_line_is_drawn_over_thousands(write_training: Write) -> None:
-    sizes = sizes_of({"panel": "parameters", "base": "MOB-Net", "folders": [write_training("a", parameters=83712)]})
+    sizes = sizes_of(SweptSize("parameters", "MOB-Net", (write_training("a", parameters=83712),)))
     line = growth_line(sizes, "MOB-Net")
     assert line.x == pytest.approx([83.712])
     assert line.numbers == [Number(-4.0, -4.0, -4.0, 1)]

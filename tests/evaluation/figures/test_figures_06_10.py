@@ -2,36 +2,47 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
+from csv_files import read_table
 
+from mobnet.core.joints import JointLayout
 from mobnet.evaluation.figures.figure_06 import figure_06
 from mobnet.evaluation.figures.figure_10 import figure_10
 from mobnet.evaluation.measure.pushes import read_pushes
+from mobnet.plan.runs import Run
+from mobnet.settings.evaluation import Evaluation, Figure06, Figure10
+from mobnet.settings.settings import Settings
 
-Walk = Callable[..., dict[str, Any]]
+Walk = Callable[..., Run]
+Draw = Callable[..., None]
 MEANS = {"MOB": 20.0, "MOB-Net": 4.0}
 
 
 @pytest.fixture
-def entries(walk: Walk) -> list[dict[str, Any]]:
+def runs(walk: Walk) -> list[Run]:
     """Two methods on one made-up walk of four pushed swings."""
     return [walk(-15.0, method="MOB"), walk(2.0)]
 
 
-def read(path: Path) -> list[dict[str, str]]:
-    """Return the rows of a CSV file."""
-    with path.open(newline="") as file:
-        return list(csv.DictReader(file))
+@pytest.fixture
+def draw(settings: Settings, evaluation: Evaluation, tmp_path: Path) -> Draw:
+    """Return a function of (figure, its section, runs, scores) that writes the figure."""
+
+    def write(figure: Callable[..., None], section: Figure06 | Figure10, runs: object, scores: dict[str, Path]) -> None:
+        printed, statistics = settings.published.tables[figure.__name__], evaluation.statistics
+        figure(section, printed, settings.layout, statistics, settings.seed, runs, scores, tmp_path)
+
+    return write
 
 
-def test_every_push_has_a_panel_that_starts_before_it(entries: list[dict[str, Any]], config: dict[str, Any]) -> None:
-    panels = read_pushes(config, config["evaluation"]["figure_06"], entries, "step {} on LL3")
+def test_every_push_has_a_panel_that_starts_before_it(
+    runs: list[Run], layout: JointLayout, evaluation: Evaluation
+) -> None:
+    panels = read_pushes(layout, evaluation.figure_06, runs, "step {} on LL3")
     assert [panel.title for panel in panels] == [f"step {k} on LL3" for k in range(1, 5)]
     for panel in panels:
         assert (panel.time[0], panel.time[-1]) == pytest.approx((-0.1, 0.19))
@@ -42,38 +53,35 @@ def test_every_push_has_a_panel_that_starts_before_it(entries: list[dict[str, An
 
 
 def test_figure_06_shows_the_first_push_and_errors_beside_the_printed_ones(
-    tmp_path: Path, entries: list[dict[str, Any]], config: dict[str, Any], write_push_scores: Callable[..., Path]
+    tmp_path: Path, runs: list[Run], evaluation: Evaluation, draw: Draw, write_push_scores: Callable[..., Path]
 ) -> None:
-    figure_06(config, entries, write_push_scores("hip_pitch_step", MEANS), tmp_path)
+    scores = {"hip_pitch_step": write_push_scores("hip_pitch_step", MEANS)}
+    draw(figure_06, evaluation.figure_06, runs, scores)
     assert (tmp_path / "figure_06.pdf").read_bytes().startswith(b"%PDF")
-    assert {row["panel"] for row in read(tmp_path / "figure_06.csv")} == {"step 1 on LL3"}
-    bars = [
-        (row["method"], float(row["rmse_nm"]), float(row["published"])) for row in read(tmp_path / "figure_06_bars.csv")
-    ]
+    assert {row.panel for row in read_table(tmp_path / "figure_06.csv")} == {"step 1 on LL3"}
+    bars = [(row.method, row.rmse_nm, row.published) for row in read_table(tmp_path / "figure_06_bars.csv")]
     assert bars == [("MOB", 20.0, 37.05), ("MOB-Net", 4.0, 3.53)]
 
 
 def test_figure_10_shows_both_tests(
-    tmp_path: Path, entries: list[dict[str, Any]], config: dict[str, Any], write_push_scores: Callable[..., Path]
+    tmp_path: Path, runs: list[Run], evaluation: Evaluation, draw: Draw, write_push_scores: Callable[..., Path]
 ) -> None:
-    names = ("knee_swing", "knee_support", "walk_test")
-    scores = {name: write_push_scores(name, MEANS, 4) for name in names}
-    figure_10(config, {"swing knee": entries, "support knee": entries}, scores, tmp_path)
-    panels = dict.fromkeys(row["panel"] for row in read(tmp_path / "figure_10.csv"))
-    assert list(panels) == [f"{title} {k}" for title in ("swing knee", "support knee") for k in range(1, 5)]
-    bars = read(tmp_path / "figure_10_bars.csv")
-    assert {row["scenario"] for row in bars} == {"knee_swing", "knee_support"}
-    assert {row["push"] for row in bars} == {"1", "2", "3", "4", "avg", "increase"}
+    scores = {name: write_push_scores(name, MEANS, 4) for name in ("knee_swing", "knee_support", "walk_test")}
+    titles = ("swing knee", "support knee")
+    draw(figure_10, evaluation.figure_10, dict.fromkeys(titles, runs), scores)
+    panels = dict.fromkeys(row.panel for row in read_table(tmp_path / "figure_10.csv"))
+    assert list(panels) == [f"{title} {k}" for title in titles for k in range(1, 5)]
+    bars = read_table(tmp_path / "figure_10_bars.csv")
+    assert {row.scenario for row in bars} == {"knee_swing", "knee_support"}
+    assert {row.push for row in bars} == {1, 2, 3, 4, "avg", "increase"}
 
 
 def test_a_recording_too_short_for_pushes_gives_an_empty_figure(
-    tmp_path: Path, walk: Walk, config: dict[str, Any], write_push_scores: Callable[..., Path]
+    tmp_path: Path, walk: Walk, evaluation: Evaluation, draw: Draw, write_push_scores: Callable[..., Path]
 ) -> None:
-    config["evaluation"]["figure_10"]["tests"] = {
-        "swing knee": config["evaluation"]["figure_10"]["tests"]["swing knee"]
-    }
-    entry = walk(2.0, calm=True)
+    tests = {"swing knee": evaluation.figure_10.tests["swing knee"]}
     scores = {name: write_push_scores(name, MEANS, 0) for name in ("knee_swing", "walk_test")}
-    figure_10(config, {"swing knee": [entry]}, scores, tmp_path)
+    calm = {"swing knee": [walk(2.0, calm=True)]}
+    draw(figure_10, evaluation.figure_10.model_copy(update={"tests": tests}), calm, scores)
     assert (tmp_path / "figure_10.pdf").read_bytes().startswith(b"%PDF")
-    assert read(tmp_path / "figure_10_bars.csv") == []
+    assert read_table(tmp_path / "figure_10_bars.csv") == []

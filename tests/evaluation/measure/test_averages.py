@@ -1,12 +1,11 @@
 """Columns of tables are joints, limbs joint by joint, and means over joints of one unit."""
 
-from typing import Any
-
 import pytest
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.averages import Column, columns_of
+from mobnet.settings.evaluation import Mean
 
 
 def test_a_limb_is_its_joints_one_by_one(layout: JointLayout) -> None:
@@ -16,20 +15,19 @@ def test_a_limb_is_its_joints_one_by_one(layout: JointLayout) -> None:
 
 
 def test_a_mean_is_over_limbs_and_joints_and_perhaps_metrics(layout: JointLayout) -> None:
-    metrics = ["rmse_push_1", "rmse_push_2"]
-    (column,) = columns_of(layout, [{"name": "avg W+LA1", "joints": ["W", "LA1"], "metrics": metrics}])
-    assert column.joints == (("W", "W1"), ("W", "W2"), ("W", "W3"), ("LA", "LA1"))
-    assert column.metrics == tuple(metrics)
+    metrics = ("rmse_push_1", "rmse_push_2")
+    (column,) = columns_of(layout, [Mean(name="avg W+LA1", joints=("W", "LA1"), metrics=metrics)])
+    assert column == Column("avg W+LA1", "N m", (("W", "W1"), ("W", "W2"), ("W", "W3"), ("LA", "LA1")), metrics)
 
 
 @pytest.mark.parametrize(
     ("item", "says"),
     [
-        ({"name": "avg V", "joints": ["V"]}, "'avg V': a mean over V1, V2, V3, V4, V5, V6 mixes N and N m"),
+        (Mean(name="avg V", joints=("V",)), "'avg V': a mean over V1, V2, V3, V4, V5, V6 mixes N and N m"),
         ("LL9", "'LL9' is not accepted"),
-        ({"name": "avg", "joints": ["tail"]}, "'tail' is not accepted"),
+        (Mean(name="avg", joints=("tail",)), "'tail' is not accepted"),
     ],
 )
-def test_what_cannot_be_a_column_is_named(item: Any, says: str, layout: JointLayout) -> None:
+def test_what_cannot_be_a_column_is_named(item: str | Mean, says: str, layout: JointLayout) -> None:
     with pytest.raises(ConfigError, match=says):
         columns_of(layout, [item])

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-from csv_files import read_table
 
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.coverage import (
@@ -15,6 +13,7 @@ from mobnet.evaluation.measure.coverage import (
     AREA,
     NEAREST,
     OUTSIDE,
+    covered,
     equal_sets,
     nearest,
     outside,
@@ -22,27 +21,19 @@ from mobnet.evaluation.measure.coverage import (
     refer,
     scale_of,
     visited,
-)
-from mobnet.evaluation.tables.coverage import coverage
+)  # fmt: skip
 from mobnet.learning.features import limb_inputs
+from mobnet.settings.evaluation import CoverageTest, Evaluation
+from mobnet.settings.settings import Settings
 
-Sets = dict[str, list[str]]
+Sets = dict[str, list[Path]]
 NAMES = ("v.LL1", "tau_des.LL1")
-PLANE = {"cells": 10, "cell_range": [0.0, 1.0]}
-TEST = {"scenario": "walk_test", "level": "all_uncertainty"}
-
-
-@pytest.fixture
-def rng() -> np.random.Generator:
-    return np.random.default_rng(0)
+TEST = CoverageTest(scenario="walk_test", level="all_uncertainty")
 
 
 def test_an_inner_test_is_inside_and_a_far_one_outside(rng: np.random.Generator) -> None:
     training = rng.uniform(-1, 1, (4000, 2))
-    references = [
-        refer(training, [0.01, 0.99], np.zeros(2), np.ones(2)),
-        refer(0.1 * training, [0.01, 0.99], np.zeros(2), np.ones(2)),
-    ]
+    references = [refer(factor * training, [0.01, 0.99], np.zeros(2), np.ones(2)) for factor in (1.0, 0.1)]
     rows = {(row.measure, row.joint): row for row in outside(TEST, [0.5 * training[:500]], references, NAMES, ["LL1"])}
     for measure in OUTSIDE.values():
         assert rows[measure, "LL1"].with_rte == 0.0
@@ -58,7 +49,7 @@ def test_about_two_percent_of_training_lie_outside_its_own_range(rng: np.random.
 
 
 def test_distance_to_the_nearest_sample_has_its_closed_form_in_units_of_the_common_spread(
-    config: dict[str, Any],
+    evaluation: Evaluation,
 ) -> None:
     mean, std = np.array([1.0, 2.0]), np.array([2.0, 4.0])
     references = [
@@ -66,49 +57,49 @@ def test_distance_to_the_nearest_sample_has_its_closed_form_in_units_of_the_comm
         refer(np.array([[1.0, 6.0]] * 2), [0, 1], mean, std),
     ]
     block = (np.array([[5.0, 2.0], [1.0, 2.0], [3.0, 2.0]]) - mean) / std  # 2, 0 and 1 away from the first set
-    rows = list(nearest(config, TEST, [block, block], references))
+    rows = list(nearest(TEST, [block, block], references, evaluation.statistics, 0))
     assert [row.measure for row in rows] == list(NEAREST)
     assert rows[0].with_rte == pytest.approx(1.0)
     assert rows[0].without_rte == pytest.approx(np.sqrt(2.0))
-    assert rows[0].ratio.value == pytest.approx(np.sqrt(0.5))
-    assert rows[0].ratio.low == pytest.approx(rows[0].ratio.high)
+    assert rows[0].ratio.with_ends == pytest.approx((np.sqrt(0.5),) * 3)
 
 
-def test_the_wider_set_visits_more_of_the_plane_and_equal_sets_equally_much(rng: np.random.Generator) -> None:
-    wide = rng.uniform(-1, 1, (3000, 2))
-    assert {row.ratio.value for row in visited(AREA, [wide, wide], NAMES, ["LL1"], PLANE)} == {1.0}
-    for row in visited(AREA, [wide, 0.5 * wide], NAMES, ["LL1"], PLANE):
+def test_the_wider_set_visits_more_of_the_plane_and_equal_sets_equally_much(
+    rng: np.random.Generator, evaluation: Evaluation
+) -> None:
+    wide, plane = rng.uniform(-1, 1, (3000, 2)), evaluation.coverage.model_copy(update={"cell_range": (0.0, 1.0)})
+    assert {row.ratio.value for row in visited(AREA, [wide, wide], NAMES, ["LL1"], plane)} == {1.0}
+    for row in visited(AREA, [wide, 0.5 * wide], NAMES, ["LL1"], plane):
         assert row.measure == AREA
         assert row.with_rte == pytest.approx(1.0, abs=0.02)
         assert row.ratio.value == pytest.approx(4.0, rel=0.5)
 
 
-def test_sets_are_made_equally_long_and_a_constant_input_keeps_its_scale(rng: np.random.Generator) -> None:
+def test_sets_are_made_equally_long_and_a_constant_input_keeps_its_scale() -> None:
     sets = [[np.ones((30, 2)), np.zeros((30, 2))], [np.ones((40, 2))]]
-    assert [len(samples) for samples in equal_sets(sets, {"samples": 50})] == [40, 40]
-    assert [len(samples) for samples in equal_sets(sets, {"samples": 10})] == [10, 10]
-    assert equal_sets(sets, {"samples": 10})[0].mean() == 0.5
+    assert [len(samples) for samples in equal_sets(sets, 50)] == [40, 40]
+    assert [len(samples) for samples in equal_sets(sets, 10)] == [10, 10]
+    assert equal_sets(sets, 10)[0].mean() == 0.5
     np.testing.assert_array_equal(scale_of(np.ones((5, 2)))[1], [1.0, 1.0])
 
 
-def test_blocks_hold_the_inputs_of_table_1(config: dict[str, Any], layout: JointLayout, data_sets: Sets) -> None:
-    inputs = limb_inputs(layout, config["networks"]["LL"])
-    blocks = read_blocks(data_sets["walk"][:1], layout, inputs, config["evaluation"]["coverage"])
-    assert [block.shape for block in blocks] == [
-        (250, 30)
-    ] * 4  # 20 s in two segments, blocks of 5 s, every second sample
+def test_blocks_hold_the_inputs_of_table_1(
+    settings: Settings, evaluation: Evaluation, layout: JointLayout, data_sets: Sets
+) -> None:
+    """Of 20 s in two segments: blocks of 5 s, every second sample."""
+    inputs = limb_inputs(layout, settings.robot.networks["LL"])
+    blocks = read_blocks(data_sets["walk"][:1], layout, inputs, evaluation.coverage)
+    assert [block.shape for block in blocks] == [(250, 30)] * 4
 
 
 def test_equivalent_sets_come_out_even_and_tests_without_pushes_are_left_out(
-    tmp_path: Path, config: dict[str, Any], data_sets: Sets
+    settings: Settings, evaluation: Evaluation, layout: JointLayout, data_sets: Sets
 ) -> None:
+    pushed = CoverageTest(scenario="knee_swing", level="all_uncertainty", pushed="LL3")
+    coverage = evaluation.coverage.model_copy(update={"tests": (TEST, pushed)})
     training = {"with RTE": data_sets["walk"], "without RTE": data_sets["walk"]}
-    tests = [
-        {**TEST, "recordings": data_sets["test"]},
-        {**TEST, "scenario": "knee_swing", "pushed": "LL3", "recordings": []},
-    ]
-    coverage(config, training, tests, tmp_path)
-    rows = read_table(tmp_path / "coverage.csv")
+    ports, tests = settings.robot.networks["LL"], [data_sets["test"], []]
+    rows = covered(coverage, layout, ports, evaluation.statistics, 0, training, tests)
     assert {row.scenario for row in rows} == {"training", "walk_test"}
     assert all(row.with_rte == row.without_rte for row in rows)
-    assert all(row.ratio == 1.0 for row in rows if row.measure in NEAREST or row.measure == AREA)
+    assert all(row.ratio.value == 1.0 for row in rows if row.measure in NEAREST or row.measure == AREA)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -12,15 +10,16 @@ import pytest
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.curves import Curves, read_curves
+from mobnet.plan.runs import Run
 
-Walk = Callable[..., dict[str, Any]]
+Walk = Callable[..., Run]
 FLAGS = {"swing": "swing.left_foot", "push": "pushed"}
 
 
 @pytest.fixture
-def curves(walk: Walk, config: dict[str, Any]) -> Curves:
+def curves(walk: Walk, layout: JointLayout) -> Curves:
     """LL3 and LL5 of two methods on a made-up walk, the one with a standard deviation of .5 N m."""
-    return read_curves(Path(config["robot"]), [walk(-15.0, method="MOB"), walk(2.0, std=0.5)], ["LL5", "LL3"], FLAGS)
+    return read_curves(layout, [walk(-15.0, method="MOB"), walk(2.0, std=0.5)], ["LL5", "LL3"], FLAGS)
 
 
 def test_estimates_are_off_the_truth_by_their_errors_in_the_order_asked_for(
@@ -47,7 +46,7 @@ def test_panel_shows_the_rows_from_its_zero(curves: Curves) -> None:
     np.testing.assert_array_equal(panel.flags["push"], curves.flags["push"][100:200:5])
 
 
-def test_a_band_is_shown_where_it_is_wanted_and_told(curves: Curves) -> None:
+def test_a_band_is_shown_where_it_is_wanted_and_predicted(curves: Curves) -> None:
     shown = curves.panel("a", "LL3", slice(0, 10), band=True).curves
     assert [curve.std is None for curve in shown] == [True, True, False]
     np.testing.assert_allclose(np.asarray(shown[2].std), 0.5)
@@ -64,9 +63,8 @@ def test_uncertainty_is_what_the_residual_has_beyond_the_truth_and_the_estimate(
     np.testing.assert_allclose(np.asarray(net.std), 0.5)
 
 
-def test_what_is_not_there_is_named(walk: Walk, config: dict[str, Any]) -> None:
-    robot = Path(config["robot"])
+def test_what_is_not_there_is_named(walk: Walk, layout: JointLayout) -> None:
     with pytest.raises(ConfigError, match="joint: 'W1' is not accepted; accepted: LL1"):
-        read_curves(robot, [walk(1.0)], ["W1"])
+        read_curves(layout, [walk(1.0)], ["W1"])
     with pytest.raises(DataError, match=r"column 'swing\.hand' is missing"):
-        read_curves(robot, [walk(1.0)], ["LL3"], {"swing": "swing.hand"})
+        read_curves(layout, [walk(1.0)], ["LL3"], {"swing": "swing.hand"})

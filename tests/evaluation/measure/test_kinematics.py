@@ -2,24 +2,16 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Any
-
 import numpy as np
 import pytest
 
 from mobnet.core.joints import NQ_BASE
 from mobnet.evaluation.measure.steps import ankle_places
 from mobnet.evaluation.measure.upper_body import hand_speeds
-from mobnet.robot.description import RobotDescription, load_robot
+from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 
 LEG_M = 0.7  # thigh and shank
-
-
-@pytest.fixture
-def nominal(config: dict[str, Any]) -> NominalModel:
-    return NominalModel(load_robot(Path(config["robot"])))
 
 
 def posture(robot: RobotDescription, **angles: float) -> np.ndarray:

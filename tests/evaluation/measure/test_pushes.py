@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -12,17 +11,31 @@ import pytest
 from mobnet.core.columns import Score
 from mobnet.evaluation.measure.pushes import AVERAGE, INCREASE, PushErrors, collision_errors, push_metrics
 from mobnet.evaluation.number.files import read_rows
+from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.settings import Settings
 
 MEANS = {"MOB": 20.0, "MOB-Net": 4.0}
 WritePushScores = Callable[..., Path]
 
 
 @pytest.fixture
-def errors(config: dict[str, Any], write_push_scores: WritePushScores) -> PushErrors:
+def measure(settings: Settings, evaluation: Evaluation) -> Callable[..., PushErrors]:
+    """Return a function of (title of a test, scores) that measures its errors."""
+    figure, printed = evaluation.figure_10, settings.published.tables["figure_10"]
+
+    def errors_of(title: str, rows: list[Score]) -> PushErrors:
+        return collision_errors(
+            settings.layout, figure, figure.tests[title], printed, rows, evaluation.statistics, settings.seed
+        )
+
+    return errors_of
+
+
+@pytest.fixture
+def errors(measure: Callable[..., PushErrors], write_push_scores: WritePushScores) -> PushErrors:
     """Errors of two pushes on the knee, of MEANS and a tenth more, where walking has one N m less than MEANS."""
     rows = [row for name in ("knee_swing", "walk_test") for row in read_rows(write_push_scores(name, MEANS), Score)]
-    settings = config["evaluation"]["figure_10"]
-    return collision_errors(config, settings, settings["tests"]["swing knee"], rows)
+    return measure("swing knee", rows)
 
 
 def test_average_is_that_of_the_pushes_and_increase_is_over_walking(errors: PushErrors) -> None:
@@ -42,12 +55,13 @@ def test_intervals_hold_their_numbers_and_only_the_average_has_a_printed_one(err
             assert error.published == (6.576 if (method, push) == ("MOB-Net", AVERAGE) else None)
 
 
-def test_pushes_are_counted_in_the_scores(write_push_scores: WritePushScores, config: dict[str, Any]) -> None:
+def test_pushes_are_counted_in_the_scores(
+    write_push_scores: WritePushScores, measure: Callable[..., PushErrors]
+) -> None:
     rows = [
         row
         for name, pushes in (("knee_swing", 12), ("knee_support", 0))
         for row in read_rows(write_push_scores(name, MEANS, pushes), Score)
     ]
     assert push_metrics(rows, "knee_swing") == [f"rmse_push_{k}" for k in range(1, 13)]
-    settings = config["evaluation"]["figure_10"]
-    assert collision_errors(config, settings, settings["tests"]["support knee"], rows) == {}
+    assert measure("support knee", rows) == {}

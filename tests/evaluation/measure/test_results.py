@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -10,14 +9,15 @@ from csv_files import write_rows
 
 from mobnet.core.columns import Score
 from mobnet.core.errors import ConfigError, DataError
+from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.results import Results, read_results
+from mobnet.settings.claims import Cell
 
-REPO = Path(__file__).parents[3]
-WALK = {"scenario": "walk", "level": "ideal", "method": "MOB"}
+WALK = Cell(scenario="walk", level="ideal", method="MOB")
 
 
 @pytest.fixture
-def results(tmp_path: Path, write_training: Callable[..., str]) -> Results:
+def results(tmp_path: Path, layout: JointLayout, write_training: Callable[..., Path]) -> Results:
     """Two tests of one method, its errors 1, 2 and 3 at the waist, and two kinds of trainings, one all diverged."""
     rows = [
         Score("walk", "ideal", "MOB", 0, test, limb, joint, metric, factor * value * test, "")
@@ -28,48 +28,52 @@ def results(tmp_path: Path, write_training: Callable[..., str]) -> Results:
     write_rows(tmp_path / "walk.csv", rows)
     folders = [write_training("GRU", seed, -4.0 - seed) for seed in (0, 1)]
     folders.append(write_training("MLP", epochs=1, diverged=True))
-    return read_results(REPO / "configs/robots/tocabi.yaml", [tmp_path / "walk.csv"], folders)
+    return read_results(layout, [tmp_path / "walk.csv"], folders)
 
 
 @pytest.mark.parametrize(
-    ("cell", "first_test"),
+    ("joint", "metric", "first_test"),
     [
-        ({"joint": "W2"}, 2.0),
-        ({"joint": "W"}, 2.0),
-        ({"joint": ["W1", "W2"]}, 1.5),
-        ({"joint": ["W", "LL1"]}, 3.5),
-        ({"joint": "W1", "metric": "rmse_push_1"}, 10.0),
-        ({"joint": "W1", "metric": ["rmse", "rmse_push_1"]}, 5.5),
+        ("W2", None, 2.0),
+        ("W", None, 2.0),
+        (("W1", "W2"), None, 1.5),
+        (("W", "LL1"), None, 3.5),
+        ("W1", "rmse_push_1", 10.0),
+        ("W1", ("rmse", "rmse_push_1"), 5.5),
     ],
 )
-def test_a_number_is_the_mean_over_joints_and_metrics(results: Results, cell: Any, first_test: float) -> None:
-    np.testing.assert_allclose(results.grid(WALK | cell), [[first_test, 2 * first_test]])
+def test_a_number_is_the_mean_over_joints_and_metrics(
+    results: Results, joint: str, metric: str | None, first_test: float
+) -> None:
+    cell = WALK.model_copy(update={"joint": joint, "metric": metric})
+    np.testing.assert_allclose(results.grid(cell), [[first_test, 2 * first_test]])
 
 
 def test_a_training_is_a_network_on_one_test(results: Results) -> None:
-    np.testing.assert_allclose(results.grid({"method": "GRU", "metric": "validation loss"}), [[-4.0], [-5.0]])
+    np.testing.assert_allclose(results.grid(Cell(method="GRU", metric="validation loss")), [[-4.0], [-5.0]])
 
 
 @pytest.mark.parametrize(
-    "cell", [WALK | {"joint": "W1", "metric": "rmse_push_9"}, {"method": "MLP", "metric": "validation loss"}]
+    "cell",
+    [WALK.model_copy(update={"joint": "W1", "metric": "rmse_push_9"}), Cell(method="MLP", metric="validation loss")],
 )
-def test_a_push_that_never_came_and_trainings_that_all_diverged_have_no_number(results: Results, cell: Any) -> None:
+def test_a_push_that_never_came_and_trainings_that_all_diverged_have_no_number(results: Results, cell: Cell) -> None:
     assert results.grid(cell) is None
 
 
 @pytest.mark.parametrize(
-    ("cell", "error", "says"),
+    ("changes", "error", "says"),
     [
-        (WALK | {"method": "MOB-Net", "joint": "W1"}, DataError, "no run of MOB-Net in walk, ideal"),
-        (WALK | {"joint": "RA1"}, DataError, "'RA1'"),
-        ({"method": "MOB-Net", "joint": "W1"}, ConfigError, "scenario is missing"),
-        (WALK, ConfigError, "joint is missing"),
-        (WALK | {"joint": ["V1", "V4"]}, ConfigError, "mixes N and N m"),
+        ({"method": "MOB-Net", "joint": "W1"}, DataError, "no run of MOB-Net in walk, ideal"),
+        ({"joint": "RA1"}, DataError, "'RA1'"),
+        ({"scenario": None, "joint": "W1"}, ConfigError, "scenario=None.*: scenario, level, method and joint"),
+        ({}, ConfigError, "joint=None"),
+        ({"joint": ("V1", "V4")}, ConfigError, "mixes N and N m"),
         ({"method": "LSTM", "metric": "validation loss"}, DataError, "'LSTM' is not accepted; accepted: GRU, MLP"),
     ],
 )
 def test_a_run_that_should_be_there_is_named(
-    results: Results, cell: dict[str, Any], error: type[Exception], says: str
+    results: Results, changes: dict[str, object], error: type[Exception], says: str
 ) -> None:
     with pytest.raises(error, match=says):
-        results.grid(cell)
+        results.grid(WALK.model_copy(update=changes))

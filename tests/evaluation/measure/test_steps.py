@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
 from mobnet.core.errors import DataError
-from mobnet.core.joints import NQ_BASE
+from mobnet.core.joints import NQ_BASE, JointLayout
 from mobnet.evaluation.measure.steps import Steps, measure, read_steps, step_bounds
-from mobnet.robot.description import load_robot
+from mobnet.plan.runs import Run
 from mobnet.robot.nominal import NominalModel
 
 LEG_M, SPACING_M = 0.7, 0.205
-
-
-@pytest.fixture
-def nominal(config: dict[str, Any]) -> NominalModel:
-    return NominalModel(load_robot(Path(config["robot"])))
 
 
 def gait(feet: str) -> tuple[np.ndarray, np.ndarray]:
@@ -83,25 +78,26 @@ def test_a_step_is_invariant_to_where_the_robot_is_and_faces(nominal: NominalMod
 
 
 def test_the_foot_on_the_side_stepped_to_leads() -> None:
-    commanded = np.array([[0.0, 0.1, -0.2, 0.7, 0.05], [0.1, 0.1, -0.2, 0.7, 0.05], [0.0, 0.0, 0.0, 0.7, 0.05]])
-    steps = Steps(np.array([0, 1, 0]), commanded, np.zeros((3, 4)))
+    commanded = np.array([[0.0, 0.1, -20.0, 0.7, 0.05], [0.1, 0.1, -20.0, 0.7, 0.05], [0.0, 0.0, 0.0, 0.7, 0.05]])
+    steps = Steps(np.array([0, 1, 0]), commanded, np.zeros(3), np.zeros((3, 40)))
     assert steps.follows(0).tolist() == [False, True, False]
     assert steps.follows(1).tolist() == [True, False, False]
     assert steps.follows(2).tolist() == [False, True, False]
     assert steps.follows(3).all()
 
 
-def test_files_give_their_steps_in_order(nominal: NominalModel, data_sets: dict[str, list[str]]) -> None:
-    parts = [read_steps([Path(stem)], nominal, SPACING_M) for stem in data_sets["motion"]]
-    whole = read_steps(list(map(Path, data_sets["motion"])), nominal, SPACING_M)
+def test_files_give_their_steps_in_order(nominal: NominalModel, data_sets: dict[str, list[Path]]) -> None:
+    layout = nominal.robot.layout
+    parts = [read_steps([stem], layout) for stem in data_sets["motion"]]
+    whole = read_steps(data_sets["motion"], layout)
     assert len(whole) == sum(map(len, parts)) > 20
-    np.testing.assert_array_equal(whole.measured, np.concatenate([part.measured for part in parts]))
-    np.testing.assert_allclose(whole.measured[:, 3], 0.7)
+    measured = whole.measured(nominal, SPACING_M)
+    np.testing.assert_array_equal(measured, np.concatenate([part.measured(nominal, SPACING_M) for part in parts]))
+    np.testing.assert_allclose(measured[:, 3], 0.7)
     assert np.all(whole.commanded[:, 3] >= 0.6)
+    assert 5.0 < np.abs(whole.commanded[:, 2]).max() < np.rad2deg(0.3)
 
 
-def test_recordings_without_a_step_are_named(
-    tmp_path: Path, nominal: NominalModel, walk: Any, config: dict[str, Any]
-) -> None:
+def test_recordings_without_a_step_are_named(layout: JointLayout, walk: Callable[..., Run]) -> None:
     with pytest.raises(DataError, match="no step is made"):
-        read_steps([walk(1.0)["recording"]], nominal, SPACING_M)
+        read_steps([walk(1.0).recording], layout)

@@ -8,11 +8,11 @@ import pytest
 from mobnet.core.errors import DataError
 from mobnet.evaluation.measure.trainings import read_training, read_trainings, sound
 
-Write = Callable[..., str]
+Write = Callable[..., Path]
 
 
 def test_the_epoch_kept_is_the_one_that_validated_best_not_the_last(write_training: Write) -> None:
-    training = read_training(Path(write_training("GRU", seed=2, loss=-4.0, epochs=5)))
+    training = read_training(write_training("GRU", seed=2, loss=-4.0, epochs=5))
     assert (training.kept.epoch, training.kept.validation_loss) == (4, -4.0)
     assert (training.last.epoch, training.last.validation_loss) == (5, -3.5)
     assert (training.method, training.seed, training.seconds, training.diverged) == ("GRU", 2, 102.0, False)
@@ -21,11 +21,8 @@ def test_the_epoch_kept_is_the_one_that_validated_best_not_the_last(write_traini
 def test_trainings_stand_under_their_methods_in_the_order_given(write_training: Write) -> None:
     folders = [write_training(method, seed) for method in ("RNN", "GRU") for seed in (1, 0)]
     found = read_trainings(folders)
-    assert {method: [training.seed for training in trainings] for method, trainings in found.items()} == {
-        "RNN": [1, 0],
-        "GRU": [1, 0],
-    }
-    assert list(found) == ["RNN", "GRU"]
+    seeds = [(method, [training.seed for training in trainings]) for method, trainings in found.items()]
+    assert seeds == [("RNN", [1, 0]), ("GRU", [1, 0])]
 
 
 def test_a_training_that_diverged_is_left_out_even_if_it_has_no_epoch(write_training: Write) -> None:
@@ -36,13 +33,13 @@ def test_a_training_that_diverged_is_left_out_even_if_it_has_no_epoch(write_trai
 
 
 def test_a_training_without_epochs_that_did_not_diverge_is_an_error(write_training: Write) -> None:
-    folder = Path(write_training("GRU", epochs=0))
+    folder = write_training("GRU", epochs=0)
     with pytest.raises(DataError, match="no epoch"):
         read_training(folder)
 
 
 def test_a_missing_file_is_named(write_training: Write) -> None:
-    folder = Path(write_training("GRU"))
+    folder = write_training("GRU")
     (folder / "metrics.csv").unlink()
     with pytest.raises(DataError, match=r"metrics\.csv: file is missing"):
         read_training(folder)

@@ -3,23 +3,20 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
 from mobnet.core.store import read_array
 from mobnet.evaluation.measure.upper_body import upper_body
-from mobnet.robot.description import load_robot
 from mobnet.robot.nominal import NominalModel
 
 
-def test_ranges_are_those_of_all_recordings(config: dict[str, Any], data_sets: dict[str, list[str]]) -> None:
-    robot = load_robot(Path(config["robot"]))
-    stems = list(map(Path, data_sets["motion"]))
-    found = {(quantity, part): value for quantity, part, value, _ in upper_body(config, stems, NominalModel(robot))}
+def test_ranges_are_those_of_all_recordings(nominal: NominalModel, data_sets: dict[str, list[Path]]) -> None:
+    stems = data_sets["motion"]
+    found = {(quantity, part): value for quantity, part, value, _ in upper_body(10, stems, nominal)}
     angles = np.concatenate([read_array(stem, ["q.LA2"])[0][::10, 0] for stem in stems])
-    joint = next(joint for joint in robot.joints if joint.id == "LA2")
+    joint = next(joint for joint in nominal.robot.joints if joint.id == "LA2")
     assert found["smallest position", "LA2"] == pytest.approx(angles.min())
     assert found["largest position", "LA2"] == pytest.approx(angles.max())
     assert found["upper limit", "LA2"] == joint.range[1]

@@ -11,16 +11,17 @@ from mobnet.core.columns import recording_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import write_array
-from mobnet.evaluation.measure.windows import Pushed, blocks_of, evenly, push_windows, pushed_of, runs
+from mobnet.evaluation.measure.windows import Pushed, blocks_of, evenly, flagged_spans, push_windows, pushed_of
+from mobnet.settings.evaluation import CoverageTest, Evaluation
 
 PUSHED = Pushed("LL3", 5.0, 0.02)
 
 
 def test_a_span_holds_the_flags_and_what_comes_after_within_its_segment() -> None:
     flags = np.isin(np.arange(30), [3, 4, 8, 9, 18, 29])
-    assert runs(flags, ((0, 20), (20, 30)), 2) == ((3, 7), (8, 12), (18, 20), (29, 30))
-    assert runs(flags, ((0, 20),), 4) == ((3, 14), (18, 20))
-    assert runs(np.zeros(30, dtype=bool), ((0, 30),), 2) == ()
+    assert flagged_spans(flags, ((0, 20), (20, 30)), 2) == ((3, 7), (8, 12), (18, 20), (29, 30))
+    assert flagged_spans(flags, ((0, 20),), 4) == ((3, 14), (18, 20))
+    assert flagged_spans(np.zeros(30, dtype=bool), ((0, 30),), 2) == ()
 
 
 def test_blocks_tile_the_spans() -> None:
@@ -53,11 +54,14 @@ def test_a_push_is_torque_on_a_leg_that_touches_nothing(tmp_path: Path, layout: 
     assert Pushed("LL3", 5.0, 0.02, leg=False).spans(tmp_path / "r") == ((10, 13), (40, 43))
 
 
-def test_only_a_test_that_names_a_joint_is_about_pushes() -> None:
-    settings = {"push_nm": 5.0, "push_after_s": 0.02, "limb": "LL"}
-    assert pushed_of({"scenario": "walk_test"}, settings) is None
-    assert pushed_of({"scenario": "knee_swing", "pushed": "LL3"}, settings) == PUSHED
-    assert pushed_of({"scenario": "hand_wrench", "pushed": "RA2"}, settings) == Pushed("RA2", 5.0, 0.02, leg=False)
+@pytest.mark.parametrize(
+    ("joint", "pushed"), [(None, None), ("LL3", PUSHED), ("RA2", Pushed("RA2", 5.0, 0.02, leg=False))]
+)
+def test_only_a_test_that_names_a_joint_is_about_pushes(
+    joint: str | None, pushed: Pushed | None, evaluation: Evaluation
+) -> None:
+    settings = evaluation.coverage.model_copy(update={"push_after_s": 0.02})
+    assert pushed_of(CoverageTest(scenario="knee_swing", level="all_uncertainty", pushed=joint), settings) == pushed
 
 
 def test_a_window_is_a_push_with_what_is_before_and_after_it_in_its_segment(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""The reliability diagram: observed over nominal coverage, a line a limb."""
+"""The reliability diagram: observed over nominal coverage, a line for each limb."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.columns import RELIABILITY
 from mobnet.evaluation.figures.style import STYLE, Look, legend, looks, save_figure
-from mobnet.evaluation.measure.calibration import Grid, case_name
+from mobnet.evaluation.measure.calibration import Grid
 from mobnet.evaluation.number.files import write_csv
 
 PANEL_INCH, LEGEND_INCH = 1.8, 0.4  # side of a panel, height of the legend above all
@@ -31,9 +31,9 @@ class Curve:
 
     Attributes:
         label: limb; the same one has the same colour in every panel.
-        nominal: nominal shares (p,) [-].
-        before: observed with the standard deviation as learned (p,) [-].
-        after: observed with the scaled one (p,) [-].
+        nominal: nominal shares (p,).
+        before: observed with the standard deviation as learned (p,).
+        after: observed with the scaled one (p,).
     """
 
     label: str
@@ -48,8 +48,8 @@ class ReliabilityPanel:
 
     Attributes:
         method: estimator; chooses the row.
-        title: what is looked at; chooses the column.
-        curves: a limb each.
+        title: which tests are looked at; chooses the column.
+        curves: one for each limb.
     """
 
     method: str
@@ -58,10 +58,10 @@ class ReliabilityPanel:
 
 
 def draw_reliability(panels: Sequence[ReliabilityPanel]) -> Figure:
-    """Draw observed over nominal coverage [-]; pale lines as learned, full ones scaled; on the diagonal sigma is true.
+    """Draw observed over nominal coverage; pale lines as learned, full ones scaled; on the diagonal sigma is true.
 
     Args:
-        panels: a row a method, a column a title; where one is missing the place stays empty.
+        panels: a row for each method, a column for each title; where one is missing the place stays empty.
     """
     methods, titles = (list(dict.fromkeys(getattr(panel, key) for panel in panels)) for key in ("method", "title"))
     styles = looks(curve.label for panel in panels for curve in panel.curves)
@@ -83,7 +83,7 @@ def draw_reliability(panels: Sequence[ReliabilityPanel]) -> Figure:
 
 
 def draw_panel(axis: Axes, panel: ReliabilityPanel, styles: Mapping[str, Look]) -> None:
-    """Draw the curves [-] of one panel on the diagonal, each limb in its look."""
+    """Draw the curves of one panel on the diagonal, each limb in its look."""
     axis.set_visible(True)
     axis.plot([0.0, 1.0], [0.0, 1.0], **IDEAL)
     for curve in panel.curves:
@@ -94,21 +94,21 @@ def draw_panel(axis: Axes, panel: ReliabilityPanel, styles: Mapping[str, Look]) 
 
 
 def curve_rows(panels: Sequence[ReliabilityPanel]) -> Iterator[tuple[str, str, str, float, float, float]]:
-    """Yield the plotted numbers: title, method, limb, nominal share, observed as learned and scaled [-]."""
+    """Yield the plotted numbers: title, method, limb, nominal share, observed as learned and scaled."""
     for panel in panels:
         for curve in panel.curves:
             columns = (column.tolist() for column in (curve.nominal, curve.before, curve.after))
             yield from ((panel.title, panel.method, curve.label, *row) for row in zip(*columns, strict=True))
 
 
-def reliability(panels: Sequence[ReliabilityPanel], out_dir: Path) -> None:
+def reliability(panels: Sequence[ReliabilityPanel], figure_dir: Path) -> None:
     """Write the reliability diagram as calibration.pdf, .png and .csv."""
-    write_csv(out_dir / "calibration.csv", RELIABILITY, curve_rows(panels))
-    save_figure(draw_reliability(panels), out_dir / "calibration")
+    write_csv(figure_dir / "calibration.csv", RELIABILITY, curve_rows(panels))
+    save_figure(draw_reliability(panels), figure_dir / "calibration")
 
 
 def nominal_points(count: int) -> list[float]:
-    """Return nominal shares evenly spread inside 0 and 1 (count,) [-]."""
+    """Return nominal shares evenly spread inside 0 and 1 (count,)."""
     return np.linspace(0.0, 1.0, count + 2)[1:-1].tolist()
 
 
@@ -121,11 +121,11 @@ def panels_of(
         grids: of the tests; coverage of the points follows that of the table's levels.
         methods: rows of panels.
         skipped: number of the table's levels.
-        points: nominal shares (p,) [-].
+        points: nominal shares (p,).
     """
     panels: dict[tuple[str, str], list[Curve]] = {}
     for grid in sorted(grids, key=lambda grid: methods.index(grid.method)):
-        title = case_name(grid.test, grid.pushed) if grid.pushed else IN_DISTRIBUTION
+        title = grid.case if grid.pushed else IN_DISTRIBUTION
         observed = grid.values[..., skipped:-2].mean(axis=(0, 1))
         curve = Curve(grid.limb + (f" [{grid.unit}]" if grid.limb == "V" else ""), np.array(points), *observed)
         panels.setdefault((grid.method, title), []).append(curve)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -13,9 +12,12 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from mobnet.core.columns import COMMAND, COMMANDS
+from mobnet.core.joints import JointLayout
 from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, legend, looks, save_figure
-from mobnet.evaluation.measure.steps import KEYS, UNITS, Sets, bin_edges, bin_of, read_sets
+from mobnet.evaluation.measure.steps import UNITS, bin_edges, bin_of, read_steps
 from mobnet.evaluation.number.files import write_csv
+from mobnet.settings.data import Commands
+from mobnet.settings.evaluation import CommandsFigure
 
 BARS_INCH = 1.9  # height
 LABELS = ("step x [m]", "step y [m]", "turn [deg]", "duration [s]", "foot height [m]")
@@ -36,32 +38,40 @@ class Bars:
     counts: Mapping[str, NDArray[np.intp]]
 
 
-def commands(config: Mapping[str, Any], sets: Sets, out_dir: Path) -> None:
+def commands(
+    settings: CommandsFigure,
+    commands: Commands,
+    layout: JointLayout,
+    sets: Mapping[str, Sequence[Path]],
+    figure_dir: Path,
+) -> None:
     """Write the histograms of the commands given as PDF, PNG and CSV (Table 2).
 
     Args:
-        config: resolved configuration: `robot`, `walking`, `commands`, `evaluation.commands.bins`.
-        sets: name -> stems of the recordings.
-        out_dir: gets commands.pdf, .png and .csv.
+        settings: number of bins of a range.
+        commands: ranges of Table 2.
+        layout: joints.
+        sets: name of a data set -> its recordings.
+        figure_dir: gets the files.
 
     Raises:
         DataError: a file is missing, or a set holds no step.
     """
-    found, rows, panels = read_sets(config, sets), [], []
-    for column in range(len(KEYS)):
-        edges = bin_edges(config, column, config["evaluation"]["commands"]["bins"])
+    found = {name: read_steps(stems, layout).commanded for name, stems in sets.items()}
+    rows, panels = [], []
+    for column, label in enumerate(LABELS):
+        edges = bin_edges(commands, column, settings.bins)
         ends = list(zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True))
         counts = {
-            name: np.bincount(bin_of(steps.commanded[:, column], edges), minlength=len(ends))
-            for name, steps in found.items()
+            name: np.bincount(bin_of(values[:, column], edges), minlength=len(ends)) for name, values in found.items()
         }
-        panels.append(Bars(LABELS[column], edges, counts))
+        panels.append(Bars(label, edges, counts))
         rows += [
-            (name, COMMAND[column][0], *bounds, count, count / sum(own.tolist()), UNITS[column])
+            (name, COMMAND[column][0], *bounds, count, count / len(found[name]), UNITS[column])
             for name, own in counts.items() for bounds, count in zip(ends, own.tolist(), strict=True)
         ]  # fmt: skip
-    write_csv(out_dir / "commands.csv", COMMANDS, rows)
-    save_figure(draw_bars(panels), out_dir / "commands")
+    write_csv(figure_dir / "commands.csv", COMMANDS, rows)
+    save_figure(draw_bars(panels), figure_dir / "commands")
 
 
 def draw_bars(panels: Sequence[Bars]) -> Figure:

@@ -2,39 +2,53 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from mobnet.core.columns import Score
+from mobnet.core.joints import JointLayout
 from mobnet.evaluation.figures.drawing.pushes import PushGroup, save_pushes
 from mobnet.evaluation.measure.metrics import PUSHED
-from mobnet.evaluation.measure.pushes import ALL, Entries, read_pushes, wanted_of
+from mobnet.evaluation.measure.pushes import ALL, PushErrors, read_pushes, wanted_of
 from mobnet.evaluation.number.files import read_rows
 from mobnet.evaluation.number.grid import number_of
-from mobnet.evaluation.number.published import published_value, read_published
+from mobnet.evaluation.number.published import published_value
+from mobnet.plan.runs import Run
+from mobnet.settings.evaluation import Figure06, Statistics
+from mobnet.settings.published import PublishedTable
 
 
-def figure_06(config: Mapping[str, Any], entries: Entries, scores_csv: Path, out_dir: Path) -> None:
+def figure_06(
+    settings: Figure06,
+    published: PublishedTable,
+    layout: JointLayout,
+    statistics: Statistics,
+    seed: int,
+    runs: Sequence[Run],
+    scores: Mapping[str, Path],
+    figure_dir: Path,
+) -> None:
     """Write Figure 6, a step of torque on a swinging hip [N m]: curves around the first, errors in all windows.
 
     Args:
-        config: resolved configuration: `robot`, `published`, `evaluation.figure_06` (scenario, level, methods, joint,
-            before_s, after_s) and what intervals need.
-        entries: a mapping a method: method, and the stems `recording`, `residual`, `estimate` of one recording.
-        scores_csv: scores of the scenario.
-        out_dir: gets figure_06.pdf, .png, .csv and figure_06_bars.csv.
+        settings: test, joint, and what is shown around a step.
+        published: the paper's errors.
+        layout: joints and legs.
+        statistics: of the intervals.
+        seed: of the intervals.
+        runs: one of each method, all of one recording.
+        scores: test -> its scores.
+        figure_dir: gets the files.
 
     Raises:
         DataError: a file is missing or damaged, or a run is missing.
     """
-    settings, scores = config["evaluation"]["figure_06"], read_rows(scores_csv, Score)
-    published, joint = read_published(Path(config["published"]), "figure_06"), settings["joint"]
-    errors = {}
-    for method in settings["methods"]:
-        wanted = wanted_of(config, settings, method, joint, PUSHED)
-        printed = published_value(published, wanted.level, method, joint)
-        errors[method] = {ALL: number_of(scores, [wanted], config, published=printed)}
-    panels = read_pushes(config, settings, entries, f"step {{}} on {joint}")[:1]
-    group = PushGroup(settings["scenario"], panels, errors, "error around the steps")
-    save_pushes([group], joint, out_dir / "figure_06")
+    joint, rows = settings.joint, read_rows(scores[settings.scenario], Score)
+    errors: PushErrors = {}
+    for method in settings.methods:
+        wanted = wanted_of(layout, settings, method, joint, PUSHED)
+        printed = published_value(published, settings.level, method, joint)
+        errors[method] = {ALL: number_of(rows, [wanted], statistics, seed, published=printed)}
+    panels = read_pushes(layout, settings, runs, f"step {{}} on {joint}")[:1]
+    group = PushGroup(settings.scenario, panels, errors, "error around the steps")
+    save_pushes([group], joint, figure_dir / "figure_06")

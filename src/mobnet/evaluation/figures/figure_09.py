@@ -2,25 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
-from mobnet.evaluation.figures.drawing.curves import save_leg
-from mobnet.evaluation.measure.gait import Entries, read_leg
+from mobnet.core.joints import JointLayout
+from mobnet.evaluation.figures.drawing.curves import draw_leg, save_panels
+from mobnet.evaluation.measure.gait import read_cycle
+from mobnet.plan.runs import Run
+from mobnet.settings.evaluation import GaitFigure
 
 
-def figure_09(config: Mapping[str, Any], entries: Entries, out_dir: Path) -> None:
+def figure_09(settings: GaitFigure, start_s: float, layout: JointLayout, runs: Sequence[Run], figure_dir: Path) -> None:
     """Write Figure 9, external torque of a leg over one gait cycle by method [N m].
 
     Args:
-        config: resolved configuration: `robot`, `evaluation.figure_09` (limb, start_s), `sizes.figure_start_s`.
-        entries: a mapping a method: method, and the stems `recording`, `residual`, `estimate` of one recording.
-        out_dir: gets figure_09.pdf, .png and .csv.
+        settings: the leg.
+        start_s: earliest start of the cycle [s].
+        layout: joints and legs.
+        runs: one of each method, all of one recording.
+        figure_dir: gets the files.
 
     Raises:
         DataError: a file is missing or damaged, or no whole cycle follows the start.
     """
-    curves, rows = read_leg(config, "figure_09", entries)
+    curves, rows = read_cycle(layout, runs, layout.limb(settings.limb), start_s)
     panels = [curves.panel(joint, joint, rows, zero=rows.start) for joint in curves.joints]
-    save_leg(panels, "external torque [N m]", out_dir / "figure_09")
+    save_panels(draw_leg(panels, "external torque [N m]"), panels, figure_dir / "figure_09")

@@ -18,12 +18,12 @@ from mobnet.evaluation.number.intervals import extremes
 MEASURES = {"train_loss": "training loss", "validation_loss": "validation loss"}
 
 
-def figure_17(folders: Sequence[str], out_dir: Path) -> None:
-    """Write Figure 17, mean of (22) over the runs of each kind of network [-], as PDF, PNG and CSV.
+def figure_17(folders: Sequence[Path], figure_dir: Path) -> None:
+    """Write Figure 17, mean of (22) over the runs of each kind of network, as PDF, PNG and CSV.
 
     Args:
         folders: of the trained networks, kind by kind; those whose training diverged are left out.
-        out_dir: gets figure_17.pdf, .png and .csv.
+        figure_dir: gets the files.
 
     Raises:
         DataError: a file is missing or damaged, or runs of a kind have different numbers of epochs.
@@ -36,12 +36,12 @@ def figure_17(folders: Sequence[str], out_dir: Path) -> None:
         for line in lines:
             points = zip(line.x, line.numbers, strict=True)
             rows += [(name, line.label, number.runs, epoch, *number.with_ends) for epoch, number in points]
-    write_csv(out_dir / "figure_17.csv", LOSSES, rows)
-    save_figure(draw_lines(panels), out_dir / "figure_17")
+    write_csv(figure_dir / "figure_17.csv", LOSSES, rows)
+    save_figure(draw_lines(panels), figure_dir / "figure_17")
 
 
 def curve(label: str, trainings: Sequence[Training], field: str) -> Line:
-    """Return a number of every epoch [-]: mean, lowest and highest of some runs.
+    """Return a number of every epoch: mean, lowest and highest of some runs.
 
     Args:
         label: name of the line.

@@ -1,4 +1,4 @@
-"""Figures of the data: what was commanded, and which velocities and torques it covers. Drawing only."""
+"""Figure 19: velocities and torques of joints in training and in the tests."""
 
 from __future__ import annotations
 
@@ -18,10 +18,11 @@ from mobnet.core.store import read_array
 from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, entitle, legend, looks, save_figure
 from mobnet.evaluation.measure.windows import Pushed, evenly, pushed_of
 from mobnet.evaluation.number.files import write_csv
+from mobnet.settings.evaluation import Coverage, Figure19
 
 CLOUD_INCH = 2.0  # height of a row
 TEST_COLOUR = "black"
-DOT, MARKER = 1.6, 4.0  # size of a dot [points^2]; how much larger it stands in the legend
+DOT, MARKER = 1.6, 4.0  # size of a dot [points^2]; how much larger it is in the legend
 
 
 @dataclass(frozen=True)
@@ -42,7 +43,7 @@ class Cloud:
 
 
 def draw_clouds(clouds: Sequence[Cloud], test: str) -> Figure:
-    """Draw desired torque [N m] over joint velocity [rad/s], a column a joint and a row a training set (Figure 19).
+    """Draw desired torque [N m] over joint velocity [rad/s], a column for each joint, a row for each training set.
 
     Args:
         clouds: the panels, velocity in [rad/s] and torque in [N m].
@@ -73,32 +74,29 @@ def _scatter(axis: Axes, dots: NDArray[Any], colour: str, label: str) -> None:
 
 
 def figure_19(
-    config: Mapping[str, Any],
-    training: Mapping[str, Sequence[str]],
-    tests: Sequence[Mapping[str, Any]],
-    out_dir: Path,
+    settings: Figure19,
+    coverage: Coverage,
+    training: Mapping[str, Sequence[Path]],
+    tests: Sequence[Sequence[Path]],
+    figure_dir: Path,
 ) -> None:
     """Write Figure 19, desired torque [N m] over velocity [rad/s] of some joints, as PDF, PNG and CSV.
 
     Args:
-        config: resolved configuration: `evaluation.figure_19` (joints, dots of each training set, test_dots of
-            all tests together) and, for pushes, `evaluation.coverage`.
-        training: name of a training set -> stems of its recordings; a row of panels each.
-        tests: scenario and `recordings`, the stems, of each test; `pushed`, a joint, where only samples around pushes
-            count. Shown together, each with the same number of dots.
-        out_dir: gets figure_19.pdf, .png and .csv.
+        settings: joints, dots of each training set, and dots of all tests together.
+        coverage: the tests, and what counts as a push.
+        training: name of a training set -> its recordings; a row of panels each.
+        tests: recordings of each test; shown together, each with the same number of dots.
+        figure_dir: gets the files.
 
     Raises:
         DataError: a file or a column is missing.
     """
-    settings = config["evaluation"]["figure_19"]
-    joints, share = settings["joints"], settings["test_dots"] // len(tests)
-    learnt = {name: read_dots(list(map(Path, stems)), joints, settings["dots"]) for name, stems in training.items()}
+    joints, share = settings.joints, settings.test_dots // len(tests)
+    learnt = {name: read_dots(stems, joints, settings.dots) for name, stems in training.items()}
     tested = {
-        test["scenario"]: read_dots(
-            list(map(Path, test["recordings"])), joints, share, pushed_of(test, config["evaluation"]["coverage"])
-        )
-        for test in tests
+        test.scenario: read_dots(stems, joints, share, pushed_of(test, coverage))
+        for test, stems in zip(coverage.tests, tests, strict=True)
     }
     together = np.concatenate(list(tested.values()))
     clouds = [
@@ -113,8 +111,8 @@ def figure_19(
         for k, joint in enumerate(joints)
         for dot in dots[:, k].tolist()
     ]
-    write_csv(out_dir / "figure_19.csv", DOTS, rows)
-    save_figure(draw_clouds(clouds, "test"), out_dir / "figure_19")
+    write_csv(figure_dir / "figure_19.csv", DOTS, rows)
+    save_figure(draw_clouds(clouds, "test"), figure_dir / "figure_19")
 
 
 def read_dots(

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from mobnet.evaluation.measure.trainings import Training, read_trainings, sound
 from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.intervals import extremes
 from mobnet.evaluation.number.number import Number
+from mobnet.plan.runs import SweptSize
 
 TITLES = {"parameters": "size of the network", "samples": "size of the training data"}
 X_LABELS = {"parameters": "parameters [thousand]", "samples": "samples learned from [thousand]"}
@@ -30,7 +30,7 @@ class Size:
         panel: what varies, `parameters` or `samples`.
         base: estimator whose network is varied.
         training: one of the trainings of a variation.
-        loss: validation loss (22) of the epoch kept, mean, lowest and highest run [-].
+        loss: validation loss (22) of the epoch kept, mean, lowest and highest run.
         rmse: mean over joints of the root-mean-square error on the data held out [N m], unlike the loss not in units
             of each target's spread; mean, lowest and highest run.
     """
@@ -52,45 +52,44 @@ class Size:
         return (self.panel, self.base, *of, self.loss.runs, *self.loss.with_ends, *self.rmse.with_ends)
 
 
-def figure_20(entries: Sequence[Mapping[str, Any]], out_dir: Path) -> None:
-    """Write Figure 20, validation loss [-] over parameters (a) and training samples (b), as PDF, PNG and CSV.
+def figure_20(sizes_of_networks: Sequence[SweptSize], figure_dir: Path) -> None:
+    """Write Figure 20, validation loss over parameters (a) and training samples (b), as PDF, PNG and CSV.
 
     Args:
-        entries: one mapping a variation: `panel` (a name of `TITLES`), `base`, the estimator, and `folders` of its
-            trained networks.
-        out_dir: gets figure_20.pdf, .png and .csv.
+        sizes_of_networks: the variations and their trained networks.
+        figure_dir: gets the files.
 
     Raises:
         DataError: a file is missing or damaged.
     """
-    sizes = sorted((size for entry in entries for size in sizes_of(entry)), key=lambda size: size.place)
+    sizes = sorted((size for swept in sizes_of_networks for size in sizes_of(swept)), key=lambda size: size.place)
     panels = []
     for panel, title in TITLES.items():
-        bases = dict.fromkeys(entry["base"] for entry in entries if entry["panel"] == panel)
+        bases = dict.fromkeys(swept.base for swept in sizes_of_networks if swept.panel == panel)
         own = {base: [size for size in sizes if (size.panel, size.base) == (panel, base)] for base in bases}
         lines = [growth_line(found, base) for base, found in own.items() if found]
         panels.append(LinePanel(title, X_LABELS[panel], "validation loss [-]", lines, sizes=True))
-    write_csv(out_dir / "figure_20.csv", SIZES, [size.record() for size in sizes])
-    save_figure(draw_lines(panels), out_dir / "figure_20")
+    write_csv(figure_dir / "figure_20.csv", SIZES, [size.record() for size in sizes])
+    save_figure(draw_lines(panels), figure_dir / "figure_20")
 
 
-def sizes_of(entry: Mapping[str, Any]) -> list[Size]:
+def sizes_of(swept: SweptSize) -> list[Size]:
     """Return the place of a variation in its panel; none where all its trainings diverged.
 
     Raises:
         DataError: a file is missing or damaged.
     """
-    found = [sound(trainings) for trainings in read_trainings(entry["folders"]).values()]
-    return [size_of(entry["panel"], entry["base"], kept) for kept in found if kept]
+    found = [sound(trainings) for trainings in read_trainings(swept.folders).values()]
+    return [size_of(swept.panel, swept.base, kept) for kept in found if kept]
 
 
 def size_of(panel: str, base: str, trainings: Sequence[Training]) -> Size:
-    """Return one place of the figure, loss [-] and RMSE [N m], from its runs."""
+    """Return one place of the figure, loss and RMSE [N m], from its runs."""
     kept = [training.kept for training in trainings]
     loss, rmse = extremes(np.array([(epoch.validation_loss, epoch.validation_rmse) for epoch in kept]))
     return Size(panel, base, trainings[0], loss, rmse)
 
 
 def growth_line(own: Sequence[Size], base: str) -> Line:
-    """Return the losses (n,) [-] of an estimator's variations over the size that their panel varies."""
+    """Return the losses (n,) of an estimator's variations over the size that their panel varies."""
     return Line(base, [size.place / THOUSAND for size in own], [size.loss for size in own])

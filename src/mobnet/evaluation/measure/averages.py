@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
+from mobnet.settings.evaluation import Mean
 
 
 @dataclass(frozen=True)
@@ -15,10 +15,10 @@ class Column:
     """A column of a table: the mean over joints and metrics, mostly one of each.
 
     Attributes:
-        name: what its head says.
+        name: its head.
         unit: unit of its joints' torque.
         joints: limb and name of each joint, (n,).
-        metrics: names of metrics; none: the metric of the row.
+        metrics: names of metrics; if there are none, the metric of the row counts.
     """
 
     name: str
@@ -27,13 +27,12 @@ class Column:
     metrics: tuple[str, ...] = ()
 
 
-def columns_of(layout: JointLayout, items: Sequence[str | Mapping[str, Any]]) -> list[Column]:
+def columns_of(layout: JointLayout, items: Sequence[str | Mean]) -> list[Column]:
     """Return the columns that a table's configuration asks for, such as those of Table 6.
 
     Args:
         layout: joints and limbs.
-        items: a joint; a limb, for its joints one by one; or a mean: `name`, `joints` (and limbs) and, where it is not
-            of the row's metric, `metrics`.
+        items: a joint, a limb for its joints one by one, or a mean over some of both.
 
     Raises:
         ConfigError: a joint is unknown, or a mean is over joints of different units.
@@ -43,8 +42,8 @@ def columns_of(layout: JointLayout, items: Sequence[str | Mapping[str, Any]]) ->
         if isinstance(item, str):
             columns += [column_of(layout, joint, [joint], ()) for joint in members(layout, item)]
         else:
-            joints = [joint for name in item["joints"] for joint in members(layout, name)]
-            columns.append(column_of(layout, item["name"], joints, item.get("metrics", ())))
+            joints = [joint for name in item.joints for joint in members(layout, name)]
+            columns.append(column_of(layout, item.name, joints, item.metrics))
     return columns
 
 

@@ -1,30 +1,31 @@
-"""How far the predicted standard deviations can be trusted, as learned and scaled: held out, in tests, under collision.
+"""How far the predicted standard deviations can be trusted, as learned and scaled: held out, in tests, in collisions.
 
-Held-out rows come from the trainings' own notes: there, the first half of the validation data gave the factors and the
-second half shows what they do. In tests the factors are those that all validation data gave.
+Held-out rows come from the trainings' own notes: there, the factors are fitted to the first half of the validation data
+and tested on the second half. In tests the factors are those that were fitted to all validation data.
 """
 
 from __future__ import annotations
 
 import logging
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.columns import STD, named
-from mobnet.core.config import load_layout
+from mobnet.core.columns import STD
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json
 from mobnet.core.joints import JointLayout
-from mobnet.core.store import NOTE, read_array
-from mobnet.evaluation.measure.metrics import parts
-from mobnet.evaluation.measure.scores import read_pair
+from mobnet.core.store import NOTE
+from mobnet.evaluation.measure.estimates import read_pair, read_std
+from mobnet.evaluation.measure.metrics import Spans, parts
 from mobnet.evaluation.measure.windows import pushed_of
 from mobnet.learning.gaussian import Fit, fit_of
+from mobnet.plan.runs import Run
+from mobnet.settings.evaluation import CalibrationTest, Coverage
 
 log = logging.getLogger(__name__)
 
@@ -46,7 +47,7 @@ class Grid:
         limb: limb of section 4.1.
         unit: unit of the limb's torques.
         values: means over the limb's joints (networks, tests, 2, k + 2): as learned and scaled; coverage of k nominal
-            shares [-], negative log-likelihood [nats] and CRPS [N m].
+            shares, negative log-likelihood [nats] and CRPS [N m].
     """
 
     test: str
@@ -56,6 +57,11 @@ class Grid:
     limb: str
     unit: str
     values: Array
+
+    @property
+    def case(self) -> str:
+        """Name of the test in table and figure."""
+        return self.test.replace("_", " ") + (", pushed" if self.pushed else "")
 
 
 def limb_columns(layout: JointLayout, joints: Sequence[str]) -> dict[tuple[str, str], list[int]]:
@@ -69,117 +75,99 @@ def limb_columns(layout: JointLayout, joints: Sequence[str]) -> dict[tuple[str, 
 
 
 def numbers_of(fit: Fit, columns: Sequence[int]) -> Array:
-    """Return coverage [-], likelihood [nats] and CRPS [N m], means over some joints, in one row (k + 2,)."""
+    """Return coverage, likelihood [nats] and CRPS [N m], means over some joints, in one row (k + 2,)."""
     return np.array([*fit.coverage[:, columns].mean(axis=1), fit.nll[columns].mean(), fit.crps[columns].mean()])
 
 
-def held_out(layout: JointLayout, folders: Sequence[str], shares: Sequence[float]) -> list[Grid]:
+def held_out(layout: JointLayout, folders: Sequence[Path], shares: Sequence[float]) -> list[Grid]:
     """Return what trainings noted of their validation data, (networks, 1, 2, k + 2), those that diverged left out.
 
     Args:
         layout: joints.
         folders: of the trained networks.
-        shares: nominal shares (k,) [-].
+        shares: nominal shares (k,).
 
     Raises:
-        DataError: a note is missing, or tells the coverage of other shares.
+        DataError: a note is missing, or has the coverage of other shares.
     """
     found: dict[Key, list[Array]] = {}
     for folder in folders:
-        path = Path(folder) / "run.json"
+        path = folder / "run.json"
         note = read_json(path)
         if note["diverged"]:
             log.info("%s: diverged, left out", path)
             continue
-        told = note["calibration"]
-        if told["shares"] != list(shares):
-            raise DataError(f"{path}: coverage of shares {told['shares']}, but {list(shares)} are asked for")
-        fits = [Fit(**{name: np.array(values) for name, values in told[stage].items()}) for stage in STAGES]
-        for (limb, unit), columns in limb_columns(layout, told["joints"]).items():
+        measured = note["calibration"]
+        if measured["shares"] != list(shares):
+            raise DataError(f"{path}: coverage of shares {measured['shares']}, but {list(shares)} are asked for")
+        fits = [Fit(**{name: np.array(values) for name, values in measured[stage].items()}) for stage in STAGES]
+        for (limb, unit), columns in limb_columns(layout, measured["joints"]).items():
             cell = np.array([numbers_of(fit, columns) for fit in fits])
             found.setdefault((note["method"], limb, unit), []).append(cell)
     return [Grid(VALIDATION, "", "", *key, np.array(cells)[:, None]) for key, cells in found.items()]
 
 
-def in_tests(config: Mapping[str, Any], tests: Sequence[Mapping[str, Any]], shares: Sequence[float]) -> list[Grid]:
+def in_tests(
+    layout: JointLayout,
+    coverage: Coverage,
+    tests: Sequence[CalibrationTest],
+    runs: Sequence[Sequence[Run]],
+    shares: Sequence[float],
+) -> list[Grid]:
     """Return what runs show of their standard deviations, (networks, tests, 2, k + 2) each.
 
     Args:
-        config: resolved configuration: `robot`, and push_nm [N m] and push_after_s [s] of `evaluation.coverage`.
-        tests: scenario, level, `limbs`, `runs`, each with method, seeds and the stems of its files, and `pushed`, a
-            joint, where only samples around pushes count.
-        shares: nominal shares (k,) [-].
+        layout: joints.
+        coverage: what counts as a push, for tests of which only samples around pushes count.
+        tests: the tests.
+        runs: of each test.
+        shares: nominal shares (k,).
 
     Raises:
         DataError: a file or a column is missing, or an estimate has no standard deviation.
     """
-    layout, grids = load_layout(Path(config["robot"])), []
-    for test in tests:
-        cells: dict[Key, dict[tuple[int, int], Array]] = {}
-        for run in test["runs"]:
-            for key, cell in run_cells(config, layout, test, run, shares):
-                cells.setdefault(key, {})[run["network_seed"], run["test_seed"]] = cell
+    grids: list[Grid] = []
+    for test, own in zip(tests, runs, strict=True):
+        pushed, cells = pushed_of(test, coverage), defaultdict[Key, dict[tuple[int, int], Array]](dict)
+        for run in own:
+            spans = pushed.spans(run.recording) if pushed else None
+            for (limb, unit), cell in run_cells(layout, run, spans, shares):
+                if limb in test.limbs:
+                    cells[run.method, limb, unit][run.network_seed, run.test_seed] = cell
         if not cells:
-            log.warning("%s: no push or no such limb in its %d runs", test["scenario"], len(test["runs"]))
-        head = test["scenario"], test["level"], test.get("pushed", "")
-        grids += [Grid(*head, *key, grid_of(runs)) for key, runs in cells.items()]
+            log.warning("%s: no push or no such limb in its %d runs", test.scenario, len(own))
+        head = test.scenario, test.level, test.pushed or ""
+        grids += [Grid(*head, *key, grid_of(found)) for key, found in cells.items()]
     return grids
 
 
 def run_cells(
-    config: Mapping[str, Any],
-    layout: JointLayout,
-    test: Mapping[str, Any],
-    run: Mapping[str, Any],
-    shares: Sequence[float],
-) -> Iterator[tuple[Key, Array]]:
-    """Yield method, limb and unit, and the measures (2, k + 2) of each limb of a run; none without a push."""
-    pushed = pushed_of(test, config["evaluation"]["coverage"])
-    spans = pushed.spans(Path(run["recording"])) if pushed else None
-    if spans == ():
-        return
-    told = read_told(Path(run["estimate"]), Path(run["residual"]), layout)
-    error, std = (np.concatenate(parts(array, spans or told.spans)) for array in (told.error, told.std))
-    fits = [fit_of(error, one, shares) for one in (std / told.scale, std)]
-    for (limb, unit), columns in limb_columns(layout, told.joints).items():
-        if limb in test["limbs"]:
-            yield (run["method"], limb, unit), np.array([numbers_of(fit, columns) for fit in fits])
+    layout: JointLayout, run: Run, spans: Spans | None, shares: Sequence[float]
+) -> Iterator[tuple[tuple[str, str], Array]]:
+    """Yield limb and unit, and the measures (2, k + 2) of a run, limb by limb.
 
-
-@dataclass(frozen=True)
-class Told:
-    """What an estimate tells of its own error.
-
-    Attributes:
-        joints: names (n,).
-        error: estimate minus low-passed truth (T, n) [N m].
-        std: standard deviation that it names (T, n) [N m].
-        scale: factors that this holds (n,) [-].
-        spans: contiguous stretches (start, end) of rows.
-    """
-
-    joints: tuple[str, ...]
-    error: Array
-    std: Array
-    scale: Array
-    spans: tuple[tuple[int, int], ...]
-
-
-def read_told(estimate: Path, residual: Path, layout: JointLayout) -> Told:
-    """Read an estimate with its standard deviation and error (T, n) [N m], V1..V3 [N].
+    Args:
+        layout: joints.
+        run: of a method that predicts standard deviations.
+        spans: stretches of rows that count; None for all, and if there is none, nothing is yielded.
+        shares: nominal shares (k,).
 
     Raises:
-        DataError: a file or a column is missing, or the two do not belong together.
+        DataError: a file or a column is missing, or estimate and residual do not belong together.
     """
-    pair = read_pair(estimate, residual, layout)
-    scale = read_json(estimate.with_suffix(NOTE)).get("std_scale", {})
-    return Told(
-        pair.joints,
-        pair.estimate.astype(np.float64) - pair.truth,
-        read_array(estimate, named(STD, pair.joints))[0].astype(np.float64),
-        np.array([scale.get(joint, 1.0) for joint in pair.joints]),
-        pair.spans,
-    )
+    if spans == ():
+        return
+    pair = read_pair(run, layout)
+    std = read_std(run, pair.joints)
+    if std is None:
+        raise DataError(f"{run.estimate}.json: columns {STD}.<joint> are missing")
+    noted = read_json(run.estimate.with_suffix(NOTE)).get("std_scale", {})
+    factors = np.array([noted.get(joint, 1.0) for joint in pair.joints])
+    arrays = pair.estimate.astype(np.float64) - pair.truth, std.astype(np.float64)
+    error, scaled = (np.concatenate(parts(array, spans or pair.spans)) for array in arrays)
+    fits = [fit_of(error, one, shares) for one in (scaled / factors, scaled)]
+    for key, columns in limb_columns(layout, pair.joints).items():
+        yield key, np.array([numbers_of(fit, columns) for fit in fits])
 
 
 def grid_of(runs: Mapping[tuple[int, int], Array]) -> Array:
@@ -192,8 +180,3 @@ def grid_of(runs: Mapping[tuple[int, int], Array]) -> Array:
     if len(runs) != len(networks) * len(tests):
         raise DataError(f"runs {sorted(runs)}; expected one for each of networks {networks} on tests {tests}")
     return np.array([[runs[network, test] for test in tests] for network in networks])
-
-
-def case_name(test: str, pushed: str) -> str:
-    """Return the name of a test in table and figure."""
-    return test.replace("_", " ") + (", pushed" if pushed else "")

@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from mobnet.core.columns import DESIRED, FEET, VELOCITY
-from mobnet.core.config import load_layout
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import read_sensed
 from mobnet.evaluation.measure.gait import foot_of
@@ -26,6 +25,8 @@ from mobnet.evaluation.measure.windows import FLAG, Pushed, blocks_of, evenly, p
 from mobnet.evaluation.number.intervals import summarise
 from mobnet.evaluation.number.number import Number
 from mobnet.learning.features import LimbInputs, limb_inputs
+from mobnet.settings.evaluation import Coverage, CoverageTest, Statistics
+from mobnet.settings.networks import Limb
 
 log = logging.getLogger(__name__)
 
@@ -45,13 +46,12 @@ class Covered:
     Attributes:
         scenario: test; `training` where none is needed.
         level: its uncertainty level.
-        measure: AREA, AIR_AREA or a value of OUTSIDE, a share [-], or a name of NEAREST, a distance in z-scored
-            inputs [-].
+        measure: AREA, AIR_AREA or a value of OUTSIDE, all shares, or a name of NEAREST, a distance in z-scored inputs.
         joint: joint, or `all`, the mean over joints or inputs together.
         block_count: blocks of test samples, each contiguous in time; 0 without a test.
-        with_rte: number against the training set with random torque exploration [-].
-        without_rte: the same against the set without it, of equally many samples [-].
-        ratio: with over without [-], its interval over blocks; none for the shares of test samples, which may be zero.
+        with_rte: number against the training set with random torque exploration.
+        without_rte: the same against the set without it, of equally many samples.
+        ratio: with over without, its interval over blocks; none for the shares of test samples, which may be zero.
     """
 
     scenario: str
@@ -66,7 +66,7 @@ class Covered:
 
 @dataclass(frozen=True)
 class Reference:
-    """Training data that tests are held against.
+    """Training data that tests are compared with.
 
     Attributes:
         low: lower end of the central range of each input (n_in,) [unit of the input].
@@ -80,48 +80,53 @@ class Reference:
 
 
 def covered(
-    config: Mapping[str, Any], training: Mapping[str, Sequence[str]], tests: Sequence[Mapping[str, Any]]
+    settings: Coverage,
+    layout: JointLayout,
+    ports: Limb,
+    statistics: Statistics,
+    seed: int,
+    training: Mapping[str, Sequence[Path]],
+    tests: Sequence[Sequence[Path]],
 ) -> list[Covered]:
     """Return all measures of the training sets and of every test against them.
 
     Args:
-        config: resolved configuration: `robot`, `networks`, `seed`, and of `evaluation`: `coverage` (limb, samples of
-            each training set, every, block_s, range, the central quantiles [-], cells, cell_range, push_nm,
-            push_after_s) and what intervals need.
-        training: `with RTE` and `without RTE` -> stems of the recordings.
-        tests: scenario, level and `recordings`, the stems, of each test; `pushed`, a joint, where only samples around
-            pushes count.
+        settings: which samples are looked at, and which tests.
+        layout: joints and legs.
+        ports: what the network of the leg sees.
+        statistics: of the intervals.
+        seed: of the intervals.
+        training: `with RTE` and `without RTE` -> recordings.
+        tests: recordings of each test of the settings.
 
     Raises:
         DataError: a file or a column is missing.
     """
-    settings, layout = config["evaluation"]["coverage"], load_layout(Path(config["robot"]))
-    inputs = limb_inputs(layout, config["networks"][settings["limb"]])
-    joints, foot = layout.limb(settings["limb"]), FEET.index(foot_of(Path(config["robot"]), settings["limb"] + "1"))
-    sets = [training[WITH], training[WITHOUT]]
-    samples = equal_sets([read_blocks(stems, layout, inputs, settings) for stems in sets], settings)
-    airborne = equal_sets([read_blocks(stems, layout, inputs, settings, foot) for stems in sets], settings)
+    inputs, joints = limb_inputs(layout, ports), layout.limb(settings.limb)
+    foot, sets = FEET.index(foot_of(layout, joints[0])), [training[WITH], training[WITHOUT]]
+    samples = equal_sets([read_blocks(stems, layout, inputs, settings) for stems in sets], settings.samples)
+    airborne = equal_sets([read_blocks(stems, layout, inputs, settings, foot) for stems in sets], settings.samples)
     mean, std = scale_of(np.concatenate(samples))
-    references = [refer(array, settings["range"], mean, std) for array in samples]
+    references = [refer(array, settings.range, mean, std) for array in samples]
     rows = [
         *visited(AREA, samples, inputs.names, joints, settings),
         *visited(AIR_AREA, airborne, inputs.names, joints, settings),
     ]
-    for test in tests:
-        blocks = read_blocks(test["recordings"], layout, inputs, settings, pushed=pushed_of(test, settings))
+    for test, stems in zip(settings.tests, tests, strict=True):
+        blocks = read_blocks(stems, layout, inputs, settings, pushed=pushed_of(test, settings))
         if not blocks:
-            log.warning("%s: no push is found in its %d recordings", test["scenario"], len(test["recordings"]))
+            log.warning("%s: no push is found in its %d recordings", test.scenario, len(stems))
             continue
         rows += outside(test, blocks, references, inputs.names, joints)
-        rows += nearest(config, test, [(block - mean) / std for block in blocks], references)
+        rows += nearest(test, [(block - mean) / std for block in blocks], references, statistics, seed)
     return rows
 
 
 def read_blocks(
-    stems: Sequence[str],
+    stems: Sequence[Path],
     layout: JointLayout,
     inputs: LimbInputs,
-    settings: Mapping[str, Any],
+    settings: Coverage,
     foot: int | None = None,
     pushed: Pushed | None = None,
 ) -> list[NDArray[np.float32]]:
@@ -131,7 +136,7 @@ def read_blocks(
         stems: recordings.
         layout: joints.
         inputs: of the limb's network.
-        settings: `evaluation.coverage`: block_s [s], every.
+        settings: length of a block, and every how many samples one is taken.
         foot: look at samples with this foot, 0 left, 1 right, in the air only.
         pushed: look at these samples only; a block each.
 
@@ -140,19 +145,18 @@ def read_blocks(
     """
     blocks = []
     for stem in stems:
-        recording = read_sensed(Path(stem), layout)
-        length = round(settings["block_s"] * recording.rate_hz)
-        spans = pushed.spans(Path(stem)) if pushed else tuple(recording.segments)
-        for start, end in blocks_of(spans, length):
-            sensed = recording.sensed[start : end : settings["every"]]
+        recording = read_sensed(stem, layout)
+        spans = pushed.spans(stem) if pushed else recording.segments
+        for start, end in blocks_of(spans, round(settings.block_s * recording.rate_hz)):
+            sensed = recording.sensed[start : end : settings.every]
             blocks.append(inputs(sensed)[slice(None) if foot is None else sensed.swing[:, foot] > FLAG])
     return blocks
 
 
-def equal_sets(sets: Sequence[Blocks], settings: Mapping[str, Any]) -> list[NDArray[np.float32]]:
-    """Return samples (n, n_in) of every set [their units], equally many and evenly spread in time."""
+def equal_sets(sets: Sequence[Blocks], most: int) -> list[NDArray[np.float32]]:
+    """Return samples (n, n_in) of every set [their units], equally many but no more than `most`, evenly in time."""
     whole = [np.concatenate(blocks) for blocks in sets]
-    size = min(settings["samples"], *map(len, whole))
+    size = min(most, *map(len, whole))
     return [array[evenly(len(array), size)] for array in whole]
 
 
@@ -163,11 +167,11 @@ def scale_of(samples: NDArray[Any]) -> tuple[Array, Array]:
 
 
 def refer(samples: NDArray[Any], shares: Sequence[float], mean: Array, std: Array) -> Reference:
-    """Return what tests are held against.
+    """Return what tests are compared with.
 
     Args:
         samples: training inputs (n, n_in) [their units].
-        shares: lower and upper quantile of the central range [-].
+        shares: lower and upper quantile of the central range.
         mean: of both training sets together (n_in,).
         std: of both training sets together (n_in,): one scale, so that distances to the two compare.
     """
@@ -176,13 +180,9 @@ def refer(samples: NDArray[Any], shares: Sequence[float], mean: Array, std: Arra
 
 
 def visited(
-    measure: str,
-    samples: Sequence[NDArray[Any]],
-    names: Sequence[str],
-    joints: Sequence[str],
-    settings: Mapping[str, Any],
+    measure: str, samples: Sequence[NDArray[Any]], names: Sequence[str], joints: Sequence[str], settings: Coverage
 ) -> Iterator[Covered]:
-    """Yield the share of a joint's velocity-torque plane that each training set visits [-] (Figure 19).
+    """Yield the share of a joint's velocity-torque plane that each training set visits (Figure 19).
 
     The plane is a rectangle of both sets together, without their rarest samples, cut into equal cells.
 
@@ -191,31 +191,27 @@ def visited(
         samples: with and without random torque exploration (n, n_in) [rad/s], [N m] among the inputs.
         names: of the inputs (n_in,).
         joints: joints of the limb.
-        settings: `evaluation.coverage`: cells along each side, cell_range, the quantiles [-] at its ends.
+        settings: cells along each side, and the quantiles at its ends.
     """
     where = {name: column for column, name in enumerate(names)}
     shares = []
     for joint in joints:
         planes = [array[:, [where[f"{quantity}.{joint}"] for quantity in OUTSIDE]] for array in samples]
         both = np.concatenate(planes)
-        bounds = list(zip(*np.quantile(both, settings["cell_range"], axis=0), strict=True))
-        shares.append([float(np.mean(np.histogramdd(plane, settings["cells"], bounds)[0] > 0)) for plane in planes])
+        bounds = list(zip(*np.quantile(both, settings.cell_range, axis=0), strict=True))
+        shares.append([float(np.mean(np.histogramdd(plane, settings.cells, bounds)[0] > 0)) for plane in planes])
     for joint, (have, lack) in zip([*joints, ALL], [*shares, np.mean(shares, axis=0).tolist()], strict=True):
         yield Covered("training", "", measure, joint, 0, have, lack, Number(have / lack))
 
 
 def outside(
-    test: Mapping[str, Any],
-    blocks: Blocks,
-    references: Sequence[Reference],
-    names: Sequence[str],
-    joints: Sequence[str],
+    test: CoverageTest, blocks: Blocks, references: Sequence[Reference], names: Sequence[str], joints: Sequence[str]
 ) -> Iterator[Covered]:
-    """Yield the share of test samples outside the central range [-], for each joint and the mean over joints.
+    """Yield the share of test samples outside the central range, for each joint and the mean over joints.
 
     Args:
-        test: scenario and level.
-        blocks: test inputs (n, n_in) each [their units].
+        test: the test.
+        blocks: its inputs (n, n_in) each [their units].
         references: with and without random torque exploration.
         names: of the inputs (n_in,).
         joints: joints of the limb.
@@ -227,23 +223,24 @@ def outside(
         columns = {joint: [where[f"{quantity}.{joint}"]] for joint in joints}
         for joint, picked in (columns | {ALL: [column for (column,) in columns.values()]}).items():
             have, lack = (float(share[picked].mean()) for share in shares)
-            yield Covered(test["scenario"], test["level"], measure, joint, len(blocks), have, lack, Number(None))
+            yield Covered(test.scenario, test.level, measure, joint, len(blocks), have, lack, Number(None))
 
 
 def nearest(
-    config: Mapping[str, Any], test: Mapping[str, Any], blocks: Blocks, references: Sequence[Reference]
+    test: CoverageTest, blocks: Blocks, references: Sequence[Reference], statistics: Statistics, seed: int
 ) -> Iterator[Covered]:
-    """Yield quantiles of the distance to the nearest training sample [-], means over blocks, and their ratio.
+    """Yield quantiles of the distance to the nearest training sample, means over blocks, and their ratio.
 
     Args:
-        config: resolved configuration, for the interval.
-        test: scenario and level.
-        blocks: z-scored test inputs (n, n_in) each [-].
+        test: the test.
+        blocks: its z-scored inputs (n, n_in) each.
         references: with and without random torque exploration.
+        statistics: of the intervals.
+        seed: of the intervals.
     """
     distances = [[ref.tree.query(block)[0] for block in blocks] for ref in references]
     for measure, share in NEAREST.items():
         have, lack = (np.array([[np.quantile(block, share) for block in found]]) for found in distances)
-        ratio = summarise([have, lack], config, lambda means: means[0] / means[1])
+        ratio = summarise([have, lack], statistics, seed, lambda means: means[0] / means[1])
         means = float(have.mean()), float(lack.mean())
-        yield Covered(test["scenario"], test["level"], measure, ALL, len(blocks), *means, ratio)
+        yield Covered(test.scenario, test.level, measure, ALL, len(blocks), *means, ratio)

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.columns import RESIDUAL, STD, named
-from mobnet.core.config import load_layout
-from mobnet.core.errors import ConfigError, not_accepted
-from mobnet.core.files import read_json
-from mobnet.core.store import NOTE, read_array
+from mobnet.core.columns import RESIDUAL, named
+from mobnet.core.joints import JointLayout
+from mobnet.core.store import read_array
+from mobnet.evaluation.measure.estimates import read_pair, read_std
 from mobnet.evaluation.measure.metrics import Spans
-from mobnet.evaluation.measure.scores import read_pair
 from mobnet.evaluation.measure.windows import FLAG
+from mobnet.plan.runs import Run
 
 TRUTH, TARGET = "truth", "target"  # labels: tau_e, and what is learned of the uncertainty, r - tau_e (section 4.2.3)
 
@@ -45,7 +43,7 @@ class Panel:
         title: what is shown.
         time: time (T,) [s].
         curves: lines, the last on top.
-        flags: name of `FLAGS` -> whether it holds (T,).
+        flags: name -> whether it holds (T,).
     """
 
     title: str
@@ -63,8 +61,8 @@ class Curves:
         truth: low-passed external torque (T, n) [N m], V1..V3 [N].
         residual: residual of the momentum observer (T, n) [N m], V1..V3 [N].
         estimates: method -> external torque (T, n) [N m], V1..V3 [N].
-        stds: method -> standard deviation (T, n) [N m], V1..V3 [N]; None where it tells none.
-        flags: name of `figures.FLAGS` -> whether it holds (T,).
+        stds: method -> standard deviation (T, n) [N m], V1..V3 [N]; None where it predicts none.
+        flags: name -> whether it holds (T,).
         spans: contiguous stretches (start, end) of rows.
         rate_hz: samples per second [Hz].
     """
@@ -86,7 +84,7 @@ class Curves:
             joint: one of the joints.
             rows: samples shown.
             zero: row at time 0.
-            band: whether a standard deviation is shown where a method tells it.
+            band: whether a standard deviation is shown where a method predicts it.
         """
         k = self.joints.index(joint)
         estimates = [
@@ -96,9 +94,9 @@ class Curves:
         return self._panel(title, rows, zero, [Curve(TRUTH, self.truth[rows, k]), *estimates])
 
     def uncertainty_panel(self, title: str, joint: str, rows: slice, *, zero: int = 0) -> Panel:
-        """Return a panel of a joint's uncertainty torque, r - tau_e of (15), and what was predicted of it [N m].
+        """Return a panel of a joint's uncertainty torque, r - tau_e of (15), and of its predictions [N m].
 
-        What a method takes off the residual is its prediction; the arguments are those of `panel`.
+        A method predicts what it subtracts from the residual; the arguments are those of `panel`.
         """
         k = self.joints.index(joint)
         residual = self.residual[rows, k]
@@ -109,7 +107,7 @@ class Curves:
         return self._panel(title, rows, zero, [Curve(TARGET, residual - self.truth[rows, k]), *predictions])
 
     def _std(self, method: str, rows: slice, k: int) -> NDArray[Any] | None:
-        """Return the standard deviation of the k-th joint that a method tells (T,) [N m], V1..V3 [N]."""
+        """Return the standard deviation of the k-th joint that a method predicts (T,) [N m], V1..V3 [N]."""
         std = self.stds[method]
         return None if std is None else std[rows, k]
 
@@ -120,50 +118,30 @@ class Curves:
 
 
 def read_curves(
-    robot: Path, entries: Sequence[Mapping[str, Any]], joints: Iterable[str], flags: Mapping[str, str] | None = None
+    layout: JointLayout, runs: Sequence[Run], joints: Sequence[str], flags: Mapping[str, str] | None = None
 ) -> Curves:
-    """Read what methods made of some joints of a recording.
+    """Read what methods made of some joints (n,) of one recording.
 
     Args:
-        robot: the robot's table; names the joints that there are.
-        entries: a mapping a method, all of one recording: method, and the stems `recording`, `residual`, `estimate`.
+        layout: joints and limbs.
+        runs: one of each method, all of one recording.
         joints: names.
-        flags: name of `figures.FLAGS` -> column of the recording that says whether it holds.
+        flags: name of a flag -> column of the recording that says whether it holds.
 
     Raises:
         ConfigError: a joint is not estimated by a method.
         DataError: a file or a column is missing, or files do not belong together.
     """
-    layout, wanted, flags = load_layout(robot), tuple(joints), flags or {}
-    pairs = {entry["method"]: read_pair(Path(entry["estimate"]), Path(entry["residual"]), layout) for entry in entries}
-    first = pairs[entries[0]["method"]]
-    estimates, stds = {}, {}
-    for entry in entries:
-        pair = pairs[entry["method"]]
-        estimates[entry["method"]] = pair.estimate[:, places_of(wanted, pair.joints, entry["estimate"])]
-        stds[entry["method"]] = read_std(Path(entry["estimate"]), wanted)
-    residual, _ = read_array(Path(entries[0]["residual"]), named(RESIDUAL, wanted))
-    marks = [read_array(Path(entries[0]["recording"]), [column])[0][:, 0] > FLAG for column in flags.values()]
+    wanted, flags = tuple(joints), flags or {}
+    pairs = [read_pair(run, layout) for run in runs]
+    first = pairs[0]
     return Curves(
-        wanted, first.truth[:, places_of(wanted, first.joints, "truth")], residual, estimates, stds,
-        dict(zip(flags, marks, strict=True)), first.spans, first.rate_hz,
-    )  # fmt: skip
-
-
-def places_of(joints: Sequence[str], held: Sequence[str], where: str) -> list[int]:
-    """Return where joints stand among those that a file holds (n,).
-
-    Raises:
-        ConfigError: the file holds no such joint.
-    """
-    for joint in joints:
-        if joint not in held:
-            raise ConfigError(f"{where}.json: {not_accepted('joint', joint, held)}")
-    return [held.index(joint) for joint in joints]
-
-
-def read_std(estimate: Path, joints: Sequence[str]) -> NDArray[np.float32] | None:
-    """Return the standard deviation of joints (T, n) [N m], V1..V3 [N]; None if the file of an estimate has none."""
-    held = {column["name"] for column in read_json(estimate.with_suffix(NOTE))["columns"]}
-    names = named(STD, joints)
-    return read_array(estimate, names)[0] if held.issuperset(names) else None
+        wanted,
+        truth=first.truth[:, first.places(wanted)],
+        residual=read_array(first.run.residual, named(RESIDUAL, wanted))[0],
+        estimates={pair.run.method: pair.estimate[:, pair.places(wanted)] for pair in pairs},
+        stds={run.method: read_std(run, wanted) for run in runs},
+        flags={name: read_array(first.run.recording, [column])[0][:, 0] > FLAG for name, column in flags.items()},
+        spans=first.spans,
+        rate_hz=first.rate_hz,
+    )

@@ -2,57 +2,62 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from pathlib import Path
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.columns import PUSHED, SWING, Score
-from mobnet.core.config import load_layout
+from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.curves import Panel, read_curves
 from mobnet.evaluation.measure.gait import foot_of
 from mobnet.evaluation.measure.metrics import PUSH
 from mobnet.evaluation.measure.windows import push_windows
 from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.number import Number
-from mobnet.evaluation.number.published import published_value, read_published
+from mobnet.evaluation.number.published import published_value
+from mobnet.plan.runs import Run
+from mobnet.settings.evaluation import Figure06, Figure10, PushedRuns, Runs, Statistics
+from mobnet.settings.published import PublishedTable
 
 ALL, AVERAGE, INCREASE = "all windows", "avg", "increase"  # of the windows together, the mean of each push's, and that
 # mean less the error where nothing pushes
-Entries = Sequence[Mapping[str, Any]]
 PushErrors = dict[str, dict[str, Number]]  # method -> number of a push, ALL, AVERAGE or INCREASE -> error [N m]
 
 
 def wanted_of(
-    config: Mapping[str, Any], test: Mapping[str, Any], method: str, joint: str, metric: str = "rmse"
+    layout: JointLayout, test: Runs | PushedRuns | Figure06, method: str, joint: str, metric: str = "rmse"
 ) -> Wanted:
-    """Return which error of a joint [N m] of a test (scenario, level) is wanted."""
-    groups = load_layout(Path(config["robot"])).groups
-    limb = next(name for name, joints in groups.items() if joint in joints)
-    return Wanted(test["scenario"], limb, test["level"], method, joint, metric)
+    """Return which error of a joint [N m] of a test is wanted."""
+    limb = next(name for name, joints in layout.groups.items() if joint in joints)
+    return Wanted(test.scenario, limb, test.level, method, joint, metric)
 
 
 def collision_errors(
-    config: Mapping[str, Any], settings: Mapping[str, Any], test: Mapping[str, Any], scores: Sequence[Score]
+    layout: JointLayout,
+    settings: Figure10,
+    test: PushedRuns,
+    published: PublishedTable,
+    scores: Sequence[Score],
+    statistics: Statistics,
+    seed: int,
 ) -> PushErrors:
     """Return the errors of a test [N m], method by method: of each push, their average, and its increase.
 
     Raises:
         DataError: a run is missing.
     """
-    published, joint = read_published(Path(config["published"]), "figure_10"), settings["joint"]
+    joint, metrics = settings.joint, push_metrics(scores, test.scenario)
     errors: PushErrors = {}
-    for method in test["methods"]:
-        own = [wanted_of(config, test, method, joint, metric) for metric in push_metrics(scores, test["scenario"])]
-        if not own:
-            continue
-        calm = wanted_of(config, settings["against"], method, joint)
-        printed = published_value(published, test["scenario"], method, AVERAGE)
-        errors[method] = {str(k): number_of(scores, [wanted], config) for k, wanted in enumerate(own, start=1)}
-        errors[method][AVERAGE] = number_of(scores, own, config, published=printed)
-        errors[method][INCREASE] = number_of(scores, [*own, calm], config, increase)
+    for method in test.methods if metrics else ():
+        own = [wanted_of(layout, test, method, joint, metric) for metric in metrics]
+        calm = wanted_of(layout, settings.against, method, joint)
+        printed = published_value(published, test.scenario, method, AVERAGE)
+        errors[method] = {
+            **{str(k): number_of(scores, [wanted], statistics, seed) for k, wanted in enumerate(own, start=1)},
+            AVERAGE: number_of(scores, own, statistics, seed, published=printed),
+            INCREASE: number_of(scores, [*own, calm], statistics, seed, increase),
+        }
     return errors
 
 
@@ -67,23 +72,22 @@ def increase(means: NDArray[np.float64]) -> NDArray[np.float64]:
     return means[:-1].mean(axis=0) - means[-1]
 
 
-def read_pushes(config: Mapping[str, Any], settings: Mapping[str, Any], entries: Entries, title: str) -> list[Panel]:
+def read_pushes(layout: JointLayout, settings: Figure06 | Figure10, runs: Sequence[Run], title: str) -> list[Panel]:
     """Return a panel for each push of a recording, in order: truth and estimates of a joint [N m], time from the push.
 
     Args:
-        config: resolved configuration: `robot`.
-        settings: joint, before_s and after_s [s]: what is shown around a push.
-        entries: a mapping a method, all of one recording.
+        layout: joints and legs.
+        settings: joint, and what is shown around a push.
+        runs: one of each method, all of one recording.
         title: of the panels; the number of the push takes the place of the braces.
 
     Raises:
         DataError: a file is missing or damaged.
         ConfigError: the joint belongs to no leg, or is not estimated.
     """
-    robot, joint = Path(config["robot"]), settings["joint"]
-    curves = read_curves(robot, entries, [joint], {"swing": f"{SWING}.{foot_of(robot, joint)}", "push": PUSHED})
-    recording = Path(entries[0]["recording"])
-    windows = push_windows(recording, len(curves.truth), settings["before_s"], settings["after_s"])
+    joint = settings.joint
+    curves = read_curves(layout, runs, [joint], {"swing": f"{SWING}.{foot_of(layout, joint)}", "push": PUSHED})
+    windows = push_windows(runs[0].recording, len(curves.truth), settings.before_s, settings.after_s)
     panels = []
     for k, (start, end) in enumerate(windows, start=1):
         zero = start + int(np.argmax(curves.flags["push"][start:end]))

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, fields
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -15,18 +15,18 @@ from numpy.typing import NDArray
 from mobnet.control.parameters import DURATION, STEP_Y, TURN
 from mobnet.core.columns import FEET, recording_columns
 from mobnet.core.errors import DataError
-from mobnet.core.joints import NQ_BASE
+from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
 from mobnet.evaluation.measure.metrics import Spans
-from mobnet.robot.description import SIDES, load_robot
+from mobnet.evaluation.measure.windows import FLAG
+from mobnet.robot.description import SIDES
 from mobnet.robot.frames import to_pinocchio
 from mobnet.robot.nominal import NominalModel
+from mobnet.settings.data import Commands
 
 Array = NDArray[np.float64]
-AIR = 0.5  # a stored flag above this is 1
 SIGN = np.array([1.0, -1.0])  # outwards in y, left and right foot
-Sets = Mapping[str, Sequence[str]]  # name of a data set -> stems of its recordings
-KEYS = ("step_x_m", "step_y_m", "turn_deg", "duration_s", "foot_height_m")  # of `commands` in the configuration
+KEYS = ("step_x_m", "step_y_m", "turn_deg", "duration_s", "foot_height_m")  # of the configuration's commands
 UNITS = ("m", "m", "deg", "s", "m")
 CHOICES = 3  # the first three are ranges, the others a few values to choose from
 
@@ -56,14 +56,15 @@ class Steps:
 
     Attributes:
         foot: 0 where the left foot moved, 1 where the right one did (N,).
-        commanded: step x, step y [m], turn [rad], duration [s], foot height [m] (N, 5), Table 2.
-        measured: step x, step y [m], turn [rad], duration [s] (N, 4), in the stance foot's yaw frame; step y is
-            what the feet stand further apart than the controller's spacing.
+        commanded: step x, step y [m], turn [deg], duration [s], foot height [m] (N, 5), Table 2.
+        duration_s: how long they took (N,) [s].
+        landed: generalized positions at the touch-downs that end them (N, nq).
     """
 
     foot: NDArray[np.intp]
-    commanded: NDArray[np.float64]
-    measured: NDArray[np.float64]
+    commanded: Array
+    duration_s: Array
+    landed: NDArray[Any]
 
     def __len__(self) -> int:
         """Return the number of steps."""
@@ -78,36 +79,45 @@ class Steps:
             return self.commanded[:, column] * SIGN[self.foot] > 0.0
         return self.commanded[:, column] != 0.0
 
+    def measured(self, nominal: NominalModel, spacing_m: float) -> Array:
+        """Return step x, step y [m], turn [deg] and duration [s] (N, 4) in the stance foot's yaw frame.
 
-def read_steps(stems: Sequence[Path], nominal: NominalModel, spacing_m: float) -> Steps:
+        Step y is the distance between the feet less the controller's spacing.
+
+        Args:
+            nominal: the model whose kinematics are used.
+            spacing_m: distance between the ankles at a step y of zero [m].
+        """
+        moved = measure(nominal, self.landed, self.foot, spacing_m)
+        return in_degrees(np.concatenate([moved, self.duration_s[:, None]], axis=1))
+
+
+def read_steps(stems: Sequence[Path], layout: JointLayout) -> Steps:
     """Return the steps of recordings, one after another; only the columns needed are read.
 
     Args:
         stems: recordings, paths without a suffix.
-        nominal: the model whose kinematics are used.
-        spacing_m: distance between the ankles at a step y of zero [m].
+        layout: joints.
 
     Raises:
-        DataError: a file or a column is missing, or nothing is walked.
+        DataError: a file or a column is missing, or no step is made.
     """
-    found = [steps for stem in stems for steps in [_steps_of(stem, nominal, spacing_m)] if len(steps)]
-    if not found:
+    found = [_steps_of(stem, layout) for stem in stems]
+    steps = Steps(*(np.concatenate([vars(one)[field.name] for one in found]) for field in fields(Steps)))
+    if not len(steps):
         raise DataError(f"{', '.join(map(str, stems))}: no step is made in these recordings")
-    return Steps(*(np.concatenate([vars(steps)[name] for steps in found]) for name in vars(found[0])))
+    return steps
 
 
-def _steps_of(stem: Path, nominal: NominalModel, spacing_m: float) -> Steps:
+def _steps_of(stem: Path, layout: JointLayout) -> Steps:
     """Return the steps of one recording."""
-    columns = recording_columns(nominal.robot.layout)
+    columns = recording_columns(layout)
     names = [name for field in ("q", "swing", "command") for name, _, _ in columns[field]]
     array, meta = read_array(stem, names)
-    nq = NQ_BASE + nominal.robot.layout.nu
-    q, swing, command = array[:, :nq], array[:, nq : nq + len(FEET)] > AIR, array[:, nq + len(FEET) :]
-    bounds = np.array(list(step_bounds(swing, command, meta["segments"])), dtype=np.intp).reshape(-1, 3)
+    q, swing, command = np.split(array, [layout.nq, layout.nq + len(FEET)], axis=1)
+    bounds = np.array(list(step_bounds(swing > FLAG, command, meta["segments"])), dtype=np.intp).reshape(-1, 3)
     first, last, foot = bounds.T
-    measured = measure(nominal, q[last], foot, spacing_m)
-    duration = (last - first)[:, None] / meta["rate_hz"]
-    return Steps(foot, command[last - 1].astype(float), np.concatenate([measured, duration], axis=1))
+    return Steps(foot, in_degrees(command[last - 1].astype(float)), (last - first) / meta["rate_hz"], q[last])
 
 
 def step_bounds(swing: NDArray[np.bool_], command: NDArray[Any], segments: Spans) -> Iterator[tuple[int, int, int]]:
@@ -148,28 +158,16 @@ def measure(nominal: NominalModel, q: NDArray[Any], foot: NDArray[np.intp], spac
     return np.stack([forward, left - SIGN[foot] * spacing_m, turn], axis=1)
 
 
-def read_sets(config: Mapping[str, Any], sets: Sets) -> dict[str, Steps]:
-    """Return the steps of every data set, turns in [deg], lengths in [m].
-
-    Raises:
-        DataError: a file is missing, or a set holds no step.
-    """
-    nominal = NominalModel(load_robot(Path(config["robot"])))
-    spacing = config["walking"]["foot_spacing_m"]
-    return {name: in_degrees(read_steps(list(map(Path, stems)), nominal, spacing)) for name, stems in sets.items()}
+def in_degrees(numbers: Array) -> Array:
+    """Return numbers of steps (N, n) with the turns in [deg] instead of [rad]."""
+    turned = numbers.copy()
+    turned[:, TURN] = np.rad2deg(turned[:, TURN])
+    return turned
 
 
-def in_degrees(steps: Steps) -> Steps:
-    """Return steps with the turns, commanded and measured (N,), in [deg] instead of [rad]."""
-    commanded, measured = steps.commanded.copy(), steps.measured.copy()
-    for array in (commanded, measured):
-        array[:, TURN] = np.rad2deg(array[:, TURN])
-    return Steps(steps.foot, commanded, measured)
-
-
-def bin_edges(config: Mapping[str, Any], column: int, bins: int) -> NDArray[np.float64]:
+def bin_edges(commands: Commands, column: int, bins: int) -> Array:
     """Return the bins' edges (n + 1,) [m], [deg], [s] of a command: a range cut evenly, or around every choice."""
-    values = np.asarray(config["commands"][KEYS[column]], dtype=float)
+    values = np.asarray(getattr(commands, KEYS[column]), dtype=float)
     if column < CHOICES:
         return np.linspace(values[0], values[1], bins + 1)
     middle = (values[1:] + values[:-1]) / 2

@@ -1,11 +1,10 @@
-"""What trainings left: sizes from run.json, losses from metrics.csv."""
+"""Trainings as they were written: sizes from run.json, losses from metrics.csv."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from mobnet.core.columns import Epoch
 from mobnet.core.errors import DataError
@@ -68,11 +67,13 @@ def read_training(folder: Path) -> Training:
     diverged = bool(note.get("diverged", False))
     if not epochs and not diverged:
         raise DataError(f"{folder / METRICS}: no epoch, though {RUN} does not say that the training diverged")
-    sizes: Mapping[str, Any] = {name: note[name] for name in ("method", "seed", "parameters", "samples", "seconds")}
-    return Training(**sizes, diverged=diverged, windows_loss=note["on_windows"]["loss"], epochs=epochs)
+    return Training(
+        note["method"], note["seed"], note["parameters"], note["samples"], note["seconds"], diverged,
+        note["on_windows"]["loss"], epochs,
+    )  # fmt: skip
 
 
-def read_trainings(folders: Iterable[str]) -> dict[str, list[Training]]:
+def read_trainings(folders: Iterable[Path]) -> dict[str, list[Training]]:
     """Return method -> its trainings, in the order given.
 
     Raises:
@@ -80,7 +81,7 @@ def read_trainings(folders: Iterable[str]) -> dict[str, list[Training]]:
     """
     found: dict[str, list[Training]] = {}
     for folder in folders:
-        training = read_training(Path(folder))
+        training = read_training(folder)
         found.setdefault(training.method, []).append(training)
     return found
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -46,20 +46,18 @@ def hand_speeds(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> Arra
     return np.linalg.norm(twist[..., :3] + np.cross(twist[..., 3:], arm), axis=-1)
 
 
-def upper_body(
-    config: Mapping[str, Any], stems: Sequence[Path], nominal: NominalModel
-) -> Iterator[tuple[str, str, float, str]]:
+def upper_body(every: int, stems: Sequence[Path], nominal: NominalModel) -> Iterator[tuple[str, str, float, str]]:
     """Yield quantity, part, value and unit: hand speeds against the pelvis [m/s] and joint ranges visited [rad].
 
     Args:
-        config: resolved configuration: `evaluation.data.every`, samples from one looked at to the next.
+        every: samples from one that is looked at to the next.
         stems: recordings.
         nominal: the model whose kinematics are used.
 
     Raises:
         DataError: a file or a column is missing.
     """
-    layout, every = nominal.robot.layout, config["evaluation"]["data"]["every"]
+    layout = nominal.robot.layout
     columns = recording_columns(layout)
     names = [name for field in ("q", "v") for name, _, _ in columns[field]]
     speeds, lows, highs = [], [], []

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,13 +13,14 @@ from mobnet.core.columns import CONTACT, EXTERNAL, FEET, PUSHED, SWING
 from mobnet.core.errors import DataError
 from mobnet.core.store import read_array
 from mobnet.evaluation.measure.metrics import Spans
+from mobnet.settings.evaluation import Coverage, CoverageTest
 
 FLAG = 0.5  # a stored flag above this is 1
 
 
 @dataclass(frozen=True)
 class Pushed:
-    """Where in a recording a swinging left leg is pushed, or an arm: it has external torque though it touches nothing.
+    """Where in a recording the swinging left leg or an arm is pushed: it has external torque but touches nothing.
 
     Attributes:
         joint: joint that the push turns.
@@ -43,7 +43,7 @@ class Pushed:
         names = [*(f"{signal}.{FEET[0]}" for signal in (SWING, CONTACT)), f"{EXTERNAL}.{self.joint}"]
         array, meta = read_array(stem, names)
         free = (array[:, 0] > FLAG) & (array[:, 1] < FLAG) if self.leg else np.ones(len(array), dtype=bool)
-        return runs(
+        return flagged_spans(
             free & (np.abs(array[:, 2]) > self.torque_nm), meta["segments"], round(self.after_s * meta["rate_hz"])
         )
 
@@ -67,24 +67,18 @@ def push_windows(stem: Path, rows: int, before_s: float, after_s: float) -> Span
     return tuple(
         (max(start - before, first), min(end + after, last))
         for first, last in meta["segments"]
-        for start, end in runs(pushed[:, 0] > FLAG, ((first, last),), 0)
+        for start, end in flagged_spans(pushed[:, 0] > FLAG, ((first, last),), 0)
     )
 
 
-def pushed_of(test: Mapping[str, Any], settings: Mapping[str, Any]) -> Pushed | None:
-    """Return which samples of a test count, None for all.
-
-    Args:
-        test: `pushed`, a joint, where only samples around pushes count.
-        settings: `evaluation.coverage`: push_nm [N m], push_after_s [s], and the leg's limb.
-    """
-    if "pushed" not in test:
+def pushed_of(test: CoverageTest, settings: Coverage) -> Pushed | None:
+    """Return which samples of a test count: those around pushes where it names a joint, else None for all."""
+    if test.pushed is None:
         return None
-    leg = test["pushed"].startswith(settings["limb"])
-    return Pushed(test["pushed"], settings["push_nm"], settings["push_after_s"], leg)
+    return Pushed(test.pushed, settings.push_nm, settings.push_after_s, test.pushed.startswith(settings.limb))
 
 
-def runs(flags: NDArray[np.bool_], segments: Spans, after: int) -> Spans:
+def flagged_spans(flags: NDArray[np.bool_], segments: Spans, after: int) -> Spans:
     """Return the spans (start, end) of rows in which a flag is set or was within the last `after` rows.
 
     Args:

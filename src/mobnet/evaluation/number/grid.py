@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +12,7 @@ from mobnet.core.columns import Score
 from mobnet.core.errors import DataError
 from mobnet.evaluation.number.intervals import Combine, mean, summarise
 from mobnet.evaluation.number.number import Number
+from mobnet.settings.evaluation import Statistics
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,8 @@ def run_grid(scores: Sequence[Score], wanted: Wanted) -> NDArray[np.float64]:
 def number_of(
     scores: Sequence[Score],
     wanted: Sequence[Wanted],
-    config: Mapping[str, Any],
+    statistics: Statistics,
+    seed: int,
     combine: Combine = mean,
     published: float | None = None,
 ) -> Number:
@@ -80,12 +81,13 @@ def number_of(
     Args:
         scores: of all runs.
         wanted: errors.
-        config: what intervals need.
+        statistics: of the interval.
+        seed: of the interval.
         combine: makes the number of their means.
         published: the paper's number.
 
     Raises:
         DataError: a run is missing.
     """
-    number = summarise([run_grid(scores, each) for each in wanted], config, combine)
+    number = summarise([run_grid(scores, each) for each in wanted], statistics, seed, combine)
     return replace(number, unit=wanted[0].rows(scores)[0].unit, published=published)

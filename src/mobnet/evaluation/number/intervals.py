@@ -7,7 +7,7 @@ drawing single runs would give intervals that are too narrow.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,7 @@ from scipy.stats import bootstrap  # pyright: ignore[reportMissingTypeStubs, rep
 
 from mobnet.core.errors import DataError
 from mobnet.evaluation.number.number import Number
+from mobnet.settings.evaluation import Statistics
 
 ALONE = np.zeros(1, dtype=np.intp)  # a single network or test is never drawn
 Combine = Callable[[NDArray[np.float64]], NDArray[np.float64]]
@@ -32,7 +33,7 @@ def mean(means: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def summarise(
-    grids: Sequence[NDArray[Any]], config: Mapping[str, Any], combine: Combine = first, unit: str = "-"
+    grids: Sequence[NDArray[Any]], statistics: Statistics, seed: int, combine: Combine = first, unit: str = "-"
 ) -> Number:
     """Return a number made of the means of grids of runs, and its bootstrap interval, e.g. [N m].
 
@@ -41,7 +42,8 @@ def summarise(
 
     Args:
         grids: K grids (networks, tests); a method without networks has one row.
-        config: resolved configuration: `seed`, `evaluation.confidence` (0..1), `evaluation.bootstrap_draws`.
+        statistics: confidence and number of draws.
+        seed: of the draws.
         combine: means (K, ...) -> number (...).
         unit: unit of the number.
 
@@ -62,10 +64,9 @@ def summarise(
     drawn_from = [np.arange(n) for n in (*networks, tests) if n > 1]
     if not drawn_from:
         return Number(value, runs=count, unit=unit)
-    settings = config["evaluation"]
     result: Any = bootstrap(
-        drawn_from, statistic, n_resamples=settings["bootstrap_draws"], confidence_level=settings["confidence"],
-        vectorized=True, paired=False, method="percentile", rng=np.random.default_rng(config["seed"]),
+        drawn_from, statistic, n_resamples=statistics.bootstrap_draws, confidence_level=statistics.confidence,
+        vectorized=True, paired=False, method="percentile", rng=np.random.default_rng(seed),
     )  # fmt: skip
     low, high = result.confidence_interval
     return Number(value, float(low), float(high), count, unit)

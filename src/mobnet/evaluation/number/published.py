@@ -8,6 +8,7 @@ from typing import Any
 
 from mobnet.core.config import read_yaml
 from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.settings.published import PublishedTable
 
 
 def read_published(path: Path, table: str) -> dict[str, Any]:
@@ -59,6 +60,7 @@ def published_row(entry: Mapping[str, Any], place: str, method: str) -> dict[str
     return dict(zip(entry["joints"], node[method], strict=True)) if method in node else {}
 
 
-def published_value(entry: Mapping[str, Any], level: str, method: str, joint: str) -> float | None:
-    """Return the paper's number [N m], V1..V3 [N], in a table of levels; None where it prints none."""
-    return published_row(entry, f"rows.{level}", method).get(joint) if level in entry["rows"] else None
+def published_value(table: PublishedTable, place: str, method: str, column: str) -> float | None:
+    """Return the paper's number at a place of a table [its unit]; None where it prints none."""
+    row = table.numbers.get(place, {}).get(method)
+    return None if row is None else dict(zip(table.columns, row, strict=True)).get(column)

@@ -1,40 +1,50 @@
-"""Table and figure of the standard deviations' calibration, which share what is read: rule `calibration`."""
+"""Table and figure of the standard deviations' calibration: made together, because they are measured together."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
-from mobnet.core.config import load_layout
+from mobnet.core.joints import JointLayout
 from mobnet.evaluation.figures.calibration import nominal_points, panels_of, reliability
 from mobnet.evaluation.measure.calibration import held_out, in_tests
 from mobnet.evaluation.tables.calibration import trust_table
+from mobnet.plan.runs import Run
+from mobnet.settings.evaluation import Calibration, Coverage, Statistics
+from mobnet.settings.networks import Learning
 
 
 def calibration(
-    config: Mapping[str, Any],
-    folders: Sequence[str],
-    tests: Sequence[Mapping[str, Any]],
+    settings: Calibration,
+    learning: Learning,
+    coverage: Coverage,
+    layout: JointLayout,
+    statistics: Statistics,
+    seed: int,
+    folders: Sequence[Path],
+    runs: Sequence[Sequence[Run]],
     table_dir: Path,
     figure_dir: Path,
 ) -> None:
-    """Write calibration.csv, .tex and .md, and the reliability plot as calibration.pdf, .png and .csv.
+    """Write calibration.csv, .tex and .md, and the reliability diagram as calibration.pdf, .png and .csv.
 
     Args:
-        config: resolved configuration: `robot`, `seed`, and of `evaluation`: `calibration` (levels [-], points of a
-            line, methods, share and tolerance [-] of the bar), `coverage` for pushes, and what intervals need.
+        settings: tests, methods that are shown, and the tolerance of the bar.
+        learning: nominal shares: that of the bar, and all in the table.
+        coverage: what counts as a push.
+        layout: joints and limbs.
+        statistics: of the intervals.
+        seed: of the intervals.
         folders: of all trained networks.
-        tests: scenario, level, limbs, `pushed` and `runs` of each test.
+        runs: of each test.
         table_dir: gets the table.
         figure_dir: gets the figure.
 
     Raises:
         DataError: a file is missing or damaged.
     """
-    settings = config["evaluation"]["calibration"]
-    levels, points = settings["levels"], nominal_points(settings["points"])
-    grids = in_tests(config, tests, [*levels, *points])
-    held = held_out(load_layout(Path(config["robot"])), folders, levels)
-    trust_table(config, [*held, *grids], table_dir)
-    reliability(panels_of(grids, settings["methods"], len(levels), points), figure_dir)
+    levels, points = learning.calibration_levels, nominal_points(settings.points)
+    grids = in_tests(layout, coverage, settings.tests, runs, [*levels, *points])
+    held = held_out(layout, folders, levels)
+    trust_table(settings, learning, statistics, seed, [*held, *grids], table_dir)
+    reliability(panels_of(grids, settings.methods, len(levels), points), figure_dir)

@@ -4,30 +4,34 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from mobnet.core.columns import CALIBRATION
-from mobnet.evaluation.measure.calibration import STAGES, Grid, case_name
+from mobnet.evaluation.measure.calibration import STAGES, Grid
 from mobnet.evaluation.number.intervals import summarise
 from mobnet.evaluation.number.number import Number, interval_text
 from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
+from mobnet.settings.evaluation import Calibration, Statistics
+from mobnet.settings.networks import Learning
 
 COVERAGE, NLL, CRPS = "coverage", "nll", "crps"
 
-Trust = Mapping[tuple[str, float | None], tuple[Number, Number]]  # measure, nominal share [-] -> as learned, scaled
+Trust = Mapping[tuple[str, float | None], tuple[Number, Number]]  # measure, nominal share -> as learned, scaled
 
 
-def trust_table(config: Mapping[str, Any], grids: Sequence[Grid], out_dir: Path) -> None:
+def trust_table(
+    settings: Calibration, learning: Learning, statistics: Statistics, seed: int, grids: Sequence[Grid], table_dir: Path
+) -> None:
     """Write calibration.csv, .tex and .md; the latter two hold some methods only.
 
     Args:
-        config: resolved configuration: `seed`, `evaluation.calibration` (levels, share and tolerance [-] of the bar,
-            methods) and what intervals need.
+        settings: methods that are shown, and the tolerance of the bar.
+        learning: nominal shares: that of the bar, and all in the table.
+        statistics: of the intervals.
+        seed: of the intervals.
         grids: of held-out data, then of the tests.
-        out_dir: gets the three files.
+        table_dir: gets the three files.
     """
-    settings, confidence = config["evaluation"]["calibration"], config["evaluation"]["confidence"]
-    trusts = [(grid, trust_of(config, grid, settings["levels"])) for grid in grids]
+    trusts = [(grid, trust_of(grid, learning.calibration_levels, statistics, seed)) for grid in grids]
     records = [
         (grid.test, grid.level, grid.pushed, grid.method, grid.limb, *measure, after.runs,
          *before.with_ends, *after.with_ends, grid.unit)
@@ -35,49 +39,51 @@ def trust_table(config: Mapping[str, Any], grids: Sequence[Grid], out_dir: Path)
     ]  # fmt: skip
     blocks: dict[str, list[list[str]]] = {}
     for grid, trust in trusts:
-        if grid.method in settings["methods"]:
-            line = [grid.method, grid.limb, *limb_texts(grid, trust, settings)]
-            blocks.setdefault(case_name(grid.test, grid.pushed), []).append(line)
+        if grid.method in settings.methods:
+            line = [grid.method, grid.limb, *limb_texts(grid, trust, settings, learning)]
+            blocks.setdefault(grid.case, []).append(line)
     lines = in_blocks(([test], own) for test, own in blocks.items())
-    header = table_header(settings, confidence)
+    header = table_header(settings, learning, statistics.confidence)
     align = "lll" + "r" * (len(header) - 4) + "l"
-    write_table(out_dir / "calibration", Table(CALIBRATION, records, header, lines, left=3, align=align))
+    write_table(table_dir / "calibration", Table(CALIBRATION, records, header, lines, left=3, align=align))
 
 
-def trust_of(config: Mapping[str, Any], grid: Grid, levels: Sequence[float]) -> Trust:
-    """Return the measures of a limb's runs with their intervals: coverage of nominal shares [-], then NLL and CRPS."""
+def trust_of(grid: Grid, levels: Sequence[float], statistics: Statistics, seed: int) -> Trust:
+    """Return the measures of a limb's runs with their intervals: coverage of nominal shares, then NLL and CRPS."""
     measures = [*((COVERAGE, level, k) for k, level in enumerate(levels)), (NLL, None, -2), (CRPS, None, -1)]
     found = {}
     for measure, share, place in measures:
-        before, after = (summarise([grid.values[:, :, stage, place]], config) for stage in range(len(STAGES)))
+        stages = [grid.values[:, :, stage, place] for stage in range(len(STAGES))]
+        before, after = (summarise([values], statistics, seed) for values in stages)
         found[measure, share] = before, after
     return found
 
 
-def table_header(settings: Mapping[str, Any], confidence: float) -> list[str]:
-    """Return the header: coverage of the bar's share as learned, of each level scaled [-], then NLL [nats] and CRPS."""
-    share = f"{settings['share']:.0%}"
+def table_header(settings: Calibration, learning: Learning, confidence: float) -> list[str]:
+    """Return the header: coverage of the bar's share as learned, of each level scaled, then NLL [nats] and CRPS."""
+    share = f"{learning.calibration_share:.0%}"
     return [
-        "Test", "Method", "Limb", f"{share}, as learned", *(f"{level:.0%}" for level in settings["levels"]),
+        "Test", "Method", "Limb", f"{share}, as learned", *(f"{level:.0%}" for level in learning.calibration_levels),
         f"{confidence:.0%} of {share}", "NLL, as learned", "NLL", "CRPS, as learned", "CRPS",
-        f"{share} within {settings['tolerance']:.0%}",
+        f"{share} within {settings.tolerance:.0%}",
     ]  # fmt: skip
 
 
-def limb_texts(grid: Grid, trust: Trust, settings: Mapping[str, Any]) -> list[str]:
+def limb_texts(grid: Grid, trust: Trust, settings: Calibration, learning: Learning) -> list[str]:
     """Return the numbers of a limb as texts: coverage in %, NLL [nats], CRPS with its unit, and the bar's verdict."""
-    learned, bar = trust[COVERAGE, settings["share"]]
-    scaled = [trust[COVERAGE, level][1] for level in settings["levels"]]
+    learned, bar = trust[COVERAGE, learning.calibration_share]
+    scaled = [trust[COVERAGE, level][1] for level in learning.calibration_levels]
     ends = [None if end is None else 100.0 * end for end in (bar.low, bar.high)]
     return [
         *(f"{number.value:.1%}" for number in (learned, *scaled)), interval_text(*ends, digits=1),
         *(number.text() for number in trust[NLL, None]), trust[CRPS, None][0].text(3),
-        f"{trust[CRPS, None][1].value:.3f} {grid.unit}", verdict(grid, bar, settings),
+        f"{trust[CRPS, None][1].value:.3f} {grid.unit}",
+        verdict(grid, bar, learning.calibration_share, settings.tolerance),
     ]  # fmt: skip
 
 
-def verdict(grid: Grid, bar: Number, settings: Mapping[str, Any]) -> str:
-    """Return whether the scaled coverage keeps the bar [-], `yes` or `no`; under collision there is none."""
+def verdict(grid: Grid, bar: Number, share: float, tolerance: float) -> str:
+    """Return whether the scaled coverage lies near its nominal share, `yes` or `no`; nothing for a collision."""
     if grid.pushed or bar.value is None:
         return ""
-    return "yes" if abs(bar.value - settings["share"]) <= settings["tolerance"] else "no"
+    return "yes" if abs(bar.value - share) <= tolerance else "no"

@@ -22,7 +22,7 @@ from mobnet.evaluation.figures.style import (
     save_figure,
 )  # fmt: skip
 from mobnet.evaluation.measure.curves import Panel
-from mobnet.evaluation.number.files import write_csv
+from mobnet.evaluation.number.files import Field, write_csv
 
 FLAGS: Mapping[str, tuple[float, Mapping[str, Any]]] = {  # name -> lower edge of the mark on the panel [-], its look
     "swing": (0.0, {"color": "#009E73", "alpha": 0.15}),
@@ -87,20 +87,25 @@ def draw_panel(axis: Axes, panel: Panel) -> None:
             )  # fmt: skip
 
 
-def save_leg(panels: Sequence[Panel], y_label: str, stem: Path) -> None:
-    """Write a leg's panels [N m] as CSV, PDF and PNG."""
+def draw_leg(panels: Sequence[Panel], y_label: str) -> Figure:
+    """Draw the joints of a leg [N m] over a gait cycle (Figures 8 and 9)."""
+    return draw_panels(panels, FROM_LIFT_OFF, y_label, SIDE_BY_SIDE, height_inch=HEIGHT_INCH)
+
+
+def save_panels(figure: Figure, panels: Sequence[Panel], stem: Path) -> None:
+    """Write the figure of some panels as PDF and PNG, and the plotted numbers as CSV."""
     write_panels(stem.with_suffix(".csv"), panels)
-    save_figure(draw_panels(panels, FROM_LIFT_OFF, y_label, SIDE_BY_SIDE, height_inch=HEIGHT_INCH), stem)
+    save_figure(figure, stem)
 
 
 def write_panels(path: Path, panels: Sequence[Panel]) -> None:
-    """Write the plotted numbers as CSV, a row a panel and sample: time [s], flags, curves [N m], V1..V3 [N].
+    """Write the plotted numbers as CSV, a row for each panel and sample: time [s], flags, curves [N m], V1..V3 [N].
 
     A curve that another panel has and this one has not leaves its field empty.
     """
     columns = [columns_of(panel) for panel in panels]
     names = list(dict.fromkeys(name for own in columns for name in own))
-    rows: list[tuple[Any, ...]] = []
+    rows: list[tuple[Field, ...]] = []
     for panel, own in zip(panels, columns, strict=True):
         values = [own[name].tolist() if name in own else [None] * len(panel.time) for name in names]
         rows += [(panel.title, *row) for row in zip(*values, strict=True)]

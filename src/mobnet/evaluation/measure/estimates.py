@@ -1,0 +1,82 @@
+"""An estimate and the truth that it is compared with, read from the files of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.columns import EXTERNAL, EXTERNAL_LP, STD, named
+from mobnet.core.errors import ConfigError, DataError, not_accepted
+from mobnet.core.files import read_json
+from mobnet.core.joints import JointLayout
+from mobnet.core.store import NOTE, read_array, spans_and_rate
+from mobnet.evaluation.measure.metrics import Spans
+from mobnet.plan.runs import Run
+
+
+@dataclass(frozen=True)
+class Pair:
+    """An estimate and the truth of the same joints and samples.
+
+    Attributes:
+        run: whose they are.
+        joints: names, (n,).
+        estimate: estimated external torque (T, n) [N m], V1..V3 [N].
+        truth: external torque behind the observer's low-pass (T, n) [N m], V1..V3 [N].
+        spans: contiguous stretches (start, end) of rows.
+        rate_hz: samples per second [Hz].
+    """
+
+    run: Run
+    joints: tuple[str, ...]
+    estimate: NDArray[Any]
+    truth: NDArray[Any]
+    spans: Spans
+    rate_hz: float
+
+    def places(self, joints: Sequence[str]) -> list[int]:
+        """Return where joints stand among those of the estimate (n,).
+
+        Raises:
+            ConfigError: one is not estimated.
+        """
+        for joint in joints:
+            if joint not in self.joints:
+                raise ConfigError(f"{self.run.estimate}.json: {not_accepted('joint', joint, self.joints)}")
+        return [self.joints.index(joint) for joint in joints]
+
+
+def read_pair(run: Run, layout: JointLayout) -> Pair:
+    """Read an estimate and the truth of the same joints, (T, n) [N m].
+
+    Raises:
+        DataError: a file is missing or damaged, a column is missing, or rows or segments differ.
+    """
+    meta, residual_meta = (read_json(stem.with_suffix(NOTE)) for stem in (run.estimate, run.residual))
+    for key in ("rows", "segments", "rate_hz"):
+        if meta[key] != residual_meta[key]:
+            raise DataError(
+                f"{run.estimate}.json: {key} is {meta[key]}, but {residual_meta[key]} in {run.residual}.json"
+            )
+    held = [column["name"] for column in meta["columns"]]
+    joints = tuple(joint for joint in layout.names if f"{EXTERNAL}.{joint}" in held)
+    if not joints:
+        raise DataError(f"{run.estimate}.json: no column {EXTERNAL}.<joint>; it holds {', '.join(held)}")
+    return Pair(
+        run,
+        joints,
+        read_array(run.estimate, named(EXTERNAL, joints))[0],
+        read_array(run.residual, named(EXTERNAL_LP, joints))[0],
+        *spans_and_rate(meta),
+    )
+
+
+def read_std(run: Run, joints: Sequence[str]) -> NDArray[np.float32] | None:
+    """Return the standard deviations that a method predicts (T, n) [N m], V1..V3 [N]; None if it predicts none."""
+    held = {column["name"] for column in read_json(run.estimate.with_suffix(NOTE))["columns"]}
+    names = named(STD, joints)
+    return read_array(run.estimate, names)[0] if held.issuperset(names) else None
