@@ -65,7 +65,7 @@ def save(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.opti
     tensors |= {f"best.{name}": tensor for name, tensor in done.best.items()}
     for index, state in optimizer.state_dict()["state"].items():
         tensors |= {f"optimizer.{index}.{key}": value.detach().cpu().clone() for key, value in state.items()}
-    note = {"fingerprint": fingerprint, "epochs": list(map(asdict, done.epochs)), "seconds": done.seconds}
+    note = {"fingerprint": fingerprint, "epochs": [asdict(epoch) for epoch in done.epochs], "seconds": done.seconds}
     with atomic_path(path) as temporary:
         save_file(tensors, temporary, {"note": json.dumps(note)})
 

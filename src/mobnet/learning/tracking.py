@@ -19,5 +19,5 @@ def write_metrics(path: Path, epochs: Sequence[Epoch]) -> None:
     text = io.StringIO()
     writer = csv.DictWriter(text, EPOCHS, lineterminator="\n")
     writer.writeheader()
-    writer.writerows(map(asdict, epochs))
+    writer.writerows(asdict(epoch) for epoch in epochs)
     write_text(path, text.getvalue())

@@ -82,7 +82,7 @@ def _coverage(files: Files) -> Needs:
 def _kinds(files: Files) -> Needs:
     """Return the trained networks of Figure 17 and of its variants."""
     figure, variants = files.settings.evaluation.figure_17, files.settings.evaluation.kinds.variants
-    return {"folders": files.network_folders((*figure.methods, *variants), figure.limb)}
+    return {"folders": files.network_folders((*figure.methods, *variants), figure.limb), "figure_17": figure}
 
 
 def _claims(files: Files) -> Needs:
@@ -90,6 +90,14 @@ def _claims(files: Files) -> Needs:
     kinds = _folders(files, files.settings.evaluation.figure_17)
     sizes = [folder for size in files.swept_sizes() for folder in size.folders]
     return {"scores": files.scores(files.settings.tests), "folders": tuple(dict.fromkeys([*kinds, *sizes]))}
+
+
+def _table_01(files: Files) -> Needs:
+    """Return the networks of the method of Table 1, with its changes, and what they learn."""
+    method = files.settings.evaluation.table_01.method
+    limbs = files.settings.published.table_01.rows
+    networks = {limb: files.settings.network(method, limb) for limb in limbs}
+    return {"networks": networks, "target": files.settings.method(method).target}
 
 
 def _calibration(files: Files) -> Needs:
@@ -122,6 +130,7 @@ USUAL: Mapping[str, Callable[[Files, Any], object]] = {  # parameter -> what it 
     "sets": _sets,
 }
 NEEDS: Mapping[str, Callable[[Files], Needs]] = {  # products that need something else
+    "table_01": _table_01,
     "claims": _claims,
     "steps": _steps,
     "coverage": _coverage,

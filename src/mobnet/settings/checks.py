@@ -31,6 +31,9 @@ def inconsistencies(settings: Settings) -> Iterator[Problem]:
             yield ("training_sets", name, "sizes"), f"scale is missing: {scale}"
     yield from _metrics_without_window(settings)
     yield from _missing_places(settings)
+    for limb, values in settings.published.uncertainty.std.items():
+        if len(values) != len(settings.layout.limb(limb)):
+            yield ("published", "uncertainty", "std", limb), f"{len(values)} numbers; accepted: one for each joint"
 
 
 def shown_runs(settings: Settings) -> Iterator[Shown]:

@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from mobnet.evaluation.number.intervals import Combine, first
 
 Means = NDArray[np.float64]
-ONE, TWO, FOUR = range(1, 2), range(2, 3), range(4, 5)
-SOME, PAIRS = range(2, 100), range(2, 100, 2)
 
 
 @dataclass(frozen=True)
@@ -20,12 +18,10 @@ class Quantity:
     """A number made of K means, (K, ...) -> (...).
 
     Attributes:
-        takes: how many cells it takes.
         made: makes the number of the means [their unit, or - for ratios].
         equality: the number where no cell stands out from the others; None where none are compared.
     """
 
-    takes: range
     made: Combine
     equality: float | None = None
 
@@ -43,13 +39,13 @@ def falls(means: Means) -> Means:
 
 
 QUANTITIES: Mapping[str, Quantity] = {
-    "value": Quantity(ONE, first),
-    "ratio": Quantity(TWO, lambda means: means[0] / means[1], 1.0),
-    "cut": Quantity(TWO, lambda means: 1.0 - means[0] / means[1], 0.0),
-    "difference": Quantity(TWO, lambda means: means[0] - means[1], 0.0),
-    "below": Quantity(SOME, lambda means: means[1:].min(axis=0) - means[0], 0.0),
-    "above": Quantity(SOME, lambda means: means[0] - means[1:].max(axis=0), 0.0),
-    "falls": Quantity(SOME, falls, 0.0),
-    "least ratio": Quantity(PAIRS, least_ratio, 1.0),
-    "gap ratio": Quantity(FOUR, lambda means: abs(means[0] - means[1]) / abs(means[2] - means[3]), 1.0),
+    "value": Quantity(first),
+    "ratio": Quantity(lambda means: means[0] / means[1], 1.0),
+    "cut": Quantity(lambda means: 1.0 - means[0] / means[1], 0.0),
+    "difference": Quantity(lambda means: means[0] - means[1], 0.0),
+    "below": Quantity(lambda means: means[1:].min(axis=0) - means[0], 0.0),
+    "above": Quantity(lambda means: means[0] - means[1:].max(axis=0), 0.0),
+    "falls": Quantity(falls, 0.0),
+    "least ratio": Quantity(least_ratio, 1.0),
+    "gap ratio": Quantity(lambda means: abs(means[0] - means[1]) / abs(means[2] - means[3]), 1.0),
 }

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from mobnet.core.columns import CLAIMS
+from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.results import Results, read_results
-from mobnet.evaluation.number.claim import Claim, inside, read_claims, rule_text
 from mobnet.evaluation.number.intervals import summarise
 from mobnet.evaluation.number.number import Number, number_text
 from mobnet.evaluation.number.quantities import QUANTITIES
 from mobnet.evaluation.tables.layout import Line, Table, long_table, tex_escape, write_table
+from mobnet.settings.claims import Bounds, Claim
+from mobnet.settings.evaluation import Statistics
 
 log = logging.getLogger(__name__)
 
@@ -30,12 +31,14 @@ class Verdict:
     """A claim, our number and what follows.
 
     Attributes:
+        name: the claim's key.
         claim: what the paper says.
         ours: our number; none where the tests are too short to hold what it is about, or all trainings diverged.
         differs: whether the interval leaves out equality, `yes` or `no`; empty without interval or comparison.
         verdict: one of `VERDICTS`, from the value alone.
     """
 
+    name: str
     claim: Claim
     ours: Number
     differs: str
@@ -50,7 +53,7 @@ class Verdict:
         """Return the row of claims.csv."""
         claim, ours = self.claim, self.ours
         return (
-            claim.name, claim.printed, claim.says, ours.published, *ours.with_ends, ours.runs, ours.unit, self.differs,
+            self.name, claim.printed, claim.says, ours.published, *ours.with_ends, ours.runs, ours.unit, self.differs,
             rule_text(claim.reproduced), self.verdict, self.cause,
         )  # fmt: skip
 
@@ -62,31 +65,34 @@ class Verdict:
 
 
 def claims(
-    config: Mapping[str, Any], claims_yaml: Path, scores: Iterable[Path], folders: Iterable[str], out_dir: Path
-) -> None:
+    claims: Mapping[str, Claim], statistics: Statistics, seed: int, layout: JointLayout, scores: Mapping[str, Path],
+    folders: Sequence[Path], table_dir: Path,
+) -> None:  # fmt: skip
     """Judge every claim and write claims.csv, .tex and .md. A claim that fails is a result, not an error.
 
     Args:
-        config: resolved configuration: `robot` and what intervals need.
-        claims_yaml: the claims.
-        scores: files of scores of all tests that the claims name.
+        claims: the claims.
+        statistics: what intervals need.
+        seed: of the intervals.
+        layout: joints and limbs.
+        scores: scenario -> scores, of all tests that the claims name.
         folders: of the trained networks whose losses they name.
-        out_dir: where the three files go.
+        table_dir: where the three files go.
 
     Raises:
         ConfigError: a claim is not well formed.
         DataError: a run that a claim needs is missing.
     """
-    results = read_results(Path(config["robot"]), scores, folders)
-    verdicts = [judge(config, claim, results) for claim in read_claims(claims_yaml)]
-    header = [text.format(config["evaluation"]["confidence"]) for text in HEADER]
+    results = read_results(layout, scores.values(), folders)
+    verdicts = [judge(name, claim, results, statistics, seed) for name, claim in claims.items()]
+    header = [text.format(statistics.confidence) for text in HEADER]
     lines = [verdict.line() for verdict in verdicts]
     full = [[*line, verdict.cause] for line, verdict in zip(lines, verdicts, strict=True)]
     table = Table(CLAIMS, [each.record() for each in verdicts], [*header, "Cause"], full, left=len(header) + 1)
     tex = long_table(COLUMNS, CAPTION, header, list(with_causes(verdicts, lines)))
-    write_table(out_dir / "claims", table, tex)
+    write_table(table_dir / "claims", table, tex)
     for each in verdicts:
-        log.info("%s: %s (%s, %s)", each.claim.name, each.verdict, each.ours.text(), rule_text(each.claim.reproduced))
+        log.info("%s: %s (%s, %s)", each.name, each.verdict, each.ours.text(), rule_text(each.claim.reproduced))
 
 
 def with_causes(verdicts: Sequence[Verdict], lines: Sequence[Line]) -> Iterator[Line]:
@@ -98,7 +104,7 @@ def with_causes(verdicts: Sequence[Verdict], lines: Sequence[Line]) -> Iterator[
             yield rf"{across}{{\emph{{{tex_escape(verdict.cause)}}}}} \\"
 
 
-def judge(config: Mapping[str, Any], claim: Claim, results: Results) -> Verdict:
+def judge(name: str, claim: Claim, results: Results, statistics: Statistics, seed: int) -> Verdict:
     """Return our number for a claim, its interval, and the verdict on the number itself.
 
     Raises:
@@ -109,9 +115,9 @@ def judge(config: Mapping[str, Any], claim: Claim, results: Results) -> Verdict:
     grids = [results.grid(cell) for cell in claim.cells]
     held = [grid for grid in grids if grid is not None]
     measured = len(held) == len(grids)
-    ours = summarise(held, config, quantity.made, claim.unit) if measured else Number(None, unit=claim.unit)
+    ours = summarise(held, statistics, seed, quantity.made, claim.unit) if measured else Number(None, unit=claim.unit)
     ours = replace(ours, published=claim.published)
-    return Verdict(claim, ours, differs(ours, quantity.equality), verdict_of(ours, claim))
+    return Verdict(name, claim, ours, differs(ours, quantity.equality), verdict_of(ours, claim))
 
 
 def verdict_of(ours: Number, claim: Claim) -> str:
@@ -133,3 +139,17 @@ def ours_text(ours: Number) -> tuple[str, str]:
     """Return our number and its interval as text; small ones with a unit get a digit more."""
     digits = 2 if ours.unit == "-" or abs(ours.value or 0.0) >= 1 else 3
     return ours.text(digits), ours.interval(digits)
+
+
+def inside(value: float, bounds: Bounds) -> bool:
+    """Return whether a number lies in a closed range of its unit, [N m] or [-], None being no bound."""
+    low, high = bounds
+    return (low is None or value >= low) and (high is None or value <= high)
+
+
+def rule_text(bounds: Bounds) -> str:
+    """Return a range as text."""
+    low, high = bounds
+    if low is None:
+        return "any" if high is None else f"at most {high:g}"
+    return f"at least {low:g}" if high is None else f"{low:g} to {high:g}"

@@ -4,40 +4,44 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from mobnet.core.columns import COVERAGE
+from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.coverage import ALL, NEAREST, Covered, covered
 from mobnet.evaluation.number.number import number_text
 from mobnet.evaluation.tables.layout import Line, Table, in_blocks, write_table
+from mobnet.settings.evaluation import Coverage, Statistics
+from mobnet.settings.networks import Limb
 
 
 def coverage(
-    config: Mapping[str, Any],
-    training: Mapping[str, Sequence[str]],
-    tests: Sequence[Mapping[str, Any]],
-    out_dir: Path,
-) -> None:
+    settings: Coverage, layout: JointLayout, ports: Limb, statistics: Statistics, seed: int,
+    training: Mapping[str, Sequence[Path]], tests: Sequence[Sequence[Path]], table_dir: Path,
+) -> None:  # fmt: skip
     """Write coverage.csv and, joints together only, coverage.tex and .md.
 
     Args:
-        config: resolved configuration: `evaluation.confidence`, a share [-], and what `covered` needs.
-        training: `with RTE` and `without RTE` -> stems of the recordings.
-        tests: scenario, level and `recordings`, the stems, of each test.
-        out_dir: gets the three files.
+        settings: which samples are looked at, and which tests.
+        layout: joints and legs.
+        ports: what the network of the leg sees.
+        statistics: what intervals need.
+        seed: of the intervals.
+        training: `with RTE` and `without RTE` -> recordings.
+        tests: recordings of each test.
+        table_dir: gets the three files.
 
     Raises:
         DataError: a file or a column is missing.
     """
-    rows, confidence = covered(config, training, tests), config["evaluation"]["confidence"]
+    rows = covered(settings, layout, ports, statistics, seed, training, tests)
     records = [
         (row.scenario, row.level, row.measure, row.joint, row.block_count, row.with_rte, row.without_rte,
          *row.ratio.with_ends)
         for row in rows
     ]  # fmt: skip
-    header = ["Test", "Level", "Measure", "With RTE", "Without RTE", "Ratio", f"{confidence:.0%}"]
+    header = ["Test", "Level", "Measure", "With RTE", "Without RTE", "Ratio", f"{statistics.confidence:.0%}"]
     lines = coverage_lines([row for row in rows if row.joint == ALL])
-    write_table(out_dir / "coverage", Table(COVERAGE, records, header, lines, left=3))
+    write_table(table_dir / "coverage", Table(COVERAGE, records, header, lines, left=3))
 
 
 def coverage_lines(rows: Sequence[Covered]) -> list[Line]:

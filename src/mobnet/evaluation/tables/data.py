@@ -11,15 +11,19 @@ import numpy as np
 
 from mobnet.control.parameters import DURATION
 from mobnet.core.columns import COMMAND, DATA, recording_columns
-from mobnet.core.config import read_yaml
 from mobnet.core.files import read_json
 from mobnet.core.store import read_array
-from mobnet.evaluation.measure.steps import CHOICES, KEYS, UNITS, Sets, in_degrees, read_steps
+from mobnet.evaluation.measure.steps import CHOICES, KEYS, UNITS, read_steps
 from mobnet.evaluation.measure.upper_body import upper_body
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.tables.layout import Table, write_table
-from mobnet.robot.description import load_robot
+from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
+from mobnet.settings.data import Commands, Terrain
+from mobnet.settings.evaluation import DataTable
+from mobnet.settings.published import PublishedData
+from mobnet.settings.robot import RobotTable
+from mobnet.settings.walking import Walking
 
 Found = tuple[str, str, float, str]  # quantity, part, value, unit
 
@@ -35,38 +39,43 @@ FORMATS: Mapping[str, Callable[[float], str]] = {
 }
 PLAIN = "{:.3f}".format
 
-
 Facts = Mapping[tuple[str, str, str], Number]  # set, quantity, part (empty: the whole set's)
 
 
-def data(config: Mapping[str, Any], sets: Sets, out_dir: Path) -> None:
+def data(
+    settings: DataTable, robot: RobotTable, walking: Walking, commands: Commands, terrain: Terrain,
+    published: PublishedData, sets: Mapping[str, Sequence[Path]], table_dir: Path,
+) -> None:  # fmt: skip
     """Write data.csv, .tex and .md.
 
     Args:
-        config: resolved configuration: `robot`, `published`, `walking`, `commands`, `terrain`,
-            `evaluation.data`.
-        sets: name -> stems of the recordings.
-        out_dir: gets the three files.
+        settings: how often the upper body is looked at.
+        robot: the robot.
+        walking: the controller's spacing of the feet.
+        commands: ranges of Table 2.
+        terrain: the terrains.
+        published: what the paper says of its sets.
+        sets: name -> recordings.
+        table_dir: gets the three files.
 
     Raises:
         DataError: a file or a column is missing, or a set holds no step.
     """
-    printed = read_yaml(Path(config["published"]))["data"]["sets"]
-    nominal = NominalModel(load_robot(Path(config["robot"])))
+    nominal = NominalModel(describe(robot))
     facts: dict[tuple[str, str, str], Number] = {}
-    for name, texts in sets.items():
-        stems, known = list(map(Path, texts)), printed.get(name, {})
+    for name, stems in sets.items():
         found = [
-            *extent(stems, list(config["terrain"])),
-            *commanded(config, stems, nominal),
-            *upper_body(config, stems, nominal),
+            *extent(stems, [name for name, row in terrain if row is not None]),
+            *commanded(commands, walking.foot_spacing_m, stems, nominal),
+            *upper_body(settings.every, stems, nominal),
         ]
         for quantity, part, value, unit in found:
-            facts[name, quantity, part] = Number(value, unit=unit, published=_published(config, known, quantity, part))
+            printed = _published(commands, published.sets.get(name, {}), quantity, part)
+            facts[name, quantity, part] = Number(value, unit=unit, published=printed)
     records = [(*of, fact.value, fact.unit, fact.published) for of, fact in facts.items()]
     header = ["", *(name.replace("_", " ") for name in sets), "Paper"]
     shown = {of: fact for of, fact in facts.items() if of[2] not in nominal.robot.layout.actuated}
-    write_table(out_dir / "data", Table(DATA, records, header, fact_lines(shown, list(sets))))
+    write_table(table_dir / "data", Table(DATA, records, header, fact_lines(shown, list(sets))))
 
 
 def extent(stems: Sequence[Path], terrains: Sequence[str]) -> Iterator[Found]:
@@ -97,7 +106,7 @@ def ground(notes: Sequence[Mapping[str, Any]], terrains: Sequence[str]) -> Itera
         yield "time on terrain", terrain, walked[terrain] / walked.total(), "-"
 
 
-def commanded(config: Mapping[str, Any], stems: Sequence[Path], nominal: NominalModel) -> Iterator[Found]:
+def commanded(commands: Commands, spacing_m: float, stems: Sequence[Path], nominal: NominalModel) -> Iterator[Found]:
     """Yield the time standing [-], the steps, and of each command its ends [m], [deg], [s] and the share on them [-].
 
     Raises:
@@ -106,25 +115,26 @@ def commanded(config: Mapping[str, Any], stems: Sequence[Path], nominal: Nominal
     column = recording_columns(nominal.robot.layout)["command"][DURATION][0]
     duration = np.concatenate([read_array(stem, [column])[0][:, 0] for stem in stems])
     yield "time standing", "", float(np.mean(duration == 0.0)), "-"
-    steps = in_degrees(read_steps(stems, nominal, config["walking"]["foot_spacing_m"]))
+    steps = read_steps(stems, nominal.robot.layout)
+    measured = steps.measured(nominal, spacing_m)
     yield "steps", "", len(steps), ""
     for k, (name, _) in enumerate(COMMAND):
-        values, ends = steps.commanded[:, k], np.array(config["commands"][KEYS[k]], dtype=float)[[0, -1]]
+        values, ends = steps.commanded[:, k], np.array(getattr(commands, KEYS[k]), dtype=float)[[0, -1]]
         yield "smallest command", name, float(values.min()), UNITS[k]
         yield "largest command", name, float(values.max()), UNITS[k]
         near = np.abs(values[:, None] - ends).min(axis=1) <= EDGE * (ends[1] - ends[0])
         yield "steps on an edge", name, float(near.mean()), "-"
         follows = steps.follows(k)
         if k < CHOICES and follows.any():
-            size, got = np.abs(values[follows]), steps.measured[follows, k] * np.sign(values[follows])
+            size, got = np.abs(values[follows]), measured[follows, k] * np.sign(values[follows])
             yield "measured over commanded", name, float(got.sum() / size.sum()), "-"
 
 
-def _published(config: Mapping[str, Any], known: Mapping[str, float], quantity: str, part: str) -> float | None:
+def _published(commands: Commands, known: Mapping[str, float], quantity: str, part: str) -> float | None:
     """Return the paper's number: an end of Table 2's range, or what it says of the set."""
     if quantity in ("smallest command", "largest command"):
         key = KEYS[[name for name, _ in COMMAND].index(part)]
-        return float(config["commands"][key][0 if quantity.startswith("smallest") else -1])
+        return float(getattr(commands, key)[0 if quantity.startswith("smallest") else -1])
     return known.get(quantity)
 
 

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.columns import ERRORS, Score
-from mobnet.core.config import load_layout
+from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.averages import Column, columns_of
 from mobnet.evaluation.measure.metrics import PERCENT
 from mobnet.evaluation.number.files import read_rows
@@ -18,6 +17,7 @@ from mobnet.evaluation.number.grid import Wanted, run_grid
 from mobnet.evaluation.number.intervals import mean, summarise
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
+from mobnet.settings.evaluation import BudgetRow, ErrorBudget, Statistics
 
 METRIC, GONE = "rmse", "gone"
 DIGITS = {METRIC: 2, GONE: 0}
@@ -26,36 +26,43 @@ SIGN = {METRIC: "", GONE: " %"}
 Cells = Mapping[tuple[str, str, str, str], Number]  # scenario, level, method, METRIC or GONE
 
 
-def error_budget(config: Mapping[str, Any], scores_csv: Path, out_dir: Path) -> None:
+def error_budget(
+    settings: ErrorBudget,
+    statistics: Statistics,
+    seed: int,
+    layout: JointLayout,
+    scores: Mapping[str, Path],
+    table_dir: Path,
+) -> None:
     """Write error_budget.csv, .tex and .md: RMSE [N m] of joints with one source of error off, and the share [%] gone.
 
     Args:
-        config: resolved configuration: `robot`, `evaluation.error_budget` (`joints`, given as a table's columns, and
-            `tests`, of which the first has every source on) and what intervals need.
-        scores_csv: scores of the tests' scenario.
-        out_dir: gets the three files.
+        settings: joints, given as a table's columns, and tests, of which the first has every source on.
+        statistics: what intervals need.
+        seed: of the intervals.
+        layout: joints and limbs.
+        scores: scenario -> its scores.
+        table_dir: gets the three files.
 
     Raises:
         DataError: a run is missing.
     """
-    settings, layout = config["evaluation"]["error_budget"], load_layout(Path(config["robot"]))
-    scores = read_rows(scores_csv, Score)
-    budgets = {
-        part: cells_of(config, part, settings["tests"], scores) for part in columns_of(layout, settings["joints"])
-    }
+    rows = [row for path in scores.values() for row in read_rows(path, Score)]
+    parts = columns_of(layout, settings.joints)
+    budgets = {part: cells_of(part, settings.tests, rows, statistics, seed) for part in parts}
     records = [
         (*run, part.name, ours.runs, metric, *ours.with_ends, ours.unit, None)
         for part, cells in budgets.items()
         for (*run, metric), ours in cells.items()
     ]
-    first, *others = (test["label"] for test in settings["tests"])
+    first, *others = (test.label for test in settings.tests)
     header = ["Joint", "Unit", first, *(text for label in others for text in (label, "gone"))]
-    lines = budget_lines(budgets, config["evaluation"]["confidence"])
-    write_table(out_dir / "error_budget", Table(ERRORS, records, header, lines, left=2))
+    lines = budget_lines(budgets, statistics.confidence)
+    write_table(table_dir / "error_budget", Table(ERRORS, records, header, lines, left=2))
 
 
 def cells_of(
-    config: Mapping[str, Any], part: Column, tests: Sequence[Mapping[str, Any]], scores: Sequence[Score]
+    part: Column, tests: Sequence[BudgetRow], scores: Sequence[Score], statistics: Statistics, seed: int
 ) -> Cells:
     """Return, test by test, the RMSE [N m] of a joint or a mean and the share [%] of the square that a source makes.
 
@@ -65,13 +72,13 @@ def cells_of(
     full: list[NDArray[np.float64]] = []
     cells = {}
     for test in tests:
-        scenario, level, method = test["scenario"], test["level"], test["methods"][0]
-        wanted = [Wanted(scenario, limb, level, method, joint, METRIC) for limb, joint in part.joints]
+        run = test.scenario, test.level, test.methods[0]
+        wanted = [Wanted(run[0], limb, *run[1:], joint, METRIC) for limb, joint in part.joints]
         grids = [run_grid(scores, each) for each in wanted]
-        cells[scenario, level, method, METRIC] = summarise(grids, config, mean, part.unit)
+        cells[*run, METRIC] = summarise(grids, statistics, seed, mean, part.unit)
         if full:
             squares = [grid**2 for grid in (*full, *grids)]
-            cells[scenario, level, method, GONE] = summarise(squares, config, share_gone, "%")
+            cells[*run, GONE] = summarise(squares, statistics, seed, share_gone, "%")
         full = full or grids
     return cells
 

@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from itertools import islice, pairwise
 from pathlib import Path
-from typing import Any
 
 from mobnet.core.columns import ERRORS, Score
-from mobnet.core.config import load_layout
+from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.averages import Column, columns_of
 from mobnet.evaluation.measure.scores import AVERAGE
 from mobnet.evaluation.number.files import read_rows
 from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.number import Number, number_text
-from mobnet.evaluation.number.published import published_row, read_published
+from mobnet.evaluation.number.published import published_row
 from mobnet.evaluation.tables.layout import Line, Table, in_blocks, text_table, write_table
+from mobnet.settings.evaluation import ErrorTable, Statistics
+from mobnet.settings.published import Floor, PublishedTable
 
-METRIC = "rmse"  # of a row that names none
 OURS, PAPER = ("ours", "ours, simulated"), ("paper", "paper, robot")  # where they simulated, and where they measured
 PART = "\\par\\medskip\n"  # between the parts of a table that is wider than a page
 
@@ -49,94 +49,74 @@ class Look:
     """How a table is laid out.
 
     Attributes:
-        header: heads of the labels, (k,).
+        settings: the table's entry in the configuration.
         robot: whether the printed numbers were measured on the robot.
         floor: level and method of the row that later averages are compared with, or None.
         confidence: of the intervals, a share [-].
-        parts: columns that begin a further tabular in TeX; intervals then stand on two lines.
-        names: what methods are called, where it is not their name.
     """
 
-    header: tuple[str, ...]
+    settings: ErrorTable
     robot: bool
-    floor: Mapping[str, str] | None
+    floor: Floor | None
     confidence: float
-    parts: tuple[str, ...] = ()
-    names: Mapping[str, str] = field(default_factory=dict)
 
 
-def table(config: Mapping[str, Any], name: str, scores: Mapping[str, Path], out_dir: Path) -> None:
+def errors(
+    settings: ErrorTable, name: str, statistics: Statistics, seed: int, layout: JointLayout,
+    published: PublishedTable, scores: Mapping[str, Path], table_dir: Path,
+) -> None:  # fmt: skip
     """Write one of Tables 5, 6, 7, 10 and 11, errors by test, method and joint [N m], as CSV, TeX and Markdown.
 
     Args:
-        config: resolved configuration: `robot`, `published`, `evaluation.tables` and what intervals need.
-        name: the table's key in `evaluation.tables` and among the published ones; names the files.
+        settings: the table's columns and rows.
+        name: names the files.
+        statistics: what intervals need.
+        seed: of the intervals.
+        layout: joints and limbs.
+        published: what the paper prints.
         scores: scenario -> its scores.
-        out_dir: gets the three files.
+        table_dir: gets the three files.
 
     Raises:
         DataError: a run that the table needs is missing.
-        ConfigError: the published numbers do not fit the table, or a column is not well formed.
+        ConfigError: a column is not well formed.
     """
-    spec, entry = config["evaluation"]["tables"][name], read_published(Path(config["published"]), name)
-    look = Look(
-        tuple(spec["header"]), entry.get("robot", False), entry.get("floor"), config["evaluation"]["confidence"],
-        tuple(spec.get("parts", ())), spec.get("names", {}),
-    )  # fmt: skip
-    rows = table_rows(config, spec, entry, scores)
+    columns = columns_of(layout, settings.columns)
+    read = {scenario: read_rows(path, Score) for scenario, path in scores.items()}
+    rows = []
+    for test in settings.rows:
+        for method in test.methods:
+            run = test.scenario, test.level, method
+            printed = published_row(published, test.paper, method) if test.paper else {}
+            own = [score for score in read[test.scenario] if (score.scenario, score.level, score.method) == run]
+            numbers = {
+                column: cell_of(column, run, test.metric, own, statistics, seed, printed.get(column.name))
+                for column in columns
+            }
+            rows.append(TableRow(test.labels, run, test.metric, numbers))
+    write_error_table(table_dir / name, rows, Look(settings, published.robot, published.floor, statistics.confidence))
+
+
+def write_error_table(stem: Path, rows: Sequence[TableRow], look: Look) -> None:
+    """Write a table of errors; in TeX one that is wider than a page becomes some, one below the other."""
     records = [
         (*row.run, column.name, ours.runs, "+".join(column.metrics or (row.metric,)), *ours.with_ends, ours.unit,
          ours.published)
         for row in rows for column, ours in row.numbers.items()
     ]  # fmt: skip
-    write_error_table(out_dir / name, records, rows, look)
-
-
-def write_error_table(stem: Path, records: Sequence[Any], rows: Sequence[TableRow], look: Look) -> None:
-    """Write a table of errors; in TeX one that is wider than a page becomes some, one below the other."""
     names = [column.name for column in rows[0].numbers]
     texts = []
-    for first, end in pairwise([0, *map(names.index, look.parts), len(names)]):
+    for first, end in pairwise([0, *map(names.index, look.settings.parts), len(names)]):
         part = [row.part(first, end) for row in rows]
         header = header_of(part[0], look)
         align = "l" * (len(header) - end + first) + "r" * (end - first)
-        texts.append(text_table(align, header, table_lines(part, look, stacked=bool(look.parts))))
+        texts.append(text_table(align, header, table_lines(part, look, stacked=bool(look.settings.parts))))
     header, lines = header_of(rows[0], look), table_lines(rows, look)
     write_table(stem, Table(ERRORS, records, header, lines, len(header) - len(names)), PART.join(texts))
 
 
-def table_rows(
-    config: Mapping[str, Any], spec: Mapping[str, Any], entry: Mapping[str, Any], scores: Mapping[str, Path]
-) -> list[TableRow]:
-    """Return the rows of a table [N m], a row a method of a test, in its order.
-
-    Args:
-        config: resolved configuration.
-        spec: the table's `columns` and `rows`.
-        entry: what the paper prints.
-        scores: scenario -> its scores.
-
-    Raises:
-        DataError: a run is missing.
-        ConfigError: as `table` says.
-    """
-    columns = columns_of(load_layout(Path(config["robot"])), spec["columns"])
-    read = {name: read_rows(scores[name], Score) for name in dict.fromkeys(test["scenario"] for test in spec["rows"])}
-    rows = []
-    for test in spec["rows"]:
-        for method in test["methods"]:
-            run, metric = (test["scenario"], test["level"], method), test.get("metric", METRIC)
-            printed = published_row(entry, test["paper"], method) if "paper" in test else {}
-            own = [score for score in read[run[0]] if (score.scenario, score.level, score.method) == run]
-            numbers = {
-                column: cell_of(config, column, run, metric, own, printed.get(column.name)) for column in columns
-            }
-            rows.append(TableRow(tuple(test["labels"]), run, metric, numbers))
-    return rows
-
-
 def cell_of(
-    config: Mapping[str, Any], column: Column, run: tuple[str, str, str], metric: str, scores: Sequence[Score],
+    column: Column, run: tuple[str, str, str], metric: str, scores: Sequence[Score], statistics: Statistics, seed: int,
     published: float | None,
 ) -> Number:  # fmt: skip
     """Return the number of a column [N m] over the runs of a method in a test; none where a run has too few pushes.
@@ -148,14 +128,19 @@ def cell_of(
     if held and not held.issuperset(metrics):
         return Number(None, unit=column.unit, published=published)
     wanted = [Wanted(run[0], limb, *run[1:], joint, name) for limb, joint in column.joints for name in metrics]
-    return number_of(scores, wanted, config, published=published)
+    return number_of(scores, wanted, statistics, seed, published=published)
 
 
 def header_of(row: TableRow, look: Look) -> list[str]:
     """Return the heads of the columns; where torques [N m] and forces stand side by side, forces have their unit."""
     units = {column.name: number.unit for column, number in row.numbers.items()}
     mixed = len(set(units.values())) > 1
-    return [*look.header, "Method", "", *(f"{name} [N]" if mixed and units[name] == "N" else name for name in units)]
+    return [
+        *look.settings.header,
+        "Method",
+        "",
+        *(f"{name} [N]" if mixed and units[name] == "N" else name for name in units),
+    ]
 
 
 def table_lines(rows: Sequence[TableRow], look: Look, stacked: bool = False) -> list[Line]:
@@ -169,7 +154,7 @@ def table_lines(rows: Sequence[TableRow], look: Look, stacked: bool = False) -> 
     blocks, over = [], None
     for row in rows:
         blocks.append((row.labels, row_lines(row, over, look, stacked)))
-        if look.floor and row.run[1:] == (look.floor["level"], look.floor["method"]):
+        if look.floor and row.run[1:] == (look.floor.level, look.floor.method):
             over = row
     return in_blocks(blocks, nested=True)
 
@@ -185,7 +170,7 @@ def row_lines(row: TableRow, over: TableRow | None, look: Look, stacked: bool) -
         ] if stacked else [[share, *(number.interval() for number in ours)]]  # fmt: skip
     if any(number.published is not None for number in ours):
         lines.append([PAPER[look.robot], *with_increase(row, over, "published")])
-    method = look.names.get(row.run[2], row.run[2])
+    method = look.settings.names.get(row.run[2], row.run[2])
     return [["" if k else method, *line] for k, line in enumerate(lines)]
 
 

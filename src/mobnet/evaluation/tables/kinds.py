@@ -7,16 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from mobnet.core.columns import KINDS
-from mobnet.core.config import read_yaml
 from mobnet.evaluation.measure.trainings import MEASURES, Training, read_trainings, sound
 from mobnet.evaluation.number.intervals import summarise
 from mobnet.evaluation.number.number import Number, number_text
 from mobnet.evaluation.tables.layout import GAP, RULE, Line, Table, with_intervals, write_table
+from mobnet.settings.evaluation import Figure17, Kinds, Statistics
+from mobnet.settings.published import PublishedKinds
 
 ORDERED_BY = "validation loss"
 HEADER = ["Order", "Paper", "Network", "Parameters", "Paper", "Runs", "Val. loss", "RMSE [N m]",
@@ -26,24 +26,28 @@ LEFT = 3  # columns of text
 Traits = Mapping[str, Number]  # `order`, `parameters`, `runs`, `diverged` or a name of `MEASURES` -> of a kind
 
 
-def kinds(config: Mapping[str, Any], folders: Sequence[str], out_dir: Path) -> None:
+def kinds(
+    settings: Kinds, figure_17: Figure17, statistics: Statistics, seed: int, published: PublishedKinds,
+    folders: Sequence[Path], table_dir: Path,
+) -> None:  # fmt: skip
     """Write kinds.csv, .tex and .md: mean over runs of loss (22) [-] and RMSE [N m], best kind first.
 
     Args:
-        config: resolved configuration: `seed`, `published`, `evaluation.figure_17` (`methods`, the paper's kinds),
-            `evaluation.kinds` (`variants`, our own, shown below) and what intervals need.
+        settings: our own variants, shown below the paper's kinds.
+        figure_17: the paper's kinds.
+        statistics: what intervals need.
+        seed: of the intervals.
+        published: what the paper says of its kinds.
         folders: of the trained networks of all of them.
-        out_dir: gets the three files.
+        table_dir: gets the three files.
 
     Raises:
         DataError: a file is missing or damaged.
     """
-    found, settings = read_trainings(folders), config["evaluation"]
-    papers, variants = settings["figure_17"]["methods"], settings["kinds"]["variants"]
-    published = read_yaml(Path(config["published"]))["kinds"]
-    measured = {method: measures_of(config, found[method]) for method in (*papers, *variants)}
+    found, papers, variants = read_trainings(folders), figure_17.methods, settings.variants
+    measured = {method: measures_of(found[method], statistics, seed) for method in (*papers, *variants)}
     shown = sorted(papers, key=lambda method: _order(measured[method][ORDERED_BY]))
-    ranks = {name: k for k, name in enumerate([name for name in shown if name in published["order"]], start=1)}
+    ranks = {name: k for k, name in enumerate([name for name in shown if name in published.order], start=1)}
     traits = {
         method: {**counts(found[method], ranks.get(method), method, published), **measured[method]}
         for method in (*shown, *variants)
@@ -52,17 +56,19 @@ def kinds(config: Mapping[str, Any], folders: Sequence[str], out_dir: Path) -> N
         (method, quantity, *number.with_ends, number.unit, number.published)
         for method, own in traits.items() for quantity, number in own.items()
     ]  # fmt: skip
-    lines = kind_lines(traits, variants, settings["confidence"])
+    lines = kind_lines(traits, variants, statistics.confidence)
     align = "rrl" + "r" * (len(HEADER) - LEFT)
-    write_table(out_dir / "kinds", Table(KINDS, records, HEADER, lines, LEFT, align))
+    write_table(table_dir / "kinds", Table(KINDS, records, HEADER, lines, LEFT, align))
 
 
-def measures_of(config: Mapping[str, Any], trainings: Sequence[Training]) -> Traits:
+def measures_of(trainings: Sequence[Training], statistics: Statistics, seed: int) -> Traits:
     """Return the measures of the trainings that did not diverge [-, N m], without a number if all did."""
     good = sound(trainings)
     grids = {name: np.array([[measure(run)] for run in good]) for name, (measure, _) in MEASURES.items()}
     return {
-        name: summarise([grid], config, unit=MEASURES[name][1]) if good else Number(None, unit=MEASURES[name][1])
+        name: summarise([grid], statistics, seed, unit=MEASURES[name][1])
+        if good
+        else Number(None, unit=MEASURES[name][1])
         for name, grid in grids.items()
     }
 
@@ -72,11 +78,11 @@ def _order(loss: Number) -> float:
     return float("inf") if loss.value is None else loss.value
 
 
-def counts(trainings: Sequence[Training], rank: int | None, method: str, published: Mapping[str, Any]) -> Traits:
+def counts(trainings: Sequence[Training], rank: int | None, method: str, published: PublishedKinds) -> Traits:
     """Return what is counted of a kind; `rank` is its place among the kinds that the paper orders, None for others."""
     return {
-        "order": Number(rank, published=published["order"].get(method)),
-        "parameters": Number(trainings[0].parameters, published=published["parameters"].get(method)),
+        "order": Number(rank, published=published.order.get(method)),
+        "parameters": Number(trainings[0].parameters, published=published.parameters.get(method)),
         "runs": Number(len(trainings)),
         "diverged": Number(len(trainings) - len(sound(trainings))),
     }

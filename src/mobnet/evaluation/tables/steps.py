@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import astuple, dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from mobnet.core.columns import COMMAND, STEPS
-from mobnet.evaluation.measure.steps import UNITS, Sets, Steps, bin_edges, bin_of, read_sets
+from mobnet.evaluation.measure.steps import UNITS, Array, Steps, bin_edges, bin_of, read_steps
 from mobnet.evaluation.number.number import number_text
 from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
+from mobnet.robot.description import describe
+from mobnet.robot.nominal import NominalModel
+from mobnet.settings.data import Commands
+from mobnet.settings.evaluation import Steps as StepsTable
+from mobnet.settings.robot import RobotTable
+from mobnet.settings.walking import Walking
 
 HEADER = ["Set", "Command", "from", "to", "Steps", "Commanded", "Measured", "Ratio", "Within"]
 
@@ -48,22 +53,30 @@ class Followed:
         return [low, high, str(self.count), given, made, number_text(self.ratio), within]
 
 
-def steps(config: Mapping[str, Any], sets: Sets, out_dir: Path) -> None:
+def steps(
+    settings: StepsTable, robot: RobotTable, walking: Walking, commands: Commands,
+    sets: Mapping[str, Sequence[Path]], table_dir: Path,
+) -> None:  # fmt: skip
     """Write the table of measured against commanded steps, by bins of the command, as CSV, TeX and Markdown.
 
     Args:
-        config: resolved configuration: `robot`, `walking`, `commands`, `evaluation.steps` (bins, tolerance [-]).
-        sets: name -> stems of the recordings.
-        out_dir: gets steps.csv, .tex and .md.
+        settings: bins and tolerance.
+        robot: the robot.
+        walking: the controller's spacing of the feet.
+        commands: ranges of Table 2.
+        sets: name -> recordings.
+        table_dir: gets steps.csv, .tex and .md.
 
     Raises:
         DataError: a file is missing, or a set holds no step.
     """
-    rows = {
-        (name, column): list(followed(config, found, column))
-        for name, found in read_sets(config, sets).items()
-        for column in range(found.measured.shape[1])
-    }
+    nominal, rows = NominalModel(describe(robot)), {}
+    for name, stems in sets.items():
+        found = read_steps(stems, nominal.robot.layout)
+        measured = found.measured(nominal, walking.foot_spacing_m)
+        for column in range(measured.shape[1]):
+            edges = bin_edges(commands, column, settings.bins)
+            rows[name, column] = list(followed(found, measured, column, edges, settings.tolerance))
     records = [
         (name, COMMAND[column][0], *astuple(row), UNITS[column]) for (name, column), own in rows.items() for row in own
     ]
@@ -74,16 +87,22 @@ def steps(config: Mapping[str, Any], sets: Sets, out_dir: Path) -> None:
         )
         for (name, column), own in rows.items()
     )
-    write_table(out_dir / "steps", Table(STEPS, records, HEADER, lines, left=2))
+    write_table(table_dir / "steps", Table(STEPS, records, HEADER, lines, left=2))
 
 
-def followed(config: Mapping[str, Any], found: Steps, column: int) -> Iterator[Followed]:
-    """Yield the rows of one command in one set, empty bins left out."""
-    settings = config["evaluation"]["steps"]
-    edges = bin_edges(config, column, settings["bins"])
+def followed(found: Steps, measured: Array, column: int, edges: Array, tolerance: float) -> Iterator[Followed]:
+    """Yield the rows of one command in one set, empty bins left out.
+
+    Args:
+        found: the steps (N,).
+        measured: what the feet did, (N, 4) [m], [deg], [s].
+        column: of the command.
+        edges: of its bins [unit of the command].
+        tolerance: share of its command within which a step follows it.
+    """
     follows = found.follows(column)
-    wanted, got = found.commanded[follows, column], found.measured[follows, column]
-    where, near = bin_of(wanted, edges), np.abs(got - wanted) <= settings["tolerance"] * np.abs(wanted)
+    wanted, got = found.commanded[follows, column], measured[follows, column]
+    where, near = bin_of(wanted, edges), np.abs(got - wanted) <= tolerance * np.abs(wanted)
     for k in np.unique(where):
         own, low, high = where == k, float(edges[k]), float(edges[k + 1])
         means = float(wanted[own].mean()), float(got[own].mean())

@@ -5,17 +5,17 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from mobnet.core.columns import TABLE_01
-from mobnet.core.config import load_layout, read_yaml
 from mobnet.core.joints import JointLayout
-from mobnet.core.methods import network_row
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.tables.layout import Table, tex_escape, tex_table, write_table
 from mobnet.learning.dataset import joints_of
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network, parameter_count
+from mobnet.settings.methods import Target
+from mobnet.settings.networks import Learning, Network
+from mobnet.settings.published import PublishedNetwork, PublishedNetworks
 
 HEADER = ["Network", "Input", "Numbers", "Target", "Architecture", "Parameters", "Paper", "Horizon", "Paper", "Data"]
 COLUMNS = "llrllrrrrl"
@@ -24,54 +24,54 @@ TARGETS = {"uncertainty": "r^{limb} - tau_ext^{limb}", "external": "tau_ext^{lim
 TEX_TAU = r"\tilde\tau_{\mathrm{ext}}"
 
 
-def table_01(config: Mapping[str, Any], out_dir: Path) -> None:
+def table_01(
+    networks: Mapping[str, Network], target: Target, layout: JointLayout, learning: Learning, seed: int,
+    published: PublishedNetworks, table_dir: Path,
+) -> None:  # fmt: skip
     """Write Table 1 as CSV, TeX and Markdown, each network built and its parameters counted.
 
     Args:
-        config: resolved configuration: `robot`, `published`, `networks`, `methods`, `learning` and
-            `evaluation.table_01`, the method whose networks are shown; the paper's rows name the limbs.
-        out_dir: gets table_01.csv, .tex and .md.
-
-    Raises:
-        ConfigError: the method or a limb is unknown.
+        networks: limb -> its network.
+        target: what the networks learn.
+        layout: joints.
+        learning: the smallest standard deviation.
+        seed: of the weights, which are counted only.
+        published: what the paper prints of each limb.
+        table_dir: gets table_01.csv, .tex and .md.
     """
-    layout = load_layout(Path(config["robot"]))
-    printed = read_yaml(Path(config["published"]))["table_01"]["rows"]
-    records = [describe(config, layout, limb, entry) for limb, entry in printed.items()]
+    records = [
+        describe(limb, networks[limb], TARGETS[target].format(limb=limb), layout, learning.std_min, seed, printed)
+        for limb, printed in published.rows.items()
+    ]
     lines = [cells(*map(str, record)) for record in records]
     tex = tex_table(COLUMNS, HEADER, list(map(tex_cells, lines)))
-    write_table(out_dir / "table_01", Table(TABLE_01, records, HEADER, lines, LEFT), tex)
+    write_table(table_dir / "table_01", Table(TABLE_01, records, HEADER, lines, LEFT), tex)
 
 
 def describe(
-    config: Mapping[str, Any], layout: JointLayout, limb: str, printed: Mapping[str, Any]
+    limb: str, network: Network, target: str, layout: JointLayout, std_min: float, seed: int, printed: PublishedNetwork
 ) -> tuple[Field, ...]:
     """Build the network of a limb and return its row of `TABLE_01`, beside what the paper prints of it.
 
     Inputs are the symbols of eq. (17): Q positions and velocities, T desired torques of a limb, U^V the pelvis. An
     architecture is [inputs, state] and [state, outputs] of the layers. A horizon, of truncated back-propagation, is in
     time steps.
-
-    Raises:
-        ConfigError: the method or the limb is unknown.
     """
-    method = config["evaluation"]["table_01"]["method"]
-    row = network_row(config, method, limb)
-    count = len(limb_inputs(layout, row).names)
-    network = build_network(row, count, len(joints_of(layout, row)), config["learning"]["std_min"], config["seed"])
-    head = network.head
+    count = len(limb_inputs(layout, network).names)
+    built = build_network(network, count, len(joints_of(layout, network)), std_min, seed)
+    head = built.head
     return (
         limb,
-        ", ".join([*(f"{letter}^{group}" for letter in "QT" for group in row[letter]), "U^V"]),
+        ", ".join([*(f"{letter}^{group}" for letter in "QT" for group in getattr(network, letter)), "U^V"]),
         count,
-        TARGETS[config["methods"][method]["target"]].format(limb=limb),
-        f"{row['cell']}[{count}, {head.in_features}]-Linear[{head.in_features}, {head.out_features}]",
-        parameter_count(network),
-        row["horizon_steps"],
-        row["data"],
-        printed["architecture"],
-        printed["parameters"],
-        printed["horizon_steps"],
+        target,
+        f"{network.cell}[{count}, {head.in_features}]-Linear[{head.in_features}, {head.out_features}]",
+        parameter_count(built),
+        network.horizon_steps,
+        network.data,
+        printed.architecture,
+        printed.parameters,
+        printed.horizon_steps,
     )
 
 

@@ -4,68 +4,54 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.columns import EXTERNAL_LP, RESIDUAL, UNCERTAINTY, named
-from mobnet.core.config import load_layout, read_yaml
-from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
 from mobnet.evaluation.number.number import number_text
 from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
+from mobnet.settings.evaluation import Uncertainty
+from mobnet.settings.networks import NetworkRow
+from mobnet.settings.published import PublishedUncertainty
 
 HEADER = ["Limb", "Joint", "Set", "Unit", "Simulated", "Robot", "Ratio", "In bounds"]
 
 
-def uncertainty(config: Mapping[str, Any], sets: Mapping[str, Sequence[str]], out_dir: Path) -> None:
+def uncertainty(
+    settings: Uncertainty, networks: Mapping[str, NetworkRow], layout: JointLayout, published: PublishedUncertainty,
+    sets: Mapping[str, Sequence[Path]], table_dir: Path,
+) -> None:  # fmt: skip
     """Write uncertainty.csv, .tex and .md: standard deviation of the learning target of each joint [N m], V1..V3 [N].
 
     Args:
-        config: resolved configuration: `robot`, `published`, `networks`, which name the training set of each limb, and
-            `evaluation.uncertainty.ratio`, limb -> accepted ratios [-] to the robot's.
-        sets: name of a training set -> stems of its residuals.
-        out_dir: gets the three files.
+        settings: limb -> accepted ratios to the robot's.
+        networks: name the training set of each limb.
+        layout: joints and limbs.
+        published: the robot's own.
+        sets: name of a training set -> its residuals.
+        table_dir: gets the three files.
 
     Raises:
         DataError: a file or a column is missing.
-        ConfigError: the robot's numbers do not fit its joints.
     """
-    layout = load_layout(Path(config["robot"]))
-    settings, entry = config["evaluation"]["uncertainty"], read_sizes(Path(config["published"]), layout)
     records, blocks = [], []
-    for limb in (name for name in config["networks"] if name in layout.groups):  # not those that hold several
-        name, joints = config["networks"][limb]["data"], layout.limb(limb)
-        values = target_std(list(map(Path, sets[name])), joints).tolist()
-        known = entry["std"].get(limb, [None] * len(joints))
+    for limb in (name for name in networks if name in layout.groups):  # not those that hold several
+        name, joints = networks[limb].data, layout.limb(limb)
+        values = target_std(sets[name], joints).tolist()
+        known = published.std.get(limb, [None] * len(joints))
         lines = []
         for joint, value, theirs in zip(joints, values, known, strict=True):
             ratio, unit = None if theirs is None else value / theirs, layout.unit(joint)
-            within = verdict(ratio, settings["ratio"].get(limb))
+            within = verdict(ratio, settings.ratio.get(limb))
             records.append((limb, joint, name, value, unit, theirs, ratio, within))
             texts = number_text(value, 1), number_text(theirs, 1), number_text(ratio)
             lines.append([joint, "" if lines else name, unit, *texts, within])
         blocks.append(([limb], lines))
-    table = Table(UNCERTAINTY, records, HEADER, in_blocks(blocks), left=4, align="llllrrrl", note=entry["note"])
-    write_table(out_dir / "uncertainty", table)
-
-
-def read_sizes(path: Path, layout: JointLayout) -> dict[str, Any]:
-    """Return the robot's standard deviations, limb -> one a joint [N m], V1..V3 [N], and the note that goes with them.
-
-    Raises:
-        ConfigError: a limb is unknown, or has not one number for each joint.
-    """
-    entry = read_yaml(path)["uncertainty"]
-    for limb, numbers in entry["std"].items():
-        joints = layout.limb(limb)
-        if len(numbers) != len(joints):
-            raise ConfigError(
-                f"{path}: uncertainty.std.{limb}: {len(numbers)} numbers for {len(joints)} joints ({', '.join(joints)})"
-            )
-    return entry
+    table = Table(UNCERTAINTY, records, HEADER, in_blocks(blocks), left=4, align="llllrrrl", note=published.note)
+    write_table(table_dir / "uncertainty", table)
 
 
 def target_std(stems: Sequence[Path], joints: Sequence[str]) -> NDArray[np.float64]:
