@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 import yaml
 from browser import BROWSER, Browser
+from mobnet.core.config import resolve
 from numpy.typing import NDArray
 
 from mobnet.core.columns import recording_columns
-from mobnet.core.config import resolve
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Recording, Sensed, Truth, write_recording
 from mobnet.core.store import write_array

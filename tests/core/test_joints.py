@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import ConfigError
-from mobnet.core.joints import JointLayout, layout_of
+from mobnet.core.joints import JointLayout
 
 
 def test_tocabi_has_39_degrees_of_freedom(layout: JointLayout) -> None:
@@ -33,9 +33,3 @@ def test_unknown_limb_and_joint_are_named(layout: JointLayout) -> None:
         layout.limb("tail")
     with pytest.raises(ConfigError, match=r"joint: 'LL7' is not accepted"):
         layout.columns(["LL1", "LL7"])
-
-
-def test_group_of_an_unknown_joint_is_refused() -> None:
-    order = {"virtual": ["V1"], "actuated": ["A1"]}
-    with pytest.raises(ConfigError, match="joint: 'A2'"):
-        layout_of(order, {"A": ["A2"]}, {})

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import yaml
 from csv_files import write_rows
+from mobnet.evaluation.number.claim import Claim
 
 from mobnet.core.columns import FEET, Epoch, Score
 from mobnet.core.files import write_json
@@ -18,7 +19,6 @@ from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Recording, Sensed, Truth, write_recording
 from mobnet.core.store import write_array
 from mobnet.evaluation.measure.results import listed
-from mobnet.evaluation.number.claim import Claim
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import CalibrationTest, Evaluation
 from mobnet.settings.settings import Settings

@@ -110,7 +110,8 @@ def test_the_rows_of_a_table_are_run_and_printed_and_have_windows(settings: Sett
 
 
 @pytest.mark.parametrize(
-    ("part", "key"), [("main", "seed"), ("main", "robot"), ("data", "pushes"), ("tests", "tests"), ("scales", "scales")]
+    ("part", "key"),
+    [("config", "seed"), ("config", "robot"), ("data", "pushes"), ("tests", "tests"), ("scales", "scales")],
 )
 def test_a_missing_section_is_named(folder: Path, part: str, key: str) -> None:
     path = folder / f"{part}.yaml"

@@ -91,7 +91,7 @@ def test_ctrl_c_is_one_line(monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogC
         (["--scenario", "moon"], "--scenario: 'moon' is not accepted; accepted: "),
         (["--level", "perfect"], "--level: 'perfect' is not accepted; accepted: "),
         (["--terrain", "stairs"], "terrain: 'stairs' is not accepted; accepted: checks, flat, plates, slope"),
-        (["--config", "nowhere"], "nowhere/main.yaml: file is missing"),
+        (["--config", "nowhere"], "nowhere/config.yaml: file is missing"),
     ],
 )
 def test_what_is_not_accepted_is_named_in_one_line(

@@ -15,20 +15,21 @@ from mobnet.simulation.terrain import draw_terrain
 ROOT = Path(__file__).parents[2]
 SMALL = (400, 300)  # width, height [pixels]
 SHAPES = 2  # geom group of what is seen of the robot
-NO_OPENGL = f"""
+NO_OPENGL = """
 import ctypes, sys
 load = ctypes.CDLL.__init__
 def refuse(self, name, *words, **options):
     if any(part in str(name) for part in ("EGL", "libGL", "OpenGL", "OSMesa")):
-        raise OSError(f"{{name}}: cannot open shared object file")
+        raise OSError(f"{name}: cannot open shared object file")
     load(self, name, *words, **options)
 ctypes.CDLL.__init__ = refuse
 from pathlib import Path
 from mobnet.core.errors import DrawingError
-from mobnet.robot.description import load_robot
+from mobnet.robot.description import describe
+from mobnet.settings.load import load_settings
 from mobnet.simulation.render import save_picture
 from mobnet.simulation.terrain import Terrain
-robot = load_robot(Path({str(ROOT / "configs" / "robots" / "tocabi.yaml")!r}))
+robot = describe(load_settings().robot)
 q = [0.0] * robot.layout.nq
 q[3] = 1.0
 try:

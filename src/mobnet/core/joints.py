@@ -87,22 +87,3 @@ def right_of(body: str) -> str:
 def with_image(part: str) -> tuple[str, ...]:
     """Return the name of a shape or a point, and that of its mirror image if it has one."""
     return (part, part.replace("left_", "right_", 1)) if part.startswith("left_") else (part,)
-
-
-def layout_of(
-    order: Mapping[str, Sequence[str]], groups: Mapping[str, Sequence[str]], legs: Mapping[str, str]
-) -> JointLayout:
-    """Build the layout from a robot table's `order` (virtual, actuated), `groups` and legs by side.
-
-    Raises:
-        ConfigError: a group names a joint that the order does not have.
-    """
-    layout = JointLayout(
-        tuple(order["virtual"]),
-        tuple(order["actuated"]),
-        {limb: tuple(joints) for limb, joints in groups.items()},
-        legs,
-    )
-    for joints in layout.groups.values():
-        layout.columns(joints)
-    return layout

@@ -157,7 +157,8 @@ class Products:
     def _product(self, name: str, function: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:
         """Return a product; its function gets what its signature names."""
         call = call_of(function, {**self._shared, **self._own(name), **needs, "out": outputs[0]})
-        files = dict.fromkeys(str(path) for path in files_in(needs) if str(path) != str(needs.get("accounts")))
+        read = {key: value for key, value in needs.items() if key != "accounts"}  # jobs write these without being asked
+        files = dict.fromkeys(map(str, files_in(read)))
         return Product(name, Job(call, tuple(files)), tuple(map(str, outputs)))
 
     @cached_property

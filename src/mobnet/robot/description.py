@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
@@ -21,7 +20,6 @@ from mobnet.robot.rows import (
     vector,
     with_mirrored,
 )
-from mobnet.settings.load import load_section
 from mobnet.settings.robot import RobotTable
 
 SIDES = ("left", "right")
@@ -118,10 +116,9 @@ class WalkingRobot(RobotDescription):
 
 def describe(table: RobotTable) -> RobotDescription:
     """Return a robot's table as numpy values."""
-    legs = {side: foot.limb for side, foot in table.feet.items()}
     return RobotDescription(
         name=table.name,
-        layout=JointLayout(table.order.virtual, table.order.actuated, table.groups, legs),
+        layout=table.layout,
         bodies=tuple(map(read_body, table.bodies)),
         joints=tuple(map(read_joint, table.joints)),
         feet=read_feet(table),
@@ -132,15 +129,6 @@ def describe(table: RobotTable) -> RobotDescription:
         shapes=tuple(read_shape(row, table.tones) for row in with_mirrored(table.shapes)),
         points=tuple(map(read_point, with_mirrored(table.points))),
     )
-
-
-def load_robot(path: Path) -> RobotDescription:
-    """Read a robot's table of figures (configs/robots/*.yaml).
-
-    Raises:
-        ConfigError: a key or a value is not accepted, or the table does not fit itself; one line for each.
-    """
-    return describe(load_section(path, RobotTable))
 
 
 def for_walking(robot: RobotDescription) -> WalkingRobot:

@@ -21,7 +21,7 @@ from mobnet.settings.settings import Settings
 
 ROOT = Path(__file__).parents[3]
 CONFIGS = ROOT / "configs"
-PARTS = ("main", "plant", "walking", "data", "networks", "methods", "tests", "evaluation", "scales")
+PARTS = ("config", "plant", "walking", "data", "networks", "methods", "tests", "evaluation", "scales")
 NAMED_FILES = ("robot", "published", "claims")  # sections that stand in files which config.yaml names
 Kind = TypeVar("Kind", bound=Section)
 Place = tuple[str | int, ...]
@@ -50,7 +50,7 @@ def load_settings(folder: Path = CONFIGS, overrides: Mapping[str, Any] | None = 
             raise ConfigError(f"{folder / 'config.yaml'}: {section}: the path of a YAML file is expected")
         files[section] = folder.parent / read[section]
         read[section] = read_yaml(files[section])
-    return _checked(read, files, folder / "main.yaml")
+    return _checked(read, files, folder / "config.yaml")
 
 
 def load_section(path: Path, kind: type[Kind]) -> Kind:

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 import pytest
 import yaml
+from mobnet.evaluation.number.claim import Claim, inside, read_claims, rule_text
 
 from mobnet.core.errors import ConfigError
 from mobnet.evaluation.measure.metrics import METRICS, PUSH, PUSHED
 from mobnet.evaluation.measure.results import listed
 from mobnet.evaluation.measure.trainings import MEASURES
-from mobnet.evaluation.number.claim import Claim, inside, read_claims, rule_text
 from mobnet.evaluation.number.published import published_row, read_published
 from mobnet.evaluation.number.quantities import QUANTITIES
 

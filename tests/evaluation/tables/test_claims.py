@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 import yaml
 from csv_files import read_table
-
 from mobnet.evaluation.number.claim import Claim, read_claims
+
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.tables.claims import VERDICTS, claims, differs, verdict_of
 
