@@ -167,7 +167,7 @@ def test_scores_and_runs_follow_from_the_section_of_a_product(plan: Plan) -> Non
         ("figure_18", panels, panels.panels),
     ):  # fmt: skip
         assert needs_of(plan.files, name, section, ["scores"]) == {"scores": plan.files.scores(tests)}
-    with pytest.raises(ConfigError, match=r"bins: its section lacks .*'scenario'"):
+    with pytest.raises(ConfigError, match=r"bins: its section lacks .*'Steps' object has no"):
         needs_of(plan.files, "bins", settings.steps, ["runs"])
 
 

@@ -175,7 +175,7 @@ class Products:
         }
 
     def _own(self, name: str) -> dict[str, object]:
-        """Return a product's own name, section of the configuration and numbers of the paper.
+        """Return a product's own name, section of the configuration and numbers of the paper, None if it prints none.
 
         The chosen scale may replace the start of a gait cycle [s] that the section names.
         """
@@ -184,8 +184,8 @@ class Products:
         printed = published.tables.get(name) or getattr(published, name, None)
         shortened = self.settings.sizes.figure_start_s
         start_s = getattr(section, "start_s", None) if shortened is None else shortened
-        own = {"name": name, "settings": section, "published": printed, "start_s": start_s}
-        return {key: value for key, value in own.items() if value is not None}
+        own = {"name": name, "settings": section, "start_s": start_s}
+        return {**{key: value for key, value in own.items() if value is not None}, "published": printed}
 
 
 def _made_in(floor: str) -> list[str]:

@@ -63,9 +63,9 @@ class Look:
 
 def errors(
     settings: ErrorTable, name: str, statistics: Statistics, seed: int, layout: JointLayout,
-    published: PublishedTable, scores: Mapping[str, Path], table_dir: Path,
+    published: PublishedTable | None, scores: Mapping[str, Path], table_dir: Path,
 ) -> None:  # fmt: skip
-    """Write one of Tables 5, 6, 7, 10 and 11, errors by test, method and joint [N m], as CSV, TeX and Markdown.
+    """Write a table of errors by test, method and joint [N m], as CSV, TeX and Markdown.
 
     Args:
         settings: the table's columns and rows.
@@ -73,7 +73,7 @@ def errors(
         statistics: what intervals need.
         seed: of the intervals.
         layout: joints and limbs.
-        published: what the paper prints.
+        published: what the paper prints; None for a table that it does not have.
         scores: scenario -> its scores.
         table_dir: gets the three files.
 
@@ -87,14 +87,15 @@ def errors(
     for test in settings.rows:
         for method in test.methods:
             run = test.scenario, test.level, method
-            printed = published_row(published, test.paper, method) if test.paper else {}
+            printed = published_row(published, test.paper, method) if published and test.paper else {}
             own = [score for score in read[test.scenario] if (score.scenario, score.level, score.method) == run]
             numbers = {
                 column: cell_of(column, run, test.metric, own, statistics, seed, printed.get(column.name))
                 for column in columns
             }
             rows.append(TableRow(test.labels, run, test.metric, numbers))
-    write_error_table(table_dir / name, rows, Look(settings, published.robot, published.floor, statistics.confidence))
+    robot, floor = (published.robot, published.floor) if published else (False, None)
+    write_error_table(table_dir / name, rows, Look(settings, robot, floor, statistics.confidence))
 
 
 def write_error_table(stem: Path, rows: Sequence[TableRow], look: Look) -> None:
