@@ -9,9 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-import yaml
 from browser import BROWSER, Browser
-from mobnet.core.config import resolve
 from numpy.typing import NDArray
 
 from mobnet.core.columns import recording_columns
@@ -29,14 +27,6 @@ ROOT = Path(__file__).parents[1]
 RATE_HZ = 1000.0
 WAVES = 3  # sines per signal
 Array = NDArray[np.float64]
-
-
-@pytest.fixture(scope="session")
-def full_config() -> dict[str, Any]:
-    """The repository's configuration at its smoke scale."""
-    config = yaml.safe_load((ROOT / "configs" / "config.yaml").read_text())
-    config["robot"] = str(ROOT / config["robot"])
-    return resolve({**config, "scale": "smoke"})
 
 
 @pytest.fixture(scope="session")

@@ -1,6 +1,10 @@
-"""CSV files in tests: rows as objects whose fields are numbers where they can be, None where they are empty."""
+"""CSV files in tests: rows as objects whose fields are numbers where they can be, None where they are empty.
+
+After a change that is meant to move golden files, run the tests with `UPDATE_GOLDEN=1` once and read the diff.
+"""
 
 import csv
+import os
 from collections.abc import Sequence
 from dataclasses import astuple, fields
 from pathlib import Path
@@ -9,6 +13,8 @@ from typing import Any
 
 from mobnet.core.columns import Score
 from mobnet.evaluation.number.files import write_csv
+
+GOLDEN = Path(__file__).parent / "golden"
 
 
 def write_rows(path: Path, rows: Sequence[Any], kind: type[Any] = Score) -> None:
@@ -20,6 +26,14 @@ def read_table(path: Path) -> list[SimpleNamespace]:
     """Read a CSV file."""
     with path.open(newline="", encoding="utf-8") as file:
         return [SimpleNamespace(**{name: _value(text) for name, text in row.items()}) for row in csv.DictReader(file)]
+
+
+def check_golden(*produced: Path) -> None:
+    """Compare files with the golden ones of their names, or make them the golden ones."""
+    for path in produced:
+        if os.environ.get("UPDATE_GOLDEN"):
+            (GOLDEN / path.name).write_text(path.read_text())
+        assert path.read_text() == (GOLDEN / path.name).read_text()
 
 
 def _value(text: str) -> str | float | None:

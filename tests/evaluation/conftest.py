@@ -9,9 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-import yaml
 from csv_files import write_rows
-from mobnet.evaluation.number.claim import Claim
 
 from mobnet.core.columns import FEET, Epoch, Score
 from mobnet.core.files import write_json
@@ -20,17 +18,15 @@ from mobnet.core.recording import Recording, Sensed, Truth, write_recording
 from mobnet.core.store import write_array
 from mobnet.evaluation.measure.results import listed
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import CalibrationTest, Evaluation
+from mobnet.settings.claims import Claim
+from mobnet.settings.evaluation import CalibrationTest, ErrorRow, Evaluation
 from mobnet.settings.settings import Settings
 
-REPO = Path(__file__).parents[2]
-CONFIGURED = yaml.safe_load((REPO / "configs/config.yaml").read_text())["evaluation"]
 RATE_HZ = 100.0
 STEP_ROWS = 70  # rows in the air and rows on the ground of the made-up walk
 PUSHED_ROWS = range(20, 30)  # of every swing of the made-up walk
 JOINTS = [f"LL{i}" for i in range(1, 7)]
 LEVELS = {"ideal": ["MOB"], "sensor_noise": ["MOB"], "all_uncertainty": ["MOB", "MOB-Net", "FTS-e2e"]}
-PUSHED_TEST = {"scenario": "hip_pitch_step", "level": "all_uncertainty", "methods": ["MOB", "MOB-Net"]}
 MEANS = {"ideal": 0.01, "sensor_noise": 1.2, "MOB": 19.0, "MOB-Net": 1.5, "FTS-e2e": 2.0}  # avg [N m]
 OFF = {"all_uncertainty": 1.0, "exact_model": 0.8, "no_friction": 0.5, "no_load_friction": 1.0, "no_noise": 1.1}
 
@@ -43,7 +39,7 @@ def rng() -> np.random.Generator:
 
 @pytest.fixture(scope="session")
 def evaluation(settings: Settings) -> Evaluation:
-    """Tables and figures of made-up runs: few draws, since only the plumbing counts, joints and times that they have."""
+    """Tables and figures of made-up runs: few draws, joints and times that they have."""
     whole, methods = settings.evaluation, {"methods": ("MOB", "MOB-Net")}
     collisions = {title: test.model_copy(update=methods) for title, test in whole.figure_10.tests.items()}
     changes: dict[str, dict[str, Any]] = {
@@ -59,108 +55,6 @@ def evaluation(settings: Settings) -> Evaluation:
     }
     sections = {name: getattr(whole, name).model_copy(update=own) for name, own in changes.items()}
     return whole.model_copy(update=sections)
-
-
-@pytest.fixture
-def config() -> dict[str, Any]:
-    """The part of a resolved configuration that evaluation reads; few draws, since only the plumbing counts here."""
-    return {
-        "scale": "default",
-        "seed": 2023,
-        "robot": str(REPO / "configs/robots/tocabi.yaml"),
-        "published": str(REPO / "configs/legacy_published.yaml"),
-        "rates": {"data_hz": 1000},
-        "evaluation": {
-            "confidence": 0.95,
-            "bootstrap_draws": 200,
-            "tables": CONFIGURED["tables"],
-            "error_budget": CONFIGURED["error_budget"],
-            "figure_05": {"scenario": "forward_walk", "joint": "LL3", "start_s": 1.0},
-            "figure_06": {**PUSHED_TEST, "joint": "LL3", "before_s": 0.1, "after_s": 0.1},
-            "figure_07": {"joints": ["W2", "V3"], "start_s": 0.5, "end_s": 1.0, "every": 5},
-            "figure_08": {"limb": "LL", "start_s": 1.0},
-            "figure_09": {"limb": "LL", "start_s": 1.0},
-            "figure_10": {
-                "joint": "LL3",
-                "before_s": 0.1,
-                "after_s": 0.15,
-                "tests": {
-                    "swing knee": {**PUSHED_TEST, "scenario": "knee_swing"},
-                    "support knee": {**PUSHED_TEST, "scenario": "knee_support"},
-                },
-                "against": {**PUSHED_TEST, "scenario": "walk_test"},
-            },
-            "figure_19": {"joints": ["LL2", "LL3"], "dots": 12, "test_dots": 8},
-            "coverage": {
-                "limb": "LL",
-                "samples": 400,
-                "every": 2,
-                "block_s": 5.0,
-                "range": [0.01, 0.99],
-                "cells": 10,
-                "cell_range": [0.001, 0.999],
-                "push_nm": 5.0,
-                "push_after_s": 0.1,
-            },
-            "calibration": {
-                "levels": [0.5, 0.68, 0.9, 0.95],
-                "share": 0.68,
-                "tolerance": 0.05,
-                "points": 9,
-                "methods": ["MOB-Net"],
-            },
-            "data": {"every": 10},
-            "commands": {"bins": 5},
-            "steps": {"bins": 3, "tolerance": 0.15},
-            "uncertainty": {"ratio": {"LL": [0.4, 2.5]}},
-            "figure_17": {"limb": "LL", "methods": ["GRU", "LSTM", "RNN", "TCN", "MLP", "MLP-500"]},
-            "figure_18": {
-                "level": "all_uncertainty",
-                "limbs": ["W", "RA"],
-                "methods": ["MOB-Net", "MOB-Net-Single"],
-                "panels": {"motion_test": "random motion (ID)", "hand_wrench": "wrench (OOD)"},
-            },
-            "kinds": {"variants": ["windows", "printed-rate"]},
-            "methods": [
-                {
-                    "scenario": "walk_test",
-                    "level": "all_uncertainty",
-                    "columns": {"LL": ["LL3", "avg"]},
-                    "methods": ["MOB", "MOB-Net", "FTS-e2e"],
-                },
-                {
-                    "scenario": "motion_test",
-                    "level": "all_uncertainty",
-                    "columns": {"W": ["avg"], "RA": ["avg"]},
-                    "methods": ["MOB", "MOB-Net"],
-                },
-            ],
-        },
-        "networks": {
-            "LL": {"Q": ["LL"], "T": ["LL"], "data": "walk"},
-            "W": {"data": "motion"},
-            "V": {"data": "motion"},
-        },
-        "walking": {"foot_spacing_m": 0.205},
-        "terrain": {"checks": {}, "flat": {}},
-        "commands": {
-            "step_x_m": [-0.15, 0.2],
-            "step_y_m": [-0.1, 0.1],
-            "turn_deg": [-20.0, 20.0],
-            "duration_s": [0.6, 0.7, 0.8, 0.9],
-            "foot_height_m": [0.04, 0.05, 0.06, 0.07],
-        },
-        "sizes": {
-            "train": {"walk": {"shards": 6, "shard_s": 300.0}},
-            "test": {"shards": 3, "shard_s": 60.0},
-            "experiments": {
-                "left_leg": {"epochs": 20, "seeds": [0, 1, 2]},
-                "kinds": {"epochs": 10, "seeds": [0, 1, 2, 3, 4]},
-                "sweep": {"epochs": 10, "seeds": [0]},
-                "upper_body": {"epochs": 8, "seeds": [0, 1, 2]},
-            },
-        },
-    }
 
 
 def made_up_scores(networks: int = 2, tests: int = 3) -> list[Score]:
@@ -203,20 +97,20 @@ def write_limb_scores(tmp_path: Path, layout: JointLayout) -> Callable[..., Path
     return write
 
 
-def table_scores(layout: JointLayout, rows: list[dict[str, Any]], metrics: tuple[str, ...]) -> list[Score]:
+def table_scores(layout: JointLayout, rows: list[ErrorRow], metrics: tuple[str, ...]) -> list[Score]:
     """Return scores of every joint that rows of a table ask for: 2 networks where there are any, 3 tests.
 
     The k-th joint errs by k times 0.1, 4 of MOB, 3 of MOB-fric, 1 of MOB-Net, 2 of others, up to a factor per run.
     """
     sizes = {"MOB": 4.0, "MOB-fric": 3.0, "MOB-Net": 1.0}
     scores: list[Score] = []
-    for row, method in ((each, name) for each in rows for name in each["methods"]):
+    for row, method in ((each, name) for each in rows for name in each.methods):
         networks = 1 if method in ("MOB", "MOB-fric") else 2
         for network, test in itertools.product(range(networks), (1, 2, 3)):
             off = 1 + 0.1 * (test - 2) + 0.04 * (network - (networks - 1) / 2)
             for limb, joints in layout.groups.items():
                 for joint in joints:
-                    run = (row["scenario"], row["level"], method, network, test, limb, joint)
+                    run = (row.scenario, row.level, method, network, test, limb, joint)
                     value = 0.1 * sizes.get(method, 2.0) * (layout.names.index(joint) + 1) * off
                     scores += [
                         Score(*run, metric, value * (k + 1), "%" if metric == "r_rmse" else layout.unit(joint))
@@ -226,15 +120,15 @@ def table_scores(layout: JointLayout, rows: list[dict[str, Any]], metrics: tuple
 
 
 @pytest.fixture
-def write_table_scores(tmp_path: Path, layout: JointLayout, config: dict[str, Any]) -> Callable[..., dict[str, Path]]:
+def write_table_scores(tmp_path: Path, layout: JointLayout, evaluation: Evaluation) -> Callable[..., dict[str, Path]]:
     """Write the scores that a table needs: write_table_scores(name, *metrics) -> scenario -> CSV."""
 
     def write(name: str, *metrics: str) -> dict[str, Path]:
-        rows = config["evaluation"]["tables"][name]["rows"]
+        rows = evaluation.tables[name].rows
         found = {}
-        for scenario in dict.fromkeys(row["scenario"] for row in rows):
+        for scenario in dict.fromkeys(row.scenario for row in rows):
             found[scenario] = tmp_path / f"{name}_{scenario}.csv"
-            own = [row for row in rows if row["scenario"] == scenario]
+            own = [row for row in rows if row.scenario == scenario]
             write_rows(found[scenario], table_scores(layout, own, metrics))
         return found
 
@@ -286,17 +180,17 @@ def claimed_scores(layout: JointLayout, claims: list[Claim], means: dict[str, fl
     """Return the scores that claims name, and the plain error: 0.01 where all is ideal, else a method's mean [N m]."""
     networks = {"MOB": 1, "MOB-fric": 1, "MOB-Net-Single": 2}
     rows = {}
-    for cell in (cell for claim in claims for cell in claim.cells if "joint" in cell):
-        metrics = {"rmse", *listed(cell.get("metric", "rmse"))}
+    for cell in (cell for claim in claims for cell in claim.cells if cell.joint):
+        metrics = {"rmse", *listed(cell.metric or "rmse")}
         kept = [name for name in sorted(metrics) if pushes or "push" not in name]
-        mean = 0.01 if cell["level"] == "ideal" else means[cell["method"]]
-        joints = [joint for name in listed(cell["joint"]) for joint in layout.groups.get(name, (name,))]
+        mean = 0.01 if cell.level == "ideal" else means[str(cell.method)]
+        joints = [joint for name in listed(cell.joint or ()) for joint in layout.groups.get(name, (name,))]
         limbs = [next(limb for limb, own in layout.groups.items() if joint in own) for joint in joints]
-        seeds = range(networks.get(cell["method"], 3))
+        seeds = range(networks.get(str(cell.method), 3))
         for (limb, joint), name, network, test in itertools.product(
             zip(limbs, joints, strict=True), kept, seeds, (1, 2)
         ):
-            run = (cell["scenario"], cell["level"], cell["method"], network, test, limb, joint, name)
+            run = (str(cell.scenario), str(cell.level), str(cell.method), network, test, limb, joint, name)
             rows[run] = Score(*run, mean * (1 + 0.1 * (test - 1.5)), "N m")
     return list(rows.values())
 
@@ -310,7 +204,7 @@ def write_results(tmp_path: Path, layout: JointLayout, write_training: Callable[
 
     def write(claims: list[Claim], means: dict[str, float], pushes: bool = True) -> tuple[list[Path], list[Path]]:
         write_rows(tmp_path / "claimed.csv", claimed_scores(layout, claims, means, pushes))
-        named = [cell["method"] for claim in claims for cell in claim.cells if "joint" not in cell]
+        named = [str(cell.method) for claim in claims for cell in claim.cells if not cell.joint]
         losses = {method: -4.0 + 0.1 * k for k, method in enumerate(dict.fromkeys(named))}
         folders = [
             write_training(method, seed, loss + 0.05 * seed) for method, loss in losses.items() for seed in (0, 1)

@@ -1,11 +1,12 @@
 """Figure 17 shows the mean over runs of every epoch, between its lowest and highest run."""
 
-import csv
 from collections.abc import Callable
+from itertools import product
 from pathlib import Path
 
 import numpy as np
 import pytest
+from csv_files import check_golden, read_table
 
 from mobnet.core.errors import DataError
 from mobnet.evaluation.figures.figure_17 import curve, figure_17
@@ -22,16 +23,14 @@ def test_curve_is_the_mean_of_the_runs_within_their_spread(write_training: Write
 
 
 def test_csv_holds_both_losses_of_every_kind_and_epoch(tmp_path: Path, write_training: Write) -> None:
-    figure_17([write_training(kind, seed) for kind in ("GRU", "MLP-500") for seed in range(2)], tmp_path / "out")
-    rows = list(csv.DictReader((tmp_path / "out/figure_17.csv").read_text().splitlines()))
-    keys = [(row["measure"], row["method"], row["epoch"]) for row in rows]
-    assert keys == [
-        (measure, kind, epoch)
-        for measure in ("training loss", "validation loss")
-        for kind in ("GRU", "MLP-500")
-        for epoch in "123"
-    ]
-    assert {row["runs"] for row in rows} == {"2"}
+    losses = {"GRU": -4.0, "LSTM": -3.8, "RNN": -3.1, "TCN": -3.5, "MLP": -3.0, "MLP-500": -3.3}
+    folders = [write_training(kind, seed, loss + 0.05 * seed) for kind, loss in losses.items() for seed in range(2)]
+    figure_17(folders, tmp_path / "out")
+    rows = read_table(tmp_path / "out/figure_17.csv")
+    keys = [(row.measure, row.method, row.epoch) for row in rows]
+    assert keys == list(product(("training loss", "validation loss"), losses, (1, 2, 3)))
+    assert {row.runs for row in rows} == {2}
+    check_golden(tmp_path / "out/figure_17.csv")
     assert (tmp_path / "out/figure_17.pdf").read_bytes().startswith(b"%PDF")
 
 

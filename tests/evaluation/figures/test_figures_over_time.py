@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from csv_files import read_table
+from csv_files import check_golden, read_table
 
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.figures.figure_05 import figure_05, read_panel
@@ -34,47 +34,51 @@ def test_panel_of_figure_05_holds_the_cycle_of_the_joint(walk: Walk, layout: Joi
 def test_figure_05_is_written_as_vector_picture_and_numbers(
     tmp_path: Path, walk: Walk, layout: JointLayout, evaluation: Evaluation
 ) -> None:
-    figure_05(evaluation.figure_05, START_S, layout, [walk(1.0, method="MOB"), walk(2.0)], tmp_path)
+    figure_05(evaluation.figure_05, START_S, layout, [walk(-15.0, method="MOB"), walk(1.5)], tmp_path)
     assert (tmp_path / "figure_05.pdf").read_bytes().startswith(b"%PDF")
     assert (tmp_path / "figure_05.png").read_bytes().startswith(b"\x89PNG")
     lines = (tmp_path / "figure_05.csv").read_text().splitlines()
     assert lines[0] == "panel,time_s,swing,truth,MOB,MOB-Net"
     assert len(lines) == 1 + 2 * CYCLE_ROWS
+    check_golden(tmp_path / "figure_05.csv")
 
 
 def test_figure_07_shows_every_fifth_sample_of_each_joint_with_its_unit(
     tmp_path: Path, walk: Walk, layout: JointLayout, evaluation: Evaluation
 ) -> None:
     joints = list(evaluation.figure_07.joints)
-    runs = [walk(-15.0, method="MOB", joints=joints), walk(2.0, joints=joints, std=0.5)]
+    runs = [walk(-15.0, method="MOB", joints=joints), walk(1.5, joints=joints, std=0.5)]
     figure_07(evaluation.figure_07, layout, runs, tmp_path)
     rows = read_table(tmp_path / "figure_07.csv")
     assert list(dict.fromkeys(row.panel for row in rows)) == ["W2 [N m]", "V3 [N]"]
     assert [row.time_s for row in rows[:10]] == pytest.approx([0.5 + 0.05 * k for k in range(10)])
     assert len(rows) == 2 * 10
     for row in map(vars, rows):
-        assert row["MOB-Net"] - row["truth"] == pytest.approx(2.0, abs=1e-3)
+        assert row["MOB-Net"] - row["truth"] == pytest.approx(1.5, abs=1e-3)
         assert row["MOB-Net std"] == 0.5
+    check_golden(tmp_path / "figure_07.csv")
 
 
 def test_figure_08_shows_target_prediction_and_error_of_every_joint(
     tmp_path: Path, walk: Walk, layout: JointLayout, evaluation: Evaluation
 ) -> None:
-    figure_08(evaluation.figure_08, START_S, layout, [walk(2.0, std=0.5)], tmp_path)
+    figure_08(evaluation.figure_08, START_S, layout, [walk(1.5, std=0.5)], tmp_path)
     rows = read_table(tmp_path / "figure_08.csv")
-    assert list(dict.fromkeys(row.panel for row in rows)) == [f"LL{i}, RMSE 2.00 N m" for i in range(1, 7)]
+    assert list(dict.fromkeys(row.panel for row in rows)) == [f"LL{i}, RMSE 1.50 N m" for i in range(1, 7)]
     assert len(rows) == 6 * CYCLE_ROWS
     for row in map(vars, rows):
-        assert [row["target"], row["MOB-Net"], row["MOB-Net std"]] == pytest.approx([5.0, 3.0, 0.5], rel=1e-4)
+        assert [row["target"], row["MOB-Net"], row["MOB-Net std"]] == pytest.approx([5.0, 3.5, 0.5], rel=1e-4)
+    check_golden(tmp_path / "figure_08.csv")
 
 
 def test_figure_09_shows_every_method_on_every_joint(
     tmp_path: Path, walk: Walk, layout: JointLayout, evaluation: Evaluation
 ) -> None:
-    errors = {"MOB": -15.0, "MOB-fric": 4.0, "MOB-Net": 2.0}
+    errors = {"MOB": -15.0, "MOB-Net": 1.5}
     runs = [walk(error, method=method) for method, error in errors.items()]
     figure_09(evaluation.figure_09, START_S, layout, runs, tmp_path)
     rows = read_table(tmp_path / "figure_09.csv")
     assert list(dict.fromkeys(row.panel for row in rows)) == [f"LL{i}" for i in range(1, 7)]
     for row in map(vars, rows[70:80]):
         assert [row[method] - row["truth"] for method in errors] == pytest.approx(list(errors.values()), rel=1e-3)
+    check_golden(tmp_path / "figure_09.csv")
