@@ -86,7 +86,8 @@ class Browser:
     def until(self, script: str, wanted: Any) -> None:
         """Wait for an expression to have a value."""
         wait(lambda: self.value(script) == wanted)
-        assert self.value(script) == wanted
+        seen = self.value(script)
+        assert seen == wanted, f"{script}: {seen}, expected {wanted}"
 
     def go(self, address: str) -> None:
         """Load a page afresh."""

@@ -26,9 +26,11 @@ def click(browser: Browser, script: str, then: str) -> None:
 
 
 def choose(browser: Browser, category: str) -> None:
-    """Choose a category of results in the menu."""
-    item = f"[...document.querySelectorAll('#app li a')].find((item) => item.textContent === {json.dumps(category)})"
-    click(browser, item, "document.querySelector('#app tbody tr') != null")
+    """Choose a category of results in the menu; from another one, which a late style may bring, go back first."""
+    named = f"[...document.querySelectorAll('#app nav a')].find((link) => link.textContent === {json.dumps(category)})"
+    back = "[...document.querySelectorAll('#app nav a')].find((link) => link.textContent === 'Results')"
+    lines = f"document.querySelector('#app nav').innerText.split('\\n').includes({json.dumps(category)})"
+    click(browser, f"{named} ?? {back}", f"document.querySelector('#app tbody tr') != null && {lines}")
 
 
 def show(browser: Browser, name: str, kind: str) -> None:
