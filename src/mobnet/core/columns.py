@@ -130,6 +130,7 @@ CLAIMS = (
     "claim", "printed", "says", "published", "value", "low", "high", "seed_count", "unit", "differs", "rule", "verdict",
     "cause",
 )  # fmt: skip
+VERDICTS = ("reproduced", "direction only", "not reproduced", "not measured")  # values of `verdict` of a claim
 TABLE_01 = (
     "limb", "inputs", "input_count", "target", "architecture", "parameters", "horizon_steps", "data",
     "architecture_published", "parameters_published", "horizon_published",

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from mobnet.evaluation.tables.claims import VERDICTS
+from mobnet.core.columns import VERDICTS
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 

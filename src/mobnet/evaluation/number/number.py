@@ -38,6 +38,11 @@ class Number:
         """Return the interval as text."""
         return interval_text(self.low, self.high, digits)
 
+    def texts(self) -> tuple[str, str]:
+        """Return the number and its interval as text; a number below 1 that has a unit gets a digit more."""
+        digits = 2 if self.unit == "-" or abs(self.value or 0.0) >= 1 else 3
+        return self.text(digits), self.interval(digits)
+
 
 def number_text(value: float | None, digits: int = 2) -> str:
     """Return a number with fixed digits and no minus before zero, or a dash where there is none."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from mobnet.core.columns import VERDICTS
 from mobnet.core.files import write_text
 from mobnet.evaluation.number.files import read_numbers
 from mobnet.evaluation.number.number import Number, number_text
-from mobnet.evaluation.tables.claims import VERDICTS, ours_text
 from mobnet.evaluation.tables.layout import tex_escape
 from mobnet.settings.data import Recordings
 from mobnet.settings.plant import Rates
@@ -80,7 +80,7 @@ def cell_texts(of: Mapping[str, str], number: Number) -> dict[str, str]:
 
 def claim_texts(of: Mapping[str, str], number: Number) -> dict[str, str]:
     """Return the names and TeX texts of a claim; `of`: columns `CLAIMS` of its row."""
-    value, interval = ours_text(number)
+    value, interval = number.texts()
     texts = {"claimed": number_text(number.published), "found": value, "span": interval}
     texts |= {name: of[name] for name in ("verdict", "cause")}
     return {f"{name}@{of['claim']}": tex_escape(text) for name, text in texts.items()}

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from mobnet.core.columns import CLAIMS
+from mobnet.core.columns import CLAIMS, VERDICTS
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.results import Results, read_results
 from mobnet.evaluation.number.intervals import summarise
@@ -19,8 +19,6 @@ from mobnet.settings.evaluation import Statistics
 
 log = logging.getLogger(__name__)
 
-REPRODUCED = "reproduced"
-VERDICTS = (REPRODUCED, "direction only", "not reproduced", "not measured")
 HEADER = ("Claim", "Printed in", "Paper", "Ours", "{:.0%}", "Differs", "Holds if", "Verdict")
 CAPTION = r"\claimscaption"  # the paper's
 COLUMNS = r">{\raggedright\arraybackslash}p{.385\linewidth}>{\raggedright\arraybackslash}p{.12\linewidth}rrrlll"
@@ -47,7 +45,7 @@ class Verdict:
     @property
     def cause(self) -> str:
         """Why it is not reproduced, as far as it was tested."""
-        return "" if self.verdict == REPRODUCED else self.claim.cause
+        return "" if self.verdict == VERDICTS[0] else self.claim.cause
 
     def record(self) -> tuple[str | int | float | None, ...]:
         """Return the row of claims.csv."""
@@ -60,7 +58,7 @@ class Verdict:
     def line(self) -> list[str]:
         """Return the texts of a row of the table."""
         claim, unit = self.claim, "" if self.claim.unit == "-" else f" {self.claim.unit}"
-        own = [claim.says, claim.printed, number_text(claim.published), *ours_text(self.ours)]
+        own = [claim.says, claim.printed, number_text(claim.published), *self.ours.texts()]
         return [*own, self.differs, rule_text(claim.reproduced) + unit, self.verdict]
 
 
@@ -123,7 +121,7 @@ def judge(name: str, claim: Claim, results: Results, statistics: Statistics, see
 def verdict_of(ours: Number, claim: Claim) -> str:
     """Return one of `VERDICTS` for our number, in the claim's unit, such as [N m] or [-]."""
     if ours.value is None:
-        return "not measured"
+        return VERDICTS[-1]
     met = (inside(ours.value, claim.reproduced), inside(ours.value, claim.direction), True)
     return VERDICTS[met.index(True)]
 
@@ -133,12 +131,6 @@ def differs(ours: Number, equality: float | None) -> str:
     if ours.low is None or ours.high is None or equality is None:
         return ""
     return "no" if ours.low <= equality <= ours.high else "yes"
-
-
-def ours_text(ours: Number) -> tuple[str, str]:
-    """Return our number and its interval as text; small ones with a unit get a digit more."""
-    digits = 2 if ours.unit == "-" or abs(ours.value or 0.0) >= 1 else 3
-    return ours.text(digits), ours.interval(digits)
 
 
 def inside(value: float, bounds: Bounds) -> bool:
