@@ -8,20 +8,8 @@ import numpy as np
 import pytest
 
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.measure.coverage import (
-    ALL,
-    AREA,
-    NEAREST,
-    OUTSIDE,
-    covered,
-    equal_sets,
-    nearest,
-    outside,
-    read_blocks,
-    refer,
-    scale_of,
-    visited,
-)  # fmt: skip
+from mobnet.evaluation.measure.coverage import ALL, AREA, NEAREST, OUTSIDE, covered, nearest, outside, visited
+from mobnet.evaluation.measure.samples import equal_sets, read_blocks, refer, scale_of
 from mobnet.learning.features import limb_inputs
 from mobnet.settings.evaluation import CoverageTest, Evaluation
 from mobnet.settings.settings import Settings

@@ -9,7 +9,8 @@ import pytest
 
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.measure.gait import foot_of, gait_cycle, read_cycle
+from mobnet.evaluation.measure.curves import gait_cycle, read_cycle
+from mobnet.evaluation.measure.windows import foot_of
 from mobnet.plan.runs import Run
 
 Walk = Callable[..., Run]

@@ -1,4 +1,4 @@
-"""Histograms of the walking commands that the data hold (Table 2)."""
+"""Histograms of the walking commands in the training data (Table 2)."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def commands(
         figure_dir: gets the files.
 
     Raises:
-        DataError: a file is missing, or a set holds no step.
+        DataError: a file is missing, or a set has no step.
     """
     found = {name: read_steps(stems, layout).commanded for name, stems in sets.items()}
     rows, panels = [], []
@@ -75,7 +75,7 @@ def commands(
 
 
 def draw_bars(panels: Sequence[Bars]) -> Figure:
-    """Draw the share of steps [%] in each bin, a panel a command, the sets side by side."""
+    """Draw the share of steps [%] in each bin, a panel for each command, the sets side by side."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(PAGE_INCH, BARS_INCH), layout="constrained")
         axes = figure.subplots(1, len(panels), squeeze=False)[0]

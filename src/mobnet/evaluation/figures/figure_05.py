@@ -7,8 +7,7 @@ from pathlib import Path
 
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.figures.drawing.curves import FROM_LIFT_OFF, draw_panels, save_panels
-from mobnet.evaluation.measure.curves import Panel
-from mobnet.evaluation.measure.gait import read_cycle
+from mobnet.evaluation.measure.curves import Panel, read_cycle
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import Figure05
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.figures.drawing.curves import draw_leg, save_panels
-from mobnet.evaluation.measure.gait import read_cycle
-from mobnet.evaluation.measure.metrics import rmse_in_spans
+from mobnet.evaluation.measure.curves import read_cycle
+from mobnet.evaluation.measure.metrics import rmse
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import GaitFigure
 
@@ -30,7 +30,7 @@ def figure_08(settings: GaitFigure, start_s: float, layout: JointLayout, runs: S
     """
     curves, rows = read_cycle(layout, runs, layout.limb(settings.limb), start_s)
     (estimate,) = curves.estimates.values()
-    errors = rmse_in_spans(estimate, curves.truth, curves.spans, curves.rate_hz).tolist()
+    errors = rmse(estimate, curves.truth, curves.spans).tolist()
     panels = [
         curves.uncertainty_panel(f"{joint}, RMSE {error:.2f} N m", joint, rows, zero=rows.start)
         for joint, error in zip(curves.joints, errors, strict=True)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.figures.drawing.curves import draw_leg, save_panels
-from mobnet.evaluation.measure.gait import read_cycle
+from mobnet.evaluation.measure.curves import read_cycle
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import GaitFigure
 

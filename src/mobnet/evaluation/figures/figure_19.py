@@ -123,7 +123,7 @@ def read_dots(
     Args:
         stems: recordings, paths without a suffix.
         joints: actuated joints.
-        count: dots wanted of all recordings together; fewer where they hold fewer.
+        count: dots wanted of all recordings together; fewer where they have fewer samples.
         pushed: look at these samples only.
     """
     names = [f"{quantity}.{joint}" for joint in joints for quantity in (VELOCITY, DESIRED)]

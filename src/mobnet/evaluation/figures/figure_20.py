@@ -31,8 +31,8 @@ class Size:
         base: estimator whose network is varied.
         training: one of the trainings of a variation.
         loss: validation loss (22) of the epoch kept, mean, lowest and highest run.
-        rmse: mean over joints of the root-mean-square error on the data held out [N m], unlike the loss not in units
-            of each target's spread; mean, lowest and highest run.
+        rmse: mean over joints of the root-mean-square error on held-out data [N m]; mean, lowest and highest run. The
+            loss is of z-scored targets, this error is not.
     """
 
     panel: str

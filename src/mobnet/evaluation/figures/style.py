@@ -35,7 +35,7 @@ LETTERS = "abcdefghijkl"
 
 @dataclass(frozen=True)
 class Look:
-    """How a method is drawn: colour-blind readers tell the colours apart, print without colour dashes and hatches.
+    """How a method is drawn, such that methods differ for colour-blind readers and in print without colour.
 
     Attributes:
         colour: of lines, bars and dots; all are of Okabe and Ito's palette.
@@ -43,7 +43,7 @@ class Look:
         hatch: of bars.
         marker: of places on a line.
         width: of lines [points]; None for the usual one.
-        order: what is drawn later stands on top.
+        order: Matplotlib's zorder; higher ones are drawn on top.
     """
 
     colour: str
@@ -108,7 +108,7 @@ def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, las
         figure: holds the panels.
         axes: the panels.
         columns: entries in a row at most; None for all in one.
-        last: label that stands at the end.
+        last: label that comes last.
         look: other lengths of Matplotlib's legend than here [font size].
     """
     found: dict[str, Any] = {}

@@ -1,4 +1,4 @@
-"""How far the predicted standard deviations can be trusted, as learned and scaled: held out, in tests, in collisions.
+"""How far the predicted standard deviations can be trusted, as learned and scaled: on held-out data and in tests.
 
 Held-out rows come from the trainings' own notes: there, the factors are fitted to the first half of the validation data
 and tested on the second half. In tests the factors are those that were fitted to all validation data.
@@ -31,8 +31,8 @@ log = logging.getLogger(__name__)
 
 Array = NDArray[np.float64]
 Key = tuple[str, str, str]  # method, limb, unit of its torques
-VALIDATION = "validation"  # what the rows of held-out data are called
-STAGES = ("before", "after")  # the scaling; keys of a training's note too
+VALIDATION = "validation"  # name of held-out data where other rows have the name of a test
+STAGES = ("before", "after")  # of the scaling; also keys of a training's note
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Truth, estimates and flags of some joints of a recording, and the panels cut out of them."""
+"""Truth, estimates and flags of some joints of a recording, a gait cycle of it, and the panels cut out of them."""
 
 from __future__ import annotations
 
@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.columns import RESIDUAL, named
+from mobnet.core.columns import RESIDUAL, SWING, named
+from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
 from mobnet.evaluation.measure.estimates import read_pair, read_std
 from mobnet.evaluation.measure.metrics import Spans
-from mobnet.evaluation.measure.windows import FLAG
+from mobnet.evaluation.measure.windows import FLAG, foot_of
 from mobnet.plan.runs import Run
 
 TRUTH, TARGET = "truth", "target"  # labels: tau_e, and what is learned of the uncertainty, r - tau_e (section 4.2.3)
@@ -145,3 +146,45 @@ def read_curves(
         spans=first.spans,
         rate_hz=first.rate_hz,
     )
+
+
+def read_cycle(layout: JointLayout, runs: Sequence[Run], joints: Sequence[str], start_s: float) -> tuple[Curves, slice]:
+    """Return what methods made of joints (n,) of a leg, and the rows of the first whole gait cycle after the start.
+
+    Args:
+        layout: joints and legs.
+        runs: one of each method, all of one recording.
+        joints: names.
+        start_s: earliest start of the cycle [s].
+
+    Raises:
+        DataError: a file is missing or damaged, or no whole cycle follows the start.
+        ConfigError: the first joint belongs to no leg.
+    """
+    curves = read_curves(layout, runs, joints, {"swing": f"{SWING}.{foot_of(layout, joints[0])}"})
+    rows = gait_cycle(curves.flags["swing"], curves.spans, round(start_s * curves.rate_hz))
+    if rows is None:
+        length_s = len(curves.truth) / curves.rate_hz
+        raise DataError(f"{runs[0].recording}.parquet: no whole gait cycle after {start_s} s; it lasts {length_s} s")
+    return curves, rows
+
+
+def gait_cycle(air: NDArray[np.bool_], segments: Spans, start: int) -> slice | None:
+    """Return the rows from the first lift-off at or after `start` to the next one within the same segment.
+
+    Args:
+        air: whether the foot is planned to be in the air, (T,).
+        segments: contiguous stretches (start, end) of rows.
+        start: first row looked at.
+
+    Returns:
+        Rows of one cycle, or None if there is none.
+    """
+    for first, end in segments:
+        begin = max(int(first), start)
+        if begin >= end:
+            continue
+        lifts = begin + 1 + np.flatnonzero(air[begin + 1 : end] & ~air[begin : end - 1])
+        if len(lifts) > 1:
+            return slice(int(lifts[0]), int(lifts[1]))
+    return None

@@ -39,7 +39,7 @@ class Pair:
     rate_hz: float
 
     def places(self, joints: Sequence[str]) -> list[int]:
-        """Return where joints stand among those of the estimate (n,).
+        """Return the columns of joints in the arrays (n,).
 
         Raises:
             ConfigError: one is not estimated.

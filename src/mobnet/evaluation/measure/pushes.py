@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 from mobnet.core.columns import PUSHED, SWING, Score
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.curves import Panel, read_curves
-from mobnet.evaluation.measure.gait import foot_of
 from mobnet.evaluation.measure.metrics import PUSH
-from mobnet.evaluation.measure.windows import push_windows
+from mobnet.evaluation.measure.windows import foot_of, push_windows
 from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.published import published_value

@@ -70,7 +70,7 @@ class Results:
         return np.mean([run_grid(self.scores.get(each, ()), each) for each in wanted], axis=0)
 
     def _measured(self, method: str, metric: str) -> NDArray[np.float64] | None:
-        """Return a measure of a method's trainings that did not diverge, (networks, 1) [-]; None where all did."""
+        """Return a measure of the trainings of a method that did not diverge, (networks, 1); None where all did."""
         if method not in self.trainings:
             raise DataError(not_accepted("trainings", method, self.trainings))
         good = sound(self.trainings[method])

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from mobnet.core.columns import SCORES, Score
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.estimates import Pair, read_pair
-from mobnet.evaluation.measure.metrics import METRICS, PUSH, PUSHED, Spans
+from mobnet.evaluation.measure.metrics import METRICS, PUSH, PUSHED, Spans, rmse
 from mobnet.evaluation.measure.windows import push_windows
 from mobnet.evaluation.number.files import write_csv
 from mobnet.plan.runs import Run
@@ -69,10 +69,9 @@ def measured(pair: Pair, windows: Spans) -> Iterator[tuple[str, NDArray[np.float
     """Yield metric, numbers (n,) [N m, or the metric's unit] and the unit's pattern: of a run, then of its pushes."""
     for metric, (measure, pattern) in METRICS.items():
         yield metric, measure(pair.estimate, pair.truth, pair.spans, pair.rate_hz), pattern
-    pushes = {PUSH.format(k): (window,) for k, window in enumerate(windows, start=1)}
-    measure, pattern = METRICS["rmse"]
-    for metric, spans in ({PUSHED: windows} | pushes if windows else {}).items():
-        yield metric, measure(pair.estimate, pair.truth, spans, pair.rate_hz), pattern
+    pushes = {PUSHED: windows, **{PUSH.format(k): (window,) for k, window in enumerate(windows, start=1)}}
+    for metric, spans in pushes.items() if windows else ():
+        yield metric, rmse(pair.estimate, pair.truth, spans), METRICS["rmse"][1]
 
 
 def limb_values(layout: JointLayout, values: Mapping[str, float]) -> list[tuple[str, str, float, str]]:

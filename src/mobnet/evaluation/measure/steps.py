@@ -1,4 +1,4 @@
-"""The steps of a recorded walk: what was commanded (Table 2), in which bins, and what the feet did."""
+"""The steps of a recorded walk: commanded (Table 2) and measured, and bins of the commands."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from mobnet.settings.data import Commands
 Array = NDArray[np.float64]
 SIGN = np.array([1.0, -1.0])  # outwards in y, left and right foot
 KEYS = ("step_x_m", "step_y_m", "turn_deg", "duration_s", "foot_height_m")  # of the configuration's commands
-UNITS = ("m", "m", "deg", "s", "m")
+UNITS = ("m", "m", "deg", "s", "m")  # of a command here; recordings have turns in rad
 CHOICES = 3  # the first three are ranges, the others a few values to choose from
 
 
@@ -71,7 +71,7 @@ class Steps:
         return len(self.foot)
 
     def follows(self, column: int) -> NDArray[np.bool_]:
-        """Return the steps (N,) that ask something of their foot in a column of the command.
+        """Return whether each step (N,) makes its foot move by a column of the command.
 
         Sideways and turning steps are led by the foot on that side; the other one only closes up.
         """

@@ -10,8 +10,9 @@ from mobnet.core.columns import Epoch
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json
 from mobnet.evaluation.number.files import read_rows
+from mobnet.plan.runs import COURSE
 
-RUN, METRICS = "run.json", "metrics.csv"
+RUN, METRICS = COURSE  # files of a network's folder
 MEASURES: Mapping[str, tuple[Callable[[Training], float], str]] = {  # name -> (of a training, unit)
     "validation loss": (lambda training: training.kept.validation_loss, "-"),
     "validation RMSE": (lambda training: training.kept.validation_rmse, "N m"),
@@ -29,11 +30,11 @@ class Training:
         method: row of the configuration's methods.
         seed: number of the repetition.
         parameters: trained parameters, column `Network Size` of Table 1.
-        samples: samples learned from, those held out apart.
+        samples: samples that it learned from, without those held out for validation.
         seconds: time that the training took [s].
         diverged: whether it was stopped because its loss grew; its epochs end there.
-        windows_loss: validation loss (22) of the epoch kept where every sample re-runs its window from zero [-];
-            elsewhere the state is carried.
+        windows_loss: validation loss (22) of the epoch kept, where the network runs through a window from a zero state
+            for every sample; all other losses are of a state that is carried on.
         epochs: its course.
     """
 

@@ -1,4 +1,4 @@
-"""Groups of bars, a bar a method, with intervals, the paper's numbers and short notes. Drawing only."""
+"""Groups of bars, one for each method, with intervals, the paper's numbers and short notes. Drawing only."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from mobnet.evaluation.number.number import Number
 
 BAR_SHARE = 0.8  # of the distance between two groups of bars
 NOTE_POINTS = 6.0  # size of a note
-NOTE_ROOM = {0: 0.15, 90: 0.6}  # angle of notes [deg] -> room for them above the highest bar, as a share of it [-]
+NOTE_ROOM = {0: 0.15, 90: 0.6}  # angle of notes [deg] -> room for them above the highest bar, as a share of it
 PAPER = {"marker": "D", "markersize": 3.5, "color": "white", "markeredgecolor": "black", "markeredgewidth": 0.8}
 
 
@@ -31,7 +31,7 @@ class BarPanel:
         groups: names of the groups of bars (n,).
         bars: method -> its number in each group, with its interval and the paper's number (n,) [N m].
         source: name of the paper's numbers in the legend.
-        notes: method -> what is written above its bar in each group (n,).
+        notes: method -> text above its bar in each group (n,).
     """
 
     title: str
@@ -42,7 +42,7 @@ class BarPanel:
 
 
 def draw_bars(panels: Sequence[BarPanel], y_label: str) -> Figure:
-    """Draw groups of bars, a bar a method with its interval, a panel a test (Figure 18).
+    """Draw groups of bars, one for each method with its interval, and a panel for each test (Figure 18).
 
     Args:
         panels: numbers and intervals [N m].

@@ -24,11 +24,11 @@ from mobnet.evaluation.figures.style import (
 from mobnet.evaluation.measure.curves import Panel
 from mobnet.evaluation.number.files import Field, write_csv
 
-FLAGS: Mapping[str, tuple[float, Mapping[str, Any]]] = {  # name -> lower edge of the mark on the panel [-], its look
+FLAGS: Mapping[str, tuple[float, Mapping[str, Any]]] = {  # name -> lower edge of its mark [of the height], its look
     "swing": (0.0, {"color": "#009E73", "alpha": 0.15}),
     "push": (0.95, {"color": "0.35"}),
 }
-PANEL_INCH, LEGEND_INCH = 1.1, 0.5  # height of a panel and of what stands above and below all
+PANEL_INCH, LEGEND_INCH = 1.1, 0.5  # height of a panel, and of legend and labels together
 BAND_ALPHA = 0.35
 FROM_LIFT_OFF = "time from lift-off [s]"
 SIDE_BY_SIDE, HEIGHT_INCH = 3, 1.5  # panels of a leg's joints

@@ -30,7 +30,7 @@ class PushGroup:
 
     Attributes:
         scenario: the test.
-        panels: a push each.
+        panels: one for each push.
         errors: of each method [N m].
         title: of the errors' panel.
         source: name of the paper's numbers.
@@ -43,9 +43,9 @@ class PushGroup:
     source: str = "paper"
 
     def bars(self) -> BarPanel:
-        """Return the errors as bars: a group for each push and for what is made of all, in each a bar a method [N m].
+        """Return the errors as bars [N m]: a group for each push and for their average, in each a bar for each method.
 
-        Above the last bar of a method stands its error and, where it is known, the increase.
+        Above the last bar of a method its error is written and, where it is known, the increase.
         """
         shown = {method: {k: n for k, n in own.items() if k != INCREASE} for method, own in self.errors.items()}
         notes = {}

@@ -1,0 +1,93 @@
+"""Samples of a network's inputs in training and in tests, and training data that tests are compared with."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from mobnet.core.joints import JointLayout
+from mobnet.core.recording import read_sensed
+from mobnet.evaluation.measure.windows import FLAG, Pushed, blocks_of, evenly
+from mobnet.learning.features import LimbInputs
+from mobnet.settings.evaluation import Coverage
+
+Array = NDArray[np.float64]
+Blocks = Sequence[NDArray[Any]]  # one array (n, ...) for each block of samples
+
+
+@dataclass(frozen=True)
+class Reference:
+    """Training data that tests are compared with.
+
+    Attributes:
+        low: lower end of the central range of each input (n_in,) [unit of the input].
+        high: upper end (n_in,).
+        tree: z-scored samples.
+    """
+
+    low: Array
+    high: Array
+    tree: cKDTree
+
+
+def read_blocks(
+    stems: Sequence[Path],
+    layout: JointLayout,
+    inputs: LimbInputs,
+    settings: Coverage,
+    foot: int | None = None,
+    pushed: Pushed | None = None,
+) -> list[NDArray[np.float32]]:
+    """Return every k-th sample of a network's inputs, block by block (n, n_in), units of `LimbInputs`.
+
+    Args:
+        stems: recordings.
+        layout: joints.
+        inputs: of the limb's network.
+        settings: length of a block, and every how many samples one is taken.
+        foot: look at samples with this foot, 0 left, 1 right, in the air only.
+        pushed: look at these samples only; a block each.
+
+    Raises:
+        DataError: a file or a column is missing.
+    """
+    blocks = []
+    for stem in stems:
+        recording = read_sensed(stem, layout)
+        spans = pushed.spans(stem) if pushed else recording.segments
+        for start, end in blocks_of(spans, round(settings.block_s * recording.rate_hz)):
+            sensed = recording.sensed[start : end : settings.every]
+            blocks.append(inputs(sensed)[slice(None) if foot is None else sensed.swing[:, foot] > FLAG])
+    return blocks
+
+
+def equal_sets(sets: Sequence[Blocks], most: int) -> list[NDArray[np.float32]]:
+    """Return samples (n, n_in) of every set [their units], equally many but no more than `most`, evenly in time."""
+    whole = [np.concatenate(blocks) for blocks in sets]
+    size = min(most, *map(len, whole))
+    return [array[evenly(len(array), size)] for array in whole]
+
+
+def scale_of(samples: NDArray[Any]) -> tuple[Array, Array]:
+    """Return mean and standard deviation (n_in,) of inputs [their units]; a constant input keeps its scale."""
+    std = samples.std(axis=0, dtype=np.float64)
+    return samples.mean(axis=0, dtype=np.float64), np.where(std > 0.0, std, 1.0)
+
+
+def refer(samples: NDArray[Any], shares: Sequence[float], mean: Array, std: Array) -> Reference:
+    """Return what tests are compared with.
+
+    Args:
+        samples: training inputs (n, n_in) [their units].
+        shares: lower and upper quantile of the central range.
+        mean: of both training sets together (n_in,).
+        std: of both training sets together (n_in,): one scale, so that distances to the two compare.
+    """
+    low, high = np.quantile(samples, shares, axis=0)
+    return Reference(low, high, cKDTree((samples - mean) / std))
