@@ -5,8 +5,6 @@ above 1 means that ours is faster. The long ones, run when named, hold quantitie
 writes it to results/bench.csv.
 """
 
-from __future__ import annotations
-
 import argparse
 import csv
 import importlib

@@ -3,8 +3,6 @@
 The slope is of the CPU time, less what a process takes for a second: its start would hide a growth that is too steep.
 """
 
-from __future__ import annotations
-
 import sys
 import tempfile
 from itertools import pairwise

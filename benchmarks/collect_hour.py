@@ -4,8 +4,6 @@
 memory, falls, self-collisions, what was commanded and what came of it. Making the motions counts.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 import tempfile
@@ -18,9 +16,9 @@ from typing import Any
 import numpy as np
 from benchmarks.__main__ import Row, misses, table
 from benchmarks.jobs import ROOT, Cost, run
+from mobnet.core.config import FIRST_TRAINING_SEED, load_config
 
 from mobnet.core.columns import COMMAND
-from mobnet.core.config import FIRST_TRAINING_SEED, load_config
 from mobnet.core.files import read_json
 from mobnet.evaluation.figures.commands import bars
 from mobnet.evaluation.measure.steps import KEYS, UNITS, in_degrees, read_steps

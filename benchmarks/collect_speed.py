@@ -7,8 +7,6 @@ mj_step in a compiled loop along stretches of the very same walks, from the stat
 repeats them to the bit. A fall counts against us: what is walked anew after it is not in the steps.
 """
 
-from __future__ import annotations
-
 import statistics
 import tempfile
 import time

@@ -3,8 +3,6 @@
 `run` starts `python -m benchmarks.jobs KIND NAME SEED SECONDS STEM [MOTION_STEM]`, which prints its cost as JSON.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import resource

@@ -3,8 +3,6 @@
 Smooth random motion of all joints: the time does not depend on it.
 """
 
-from __future__ import annotations
-
 import statistics
 import time
 from typing import Any

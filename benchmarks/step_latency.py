@@ -3,8 +3,6 @@
 Weights are random: the time does not depend on them. All run in one thread, in turns, tick by tick.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Mapping
 from typing import Any

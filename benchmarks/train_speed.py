@@ -3,8 +3,6 @@
 All train GRU[30,150]-Linear[150,12] of Table 1 by (22) at the configuration's batch size, in one thread, in turns.
 """
 
-from __future__ import annotations
-
 import statistics
 import time
 from collections.abc import Callable

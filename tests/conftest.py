@@ -1,7 +1,5 @@
 """Made-up recordings: smooth random joint motion and an uncertainty torque that the inputs explain."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from itertools import pairwise
 from pathlib import Path

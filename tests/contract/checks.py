@@ -1,7 +1,5 @@
 """What every estimator must keep to, whatever it is made of; a test runs each check on each method."""
 
-from __future__ import annotations
-
 import typing
 from dataclasses import fields, replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Untrained networks and small fits on disk, for every method of the configuration."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The examples of CONTRIBUTING.md, applied to a copy of the project, do what they say and touch few files."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

@@ -1,7 +1,5 @@
 """One contract for every row of the configuration's methods, those that sweeps stand for included."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

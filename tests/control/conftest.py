@@ -1,7 +1,5 @@
 """The controller of the true robot, its state, and random poses."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Ground force, foothold and step duration: their limits, and what they do without an error."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The filter of the base's velocity converges to what the standing feet say, and integrates in the air."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

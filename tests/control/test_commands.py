@@ -1,7 +1,5 @@
 """Commands stay in Table 2 and change at the limited rate."""
 
-from __future__ import annotations
-
 from typing import get_args
 
 import numpy as np

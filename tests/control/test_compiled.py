@@ -1,7 +1,5 @@
 """Compiled code is cached by the hash of its code, and decorating it changes nothing else."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """Footholds and the DCM: the plan against the integrated motion xidot = w (xi - z)."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp

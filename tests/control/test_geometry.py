@@ -1,7 +1,5 @@
 """Time laws and rotations against their closed forms."""
 
-from __future__ import annotations
-
 import mujoco
 import numpy as np
 import pytest

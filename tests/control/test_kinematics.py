@@ -1,7 +1,5 @@
 """Kinematics and centroidal quantities against MuJoCo."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import mujoco

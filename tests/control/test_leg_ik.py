@@ -1,7 +1,5 @@
 """Leg kinematics: inverse of the forward kinematics, in and out of reach."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Equations of the note on the walking controller are cited beside the code that has them."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

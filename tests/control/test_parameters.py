@@ -1,7 +1,5 @@
 """Parameters are exactly the section of the configuration; the state starts at zero."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numba

@@ -1,7 +1,5 @@
 """Random torque exploration obeys the law of section 4.3."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

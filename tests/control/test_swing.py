@@ -1,7 +1,5 @@
 """The swing foot: where it starts and ends, and that its velocity is the derivative of its position."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

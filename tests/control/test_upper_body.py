@@ -1,7 +1,5 @@
 """The upper body's reference: through its knots, continuous in velocity, held at the ends."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """One tick of the controller: events of the step, and symmetries of the whole."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Joint torques and references of the legs."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import mujoco

@@ -1,7 +1,5 @@
 """Every process of the project runs one thread and writes inside the project."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Every error raised on purpose is a MobnetError that says what is accepted."""
 
-from __future__ import annotations
-
 from mobnet.core.errors import ConfigError, DataError, MobnetError, SimulationError, TrainingError, not_accepted
 
 

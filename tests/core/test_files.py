@@ -1,7 +1,5 @@
 """A file is the old one or the whole new one."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The layout of the generalized velocity is that of Figure 4, and unknown names are refused."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

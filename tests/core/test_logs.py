@@ -1,7 +1,5 @@
 """A job tells an expected error in one line, ends with status 1, and accounts for what it took."""
 
-from __future__ import annotations
-
 import logging
 import signal
 import subprocess

@@ -1,7 +1,5 @@
 """A result notes the commit, the packages and the settings it comes from."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """All fields of a recording stay aligned in time, and its files are found and read by the names of their columns."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Result files are whole or absent, and a reader says what is wrong with a damaged one."""
 
-from __future__ import annotations
-
 import signal
 import subprocess
 import sys

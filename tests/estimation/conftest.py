@@ -1,7 +1,5 @@
 """A robot that follows a trajectory known in closed form, and what its sensors read on the way."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The observer on a log of a two-link arm on a fixed base: no base, no feet, no walking."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Literal

@@ -1,7 +1,5 @@
 """The rule `estimate`: columns, segments, and what a file says of itself."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The rule `fit`: which methods it takes, and what it writes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """From a method of the configuration to an estimator, and methods that make none."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """The residual file: what it holds, how segments and levels enter, and the scheme's error on the simulated plant."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The observer against closed forms: (10), second order in time, linearity, symmetry, the law of its noise."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

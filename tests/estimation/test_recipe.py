@@ -1,7 +1,5 @@
 """A recipe holds the files that its method needs, no more and no fewer."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

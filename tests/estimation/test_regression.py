@@ -1,7 +1,5 @@
 """Friction that was put into a residual comes out of the regression."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path

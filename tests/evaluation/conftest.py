@@ -1,7 +1,5 @@
 """Small made-up runs: scores with a known mean, and files of a walk whose steps and errors are known."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Callable
 from pathlib import Path

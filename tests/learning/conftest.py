@@ -1,7 +1,5 @@
 """A training small enough for a test."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The factor puts the share it is asked for inside, and is measured where it was not learned."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

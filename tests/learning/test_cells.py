@@ -1,7 +1,5 @@
 """The kinds of networks of section 6.1: sizes as published, one way to run them."""
 
-from __future__ import annotations
-
 import pytest
 import torch
 from torch import Tensor, nn

@@ -1,7 +1,5 @@
 """Checkpoints: what is saved comes back, and what belongs elsewhere does not."""
 
-from __future__ import annotations
-
 import logging
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Training data: the target of section 4.2.3, z-scores, and files that do not fit."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Inputs of the limb networks, eq. (17) and Table 1."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

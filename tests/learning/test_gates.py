@@ -1,7 +1,5 @@
 """One step of the gates: tanh and the two number formats; test_gru.py compares whole steps with torch's."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import torch

@@ -1,7 +1,5 @@
 """Measures of Gaussian predictions have their closed forms and rank predictions as they should."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray

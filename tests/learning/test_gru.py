@@ -1,7 +1,5 @@
 """The fast GRU computes what torch's does, forward and back, in float32 and, within its rounding, in bfloat16."""
 
-from __future__ import annotations
-
 import pytest
 import torch
 from torch import Tensor, nn

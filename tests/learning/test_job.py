@@ -1,7 +1,5 @@
 """Random numbers, learning rates and the fingerprint of a repetition of a training."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Gaussian likelihood, eqs. (20) to (22)."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -1,7 +1,5 @@
 """The limb network as it is trained, Table 1."""
 
-from __future__ import annotations
-
 import pytest
 import torch
 

@@ -1,7 +1,5 @@
 """An epoch with carried state is what the robot will run."""
 
-from __future__ import annotations
-
 import copy
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The number format of products follows the setting, the CPU and the device."""
 
-from __future__ import annotations
-
 import pytest
 import torch
 

@@ -1,7 +1,5 @@
 """Contiguous streams: a 9:1 split in blocks, and lanes whose state can be carried."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

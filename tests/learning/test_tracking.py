@@ -1,7 +1,5 @@
 """metrics.csv."""
 
-from __future__ import annotations
-
 import csv
 from pathlib import Path
 

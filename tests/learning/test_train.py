@@ -1,7 +1,5 @@
 """Training end to end: which files it writes, and that a kill -9 changes nothing."""
 
-from __future__ import annotations
-
 import json
 import os
 import pickle

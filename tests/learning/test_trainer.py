@@ -1,7 +1,5 @@
 """The course of a training: the best epoch is kept, and a run that diverges stops."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The plan names each file once, gives each job what its function takes and no more, and misses nothing."""
 
-from __future__ import annotations
-
 from collections import Counter
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The robot, its two models and random states."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 
 import mujoco

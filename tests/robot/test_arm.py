@@ -1,7 +1,5 @@
 """A two-link arm on a fixed base: both models against the closed form of a planar arm."""
 
-from __future__ import annotations
-
 import mujoco
 import numpy as np
 import pytest

@@ -1,7 +1,5 @@
 """A robot's table as values, and what a robot that walks must have."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest

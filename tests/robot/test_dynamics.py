@@ -1,7 +1,5 @@
 """Properties of (1), (4) and (6) that hold in every state."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Literal
 

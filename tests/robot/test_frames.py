@@ -1,7 +1,5 @@
 """The one conversion: there and back is nothing, and both models put the base the same way round."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import mujoco

@@ -1,7 +1,5 @@
 """The Python of docs/robots.md runs, in its order, and does what the page says."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The nominal model: the plant's twin at ratio 1, a lighter one below, and roots that would not do."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import mujoco

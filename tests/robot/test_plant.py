@@ -1,7 +1,5 @@
 """The plant: order of its velocity, nothing to spare, foot sensors that read minus the ground's wrench."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 

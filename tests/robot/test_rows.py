@@ -1,7 +1,5 @@
 """From rows of a table to values: unit quaternions, mirror images, a posture in motor order."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """J^T F of (2) against MuJoCo, against power, and against the contact solver of a standing robot."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import mujoco

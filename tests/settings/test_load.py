@@ -1,7 +1,5 @@
 """A configuration is accepted whole, or refused in one line for each fault: file, key, value and what is accepted."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """A robot's table: every fault is one line with place, value and accepted values, and all are told at once."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

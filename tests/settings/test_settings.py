@@ -1,7 +1,5 @@
 """What follows from the configuration: methods of sweeps, networks with a method's changes, names that are checked."""
 
-from __future__ import annotations
-
 import ast
 from pathlib import Path
 

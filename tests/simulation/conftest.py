@@ -1,7 +1,5 @@
 """Plants that walk or stand, and what they recorded."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

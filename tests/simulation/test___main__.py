@@ -1,7 +1,5 @@
 """The command: what it makes, and one line for what it does not accept."""
 
-from __future__ import annotations
-
 import logging
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The plant's loop: external torque, sensors, symmetries, limits."""
 
-from __future__ import annotations
-
 import copy
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Joint friction obeys (23)."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Random motion: within its band, eased in, away from the robot, augmented as section 4.3 says, the same for a seed."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

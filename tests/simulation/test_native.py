@@ -1,7 +1,5 @@
 """The C structs are read as Python's own views read them, and the compiled call is MuJoCo's step."""
 
-from __future__ import annotations
-
 import mujoco
 import numpy as np
 import pytest

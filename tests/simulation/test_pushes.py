@@ -1,7 +1,5 @@
 """Pushes: when they come, how hard, and that the external torque is theirs."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from itertools import pairwise
 from typing import Any, get_args

@@ -1,7 +1,5 @@
 """Reaching: hands get to targets that can be had, stop before the robot itself, and keep the joints' limits."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray

@@ -1,7 +1,5 @@
 """Recordings: segments around falls, determinism, errors in one line, and the walk itself."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Self-collision: hits are seen with the solids that hit, nothing where nothing is near, and distances are right."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray

@@ -1,7 +1,5 @@
 """Sensors: the noise of Table 3 as measured, and a base state that stays near the truth."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Episodes of a scenario: what they share, what they draw, and that each begins on the ground."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

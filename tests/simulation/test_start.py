@@ -1,7 +1,5 @@
 """Starts: feet on the ground, weight over the nominal ZMP, and a sway that repeats."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Uneven ground: heights, slopes, period, and what is drawn of it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import mujoco

@@ -1,7 +1,5 @@
 """The compiled plant is the one that the configuration asks for."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import mujoco

@@ -1,7 +1,5 @@
 """What a reader does in Snakemake's report: choose in the menu, show a result, ask what it is."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

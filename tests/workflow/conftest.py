@@ -1,7 +1,5 @@
 """Copies of the project in which the workflow may run without touching the checkout's results."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import shutil

@@ -1,7 +1,5 @@
 """The workflow can be planned at every scale, and a bad configuration stops it with one line."""
 
-from __future__ import annotations
-
 import pytest
 
 from .conftest import Snakemake

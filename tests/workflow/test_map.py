@@ -1,7 +1,5 @@
 """Table N of the paper = product = configuration = file = test = a row of docs/map.md; nothing is an orphan."""
 
-from __future__ import annotations
-
 import re
 from functools import reduce
 from typing import Any, NamedTuple

@@ -3,8 +3,6 @@
 The files shown are made up here; the workflow itself marks them for the report.
 """
 
-from __future__ import annotations
-
 import re
 import shutil
 from collections.abc import Callable

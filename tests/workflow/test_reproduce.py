@@ -1,7 +1,5 @@
 """The entry script: its lock, its words, and how it starts on a bare machine."""
 
-from __future__ import annotations
-
 import importlib.util
 import re
 import subprocess

@@ -1,7 +1,5 @@
 """The whole line at the smoke scale: unbroken, again, and killed at random moments."""
 
-from __future__ import annotations
-
 import os
 import random
 import re

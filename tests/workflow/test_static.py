@@ -1,7 +1,5 @@
 """Format, lint, types, imports and the workflow's own lint."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys

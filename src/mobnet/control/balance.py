@@ -5,8 +5,6 @@ of the controller; `s`, its state; `pose`, kinematics of the sensed state; `ankl
 tick [s]; `work`, scratch (3,).
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Base position and velocity from proprioception: IMU acceleration corrected by the feet that carry load."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

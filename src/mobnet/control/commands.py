@@ -1,7 +1,5 @@
 """Walking commands, one row a step: one command repeated, or random ones over Table 2 in place of a joystick."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

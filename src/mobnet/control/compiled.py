@@ -10,8 +10,6 @@ all that it imports (`mobnet.core.code`), so that an edit of a called function i
 file is not.
 """
 
-from __future__ import annotations
-
 import contextlib
 import functools
 from collections.abc import Callable, Collection, Iterator

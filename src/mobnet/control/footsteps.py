@@ -5,8 +5,6 @@ time and decay backwards, so the DCM at the end of a step follows from the comin
 World axes, metres. The equations (W5) to (W12) are derived in docs/notes/0019-walking-controller.md.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Small compiled functions of the controller: limits, smooth rises, vectors, rotations, linear equations."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Forward kinematics and centroidal quantities of the nominal model, compiled; one pass over the body tree."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -4,8 +4,6 @@ It asks for axes of hip yaw, roll and pitch that meet in one point, a knee pitch
 in one point, and a thigh as long as the shank.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -4,8 +4,6 @@ Load of the feet, height and yaw of the pelvis, the ground's slope, and the refe
 equations (W21) to (W29) are derived in docs/notes/0019-walking-controller.md.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Random torque exploration (section 4.3): each joint gets steps of random torque, a leg only while it swings."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Small arrays on the stack, for compiled code that owns no memory."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

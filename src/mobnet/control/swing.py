@@ -3,8 +3,6 @@
 The equations (W31) to (W34) are derived in docs/notes/0019-walking-controller.md.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

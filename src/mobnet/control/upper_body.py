@@ -1,7 +1,5 @@
 """Reference of the joints above the legs: a posture, or a motion given by knots."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What the walking controller knows of the robot, and how its feet stand."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -5,8 +5,6 @@ and by the duration of the step. It knows the nominal model and the sensed state
 docs/notes/0019-walking-controller.md.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

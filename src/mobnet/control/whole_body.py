@@ -7,8 +7,6 @@ leg (0 left, 1 right) with its `first` actuator and the body of its `foot`; `q` 
 and velocity; `wrench` (6,) [N, N m], measured wrench of the ground about the ankle, foot axes; `dt`, a tick [s].
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """The names of the columns of every kind of file: who writes a file and who reads it take them from here."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass, fields
 

@@ -3,8 +3,6 @@
 Standard library only: `reproduce` reads it before anything is installed.
 """
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Errors a user can act on: one line that names the bad value and what is accepted."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 

@@ -1,7 +1,5 @@
 """The interface of estimators of the external torque, for whole recordings and for a closed loop."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any, Protocol
 

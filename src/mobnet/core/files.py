@@ -1,7 +1,5 @@
 """Writing files so that a reader finds either the old or the complete new one, and reading text and JSON."""
 
-from __future__ import annotations
-
 import contextlib
 import json
 import os

@@ -1,7 +1,5 @@
 """Joint names, limb groups and where they stand in the generalized velocity (Figure 4, section 4.1)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 

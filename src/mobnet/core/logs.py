@@ -1,7 +1,5 @@
 """What a job of the workflow tells: progress to its log and the terminal, an error as one line, and what it took."""
 
-from __future__ import annotations
-
 import contextlib
 import logging
 import re

@@ -5,8 +5,6 @@ An array is two files: `NAME.parquet`, float32, one row for each sample, with un
 one is complete.
 """
 
-from __future__ import annotations
-
 import contextlib
 import os
 from collections.abc import Iterator, Mapping, Sequence

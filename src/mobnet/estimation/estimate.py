@@ -1,7 +1,5 @@
 """The rule `estimate`: it runs a method on a recording and writes the external torque."""
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Mapping, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The rule `fit`: it fits a method without networks to the training sets."""
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Mapping, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The low-pass of (11) in discrete time, with the pole of the observer: exact for what is constant over a sample."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

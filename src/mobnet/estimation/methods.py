@@ -4,8 +4,6 @@ Such a module has a function `build(recipe) -> Estimator` and, where a kind has 
 A kind that is fitted without networks also has `fit(layout, observer, options, networks, training)`; it returns JSON.
 """
 
-from __future__ import annotations
-
 import importlib
 import pkgutil
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """The rule `observe`: from a recording to the observer's residual and the torque it should have followed."""
 
-from __future__ import annotations
-
 import logging
 from pathlib import Path
 

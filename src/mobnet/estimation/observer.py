@@ -10,8 +10,6 @@ that is taken for the mean is half a sample late: the residual is wrong by T / 2
 The external torque behind the same pole is what r is compared with: r = filtered tau_e + filtered tau_u (15).
 """
 
-from __future__ import annotations
-
 import logging
 from dataclasses import dataclass
 from typing import Any, Literal, get_args

@@ -4,8 +4,6 @@ The workflow reads kinds before it starts, for their options. So this module and
 which needs Pinocchio, is imported when one is built.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -4,8 +4,6 @@ The model is linear in all but the Stribeck velocity. One pass sums the products
 velocity of a grid; then each joint takes the velocity of the grid with the smallest error (docs/notes/0015).
 """
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass

@@ -5,8 +5,6 @@ everywhere. The factor asks for the right share of errors inside +- 1 sigma inst
 gives whatever the tails are like (docs/notes/0017-calibration.md).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -4,8 +4,6 @@ Every cell runs over a stretch of time and carries a state: a recurrent one its 
 last inputs. So all kinds train on streams, run on a robot and start afresh in the same way.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from typing import Protocol
 

@@ -4,8 +4,6 @@ One safetensors file holds tensors and, as its note, the numbers: a file is eith
 of an epoch comes from a generator seeded by seed and epoch, so there is no generator state to keep.
 """
 
-from __future__ import annotations
-
 import json
 import logging
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """Training data of one limb: inputs and target of Table 1 from recordings and their residuals, z-scored."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass

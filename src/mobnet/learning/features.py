@@ -1,7 +1,5 @@
 """Inputs of the limb networks, eq. (17) and Table 1."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -3,8 +3,6 @@
 Each loop writes one array: with more of them the compiler cannot show that they do not overlap, and does not vectorize.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

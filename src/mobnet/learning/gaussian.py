@@ -1,7 +1,5 @@
 """Goodness of Gaussian predictions: coverage, likelihood and the continuous ranked probability score."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -6,8 +6,6 @@ in float32, or in bfloat16 from float32 weights and into float32 gates and state
 are laid out as `torch.nn.GRU` documents them: reset, update, new.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

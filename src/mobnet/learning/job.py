@@ -1,7 +1,5 @@
 """One repetition of a training: its random numbers, its learning rates, and a hash of all that makes its weights."""
 
-from __future__ import annotations
-
 import hashlib
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Gaussian likelihood of the uncertainty torque, eqs. (19) to (22)."""
 
-from __future__ import annotations
-
 import torch
 from torch import Tensor
 

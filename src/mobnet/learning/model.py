@@ -1,7 +1,5 @@
 """The limb network as it is trained: cell, linear layer, softplus (section 4.1, Table 1)."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -4,8 +4,6 @@ The robot carries the state from sample to sample, and so does training by defau
 independent windows instead, whose state starts from zero and whose last step alone is in the loss.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

@@ -3,8 +3,6 @@
 Weights, gates and states stay float32; only what goes into a product and comes out of it is rounded.
 """
 
-from __future__ import annotations
-
 import torch
 
 from mobnet.settings.networks import Precision

@@ -5,8 +5,6 @@ pieces of a recording, are laid end to end in an order drawn each epoch and deal
 new stream its state starts from zero. So every batch is full, whatever the number and the lengths of the streams.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """metrics.csv, the course of a training."""
 
-from __future__ import annotations
-
 import csv
 import io
 from collections.abc import Sequence

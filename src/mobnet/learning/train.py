@@ -1,7 +1,5 @@
 """Training one limb network: from recordings to weights (section 4.4)."""
 
-from __future__ import annotations
-
 import json
 import logging
 from collections.abc import Sequence

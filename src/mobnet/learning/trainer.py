@@ -1,7 +1,5 @@
 """The course of a training: epochs, checkpoints, progress, and stopping when it diverges (section 4.4)."""
 
-from __future__ import annotations
-
 import logging
 import math
 import time

@@ -1,7 +1,5 @@
 """A job as a value: a function of this package by its dotted name, and the arguments that it gets."""
 
-from __future__ import annotations
-
 import ast
 import functools
 import hashlib

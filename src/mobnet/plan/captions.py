@@ -1,7 +1,5 @@
 """How the report shows a file: its heading, its title and its caption."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The jobs that are made once for each recording, network or run: which function, what it gets, what it reads."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What each table and figure is made from: scores, runs, recordings or trainings."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, cast

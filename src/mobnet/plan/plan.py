@@ -1,7 +1,5 @@
 """The whole plan of a scale: its files, its jobs and its products."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Every table, figure and text: what makes it, what it needs and what it writes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property

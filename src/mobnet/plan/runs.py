@@ -1,7 +1,5 @@
 """The runs of an estimator, and the files of recordings, residuals, estimates and networks at one scale."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path

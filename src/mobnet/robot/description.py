@@ -1,7 +1,5 @@
 """A robot's table of figures as numpy values; the plant, the nominal model and the controller are built from it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -3,8 +3,6 @@
 Positions have a w x y z quaternion. Torques are [N] for V1..V3 and [N m] for the others, axes as `JointLayout` says.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

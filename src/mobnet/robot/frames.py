@@ -4,8 +4,6 @@ Both models carry the base as three translations in world axes and then a ball j
 (base linear in world, base angular in base, joints), momentum, mass matrix and torque mean the same in both.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -4,8 +4,6 @@ The root of a floating base is two joints, a translation and then a ball. A free
 velocity in base axes, and Pinocchio's Coriolis matrix is wrong for one composite root (tests/robot/test_dynamics.py).
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Parts of a robot as numpy values."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

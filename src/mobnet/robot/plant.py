@@ -1,7 +1,5 @@
 """The plant's robot for MuJoCo, the simulated truth. Terrain, contact figures and options are the world's."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import mujoco

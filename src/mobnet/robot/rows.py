@@ -1,7 +1,5 @@
 """From the rows of a robot's table to its parts as numpy values."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from typing import TypeVar
 

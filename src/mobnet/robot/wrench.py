@@ -1,7 +1,5 @@
 """From a wrench at a foot's sensor to the generalized external torque, tau_e = J^T F of (2)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

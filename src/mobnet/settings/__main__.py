@@ -1,7 +1,5 @@
 """`python -m mobnet.settings`: print the JSON schema of the configuration, for editors that complete and check YAML."""
 
-from __future__ import annotations
-
 import json
 import sys
 

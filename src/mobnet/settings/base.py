@@ -4,8 +4,6 @@ A unit stands at the end of a field's name. Sections hold values and their check
 part of a rule's code hash, their values are parameters of every rule that takes them.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated, TypeVar
 

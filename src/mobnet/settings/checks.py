@@ -1,7 +1,5 @@
 """What must hold between sections: every run that is shown is run, and every metric of pushes has its windows."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 from typing import cast

@@ -1,7 +1,5 @@
 """What tables and figures show: one section for each, under its own name."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """What a walk takes of the configuration; other jobs take whole sections."""
 
-from __future__ import annotations
-
 from mobnet.settings.base import Section
 from mobnet.settings.data import Commands, Push, RandomTorque, RecordingSettings, Scenario, Terrain
 from mobnet.settings.plant import Level, Plant, Rates

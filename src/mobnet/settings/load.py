@@ -3,8 +3,6 @@
 Reading and checking run in the workflow's own process: a job receives values, so a check's code is part of no result.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, TypeVar, cast, get_args

@@ -1,7 +1,5 @@
 """Names in a section that must exist elsewhere: found by the marks of the fields that hold them."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from types import NoneType, UnionType
 from typing import Annotated, Any, Union, cast, get_args, get_origin

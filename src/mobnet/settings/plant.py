@@ -1,7 +1,5 @@
 """The simulated plant and its uncertainty levels (sections 4.3 and 5.1, Tables 3 and 4)."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from mobnet.settings.base import Count, NotNegative, Positive, Section

@@ -1,7 +1,5 @@
 """The names that exist in a configuration and on its robot, by kind, and those that are used and do not exist."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator
 from typing import Annotated
 

@@ -1,7 +1,5 @@
 """Sizes of the tests and of the trainings."""
 
-from __future__ import annotations
-
 from pydantic import Field
 
 from mobnet.settings.base import Count, NotNegative, Positive, Section, Seeds, Share

@@ -1,7 +1,5 @@
 """The whole configuration, and what follows from a row of it: a method's networks and trainings."""
 
-from __future__ import annotations
-
 from functools import cached_property
 from typing import Annotated
 

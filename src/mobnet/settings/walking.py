@@ -1,7 +1,5 @@
 """Numbers of the walking controller (docs/notes/0019-walking-controller.md)."""
 
-from __future__ import annotations
-
 from mobnet.settings.base import NotNegative, Positive, PositivePair, PositiveRange, Range, Real, Section, Share
 
 

@@ -1,7 +1,5 @@
 """Walk a scenario and look at it: `python -m mobnet.simulation --help`."""
 
-from __future__ import annotations
-
 import argparse
 import contextlib
 import logging

@@ -1,7 +1,5 @@
 """Clips: frames written as a GIF, an animated WebP, or an MP4 where the machine has ffmpeg."""
 
-from __future__ import annotations
-
 import contextlib
 import shutil
 import subprocess

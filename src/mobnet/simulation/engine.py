@@ -1,7 +1,5 @@
 """The plant's loop, compiled: controller, motors, friction, MuJoCo's step, truth, sensors, log."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import mujoco

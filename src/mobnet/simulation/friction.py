@@ -1,7 +1,5 @@
 """Joint friction of the plant, (23) and Table 4: Stribeck, viscous and, in the legs, load-dependent."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from typing import NamedTuple
 

@@ -5,8 +5,6 @@ sums of sines replace the person. Training seeds count from `FIRST_TRAINING_SEED
 the base motion, and the variants of a part share its targets.
 """
 
-from __future__ import annotations
-
 import logging
 import zlib
 from pathlib import Path

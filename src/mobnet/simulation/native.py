@@ -5,8 +5,6 @@ struct's layout comes from the description MuJoCo ships (`mujoco.introspect`); b
 read is checked against Python's view of it.
 """
 
-from __future__ import annotations
-
 import ctypes
 import functools
 from pathlib import Path

@@ -3,8 +3,6 @@
 The plant feels them like contacts; they are part of the external torque. Those on a sole are felt by its foot's sensor.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 

@@ -4,8 +4,6 @@ MuJoCo's collision detection tells where the robot's own solids, and the space i
 other; the inverse kinematics keeps them apart.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import mink

@@ -1,7 +1,5 @@
 """From a scenario to a Recording: episodes until enough samples are kept; a fall ends one and the next begins."""
 
-from __future__ import annotations
-
 import logging
 import time
 from collections import deque

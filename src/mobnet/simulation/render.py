@@ -1,7 +1,5 @@
 """Pictures of the robot on its terrain, drawn off screen through EGL where the machine has it."""
 
-from __future__ import annotations
-
 import contextlib
 import logging
 from collections.abc import Iterable, Iterator

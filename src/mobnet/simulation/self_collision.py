@@ -5,8 +5,6 @@ joints apart, and bodies joined by a hip or a waist whose axes meet in one point
 or would touch only far outside any working range (a forearm folded flat).
 """
 
-from __future__ import annotations
-
 import itertools
 
 import mujoco

@@ -1,7 +1,5 @@
 """Sensor readings of the plant: noise of Table 3, and the base state that the robot estimates."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

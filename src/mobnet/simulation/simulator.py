@@ -1,7 +1,5 @@
 """A scenario that can be walked: plant, controller, commands, motion, random torque and pushes, episode by episode."""
 
-from __future__ import annotations
-
 import zlib
 from typing import NamedTuple
 

@@ -3,8 +3,6 @@
 The start is on ground at height zero, facing along x; `turn` and `raise_start` move it elsewhere.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -3,8 +3,6 @@
 Whatever stands on the even ground is a frustum, because a tilted sole would jam at vertical sides.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import NamedTuple
 

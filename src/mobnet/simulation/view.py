@@ -1,7 +1,5 @@
 """Watch a scenario in MuJoCo's viewer, at the pace of real time, or take states from it for pictures."""
 
-from __future__ import annotations
-
 import os
 import sys
 import time

@@ -1,7 +1,5 @@
 """Robot on terrain: the compiled plant at one uncertainty level (section 5.1)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import mujoco

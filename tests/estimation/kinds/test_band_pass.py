@@ -1,7 +1,5 @@
 """The band-pass of MOB-fric-BPF: what it lets through, and what it cannot tell."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The end-to-end rival has no observer: it is its networks."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

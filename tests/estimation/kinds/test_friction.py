@@ -1,7 +1,5 @@
 """The friction model of MOB-fric obeys (23) and corrects the residual by its filtered torque."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path

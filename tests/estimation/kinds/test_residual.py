@@ -1,7 +1,5 @@
 """Eq. (15): what a model of the uncertainty leaves of the residual."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Bars have their heights, the paper's numbers stand at their bars, and notes have room above them."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from matplotlib.axes import Axes

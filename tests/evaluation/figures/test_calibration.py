@@ -1,7 +1,5 @@
 """The reliability plot draws the numbers given, each limb in one colour."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mobnet.evaluation.figures.calibration import Curve, ReliabilityPanel, curve_rows, draw_reliability

@@ -1,7 +1,5 @@
 """Histograms of the commands hold every step once, in bins of the ranges of Table 2."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Figures show the arrays given, and equal arrays give equal files."""
 
-from __future__ import annotations
-
 import csv
 from pathlib import Path
 

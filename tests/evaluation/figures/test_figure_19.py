@@ -1,7 +1,5 @@
 """Figure 19 shows samples of the recordings, evenly thinned and the same in every run."""
 
-from __future__ import annotations
-
 from collections import Counter
 from pathlib import Path
 

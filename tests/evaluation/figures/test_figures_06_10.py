@@ -1,7 +1,5 @@
 """Figures 6 and 10 show every push of a recording from its start, beside errors of all runs."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

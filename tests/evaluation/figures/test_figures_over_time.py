@@ -1,7 +1,5 @@
 """Figures 5, 7, 8 and 9 show the joints and the stretch asked for, each curve off the truth by its error."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

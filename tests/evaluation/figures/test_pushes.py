@@ -1,7 +1,5 @@
 """A group's curves share one scale and its bars stand below them; one group is a column wide, more are two."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

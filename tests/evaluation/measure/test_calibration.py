@@ -1,7 +1,5 @@
 """Errors of known spread are covered as they should be, as learned and scaled, with and without pushes."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Coverage is 1 : 1 where both sets are alike, and sees the set that is wider."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

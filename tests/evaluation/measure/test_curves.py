@@ -1,7 +1,5 @@
 """Curves are those of the files, joint by joint, and a panel shows the rows asked for."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

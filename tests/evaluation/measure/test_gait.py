@@ -1,7 +1,5 @@
 """A gait cycle begins at a lift-off, ends at the next, and lies within one segment."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Feet and hands stand where the geometry of the robot puts them."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

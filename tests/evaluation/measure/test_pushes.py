@@ -1,7 +1,5 @@
 """Errors around pushes are means over runs, their average that of the pushes, their increase that over calm walking."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

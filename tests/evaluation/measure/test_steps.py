@@ -1,7 +1,5 @@
 """A step goes from one touch-down to the next of the other foot, and is measured from the stance foot."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

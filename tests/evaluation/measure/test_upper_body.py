@@ -1,7 +1,5 @@
 """Joint ranges and hand speeds are those of the samples looked at."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Which samples are looked at."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

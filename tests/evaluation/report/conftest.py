@@ -1,7 +1,5 @@
 """Made-up trainings, and judged claims for the texts that name them."""
 
-from __future__ import annotations
-
 import csv
 import json
 from collections.abc import Callable, Iterable

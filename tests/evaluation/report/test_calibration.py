@@ -1,7 +1,5 @@
 """Table and figure of the calibration show what was measured, and keep their golden numbers."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path

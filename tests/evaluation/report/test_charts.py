@@ -1,7 +1,5 @@
 """Curves become points of a drawing and ticks at round values."""
 
-from __future__ import annotations
-
 import pytest
 
 from mobnet.evaluation.report.charts import GRID, Chart, line_chart, share, span, ticks

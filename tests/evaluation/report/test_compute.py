@@ -1,7 +1,5 @@
 """The table of compute adds up what the jobs' own accounts say."""
 
-from __future__ import annotations
-
 from dataclasses import asdict
 from pathlib import Path
 

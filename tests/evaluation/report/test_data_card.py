@@ -1,7 +1,5 @@
 """The data card is current, and names every column of the files once."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

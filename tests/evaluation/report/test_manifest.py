@@ -1,7 +1,5 @@
 """The manifest finds every file that is missing or changed, and sha256sum reads it."""
 
-from __future__ import annotations
-
 import subprocess
 from pathlib import Path
 

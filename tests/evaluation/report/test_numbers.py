@@ -1,7 +1,5 @@
 """Numbers of the prose are those of the tables."""
 
-from __future__ import annotations
-
 import csv
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A table's page shows every cell below its caption, as text, and needs no other file."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

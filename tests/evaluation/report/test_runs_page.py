@@ -1,7 +1,5 @@
 """The page of all runs: what it says, and what a browser makes of it when somebody clicks and types."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Callable

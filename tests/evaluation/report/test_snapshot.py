@@ -1,7 +1,5 @@
 """The snapshot holds tables, pictures and their origin, and every difference from it is told in one line."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """A training is read as its files describe it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

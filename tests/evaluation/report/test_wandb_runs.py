@@ -1,7 +1,5 @@
 """All trainings as offline wandb runs."""
 
-from __future__ import annotations
-
 import os
 import pty
 import select

@@ -1,7 +1,5 @@
 """The table of the training sets says what the recordings hold."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

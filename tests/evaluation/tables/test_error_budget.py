@@ -1,7 +1,5 @@
 """The error budget: what goes away with a source of error is a share of the square, joint by joint and in sum."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any

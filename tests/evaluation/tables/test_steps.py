@@ -1,7 +1,5 @@
 """Histograms count every step once; followed commands are held against their own bin."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

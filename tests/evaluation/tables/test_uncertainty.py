@@ -1,7 +1,5 @@
 """Sizes of the uncertainty torque are standard deviations over whole sets, beside the robot's."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

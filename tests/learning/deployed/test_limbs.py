@@ -1,7 +1,5 @@
 """Limb networks side by side."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path

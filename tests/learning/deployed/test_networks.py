@@ -1,7 +1,5 @@
 """Trained networks of every cell run on a robot as they were trained."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

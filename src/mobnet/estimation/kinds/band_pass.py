@@ -4,8 +4,6 @@ The band-pass removes whatever changes slowly: errors of the model, but also a s
 estimate of the external torque, only of its changes.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

@@ -1,7 +1,5 @@
 """FTS-e2e of section 5.1: networks that are trained on the external torque and predict it without an observer."""
 
-from __future__ import annotations
-
 from mobnet.core.errors import ConfigError
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Sensed

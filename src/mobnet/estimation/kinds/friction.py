@@ -9,8 +9,6 @@ v and tau_m are the sensed joint velocity and the motor's torque. Regressors pas
 residual has.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path

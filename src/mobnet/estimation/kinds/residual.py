@@ -1,7 +1,5 @@
 """External torque as the residual without what a model of the uncertainty predicts, eq. (15)."""
 
-from __future__ import annotations
-
 from typing import Any, Protocol
 
 import numpy as np

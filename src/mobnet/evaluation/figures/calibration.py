@@ -1,7 +1,5 @@
 """The reliability diagram: observed over nominal coverage, a line for each limb."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Histograms of the walking commands in the training data (Table 2)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Figure 5: one gait cycle of one joint, by uncertainty level and method."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

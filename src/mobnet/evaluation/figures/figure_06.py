@@ -1,7 +1,5 @@
 """Figure 6: estimates around a step of torque on a swinging hip, and their errors in the windows that are scored."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

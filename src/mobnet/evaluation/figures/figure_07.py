@@ -1,7 +1,5 @@
 """Figure 7: upper body and base while a load hangs on a hand."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

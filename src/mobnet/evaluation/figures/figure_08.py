@@ -1,7 +1,5 @@
 """Figure 8: uncertainty torque of the joints of a leg over one gait cycle, and what a network predicts of it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Figure 9: external torque of the joints of a leg over one gait cycle, by method."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Figure 10: pushes on the knee of a leg in the air and on the ground, and the error of each."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

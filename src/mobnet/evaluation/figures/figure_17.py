@@ -1,7 +1,5 @@
 """Figure 17: training and validation loss over the epochs by kind of network."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

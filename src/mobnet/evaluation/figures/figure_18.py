@@ -1,7 +1,5 @@
 """Figure 18: one network for each limb against one network for the whole body, errors of the upper body."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Figure 19: velocities and torques of joints in training and in the tests."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path

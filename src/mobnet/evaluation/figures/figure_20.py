@@ -1,7 +1,5 @@
 """Figure 20: validation loss by size of the network and of the training data."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path

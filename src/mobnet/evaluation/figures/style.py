@@ -1,7 +1,5 @@
 """What all figures share: the look of each method, sizes, the legend, and a saver whose files never change."""
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Columns of a table of errors: a joint, or the mean over some joints or metrics."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -4,8 +4,6 @@ Held-out rows come from the trainings' own notes: there, the factors are fitted 
 and tested on the second half. In tests the factors are those that were fitted to all validation data.
 """
 
-from __future__ import annotations
-
 import logging
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence

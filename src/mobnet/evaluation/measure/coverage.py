@@ -5,8 +5,6 @@ share of test samples outside a training set's central range; and the distance o
 in training, in the inputs of a limb's network (Table 1). Both sets have equally many samples.
 """
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Truth, estimates and flags of some joints of a recording, a gait cycle of it, and the panels cut out of them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """An estimate and the truth that it is compared with, read from the files of a run."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """What is measured on an estimated torque."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Errors of estimates around pushes on a leg (Figures 6 and 10): of each push, and their increase over calm walking."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """All results: the runs behind any number, of the scores or of the trainings."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Samples of a network's inputs in training and in tests, and training data that tests are compared with."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Errors of estimates against the low-passed truth, a row for each joint, run and metric."""
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import astuple

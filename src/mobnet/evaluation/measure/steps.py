@@ -1,7 +1,5 @@
 """The steps of a recorded walk: commanded (Table 2) and measured, and bins of the commands."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
 from itertools import pairwise

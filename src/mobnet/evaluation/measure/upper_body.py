@@ -1,7 +1,5 @@
 """How the upper body moved in recordings: hand speeds and the joint ranges visited."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any

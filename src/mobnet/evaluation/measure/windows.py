@@ -1,7 +1,5 @@
 """Which samples of recordings are looked at: all or those around pushes, evenly thinned, in blocks of time."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Rows of text and numbers as CSV files, written and read."""
 
-from __future__ import annotations
-
 import csv
 import io
 from collections.abc import Iterable, Sequence

@@ -1,7 +1,5 @@
 """The runs behind one number, picked out of the scores, and the number that they make."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

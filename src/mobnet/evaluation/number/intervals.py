@@ -5,8 +5,6 @@ columns of the grid anew respects that (the crossed or pigeonhole bootstrap, Owe
 drawing single runs would give intervals that are too narrow.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """A number with its interval and what the paper prints, and how numbers are written."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 

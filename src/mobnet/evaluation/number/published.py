@@ -1,7 +1,5 @@
 """The paper's own numbers, found in its tables."""
 
-from __future__ import annotations
-
 from mobnet.settings.published import PublishedTable
 
 

@@ -1,7 +1,5 @@
 """What a claim is about: a number made of the means over runs of some cells."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Table and figure of the standard deviations' calibration: made together, because they are measured together."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

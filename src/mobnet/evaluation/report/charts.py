@@ -1,7 +1,5 @@
 """Line charts of a web page as numbers: points on a grid and ticks; the page's template draws them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

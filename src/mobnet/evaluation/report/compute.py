@@ -3,8 +3,6 @@
 It differs from run to run, so it stands beside the results and not among those that come out the same each time.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from itertools import accumulate
 from pathlib import Path

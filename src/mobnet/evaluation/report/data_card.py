@@ -3,8 +3,6 @@
 `python -m mobnet.evaluation.report.data_card` writes it; a test fails when it is out of date.
 """
 
-from __future__ import annotations
-
 import inspect
 import json
 import re

@@ -1,7 +1,5 @@
 """The table of deviations: written once in Markdown, set in the paper as TeX."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -4,8 +4,6 @@ It shows whether files are still as their run wrote them. Some differ from one r
 `runs.html` hold times, and so do the table of compute, its page and the paper.
 """
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Iterable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Numbers of the paper's prose as TeX macros, so that a sentence cannot disagree with its table."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Tables as HTML pages for Snakemake's report: each page holds a caption and a table, and needs no other file."""
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Sequence
 from pathlib import Path

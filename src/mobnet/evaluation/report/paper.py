@@ -1,7 +1,5 @@
 """The paper as PDF where TeX is installed; elsewhere a note of what to install."""
 
-from __future__ import annotations
-
 import logging
 import os
 import shutil

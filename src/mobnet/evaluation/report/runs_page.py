@@ -3,8 +3,6 @@
 The address holds what is shown (order, filter, opened rows): `runs.html#sort=-rmse&filter=LSTM&open=LSTM-LL-s0`.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass

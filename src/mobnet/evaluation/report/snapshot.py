@@ -3,8 +3,6 @@
 `./reproduce` calls `python -m mobnet.evaluation.report.snapshot {snapshot,compare,verify}`.
 """
 
-from __future__ import annotations
-
 import argparse
 import logging
 import shutil

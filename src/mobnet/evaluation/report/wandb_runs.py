@@ -4,8 +4,6 @@ They are written after the trainings, in one process: a training can be killed a
 starting wandb takes as long as a tenth of a short training.
 """
 
-from __future__ import annotations
-
 import os
 import shutil
 import tempfile

@@ -1,7 +1,5 @@
 """Table of the standard deviations' calibration."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The paper's claims, checked against bounds that were fixed before any result was seen."""
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Table of how much of what the tests ask about the training data hold."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

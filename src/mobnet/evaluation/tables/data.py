@@ -1,7 +1,5 @@
 """What the training sets are: how long, on which ground, which commands of Table 2, how the upper body moved."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path

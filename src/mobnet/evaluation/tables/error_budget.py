@@ -1,7 +1,5 @@
 """What an observer's error is made of: its error with every source on, and how much goes with one of them off."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

@@ -3,8 +3,6 @@
 The time that a training takes is in the page of runs: tables come out the same each time.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

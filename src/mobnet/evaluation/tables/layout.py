@@ -3,8 +3,6 @@
 In TeX only booktabs is needed, and longtable for a table of several pages.
 """
 
-from __future__ import annotations
-
 import logging
 import re
 from collections.abc import Iterable, Sequence

@@ -1,7 +1,5 @@
 """Table of all methods, test by test: errors of the left leg in walking, of waist and arm in motion."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Table of how well the feet followed the walking commands."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import astuple, dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Table 1: inputs, targets and sizes of the limb networks, counted from the networks themselves."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """How large the uncertainty torque is that the networks learn, beside the robot's own."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

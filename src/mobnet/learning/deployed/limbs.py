@@ -1,7 +1,5 @@
 """Several limb networks run as one: the six independent networks of section 4.1 with their outputs concatenated."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any

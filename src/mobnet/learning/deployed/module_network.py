@@ -1,7 +1,5 @@
 """Trained networks of any cell of section 6.1 as they run on a robot, by the torch module that was trained."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

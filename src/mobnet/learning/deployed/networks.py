@@ -4,8 +4,6 @@ Small matrix-vector products at batch 1 cost less in NumPy than a call into torc
 `torch.nn.GRU` documents them. The other cells of section 6.1 run by the module that was trained.
 """
 
-from __future__ import annotations
-
 import json
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping

@@ -1,7 +1,5 @@
 """Groups of bars, one for each method, with intervals, the paper's numbers and short notes. Drawing only."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any

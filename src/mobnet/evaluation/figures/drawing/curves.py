@@ -1,7 +1,5 @@
 """Panels of curves over time, and the plotted numbers as CSV. Drawing only."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Panels of lines over epochs or sizes, with the spread of their runs. Drawing only."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Curves around pushes above the bars of their errors (Figures 6 and 10)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
