@@ -80,6 +80,6 @@ def test_the_space_of_the_legs_holds_lifted_knees(robot: RobotDescription) -> No
     """A thigh raised to the horizontal has its knee one link before the hip, on both sides."""
     capsules = leg_space(robot, [[0.0, 0.0, -np.pi / 2, 0.0]])
     for side in (1.0, -1.0):
-        knee = robot.leg.hip_pos * [1, side, 1] + [robot.leg.link_length, 0, 0]
+        knee = np.multiply(robot.leg.hip_pos, [1, side, 1]) + [robot.leg.link_length, 0, 0]
         middles = [(ends[:3] + ends[3:]) / 2 for ends, _ in capsules]
         assert min(np.linalg.norm(middle - knee) for middle in middles) < 1e-9

@@ -77,7 +77,7 @@ def make_walker(robot: WalkingRobot, walking: Walking, mass_ratio: float, gravit
         first=np.array([actuator[limb[0]] for limb in limbs], dtype=np.int64),
         upper=sum(map(len, limbs)),
         sensor=np.array(robot.sole.sensor_pos, dtype=float),
-        sole=np.array([*robot.sole.centre[:2], robot.sole.height]),
+        sole=np.array([*robot.sole.box_centre[:2], robot.sole.height]),
         gravity=float(gravity_m_s2),
         wrench=np.zeros((2, 6)),
         posture_stiffness=robot.posture.stiffness,

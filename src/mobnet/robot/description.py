@@ -1,27 +1,39 @@
-"""A robot's table of figures as numpy values; the plant, the nominal model and the controller are built from it."""
+"""A robot's table and what follows from it; the plant, the nominal model and the controller are built from both."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
-from mobnet.core.errors import ConfigError, not_accepted
-from mobnet.core.joints import JointLayout
-from mobnet.robot.parts import Body, Foot, Joint, Leg, Point, Posture, Shape, Sole, Vector
-from mobnet.robot.rows import (
-    read_body,
-    read_feet,
-    read_joint,
-    read_point,
-    read_posture,
-    read_shape,
-    vector,
-    with_mirrored,
-)
+from mobnet.core.errors import ConfigError
+from mobnet.core.joints import JointLayout, right_of, with_image
+from mobnet.settings.parts import BodyRow, Colour, FootRow, ImuRow, JointRow, LegRow, PointRow, ShapeRow, SoleRow
 from mobnet.settings.robot import RobotTable
 
 SIDES = ("left", "right")
 LEG_JOINTS = 6  # of a leg that walks
+MIRROR_Y = np.array([1.0, -1.0, 1.0])
+Row = TypeVar("Row", bound=PointRow)
+Vector = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Posture:
+    """How joints are held while nothing moves them.
+
+    Attributes:
+        joints: names, in motor order (n,).
+        angle: positions (n,) [rad].
+        stiffness: torque of a position error (n,) [N m/rad].
+        damping: torque of a velocity error (n,) [N m s/rad].
+    """
+
+    joints: tuple[str, ...]
+    angle: Vector
+    stiffness: Vector
+    damping: Vector
 
 
 @dataclass(frozen=True)
@@ -29,30 +41,29 @@ class RobotDescription:
     """All figures of a robot; section 4.1 names TOCABI's 33 joints and six virtual ones.
 
     Attributes:
-        name: the robot's name.
         layout: order of the generalized velocity and the limb groups.
-        bodies: links, depth-first, parents first.
+        bodies: links, depth-first, parents first, their quaternions of unit length.
         joints: actuated joints in the order of `layout.actuated`.
-        feet: side -> foot; empty for a robot without feet.
+        feet: side -> foot, all on soles of one shape; empty for a robot without feet.
         hands: side -> body.
-        leg: geometry of the legs, if the table has it.
-        imu: inertial sensor, if there is one.
         posture: how the joints are held that nothing moves, in motor order; the table may leave joints out.
-        shapes: what the robot looks like.
-        points: where forces may be applied.
+        shapes: what the robot looks like, both sides, in colours of `tones`.
+        points: where forces may be applied, both sides.
     """
 
     name: str
     layout: JointLayout
-    bodies: tuple[Body, ...]
-    joints: tuple[Joint, ...]
-    feet: Mapping[str, Foot]
+    bodies: tuple[BodyRow, ...]
+    joints: tuple[JointRow, ...]
+    feet: Mapping[str, FootRow]
+    sole: SoleRow | None
     hands: Mapping[str, str]
-    leg: Leg | None
-    imu: Point | None
+    leg: LegRow | None
+    imu: ImuRow | None
     posture: Posture
-    shapes: tuple[Shape, ...]
-    points: tuple[Point, ...]
+    tones: Mapping[str, Colour]
+    shapes: tuple[ShapeRow, ...]
+    points: tuple[PointRow, ...]
 
     @property
     def floating(self) -> bool:
@@ -79,53 +90,36 @@ class RobotDescription:
         """Reflected rotor inertia (nu,) [kg m^2]."""
         return np.array([joint.armature for joint in self.joints])
 
-    def joint_of(self, body: str) -> Joint | None:
+    def joint_of(self, body: str) -> JointRow | None:
         """Return the joint that moves a body, or None where the body is welded or the base."""
         return next((joint for joint in self.joints if joint.body == body), None)
-
-    def foot(self, side: str) -> Foot:
-        """Return the foot of a side.
-
-        Raises:
-            ConfigError: the robot has none there.
-        """
-        if side not in self.feet:
-            raise ConfigError(not_accepted("foot", side, self.feet))
-        return self.feet[side]
 
 
 @dataclass(frozen=True)
 class WalkingRobot(RobotDescription):
-    """A robot with all that walking takes; `for_walking` makes one.
+    """A robot with all that walking takes; `for_walking` makes one."""
 
-    Attributes:
-        leg: geometry of the legs.
-        imu: inertial sensor.
-    """
-
-    leg: Leg
-    imu: Point
-
-    @property
-    def sole(self) -> Sole:
-        """Sole of either foot."""
-        return self.feet["left"].sole
+    sole: SoleRow
+    leg: LegRow
+    imu: ImuRow
 
 
 def describe(table: RobotTable) -> RobotDescription:
-    """Return a robot's table as numpy values."""
+    """Return a robot's table with both sides of what is mirrored, and its posture in motor order."""
     return RobotDescription(
         name=table.name,
         layout=table.layout,
-        bodies=tuple(map(read_body, table.bodies)),
-        joints=tuple(map(read_joint, table.joints)),
-        feet=read_feet(table),
+        bodies=tuple(map(_with_unit_quaternion, table.bodies)),
+        joints=table.joints,
+        feet={**table.feet},
+        sole=table.sole,
         hands={**table.hands},
-        leg=None if table.leg is None else Leg(vector(table.leg.hip_pos), table.leg.link_length),
-        imu=None if table.imu is None else Point("imu", table.imu.body, vector(table.imu.pos)),
-        posture=read_posture(table),
-        shapes=tuple(read_shape(row, table.tones) for row in with_mirrored(table.shapes)),
-        points=tuple(map(read_point, with_mirrored(table.points))),
+        leg=table.leg,
+        imu=table.imu,
+        posture=_posture(table),
+        tones=table.tones,
+        shapes=with_mirrored(table.shapes),
+        points=with_mirrored(table.points),
     )
 
 
@@ -151,3 +145,40 @@ def for_walking(robot: RobotDescription) -> WalkingRobot:
     if missing:
         raise ConfigError(f"robot {robot.name} cannot walk; its table lacks: {', '.join(missing)}")
     return WalkingRobot(**vars(robot))
+
+
+def with_mirrored(rows: Iterable[Row]) -> tuple[Row, ...]:
+    """Return rows of the left side, each with its mirror image in y, and other rows as they are."""
+    return tuple(image for row in rows for image in (row, *(_mirrored(row, name) for name in with_image(row.name)[1:])))
+
+
+def _mirrored(row: Row, name: str) -> Row:
+    """Return a row of the left side as the right side has it, under its name."""
+    update = {"name": name, "body": right_of(row.body), "pos": _in_y(row.pos)}
+    if isinstance(row, ShapeRow) and row.segment is not None:
+        update["segment"] = _in_y(row.segment)
+    return row.model_copy(update=update)
+
+
+def _in_y(points: tuple[float, ...]) -> tuple[float, ...]:
+    """Return points, three coordinates each, mirrored in y."""
+    return tuple((np.reshape(points, (-1, len(MIRROR_Y))) * MIRROR_Y).ravel().tolist())
+
+
+def _with_unit_quaternion(row: BodyRow) -> BodyRow:
+    """Return a body whose quaternion, published with six digits, is of unit length."""
+    return row.model_copy(update={"quat": tuple(np.divide(row.quat, np.linalg.norm(row.quat)).tolist())})
+
+
+def _posture(table: RobotTable) -> Posture:
+    """Return the posture of all limbs that have one, in motor order."""
+    rows = {
+        joint: numbers
+        for limb, row in table.posture.items()
+        for joint, *numbers in zip(
+            table.groups[limb], row.angle_rad, row.stiffness_nm_rad, row.damping_nms_rad, strict=True
+        )
+    }
+    joints = tuple(joint for joint in table.order.actuated if joint in rows)
+    numbers = np.array([rows[joint] for joint in joints], dtype=np.float64).reshape(-1, 3)
+    return Posture(joints, *np.ascontiguousarray(numbers.T))

@@ -4,6 +4,7 @@ The root of a floating base is two joints, a translation and then a ball. A free
 velocity in base axes, and Pinocchio's Coriolis matrix is wrong for one composite root (tests/robot/test_dynamics.py).
 """
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.frames import to_pinocchio
-from mobnet.robot.parts import Body, Joint, Sole
+from mobnet.settings.parts import BodyRow, JointRow
 
 ALIGNED = {(1.0, 0.0, 0.0): pin.JointModelRX, (0.0, 1.0, 0.0): pin.JointModelRY, (0.0, 0.0, 1.0): pin.JointModelRZ}
 
@@ -47,8 +48,9 @@ class NominalModel:
         armature[len(robot.layout.virtual) :] = mass_ratio * robot.armature
         self.model.armature = armature
         self.foot_frames = {
-            side: _add_sensor(self.model, foot.sole, f"{side}_foot", *placements[foot.body])
+            side: _add_sensor(self.model, robot.sole.sensor_pos, f"{side}_foot", *placements[foot.body])
             for side, foot in robot.feet.items()
+            if robot.sole is not None
         }
         self.data = self.model.createData()
 
@@ -82,26 +84,26 @@ def _add_root(model: pin.Model) -> tuple[int, pin.SE3]:
     return root, pin.SE3.Identity()
 
 
-def _placement(body: Body) -> pin.SE3:
+def _placement(body: BodyRow) -> pin.SE3:
     """Return a body's frame in its parent's."""
     w, x, y, z = body.quat
-    return pin.SE3(pin.Quaternion(w, x, y, z).matrix(), body.pos)
+    return pin.SE3(pin.Quaternion(w, x, y, z).matrix(), np.array(body.pos))
 
 
-def _hinge(joint: Joint) -> pin.JointModel:
+def _hinge(joint: JointRow) -> pin.JointModel:
     """Return the joint model of a hinge, the fast one where the axis is a coordinate axis."""
-    aligned = ALIGNED.get(tuple(joint.axis))
-    return aligned() if aligned else pin.JointModelRevoluteUnaligned(joint.axis)
+    aligned = ALIGNED.get(joint.axis)
+    return aligned() if aligned else pin.JointModelRevoluteUnaligned(np.array(joint.axis))
 
 
-def _inertia(body: Body, mass_ratio: float) -> pin.Inertia:
+def _inertia(body: BodyRow, mass_ratio: float) -> pin.Inertia:
     """Return a link's inertia about its centre of mass, scaled."""
-    xx, yy, zz, xy, xz, yz = mass_ratio * body.inertia
+    xx, yy, zz, xy, xz, yz = mass_ratio * np.array(body.inertia)
     matrix = pin.Symmetric3(xx, xy, yy, xz, yz, zz)
-    return pin.Inertia(mass_ratio * body.mass, body.com, matrix.matrix())
+    return pin.Inertia(mass_ratio * body.mass, np.array(body.com), matrix.matrix())
 
 
-def _add_sensor(model: pin.Model, sole: Sole, name: str, joint: int, foot: pin.SE3) -> int:
-    """Add the frame of a foot's force/torque sensor; return its index."""
-    placement = foot * pin.SE3(pin.SE3.Identity().rotation, sole.sensor_pos)
+def _add_sensor(model: pin.Model, pos: Sequence[float], name: str, joint: int, foot: pin.SE3) -> int:
+    """Add the frame of a foot's force/torque sensor at pos (3,) [m] in the foot; return its index."""
+    placement = foot * pin.SE3(pin.SE3.Identity().rotation, np.array(pos))
     return model.addFrame(pin.Frame(name, joint, placement, pin.FrameType.SENSOR))

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import mujoco
 
 from mobnet.robot.description import RobotDescription
-from mobnet.robot.parts import Body, Point, Shape, Sole
+from mobnet.settings.parts import BodyRow, Colour, ImuRow, ShapeRow, SoleRow
 from mobnet.settings.robot import WORLD
 
 SOLE_TYPE = 2  # contype of soles and conaffinity of terrain: only soles on terrain collide
@@ -34,7 +34,7 @@ def robot_spec(robot: RobotDescription) -> mujoco.MjSpec:
     spec.modelname = robot.name
     bodies = _add_bodies(spec, robot)
     for shape in robot.shapes:
-        _add_shape(bodies[shape.body], shape)
+        _add_shape(bodies[shape.body], shape, robot.tones[shape.tone])
     for point in robot.points:
         bodies[point.body].add_site(name=point.name, pos=point.pos)
     for joint in robot.joints:
@@ -42,8 +42,9 @@ def robot_spec(robot: RobotDescription) -> mujoco.MjSpec:
         motor.set_to_motor()
     if robot.imu is not None:
         _add_imu(spec, bodies[robot.imu.body], robot.imu)
-    for side, foot in robot.feet.items():
-        _add_sole(spec, bodies[foot.body], foot.sole, side)
+    if robot.sole is not None:
+        for side, foot in robot.feet.items():
+            _add_sole(spec, bodies[foot.body], robot.sole, side)
     return spec
 
 
@@ -67,7 +68,7 @@ def _add_bodies(spec: mujoco.MjSpec, robot: RobotDescription) -> Mapping[str, mu
     return bodies
 
 
-def _add_body(parent: mujoco.MjsBody, body: Body) -> mujoco.MjsBody:
+def _add_body(parent: mujoco.MjsBody, body: BodyRow) -> mujoco.MjsBody:
     """Add a link with the inertia of the table."""
     return parent.add_body(
         name=body.name,
@@ -80,10 +81,10 @@ def _add_body(parent: mujoco.MjsBody, body: Body) -> mujoco.MjsBody:
     )
 
 
-def _add_shape(body: mujoco.MjsBody, shape: Shape) -> None:
+def _add_shape(body: mujoco.MjsBody, shape: ShapeRow, colour: Colour) -> None:
     """Add a solid that is seen, weighs nothing and touches nothing."""
     geom = body.add_geom(
-        name=shape.name, type=GEOM[shape.type], rgba=shape.rgba, group=SHAPE_GROUP, contype=0, conaffinity=0, mass=0
+        name=shape.name, type=GEOM[shape.type], rgba=colour, group=SHAPE_GROUP, contype=0, conaffinity=0, mass=0
     )
     geom.size[: len(shape.size)] = shape.size
     if shape.segment is None:
@@ -92,22 +93,22 @@ def _add_shape(body: mujoco.MjsBody, shape: Shape) -> None:
         geom.fromto = shape.segment
 
 
-def _add_imu(spec: mujoco.MjSpec, base: mujoco.MjsBody, imu: Point) -> None:
+def _add_imu(spec: mujoco.MjSpec, base: mujoco.MjsBody, imu: ImuRow) -> None:
     """Add the inertial sensor: angular velocity [rad/s] and specific force [m/s^2] in base axes."""
     base.add_site(name="imu", pos=imu.pos)
     for name, kind in IMU_SENSORS.items():
         spec.add_sensor(name=f"imu_{name}", type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname="imu")
 
 
-def _add_sole(spec: mujoco.MjSpec, foot: mujoco.MjsBody, shape: Sole, side: str) -> None:
+def _add_sole(spec: mujoco.MjSpec, foot: mujoco.MjsBody, shape: SoleRow, side: str) -> None:
     """Add the sole: a massless welded body, so that no inertia stands between the ground and the foot's sensor."""
     name = sole_name(side)
     sole = foot.add_body(name=name, explicitinertial=True)
     sole.add_geom(
         name=name,
         type=mujoco.mjtGeom.mjGEOM_BOX,
-        pos=shape.centre,
-        size=shape.half,
+        pos=shape.box_centre,
+        size=shape.box_half,
         contype=SOLE_TYPE,
         conaffinity=TERRAIN_TYPE,
         condim=SLIDING,

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from mobnet.core.errors import DataError
 from mobnet.robot.description import RobotDescription
-from mobnet.robot.parts import Body
 from mobnet.robot.plant import SHAPE_GROUP, robot_spec
+from mobnet.settings.parts import BodyRow
 
 REACH_M = 0.06  # larger distances are not measured, because they cost time
 NEIGHBOURS = 2  # joints
@@ -86,14 +86,14 @@ def _as_hull(spec: mujoco.MjSpec, box: mujoco.MjsGeom) -> None:
     box.type, box.meshname = mujoco.mjtGeom.mjGEOM_MESH, box.name
 
 
-def held_together(robot: RobotDescription, body: Body, other: Body) -> bool:
+def held_together(robot: RobotDescription, body: BodyRow, other: BodyRow) -> bool:
     """Return whether joints hold two bodies so close that their shapes are not checked against each other."""
     path = _to_base(robot, body) ^ _to_base(robot, other)
     joints = [link for link in robot.bodies if link.name in path and robot.joint_of(link.name) is not None]
-    return len(joints) <= NEIGHBOURS or sum(bool(link.pos.any()) for link in joints) <= 1
+    return len(joints) <= NEIGHBOURS or sum(any(link.pos) for link in joints) <= 1
 
 
-def _to_base(robot: RobotDescription, body: Body) -> frozenset[str]:
+def _to_base(robot: RobotDescription, body: BodyRow) -> frozenset[str]:
     """Return the names of a body and of all bodies between it and the world."""
     parents = {link.name: link.parent for link in robot.bodies}
     names, name = set(), body.name

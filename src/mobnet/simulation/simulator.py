@@ -143,8 +143,8 @@ class Simulator:
     def _sole_points(self, yaw: float) -> Array:
         """Return points (n, 2) [m] under both soles of a start that faces yaw [rad]."""
         robot, spacing = self.robot, self.walker.par.foot_spacing_m
-        x = robot.sole.centre[0] + robot.sole.half[0] * np.linspace(-1.0, 1.0, SOLE_POINTS[0])
-        y = robot.sole.half[1] * np.linspace(-1.0, 1.0, SOLE_POINTS[1])
+        x = robot.sole.box_centre[0] + robot.sole.box_half[0] * np.linspace(-1.0, 1.0, SOLE_POINTS[0])
+        y = robot.sole.box_half[1] * np.linspace(-1.0, 1.0, SOLE_POINTS[1])
         x, y = (grid.ravel() for grid in np.meshgrid(x, np.concatenate([y, y + spacing])))
         c, n = np.cos(yaw), np.sin(yaw)
         return self.state.old_ankle[:2] + np.column_stack([c * x - n * y, n * x + c * y])  # of the right foot
