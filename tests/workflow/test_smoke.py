@@ -156,7 +156,7 @@ EDITS = {
     "wording of an error": Edit("src/mobnet/core/store.py", "file is missing", "there is no file", NOTHING),
     "wording of a log": Edit("src/mobnet/learning/train.py", "done after epoch", "ended after epoch", NOTHING),
     "comment": Edit(f"{SIMULATION}/friction.py", DECORATED, f"\n# a comment{DECORATED}", NOTHING),
-    "check of a name": Edit("src/mobnet/settings/references.py", "if name not in", "if name and name not in", NOTHING),
+    "check of a name": Edit("src/mobnet/settings/names.py", "if name not in", "if name and name not in", NOTHING),
     "friction law": Edit(
         f"{SIMULATION}/friction.py",
         DECORATED,

@@ -47,13 +47,7 @@ SHORT = 16  # characters of a hash that are kept
 
 
 class Source(NamedTuple):
-    """What one file contributes.
-
-    Attributes:
-        digest: hash of its syntax tree.
-        files: files of this package that it imports.
-        packages: names of the packages of others that it imports, as the lock has them.
-    """
+    """What one file contributes: the hash of its syntax tree, and what it imports of this package and of others."""
 
     digest: bytes
     files: tuple[Path, ...]
@@ -62,10 +56,7 @@ class Source(NamedTuple):
 
 @functools.cache
 def code_hash(*starts: Path | str) -> str:
-    """Return a short hash of the code behind files or functions.
-
-    Args:
-        starts: files, or dotted names of modules of this package, a function's name after a colon left out or not.
+    """Return a short hash of the code behind files, or behind dotted names of modules or of functions, `module:name`.
 
     Raises:
         ConfigError: there is no such file or module.
@@ -113,11 +104,9 @@ def read(path: Path) -> Source:
 
 @dataclass
 class Reader:
-    """Reads a syntax tree without what cannot change a result.
+    """Reads a syntax tree, without what cannot change a result, into words, and the dotted names that it imports.
 
-    Attributes:
-        words: the tree in words: kinds of its nodes, its constants, brackets around lists.
-        imports: dotted names that it imports, anywhere.
+    The words are the kinds of its nodes, its constants, and brackets around lists.
     """
 
     words: list[str] = field(default_factory=list)

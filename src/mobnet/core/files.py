@@ -40,11 +40,7 @@ def write_json(path: Path, value: Mapping[str, object]) -> None:
 
 
 def read_text(path: Path) -> str:
-    """Read a text file.
-
-    Raises:
-        DataError: the file is missing.
-    """
+    """Read a text file; a DataError names a missing one."""
     try:
         return path.read_text(encoding="utf-8")
     except FileNotFoundError:

@@ -51,11 +51,7 @@ class JointLayout:
         return (NQ_BASE if self.virtual else 0) + self.nu
 
     def limb(self, name: str) -> tuple[str, ...]:
-        """Return the joint names of a limb.
-
-        Raises:
-            ConfigError: the limb is unknown.
-        """
+        """Return the joint names of a limb; a ConfigError names an unknown one."""
         if name not in self.groups:
             raise ConfigError(not_accepted("limb", name, self.groups))
         return self.groups[name]

@@ -12,15 +12,9 @@ UNKNOWN = "unknown"
 
 
 def provenance(settings: Mapping[str, object]) -> dict[str, str]:
-    """Return the origin of a result, as its note has it: `commit`, `lock` and `config`.
+    """Return the origin of a result that depends on settings given as JSON: `commit`, `lock` and `config`.
 
-    Args:
-        settings: what the result depends on, as JSON.
-
-    Returns:
-        commit: git commit, with `-changed` where the checkout differs from it; `unknown` outside of git.
-        lock: short hash of environment.lock.
-        config: short hash of the settings, independent of the order of keys.
+    The short hash `config` is independent of the order of keys; where git or environment.lock is not there, `unknown`.
     """
     written = json.dumps(settings, sort_keys=True).encode()
     return {"commit": commit(), "lock": lock_hash(), "config": hashlib.sha256(written).hexdigest()[:SHORT]}

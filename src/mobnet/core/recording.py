@@ -97,11 +97,7 @@ class SensedRecording:
 
 @dataclass(frozen=True)
 class Recording(SensedRecording):
-    """A stored run with the signals that only the plant has.
-
-    Attributes:
-        truth: signals that only the plant has.
-    """
+    """A stored run with the signals that only the plant has."""
 
     truth: Truth
 
@@ -129,11 +125,7 @@ def read_sensed(stem: Path, layout: JointLayout) -> SensedRecording:
 
 
 def read_recording(stem: Path, layout: JointLayout) -> Recording:
-    """Read a recording, sensed and truth, float32; columns are found by name.
-
-    Raises:
-        DataError: a file is missing or damaged, or a column is missing.
-    """
+    """Read a recording, sensed and truth, float32, as `read_sensed` does."""
     values, meta = _read_fields(stem, layout, [*Sensed.__dataclass_fields__, *Truth.__dataclass_fields__])
     sensed, truth = ({name: values[name] for name in part.__dataclass_fields__} for part in (Sensed, Truth))
     return Recording(Sensed(**sensed), *spans_and_rate(meta), meta, Truth(**truth))

@@ -67,9 +67,7 @@ class ArrayWriter:
     def close(self, meta: Mapping[str, object], segments: Sequence[tuple[int, int]] | None = None) -> None:
         """Describe the rows, of which no more follow; the files appear when the writer's block ends.
 
-        Args:
-            meta: what else to note; must hold `rate_hz` [Hz].
-            segments: contiguous stretches (start, end) of rows; one stretch when not given.
+        The note must hold `rate_hz` [Hz]; segments are contiguous stretches (start, end) of rows, one when not given.
         """
         described = [dict(zip(("name", "unit", "frame"), column, strict=True)) for column in self._columns]
         spans = [list(span) for span in (segments or [(0, self.rows)])]
@@ -99,11 +97,8 @@ class ArrayWriter:
 def array_writer(stem: Path, columns: Sequence[Column]) -> Iterator[ArrayWriter]:
     """Write `stem.parquet` and then `stem.json` piece by piece, in the memory of a minute of samples.
 
-    Both appear when the block ends, if `close` was called and nothing was raised; else what was there before stays.
-
-    Args:
-        stem: path without a suffix.
-        columns: name, unit and frame of each column, (C,).
+    Both appear when the block ends, if `close` was called and nothing was raised; else what was there before stays. The
+    columns (C,) have name, unit and frame.
 
     Raises:
         DataError: the block ended without `close`.
@@ -125,14 +120,7 @@ def write_array(
     meta: Mapping[str, object],
     segments: Sequence[tuple[int, int]] | None = None,
 ) -> None:
-    """Write `stem.parquet` (float32) and then `stem.json`.
-
-    Args:
-        stem: path without a suffix.
-        array: samples (T, C).
-        columns: name, unit and frame of each column, (C,).
-        meta: what else to note; must hold `rate_hz` [Hz].
-        segments: contiguous stretches (start, end) of rows; one stretch when not given.
+    """Write samples (T, C) as `stem.parquet`, float32, and then `stem.json`, described as `ArrayWriter.close` says.
 
     Raises:
         DataError: the shape does not fit the columns, or a value is not finite.
@@ -143,14 +131,9 @@ def write_array(
 
 
 def read_array(stem: Path, names: Sequence[str] | None = None) -> tuple[NDArray[np.float32], dict[str, Any]]:
-    """Read an array written by `write_array` and its description.
+    """Return samples (T, C) of an array, contiguous, and the description of the whole file.
 
-    Args:
-        stem: path without a suffix.
-        names: columns wanted, in this order, (C,); only these are read, all when not given.
-
-    Returns:
-        Samples (T, C), contiguous, and the description of the whole file.
+    Of the columns only the wanted ones are read, in the order of their names; all when none are given.
 
     Raises:
         DataError: a file is missing, truncated, holds NaN, lacks a column, or the two do not agree.

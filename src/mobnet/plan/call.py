@@ -13,12 +13,7 @@ from mobnet.core.errors import ConfigError, not_accepted
 
 @dataclass(frozen=True)
 class Call:
-    """A call that a job makes; `fingerprint` is a parameter of the job's rule, which reruns when it changes.
-
-    Attributes:
-        function: module and name, such as `mobnet.learning.train:train`.
-        arguments: the function's arguments by name: sections of the configuration, names, paths.
-    """
+    """A call of a function of this package, `module:name`, with arguments by name: sections, names, paths."""
 
     function: str
     arguments: Mapping[str, object]
@@ -53,11 +48,7 @@ class Job:
 
 
 def call_of(function: str, available: Mapping[str, object]) -> Call:
-    """Return a call whose arguments are those that the function's signature names.
-
-    Args:
-        function: module and name.
-        available: every value that the function may ask for.
+    """Return a call whose arguments are those of the available values that the function's signature names.
 
     Raises:
         ConfigError: the function asks for something else.
@@ -71,11 +62,7 @@ def call_of(function: str, available: Mapping[str, object]) -> Call:
 
 @functools.cache
 def parameters(function: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the names of a function's parameters, those without a default and those with one; nothing is imported.
-
-    Raises:
-        ConfigError: there is no such function.
-    """
+    """Return the names of a function's parameters, those without a default and those with one; nothing is imported."""
     module, name = function.split(":")
     tree = ast.parse(start_of(module).read_text(encoding="utf-8"))
     for node in tree.body:

@@ -9,13 +9,7 @@ HEADINGS = {"runs.html": "trainings", "main.pdf": "paper", ".html": "tables", ".
 
 @dataclass(frozen=True)
 class Shown:
-    """How the report shows a file.
-
-    Attributes:
-        heading: kind of the file, and folder of its caption.
-        title: first line of its caption, or its own name.
-        caption: reStructuredText file; None where there is none.
-    """
+    """How the report shows a file: its heading, also the folder of its caption, its title, and its caption."""
 
     heading: str
     title: str

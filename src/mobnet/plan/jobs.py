@@ -14,12 +14,7 @@ KINDS = "mobnet.estimation.kinds"  # modules that a method names as its kind
 
 @dataclass(frozen=True)
 class Jobs:
-    """Jobs by the wildcards of their rules.
-
-    Attributes:
-        settings: the configuration.
-        files: where files stand.
-    """
+    """Jobs by the wildcards of their rules."""
 
     settings: Settings
     files: Files

@@ -16,12 +16,6 @@ TESTS = ("test", "test with a window around pushes")  # kinds of names in a sect
 def needs_of(files: Files, name: str, section: Any, parameters: Iterable[str]) -> Needs:
     """Return what a product is made from: its own entry of `NEEDS`, or what its function's parameters usually mean.
 
-    Args:
-        files: recordings, networks and runs.
-        name: the product.
-        section: its section of the configuration.
-        parameters: names that its function takes.
-
     Raises:
         ConfigError: a parameter has its usual meaning, and the section lacks what this needs.
     """

@@ -13,16 +13,7 @@ MAIN = "default"  # the scale whose tables stand where a reader looks for them; 
 
 @dataclass(frozen=True)
 class Plan:
-    """What the workflow makes at the chosen scale.
-
-    Attributes:
-        settings: the configuration.
-        folders: where products stand.
-        files: recordings, networks and runs.
-        jobs: what is made once for each of these.
-        products: tables, figures and texts, each after those that it needs.
-        stored: every file that products are made from.
-    """
+    """What the workflow makes at the chosen scale: products, each after those that it needs, and all that is stored."""
 
     settings: Settings
     folders: Folders
@@ -33,12 +24,7 @@ class Plan:
 
 
 def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
-    """Return the plan of the chosen scale.
-
-    Args:
-        settings: the configuration.
-        with_pdf: whether TeX is there to build the paper's PDF.
-    """
+    """Return the plan of the chosen scale; without TeX there is no PDF of the paper."""
     scale = settings.scale
     results, part = Path("results") / scale, "" if scale == MAIN else scale
     paper, manifest = (Path("paper"), results.parent) if scale == MAIN else (results / "paper", results)

@@ -21,15 +21,7 @@ BARS = ("figure_06", "figure_10")  # figures whose bars have a CSV of their own
 
 @dataclass(frozen=True)
 class Folders:
-    """Where a scale's products stand.
-
-    Attributes:
-        results: everything but tables, figures and the paper.
-        tables: tables.
-        figures: figures.
-        paper: the paper's PDF.
-        manifest: the list of every result with its hash.
-    """
+    """Where a scale's products stand; `results` has everything but tables, figures and the paper."""
 
     results: Path
     tables: Path
@@ -40,13 +32,7 @@ class Folders:
 
 @dataclass(frozen=True)
 class Product:
-    """A product of the paper, or of the report around it.
-
-    Attributes:
-        name: its name, which is its rule's.
-        job: what makes it, and the files that it reads.
-        outputs: files that it writes.
-    """
+    """A product of the paper, or of the report around it, under the name of its rule."""
 
     name: str
     job: Job
@@ -55,14 +41,7 @@ class Product:
 
 @dataclass(frozen=True)
 class Products:
-    """All products at one scale.
-
-    Attributes:
-        settings: the configuration.
-        files: recordings, networks and runs.
-        folders: where products stand.
-        with_pdf: whether TeX is there to build the paper's PDF.
-    """
+    """All products at one scale, with the paper's PDF only where TeX is there to build it."""
 
     settings: Settings
     files: Files

@@ -18,17 +18,9 @@ NETWORKS = "networks"
 
 @dataclass(frozen=True)
 class Run:
-    """One run of a method: a network seed on a test recording.
+    """One run of a method on a test: a network seed, 0 for a method without networks, on a recording.
 
-    Attributes:
-        scenario: what was walked.
-        level: uncertainty level of section 5.1.
-        method: the estimator.
-        network_seed: seed of its networks; 0 for a method without any.
-        test_seed: seed of the recording.
-        recording: the recording, without the ending of its files.
-        residual: the observer's residual of it, likewise.
-        estimate: the method's estimate, likewise.
+    The recording, the observer's residual of it and the method's estimate are named without the ending of their files.
     """
 
     scenario: str
@@ -43,13 +35,7 @@ class Run:
 
 @dataclass(frozen=True)
 class SweptSize:
-    """Networks of one size, or of one amount of data, of a sweep (Figure 20).
-
-    Attributes:
-        panel: what is swept, `parameters` or `samples`.
-        base: the method whose network or data are varied.
-        folders: its trained networks.
-    """
+    """Networks of one size, or of one amount of data, of the `base` method that a sweep varies (Figure 20)."""
 
     panel: str
     base: str
@@ -58,12 +44,7 @@ class SweptSize:
 
 @dataclass(frozen=True)
 class Files:
-    """Where the files of a scale stand, and which seeds they have.
-
-    Attributes:
-        settings: the configuration.
-        results: folder of everything but tables, figures and the paper.
-    """
+    """Where the files of a scale stand, and which seeds they have; tables, figures and the paper stand elsewhere."""
 
     settings: Settings
     results: Path

@@ -51,16 +51,9 @@ def beta(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> Array:
 
 
 def momentum_and_beta(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> tuple[Array, Array]:
-    """Return p = M v of (4) and C^T v - g of (6), (..., nv) each.
+    """Return p = M v of (4) [kg m/s], [kg m^2/s] and C^T v - g of (6) [N], [N m], both (..., nv).
 
-    Args:
-        nominal: the model.
-        q: positions (..., nq) of any float type and memory order, base quaternion w x y z.
-        v: velocities (..., nv) [m/s] and [rad/s], likewise.
-
-    Returns:
-        p [kg m/s] and [kg m^2/s], and beta [N] and [N m].
-
+    Positions (..., nq) and velocities (..., nv) [m/s], [rad/s] are of any float type and memory order.
     """
     model, data, nv = nominal.model, nominal.data, nominal.model.nv
     positions = nominal.positions(q).reshape(-1, model.nq)

@@ -22,7 +22,6 @@ class NominalModel:
     """The robot as the observer knows it: every mass, inertia and rotor inertia times one ratio.
 
     Attributes:
-        robot: the table the model was built from.
         mass_ratio: nominal over true mass and inertia [-]; section 5.1 takes 0.9 under all uncertainty.
         model: Pinocchio's model; nv generalized velocities in the order of `JointLayout`.
         data: its work space; one model belongs to one thread.
@@ -30,13 +29,7 @@ class NominalModel:
     """
 
     def __init__(self, robot: RobotDescription, mass_ratio: float = 1.0, gravity_m_s2: float | None = None) -> None:
-        """Build the model from the robot's table.
-
-        Args:
-            robot: the robot's table.
-            mass_ratio: nominal over true mass and inertia [-].
-            gravity_m_s2: acceleration of gravity [m/s^2]; Pinocchio's own 9.81 when not given.
-        """
+        """Build the model; gravity [m/s^2] is Pinocchio's own 9.81 when not given."""
         self.robot = robot
         self.mass_ratio = mass_ratio
         self.model = pin.Model()

@@ -16,10 +16,7 @@ Array = NDArray[np.float64]
 def foot_jacobian(nominal: NominalModel, q: NDArray[Any], side: str) -> Array:
     """Return J_foot (6, nv) of (2): velocity of the foot's sensor, linear [m/s] then angular [rad/s], foot axes.
 
-    Args:
-        nominal: the model; its masses do not matter.
-        q: generalized position (nq,).
-        side: `left` or `right`.
+    The position is q (nq,); the masses of the model do not matter.
 
     Raises:
         ConfigError: the side is unknown.
@@ -29,13 +26,9 @@ def foot_jacobian(nominal: NominalModel, q: NDArray[Any], side: str) -> Array:
 
 
 def foot_torque(nominal: NominalModel, q: NDArray[Any], side: str, wrench: NDArray[Any]) -> Array:
-    """Return J_foot^T F of (2), (T, nv) or (nv,) [N] and [N m].
+    """Return J_foot^T F of (2), (T, nv) or (nv,) [N] and [N m]; positions are (..., nq).
 
-    Args:
-        nominal: the model; its masses do not matter.
-        q: generalized positions (..., nq).
-        side: `left` or `right`.
-        wrench: force [N] and moment [N m] on the foot (..., 6), foot axes, about the sensor.
+    The wrench (..., 6) is the force [N] and moment [N m] on the foot, in foot axes, about the sensor.
 
     Raises:
         ConfigError: the side is unknown.
@@ -52,10 +45,7 @@ def foot_torque(nominal: NominalModel, q: NDArray[Any], side: str, wrench: NDArr
 def feet_torque(nominal: NominalModel, q: NDArray[Any], wrenches: Mapping[str, NDArray[Any]]) -> Array:
     """Return the sum of J^T F over the feet, (T, nv) or (nv,) [N] and [N m]: the training label of section 4.2.3.
 
-    Args:
-        nominal: the model; its masses do not matter.
-        q: generalized positions (..., nq).
-        wrenches: side -> wrench (..., 6) [N] and [N m] as in `foot_torque`.
+    Positions are (..., nq), wrenches side -> (..., 6) [N] and [N m] as in `foot_torque`.
 
     Raises:
         ConfigError: a side is unknown.

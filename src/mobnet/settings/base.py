@@ -21,11 +21,7 @@ class Section(BaseModel):
 
 @dataclass(frozen=True)
 class Named:
-    """Marks a field whose value must be the name of something configured elsewhere.
-
-    Attributes:
-        kind: what is named, a key of the accepted names that `load` gathers, such as `level`.
-    """
+    """Marks a field whose value must be the name of something configured elsewhere, of a kind such as `level`."""
 
     kind: str
 
@@ -53,6 +49,7 @@ Count = Annotated[int, Field(strict=True, ge=1)]
 Index = Annotated[int, Field(strict=True, ge=0)]
 Flag = Annotated[bool, Field(strict=True)]
 Text = Annotated[str, Field(min_length=1)]
+Some = Annotated[tuple[Item, ...], Field(min_length=1)]
 
 Range = Annotated[tuple[Real, Real], AfterValidator(_ordered)]
 PositiveRange = Annotated[tuple[Positive, Positive], AfterValidator(_ordered)]
@@ -62,9 +59,9 @@ CountRange = Annotated[tuple[Count, Count], AfterValidator(_ordered)]
 PositivePair = tuple[Positive, Positive]
 RealPair = tuple[Real, Real]
 Vector3 = tuple[Real, Real, Real]
-Choices = Annotated[tuple[Positive, ...], Field(min_length=1)]
-InnerShares = Annotated[tuple[InnerShare, ...], Field(min_length=1), AfterValidator(distinct)]
-Seeds = Annotated[tuple[Index, ...], Field(min_length=1), AfterValidator(distinct)]
+Choices = Some[Positive]
+InnerShares = Annotated[Some[InnerShare], AfterValidator(distinct)]
+Seeds = Annotated[Some[Index], AfterValidator(distinct)]
 
 LevelName = Annotated[str, Named("level")]
 TerrainName = Annotated[str, Named("terrain")]
@@ -89,6 +86,6 @@ ToneName = Annotated[str, Named("tone")]
 PointName = Annotated[str, Named("point")]
 RobotNetworkName = Annotated[str, Named("network of the robot")]
 
-MethodNames = Annotated[tuple[MethodName, ...], Field(min_length=1)]
+MethodNames = Some[MethodName]
 LimbNames = tuple[LimbName, ...]
 Change = dict[str, JsonValue]  # keys of another section that are replaced, checked once they are

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Any, cast
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, model_validator
 
-from mobnet.settings.base import LevelName, LimbOrJointName, MethodName, Real, Section, TestName, Text
+from mobnet.settings.base import LevelName, LimbOrJointName, MethodName, Real, Section, Some, TestName, Text
 
 SHORT_CELL = ("level", "method", "joint")
 TAKES = {  # quantity -> how many cells it takes: at least, and in steps of; a step of 0 is exactly
@@ -37,11 +37,7 @@ class Cell(Section):
 
 
 def spelt_out(cell: Any) -> dict[str, Any]:
-    """Return a cell that is a method's name, [level, method, joint] or a mapping as a mapping.
-
-    Raises:
-        ValueError: it is none of these.
-    """
+    """Return a cell, written as a method's name, as [level, method, joint] or as a mapping, as a mapping."""
     if isinstance(cell, str):
         return {"method": cell}
     if isinstance(cell, dict):
@@ -53,24 +49,12 @@ def spelt_out(cell: Any) -> dict[str, Any]:
 
 
 class Claim(Section):
-    """What the paper says and what must hold here.
-
-    Attributes:
-        printed: where the paper says it.
-        says: the claim in our words.
-        quantity: how the number is made of the cells, a key of `TAKES`.
-        cells: results that the number is made of, with what they share filled in.
-        unit: unit of the number.
-        published: the paper's number; None where it gives none.
-        reproduced: range in which ours counts as the paper's.
-        direction: wider range in which ours points the paper's way.
-        cause: why ours is not reproduced, as far as it was tested.
-    """
+    """What the paper says, where it is printed, and what must hold here; `quantity` is a key of `TAKES`."""
 
     printed: Text
     says: Text
     quantity: Text
-    cells: Annotated[tuple[Cell, ...], Field(min_length=1)]
+    cells: Some[Cell]
     unit: Text
     published: Real | None
     reproduced: Bounds

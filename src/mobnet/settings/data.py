@@ -2,35 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Literal
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
-from mobnet.settings.base import (
-    Choices,
-    Count,
-    CountRange,
-    Flag,
-    Index,
-    LevelName,
-    MotionName,
-    MotorName,
-    NotNegative,
-    NotNegativeRange,
-    PointName,
-    Positive,
-    PositivePair,
-    PositiveRange,
-    PushName,
-    Range,
-    Real,
-    ScaleName,
-    ScenarioName,
-    Section,
-    Share,
-    TerrainName,
-    Vector3,
-)  # fmt: skip
+from mobnet.settings import base
+from mobnet.settings.base import Section
 
 Phase = Literal["always", "left_swing", "right_swing", "left_support", "right_support"]
 Direction = Literal["any", "horizontal", "down", "backward"]
@@ -40,9 +17,9 @@ CommandSource = Literal["random", "stand"]
 class Checks(Section):
     """Raised squares, Figure 3 (a)."""
 
-    height_m: Positive
-    cell_m: Positive
-    bevel_m: Positive
+    height_m: base.Positive
+    cell_m: base.Positive
+    bevel_m: base.Positive
 
 
 class Flat(Section):
@@ -52,19 +29,19 @@ class Flat(Section):
 class Plates(Section):
     """Loose wooden plates, Figure 3 (b)."""
 
-    height_m: Positive
-    sizes_m: Annotated[tuple[PositivePair, ...], Field(min_length=1)]
-    bevel_m: Positive
-    gap_m: NotNegative
-    period_m: Positive
+    height_m: base.Positive
+    sizes_m: base.Some[base.PositivePair]
+    bevel_m: base.Positive
+    gap_m: base.NotNegative
+    period_m: base.Positive
 
 
 class Slope(Section):
     """Even ground, up, even ground, down, Figure 3 (c)."""
 
-    angle_deg: Positive
-    slope_m: Positive
-    even_m: Positive
+    angle_deg: base.Positive
+    slope_m: base.Positive
+    even_m: base.Positive
 
 
 class Terrain(Section):
@@ -79,103 +56,103 @@ class Terrain(Section):
 class RandomCommands(Section):
     """How commands are drawn and held, in place of a joystick."""
 
-    hold_steps: CountRange
-    kinds: dict[Literal["omnidirectional", "forward", "turn", "sideways", "backward"], Share]
-    edge_probability: Share
-    slew_step_x_m: Positive
-    slew_step_y_m: Positive
-    slew_turn_deg: Positive
-    in_place_steps: Index
+    hold_steps: base.CountRange
+    kinds: dict[Literal["omnidirectional", "forward", "turn", "sideways", "backward"], base.Share]
+    edge_probability: base.Share
+    slew_step_x_m: base.Positive
+    slew_step_y_m: base.Positive
+    slew_turn_deg: base.Positive
+    in_place_steps: base.Index
 
 
 class Commands(Section):
     """Ranges of Table 2."""
 
-    step_x_m: Range
-    step_y_m: Range
-    turn_deg: Range
-    duration_s: Choices
-    foot_height_m: Choices
+    step_x_m: base.Range
+    step_y_m: base.Range
+    turn_deg: base.Range
+    duration_s: base.Choices
+    foot_height_m: base.Choices
     random: RandomCommands
 
 
 class Narrowed(Section):
     """Ranges of Table 2 that a scenario replaces by narrower ones."""
 
-    step_x_m: Range | None = None
-    step_y_m: Range | None = None
-    turn_deg: Range | None = None
-    duration_s: Choices | None = None
-    foot_height_m: Choices | None = None
+    step_x_m: base.Range | None = None
+    step_y_m: base.Range | None = None
+    turn_deg: base.Range | None = None
+    duration_s: base.Choices | None = None
+    foot_height_m: base.Choices | None = None
 
 
 class FixedCommand(Section):
     """One walking command that is held."""
 
-    step_x_m: Real
-    step_y_m: Real
-    turn_deg: Real
-    duration_s: Positive
-    foot_height_m: Positive
+    step_x_m: base.Real
+    step_y_m: base.Real
+    turn_deg: base.Real
+    duration_s: base.Positive
+    foot_height_m: base.Positive
 
 
 class RandomTorque(Section):
     """Random torque exploration, section 4.3."""
 
-    period_s: PositiveRange
-    legs_waist_nm: NotNegative
-    arms_nm: tuple[NotNegative, ...]
-    neck_nm: NotNegative
+    period_s: base.PositiveRange
+    legs_waist_nm: base.NotNegative
+    arms_nm: tuple[base.NotNegative, ...]
+    neck_nm: base.NotNegative
 
 
 class MotionVariant(Section):
     """Another speed and another place of the hands for the same drawn motion, section 4.3."""
 
-    speed: Positive
-    hand_offset_m: Vector3
+    speed: base.Positive
+    hand_offset_m: base.Vector3
 
 
 class Motion(Section):
     """Random motion of the joints above the legs, section 4.3."""
 
-    knot_hz: Positive
-    band_hz: PositiveRange
-    waves: Count
-    hand_azimuth_rad: Range
-    hand_elevation_rad: Range
-    hand_distance_m: PositiveRange
-    waist_rad: tuple[Range, ...]
-    neck_rad: tuple[Range, ...]
-    arm_rad: tuple[Range, ...]
-    hand_cost: Positive
-    arm_cost: Positive
-    trunk_cost: Positive
-    inertia_cost: Positive
-    gain: Share
-    hand_speed_max_m_s: Positive
-    speed_share: Share
-    clearance_m: Positive
-    clearance_least_m: NotNegative
-    guard_m: Positive
-    leg_poses_rad: tuple[tuple[Real, Real, Real, Real], ...]
-    still_s: NotNegative
-    ease_s: Positive
-    smoothing_s: Positive
-    variants: Annotated[tuple[MotionVariant, ...], Field(min_length=1)]
+    knot_hz: base.Positive
+    band_hz: base.PositiveRange
+    waves: base.Count
+    hand_azimuth_rad: base.Range
+    hand_elevation_rad: base.Range
+    hand_distance_m: base.PositiveRange
+    waist_rad: tuple[base.Range, ...]
+    neck_rad: tuple[base.Range, ...]
+    arm_rad: tuple[base.Range, ...]
+    hand_cost: base.Positive
+    arm_cost: base.Positive
+    trunk_cost: base.Positive
+    inertia_cost: base.Positive
+    gain: base.Share
+    hand_speed_max_m_s: base.Positive
+    speed_share: base.Share
+    clearance_m: base.Positive
+    clearance_least_m: base.NotNegative
+    guard_m: base.Positive
+    leg_poses_rad: tuple[tuple[base.Real, base.Real, base.Real, base.Real], ...]
+    still_s: base.NotNegative
+    ease_s: base.Positive
+    smoothing_s: base.Positive
+    variants: base.Some[MotionVariant]
 
 
 class Push(Section):
     """A force at a point, or a torque on a joint, with the times at which it comes."""
 
-    point: PointName | None = None
-    joint: MotorName | None = None
+    point: base.PointName | None = None
+    joint: base.MotorName | None = None
     during: Phase = "always"
-    share: NotNegativeRange = (0.0, 0.0)
-    pause_s: NotNegativeRange | None = None
-    at_s: Annotated[tuple[NotNegative, ...], Field(min_length=1)] | None = None
-    force_n: Range | None = None
-    torque_nm: Range | None = None
-    duration_s: PositiveRange
+    share: base.NotNegativeRange = (0.0, 0.0)
+    pause_s: base.NotNegativeRange | None = None
+    at_s: base.Some[base.NotNegative] | None = None
+    force_n: base.Range | None = None
+    torque_nm: base.Range | None = None
+    duration_s: base.PositiveRange
     direction: Direction = "any"
     shape: Literal["step", "half_sine"]
 
@@ -196,37 +173,37 @@ class Push(Section):
 class Scenario(Section):
     """What is walked; a level and a seed make it a recording."""
 
-    terrain: Annotated[tuple[TerrainName, ...], Field(min_length=1)]
-    commands: CommandSource | Annotated[tuple[CommandSource, ...], Field(min_length=1)] | FixedCommand
+    terrain: base.Some[base.TerrainName]
+    commands: CommandSource | base.Some[CommandSource] | FixedCommand
     narrowed: Narrowed = Narrowed()
-    random_torque: Flag
-    pushes: tuple[PushName, ...] = ()
-    motion: MotionName | None = None
-    draws: ScenarioName | None = None
+    random_torque: base.Flag
+    pushes: tuple[base.PushName, ...] = ()
+    motion: base.MotionName | None = None
+    draws: base.ScenarioName | None = None
 
 
 class Recordings(Section):
     """Number of recordings and duration of each."""
 
-    shards: Count
-    shard_s: Positive
+    shards: base.Count
+    shard_s: base.Positive
 
 
 class TrainingSet(Section):
     """Recordings of a scenario that networks learn from, section 4.3; sizes by scale."""
 
-    scenario: ScenarioName
-    level: LevelName
-    sizes: dict[ScaleName, Recordings]
+    scenario: base.ScenarioName
+    level: base.LevelName
+    sizes: dict[base.ScaleName, Recordings]
 
 
 class RecordingSettings(Section):
     """How a walk is cut into episodes and when it counts as a fall."""
 
-    fall_height_m: Positive
-    dropped_before_fall_s: NotNegative
-    chunk_s: Positive
-    settle_s: NotNegative
-    clearance_hz: Positive
-    episode_s: Positive
-    episode_steps: Count
+    fall_height_m: base.Positive
+    dropped_before_fall_s: base.NotNegative
+    chunk_s: base.Positive
+    settle_s: base.NotNegative
+    clearance_hz: base.Positive
+    episode_s: base.Positive
+    episode_steps: base.Count

@@ -8,12 +8,7 @@ from mobnet.settings.walking import Walking
 
 
 class WalkSettings(Section):
-    """A scenario at a level, with the terrains and pushes that it names and no others.
-
-    Attributes:
-        scenario_name: the scenario's key; recordings draw by it.
-        level_name: the level's key.
-    """
+    """A scenario at a level, with the terrains and pushes that it names and no others; recordings draw by its name."""
 
     seed: int
     robot: RobotTable

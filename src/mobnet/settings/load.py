@@ -12,9 +12,8 @@ from pydantic import BaseModel, ValidationError
 
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.settings.base import Section
-from mobnet.settings.checks import inconsistencies, refused_changes
+from mobnet.settings.checks import inconsistencies, refused_changes, unknown_names
 from mobnet.settings.networks import Training
-from mobnet.settings.references import unknown_names
 from mobnet.settings.settings import Settings
 
 ROOT = Path(__file__).parents[3]
@@ -26,11 +25,7 @@ Place = tuple[str | int, ...]
 
 
 def load_settings(folder: Path = CONFIGS, overrides: Mapping[str, Any] | None = None) -> Settings:
-    """Read and check the configuration.
-
-    Args:
-        folder: holds the files `PARTS`.
-        overrides: values that replace those of the files, as `snakemake --config` gives them.
+    """Read and check the configuration of a folder; overrides, those of `snakemake --config`, replace its values.
 
     Raises:
         ConfigError: a file, a key or a value is not accepted; one line for each of them.
@@ -64,11 +59,7 @@ def load_section(path: Path, kind: type[Kind]) -> Kind:
 
 
 def read_yaml(path: Path) -> dict[str, Any]:
-    """Read a YAML mapping.
-
-    Raises:
-        ConfigError: the file is missing or is not a mapping.
-    """
+    """Read a YAML mapping; a ConfigError names a file that is missing or holds something else."""
     try:
         value = yaml.load(path.read_text(encoding="utf-8"), yaml.CSafeLoader)
     except FileNotFoundError:

@@ -2,58 +2,38 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Literal
 
-from pydantic import Field, JsonValue, model_validator
+from pydantic import JsonValue, model_validator
 
-from mobnet.settings.base import (
-    Change,
-    Count,
-    ExperimentName,
-    MethodNames,
-    NetworkName,
-    Positive,
-    Section,
-    SourceName,
-    Text,
-)  # fmt: skip
+from mobnet.settings import base
+from mobnet.settings.base import Section
 
 Target = Literal["uncertainty", "external"]
 
 
 class Observer(Section):
-    """The momentum observer (7).
+    """The momentum observer (7), and what recordings hold of the motors' torque."""
 
-    Attributes:
-        torque: what recordings hold of the motors' torque: its `mean` over the interval that ends at the tick, as the
-            simulator writes it, or a `sample` at the tick.
-    """
-
-    gain_hz: Positive
+    gain_hz: base.Positive
     torque: Literal["mean", "sample"]
 
 
 class Method(Section):
     """An estimator.
 
-    Attributes:
-        kind: module of `mobnet.estimation.kinds`.
-        target: what its networks learn, the uncertainty torque (13) or the external torque.
-        limbs: networks of Table 1 that are trained for it and that it runs on.
-        network: keys of its networks that it changes.
-        learning: keys of section `learning` that it changes.
-        fitted: networks of Table 1 whose joints are fitted without a network, on the training set of that network.
-        of: another method, on whose networks or fit it runs.
-        options: numbers of its kind, which checks them.
+    `fitted` names networks of Table 1 whose joints are fitted without a network, on the training set of that network.
+    With `of` it runs on the networks or the fit of another method. `options` are numbers of its kind, which checks
+    them.
     """
 
-    kind: Text
+    kind: base.Text
     target: Target | None = None
-    limbs: tuple[NetworkName, ...] = ()
-    network: Change = {}
-    learning: Change = {}
-    fitted: tuple[NetworkName, ...] = ()
-    of: SourceName | None = None
+    limbs: tuple[base.NetworkName, ...] = ()
+    network: base.Change = {}
+    learning: base.Change = {}
+    fitted: tuple[base.NetworkName, ...] = ()
+    of: base.SourceName | None = None
     options: dict[str, JsonValue] = {}
 
     @model_validator(mode="after")
@@ -67,8 +47,8 @@ class Method(Section):
 class Sweep(Section):
     """A method for each value of one key, section 6.3."""
 
-    of: MethodNames
-    limb: NetworkName
-    experiment: ExperimentName
+    of: base.MethodNames
+    limb: base.NetworkName
+    experiment: base.ExperimentName
     section: Literal["network", "learning"]
-    values: Annotated[tuple[Count, ...], Field(min_length=1)]
+    values: base.Some[base.Count]

@@ -14,25 +14,14 @@ Use = tuple[Place, str, str]  # place, kind of name, name
 
 
 def unknown(found: Iterable[Use], accepted: Mapping[str, Collection[str]]) -> Iterator[tuple[Place, str]]:
-    """Yield the place of every name that does not exist and what is accepted there.
-
-    Args:
-        found: names with their places and kinds.
-        accepted: kind of name -> the names that exist.
-    """
+    """Yield the place of every name that does not exist among those of its kind, and what is accepted there."""
     for place, kind, name in found:
         if name not in accepted[kind]:
             yield place, not_accepted(kind, name, accepted[kind])
 
 
 def uses(value: Any, kind: Any, place: Place = ()) -> Iterator[Use]:
-    """Yield every name that a value of an annotated kind holds.
-
-    Args:
-        value: a section, a container or a scalar.
-        kind: its annotation.
-        place: keys that lead to it.
-    """
+    """Yield every name that a value of an annotated kind holds, below the keys that lead to it."""
     origin, args = get_origin(kind), get_args(kind)
     if origin is Annotated:
         yield from ((place, mark.kind, value) for mark in args[1:] if isinstance(mark, Named))

@@ -2,22 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Literal
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
-from mobnet.settings.base import (
-    Count,
-    ExperimentName,
-    Flag,
-    InnerShare,
-    InnerShares,
-    LimbNames,
-    Positive,
-    Section,
-    Share,
-    TrainingSetName,
-)  # fmt: skip
+from mobnet.settings import base
+from mobnet.settings.base import Section
 
 CellKind = Literal["GRU", "LSTM", "RNN", "TCN", "MLP", "constant"]
 Precision = Literal["auto", "float32", "bfloat16"]
@@ -34,23 +24,20 @@ SIZES: dict[CellKind, tuple[str, ...]] = {  # what a kind of cell needs to be to
 class Cell(Section):
     """A network's cell and its sizes, Table 1 and section 6.1.
 
-    Attributes:
-        hidden: state size, channels of a TCN, or units of an MLP.
-        window_steps: samples that a TCN or an MLP sees.
-        head: units between a TCN's flattened window and its output.
-        spectral: whether weights are divided by their spectral norm, as in the authors' code.
-        input_gain: factor of the z-scored inputs.
+    `hidden` is the size of the state, the channels of a TCN, or the units of an MLP; a TCN and an MLP see
+    `window_steps` samples; `head` units stand between a TCN's flattened window and its output. `spectral`, as in the
+    authors' code, divides weights by their spectral norm, and `input_gain` multiplies the z-scored inputs.
     """
 
     cell: CellKind
-    hidden: Count | None = None
-    window_steps: Count | None = None
-    kernel_steps: Count | None = None
-    dilations: Annotated[tuple[Count, ...], Field(min_length=1)] | None = None
-    dropout: Share | None = None
-    head: Count | None = None
-    spectral: Flag = False
-    input_gain: Positive = 1.0
+    hidden: base.Count | None = None
+    window_steps: base.Count | None = None
+    kernel_steps: base.Count | None = None
+    dilations: base.Some[base.Count] | None = None
+    dropout: base.Share | None = None
+    head: base.Count | None = None
+    spectral: base.Flag = False
+    input_gain: base.Positive = 1.0
 
     @model_validator(mode="after")
     def _has_its_sizes(self) -> Cell:
@@ -64,31 +51,19 @@ class Cell(Section):
 
 
 class NetworkRow(Cell):
-    """A network of Table 1 as the configuration has it.
+    """A network of Table 1 as the configuration has it, on a training set of section 4.3."""
 
-    Attributes:
-        data: training set, section 4.3.
-        experiment: entry of a scale that says how long and how often it is trained.
-        horizon_steps: samples of truncated back-propagation through time.
-    """
-
-    data: TrainingSetName
-    experiment: ExperimentName
-    horizon_steps: Count
+    data: base.TrainingSetName
+    experiment: base.ExperimentName
+    horizon_steps: base.Count
 
 
 class Limb(Section):
-    """What a network predicts and sees of a robot; names are limbs, groups of joints.
+    """Limbs whose torques a network predicts, and whose motion (`Q`) and desired torques (`T`) it sees."""
 
-    Attributes:
-        joints: limbs whose torques it predicts.
-        Q: limbs whose joint positions and velocities it sees.
-        T: limbs whose desired torques it sees.
-    """
-
-    joints: Annotated[LimbNames, Field(min_length=1)]
-    Q: LimbNames
-    T: LimbNames
+    joints: base.Some[base.LimbName]
+    Q: base.LimbNames
+    T: base.LimbNames
 
 
 class Network(NetworkRow, Limb):
@@ -96,31 +71,25 @@ class Network(NetworkRow, Limb):
 
 
 class Learning(Section):
-    """Optimisation and calibration of every network, section 4.4.
+    """Optimisation and calibration of every network, section 4.4; `data_parts` is that of section 6.3."""
 
-    Attributes:
-        data_parts: a network learns from one of so many parts of its training data, section 6.3.
-        sequences: `carried`: the state is carried through streams; `windows`: windows from a zero state, loss on the
-            last step.
-    """
-
-    batch_size: Count
-    optimizer_betas: tuple[Share, Share]
-    rate_first: Positive
-    rate_last_ratio: Share
-    rate_decay_share: Share
-    gradient_norm: Positive
-    std_min: Positive
-    validation_share: Share
+    batch_size: base.Count
+    optimizer_betas: tuple[base.Share, base.Share]
+    rate_first: base.Positive
+    rate_last_ratio: base.Share
+    rate_decay_share: base.Share
+    gradient_norm: base.Positive
+    std_min: base.Positive
+    validation_share: base.Share
     sequences: Literal["carried", "windows"]
-    stream_s: Positive
+    stream_s: base.Positive
     precision: Precision
-    divergence_loss: Positive
-    may_diverge: Flag
-    calibrate: Flag
-    calibration_share: InnerShare
-    calibration_levels: InnerShares
-    data_parts: Count = 1
+    divergence_loss: base.Positive
+    may_diverge: base.Flag
+    calibrate: base.Flag
+    calibration_share: base.InnerShare
+    calibration_levels: base.InnerShares
+    data_parts: base.Count = 1
 
 
 class Training(Section):
@@ -131,5 +100,5 @@ class Training(Section):
     target: Literal["uncertainty", "external"]
     network: Network
     learning: Learning
-    epochs: Count
-    epoch_samples: Count | None = None
+    epochs: base.Count
+    epoch_samples: base.Count | None = None

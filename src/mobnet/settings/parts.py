@@ -7,30 +7,16 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import AfterValidator, model_validator
 
-from mobnet.settings.base import (
-    BodyName,
-    Count,
-    Index,
-    LimbName,
-    MotorName,
-    NotNegative,
-    Positive,
-    Range,
-    Real,
-    Section,
-    Share,
-    Text,
-    ToneName,
-    Vector3,
-)  # fmt: skip
+from mobnet.settings import base
+from mobnet.settings.base import Section
 
 UNIT_TOLERANCE = 1e-5  # figures are published with six digits
 INERTIA_TOLERANCE = 1e-3  # share by which rounded figures may miss the triangle inequality
 SIZES = {"box": 3, "ellipsoid": 3, "sphere": 1, "capsule": 2, "cylinder": 2}  # of a shape that stands at a point
 
 Side = Literal["left", "right"]
-Tensor = tuple[Real, Real, Real, Real, Real, Real]
-Colour = tuple[Share, Share, Share, Share]
+Tensor = tuple[base.Real, base.Real, base.Real, base.Real, base.Real, base.Real]
+Colour = tuple[base.Share, base.Share, base.Share, base.Share]
 
 
 def _unit(values: tuple[float, ...]) -> tuple[float, ...]:
@@ -51,108 +37,89 @@ def _possible(inertia: Tensor) -> Tensor:
     return inertia
 
 
-UnitVector = Annotated[Vector3, AfterValidator(_unit)]
-UnitQuaternion = Annotated[tuple[Real, Real, Real, Real], AfterValidator(_unit)]
+UnitVector = Annotated[base.Vector3, AfterValidator(_unit)]
+UnitQuaternion = Annotated[tuple[base.Real, base.Real, base.Real, base.Real], AfterValidator(_unit)]
 Inertia = Annotated[Tensor, AfterValidator(_possible)]
 
 
 class BodyRow(Section):
-    """A link, without its rotor.
+    """A link, without its rotor; `parent` is a body that stands before it, `world` for the first.
 
-    Attributes:
-        parent: a body that stands before it, `world` for the first.
-        pos: origin in the parent's frame [m].
-        quat: orientation in the parent's frame, w x y z.
-        mass: mass of the link [kg].
-        com: centre of mass [m].
-        inertia: xx yy zz xy xz yz about the centre of mass [kg m^2].
+    `pos` [m] and `quat`, w x y z, are in the parent's frame; mass [kg], `com` [m] and `inertia` [kg m^2], which is xx
+    yy zz xy xz yz about the centre of mass, in body axes.
     """
 
-    name: Text
-    parent: Text
-    pos: Vector3
+    name: base.Text
+    parent: base.Text
+    pos: base.Vector3
     quat: UnitQuaternion
-    mass: Positive
-    com: Vector3
+    mass: base.Positive
+    com: base.Vector3
     inertia: Inertia
 
 
 class JointRow(Section):
-    """An actuated hinge at the origin of the body that it moves.
+    """An actuated hinge at the origin of the body that it moves; `name` is that in the source of the table.
 
-    Attributes:
-        name: name in the source of the table.
-        range: lower and upper limit [rad].
-        torque_limit: largest torque of the motor [N m].
-        armature: inertia of the rotor, reflected to the joint [kg m^2].
-        velocity_limit: largest speed [rad/s].
+    Limits `range` [rad], `torque_limit` [N m] and `velocity_limit` [rad/s]; `armature` is the inertia of the rotor,
+    reflected to the joint [kg m^2].
     """
 
-    id: MotorName
-    name: Text | None = None
-    body: BodyName
+    id: base.MotorName
+    name: base.Text | None = None
+    body: base.BodyName
     axis: UnitVector
-    range: Range
-    torque_limit: Positive
-    armature: NotNegative
-    velocity_limit: Positive
+    range: base.Range
+    torque_limit: base.Positive
+    armature: base.NotNegative
+    velocity_limit: base.Positive
 
 
 class FootRow(Section):
     """A foot: the last body of the leg `limb`."""
 
-    body: BodyName
-    limb: LimbName
+    body: base.BodyName
+    limb: base.LimbName
 
 
 class SoleRow(Section):
-    """What every foot stands on, in the foot's frame.
+    """What every foot stands on, in the foot's frame [m].
 
-    Attributes:
-        sensor_pos: origin of the force/torque sensor [m].
-        box_centre: centre of the box that touches the ground [m].
-        box_half: its half lengths [m].
-        height: height of its lower face [m].
+    The force/torque sensor is at `sensor_pos`; the box that touches the ground has half lengths `box_half` around
+    `box_centre`, and its lower face is at `height`.
     """
 
-    sensor_pos: Vector3
-    box_centre: Vector3
-    box_half: tuple[Positive, Positive, Positive]
-    height: Real
+    sensor_pos: base.Vector3
+    box_centre: base.Vector3
+    box_half: tuple[base.Positive, base.Positive, base.Positive]
+    height: base.Real
 
 
 class LegRow(Section):
-    """Geometry of both legs, whose hip axes meet in a point, as do their ankle axes.
+    """Geometry of both legs [m], whose hip axes meet in a point, as do their ankle axes; the hip is the left one."""
 
-    Attributes:
-        hip_pos: left hip in the base [m].
-        link_length: length of the thigh, and of the shank [m].
-    """
-
-    hip_pos: Vector3
-    link_length: Positive
+    hip_pos: base.Vector3
+    link_length: base.Positive
 
 
 class PointRow(Section):
     """A named point; the row of one whose name begins with `left_` stands for its mirror image in y too."""
 
-    name: Text
-    body: BodyName
-    pos: Vector3 = (0.0, 0.0, 0.0)
+    name: base.Text
+    body: base.BodyName
+    pos: base.Vector3 = (0.0, 0.0, 0.0)
 
 
 class ShapeRow(PointRow):
-    """A solid without mass, at a point or along a segment; mirrored as points are.
+    """A solid without mass, at a point or along a segment between two ends [m]; mirrored as points are.
 
-    Attributes:
-        size: radius, radius and half length, or three half lengths [m]; along a segment the radius alone.
-        segment: both ends of a capsule or a cylinder [m].
+    `size` has the radius, radius and half length, or three half lengths [m]; along a segment the radius alone.
     """
 
     type: Literal["capsule", "cylinder", "box", "ellipsoid", "sphere"]
-    size: tuple[Positive, ...]
+    size: tuple[base.Positive, ...]
     segment: Tensor | None = None
-    tone: ToneName
+    tone: base.ToneName
 
     @model_validator(mode="after")
     def _has_its_size(self) -> ShapeRow:
@@ -168,30 +135,24 @@ class ShapeRow(PointRow):
 class ImuRow(Section):
     """Where the inertial sensor is, pos [m]."""
 
-    body: BodyName
-    pos: Vector3
+    body: base.BodyName
+    pos: base.Vector3
 
 
 class PostureRow(Section):
-    """How a limb is held while nothing moves it, one number a joint.
+    """How a limb is held while nothing moves it: angles, and torques of position and velocity errors, by joint."""
 
-    Attributes:
-        angle_rad: angles.
-        stiffness_nm_rad: torque of a position error.
-        damping_nms_rad: torque of a velocity error.
-    """
-
-    angle_rad: tuple[Real, ...]
-    stiffness_nm_rad: tuple[NotNegative, ...]
-    damping_nms_rad: tuple[NotNegative, ...]
+    angle_rad: tuple[base.Real, ...]
+    stiffness_nm_rad: tuple[base.NotNegative, ...]
+    damping_nms_rad: tuple[base.NotNegative, ...]
 
 
 class Totals(Section):
     """Published figures of the whole robot, which the rows must add up to; mass [kg]."""
 
-    mass: Positive
-    bodies: Count
-    actuated_joints: Count
-    virtual_joints: Index
-    dof: Count
-    height_m: Positive
+    mass: base.Positive
+    bodies: base.Count
+    actuated_joints: base.Count
+    virtual_joints: base.Index
+    dof: base.Count
+    height_m: base.Positive

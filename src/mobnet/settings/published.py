@@ -19,16 +19,9 @@ class Floor(Section):
 
 
 class PublishedTable(Section):
-    """A table, or the numbers of a figure.
+    """A table, or the numbers of a figure: place in it, such as a level -> method -> one number for each column.
 
-    Attributes:
-        printed: where the paper prints it.
-        metric: of the numbers.
-        unit: of the numbers.
-        columns: joints or other heads.
-        robot: whether it was measured on the paper's robot, not in its simulation.
-        labels: level -> how the table calls it.
-        numbers: place in the table, such as a level -> method -> one number for each column.
+    `labels` says how the table calls a level; `robot`, whether it was measured on the paper's robot.
     """
 
     printed: Text

@@ -5,14 +5,14 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Collection, Iterator
 from itertools import zip_longest
-from typing import Annotated, Any, Literal
+from typing import Any, Literal
 
 from pydantic import Field, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
 from mobnet.core.errors import not_accepted
 from mobnet.core.joints import N_VIRTUAL, JointLayout, right_of, with_image
-from mobnet.settings.base import BodyName, JointName, LimbName, Section, Text
+from mobnet.settings.base import BodyName, JointName, LimbName, Section, Some, Text
 from mobnet.settings.names import Place, unknown, uses
 from mobnet.settings.networks import Limb
 from mobnet.settings.parts import (
@@ -39,21 +39,13 @@ class Order(Section):
     """Names of the joints in the order of the generalized velocity; only a floating base has virtual joints."""
 
     virtual: tuple[Text, ...] = ()
-    actuated: Annotated[tuple[Text, ...], Field(min_length=1)]
+    actuated: Some[Text]
 
 
 class RobotTable(Section):
     """All figures of a robot; what stands on none of its bodies, joints or limbs is refused.
 
-    Attributes:
-        base: whether the first body is free to move or is fixed to the world.
-        groups: limb -> joints.
-        networks: limb of Table 1 -> what its network predicts and sees.
-        posture: limb -> how it is held while nothing moves it.
-        bodies: depth-first, parents first.
-        joints: in the order of the motors.
-        tones: name of a colour -> red, green, blue, opacity.
-        points: where forces may be applied.
+    `bodies` stand depth-first, parents first, and `joints` in the order of the motors; `groups` are limb -> joints.
     """
 
     name: Text
@@ -65,11 +57,11 @@ class RobotTable(Section):
     leg: LegRow | None = None
     hands: dict[Side, BodyName] = Field(default={})
     order: Order
-    groups: dict[Text, Annotated[tuple[JointName, ...], Field(min_length=1)]]
+    groups: dict[Text, Some[JointName]]
     posture: dict[LimbName, PostureRow] = Field(default_factory=dict)
     networks: dict[Text, Limb] = Field(default_factory=dict)
     joints: tuple[JointRow, ...]
-    bodies: Annotated[tuple[BodyRow, ...], Field(min_length=1)]
+    bodies: Some[BodyRow]
     tones: dict[Text, Colour] = Field(default_factory=dict)
     shapes: tuple[ShapeRow, ...] = ()
     points: tuple[PointRow, ...] = ()

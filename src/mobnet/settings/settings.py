@@ -33,13 +33,7 @@ RowName = Annotated[str, Field(pattern="^[A-Za-z0-9][A-Za-z0-9-]*$")]
 
 
 class Settings(Section):
-    """Every number of the artifact, once.
-
-    Attributes:
-        scale: the scale that is chosen.
-        seed: root of every random number; a job adds its own name.
-        tests: scenario -> level -> methods that are run on it.
-    """
+    """Every number of the artifact, once; `seed` is the root of all random numbers, to which jobs add their names."""
 
     scale: ScaleName
     seed: Index
@@ -89,11 +83,7 @@ class Settings(Section):
         return {**self.methods, **swept}
 
     def method(self, name: str) -> Method:
-        """Return a method.
-
-        Raises:
-            ConfigError: it is unknown.
-        """
+        """Return a method; a ConfigError names an unknown one."""
         if name not in self.all_methods:
             raise ConfigError(not_accepted("method", name, self.all_methods))
         return self.all_methods[name]
@@ -103,11 +93,7 @@ class Settings(Section):
         return self.method(method).of or method
 
     def network(self, method: str, limb: str) -> Network:
-        """Return a network of Table 1 with a method's changes laid over it.
-
-        Raises:
-            ConfigError: the method or the network is unknown.
-        """
+        """Return a network of Table 1 with a method's changes laid over it; a ConfigError names an unknown one."""
         if limb not in self.networks:
             raise ConfigError(not_accepted("network", limb, self.networks))
         row, ports = self.networks[limb], self.robot.networks[limb]
