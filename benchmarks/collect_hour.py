@@ -15,19 +15,19 @@ from typing import Any
 
 import numpy as np
 from benchmarks.__main__ import Row, misses, table
-from benchmarks.jobs import ROOT, Cost, run
-from mobnet.core.config import FIRST_TRAINING_SEED, load_config
+from benchmarks.jobs import Cost, run
 
 from mobnet.core.columns import COMMAND
 from mobnet.core.files import read_json
-from mobnet.evaluation.figures.commands import bars
-from mobnet.evaluation.measure.steps import KEYS, UNITS, in_degrees, read_steps
+from mobnet.evaluation.measure.steps import KEYS, UNITS, bin_edges, bin_of, read_steps
 from mobnet.evaluation.measure.upper_body import upper_body
 from mobnet.evaluation.tables.data import commanded
-from mobnet.robot.description import load_robot
+from mobnet.plan.runs import FIRST_TRAINING_SEED
+from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
+from mobnet.settings.load import load_settings
+from mobnet.settings.settings import Settings
 
-CONFIG = ROOT / "configs" / "config.yaml"
 SETS = {"motion": "random_motion", "walk": "random_walk"}  # the slower one goes first
 SEEDS, SECONDS, PROCESSES = 6, 600.0, 2
 WALL_BAR_S, DISK_BAR_GB, MEMORY_BAR_MB, FALLS_BAR = 600.0, 4.0, 3000.0, 2.0
@@ -39,11 +39,11 @@ def main(
     out: Path | None = None, seconds: float = SECONDS, seeds: int = SEEDS, sets: Sequence[str] = tuple(SETS)
 ) -> list[Row]:
     """Collect the sets into `out`, a folder that is removed again if none is named; return a row for each quantity."""
-    config = load_config(CONFIG)
+    settings = load_settings()
     with tempfile.TemporaryDirectory() as temporary:
         folder = out or Path(temporary)
         started = time.perf_counter()
-        costs = _collect(config, folder, seconds, seeds, sets)
+        costs = _collect(settings, folder, seconds, seeds, sets)
         wall_s = time.perf_counter() - started
         files = [path for name in sets for path in (folder / name).iterdir()]
         rows: list[Row] = [
@@ -53,7 +53,7 @@ def main(
             _row("all, peak memory of a process", max(c.peak_mb for c in costs), "MB", at_most=MEMORY_BAR_MB),
         ]
         for name in sets:
-            rows += _looked_at(config, name, [_stem(folder, name, k) for k in range(seeds)])
+            rows += _looked_at(settings, name, [_stem(folder, name, k) for k in range(seeds)])
     return rows
 
 
@@ -67,12 +67,14 @@ def _stem(folder: Path, name: str, k: int) -> Path:
     return folder / name / f"s{FIRST_TRAINING_SEED + k}"
 
 
-def _collect(config: dict[str, Any], folder: Path, seconds: float, seeds: int, sets: Sequence[str]) -> list[Cost]:
+def _collect(settings: Settings, folder: Path, seconds: float, seeds: int, sets: Sequence[str]) -> list[Cost]:
     """Make all recordings, two processes at a time; return the cost of each."""
     wanted = [(name, k) for name in SETS if name in sets for k in range(seeds)]
     costs = []
     with ThreadPoolExecutor(PROCESSES) as pool:
-        jobs = {pool.submit(_shard, config, name, k, seconds, _stem(folder, name, k)): (name, k) for name, k in wanted}
+        jobs = {
+            pool.submit(_shard, settings, name, k, seconds, _stem(folder, name, k)): (name, k) for name, k in wanted
+        }
         for done in as_completed(jobs):
             name, k = jobs[done]
             costs += done.result()
@@ -82,18 +84,18 @@ def _collect(config: dict[str, Any], folder: Path, seconds: float, seeds: int, s
     return costs
 
 
-def _shard(config: dict[str, Any], name: str, k: int, seconds: float, stem: Path) -> list[Cost]:
+def _shard(settings: Settings, name: str, k: int, seconds: float, stem: Path) -> list[Cost]:
     """Make one recording and, before it, the motion that it needs; return the cost of both."""
     scenario, seed = SETS[name], FIRST_TRAINING_SEED + k
     stem.parent.mkdir(parents=True, exist_ok=True)
-    motion = config["scenarios"][scenario].get("motion")
+    motion = settings.scenarios[scenario].motion
     if motion is None:
         return [run("collect", scenario, seed, seconds, stem)]
     knots = stem.with_name(f"motion-s{seed}")
     return [run("motion", motion, seed, seconds, knots), run("collect", scenario, seed, seconds, stem, knots)]
 
 
-def _looked_at(config: dict[str, Any], name: str, stems: list[Path]) -> Iterator[Row]:
+def _looked_at(settings: Settings, name: str, stems: list[Path]) -> Iterator[Row]:
     """Yield what a set's recordings hold."""
     notes = [read_json(stem.with_suffix(".json")) for stem in stems]
     hours = sum(note["rows"] / note["rate_hz"] for note in notes) / 3600.0
@@ -102,26 +104,27 @@ def _looked_at(config: dict[str, Any], name: str, stems: list[Path]) -> Iterator
     collisions = [note.get("self_collisions", np.nan) for note in notes]  # not looked for: missed
     yield _row(f"{name}, self-collisions", np.sum(collisions), "", at_most=0.0)
     yield _row(f"{name}, least self-clearance", min(note.get("clearance_min_m", np.nan) for note in notes), "m")
-    nominal = NominalModel(load_robot(Path(config["robot"])))
-    yield from _commands(config, name, stems, nominal)
-    for quantity, part, value, unit in upper_body(config, stems, nominal):
+    nominal = NominalModel(describe(settings.robot))
+    yield from _commands(settings, name, stems, nominal)
+    for quantity, part, value, unit in upper_body(settings.evaluation.data.every, stems, nominal):
         if part not in nominal.robot.layout.actuated:
             yield _row(f"{name}, {quantity}, {part}", value, unit)
 
 
-def _commands(config: dict[str, Any], name: str, stems: list[Path], nominal: NominalModel) -> Iterator[Row]:
+def _commands(settings: Settings, name: str, stems: list[Path], nominal: NominalModel) -> Iterator[Row]:
     """Yield what was commanded, bins of Table 2 that nothing fell into among it, and the sizes of the steps made."""
-    steps = in_degrees(read_steps(stems, nominal, config["walking"]["foot_spacing_m"]))
+    steps, ranges = read_steps(stems, nominal.robot.layout).commanded, settings.commands
     empty = 0
     for column, unit in enumerate(UNITS):
-        counts = [bar.count for bar in bars(config, name, steps, column)]
+        edges = bin_edges(ranges, column, settings.evaluation.commands.bins)
+        counts = np.bincount(bin_of(steps[:, column], edges), minlength=len(edges) - 1).tolist()
         empty += counts.count(0)
-        told = f"{name}, {COMMAND[column][0]} [{unit}], {config['commands'][KEYS[column]]}: steps"
+        told = f"{name}, {COMMAND[column][0]} [{unit}], {getattr(ranges, KEYS[column])}: steps"
         print(told, *counts, file=sys.stderr, flush=True)
     yield _row(f"{name}, bins of Table 2 never commanded", empty, "", at_most=0.0)
-    tolerance = config["evaluation"]["steps"]["tolerance"]
+    tolerance = settings.evaluation.steps.tolerance
     within = {"at_least": 1.0 - tolerance, "at_most": 1.0 + tolerance}
-    for quantity, part, value, unit in commanded(config, stems, nominal):
+    for quantity, part, value, unit in commanded(ranges, settings.walking.foot_spacing_m, stems, nominal):
         bounds = within if quantity == "measured over commanded" and part in LENGTHS else {}
         yield _row(", ".join(filter(None, (name, quantity, part))), value, unit, **bounds)
 

@@ -15,6 +15,7 @@ from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Recording, Sensed, Truth, write_recording
 from mobnet.core.store import write_array
 from mobnet.evaluation.measure.results import listed
+from mobnet.plan.call import call_of
 from mobnet.plan.runs import Run
 from mobnet.settings.claims import Claim
 from mobnet.settings.evaluation import CalibrationTest, ErrorRow, Evaluation
@@ -50,6 +51,9 @@ def evaluation(settings: Settings) -> Evaluation:
         "coverage": {"samples": 400, "every": 2, "cells": 10, "tests": whole.coverage.tests[:1]},
         "calibration": {"points": 9, "methods": ("MOB-Net",)},
         "commands": {"bins": 5},
+        "steps": {"bins": 3},
+        "data": {"every": 10},
+        "kinds": {"variants": ("windows", "printed-rate")},
     }
     sections = {name: getattr(whole, name).model_copy(update=own) for name, own in changes.items()}
     return whole.model_copy(update=sections)
@@ -115,6 +119,23 @@ def table_scores(layout: JointLayout, rows: list[ErrorRow], metrics: tuple[str, 
                         for k, metric in enumerate(metrics)
                     ]
     return list(dict.fromkeys(scores))
+
+
+@pytest.fixture
+def make_table(tmp_path: Path, settings: Settings, evaluation: Evaluation) -> Callable[..., Path]:
+    """Write a table as its rule does: make_table(name, folder=tmp_path, **needs and other settings) -> its CSV."""
+
+    def make(name: str, folder: Path = tmp_path, **changes: Any) -> Path:
+        module = "errors" if name in evaluation.tables else name
+        printed = settings.published.tables.get(name) or getattr(settings.published, name, None)
+        section = evaluation.tables.get(name) or getattr(evaluation, name, None)
+        own = {"name": name, "settings": section, "published": printed, "layout": settings.layout, "table_dir": folder}
+        shared = {"statistics": evaluation.statistics, "figure_17": evaluation.figure_17}
+        known = {**dict(settings), **shared, **own, **changes}
+        call_of(f"mobnet.evaluation.tables.{module}:{module}", known).run()
+        return folder / f"{name}.csv"
+
+    return make
 
 
 @pytest.fixture

@@ -113,6 +113,7 @@ def test_sections_hold_values_and_checks_and_compute_nothing() -> None:
     [
         ({"quantity": "sum"}, "quantity: 'sum' is not accepted; accepted: above, below"),
         ({"cells": ["MOB"]}, "1 cells; ratio takes 2"),
+        ({"cells": ["MOB"] * 3}, "3 cells; ratio takes 2"),
         ({"cells": [["ideal", "MOB"], "MOB"]}, "accepted: .level, method, joint., a method or a mapping"),
         ({"cells": [{"colour": "red"}, "MOB"]}, "colour"),
         ({"reproduced": [2.0, 1.0]}, "low <= high"),

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -10,6 +9,7 @@ import pytest
 from mobnet.core.columns import Score
 from mobnet.core.errors import DataError
 from mobnet.evaluation.number.grid import Wanted, number_of, run_grid
+from mobnet.settings.settings import Settings
 
 WANTED = Wanted("forward_walk", "LL", "all_uncertainty", "MOB-Net", "avg")
 Scores = Callable[..., list[Score]]
@@ -46,7 +46,8 @@ def test_an_unknown_method_is_named(make_scores: Scores) -> None:
         run_grid(make_scores(), replace(WANTED, method="MOB-Fantasy"))
 
 
-def test_a_number_is_the_mean_over_runs_in_the_unit_of_its_metric(make_scores: Scores, config: dict[str, Any]) -> None:
-    number = number_of(make_scores(), [WANTED], config, published=1.31)
+def test_a_number_is_the_mean_over_runs_in_the_unit_of_its_metric(make_scores: Scores, settings: Settings) -> None:
+    statistics, scores = settings.evaluation.statistics, make_scores()
+    number = number_of(scores, [WANTED], statistics, 0, published=1.31)
     assert (number.value, number.runs, number.unit, number.published) == (pytest.approx(1.5), 6, "N m", 1.31)
-    assert number_of(make_scores(), [replace(WANTED, metric="roughness")], config).unit == "N m/s"
+    assert number_of(scores, [replace(WANTED, metric="roughness")], statistics, 0).unit == "N m/s"

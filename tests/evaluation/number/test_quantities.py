@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from mobnet.evaluation.number.quantities import QUANTITIES
+from mobnet.settings.claims import TAKES
 
 EXAMPLES = {
     "value": ([3.0], 3.0),
@@ -18,15 +19,15 @@ EXAMPLES = {
 }
 
 
-def test_every_quantity_has_an_example() -> None:
-    assert EXAMPLES.keys() == QUANTITIES.keys()
+def test_every_quantity_has_an_example_and_takes_cells() -> None:
+    assert EXAMPLES.keys() == QUANTITIES.keys() == TAKES.keys()
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_number_of_an_example_whether_alone_or_among_draws(name: str) -> None:
     means, number = EXAMPLES[name]
-    quantity = QUANTITIES[name]
-    assert len(means) in quantity.takes
+    quantity, (least, step) = QUANTITIES[name], TAKES[name]
+    assert len(means) in range(least, 9, step or 9)
     assert quantity.made(np.array(means)) == pytest.approx(number)
     np.testing.assert_allclose(quantity.made(np.tile(np.array(means)[:, None], 5)), np.full(5, number))
 
@@ -35,7 +36,7 @@ def test_number_of_an_example_whether_alone_or_among_draws(name: str) -> None:
 def test_equal_cells_give_equality(name: str) -> None:
     """Identity: cells that are alike give what counts as equality."""
     quantity = QUANTITIES[name]
-    means = np.full(quantity.takes[0], 2.0)
+    means = np.full(TAKES[name][0], 2.0)
     if name == "gap ratio":
         means[::2] += 1.0
     assert quantity.made(means) == pytest.approx(quantity.equality)
@@ -48,18 +49,13 @@ def test_falls_is_one_for_a_falling_row_and_minus_one_for_a_rising_one() -> None
     assert QUANTITIES["falls"].made(row) == -1.0
 
 
-@pytest.mark.parametrize(("name", "counts"), [("value", [0, 2]), ("ratio", [1, 3]), ("least ratio", [0, 3, 7])])
-def test_other_numbers_of_cells_are_not_taken(name: str, counts: list[int]) -> None:
-    assert not [count for count in counts if count in QUANTITIES[name].takes]
-
-
 @pytest.mark.parametrize("name", ["ratio", "cut", "least ratio", "gap ratio", "falls"])
 def test_numbers_without_a_unit_are_invariant_under_a_change_of_it(name: str, rng: np.random.Generator) -> None:
-    means = rng.uniform(1.0, 9.0, QUANTITIES[name].takes[-1] if len(QUANTITIES[name].takes) < 9 else 4)
+    means = rng.uniform(1.0, 9.0, max(TAKES[name][0], 4) if TAKES[name][1] else TAKES[name][0])
     assert QUANTITIES[name].made(1000.0 * means) == pytest.approx(QUANTITIES[name].made(means))
 
 
 @pytest.mark.parametrize("name", ["difference", "below", "above"])
 def test_differences_are_invariant_under_an_offset_that_all_share(name: str, rng: np.random.Generator) -> None:
-    means = rng.uniform(1.0, 9.0, QUANTITIES[name].takes[0])
+    means = rng.uniform(1.0, 9.0, TAKES[name][0])
     assert QUANTITIES[name].made(means + 5.0) == pytest.approx(QUANTITIES[name].made(means))

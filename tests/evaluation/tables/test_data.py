@@ -1,27 +1,29 @@
 """The table of the training sets says what the recordings hold."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from csv_files import read_table
+from csv_files import check_golden, read_table
 
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json, write_json
 from mobnet.evaluation.measure.steps import Steps
-from mobnet.evaluation.tables.data import commanded, data, extent
-from mobnet.robot.description import load_robot
+from mobnet.evaluation.tables.data import commanded, extent
 from mobnet.robot.nominal import NominalModel
+from mobnet.settings.settings import Settings
 
-Sets = dict[str, list[str]]
+Sets = dict[str, list[Path]]
 Facts = dict[tuple[str, str, str], Any]
 
 
 @pytest.fixture
-def facts(tmp_path: Path, config: dict[str, Any], data_sets: Sets) -> Facts:
-    data(config, {name: data_sets[name] for name in ("walk", "motion")}, tmp_path)
-    return {(row.set, row.quantity, row.part or ""): row for row in read_table(tmp_path / "data.csv")}
+def facts(make_table: Callable[..., Path], data_sets: Sets) -> Facts:
+    table = make_table("data", sets={name: data_sets[name] for name in ("walk", "motion")})
+    check_golden(table)
+    return {(row.set, row.quantity, row.part or ""): row for row in read_table(table)}
 
 
 def test_lengths_and_falls_are_sums(facts: Facts) -> None:
@@ -63,23 +65,20 @@ def test_clearance_is_the_smallest_that_was_noted(tmp_path: Path, data_sets: Set
         stems.append(tmp_path / f"s{k}")
         write_json(
             stems[-1].with_suffix(".json"),
-            {**read_json(Path(data_sets["motion"][k] + ".json")), "clearance_min_m": clearance},
+            {**read_json(data_sets["motion"][k].with_suffix(".json")), "clearance_min_m": clearance},
         )
     found = {(quantity, part): value for quantity, part, value, _ in extent(stems, ["checks"])}
     assert found["smallest self-clearance", ""] == 0.02
 
 
 def test_a_command_never_given_has_no_ratio(
-    monkeypatch: pytest.MonkeyPatch, config: dict[str, Any], data_sets: Sets
+    monkeypatch: pytest.MonkeyPatch, settings: Settings, nominal: NominalModel, data_sets: Sets
 ) -> None:
     monkeypatch.setattr(Steps, "follows", lambda self, column: np.full(len(self), column != 2))
-    nominal = NominalModel(load_robot(Path(config["robot"])))
-    parts = [
-        part for quantity, part, _, _ in commanded(config, [Path(data_sets["walk"][0])], nominal) if "over" in quantity
-    ]
-    assert parts == ["step_x", "step_y"]
+    found = commanded(settings.commands, settings.walking.foot_spacing_m, data_sets["walk"][:1], nominal)
+    assert [part for quantity, part, _, _ in found if "over" in quantity] == ["step_x", "step_y"]
 
 
-def test_a_missing_recording_is_named(tmp_path: Path, config: dict[str, Any]) -> None:
+def test_a_missing_recording_is_named(tmp_path: Path, make_table: Callable[..., Path]) -> None:
     with pytest.raises(DataError, match=r"nowhere\.json: file is missing"):
-        data(config, {"walk": [str(tmp_path / "nowhere")]}, tmp_path)
+        make_table("data", sets={"walk": [tmp_path / "nowhere"]})

@@ -5,22 +5,23 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from csv_files import read_table
+from csv_files import check_golden, read_table
 
-from mobnet.evaluation.tables.kinds import kinds
+from mobnet.settings.evaluation import Evaluation
 
 LOSSES = {"LSTM": -5.0, "GRU": -4.5, "TCN": -4.0, "MLP-500": -3.9, "MLP": -3.5, "RNN": -3.0}
-Write = Callable[..., str]
+Write = Callable[..., Path]
 
 
 @pytest.fixture
-def traits(tmp_path: Path, config: dict[str, Any], write_training: Write) -> dict[tuple[str, str], Any]:
+def traits(make_table: Write, write_training: Write) -> dict[tuple[str, str], Any]:
     """The table of made-up kinds, LSTM best; the printed rate diverges once of twice."""
     folders = [write_training(kind, seed, loss + 0.1 * seed) for kind, loss in LOSSES.items() for seed in range(5)]
     folders += [write_training("windows", 0, -9.0)]
     folders += [write_training("printed-rate", seed, epochs=2, diverged=seed == 1) for seed in range(2)]
-    kinds(config, folders, tmp_path)
-    return {(row.method, row.quantity): row for row in read_table(tmp_path / "kinds.csv")}
+    table = make_table("kinds", folders=folders)
+    check_golden(table)
+    return {(row.method, row.quantity): row for row in read_table(table)}
 
 
 def test_order_is_by_validation_loss_among_the_kinds_that_the_paper_orders(traits: dict[Any, Any]) -> None:
@@ -37,8 +38,6 @@ def test_order_is_by_validation_loss_among_the_kinds_that_the_paper_orders(trait
 def test_numbers_are_means_over_runs_inside_their_intervals(traits: dict[Any, Any]) -> None:
     loss = traits["GRU", "validation loss"]
     assert loss.value == pytest.approx(-4.3)
-    assert loss.low is not None
-    assert loss.high is not None
     assert -4.5 <= loss.low < -4.3 < loss.high <= -4.1
     assert traits["GRU", "validation loss at the end"].value == pytest.approx(-3.8)
     assert traits["GRU", "training loss at the end"].value == pytest.approx(-4.05)
@@ -54,11 +53,14 @@ def test_runs_that_diverged_are_counted_and_left_out(traits: dict[Any, Any], tmp
 
 
 def test_a_kind_that_always_diverged_comes_last_without_numbers(
-    tmp_path: Path, config: dict[str, Any], write_training: Write
+    evaluation: Evaluation, make_table: Write, write_training: Write
 ) -> None:
-    config["evaluation"] |= {"figure_17": {"methods": ["RNN", "GRU"]}, "kinds": {"variants": []}}
-    kinds(config, [write_training("RNN", epochs=0, diverged=True), write_training("GRU")], tmp_path)
-    rows = read_table(tmp_path / "kinds.csv")
+    table = make_table(
+        "kinds", settings=evaluation.kinds.model_copy(update={"variants": ()}),
+        figure_17=evaluation.figure_17.model_copy(update={"methods": ("RNN", "GRU")}),
+        folders=[write_training("RNN", epochs=0, diverged=True), write_training("GRU")],
+    )  # fmt: skip
+    rows = read_table(table)
     assert list(dict.fromkeys(row.method for row in rows)) == ["GRU", "RNN"]
     assert {row.value for row in rows if row.method == "RNN" and row.unit != "-"} == {None}
-    assert "95%" not in (tmp_path / "kinds.md").read_text()  # a single run has no interval
+    assert "95%" not in table.with_suffix(".md").read_text()  # a single run has no interval

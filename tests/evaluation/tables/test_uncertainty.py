@@ -1,24 +1,16 @@
 """Sizes of the uncertainty torque are standard deviations over whole sets, beside the robot's."""
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-import yaml
-from csv_files import read_table
+from csv_files import check_golden, read_table
 
-from mobnet.core.errors import ConfigError
-from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array, write_array
 from mobnet.evaluation.tables.layout import note_tex
-from mobnet.evaluation.tables.uncertainty import read_sizes, target_std, uncertainty, verdict
-
-Sets = dict[str, list[str]]
-
-
-def residuals(data_sets: Sets) -> Sets:
-    return {name: [f"{stem}_residual" for stem in stems] for name, stems in data_sets.items()}
+from mobnet.evaluation.tables.uncertainty import target_std, verdict
+from mobnet.settings.settings import Settings
 
 
 def test_standard_deviation_file_by_file_is_equivalent_to_that_of_all_samples_together(tmp_path: Path) -> None:
@@ -32,9 +24,15 @@ def test_standard_deviation_file_by_file_is_equivalent_to_that_of_all_samples_to
     np.testing.assert_allclose(target_std(stems, ["A", "B"]), (stored[:, :2] - stored[:, 2:]).std(axis=0), rtol=1e-12)
 
 
-def test_rows_stand_beside_the_robots_numbers(tmp_path: Path, config: dict[str, Any], data_sets: Sets) -> None:
-    uncertainty(config, residuals(data_sets), tmp_path)
-    rows = {row.joint: row for row in read_table(tmp_path / "uncertainty.csv")}
+def test_rows_stand_beside_the_robots_numbers_above_the_note(
+    make_table: Callable[..., Path], settings: Settings, data_sets: dict[str, list[Path]]
+) -> None:
+    sets = {name: [stem.with_name(f"{stem.name}_residual") for stem in stems] for name, stems in data_sets.items()}
+    networks = {limb: settings.networks[limb] for limb in ("LL", "W", "V")}
+    bounds = settings.evaluation.uncertainty.model_copy(update={"ratio": {"LL": (0.4, 2.5)}})
+    table = make_table("uncertainty", settings=bounds, networks=networks, sets=sets)
+    check_golden(table)
+    rows = {row.joint: row for row in read_table(table)}
     assert list(rows) == [*(f"LL{i}" for i in range(1, 7)), "W1", "W2", "W3", *(f"V{i}" for i in range(1, 7))]
     assert rows["LL1"].value == pytest.approx(20.0, rel=0.05)  # as the made-up residuals are
     assert rows["W1"].value == pytest.approx(10.0, rel=0.05)
@@ -43,21 +41,11 @@ def test_rows_stand_beside_the_robots_numbers(tmp_path: Path, config: dict[str, 
     assert {row.within for row in rows.values() if row.limb != "LL"} == {None}
     assert rows["LL2"].within == "yes"
     assert (rows["V1"].unit, rows["V4"].unit) == ("N", "N m")
+    note = settings.published.uncertainty.note
+    assert note in table.with_suffix(".md").read_text()
+    assert table.with_suffix(".tex").read_text().endswith(note_tex(note))
 
 
 def test_bounds_are_closed_and_a_missing_number_is_no_verdict() -> None:
     assert [verdict(ratio, [0.4, 2.5]) for ratio in (0.39, 0.4, 2.5, 2.51)] == ["no", "yes", "yes", "no"]
     assert verdict(None, [0.4, 2.5]) == verdict(1.0, None) == ""
-
-
-def test_the_note_stands_under_the_table(tmp_path: Path, config: dict[str, Any], data_sets: Sets) -> None:
-    uncertainty(config, residuals(data_sets), tmp_path)
-    note = yaml.safe_load(Path(config["published"]).read_text())["uncertainty"]["note"]
-    assert note in (tmp_path / "uncertainty.md").read_text()
-    assert (tmp_path / "uncertainty.tex").read_text().endswith(note_tex(note))
-
-
-def test_a_limb_with_another_number_of_joints_is_named(tmp_path: Path, layout: JointLayout) -> None:
-    (tmp_path / "p.yaml").write_text("uncertainty: {std: {W: [1.0, 2.0]}}")
-    with pytest.raises(ConfigError, match=r"uncertainty\.std\.W: 2 numbers for 3 joints \(W1, W2, W3\)"):
-        read_sizes(tmp_path / "p.yaml", layout)
