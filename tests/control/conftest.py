@@ -4,15 +4,14 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from mobnet.control.kinematics import update
 from mobnet.control.parameters import State, WalkingParameters, empty_state, walking_parameters
 from mobnet.control.walker import Walker, make_walker
+from mobnet.core.arrays import Array
 from mobnet.robot.description import WalkingRobot
 from mobnet.settings.settings import Settings
 
-Array = NDArray[np.float64]
 GRAVITY = 9.81
 COMMAND = np.array([0.12, 0.05, 0.15, 0.8, 0.05])  # step x, y [m], turn [rad], duration [s], foot height [m]
 

@@ -23,13 +23,18 @@ def swinging(par: WalkingParameters, stepping: State) -> State:
     s.swinging, s.t = 1, 0.4
     reference(s, double_support(par, s))
     s.dcm = s.dcm_reference
-    s.target, s.lift = s.next_ankle, [0.1, -0.1, 0.158]
+    s.target, s.lift = s.next_ankle, [*s.next_ankle, 0.158]  # no way to go
     return s
 
 
 def double_support(par: WalkingParameters, s: State) -> float:
     """Return how long both feet stand [s]."""
     return par.double_support_share * s.commanded
+
+
+def leftwards(s: State) -> np.ndarray:
+    """Return the direction (2,) to the left of the stance foot."""
+    return np.array([-np.sin(s.stance_yaw), np.cos(s.stance_yaw)])
 
 
 def test_dcm_converges_to_com_plus_velocity_over_omega(walker: Walker, stepping: State, random_pose: Callable) -> None:
@@ -40,16 +45,11 @@ def test_dcm_converges_to_com_plus_velocity_over_omega(walker: Walker, stepping:
         measure_dcm(par, stepping, pose, GRAVITY)
     assert stepping.omega == pytest.approx(np.sqrt(GRAVITY / 0.85), rel=1e-12)
     turning = np.array([pose.spin[1], -pose.spin[0]]) / (pose.weight[0] * 0.85)
-    np.testing.assert_allclose(
-        stepping.dcm, pose.com[:2] + (pose.com_velocity[:2] + turning) / stepping.omega, atol=1e-9
-    )
-
-
-def test_omega_stays_finite_while_the_robot_lies(walker: Walker, stepping: State, random_pose: Callable) -> None:
-    random_pose(0)
-    walker.pose.com[2] = -1.0
-    measure_dcm(walker.par, stepping, walker.pose, GRAVITY)
-    assert np.isfinite(stepping.omega)
+    expected = pose.com[:2] + (pose.com_velocity[:2] + turning) / stepping.omega
+    np.testing.assert_allclose(stepping.dcm, expected, atol=1e-9)
+    pose.com[2] = -1.0
+    measure_dcm(par, stepping, pose, GRAVITY)
+    assert np.isfinite(stepping.omega)  # while the robot lies
 
 
 def test_no_error_means_the_nominal_zmp_and_the_weight(walker: Walker, swinging: State, random_pose: Callable) -> None:
@@ -126,11 +126,13 @@ def test_foothold_is_frozen_just_before_landing_and_free_when_late(par: WalkingP
     assert swinging.target_velocity.any()
 
 
-def test_duration_stays_without_an_error(par: WalkingParameters, swinging: State) -> None:
-    """A zero DCM error changes no duration."""
-    swinging.lift = [*swinging.target, 0.158]  # no way to go
-    adapt_duration(par, swinging, double_support(par, swinging), TICK_S, np.zeros(3))
-    assert swinging.total == swinging.commanded
+@pytest.mark.parametrize("band_m", [None, 0.0])
+def test_duration_stays_without_an_error(par: WalkingParameters, swinging: State, band_m: float | None) -> None:
+    """A zero DCM error changes no duration, also without a dead band."""
+    own = par.copy()
+    own.timing_band_m = par.timing_band_m if band_m is None else band_m
+    adapt_duration(own, swinging, double_support(par, swinging), TICK_S, np.zeros(3))
+    assert swinging.total == pytest.approx(swinging.commanded, abs=0.0 if band_m is None else 1e-12)
 
 
 @pytest.mark.parametrize("ahead_s", [-0.05, 0.0, 0.05])
@@ -140,7 +142,6 @@ def test_duration_converges_to_the_closed_form_of_a_reference_run_early_or_late(
     """Without dead band and ankle, a DCM that is `ahead_s` ahead of its reference ends the step that much sooner."""
     free = par.copy()
     free.timing_band_m = free.timing_ankle_m = 0.0
-    swinging.lift = [*swinging.target, 0.158]
     now = swinging.t
     swinging.t = now + ahead_s
     reference(swinging, double_support(par, swinging))
@@ -150,21 +151,9 @@ def test_duration_converges_to_the_closed_form_of_a_reference_run_early_or_late(
     assert swinging.total == pytest.approx(swinging.commanded - ahead_s, abs=1e-9)
 
 
-def test_duration_of_a_step_on_its_reference_stays_also_without_a_dead_band(
-    par: WalkingParameters, swinging: State
-) -> None:
-    swinging.lift = [*swinging.target, 0.158]
-    free = par.copy()
-    free.timing_band_m = 0.0
-    adapt_duration(free, swinging, double_support(par, swinging), TICK_S, np.zeros(3))
-    assert swinging.total == pytest.approx(swinging.commanded, abs=1e-12)
-
-
 @pytest.mark.parametrize("lateral", [-0.3, -0.06, -0.03, 0.03, 0.06, 0.3])
 def test_duration_keeps_its_limits_and_rate(par: WalkingParameters, swinging: State, lateral: float) -> None:
-    turned = swinging.stance_yaw
-    swinging.dcm = swinging.dcm_reference + lateral * np.array([-np.sin(turned), np.cos(turned)])
-    swinging.lift = [*swinging.target, 0.158]
+    swinging.dcm = swinging.dcm_reference + lateral * leftwards(swinging)
     for t in np.arange(0.2, 1.2, TICK_S):
         swinging.t, before = t, swinging.total
         adapt_duration(par, swinging, double_support(par, swinging), TICK_S, np.zeros(3))
@@ -175,21 +164,17 @@ def test_duration_keeps_its_limits_and_rate(par: WalkingParameters, swinging: St
 
 def test_dcm_that_runs_ahead_shortens_the_step(par: WalkingParameters, swinging: State) -> None:
     """The lateral DCM nearer to the swing side than planned is sooner where the next foot wants it."""
-    turned = swinging.stance_yaw
-    swinging.lift = [*swinging.target, 0.158]
-    to_swing_side = -swinging.side * np.array([-np.sin(turned), np.cos(turned)])
     durations = []
     for ahead in (-0.04, 0.0, 0.04):
         s = swinging.copy()
-        s.dcm = s.dcm_reference + ahead * to_swing_side
+        s.dcm = s.dcm_reference - ahead * s.side * leftwards(s)
         adapt_duration(par, s, double_support(par, s), TICK_S, np.zeros(3))
         durations.append(s.total)
     assert durations[0] > durations[1] > durations[2]
 
 
 def test_far_foothold_is_not_reached_faster_than_the_swing_limit(par: WalkingParameters, swinging: State) -> None:
-    turned = swinging.stance_yaw
-    swinging.lift = [swinging.target[0] - 0.6, swinging.target[1], 0.158]
-    swinging.dcm = swinging.dcm_reference - swinging.side * 0.1 * np.array([-np.sin(turned), np.cos(turned)])
+    swinging.lift[0] -= 0.6
+    swinging.dcm = swinging.dcm_reference - swinging.side * 0.1 * leftwards(swinging)
     adapt_duration(par, swinging, double_support(par, swinging), TICK_S, np.zeros(3))
     assert swinging.total == swinging.commanded

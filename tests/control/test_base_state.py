@@ -16,10 +16,7 @@ def run(walker: Walker, q: np.ndarray, v: np.ndarray, loads: list[float], acc: n
     """Advance the filter; the joints stand still."""
     for _ in range(round(seconds / TICK_S)):
         update(walker.tree, q, v, walker.gravity, walker.pose)
-        update_base(
-            walker.pose, walker.feet, walker.sole, np.array(loads), acc, walker.gravity,
-            walker.par.base_time_constant_s, TICK_S, q, v,
-        )  # fmt: skip
+        update_base(walker, np.array(loads), acc, TICK_S, q, v)
 
 
 @pytest.fixture
@@ -72,8 +69,5 @@ def test_foot_that_rolls_about_its_sole_s_centre_counts_as_still(walker: Walker,
     foot, rolling = walker.feet[0], np.array([0.5, -0.8, 0.2])
     walker.pose.omega[foot] = rolling
     walker.pose.velocity[foot] = -np.cross(rolling, walker.pose.rotation[foot] @ walker.sole)
-    update_base(
-        walker.pose, walker.feet, walker.sole, np.array([900.0, 0.0]), np.array([0, 0, walker.gravity]),
-        walker.gravity, walker.par.base_time_constant_s, TICK_S, q, v,
-    )  # fmt: skip
+    update_base(walker, np.array([900.0, 0.0]), np.array([0, 0, walker.gravity]), TICK_S, q, v)
     np.testing.assert_allclose(v, 0, atol=1e-14)

@@ -1,4 +1,4 @@
-"""Compiled code is cached by the hash of its code, and decorating it changes nothing else."""
+"""Compiled code is cached by the hash of its code, and its arrays on the stack are laid out like any others."""
 
 import os
 import shutil
@@ -7,10 +7,12 @@ import sys
 from pathlib import Path
 
 import numba
+import numpy as np
 import pytest
 from numba.core.errors import NumbaError
 
-from mobnet.control.compiled import cache_folder, compiled
+from mobnet.control.compiled import cache_folder, compiled, matrix3, on_stack, vector3
+from mobnet.control.geometry import multiply
 from mobnet.core.code import SOURCE, code_hash
 
 CALLED = """from mobnet.control.compiled import compiled
@@ -62,3 +64,46 @@ def test_cached_code_follows_the_functions_that_it_calls(tmp_path: Path) -> None
         (package / "control/called.py").write_text(text)
         told.append(subprocess.check_output([sys.executable, "-c", TELL], env=environment, text=True).split())
     assert told == [["4.0", "0"], ["6.0", "0"], ["6.0", "1"]]
+
+
+wide = on_stack(2, 3, 4)
+
+
+@compiled
+def _shapes(out):
+    a, b = vector3(), wide()
+    out[0], out[1], out[2], out[3] = a.shape[0], b.shape[0], b.shape[1], b.shape[2]
+
+
+@compiled
+def _cube(a, out):
+    square = matrix3()
+    multiply(a, a, square)
+    multiply(square, a, out)
+
+
+@compiled
+def _kept_apart(out):
+    a, b = vector3(), vector3()
+    for i in range(3):
+        a[i], b[i] = i, 10 + i
+    for i in range(3):
+        out[i], out[3 + i] = a[i], b[i]
+
+
+def test_shapes_are_those_asked_for():
+    out = np.zeros(4)
+    _shapes(out)
+    assert out.tolist() == [3, 2, 3, 4]
+
+
+def test_a_matrix_on_the_stack_is_laid_out_like_any_other():
+    a, out = np.random.default_rng(0).normal(size=(3, 3)), np.zeros((3, 3))
+    _cube(a, out)
+    np.testing.assert_allclose(out, a @ a @ a, rtol=1e-13)
+
+
+def test_two_arrays_do_not_share_room():
+    out = np.zeros(6)
+    _kept_apart(out)
+    assert out.tolist() == [0, 1, 2, 10, 11, 12]

@@ -19,24 +19,24 @@ def model(robot: RobotDescription) -> mujoco.MjModel:
     return robot_spec(robot).compile()
 
 
-@pytest.fixture
-def at(model: mujoco.MjModel, random_pose: Callable) -> Callable[[int], mujoco.MjData]:
-    """A function seed -> MuJoCo's data in the walker's random pose."""
-
-    def place(seed: int) -> mujoco.MjData:
-        data = mujoco.MjData(model)
-        data.qpos[:], data.qvel[:] = random_pose(seed)
-        mujoco.mj_forward(model, data)
-        mujoco.mj_subtreeVel(model, data)
-        return data
-
-    return place
+@pytest.fixture(params=SEEDS)
+def data(model: mujoco.MjModel, random_pose: Callable, request: pytest.FixtureRequest) -> mujoco.MjData:
+    """MuJoCo's data in the walker's pose, a random one."""
+    return mujoco_at(model, *random_pose(request.param))
 
 
-@pytest.mark.parametrize("seed", SEEDS)
-def test_bodies_stand_where_mujoco_puts_them(walker: Walker, robot: RobotDescription, at: Callable, seed: int) -> None:
+def mujoco_at(model: mujoco.MjModel, q: np.ndarray, v: np.ndarray) -> mujoco.MjData:
+    """Return MuJoCo's data at q (nq,), v (nv,)."""
+    data = mujoco.MjData(model)
+    data.qpos[:], data.qvel[:] = q, v
+    mujoco.mj_forward(model, data)
+    mujoco.mj_subtreeVel(model, data)
+    return data
+
+
+def test_bodies_stand_where_mujoco_puts_them(walker: Walker, robot: RobotDescription, data: mujoco.MjData) -> None:
     """MuJoCo is the reference, at a random state."""
-    data, pose = at(seed), walker.pose
+    pose = walker.pose
     for i, body in enumerate(robot.bodies):
         np.testing.assert_allclose(pose.position[i], data.body(body.name).xpos, atol=1e-12)
         np.testing.assert_allclose(pose.rotation[i].ravel(), data.body(body.name).xmat, atol=1e-12)
@@ -44,12 +44,11 @@ def test_bodies_stand_where_mujoco_puts_them(walker: Walker, robot: RobotDescrip
         np.testing.assert_allclose(pose.axis[j], data.joint(joint.id).xaxis, atol=1e-12)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
 def test_bodies_move_as_mujoco_s_jacobian_says(
-    walker: Walker, robot: RobotDescription, model: mujoco.MjModel, at: Callable, seed: int
+    walker: Walker, robot: RobotDescription, model: mujoco.MjModel, data: mujoco.MjData
 ) -> None:
     """MuJoCo is the reference, at a random state."""
-    data, pose = at(seed), walker.pose
+    pose = walker.pose
     linear, angular = np.zeros((3, model.nv)), np.zeros((3, model.nv))
     for i, body in enumerate(robot.bodies):
         mujoco.mj_jacBody(model, data, linear, angular, model.body(body.name).id)
@@ -57,16 +56,15 @@ def test_bodies_move_as_mujoco_s_jacobian_says(
         np.testing.assert_allclose(pose.omega[i], angular @ data.qvel, atol=1e-11)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
-def test_centre_of_mass_and_its_momentum_equal_mujoco_s(
-    walker: Walker, robot: RobotDescription, at: Callable, seed: int
+def test_momentum_about_the_centre_of_mass_equals_mujoco_s(
+    walker: Walker, robot: RobotDescription, data: mujoco.MjData
 ) -> None:
-    """MuJoCo is the reference, at a random state."""
-    data, pose = at(seed), walker.pose
-    base = data.body(robot.base)
+    """MuJoCo is the reference, at a random state; mean inertia costs less than a tenth of angular momentum."""
+    pose, base = walker.pose, data.body(robot.base)
     assert pose.weight[0] == pytest.approx(robot.mass, rel=1e-12)
     np.testing.assert_allclose(pose.com, base.subtree_com, atol=1e-12)
     np.testing.assert_allclose(pose.com_velocity, base.subtree_linvel, atol=1e-11)
+    assert np.linalg.norm(pose.spin - base.subtree_angmom) < 0.1 * np.linalg.norm(base.subtree_angmom)
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -76,27 +74,14 @@ def test_angular_momentum_is_exact_for_round_links(
     """With every link's inertia replaced by its mean principal moment, which the controller assumes."""
     round_links = robot_spec(robot).compile()
     round_links.body_inertia[:] = round_links.body_inertia.mean(axis=1, keepdims=True)
-    data = mujoco.MjData(round_links)
-    data.qpos[:], data.qvel[:] = random_pose(seed)
-    mujoco.mj_forward(round_links, data)
-    mujoco.mj_subtreeVel(round_links, data)
+    data = mujoco_at(round_links, *random_pose(seed))
     np.testing.assert_allclose(walker.pose.spin, data.body(robot.base).subtree_angmom, atol=1e-10)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
-def test_mean_inertia_costs_less_than_a_tenth_of_angular_momentum(
-    walker: Walker, robot: RobotDescription, at: Callable, seed: int
-) -> None:
-    true = at(seed).body(robot.base).subtree_angmom
-    assert np.linalg.norm(walker.pose.spin - true) < 0.1 * np.linalg.norm(true)
-
-
-@pytest.mark.parametrize("seed", SEEDS)
 def test_gravity_torque_equals_mujoco_s_bias_at_zero_velocity(
-    walker: Walker, model: mujoco.MjModel, at: Callable, seed: int
+    walker: Walker, model: mujoco.MjModel, data: mujoco.MjData
 ) -> None:
     """MuJoCo is the reference, at a random state."""
-    data = at(seed)
     data.qvel[:] = 0
     mujoco.mj_forward(model, data)
     np.testing.assert_allclose(walker.pose.gravity, data.qfrc_bias[6:], atol=1e-10)

@@ -21,6 +21,7 @@ from mobnet.control.whole_body import (
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.plant import robot_spec
 
+SOLE = np.array([0.03, 0.01, -0.158])  # point below the ankle [m]
 BENT = np.array([0.1, 0.05, -0.5, 0.9, -0.4, -0.05])  # a leg [rad]
 STEP, TICK_S = 1e-6, 0.0005
 LEGS = [0, 1]
@@ -44,7 +45,7 @@ def test_jacobian_equals_differences_of_the_kinematics(walker: Walker, crouched:
     q, v = crouched
     first, foot, pose = walker.first[k], walker.feet[k], walker.pose
     jacobian, column = np.zeros((6, 6)), np.zeros(6)
-    leg_jacobian(walker.tree, pose, first, foot, jacobian)
+    leg_jacobian(walker, k, jacobian)
     for j in range(LEG_JOINTS):
         places = []
         for step in (-STEP, STEP):
@@ -66,7 +67,7 @@ def test_swing_reference_moves_the_foot_as_asked(walker: Walker, crouched: tuple
     update(walker.tree, q, v, walker.gravity, pose)
     stepping.foot, stepping.foot_rotation = pose.position[foot], pose.rotation[foot]
     stepping.foot_velocity, stepping.foot_yaw_rate = [0.3, 0.1, -0.2], 0.4
-    leg_reference(walker.par, walker.leg, walker.tree, pose, stepping, k, first, foot, True)
+    leg_reference(walker, stepping, k, True)
     np.testing.assert_allclose(stepping.q_reference[k], BENT, atol=1e-12)
     v[6 + first : 12 + first] = stepping.v_reference[k]
     update(walker.tree, q, v, walker.gravity, pose)
@@ -81,7 +82,7 @@ def test_stance_reference_levels_the_pelvis_over_a_still_foot(
     q, v = crouched
     pose, first, foot = walker.pose, walker.first[k], walker.feet[k]
     stepping.height, stepping.yaw, stepping.height_rate = 0.93, 0.5, v[2]
-    leg_reference(walker.par, walker.leg, walker.tree, pose, stepping, k, first, foot, False)
+    leg_reference(walker, stepping, k, False)
     v[6 + first : 12 + first] = stepping.v_reference[k]
     still = pose.position[foot].copy()
     update(walker.tree, q, v, walker.gravity, pose)
@@ -98,17 +99,16 @@ def test_reference_speed_is_limited_also_near_a_straight_leg(walker: Walker, cro
     update(walker.tree, q, v, walker.gravity, walker.pose)
     stepping.foot, stepping.foot_rotation = walker.pose.position[walker.feet[0]], np.eye(3)
     stepping.foot_velocity = [0.0, 0.0, -5.0]
-    leg_reference(walker.par, walker.leg, walker.tree, walker.pose, stepping, 0, walker.first[0], walker.feet[0], True)
+    leg_reference(walker, stepping, 0, True)
     assert np.abs(stepping.v_reference[0]).max() <= walker.par.joint_speed_max_rad_s
 
 
-def stand(walker: Walker, crouched: tuple, s: State, k: int, wrench: np.ndarray, dt: float) -> np.ndarray:
+def stand(walker: Walker, crouched: tuple, s: State, k: int, dt: float = 0.0) -> np.ndarray:
     """Return the torques (nu,) of a stance leg that follows its reference, pushing below the ankle."""
     q, v = crouched
-    first, foot, tau = walker.first[k], walker.feet[k], np.zeros(len(q) - 7)
+    first, tau = walker.first[k], np.zeros(len(q) - 7)
     s.q_reference[k], s.v_reference[k] = q[7 + first : 13 + first], v[6 + first : 12 + first]
-    point = walker.pose.position[foot] + [0.03, 0.01, -0.158]
-    stance_torque(walker.par, walker.tree, walker.pose, s, k, first, foot, q, v, wrench, point, dt, tau)
+    stance_torque(walker, s, k, q, v, walker.pose.position[walker.feet[k]] + SOLE, dt, tau)
     return tau
 
 
@@ -122,29 +122,29 @@ def test_stance_torque_is_the_force_through_mujoco_s_jacobian(
     foot = walker.feet[k]
     walker.pose.rotation[foot] = np.eye(3)  # a level, still foot: no guard against tipping
     walker.pose.omega[foot] = 0
-    tau = stand(walker, crouched, stepping, k, np.zeros(6), 0.0)
+    tau = stand(walker, crouched, stepping, k)
     model = robot_spec(robot).compile()
     data, jacobian = mujoco.MjData(model), np.zeros((3, model.nv))
     data.qpos[:] = q
     mujoco.mj_forward(model, data)
     body = model.body(robot.bodies[foot].name).id
-    mujoco.mj_jac(model, data, jacobian, None, walker.pose.position[foot] + [0.03, 0.01, -0.158], body)
+    mujoco.mj_jac(model, data, jacobian, None, walker.pose.position[foot] + SOLE, body)
     np.testing.assert_allclose(tau, -stepping.load[k] * jacobian[:, 6:].T @ stepping.force, atol=1e-9)
 
 
 @pytest.mark.parametrize("k", LEGS)
 def test_leg_that_lacks_load_pushes_by_a_share_of_it_more(
-    walker: Walker, robot: RobotDescription, crouched: tuple, stepping: State, k: int
+    walker: Walker, crouched: tuple, stepping: State, k: int
 ) -> None:
     """More torque is that of more vertical force: the same as of a wanted force greater by that much."""
     lacks = 80.0
     stepping.force, stepping.load = [40.0, -25.0, 900.0], [0.6, 0.4]
-    before = stand(walker, crouched, stepping, k, np.zeros(6), 0.0)
+    before = stand(walker, crouched, stepping, k)
     stepping.load_error[k] = lacks
-    felt = stand(walker, crouched, stepping, k, np.zeros(6), 0.0)
+    felt = stand(walker, crouched, stepping, k)
     stepping.load_error[k] = 0.0
     stepping.force[2] += walker.par.load_gain * lacks / stepping.load[k]
-    np.testing.assert_allclose(felt, stand(walker, crouched, stepping, k, np.zeros(6), 0.0), atol=1e-9)
+    np.testing.assert_allclose(felt, stand(walker, crouched, stepping, k), atol=1e-9)
     knee = walker.first[k] + 3
     assert (felt - before)[knee] < -1.0  # a positive angle bends the knee: this stretches the leg
 
@@ -161,7 +161,7 @@ def test_foot_that_lies_on_the_slope_is_not_guarded_and_a_level_one_is(
         slope = share * stepping.slope
         roll, pitch = np.arcsin(slope @ [-n, c]), -np.arcsin(slope @ [c, n])
         yaw_roll_pitch_matrix(yaw, roll, pitch, walker.pose.rotation[foot])
-        ankles.append(np.abs(stand(walker, crouched, stepping, 0, np.zeros(6), 0.0)[4:6]).max())
+        ankles.append(np.abs(stand(walker, crouched, stepping, 0)[4:6]).max())
     assert ankles[0] > 0.5 * walker.par.guard_stiffness_nm * 0.03
     assert ankles[1] < 0.01 * ankles[0]
 
@@ -172,9 +172,9 @@ def test_ankle_integral_makes_up_for_a_missing_moment_within_its_bound(
 ) -> None:
     stepping.force, stepping.load = [0.0, 0.0, 900.0], [1.0, 0.0]
     walker.pose.rotation[walker.feet[0]] = np.eye(3)
-    before = stand(walker, crouched, stepping, 0, np.zeros(6), 0.0)[4 + which]
+    before = stand(walker, crouched, stepping, 0)[4 + which]
     for _ in range(20_000):
-        after = stand(walker, crouched, stepping, 0, np.zeros(6), TICK_S)[4 + which]
+        after = stand(walker, crouched, stepping, 0, TICK_S)[4 + which]
     push = -before
     assert push != 0
     assert np.sign(after - before) == -np.sign(push)  # pushes harder
@@ -187,7 +187,8 @@ def test_integral_leaks_away_on_a_tilted_foot(walker: Walker, crouched: tuple, s
         [[1, 0, 0], [0, np.cos(0.3), -np.sin(0.3)], [0, np.sin(0.3), np.cos(0.3)]]
     )
     rate = walker.par.ankle_leak_hz + walker.par.ankle_tilt_leak_hz
-    stand(walker, crouched, stepping, 0, np.full(6, 1e3), TICK_S)
+    walker.wrench[:] = 1e3
+    stand(walker, crouched, stepping, 0, TICK_S)
     np.testing.assert_allclose(stepping.integral[0], 20 * (1 - rate * TICK_S), rtol=1e-12)
 
 
@@ -197,28 +198,23 @@ def test_swing_torque_is_zero_on_the_reference_and_forgets_the_integral(
     q, v = crouched
     tau = np.zeros(len(q) - 7)
     stepping.q_reference[0], stepping.integral[0] = BENT, 5.0
-    swing_torque(walker.par, stepping, 0, walker.first[0], q, v, tau)
+    swing_torque(walker, stepping, 0, q, v, tau)
     np.testing.assert_array_equal(tau, 0)
     np.testing.assert_array_equal(stepping.integral[0], 0)
     stepping.q_reference[0] += 0.1
-    swing_torque(walker.par, stepping, 0, walker.first[0], q, v, tau)
+    swing_torque(walker, stepping, 0, q, v, tau)
     np.testing.assert_allclose(tau[:6], 0.1 * np.array(walker.par.leg_stiffness_nm_rad), rtol=1e-12)
 
 
 def test_posture_torque_is_a_spring_and_a_damper_about_a_moving_target(walker: Walker, random_pose: Callable) -> None:
     q, v = random_pose(0)
     tau, upper, (stiffness, damping) = np.zeros(len(q) - 7), walker.upper, np.random.default_rng(1).random((2, 21))
-    wanted = np.random.default_rng(2).normal(size=len(walker.posture))
-    posture_torque(stiffness, damping, upper, q, v, walker.posture, wanted, tau)
-    error, rate = walker.posture - q[7 + upper :], wanted - v[6 + upper :]
-    expected = stiffness * error + damping * rate
-    np.testing.assert_allclose(tau[upper:], expected, rtol=1e-12)
+    walker = walker._replace(posture_stiffness=stiffness, posture_damping=damping)
+    walker.posture_rate[:] = np.random.default_rng(2).normal(size=len(walker.posture))
+    posture_torque(walker, q, v, tau)
+    error, rate = walker.posture - q[7 + upper :], walker.posture_rate - v[6 + upper :]
+    np.testing.assert_allclose(tau[upper:], stiffness * error + damping * rate, rtol=1e-12)
     np.testing.assert_array_equal(tau[:upper], 0)
-
-
-def test_posture_torque_is_zero_on_a_motion_that_is_followed(walker: Walker, random_pose: Callable) -> None:
-    q, v = random_pose(2)
-    tau = np.zeros(len(q) - 7)
-    stiffness, damping = walker.posture_stiffness, walker.posture_damping
-    posture_torque(stiffness, damping, walker.upper, q, v, q[7 + walker.upper :], v[6 + walker.upper :], tau)
+    walker.posture[:], walker.posture_rate[:], tau[:] = q[7 + upper :], v[6 + upper :], 0
+    posture_torque(walker, q, v, tau)  # on a motion that is followed
     np.testing.assert_array_equal(tau, 0)

@@ -32,16 +32,16 @@ def contact_torque(simulator: Simulator) -> np.ndarray:
     return torque
 
 
-def external(simulator: Simulator) -> np.ndarray:
-    """Return the loop's external torque (nv,) of the step just taken."""
-    return external_and_touch(simulator)[0]
-
-
-def external_and_touch(simulator: Simulator) -> tuple[np.ndarray, np.ndarray]:
+def external(simulator: Simulator) -> tuple[np.ndarray, np.ndarray]:
     """Return the loop's external torque (nv,) and ground's force on each foot (2,) [N] of the step just taken."""
     tau_ext, touch = np.zeros(NV), np.zeros(2)
     engine._add_external(simulator.plant, simulator.walker, tau_ext, touch)
     return tau_ext, touch
+
+
+def assert_near(found: np.ndarray, expected: np.ndarray, share: float) -> None:
+    """Check that torques or forces are as expected, up to a share of the largest one."""
+    np.testing.assert_allclose(found, expected, atol=share * max(1.0, np.abs(expected).max()))
 
 
 def pushed_torque(simulator: Simulator) -> np.ndarray:
@@ -90,8 +90,7 @@ def test_contacts_and_pushes_are_the_external_torque_on_every_terrain(
     for _ in range(60):
         run(simulator, 0.023)
         contact, push = contact_torque(simulator), pushed_torque(simulator)
-        expected = contact + push
-        np.testing.assert_allclose(external(simulator), expected, atol=1e-9 * max(1.0, np.abs(expected).max()))
+        assert_near(external(simulator)[0], contact + push, 1e-9)
         pushed += np.abs(push).max() > 5
     assert pushed > 40
 
@@ -106,7 +105,7 @@ def test_foot_sensors_feel_contacts_and_pushes_on_the_foot_and_no_others(
         for _ in range(30):
             run(simulator, 0.023)
             expected = contact_torque(simulator) + felt * pushed_torque(simulator)
-            np.testing.assert_allclose(sole_torque(simulator), expected, atol=1e-8 * max(1.0, np.abs(expected).max()))
+            assert_near(sole_torque(simulator), expected, 1e-8)
 
 
 @pytest.mark.parametrize("terrain", ["checks", "slope"])
@@ -121,8 +120,8 @@ def test_touch_is_the_normal_force_of_a_foot_s_own_contacts(pushed_walk: Callabl
         for index, contact in enumerate(data.contact):
             mujoco.mj_contactForce(model, data, index, wrench)
             expected[[sole in (contact.geom1, contact.geom2) for sole in soles].index(True)] += wrench[0]
-        touch = external_and_touch(simulator)[1]
-        np.testing.assert_allclose(touch, expected, atol=1e-9 * max(1.0, expected.max()))
+        touch = external(simulator)[1]
+        assert_near(touch, expected, 1e-9)
         seen.add(tuple(touch > engine.CONTACT_FORCE_N))
     assert seen == {(True, False), (False, True), (True, True)}
 
@@ -131,12 +130,11 @@ def test_contact_rows_equal_mujoco_s_contact_forces_without_rows_of_friction_los
     simulate: Callable, run: Callable
 ) -> None:
     """The reference is mj_contactForce, mapped by mj_jac at each contact."""
-    simulator = simulate("forward_walk", "ideal")
-    touched = 0
+    simulator, touched = simulate("forward_walk", "ideal"), 0
     for _ in range(30):
         run(simulator, 0.03)
         expected = contact_torque(simulator)
-        np.testing.assert_allclose(external(simulator), expected, atol=1e-9 * max(1.0, np.abs(expected).max()))
+        assert_near(external(simulator)[0], expected, 1e-9)
         touched += np.abs(expected).max() > 100
     assert touched > 20
 

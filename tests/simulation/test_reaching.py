@@ -2,15 +2,14 @@
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from mobnet.core.arrays import Array
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Motion
 from mobnet.settings.settings import Settings
 from mobnet.simulation.motion import working_range
 from mobnet.simulation.reaching import Reacher, leg_space
 
-Array = NDArray[np.float64]
 KNOTS = 150
 ASIDE = np.array([[0.35, 0.45, 0.1], [0.35, -0.45, 0.1]])  # both hands in the chest's frame [m]
 INSIDE = np.array([[0.0, 0.0, 0.2], [0.0, 0.0, 0.2]])  # amid the chest

@@ -4,16 +4,18 @@ import math
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from mobnet.control.kinematics import update
 from mobnet.control.parameters import DURATION, STEP_X, STEP_Y, TURN
+from mobnet.control.walker import foot_yaw
 from mobnet.core.columns import FEET
 from mobnet.core.errors import SimulationError
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import read_recording
+from mobnet.core.recording import Recording, read_recording
 from mobnet.core.store import read_array
 from mobnet.estimation.observe import observe
 from mobnet.robot.description import RobotDescription
@@ -68,12 +70,6 @@ def fill(episodes: list[float], seconds: int, **settings: float) -> tuple[np.nda
     return np.concatenate(kept), course, faller
 
 
-def test_walk_without_a_fall_is_one_segment_after_settling() -> None:
-    rows, course, _ = fill([math.inf], 7)
-    assert (course.segments, course.falls) == ([(0, 70)], 0)
-    np.testing.assert_array_equal(rows[:, 1], 20 + np.arange(70))
-
-
 def test_what_came_before_a_fall_is_cut_out() -> None:
     rows, course, _ = fill([100, math.inf], 12)
     assert (course.segments, course.falls) == ([(0, 50), (50, 120)], 1)
@@ -106,7 +102,10 @@ def test_terrain_of_each_segment_is_that_of_its_episode() -> None:
     assert course.terrains == [TERRAINS[(episode - 1) % len(TERRAINS)] for episode in kept]
 
 
-def test_episode_ends_after_its_time_without_a_fall() -> None:
+def test_walk_without_a_fall_is_one_segment_an_episode_each_after_settling() -> None:
+    rows, course, _ = fill([math.inf], 7)
+    assert (course.segments, course.falls) == ([(0, 70)], 0)
+    np.testing.assert_array_equal(rows[:, 1], 20 + np.arange(70))
     rows, course, _ = fill([math.inf] * 4, 17, episode_s=5.0)
     assert (course.segments, course.falls) == ([(0, 50), (50, 100), (100, 150), (150, 170)], 0)
     assert rows[::50, 1].tolist() == [20.0] * 4  # each settles
@@ -191,6 +190,18 @@ def test_pushed_robot_falls_and_walks_again(simulate: Callable) -> None:
     assert rows[:, 2].min() > 0.8
 
 
+@pytest.fixture
+def collected(walk_of: Walk, layout: JointLayout, tmp_path: Path) -> Callable[..., Recording]:
+    """A function (scenario or settings, level, seed, seconds, **sections) -> the recording that was collected."""
+
+    def make(walk: str | WalkSettings, level: str, seed: int, seconds: float, **sections: Any) -> Recording:
+        settings = walk_of(walk, level, **sections) if isinstance(walk, str) else walk
+        collect(settings, seed, seconds, tmp_path / "recording")
+        return read_recording(tmp_path / "recording", layout)
+
+    return make
+
+
 def test_same_seed_gives_the_same_bytes_and_another_does_not(walk_of: Walk, tmp_path: Path) -> None:
     for name, seed in (("a", 1), ("b", 1), ("c", 2)):
         collect(walk_of("random_walk", "all_uncertainty"), seed, 0.5, tmp_path / name)
@@ -199,19 +210,17 @@ def test_same_seed_gives_the_same_bytes_and_another_does_not(walk_of: Walk, tmp_
     assert a != c
 
 
-def test_file_says_what_it_holds(walk_of: Walk, layout: JointLayout, tmp_path: Path) -> None:
-    collect(walk_of("forward_walk", "sensor_noise"), 4, 0.3, tmp_path / "s4")
-    recording = read_recording(tmp_path / "s4", layout)
+def test_file_says_what_it_holds(collected: Callable[..., Recording]) -> None:
+    recording = collected("forward_walk", "sensor_noise", 4, 0.3)
     meta = recording.meta
     assert (meta["scenario"], meta["level"], meta["seed"], meta["falls"]) == ("forward_walk", "sensor_noise", 4, 0)
     assert (recording.rate_hz, recording.segments, len(recording.sensed)) == (1000.0, ((0, 300),), 300)
     np.testing.assert_allclose(np.linalg.norm(recording.sensed.q[:, 3:7], axis=1), 1, atol=1e-6)
 
 
-def test_file_names_the_terrain_of_each_segment(walk_of: Walk, layout: JointLayout, tmp_path: Path) -> None:
+def test_file_names_the_terrain_of_each_segment(walk_of: Walk, collected: Callable[..., Recording]) -> None:
     settings = walk_of("random_walk", "all_uncertainty", recording={"episode_s": 0.2, "settle_s": 0.1})
-    collect(settings, 2, 1.5, tmp_path / "s2")
-    recording = read_recording(tmp_path / "s2", layout)
+    recording = collected(settings, "", 2, 1.5)
     terrains = recording.meta["terrains"]
     assert [end - start for start, end in recording.segments] == [200] * 7 + [100]
     assert len(terrains) == len(recording.segments)
@@ -221,7 +230,7 @@ def test_file_names_the_terrain_of_each_segment(walk_of: Walk, layout: JointLayo
 
 @pytest.mark.parametrize("hits", [False, True])
 def test_file_says_how_near_the_robot_came_to_itself(
-    walk_of: Walk, robot: RobotDescription, layout: JointLayout, tmp_path: Path, hits: bool
+    walk_of: Walk, robot: RobotDescription, collected: Callable[..., Recording], hits: bool
 ) -> None:
     """The reference is the clearance of the stored poses; a hand held in the chest is a collision."""
     settings = walk_of("stand", "ideal", recording={"settle_s": 0.1})
@@ -230,19 +239,19 @@ def test_file_says_how_near_the_robot_came_to_itself(
         arm = posture["LA"].model_copy(update={"angle_rad": (0.0, 0.1, 1.6, -0.5, -2.1, 0.2, -1.1, 0.0)})
         held = settings.robot.model_copy(update={"posture": {**posture, "LA": arm}})
         settings = settings.model_copy(update={"robot": held})
-    collect(settings, 1, 0.5, tmp_path / "s1")
-    recording = read_recording(tmp_path / "s1", layout)
+    recording = collected(settings, "", 1, 0.5)
     nearest = Clearance(robot).nearest(recording.sensed.q[::20].astype(float))
     assert recording.meta["clearance_min_m"] == pytest.approx(nearest.min(), abs=1e-3)
     looked = 0.5 * settings.recording.clearance_hz
     assert recording.meta["self_collisions"] == (looked if hits else 0)
 
 
-def test_command_is_that_of_the_step_being_made(walk_of: Walk, layout: JointLayout, tmp_path: Path) -> None:
+def test_command_is_that_of_the_step_being_made(collected: Callable[..., Recording]) -> None:
     """Table 2's five, zero while the robot stands."""
-    for name in ("flat_walk", "stand"):
-        collect(walk_of(name, "ideal", recording={"settle_s": 0.0}), 1, 4.0, tmp_path / name)
-    walk, still = (read_recording(tmp_path / name, layout).sensed.command for name in ("flat_walk", "stand"))
+    unsettled = {"recording": {"settle_s": 0.0}}
+    walk, still = (
+        np.array(collected(name, "ideal", 1, 4.0, **unsettled).sensed.command) for name in ("flat_walk", "stand")
+    )
     in_place = [0.0, 0.0, 0.0, 0.7, 0.05]
     np.testing.assert_allclose(walk[0], in_place, atol=1e-6)
     np.testing.assert_allclose(walk[-1], [0.1, 0.05, np.deg2rad(8.0), 0.7, 0.05], atol=1e-6)
@@ -271,11 +280,8 @@ def test_residual_of_the_ideal_level_meets_the_row_of_table_5(
 @pytest.mark.slow
 def test_unpushed_robot_steps_where_it_should(simulate: Callable, run: Callable) -> None:
     """Uneven ground, random torque and all uncertainty move footfalls by less than 2 cm and 2 deg, root mean square."""
-    simulator = simulate("random_walk", "all_uncertainty", scenarios={"random_walk": {"pushes": []}})
-    log = run(simulator, 20.0)
-    assert log.done == len(log.rows)
-    errors = step_errors(simulator, log["q"].astype(float), log["swing"] > 0.5)
-    assert len(errors) > 20
+    unpushed = {"random_walk": {"pushes": []}}
+    errors = step_errors(simulate("random_walk", "all_uncertainty", scenarios=unpushed), run)
     assert np.sqrt(np.mean(errors[:, :2] ** 2, axis=0)).max() < 0.02  # m
     assert np.sqrt(np.mean(errors[:, 2] ** 2)) < np.deg2rad(2)
 
@@ -287,17 +293,15 @@ def test_full_setting_walks_20_s_and_most_steps_are_where_they_should_be(
     simulate: Callable, run: Callable, seed: int
 ) -> None:
     """A pushed robot steps elsewhere to stay on its feet, so three steps of four are asked to be within 2 cm."""
-    simulator = simulate("random_walk", "all_uncertainty", seed)
-    log = run(simulator, 20.0)
-    assert log.done == len(log.rows)
-    errors = step_errors(simulator, log["q"].astype(float), log["swing"] > 0.5)
-    assert len(errors) > 20
+    errors = step_errors(simulate("random_walk", "all_uncertainty", seed), run)
     assert (np.abs(errors[:, :2]).max(axis=1) < 0.02).mean() > 0.75
 
 
-def step_errors(simulator: Simulator, q: np.ndarray, air: np.ndarray) -> np.ndarray:
-    """Return x, y [m] and yaw [rad] of each footfall, in the other foot's frame, less what was commanded (n, 3)."""
-    walker, par, errors = simulator.walker, simulator.walker.par, []
+def step_errors(simulator: Simulator, run: Callable) -> np.ndarray:
+    """Walk for 20 s; return x, y [m] and yaw [rad] of each footfall, in the other foot's frame, less the command."""
+    walker, par, errors, log = simulator.walker, simulator.walker.par, [], run(simulator, 20.0)
+    assert log.done == len(log.rows)
+    q, air = log["q"].astype(float), log["swing"] > 0.5
     landings = sorted((row, k) for k in range(len(FEET)) for row in np.flatnonzero(air[:-1, k] & ~air[1:, k]))
     for step, (row, k) in enumerate(landings):
         command = simulator.commands[step]
@@ -305,28 +309,23 @@ def step_errors(simulator: Simulator, q: np.ndarray, air: np.ndarray) -> np.ndar
         if settled >= len(q):
             break
         update(walker.tree, q[settled], np.zeros(39), walker.gravity, walker.pose)
-        stance = walker.pose.rotation[walker.feet[1 - k]]
-        yaw = np.arctan2(stance[1, 0], stance[0, 0])
+        yaw = foot_yaw(walker.pose, walker.feet[1 - k])
         apart = walker.pose.position[walker.feet[k]] - walker.pose.position[walker.feet[1 - k]]
         c, n, outwards = np.cos(yaw), np.sin(yaw), 1 if k == 0 else -1
-        swung = walker.pose.rotation[walker.feet[k]]
-        turned = np.remainder(np.arctan2(swung[1, 0], swung[0, 0]) - yaw + np.pi, 2 * np.pi) - np.pi
-        turn = (
-            command[TURN]
-            if command[TURN] * outwards > 0
-            else np.clip(command[TURN], -par.toe_in_max_rad, par.toe_in_max_rad)
-        )
-        left = outwards * par.foot_spacing_m + (command[STEP_Y] if command[STEP_Y] * outwards > 0 else 0)
-        errors.append(
-            (c * apart[0] + n * apart[1] - command[STEP_X], c * apart[1] - n * apart[0] - left, turned - turn)
-        )
+        turned = np.remainder(foot_yaw(walker.pose, walker.feet[k]) - yaw + np.pi, 2 * np.pi) - np.pi
+        most = np.inf if command[TURN] * outwards > 0 else par.toe_in_max_rad
+        left = outwards * (par.foot_spacing_m + max(command[STEP_Y] * outwards, 0))
+        errors.append([
+            c * apart[0] + n * apart[1] - command[STEP_X], c * apart[1] - n * apart[0] - left,
+            turned - np.clip(command[TURN], -most, most),
+        ])  # fmt: skip
+    assert len(errors) > 20
     return np.array(errors)
 
 
 @pytest.mark.sim
-def test_a_standing_scenario_stands_through_all_uncertainty(walk_of: Walk, layout: JointLayout, tmp_path: Path) -> None:
-    collect(walk_of("stand", "all_uncertainty"), 1, 10.0, tmp_path / "stand")
-    recording = read_recording(tmp_path / "stand", layout)
+def test_a_standing_scenario_stands_through_all_uncertainty(collected: Callable[..., Recording]) -> None:
+    recording = collected("stand", "all_uncertainty", 1, 10.0)
     assert recording.meta["falls"] == 0
     assert not recording.sensed.swing.any()
     assert recording.truth.contact.all()

@@ -2,15 +2,14 @@
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
 from mobnet.core.joints import NQ_BASE
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.settings import Settings
 from mobnet.simulation.self_collision import REACH_M, Clearance, held_together
 
-Array = NDArray[np.float64]
 STANDING = {"LL3": -0.4, "LL4": 0.8, "LL5": -0.4, "RL3": -0.4, "RL4": 0.8, "RL5": -0.4}
 FOLDED = {"LA1": 0.0, "LA2": 0.1, "LA3": 1.6, "LA4": -0.5, "LA5": -2.1, "LA6": 0.2, "LA7": -1.1}
 LOWERED = {"LA1": 0.1, "LA2": 0.2, "LA3": 1.6, "LA4": -1.0, "LA5": -0.5, "LA6": 0.1, "LA7": -0.4}

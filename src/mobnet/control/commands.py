@@ -1,12 +1,11 @@
 """Walking commands, one row a step: one command repeated, or random ones over Table 2 in place of a joystick."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mobnet.control.parameters import DURATION, FOOT_HEIGHT, STEP_X
+from mobnet.core.arrays import Array
 from mobnet.settings.data import Commands, FixedCommand
 
-Array = NDArray[np.float64]
 WIDTH = FOOT_HEIGHT + 1  # columns of a command
 MOVING = {  # which of step x, step y and turn a kind of walking uses
     "omnidirectional": (True, True, True),

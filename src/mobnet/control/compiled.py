@@ -1,8 +1,8 @@
-"""The decorator for compiled code, and where its machine code is cached.
+"""The decorator for compiled code, where its machine code is cached, and small arrays on its stack.
 
 Code under `compiled` owns no memory: numba then counts no references to arrays, which took half of the controller's
 time and keeps loops from vector instructions, and refuses code that allocates. Arrays come from the caller or from
-`mobnet.control.stack`.
+`on_stack`.
 
 To tell whether cached machine code is stale, numba looks only at the file of the function itself, not at those of the
 functions it calls. The cache of each module therefore lives in a folder named after the hash of the module's code with
@@ -12,13 +12,22 @@ file is not.
 
 import contextlib
 import functools
+import math
 from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
 from typing import Any
 
 import numba
+import numpy as np
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.extending import intrinsic
+from numba.np.arrayobj import populate_array
 
 from mobnet.core.code import ROOT, code_hash
+
+ITEM = np.dtype(np.float64).itemsize  # bytes
 
 
 def compiled(
@@ -26,10 +35,8 @@ def compiled(
 ) -> Any:
     """Return a function compiled by numba at its first call, or, without a function, the decorator with its options.
 
-    Args:
-        function: what is compiled, in a source file.
-        allocating: True for the outermost loop, which makes the buffers and so owns memory.
-        fastmath: freedoms that the compiler takes with floating-point numbers, in LLVM's words; none by default.
+    Only the outermost loop is `allocating`: it makes the buffers. `fastmath` lists the freedoms that the compiler takes
+    with floating-point numbers, in LLVM's words.
     """
     if function is None:
         return functools.partial(compiled, allocating=allocating, fastmath=fastmath)
@@ -53,3 +60,27 @@ def cached_in(folder: Path) -> Iterator[None]:
         yield
     finally:
         numba.config.CACHE_DIR = before
+
+
+def on_stack(*shape: int) -> Any:
+    """Return a function for compiled code: room of that shape, not set, until the function that asks returns."""
+
+    @intrinsic
+    def room(typingctx: Any) -> Any:
+        kind = types.Array(types.float64, len(shape), "C")
+
+        def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            array = context.make_array(kind)(context, builder)
+            strides = [ITEM * math.prod(shape[i + 1 :]) for i in range(len(shape))]
+            sizes, steps = ([context.get_constant(types.intp, n) for n in row] for row in (shape, strides))
+            data = cgutils.alloca_once(builder, ir.DoubleType(), size=math.prod(shape))
+            item = context.get_constant(types.intp, ITEM)
+            populate_array(array, data=data, shape=sizes, strides=steps, itemsize=item, meminfo=None)
+            return array._getvalue()
+
+        return kind(), codegen
+
+    return room
+
+
+vector3, matrix3 = on_stack(3), on_stack(3, 3)

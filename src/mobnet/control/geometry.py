@@ -1,11 +1,9 @@
 """Small compiled functions of the controller: limits, smooth rises, vectors, rotations, linear equations."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mobnet.control.compiled import compiled
-
-Array = NDArray[np.float64]
+from mobnet.core.arrays import Array
 
 
 @compiled
@@ -134,8 +132,7 @@ def yaw_roll_pitch_matrix(yaw: float, roll: float, pitch: float, out: Array) -> 
 def solve(matrix: Array, right: Array) -> bool:
     """Solve matrix (n, n) x = right (n,) by elimination with pivoting; matrix is overwritten and right becomes x.
 
-    Returns:
-        False if a pivot vanishes; right then has no meaning.
+    Return False if a pivot vanishes; right then has no meaning.
     """
     n = len(right)
     for i in range(n):

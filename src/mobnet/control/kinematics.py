@@ -5,69 +5,42 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.control.compiled import compiled
+from mobnet.control.compiled import compiled, matrix3, vector3
 from mobnet.control.geometry import axis_angle_to_matrix, cross, multiply, quaternion_to_matrix, rotate
-from mobnet.control.stack import matrix3, vector3
+from mobnet.core.arrays import Array
 from mobnet.robot.description import RobotDescription
 
-Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 
 class Tree(NamedTuple):
-    """Bodies, parents first; body 0 is the base.
+    """Bodies, parents first; body 0 is the base."""
 
-    Attributes:
-        parent: index of the parent body (nb,).
-        joint: index of the actuator that moves the body, -1 for a fixed one (nb,).
-        offset: position in the parent (nb, 3) [m].
-        turn: fixed orientation in the parent (nb, 3, 3).
-        axis: joint axis in the body (nb, 3).
-        mass: nominal mass (nb,) [kg].
-        com: centre of mass in the body (nb, 3) [m].
-        inertia: mean principal moment of inertia (nb,) [kg m^2]; needs no turning into the world, see (W1).
-        body_of_joint: body moved by each actuator (nu,).
-    """
-
-    parent: Indices
-    joint: Indices
-    offset: Array
-    turn: Array
-    axis: Array
-    mass: Array
-    com: Array
-    inertia: Array
-    body_of_joint: Indices
+    parent: Indices  # index of the parent body (nb,)
+    joint: Indices  # index of the actuator that moves the body, -1 for a fixed one (nb,)
+    offset: Array  # position in the parent (nb, 3) [m]
+    turn: Array  # fixed orientation in the parent (nb, 3, 3)
+    axis: Array  # joint axis in the body (nb, 3)
+    mass: Array  # nominal mass (nb,) [kg]
+    com: Array  # centre of mass in the body (nb, 3) [m]
+    inertia: Array  # mean principal moment of inertia (nb,) [kg m^2]; needs no turning into the world, see (W1)
+    body_of_joint: Indices  # body moved by each actuator (nu,)
 
 
 class Pose(NamedTuple):
-    """Result of `update`, in world axes; the same arrays are filled again in each tick.
+    """Result of `update`, in world axes; the same arrays are filled again in each tick."""
 
-    Attributes:
-        rotation: orientation of bodies (nb, 3, 3).
-        position: origin of bodies (nb, 3) [m].
-        velocity: velocity of the origins (nb, 3) [m/s].
-        omega: angular velocity of bodies (nb, 3) [rad/s].
-        axis: joint axes (nu, 3).
-        moment: mass times centre of mass of each subtree (nb, 3) [kg m].
-        weight: mass of each subtree (nb,) [kg].
-        com: centre of mass of the robot (3,) [m].
-        com_velocity: velocity of the centre of mass (3,) [m/s].
-        spin: angular momentum about the centre of mass (3,) [N m s].
-        gravity: torque that holds each subtree against gravity (nu,) [N m].
-    """
-
-    rotation: Array
-    position: Array
-    velocity: Array
-    omega: Array
-    axis: Array
-    moment: Array
-    weight: Array
-    com: Array
-    com_velocity: Array
-    spin: Array
-    gravity: Array
+    rotation: Array  # orientation of bodies (nb, 3, 3)
+    position: Array  # origin of bodies (nb, 3) [m]
+    velocity: Array  # velocity of the origins (nb, 3) [m/s]
+    omega: Array  # angular velocity of bodies (nb, 3) [rad/s]
+    axis: Array  # joint axes (nu, 3)
+    moment: Array  # mass times centre of mass of each subtree (nb, 3) [kg m]
+    weight: Array  # mass of each subtree (nb,) [kg]
+    com: Array  # centre of mass of the robot (3,) [m]
+    com_velocity: Array  # velocity of the centre of mass (3,) [m/s]
+    spin: Array  # angular momentum about the centre of mass (3,) [N m s]
+    gravity: Array  # torque that holds each subtree against gravity (nu,) [N m]
 
 
 def tree_of(robot: RobotDescription, mass_ratio: float) -> Tree:

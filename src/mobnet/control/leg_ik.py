@@ -7,24 +7,16 @@ in one point, and a thigh as long as the shank.
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mobnet.control.compiled import compiled
-from mobnet.control.stack import matrix3, vector3
-
-Array = NDArray[np.float64]
+from mobnet.control.compiled import compiled, matrix3, vector3
+from mobnet.core.arrays import Array
 
 
 class LegGeometry(NamedTuple):
-    """Sizes of a leg.
+    """Sizes of a leg."""
 
-    Attributes:
-        hip: position of the left hip in the base (3,) [m].
-        length: length of the thigh and of the shank [m].
-    """
-
-    hip: Array
-    length: float
+    hip: Array  # position of the left hip in the base (3,) [m]
+    length: float  # length of the thigh and of the shank [m]
 
 
 @compiled
@@ -37,25 +29,15 @@ def leg_ik(
     foot axes: the knee follows from |r|, (W36), ankle roll and pitch from the direction of r, (W37), and the hip from
     the rotation that remains, (W38). A pose out of reach is met with the leg 4 degrees short of straight.
 
-    Args:
-        leg: sizes of the left leg.
-        side: +1 left, -1 right.
-        r_base: orientation of the base in the world (3, 3).
-        p_base: position of the base in the world (3,) [m].
-        r_foot: orientation of the foot in the world (3, 3).
-        p_ankle: position of the ankle in the world (3,) [m].
-        q: result (6,).
+    Poses are orientations (3, 3) and positions (3,) [m] in the world; side is +1 for the left leg, -1 for the right.
     """
     b = leg.length
     hip = vector3()
     for i in range(3):
         hip[i] = (
-            p_base[i]
-            + r_base[i, 0] * leg.hip[0]
-            + r_base[i, 1] * side * leg.hip[1]
-            + r_base[i, 2] * leg.hip[2]
+            p_base[i] + r_base[i, 0] * leg.hip[0] + r_base[i, 1] * side * leg.hip[1] + r_base[i, 2] * leg.hip[2]
             - p_ankle[i]
-        )
+        )  # fmt: skip
     x = r_foot[0, 0] * hip[0] + r_foot[1, 0] * hip[1] + r_foot[2, 0] * hip[2]
     y = r_foot[0, 1] * hip[0] + r_foot[1, 1] * hip[1] + r_foot[2, 1] * hip[2]
     z = r_foot[0, 2] * hip[0] + r_foot[1, 2] * hip[1] + r_foot[2, 2] * hip[2]

@@ -5,14 +5,12 @@ equations (W21) to (W29) are derived in docs/notes/0019-walking-controller.md.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mobnet.control.compiled import compiled
 from mobnet.control.geometry import clip, smoothstep, wrap
 from mobnet.control.parameters import DURATION, State, WalkingParameters
 from mobnet.control.walker import Walker, foot_yaw, vertical_force
-
-Array = NDArray[np.float64]
+from mobnet.core.arrays import Array
 
 
 @compiled

@@ -6,31 +6,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.control.compiled import compiled
+from mobnet.core.arrays import Array
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
 from mobnet.settings.data import RandomTorque
 
-Array = NDArray[np.float64]
-
 
 class Exploration(NamedTuple):
-    """Law and state of the exploration.
+    """Law and state of the exploration."""
 
-    Attributes:
-        amplitude: largest torque of each joint (nu,) [N m]; all zero switches it off.
-        shortest: shortest period [s].
-        longest: longest period [s].
-        value: torque of the running period (nu,) [N m].
-        left: time left in it (nu,) [s].
-        on: 1 while the torque acts (nu,).
-    """
-
-    amplitude: Array
-    shortest: float
-    longest: float
-    value: Array
-    left: Array
-    on: NDArray[np.int64]
+    amplitude: Array  # largest torque of each joint (nu,) [N m]; all zero switches it off
+    shortest: float  # shortest period [s]
+    longest: float  # longest period [s]
+    value: Array  # torque of the running period (nu,) [N m]
+    left: Array  # time left in it (nu,) [s]
+    on: NDArray[np.int64]  # 1 while the torque acts (nu,)
 
 
 def make_exploration(settings: RandomTorque, layout: JointLayout, present: bool) -> Exploration:

@@ -4,13 +4,10 @@ The equations (W31) to (W34) are derived in docs/notes/0019-walking-controller.m
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mobnet.control.compiled import compiled
 from mobnet.control.geometry import rise, rise_slope, wrap, yaw_roll_pitch_matrix
 from mobnet.control.parameters import FOOT_HEIGHT, State, WalkingParameters
-
-Array = NDArray[np.float64]
 
 
 @compiled

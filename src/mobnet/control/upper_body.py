@@ -2,26 +2,16 @@
 
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from mobnet.control.compiled import compiled
-
-Array = NDArray[np.float64]
+from mobnet.core.arrays import Array
 
 
 class UpperBody(NamedTuple):
-    """Knots of a motion and the time at which they begin.
+    """Knots of a motion and the time at which they begin."""
 
-    Attributes:
-        knots: joint positions at equal steps of time (k, n) [rad]; a single knot is a posture.
-        rate_hz: knots in a second [1/s].
-        start: time of the motion when the episode's clock is zero, one entry (1,) [s].
-    """
-
-    knots: Array
-    rate_hz: float
-    start: Array
+    knots: Array  # joint positions at equal steps of time (k, n) [rad]; a single knot is a posture
+    rate_hz: float  # knots in a second [1/s]
+    start: Array  # time of the motion when the episode's clock is zero, one entry (1,) [s]
 
 
 @compiled

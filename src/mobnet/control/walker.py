@@ -9,61 +9,34 @@ from mobnet.control.compiled import compiled
 from mobnet.control.kinematics import Pose, Tree, empty_pose, tree_of
 from mobnet.control.leg_ik import LegGeometry
 from mobnet.control.parameters import WalkingParameters, walking_parameters
+from mobnet.core.arrays import Array
 from mobnet.robot.description import SIDES, WalkingRobot
 from mobnet.settings.walking import Walking
 
-Array = NDArray[np.float64]
-
 
 class Walker(NamedTuple):
-    """What the controller knows of the robot.
+    """What the controller knows of the robot."""
 
-    Attributes:
-        par: numbers of the controller.
-        tree: bodies of the nominal model.
-        pose: kinematics of the nominal model in the sensed state; filled by each tick.
-        leg: sizes of the left leg.
-        feet: bodies of the left, right foot (2,).
-        first: first actuator of the left, right leg (2,).
-        upper: first actuator above the legs.
-        sensor: position of the force sensor in the foot (3,) [m].
-        sole: centre of the sole in the foot (3,) [m].
-        gravity: gravity [m/s^2].
-        wrench: measured wrenches of the ground about the ankles, foot axes (2, 6) [N, N m]; filled by each tick.
-        posture_stiffness: of the joints above the legs (nu - upper,) [N m/rad].
-        posture_damping: of these joints (nu - upper,) [N m s/rad].
-        posture: wanted positions of the joints above the legs (nu - upper,) [rad], written by what moves them.
-        posture_rate: wanted velocities of these joints (nu - upper,) [rad/s].
-        work: scratch (3,).
-    """
-
-    par: WalkingParameters
-    tree: Tree
-    pose: Pose
-    leg: LegGeometry
-    feet: NDArray[np.int64]
-    first: NDArray[np.int64]
-    upper: int
-    sensor: Array
-    sole: Array
-    gravity: float
-    wrench: Array
-    posture_stiffness: Array
-    posture_damping: Array
-    posture: Array
-    posture_rate: Array
-    work: Array
+    par: WalkingParameters  # numbers of the controller
+    tree: Tree  # bodies of the nominal model
+    pose: Pose  # kinematics of the nominal model in the sensed state; filled by each tick
+    leg: LegGeometry  # sizes of the left leg
+    feet: NDArray[np.int64]  # bodies of the left, right foot (2,)
+    first: NDArray[np.int64]  # first actuator of the left, right leg (2,)
+    upper: int  # first actuator above the legs
+    sensor: Array  # position of the force sensor in the foot (3,) [m]
+    sole: Array  # centre of the sole in the foot (3,) [m]
+    gravity: float  # gravity [m/s^2]
+    wrench: Array  # measured wrenches of the ground about the ankles, foot axes (2, 6) [N, N m]; filled by each tick
+    posture_stiffness: Array  # of the joints above the legs (nu - upper,) [N m/rad]
+    posture_damping: Array  # of these joints (nu - upper,) [N m s/rad]
+    posture: Array  # wanted positions of the joints above the legs (nu - upper,) [rad], written by what moves them
+    posture_rate: Array  # wanted velocities of these joints (nu - upper,) [rad/s]
+    work: Array  # scratch (3,)
 
 
 def make_walker(robot: WalkingRobot, walking: Walking, mass_ratio: float, gravity_m_s2: float) -> Walker:
-    """Build what the controller knows of a robot, with masses mass_ratio times those of its table.
-
-    Args:
-        robot: the robot.
-        walking: numbers of the controller.
-        mass_ratio: of the nominal model.
-        gravity_m_s2: gravity [m/s^2].
-    """
+    """Build what the controller knows of a robot, with masses mass_ratio [-] times those of its table."""
     tree = tree_of(robot, mass_ratio)
     index = {body.name: i for i, body in enumerate(robot.bodies)}
     actuator = {name: i for i, name in enumerate(robot.layout.actuated)}

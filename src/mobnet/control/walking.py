@@ -6,7 +6,6 @@ docs/notes/0019-walking-controller.md.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mobnet.control.balance import adapt_duration, adapt_foothold, ground_force, measure_dcm
 from mobnet.control.compiled import compiled
@@ -25,23 +24,15 @@ from mobnet.control.phases import (
 from mobnet.control.swing import swing_foot
 from mobnet.control.walker import Walker, foot_yaw, move_wrenches
 from mobnet.control.whole_body import leg_reference, posture_torque, stance_torque, swing_torque
-
-Array = NDArray[np.float64]
+from mobnet.core.arrays import Array
 
 
 @compiled
 def walk(walker: Walker, s: State, q: Array, v: Array, wrenches: Array, commands: Array, dt: float, tau: Array) -> None:
     """Advance the controller by dt [s] and write the desired torques tau (nu,) [N m].
 
-    Args:
-        walker: what the controller knows of the robot.
-        s: state record, `mobnet.control.parameters.STATE`.
-        q: sensed generalized position (nq,).
-        v: sensed generalized velocity (nv,).
-        wrenches: measured wrench of the ground on the left, right foot about its sensor, foot axes (2, 6) [N, N m].
-        commands: one row a step (n, 5); the last row is repeated.
-        dt: tick [s].
-        tau: result (nu,).
+    q (nq,) and v (nv,) are the sensed position and velocity, wrenches (2, 6) [N, N m] the measured ones of the ground
+    on the left, right foot about its sensor, foot axes; commands (n, 5) hold a row a step, of which the last repeats.
     """
     par, pose = walker.par, walker.pose
     update(walker.tree, q, v, walker.gravity, pose)
@@ -81,13 +72,12 @@ def _torques(walker: Walker, s: State, stance: int, q: Array, v: Array, dt: floa
     for j in range(len(tau)):
         tau[j] = pose.gravity[j]  # (W40)
     for k in range(2):
-        foot, first = walker.feet[k], walker.first[k]
+        foot, point = walker.feet[k], walker.work
         swings = s.swinging == 1 and k != stance
-        leg_reference(par, walker.leg, walker.tree, pose, s, k, first, foot, swings)
+        leg_reference(walker, s, k, swings)
         if swings:
-            swing_torque(par, s, k, first, q, v, tau)
+            swing_torque(walker, s, k, q, v, tau)
             continue
-        point = walker.work
         for i in range(2):
             point[i] = s.zmp[i]
         # (W22): two feet push at their own nominal points, moved as the common one; their mean is then the wanted ZMP.
@@ -96,7 +86,5 @@ def _torques(walker: Walker, s: State, stance: int, q: Array, v: Array, dt: floa
             point[0] += pose.position[foot, 0] + np.cos(yaw) * par.zmp_offset_x_m - s.zmp_nominal[0]
             point[1] += pose.position[foot, 1] + np.sin(yaw) * par.zmp_offset_x_m - s.zmp_nominal[1]
         point[2] = pose.position[foot, 2] + walker.sole[2]
-        stance_torque(par, walker.tree, pose, s, k, first, foot, q, v, walker.wrench[k], point, dt, tau)
-    posture_torque(
-        walker.posture_stiffness, walker.posture_damping, walker.upper, q, v, walker.posture, walker.posture_rate, tau
-    )
+        stance_torque(walker, s, k, q, v, point, dt, tau)
+    posture_torque(walker, q, v, tau)

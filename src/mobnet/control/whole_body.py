@@ -1,34 +1,30 @@
 """From the ground's force and the feet's targets to joint torques.
 
 Stance legs transmit the force to the ground, the swing leg and the upper body follow their references. The equations
-(W39) to (W46) are derived in docs/notes/0019-walking-controller.md. Arguments that recur: `par`, numbers of the
-controller; `tree`, the nominal model; `pose`, its kinematics in the sensed state; `s`, the controller's state; `k`, a
-leg (0 left, 1 right) with its `first` actuator and the body of its `foot`; `q` (nq,) and `v` (nv,), sensed position
-and velocity; `wrench` (6,) [N, N m], measured wrench of the ground about the ankle, foot axes; `dt`, a tick [s].
+(W39) to (W46) are derived in docs/notes/0019-walking-controller.md. Arguments that recur: `s`, the controller's state;
+`k`, a leg (0 left, 1 right); `q` (nq,) and `v` (nv,), sensed position and velocity; `dt`, a tick [s].
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mobnet.control.compiled import compiled
+from mobnet.control.compiled import compiled, matrix3, vector3
 from mobnet.control.geometry import clip, cross, dead, solve, triple, yaw_roll_pitch_matrix
-from mobnet.control.kinematics import Pose, Tree
-from mobnet.control.leg_ik import LegGeometry, leg_ik
-from mobnet.control.parameters import SIDES, State, WalkingParameters
-from mobnet.control.stack import matrix3, vector3
+from mobnet.control.leg_ik import leg_ik
+from mobnet.control.parameters import SIDES, State
+from mobnet.control.walker import Walker
+from mobnet.core.arrays import Array
 
-Array = NDArray[np.float64]
 LEFT_SIDE, RIGHT_SIDE = SIDES
 LEG_JOINTS = 6
 ANKLE_PITCH, ANKLE_ROLL = 4, 5  # joints of a leg
 
 
 @compiled
-def leg_jacobian(tree: Tree, pose: Pose, first: int, foot: int, out: Array) -> None:
+def leg_jacobian(walker: Walker, k: int, out: Array) -> None:
     """Write the Jacobian (6, 6) of the ankle against the base: linear above angular rows, world axes, (W39)."""
-    arm, column = vector3(), vector3()
+    pose, first, foot, arm, column = walker.pose, walker.first[k], walker.feet[k], vector3(), vector3()
     for j in range(LEG_JOINTS):
-        body = tree.body_of_joint[first + j]
+        body = walker.tree.body_of_joint[first + j]
         for i in range(3):
             arm[i] = pose.position[foot, i] - pose.position[body, i]
         cross(pose.axis[first + j], arm, column)
@@ -38,16 +34,13 @@ def leg_jacobian(tree: Tree, pose: Pose, first: int, foot: int, out: Array) -> N
 
 
 @compiled
-def leg_reference(
-    par: WalkingParameters, leg: LegGeometry, tree: Tree, pose: Pose, s: State, k: int, first: int, foot: int,
-    swings: bool,
-) -> None:  # fmt: skip
+def leg_reference(walker: Walker, s: State, k: int, swings: bool) -> None:
     """Fill q_reference[k] [rad] and v_reference[k] [rad/s] of leg k (0 left, 1 right), (W39).
 
     A swing leg brings its foot to the target, seen from the measured pelvis. A stance leg brings the pelvis to its
     level orientation, height and yaw over the measured foot; the pelvis' place in x and y is left to the pendulum.
     """
-    side = LEFT_SIDE if k == 0 else RIGHT_SIDE
+    leg, pose, foot, side = walker.leg, walker.pose, walker.feet[k], LEFT_SIDE if k == 0 else RIGHT_SIDE
     rates, arm, swept = s.v_reference[k], vector3(), vector3()
     if swings:
         leg_ik(leg, side, pose.rotation[0], pose.position[0], s.foot_rotation, s.foot, s.q_reference[k])
@@ -65,26 +58,25 @@ def leg_reference(
         leg_ik(leg, side, level, base, pose.rotation[foot], pose.position[foot], s.q_reference[k])
         rates[0], rates[1], rates[2] = -pose.velocity[0, 0], -pose.velocity[0, 1], -s.height_rate
         rates[3:] = 0.0
-    leg_jacobian(tree, pose, first, foot, s.jacobian)
+    leg_jacobian(walker, k, s.jacobian)
     if not solve(s.jacobian, rates):  # a straight leg has no inverse
         rates[:] = 0.0
+    fastest = walker.par.joint_speed_max_rad_s
     for j in range(LEG_JOINTS):
-        rates[j] = clip(rates[j], -par.joint_speed_max_rad_s, par.joint_speed_max_rad_s)
+        rates[j] = clip(rates[j], -fastest, fastest)
 
 
 @compiled
-def stance_torque(
-    par: WalkingParameters, tree: Tree, pose: Pose, s: State, k: int, first: int, foot: int,
-    q: Array, v: Array, wrench: Array, point: Array, dt: float, tau: Array,
-) -> None:  # fmt: skip
+def stance_torque(walker: Walker, s: State, k: int, q: Array, v: Array, point: Array, dt: float, tau: Array) -> None:
     """Add the torques of a stance leg that the ground pushes at point (3,) [m] to tau (nu,) [N m], (W41) and (W42)."""
+    par, pose, first = walker.par, walker.pose, walker.first[k]
     load, arm, force = s.load[k], vector3(), vector3()
     for i in range(3):
         force[i] = load * s.force[i]
     force[2] += par.load_gain * s.load_error[k]  # (W23)
     for j in range(LEG_JOINTS):
         joint = first + j
-        body = tree.body_of_joint[joint]
+        body = walker.tree.body_of_joint[joint]
         for i in range(3):
             arm[i] = point[i] - pose.position[body, i]
         push = triple(pose.axis[joint], arm, force)
@@ -96,17 +88,16 @@ def stance_torque(
             tau[joint] += (par.unloaded_stiffness + (1.0 - par.unloaded_stiffness) * load) * pull - push
         else:
             tau[joint] += par.ankle_damping_nms * rate - push
-            tau[joint] += _ankle_correction(par, pose, s, k, j - ANKLE_PITCH, foot, push, wrench, dt)
+            tau[joint] += _ankle_correction(walker, s, k, j - ANKLE_PITCH, push, dt)
 
 
 @compiled
-def _ankle_correction(
-    par: WalkingParameters, pose: Pose, s: State, k: int, which: int, foot: int, push: float, wrench: Array, dt: float
-) -> float:
+def _ankle_correction(walker: Walker, s: State, k: int, which: int, push: float, dt: float) -> float:
     """Return the torque [N m] that corrects the ankle's moment, (W43), and keeps the foot from tipping, (W44).
 
     The ankle's axis is pitch where `which` is 0, else roll; `push` is the wanted moment of the ground about it [N m].
     """
+    par, pose, foot = walker.par, walker.pose, walker.feet[k]
     rotation = pose.rotation[foot]
     sin_roll, sin_pitch = rotation[2, 1], -rotation[2, 0]
     column = 1 if which == 0 else 0
@@ -118,7 +109,7 @@ def _ankle_correction(
     # (W44): the tilt against the felt slope, on which a sole may lie flat.
     x, y = s.slope[0], s.slope[1]
     tilt = sin_pitch + x * c + y * n if which == 0 else sin_roll - (y * c - x * n)
-    measured = wrench[4] if which == 0 else wrench[3]
+    measured = walker.wrench[k, 4] if which == 0 else walker.wrench[k, 3]
     # (W43): the integral makes up for friction. On a tilted foot, which stands on an edge, the moment no longer follows
     # the ankle, and the integral would run away.
     leak = par.ankle_leak_hz
@@ -136,10 +127,11 @@ def _ankle_correction(
 
 
 @compiled
-def swing_torque(par: WalkingParameters, s: State, k: int, first: int, q: Array, v: Array, tau: Array) -> None:
+def swing_torque(walker: Walker, s: State, k: int, q: Array, v: Array, tau: Array) -> None:
     """Add the torques with which swing leg k follows its reference to tau (nu,) [N m], (W45); forget its integrals."""
+    par = walker.par
     for j in range(LEG_JOINTS):
-        joint = first + j
+        joint = walker.first[k] + j
         tau[joint] += par.leg_stiffness_nm_rad[j] * (s.q_reference[k, j] - q[7 + joint])
         tau[joint] += par.leg_damping_nms_rad[j] * (s.v_reference[k, j] - v[6 + joint])
     s.integral[k, 0] = 0.0
@@ -147,14 +139,9 @@ def swing_torque(par: WalkingParameters, s: State, k: int, first: int, q: Array,
 
 
 @compiled
-def posture_torque(
-    stiffness: Array, damping: Array, first: int, q: Array, v: Array, target: Array, rate: Array, tau: Array
-) -> None:
-    """Add the torques of the joints from actuator `first` on to tau (nu,) [N m], (W46).
-
-    Stiffness (n,) [N m/rad] and damping (n,) [N m s/rad] hold them at a target (n,) [rad] with a rate (n,) [rad/s].
-    """
-    for j in range(len(target)):
-        joint = first + j
-        tau[joint] += stiffness[j] * (target[j] - q[7 + joint])
-        tau[joint] += damping[j] * (rate[j] - v[6 + joint])
+def posture_torque(walker: Walker, q: Array, v: Array, tau: Array) -> None:
+    """Add the torques of the joints above the legs, which follow the walker's posture, to tau (nu,) [N m], (W46)."""
+    for j in range(len(walker.posture)):
+        joint = walker.upper + j
+        tau[joint] += walker.posture_stiffness[j] * (walker.posture[j] - q[7 + joint])
+        tau[joint] += walker.posture_damping[j] * (walker.posture_rate[j] - v[6 + joint])

@@ -68,11 +68,7 @@ def _parse(words: list[str] | None) -> argparse.Namespace:
 
 
 def _look(options: argparse.Namespace) -> int:
-    """Walk as the options say; a machine that cannot draw is no failure, a fall is.
-
-    Raises:
-        ConfigError: the configuration or an option is not accepted.
-    """
+    """Walk as the options say; a machine that cannot draw is no failure, a fall is."""
     _check(options)
     window = not (options.video or options.picture) and has_display()
     seconds = options.seconds or (math.inf if window else SECONDS)
@@ -89,11 +85,7 @@ def _look(options: argparse.Namespace) -> int:
 
 
 def _check(options: argparse.Namespace) -> None:
-    """Check what argparse does not.
-
-    Raises:
-        ConfigError: an option is not accepted.
-    """
+    """Check what argparse does not; a ConfigError names the option."""
     if options.seconds is not None and not 0 < options.seconds < math.inf:
         raise ConfigError(f"--seconds: {options.seconds} is not accepted; accepted: > 0")
     if options.seed < 0:
@@ -107,11 +99,7 @@ def _check(options: argparse.Namespace) -> None:
 
 
 def _simulator(options: argparse.Namespace, seconds: float) -> Simulator:
-    """Return a started simulator; its upper body moves for the seconds to come, for some time if they have no end.
-
-    Raises:
-        ConfigError: the configuration, scenario, level or terrain is not accepted.
-    """
+    """Return a started simulator; its upper body moves for the seconds to come, for some time if they have no end."""
     settings = _settings(options)
     motion, upper = settings.scenarios[options.scenario].motion, None
     if motion is not None:
@@ -124,11 +112,7 @@ def _simulator(options: argparse.Namespace, seconds: float) -> Simulator:
 
 
 def _settings(options: argparse.Namespace) -> Settings:
-    """Return the configuration in which the scenario walks on the terrain that is asked for.
-
-    Raises:
-        ConfigError: the configuration, scenario, level or terrain is not accepted.
-    """
+    """Return the configuration in which the scenario walks on the terrain that is asked for."""
     settings = load_settings(options.config)
     for option, name, accepted in (
         ("scenario", options.scenario, settings.scenarios),

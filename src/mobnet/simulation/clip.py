@@ -32,12 +32,9 @@ def check_ending(path: Path) -> None:
 
 
 def save_clip(frames: Iterable[Pixels], rate_hz: float, path: Path) -> None:
-    """Write frames (height, width, 3) as a clip that repeats; the file appears as a whole or not at all.
+    """Write frames (height, width, 3), taken one by one, as a clip that repeats, as a whole or not at all.
 
-    Args:
-        frames: the pictures, all of one size, taken one by one.
-        rate_hz: pictures a second; a GIF counts in steps of 10 ms.
-        path: ends in one of `ENDINGS`.
+    A GIF counts time in steps of 10 ms.
 
     Raises:
         ConfigError: the ending is not accepted.
@@ -70,11 +67,7 @@ def _write_images(frames: Iterator[Pixels], rate_hz: float, path: Path) -> None:
 
 
 def _write_mp4(frames: Iterator[Pixels], shape: tuple[int, ...], rate_hz: float, path: Path) -> None:
-    """Hand frames of a shape (height, width, 3) to ffmpeg.
-
-    Raises:
-        DrawingError: ffmpeg failed.
-    """
+    """Hand frames of a shape (height, width, 3) to ffmpeg."""
     source = f"-f rawvideo -pix_fmt rgb24 -s {shape[1]}x{shape[0]} -r {rate_hz:g} -i -"
     coding = f"-an -c:v libx264 -pix_fmt yuv420p -crf {MP4_QUALITY} -movflags +faststart -f mp4"
     words = ["ffmpeg", "-y", "-loglevel", "error", *source.split(), *coding.split(), str(path)]

@@ -13,64 +13,41 @@ from mobnet.control.random_torque import Exploration, advance_random_torque
 from mobnet.control.upper_body import UpperBody, follow
 from mobnet.control.walker import Walker
 from mobnet.control.walking import walk
+from mobnet.control.whole_body import LEG_JOINTS
+from mobnet.core.arrays import Array
 from mobnet.simulation.friction import Friction, friction_torque
 from mobnet.simulation.native import Native, addresses_at, call_step, doubles_at, ints_at
 from mobnet.simulation.pushes import Pushes, push
 from mobnet.simulation.sensing import Sensors, read_sensors
 from mobnet.simulation.world import World
 
-Array = NDArray[np.float64]
 FIRST_CONTACT_ROW = int(mujoco.mjtConstraint.mjCNSTR_CONTACT_FRICTIONLESS)  # after equalities, friction loss and limits
 CONTACT_FORCE_N = 1.0  # a foot that the ground pushes harder touches it
-LEG_JOINTS = 6
 
 
 class Plant(NamedTuple):
-    """Live arrays of MuJoCo's data and what the plant adds to them.
+    """Live arrays of MuJoCo's data and what the plant adds to them."""
 
-    Attributes:
-        native: addresses.
-        qpos: generalized position (nq,).
-        qvel: generalized velocity (nv,).
-        ctrl: motor torques (nu,) [N m].
-        qfrc_applied: generalized forces from outside MuJoCo (nv,) [N, N m]: friction and pushes on joints.
-        xfrc_applied: pushes on bodies, at their centres of mass (nbody, 6) [N, N m].
-        site_xpos: points of the robot (nsite, 3) [m].
-        xipos: centres of mass of the bodies (nbody, 3) [m].
-        xmat: axes of the bodies (nbody, 9).
-        qfrc_smooth: passive - bias + applied + actuator + mapped xfrc_applied (nv,).
-        qfrc_bias: Coriolis, centrifugal and gravity (nv,).
-        qfrc_passive: passive forces (nv,).
-        qfrc_actuator: motor torques in the generalized velocity (nv,).
-        sensordata: readings of the step just taken.
-        friction: numbers of (23).
-        limits: motor limits (nu,) [N m].
-        period: length after which the terrain repeats [m].
-        fall_height: height of the pelvis below which the robot has fallen [m].
-        dt: step [s].
-        every: steps in a sample.
-    """
-
-    native: Native
-    qpos: Array
-    qvel: Array
-    ctrl: Array
-    qfrc_applied: Array
-    xfrc_applied: Array
-    site_xpos: Array
-    xipos: Array
-    xmat: Array
-    qfrc_smooth: Array
-    qfrc_bias: Array
-    qfrc_passive: Array
-    qfrc_actuator: Array
-    sensordata: Array
-    friction: Friction
-    limits: Array
-    period: float
-    fall_height: float
-    dt: float
-    every: int
+    native: Native  # addresses
+    qpos: Array  # generalized position (nq,)
+    qvel: Array  # generalized velocity (nv,)
+    ctrl: Array  # motor torques (nu,) [N m]
+    qfrc_applied: Array  # generalized forces from outside MuJoCo (nv,) [N, N m]: friction and pushes on joints
+    xfrc_applied: Array  # pushes on bodies, at their centres of mass (nbody, 6) [N, N m]
+    site_xpos: Array  # points of the robot (nsite, 3) [m]
+    xipos: Array  # centres of mass of the bodies (nbody, 3) [m]
+    xmat: Array  # axes of the bodies (nbody, 9)
+    qfrc_smooth: Array  # passive - bias + applied + actuator + mapped xfrc_applied (nv,)
+    qfrc_bias: Array  # Coriolis, centrifugal and gravity (nv,)
+    qfrc_passive: Array  # passive forces (nv,)
+    qfrc_actuator: Array  # motor torques in the generalized velocity (nv,)
+    sensordata: Array  # readings of the step just taken
+    friction: Friction  # numbers of (23)
+    limits: Array  # motor limits (nu,) [N m]
+    period: float  # length after which the terrain repeats [m]
+    fall_height: float  # height of the pelvis below which the robot has fallen [m]
+    dt: float  # step [s]
+    every: int  # steps in a sample
 
 
 def make_plant(

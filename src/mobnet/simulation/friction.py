@@ -7,38 +7,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.control.compiled import compiled
+from mobnet.core.arrays import Array
 from mobnet.settings.plant import FrictionTerm, Plant
-
-Array = NDArray[np.float64]
 
 
 class Friction(NamedTuple):
-    """Numbers of (23).
+    """Numbers of (23)."""
 
-    Attributes:
-        coulomb: f_c [N m].
-        static: f_s [N m].
-        stribeck: v_s [rad/s].
-        smoothing: width of the sign function [rad/s].
-        viscous: k_v (nu,) [N m s].
-        load: k_lf (nu,) [1/(N m)].
-    """
-
-    coulomb: float
-    static: float
-    stribeck: float
-    smoothing: float
-    viscous: Array
-    load: Array
+    coulomb: float  # f_c [N m]
+    static: float  # f_s [N m]
+    stribeck: float  # v_s [rad/s]
+    smoothing: float  # width of the sign function [rad/s]
+    viscous: Array  # k_v (nu,) [N m s]
+    load: Array  # k_lf (nu,) [1/(N m)]
 
 
 def make_friction(plant: Plant, legs: NDArray[np.bool_], terms: Collection[FrictionTerm]) -> Friction:
-    """Build the friction of a plant, (23) and Table 4.
+    """Build the friction of a plant, (23) and Table 4, whose joints (nu,) in `legs` belong to a leg.
 
-    Args:
-        plant: numbers of Table 4.
-        legs: which joints belong to a leg (nu,).
-        terms: terms of (23) that are there: `stribeck` with the viscous one, `load`; `loss` is left to MuJoCo.
+    Of the terms of (23), `stribeck` comes with the viscous one, and `loss` is left to MuJoCo.
     """
     table, speed, load = plant.friction, float("stribeck" in terms), float("load" in terms)
     return Friction(
@@ -53,15 +40,9 @@ def make_friction(plant: Plant, legs: NDArray[np.bool_], terms: Collection[Frict
 
 @compiled
 def friction_torque(friction: Friction, joint: int, rate: float, torque: float) -> float:
-    """Return the friction torque [N m] of (23) on one joint.
+    """Return the friction torque [N m] of (23) on an actuator's joint at its true rate [rad/s] and motor torque [N m].
 
     sgn(rate) is tanh(rate / smoothing): the sign alone chatters at every step of a joint that is stuck.
-
-    Args:
-        friction: numbers of (23).
-        joint: actuator.
-        rate: true joint velocity [rad/s].
-        torque: motor torque [N m].
     """
     fade = np.exp(-abs(rate / friction.stribeck))
     dry = friction.coulomb + (friction.static - friction.coulomb) * fade + friction.load[joint] * torque * torque

@@ -10,10 +10,10 @@ import zlib
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 from scipy.special import erf
 
+from mobnet.core.arrays import Array
 from mobnet.core.errors import SimulationError
 from mobnet.core.provenance import provenance
 from mobnet.core.store import write_array
@@ -24,7 +24,6 @@ from mobnet.settings.robot import RobotTable
 from mobnet.simulation.reaching import Reacher
 
 log = logging.getLogger(__name__)
-Array = NDArray[np.float64]
 BOTH_SIDES = np.array([[1.0, 1.0, 1.0], [1.0, -1.0, 1.0]])  # the right side is the mirror image in y
 HAND_WAVES = 6  # azimuth, elevation and distance of two hands
 
@@ -34,14 +33,7 @@ def make_motion(
 ) -> None:
     """Write knots of joint targets [rad] of the joints above the legs, columns q_ref.<joint> (section 4.3).
 
-    Args:
-        root_seed: root of all random numbers of the configuration.
-        robot: table of the robot.
-        motion: numbers of the motion.
-        name: of the motion; it draws by it.
-        seed: number of the recording that it is made for.
-        duration_s: time that it covers [s].
-        out: where to write, path without a suffix.
+    The motion draws by its name and by the seed of the recording that it is made for.
 
     Raises:
         SimulationError: the motion comes too near to the robot itself.
@@ -83,11 +75,7 @@ def plan(
 
 
 def measured(reacher: Reacher, settings: Motion, knots: Array) -> dict[str, float]:
-    """Return the least distance [m] and the hands' speeds [m/s], seen from the pelvis, along knots (T, n) [rad].
-
-    Raises:
-        SimulationError: the motion comes nearer than is allowed.
-    """
+    """Return the least distance [m] and the hands' speeds [m/s], seen from the pelvis, along knots (T, n) [rad]."""
     nearest, hands = reacher.look(knots)
     if nearest.min() < settings.clearance_least_m:
         when = np.argmin(nearest) / settings.knot_hz
@@ -109,10 +97,7 @@ def working_range(settings: Motion) -> Array:
 def hand_targets(centre: Array, settings: Motion, waves: Array) -> Array:
     """Return hands (T, 2, 3) [m] in the chest's frame from waves (T, 6) in -1..1: azimuth, elevation, distance.
 
-    Args:
-        centre: what the left hand moves around (3,) [m].
-        settings: spans of azimuth, elevation and distance.
-        waves: left hand, then right hand.
+    The left hand, whose waves come first, moves around a centre (3,) [m].
     """
     spans = np.array([settings.hand_azimuth_rad, settings.hand_elevation_rad, settings.hand_distance_m])
     azimuth, elevation, distance = np.moveaxis(

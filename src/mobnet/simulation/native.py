@@ -45,25 +45,15 @@ BALL = """<mujoco><option jacobian="dense" cone="pyramidal"/><worldbody>
 
 
 class Native(NamedTuple):
-    """Addresses for compiled code, all integers.
+    """Addresses for compiled code, all integers."""
 
-    Attributes:
-        step: of the function mj_step.
-        model: of the mjModel.
-        data: of the mjData.
-        nefc: offset in mjData of the number of constraint rows.
-        efc_type: offset of the pointer to their types (nefc,) int32.
-        efc_jacobian: offset of the pointer to their dense Jacobian (nefc, nv).
-        efc_force: offset of the pointer to their forces (nefc,).
-    """
-
-    step: int
-    model: int
-    data: int
-    nefc: int
-    efc_type: int
-    efc_jacobian: int
-    efc_force: int
+    step: int  # of the function mj_step
+    model: int  # of the mjModel
+    data: int  # of the mjData
+    nefc: int  # offset in mjData of the number of constraint rows
+    efc_type: int  # offset of the pointer to their types (nefc,) int32
+    efc_jacobian: int  # offset of the pointer to their dense Jacobian (nefc, nv)
+    efc_force: int  # offset of the pointer to their forces (nefc,)
 
 
 @functools.cache
@@ -97,11 +87,7 @@ def step_address() -> int:
 
 
 def bind(model: mujoco.MjModel, data: mujoco.MjData) -> Native:
-    """Return the addresses of a model and its data, and bring the data's derived arrays to its position.
-
-    Raises:
-        SimulationError: the struct's layout is not what MuJoCo describes.
-    """
+    """Return the addresses of a model and its data, and bring the data's derived arrays to its position."""
     native = Native(step_address(), model._address, data._address, *offsets())
     mujoco.mj_forward(model, data)
     return native

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from mobnet.control.compiled import compiled
 from mobnet.control.parameters import State
+from mobnet.core.arrays import Array
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Direction, Phase, Push
 
-Array = NDArray[np.float64]
 DIRECTIONS: tuple[Direction, ...] = ("any", "horizontal", "down", "backward")  # the last: against the body's x axis
 ANY, HORIZONTAL, DOWN, BACKWARD = range(4)
 SHAPES = ("step", "half_sine")
@@ -35,21 +35,15 @@ STATE = np.dtype([
 
 
 class Pushes(NamedTuple):
-    """Laws and state of the pushes of a scenario, one row each.
+    """Laws and state of the pushes of a scenario, one row each."""
 
-    Attributes:
-        law: records of LAW (n,): `site`, the point that is pushed, and its `body`, both -1 for a torque on a joint;
-            `dof`, the joint's place in the generalized velocity, -1 for a force; `phase`, `direction` and `shape`,
-            indices of PHASES, DIRECTIONS and SHAPES; `timed`, 1 where `times` rules; bounds of the `share` [-] of the
-            step at which it comes, of the `pause` [s] between two, of the `size` [N] or [N m] of the peak and of the
-            `duration` [s].
-        times: earliest times of the episode (n, k) [s], padded with infinity.
-        state: running push of each row (n,), records of STATE.
-    """
-
+    # records of LAW (n,): `site`, the point that is pushed, and its `body`, both -1 for a torque on a joint; `dof`, the
+    # joint's place in the generalized velocity, -1 for a force; `phase`, `direction` and `shape`, indices of PHASES,
+    # DIRECTIONS and SHAPES; `timed`, 1 where `times` rules; bounds of the `share` [-] of the step at which it comes, of
+    # the `pause` [s] between two, of the `size` [N] or [N m] of the peak and of the `duration` [s]
     law: NDArray[Any]
-    times: Array
-    state: NDArray[Any]
+    times: Array  # earliest times of the episode (n, k) [s], padded with infinity
+    state: NDArray[Any]  # running push of each row (n,), records of STATE
 
 
 def make_pushes(settings: Mapping[str, Push], model: mujoco.MjModel, robot: RobotDescription) -> Pushes:
@@ -146,16 +140,9 @@ def push(
 ) -> None:  # fmt: skip
     """Apply what pushes now: forces into xfrc (nbody, 6) [N, N m], joint torques added to qfrc (nv,) [N m].
 
-    Args:
-        pushes: laws and state.
-        s: state of the walking controller; its clock tells the time.
-        xfrc: wrench on each body at its centre of mass, world axes; overwritten for pushed bodies.
-        qfrc: applied generalized forces.
-        site_xpos: points (nsite, 3) [m].
-        xipos: centres of mass of the bodies (nbody, 3) [m].
-        xmat: axes of the bodies (nbody, 9).
-        rng: random numbers of the pushes.
-        tau_joints: the joint torques alone are added to it (nv,) [N m]: unlike forces they leave no trace in MuJoCo.
+    xfrc holds wrenches at the bodies' centres of mass, world axes, and is overwritten for pushed bodies. The joint
+    torques alone are added to tau_joints (nv,) [N m]: unlike forces they leave no trace in MuJoCo. Points (nsite, 3),
+    centres of mass (nbody, 3) [m] and axes (nbody, 9) are MuJoCo's; the clock of the walking state s tells the time.
     """
     for k in range(len(pushes.law)):
         if pushes.law[k].dof < 0:

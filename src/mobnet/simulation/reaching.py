@@ -9,14 +9,13 @@ from collections.abc import Sequence
 import mink
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
+from mobnet.core.arrays import Array
 from mobnet.core.errors import SimulationError
 from mobnet.robot.description import SIDES, RobotDescription
 from mobnet.settings.data import Motion
 from mobnet.simulation.self_collision import check_spec, collide
 
-Array = NDArray[np.float64]
 ZONE_TYPE = 2  # contype of the legs' space: only upper bodies meet it
 SOLVER = "daqp"
 
@@ -50,14 +49,7 @@ class Reacher:
     """Follows targets knot by knot from a posture."""
 
     def __init__(self, robot: RobotDescription, settings: Motion, limits: Array, posture: Array) -> None:
-        """Build model, tasks and limits.
-
-        Args:
-            robot: figures of the robot.
-            settings: numbers of the motion.
-            limits: working range of the joints above the legs (n, 2) [rad].
-            posture: where to start (n,) [rad].
-        """
+        """Start at a posture (n,) [rad] of the joints above the legs, whose working range is limits (n, 2) [rad]."""
         model = upper_body(robot, limits, settings.guard_m, settings.leg_poses_rad)
         self.dt, self.reach = 1.0 / settings.knot_hz, settings.guard_m
         self.lead = settings.hand_speed_max_m_s * self.dt / settings.gain
@@ -125,11 +117,8 @@ def upper_body(
 ) -> mujoco.MjModel:
     """Compile what stands above the legs on a fixed pelvis, and the space of the legs as solids of the pelvis.
 
-    Args:
-        robot: figures of the robot.
-        limits: working range of the joints above the legs (n, 2) [rad].
-        reach_m: solids nearer than this make contacts [m].
-        leg_poses: left hip yaw, roll, pitch and knee (4,) [rad]; the right leg's are their mirror images.
+    The joints above the legs have a working range limits (n, 2) [rad]; solids nearer than reach_m [m] make contacts.
+    Leg poses (4,) [rad] are left hip yaw, roll, pitch and knee; the right leg's are their mirror images.
     """
     solids = leg_space(robot, leg_poses)
     spec = check_spec(robot, reach_m)

@@ -28,17 +28,12 @@ FALLS_MAX = 20  # more falls in one recording mean that the setting cannot be wa
 
 @dataclass
 class Course:
-    """How a recording went so far.
+    """How a recording went so far."""
 
-    Attributes:
-        segments: kept stretches (start, end) of samples, each contiguous in time.
-        terrains: terrain of each stretch.
-        falls: how often the robot fell.
-    """
-
+    # kept stretches (start, end) of samples, each contiguous in time
     segments: list[tuple[int, int]] = field(default_factory=list)
-    terrains: list[str] = field(default_factory=list)
-    falls: int = 0
+    terrains: list[str] = field(default_factory=list)  # terrain of each stretch
+    falls: int = 0  # how often the robot fell
 
 
 class Watch:
@@ -61,13 +56,7 @@ def collect(settings: WalkSettings, seed: int, duration_s: float, out: Path, mot
 
     A fall ends a segment; what came in the last seconds before it is dropped and a new episode goes on until
     `duration_s` [s] are kept. Samples are written while the robot walks: memory does not grow with the duration.
-
-    Args:
-        settings: the scenario at its level.
-        seed: number of the recording.
-        duration_s: kept time [s].
-        out: where to write, path without a suffix.
-        motion: knots of the upper body's motion; None holds the posture.
+    Without a motion the upper body holds its posture.
 
     Raises:
         SimulationError: the robot keeps falling.
@@ -97,11 +86,7 @@ def collect(settings: WalkSettings, seed: int, duration_s: float, out: Path, mot
 
 
 def read_motion(stem: Path) -> UpperBody:
-    """Read the knots of an upper body's motion, written by `make_motion`.
-
-    Raises:
-        DataError: a file is missing or damaged.
-    """
+    """Read the knots of an upper body's motion, written by `make_motion`."""
     knots, meta = read_array(stem)
     return UpperBody(np.asarray(knots, dtype=np.float64), float(meta["rate_hz"]), np.zeros(1))
 

@@ -35,24 +35,14 @@ SHADOW_CLIP = 2.5  # half width of the shadow's map, in extents; at its edge sha
 
 
 def save_picture(robot: RobotDescription, terrain: Terrain, q: NDArray[Any], path: Path) -> None:
-    """Draw the robot at q (nq,) [m, rad] into a PNG, written as a whole or not at all.
-
-    Raises:
-        DrawingError: the machine cannot draw off screen.
-    """
+    """Draw the robot at q (nq,) [m, rad] into a PNG, as a whole or not at all; DrawingError where it cannot."""
     (pixels,) = draw_frames(picture_model(robot, terrain), [q])
     with atomic_path(path) as temporary:
         matplotlib.image.imsave(temporary, pixels, format="png", pil_kwargs={"optimize": True})
 
 
 def picture_model(robot: RobotDescription, terrain: Terrain, size: tuple[int, int] = SIZE) -> mujoco.MjModel:
-    """Compile the robot under a sky on a wider part of its terrain, for pictures only.
-
-    Args:
-        robot: figures of the robot.
-        terrain: the one that the robot walks on.
-        size: width and height of pictures [pixels].
-    """
+    """Compile the robot under a sky on a wider part of its terrain, for pictures of a width and height [pixels]."""
     spec = robot_spec(robot)
     add_terrain(spec, _cut(terrain), WIDE_M)
     spec.stat.extent, spec.stat.center = EXTENT_M, [0.0, 0.0, EXTENT_M / 2]
@@ -126,9 +116,7 @@ def _off_screen(model: mujoco.MjModel) -> Iterator[mujoco.MjrContext]:
     """Open an OpenGL context for pictures of a model's size.
 
     The EGL context is made here: `mujoco.Renderer` takes the kind that was chosen when mujoco was first imported.
-
-    Raises:
-        DrawingError: the machine has no EGL; PyOpenGL tells so by errors of many kinds.
+    PyOpenGL tells by errors of many kinds that the machine has no EGL.
     """
     logging.getLogger("OpenGL").setLevel(logging.WARNING)  # at its import it names every optional part that is missing
     with contextlib.ExitStack() as stack:

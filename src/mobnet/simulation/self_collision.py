@@ -25,20 +25,13 @@ class Clearance:
     """Distances between the robot's own solids, by MuJoCo's collision detection on a model of its own."""
 
     def __init__(self, robot: RobotDescription, reach_m: float = REACH_M) -> None:
-        """Compile the check model.
-
-        Args:
-            robot: figures and shapes of the robot.
-            reach_m: largest distance that is measured [m].
-        """
+        """Compile the check model; distances above reach_m [m] are not measured."""
         self.reach = reach_m
         self.model = check_spec(robot, reach_m).compile()
         self.data = mujoco.MjData(self.model)
 
     def nearest(self, q: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the smallest distance between two checked solids (T,) [m] at q (T, nq) [m, rad].
-
-        Negative where they overlap, and `reach` where none are nearer than that.
+        """Return the smallest distance between two checked solids (T,) [m] at q (T, nq) [m, rad], negative in overlap.
 
         Raises:
             DataError: q has another shape.

@@ -10,47 +10,30 @@ from numpy.typing import NDArray
 from mobnet.control.base_state import update_base
 from mobnet.control.compiled import compiled
 from mobnet.control.walker import Walker, vertical_force
+from mobnet.core.arrays import Array
 from mobnet.robot.description import SIDES
 from mobnet.settings.plant import Level, NoiseStd
 
-Array = NDArray[np.float64]
 NOISE = {"none": lambda _: 0.0, "std": float, "variance": math.sqrt}  # how the numbers of Table 3 are read
 
 
 class Sensors(NamedTuple):
-    """Noise, addresses and readings.
+    """Noise, addresses and readings."""
 
-    Attributes:
-        q_std: noise of joint positions, a standard deviation [rad].
-        v_std: noise of joint velocities [rad/s].
-        acc_std: noise of the base's acceleration [m/s^2].
-        omega_std: noise of the base's angular velocity [rad/s].
-        sensed_base: 1 if base position and velocity come from proprioception, 0 if they are the plant's.
-        gyro: first entry of the gyroscope in sensordata.
-        acc: first entry of the accelerometer.
-        force: first entries of the left, right foot's force (2,).
-        torque: first entries of their torque (2,).
-        q: generalized position (nq,), as `Sensed.q`.
-        v: generalized velocity (nv,), as `Sensed.v`.
-        acc_base_in_base: specific force (3,) [m/s^2].
-        wrenches: ground's wrench on the feet about their sensors, foot axes (2, 6) [N, N m].
-        loads: vertical force on the feet (2,) [N].
-    """
-
-    q_std: float
-    v_std: float
-    acc_std: float
-    omega_std: float
-    sensed_base: int
-    gyro: int
-    acc: int
-    force: NDArray[np.int64]
-    torque: NDArray[np.int64]
-    q: Array
-    v: Array
-    acc_base_in_base: Array
-    wrenches: Array
-    loads: Array
+    q_std: float  # noise of joint positions, a standard deviation [rad]
+    v_std: float  # noise of joint velocities [rad/s]
+    acc_std: float  # noise of the base's acceleration [m/s^2]
+    omega_std: float  # noise of the base's angular velocity [rad/s]
+    sensed_base: int  # 1 if base position and velocity come from proprioception, 0 if they are the plant's
+    gyro: int  # first entry of the gyroscope in sensordata
+    acc: int  # first entry of the accelerometer
+    force: NDArray[np.int64]  # first entries of the left, right foot's force (2,)
+    torque: NDArray[np.int64]  # first entries of their torque (2,)
+    q: Array  # generalized position (nq,), as `Sensed.q`
+    v: Array  # generalized velocity (nv,), as `Sensed.v`
+    acc_base_in_base: Array  # specific force (3,) [m/s^2]
+    wrenches: Array  # ground's wrench on the feet about their sensors, foot axes (2, 6) [N, N m]
+    loads: Array  # vertical force on the feet (2,) [N]
 
 
 def make_sensors(noise: NoiseStd, level: Level, model: mujoco.MjModel) -> Sensors:
@@ -87,10 +70,7 @@ def read_sensors(
     for i in range(3):
         sensors.acc_base_in_base[i] = sensordata[sensors.acc + i] + sensors.acc_std * rng.standard_normal()
     if sensors.sensed_base == 1:
-        update_base(
-            walker.pose, walker.feet, walker.sole, sensors.loads, sensors.acc_base_in_base, walker.gravity,
-            walker.par.base_time_constant_s, dt, sensors.q, sensors.v,
-        )  # fmt: skip
+        update_base(walker, sensors.loads, sensors.acc_base_in_base, dt, sensors.q, sensors.v)
     else:
         for i in range(3):
             sensors.q[i] = qpos[i]

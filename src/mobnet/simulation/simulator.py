@@ -11,6 +11,7 @@ from mobnet.control.parameters import empty_state
 from mobnet.control.random_torque import make_exploration
 from mobnet.control.upper_body import UpperBody, follow
 from mobnet.control.walker import make_walker
+from mobnet.core.arrays import Array
 from mobnet.core.columns import recording_width
 from mobnet.robot.description import describe, for_walking
 from mobnet.settings.data import CommandSource, FixedCommand
@@ -24,7 +25,6 @@ from mobnet.simulation.start import raise_start, start_standing, start_walking, 
 from mobnet.simulation.terrain import draw_terrain
 from mobnet.simulation.world import World, ground_height, leg_mask, make_world
 
-Array = NDArray[np.float64]
 Rows = NDArray[np.float32]
 STAND = "stand"  # commands of an episode that does not walk
 SOLE_POINTS = (5, 3)  # along and across a sole, where the ground under a start is looked for
@@ -45,12 +45,7 @@ class Simulator:
     """A plant and its controller at one level, one episode after another."""
 
     def __init__(self, settings: WalkSettings, seed: int, upper: UpperBody | None = None) -> None:
-        """Prepare a scenario.
-
-        Args:
-            settings: the scenario at its level.
-            seed: number of the recording; commands, noise and the rest have streams of their own.
-            upper: motion of the joints above the legs; None holds the posture.
+        """Prepare the scenario of a recording; without a motion the joints above the legs hold their posture.
 
         Raises:
             ConfigError: the robot cannot walk, or plates find no room.

@@ -4,20 +4,18 @@ The start is on ground at height zero, facing along x; `turn` and `raise_start` 
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mobnet.control.geometry import solve
 from mobnet.control.kinematics import update
 from mobnet.control.leg_ik import leg_ik
-from mobnet.control.parameters import DURATION, State
+from mobnet.control.parameters import DURATION, SIDES, State
 from mobnet.control.walker import Walker
 from mobnet.control.whole_body import leg_jacobian
+from mobnet.core.arrays import Array
 from mobnet.robot.description import WalkingRobot
 
-Array = NDArray[np.float64]
 CLEARANCE_M = 0.001  # soles over the ground at the start
 ITERATIONS = 20  # of the feet's place under the centre of mass; converges by a factor 4 each
-SIDES = (1.0, -1.0)
 
 
 def place(walker: Walker, robot: WalkingRobot) -> tuple[Array, Array]:
@@ -39,15 +37,9 @@ def place(walker: Walker, robot: WalkingRobot) -> tuple[Array, Array]:
 
 
 def start_walking(walker: Walker, robot: WalkingRobot, s: State, command: Array) -> tuple[Array, Array]:
-    """Return q (nq,) and v (nv,) amid double support, swaying to the left, and set the controller's state to it.
+    """Return q (nq,) and v (nv,) amid double support of a first command (5,), swaying to the left; s is overwritten.
 
     The pelvis has the lateral speed of a linear inverted pendulum that steps in place, (W49).
-
-    Args:
-        walker: knowledge of the robot.
-        robot: its figures.
-        s: controller state, overwritten.
-        command: first command (5,).
     """
     par = walker.par
     q, ankles = place(walker, robot)
@@ -58,7 +50,7 @@ def start_walking(walker: Walker, robot: WalkingRobot, s: State, command: Array)
     v[1] = sway
     for k in range(2):
         jacobian, rates = np.zeros((6, 6)), np.zeros(6)
-        leg_jacobian(walker.tree, walker.pose, walker.first[k], walker.feet[k], jacobian)
+        leg_jacobian(walker, k, jacobian)
         rates[1] = -sway
         solve(jacobian, rates)
         v[6 + walker.first[k] : 12 + walker.first[k]] = rates

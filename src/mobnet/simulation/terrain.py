@@ -8,13 +8,12 @@ from typing import NamedTuple
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
+from mobnet.core.arrays import Array
 from mobnet.core.errors import ConfigError
 from mobnet.robot.plant import SOLE_TYPE, TERRAIN_TYPE
 from mobnet.settings.data import Checks, Flat, Plates, Slope
 
-Array = NDArray[np.float64]
 TERRAIN_GROUP = 0  # geom group of the ground and what stands on it
 GROUND_RGBA = (0.55, 0.57, 0.60, 1.0)
 WOOD_RGBA = (0.75, 0.63, 0.45, 1.0)
@@ -25,41 +24,24 @@ ROUND_OFF_M = 1e-9
 
 
 class Piece(NamedTuple):
-    """A frustum on z = 0 that repeats.
+    """A frustum on z = 0 that repeats."""
 
-    Attributes:
-        bottom: half widths (2,) at its foot [m]; infinite where it has no end.
-        top: half widths (2,) at its top [m].
-        height: [m].
-        place: centre (2,) [m].
-        yaw: [rad].
-    """
-
-    bottom: Array
-    top: Array
-    height: float
-    place: Array
-    yaw: float = 0.0
+    bottom: Array  # half widths (2,) at its foot [m]; infinite where it has no end
+    top: Array  # half widths (2,) at its top [m]
+    height: float  # [m]
+    place: Array  # centre (2,) [m]
+    yaw: float = 0.0  # [rad]
 
 
 class Terrain(NamedTuple):
-    """Even ground and what stands on one period of it.
+    """Even ground and what stands on one period of it."""
 
-    Attributes:
-        period: length after which the terrain repeats in x and y [m].
-        pieces: what stands on one period.
-    """
-
-    period: float
-    pieces: tuple[Piece, ...] = ()
+    period: float  # length after which the terrain repeats in x and y [m]
+    pieces: tuple[Piece, ...] = ()  # what stands on one period
 
 
 def draw_terrain(row: Checks | Flat | Plates | Slope, rng: np.random.Generator) -> Terrain:
-    """Draw a terrain of section 4.3; checks and flat ground are always the same.
-
-    Args:
-        row: sizes of the terrain.
-        rng: decides where plates lie and which way a slope goes.
+    """Draw a terrain of section 4.3: where plates lie and which way a slope goes; the others are always the same.
 
     Raises:
         ConfigError: the plates find no room.

@@ -8,12 +8,11 @@ from collections.abc import Iterator
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
+from mobnet.core.arrays import Array
 from mobnet.simulation.render import aim, picture_model
 from mobnet.simulation.simulator import Simulator
 
-Array = NDArray[np.float64]
 SYNC_S = 0.01  # simulated between two looks of the viewer
 SHADOW_PIXELS = 2048  # of the viewer's shadow; a still picture has more
 MID_STRIDE = 0.6  # of a step's time; the swinging foot is then ahead of the other and still in the air

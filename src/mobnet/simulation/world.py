@@ -17,17 +17,11 @@ RAY_M = 1.0  # rays begin this high over the highest point
 
 @dataclass(frozen=True)
 class World:
-    """A plant ready to step.
+    """A plant ready to step."""
 
-    Attributes:
-        model: MuJoCo's model.
-        data: its state.
-        terrain: what was drawn.
-    """
-
-    model: mujoco.MjModel
-    data: mujoco.MjData
-    terrain: Terrain
+    model: mujoco.MjModel  # MuJoCo's model
+    data: mujoco.MjData  # its state
+    terrain: Terrain  # what was drawn
 
     @property
     def period(self) -> float:
@@ -36,15 +30,7 @@ class World:
 
 
 def make_world(robot: RobotDescription, terrain: Terrain, plant: Plant, level: Level, rate_hz: float) -> World:
-    """Compile the robot on a terrain.
-
-    Args:
-        robot: its figures.
-        terrain: as drawn.
-        plant: contact, solver and friction.
-        level: switches friction loss on or off.
-        rate_hz: rate of the plant [1/s].
-    """
+    """Compile the robot on a terrain, stepped at a rate [1/s]; the level switches friction loss on or off."""
     spec = robot_spec(robot)
     add_terrain(spec, terrain)
     _set_options(spec, plant, rate_hz)
