@@ -75,7 +75,7 @@ def test_zmp_stays_on_the_sole(walker: Walker, swinging: State, random_pose: Cal
 
 
 @pytest.mark.parametrize("standing", [0, 1])
-def test_zmp_shift_on_two_feet_is_limited(
+def test_zmp_shift_on_two_feet_is_bounded(
     walker: Walker, swinging: State, random_pose: Callable, standing: int
 ) -> None:
     random_pose(1)
@@ -97,9 +97,7 @@ def test_foothold_stays_without_an_error(par: WalkingParameters, swinging: State
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
 @pytest.mark.parametrize("error", [(2.0, 2.0), (-2.0, -2.0), (0.05, -0.02)])
-def test_foothold_stays_in_reach_and_moves_at_its_speed(
-    par: WalkingParameters, swinging: State, error: tuple, side: float
-) -> None:
+def test_foothold_keeps_its_reach_and_speed(par: WalkingParameters, swinging: State, error: tuple, side: float) -> None:
     swinging.side = side
     plan_steps(par, swinging, ANKLE)
     swinging.target = swinging.next_ankle
@@ -136,9 +134,7 @@ def test_duration_stays_without_an_error(par: WalkingParameters, swinging: State
 
 
 @pytest.mark.parametrize("ahead_s", [-0.05, 0.0, 0.05])
-def test_duration_converges_to_the_closed_form_of_a_reference_run_early_or_late(
-    par: WalkingParameters, swinging: State, ahead_s: float
-) -> None:
+def test_duration_of_a_shifted_reference_is_exact(par: WalkingParameters, swinging: State, ahead_s: float) -> None:
     """Without dead band and ankle, a DCM that is `ahead_s` ahead of its reference ends the step that much sooner."""
     free = par.copy()
     free.timing_band_m = free.timing_ankle_m = 0.0

@@ -83,9 +83,7 @@ def test_next_foothold_is_the_command_in_the_stance_foot_s_frame(par: WalkingPar
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
 @pytest.mark.parametrize("step_y", [-0.1, 0.1])
-def test_only_the_outer_foot_steps_sideways(
-    par: WalkingParameters, stepping: State, side: float, step_y: float
-) -> None:
+def test_only_an_outer_foot_steps_sideways(par: WalkingParameters, stepping: State, side: float, step_y: float) -> None:
     stepping.side, stepping.stance_yaw = side, 0.0
     stepping.command[STEP_X] = stepping.command[TURN] = 0.0
     stepping.command[STEP_Y] = step_y

@@ -44,9 +44,7 @@ def test_ends_over_the_foothold_level_and_descending(par: WalkingParameters, swi
 
 @pytest.mark.parametrize("slope", [(0.05, 0.0), (0.0, 0.05), (-0.03, 0.04)])
 @pytest.mark.parametrize("yaw", [0.0, 0.4, -2.0, 3.0])
-def test_landing_sole_lies_on_the_felt_slope(
-    par: WalkingParameters, swinging: State, slope: tuple[float, float], yaw: float
-) -> None:
+def test_sole_lands_along_the_slope(par: WalkingParameters, swinging: State, slope: tuple, yaw: float) -> None:
     swinging.slope, swinging.next_yaw = slope, yaw
     normal = at(par, swinging, swinging.total).foot_rotation[:, 2]
     np.testing.assert_allclose(-normal[:2] / normal[2], slope, atol=2e-4)

@@ -76,9 +76,7 @@ def test_swing_reference_moves_the_foot_as_asked(walker: Walker, crouched: tuple
 
 
 @pytest.mark.parametrize("k", LEGS)
-def test_stance_reference_levels_the_pelvis_over_a_still_foot(
-    walker: Walker, crouched: tuple, stepping: State, k: int
-) -> None:
+def test_stance_reference_levels_a_pelvis_on_one_foot(walker: Walker, crouched: tuple, stepping: State, k: int) -> None:
     q, v = crouched
     pose, first, foot = walker.pose, walker.first[k], walker.feet[k]
     stepping.height, stepping.yaw, stepping.height_rate = 0.93, 0.5, v[2]
@@ -133,9 +131,7 @@ def test_stance_torque_is_the_force_through_mujoco_s_jacobian(
 
 
 @pytest.mark.parametrize("k", LEGS)
-def test_leg_that_lacks_load_pushes_by_a_share_of_it_more(
-    walker: Walker, crouched: tuple, stepping: State, k: int
-) -> None:
+def test_leg_that_lacks_load_pushes_by_a_share_more(walker: Walker, crouched: tuple, stepping: State, k: int) -> None:
     """More torque is that of more vertical force: the same as of a wanted force greater by that much."""
     lacks = 80.0
     stepping.force, stepping.load = [40.0, -25.0, 900.0], [0.6, 0.4]
@@ -150,9 +146,7 @@ def test_leg_that_lacks_load_pushes_by_a_share_of_it_more(
 
 
 @pytest.mark.parametrize("yaw", [0.0, 1.1, -2.6])
-def test_foot_that_lies_on_the_slope_is_not_guarded_and_a_level_one_is(
-    walker: Walker, crouched: tuple, stepping: State, yaw: float
-) -> None:
+def test_only_a_foot_off_the_slope_is_guarded(walker: Walker, crouched: tuple, stepping: State, yaw: float) -> None:
     stepping.load, stepping.force, stepping.slope = [1.0, 0.0], [0.0, 0.0, 0.0], [0.03, -0.02]
     foot, c, n = walker.feet[0], np.cos(yaw), np.sin(yaw)
     walker.pose.omega[foot] = 0
@@ -167,9 +161,7 @@ def test_foot_that_lies_on_the_slope_is_not_guarded_and_a_level_one_is(
 
 
 @pytest.mark.parametrize("which", [0, 1])
-def test_ankle_integral_makes_up_for_a_missing_moment_within_its_bound(
-    walker: Walker, crouched: tuple, stepping: State, which: int
-) -> None:
+def test_ankle_integral_adds_a_missing_moment(walker: Walker, crouched: tuple, stepping: State, which: int) -> None:
     stepping.force, stepping.load = [0.0, 0.0, 900.0], [1.0, 0.0]
     walker.pose.rotation[walker.feet[0]] = np.eye(3)
     before = stand(walker, crouched, stepping, 0)[4 + which]
@@ -192,9 +184,7 @@ def test_integral_leaks_away_on_a_tilted_foot(walker: Walker, crouched: tuple, s
     np.testing.assert_allclose(stepping.integral[0], 20 * (1 - rate * TICK_S), rtol=1e-12)
 
 
-def test_swing_torque_is_zero_on_the_reference_and_forgets_the_integral(
-    walker: Walker, crouched: tuple, stepping: State
-) -> None:
+def test_swing_torque_is_zero_on_the_reference(walker: Walker, crouched: tuple, stepping: State) -> None:
     q, v = crouched
     tau = np.zeros(len(q) - 7)
     stepping.q_reference[0], stepping.integral[0] = BENT, 5.0

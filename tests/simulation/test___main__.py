@@ -38,7 +38,7 @@ def test_it_draws_a_walking_robot(tmp_path: Path, caplog: pytest.LogCaptureFixtu
 
 @pytest.mark.slow
 @pytest.mark.sim
-def test_what_cannot_be_drawn_is_still_walked(
+def test_undrawn_is_still_walked(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     def refuse(*_: object) -> None:
@@ -57,9 +57,7 @@ def test_what_cannot_be_drawn_is_still_walked(
 @pytest.mark.slow
 @pytest.mark.sim
 @pytest.mark.parametrize(("words", "wanted"), [([], float("inf")), (["--seconds", "2"], 2.0)])
-def test_where_there_is_a_display_the_viewer_opens(
-    monkeypatch: pytest.MonkeyPatch, words: list[str], wanted: float
-) -> None:
+def test_the_viewer_opens_on_a_display(monkeypatch: pytest.MonkeyPatch, words: list[str], wanted: float) -> None:
     watched = []
     monkeypatch.setattr(command, "has_display", lambda: True)
     monkeypatch.setattr(command, "watch", lambda simulator, seconds: watched.append(seconds))
@@ -92,9 +90,7 @@ def test_ctrl_c_is_one_line(monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogC
         (["--config", "nowhere"], "nowhere/config.yaml: file is missing"),
     ],
 )
-def test_what_is_not_accepted_is_named_in_one_line(
-    words: list[str], message: str, caplog: pytest.LogCaptureFixture
-) -> None:
+def test_one_line_names_what_is_not_accepted(words: list[str], message: str, caplog: pytest.LogCaptureFixture) -> None:
     assert command.main(words) == 1
     assert len(caplog.messages) == 1
     assert caplog.messages[0].startswith("error: ")

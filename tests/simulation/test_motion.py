@@ -71,9 +71,7 @@ def test_same_seed_same_knots(made: Made, motion: Motion, make: Callable[..., No
     np.testing.assert_array_equal(again[:same], made[1][0][:same].astype(np.float32))
 
 
-def test_knots_stay_apart_slow_and_within_the_working_range(
-    made: Made, motion: Motion, robot: RobotDescription
-) -> None:
+def test_knots_stay_apart_slow_and_in_the_working_range(made: Made, motion: Motion, robot: RobotDescription) -> None:
     limits = working_range(motion)
     top = motion.speed_share * np.array([joint.velocity_limit for joint in robot.joints[12:]])
     for knots, meta in made.values():

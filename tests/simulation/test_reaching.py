@@ -51,9 +51,7 @@ def test_hands_stop_before_the_robot(reacher: Reacher, posture: Array, motion: M
     assert motion.clearance_m - 0.015 < nearest.min() < motion.clearance_m + 0.01
 
 
-def test_joints_keep_their_ranges_and_speeds(
-    reacher: Reacher, posture: Array, motion: Motion, robot: RobotDescription
-) -> None:
+def test_joints_keep_their_limits(reacher: Reacher, posture: Array, motion: Motion, robot: RobotDescription) -> None:
     limits = working_range(motion)
     knots = np.concatenate([knots_to(reacher, hands, posture) for hands in (-2 * ASIDE, 3 * ASIDE, INSIDE)])
     assert (knots >= limits[:, 0] - TOLERANCE).all()

@@ -80,9 +80,7 @@ def test_where_the_robot_is_does_not_matter(clearance: Clearance, robot: RobotDe
     np.testing.assert_allclose(clearance.nearest(moved[None]), clearance.nearest(hit[None]), atol=1e-6)
 
 
-def test_distance_of_two_capsules_is_that_of_their_axes_less_their_radii(
-    robot: RobotDescription, standing: Array
-) -> None:
+def test_distance_of_capsules_is_that_of_their_axes_less_their_radii(robot: RobotDescription, standing: Array) -> None:
     """Both thighs are parallel, hips 0.205 m apart, and nothing else is as near."""
     clearance = Clearance(robot, 0.1)
     radius = next(shape.size[0] for shape in robot.shapes if shape.name == "left_thigh")

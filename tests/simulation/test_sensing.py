@@ -45,9 +45,7 @@ def test_base_orientation_is_never_noisy(simulate: Callable, run: Callable) -> N
 @pytest.mark.sim
 @pytest.mark.slow
 @pytest.mark.parametrize(("scenario", "bound"), [("forward_walk", 4e-3), ("random_walk", 2e-2)])
-def test_sensed_base_velocity_stays_near_the_truth(
-    simulate: Callable, run: Callable, scenario: str, bound: float
-) -> None:
+def test_sensed_base_velocity_stays_near_truth(simulate: Callable, run: Callable, scenario: str, bound: float) -> None:
     """Root mean square of seven walks of 8 s with all uncertainty [m/s]; single ones lie between 1.5 and 5 mm/s.
 
     A support foot that slips in a hard turn costs most.

@@ -47,7 +47,7 @@ def begun(simulator: Simulator) -> tuple[Any, ...]:
 
 
 @pytest.mark.parametrize("change", [{"pushes": ["shove"]}, {"random_torque": True}])
-def test_scenarios_that_draw_the_same_have_equal_episodes_but_for_their_pushes(
+def test_scenarios_that_draw_the_same_differ_in_pushes(
     prepare: Callable, run: Callable, change: dict[str, Any]
 ) -> None:
     """Terrain, place, commands and noise are the same, to the bit until the first push or random torque."""
@@ -136,9 +136,7 @@ def soles_over_ground(simulator: Simulator) -> list[float]:
 @pytest.mark.sim
 @pytest.mark.parametrize("commands", ["stand", "random"])
 @pytest.mark.parametrize("terrain", TERRAINS)
-def test_start_stands_on_the_ground_wherever_it_is_and_faces(
-    prepare: Callable, run: Callable, terrain: str, commands: str
-) -> None:
+def test_start_stands_on_the_ground_anywhere(prepare: Callable, run: Callable, terrain: str, commands: str) -> None:
     """Just over the highest point under a sole, in no solid; the feet soon carry the weight, after a bump at most."""
     simulator = prepare("begin", "ideal", 3, terrain=[terrain], commands=commands)
     weight = simulator.robot.mass * simulator.walker.gravity
@@ -164,7 +162,7 @@ def motion() -> UpperBody:
 
 
 @pytest.mark.parametrize("motion_s", [0.0, 3.0, 7.25])
-def test_motion_is_where_it_should_be_when_the_first_sample_is_kept(
+def test_motion_meets_the_first_kept_sample(
     prepare: Callable, run: Callable, motion: UpperBody, motion_s: float
 ) -> None:
     """The episode begins the time to settle earlier, with the joints where the motion is then."""
