@@ -1,24 +1,38 @@
 """A method looks the same in every figure, and no two of a figure look alike."""
 
+from itertools import combinations
+
 import pytest
 
-from mobnet.evaluation.figures.style import CYCLE, LOOKS, looks
+from mobnet.evaluation.figures.style import LOOKS, PALETTE, Look, looks
+from mobnet.settings.settings import Settings
 
 
-def test_methods_differ_in_colour_and_without_it() -> None:
-    for kind in (LOOKS.values(), CYCLE):
-        assert len({look.colour for look in kind}) == len(kind)
-    methods = [look for name, look in LOOKS.items() if name not in ("truth", "target")]
-    for kind in (methods, CYCLE):
-        assert len({look.hatch for look in kind}) == len({look.marker for look in kind}) == len(kind)
+def unlike(found: list[Look]) -> bool:
+    """Return whether any two differ in colour, and in dash, hatch and marker without it."""
+    keys = ("colour", "dash", "hatch", "marker")
+    return all(getattr(one, key) != getattr(two, key) for one, two in combinations(found, 2) for key in keys)
+
+
+def test_methods_of_one_figure_differ_in_colour_and_without_it(settings: Settings) -> None:
+    whole = settings.evaluation
+    figures = [
+        *whole.figure_05.panels.values(),
+        *(figure.methods for figure in (whole.figure_06, whole.figure_07, whole.figure_08, whole.figure_09)),
+        *(test.methods for test in whole.figure_10.tests.values()),
+        *(whole.figure_17.methods, whole.figure_18.methods, *(sweep.of for sweep in settings.sweeps.values())),
+    ]
+    assert unlike(list(PALETTE))
+    for methods in figures:
+        assert unlike([LOOKS[method] for method in dict.fromkeys(methods)])
 
 
 @pytest.mark.parametrize("others", [[], ["a"], ["MOB", "a", "b"], [f"kind {k}" for k in range(6)]])
 def test_a_method_keeps_its_look_beside_whatever_else_is_drawn(others: list[str]) -> None:
     found = looks([*others, "MOB-Net"])
     assert found["MOB-Net"] == LOOKS["MOB-Net"]
-    assert len({look.colour for look in found.values()}) == len(found)
+    assert unlike(list(found.values()))
 
 
 def test_more_than_there_are_looks_begin_anew() -> None:
-    assert looks(str(k) for k in range(9))["7"] == CYCLE[0]
+    assert looks(str(k) for k in range(9))["7"] == PALETTE[0]

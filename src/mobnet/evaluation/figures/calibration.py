@@ -25,14 +25,7 @@ IN_DISTRIBUTION = "in distribution"
 
 @dataclass(frozen=True)
 class Curve:
-    """Coverage of one limb.
-
-    Attributes:
-        label: limb; the same one has the same colour in every panel.
-        nominal: nominal shares (p,).
-        before: observed with the standard deviation as learned (p,).
-        after: observed with the scaled one (p,).
-    """
+    """Coverage of one limb over nominal shares (p,): observed with sigma as learned (p,) and scaled (p,)."""
 
     label: str
     nominal: NDArray[Any]
@@ -42,13 +35,7 @@ class Curve:
 
 @dataclass(frozen=True)
 class ReliabilityPanel:
-    """One panel of the figure.
-
-    Attributes:
-        method: estimator; chooses the row.
-        title: which tests are looked at; chooses the column.
-        curves: one for each limb.
-    """
+    """One panel, with a curve for each limb: the method chooses its row, the title (its tests) the column."""
 
     method: str
     title: str
@@ -58,8 +45,7 @@ class ReliabilityPanel:
 def draw_reliability(panels: Sequence[ReliabilityPanel]) -> Figure:
     """Draw observed over nominal coverage; pale lines as learned, full ones scaled; on the diagonal sigma is true.
 
-    Args:
-        panels: a row for each method, a column for each title; where one is missing the place stays empty.
+    A limb has the same colour in every panel; the place of a method and a title without a panel stays empty.
     """
     methods, titles = (list(dict.fromkeys(getattr(panel, key) for panel in panels)) for key in ("method", "title"))
     styles = looks(curve.label for panel in panels for curve in panel.curves)
@@ -115,11 +101,7 @@ def panels_of(
 ) -> list[ReliabilityPanel]:
     """Return the panels of the figure: for each method one of all collision-free tests, then one of each collision.
 
-    Args:
-        grids: of the tests; coverage of the points follows that of the table's levels.
-        methods: rows of panels.
-        skipped: number of the table's levels.
-        points: nominal shares (p,).
+    In the grids, the coverage of the nominal points (p,) follows that of the table's levels, `skipped` in number.
     """
     panels: dict[tuple[str, str], list[Curve]] = {}
     for grid in sorted(grids, key=lambda grid: methods.index(grid.method)):

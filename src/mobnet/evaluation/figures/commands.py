@@ -23,13 +23,7 @@ LABELS = ("step x [m]", "step y [m]", "turn [deg]", "duration [s]", "foot height
 
 @dataclass(frozen=True)
 class Bars:
-    """Histograms of one command.
-
-    Attributes:
-        label: name and unit for the axis.
-        edges: of the bins (n + 1,) [unit of the label].
-        counts: name of a data set -> its steps in each bin (n,).
-    """
+    """Histograms of a command: edges of bins (n + 1,) [unit of the label], and data set -> steps in each bin (n,)."""
 
     label: str
     edges: NDArray[np.float64]
@@ -43,18 +37,7 @@ def commands(
     sets: Mapping[str, Sequence[Path]],
     figure_dir: Path,
 ) -> None:
-    """Write the histograms of the commands given as PDF, PNG and CSV (Table 2).
-
-    Args:
-        settings: number of bins of a range.
-        commands: ranges of Table 2.
-        layout: joints.
-        sets: name of a data set -> its recordings.
-        figure_dir: gets the files.
-
-    Raises:
-        DataError: a file is missing, or a set has no step.
-    """
+    """Write the histograms of the commands given (Table 2) in each data set's recordings, as PDF, PNG and CSV."""
     found = {name: read_steps(stems, layout).commanded for name, stems in sets.items()}
     rows, panels = [], []
     for column, label in enumerate(LABELS):

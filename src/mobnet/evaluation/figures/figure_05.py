@@ -11,19 +11,7 @@ from mobnet.settings.evaluation import Figure05
 
 
 def figure_05(settings: Figure05, start_s: float, layout: JointLayout, runs: Sequence[Run], figure_dir: Path) -> None:
-    """Write Figure 5, one gait cycle of one joint [N m], as PDF, PNG and the plotted numbers as CSV.
-
-    Args:
-        settings: the joint.
-        start_s: earliest start of the cycle [s].
-        layout: joints and legs.
-        runs: one for each panel, in order.
-        figure_dir: gets the files.
-
-    Raises:
-        DataError: a file is missing or damaged, or no whole cycle follows the start.
-        ConfigError: the joint belongs to no leg, or is not estimated.
-    """
+    """Write Figure 5, one gait cycle of one joint [N m], a panel for each run, as PDF, PNG and CSV."""
     panels = [read_panel(layout, run, settings.joint, start_s) for run in runs]
     figure = draw_panels(panels, FROM_LIFT_OFF, f"external torque of {settings.joint} [N m]", one_scale=True)
     save_panels(figure, panels, figure_dir / "figure_05")

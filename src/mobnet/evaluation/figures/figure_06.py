@@ -28,18 +28,7 @@ def figure_06(
 ) -> None:
     """Write Figure 6, a step of torque on a swinging hip [N m]: curves around the first, errors in all windows.
 
-    Args:
-        settings: test, joint, and what is shown around a step.
-        published: the paper's errors.
-        layout: joints and legs.
-        statistics: of the intervals.
-        seed: of the intervals.
-        runs: one of each method, all of one recording.
-        scores: test -> its scores.
-        figure_dir: gets the files.
-
-    Raises:
-        DataError: a file is missing or damaged, or a run is missing.
+    The runs are one of each method, all of one recording.
     """
     joint, rows = settings.joint, read_rows(scores[settings.scenario], Score)
     errors: PushErrors = {}

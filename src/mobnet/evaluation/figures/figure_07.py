@@ -16,15 +16,7 @@ SIDE_BY_SIDE = 2
 def figure_07(settings: Figure07, layout: JointLayout, runs: Sequence[Run], figure_dir: Path) -> None:
     """Write Figure 7, external torque of joints [N m] and force on the base [N] under a load on a hand.
 
-    Args:
-        settings: joints, time, and every how many samples one is drawn.
-        layout: joints.
-        runs: one of each method, all of one recording.
-        figure_dir: gets the files.
-
-    Raises:
-        DataError: a file is missing or damaged.
-        ConfigError: a joint is not estimated by a method.
+    The runs are one of each method, all of one recording.
     """
     curves = read_curves(layout, runs, settings.joints, {"push": PUSHED})
     start, end = (round(time_s * curves.rate_hz) for time_s in (settings.start_s, settings.end_s))

@@ -14,17 +14,7 @@ from mobnet.settings.evaluation import GaitFigure
 def figure_08(settings: GaitFigure, start_s: float, layout: JointLayout, runs: Sequence[Run], figure_dir: Path) -> None:
     """Write Figure 8, uncertainty torque of a leg over one gait cycle [N m]: the target and what a network predicts.
 
-    The error in a panel's title is that over the whole recording, as in the paper.
-
-    Args:
-        settings: the leg.
-        start_s: earliest start of the cycle [s].
-        layout: joints and legs.
-        runs: one of the method that is shown.
-        figure_dir: gets the files.
-
-    Raises:
-        DataError: a file is missing or damaged, or no whole cycle follows the start.
+    There is one run; the error in a panel's title is that over the whole recording, as in the paper.
     """
     curves, rows = read_cycle(layout, runs, layout.limb(settings.limb), start_s)
     (estimate,) = curves.estimates.values()

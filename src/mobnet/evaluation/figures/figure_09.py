@@ -11,18 +11,7 @@ from mobnet.settings.evaluation import GaitFigure
 
 
 def figure_09(settings: GaitFigure, start_s: float, layout: JointLayout, runs: Sequence[Run], figure_dir: Path) -> None:
-    """Write Figure 9, external torque of a leg over one gait cycle by method [N m].
-
-    Args:
-        settings: the leg.
-        start_s: earliest start of the cycle [s].
-        layout: joints and legs.
-        runs: one of each method, all of one recording.
-        figure_dir: gets the files.
-
-    Raises:
-        DataError: a file is missing or damaged, or no whole cycle follows the start.
-    """
+    """Write Figure 9, external torque of a leg over one gait cycle [N m] by method, from runs of one recording."""
     curves, rows = read_cycle(layout, runs, layout.limb(settings.limb), start_s)
     panels = [curves.panel(joint, joint, rows, zero=rows.start) for joint in curves.joints]
     save_panels(draw_leg(panels, "external torque [N m]"), panels, figure_dir / "figure_09")

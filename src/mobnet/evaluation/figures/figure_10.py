@@ -27,18 +27,7 @@ def figure_10(
 ) -> None:
     """Write Figure 10, pushes on the knee of a leg in the air and on the ground [N m]: curves and errors of each.
 
-    Args:
-        settings: tests by title, joint, what is shown around a push, and the test without pushes.
-        published: the paper's errors.
-        layout: joints and legs.
-        statistics: of the intervals.
-        seed: of the intervals.
-        runs: title of a test -> one of each method, all of one recording.
-        scores: test -> its scores.
-        figure_dir: gets the files.
-
-    Raises:
-        DataError: a file is missing or damaged, or a run is missing.
+    The title of a test leads to its runs, one of each method and all of one recording.
     """
     rows = [row for path in scores.values() for row in read_rows(path, Score)]
     groups = []

@@ -19,12 +19,7 @@ MEASURES = {"train_loss": "training loss", "validation_loss": "validation loss"}
 def figure_17(folders: Sequence[Path], figure_dir: Path) -> None:
     """Write Figure 17, mean of (22) over the runs of each kind of network, as PDF, PNG and CSV.
 
-    Args:
-        folders: of the trained networks, kind by kind; those whose training diverged are left out.
-        figure_dir: gets the files.
-
-    Raises:
-        DataError: a file is missing or damaged, or runs of a kind have different numbers of epochs.
+    Trainings that diverged are left out.
     """
     kinds = {method: sound(trainings) for method, trainings in read_trainings(folders).items()}
     panels, rows = [], []
@@ -39,15 +34,10 @@ def figure_17(folders: Sequence[Path], figure_dir: Path) -> None:
 
 
 def curve(label: str, trainings: Sequence[Training], field: str) -> Line:
-    """Return a number of every epoch: mean, lowest and highest of some runs.
-
-    Args:
-        label: name of the line.
-        trainings: runs, all of the same number of epochs.
-        field: of `columns.Epoch`.
+    """Return a number of every epoch, the field of `columns.Epoch`: mean, lowest and highest of some runs.
 
     Raises:
-        DataError: the numbers of epochs differ.
+        DataError: the runs have different numbers of epochs.
     """
     counts = {len(training.epochs) for training in trainings}
     if len(counts) != 1:

@@ -26,19 +26,7 @@ def figure_18(
     scores: Mapping[str, Path],
     figure_dir: Path,
 ) -> None:
-    """Write Figure 18, mean RMSE [N m] over the joints of the upper body and of its limbs, as PDF, PNG and CSV.
-
-    Args:
-        settings: level, limbs, methods, and the title of each test's panel.
-        layout: joints and limbs.
-        statistics: of the intervals.
-        seed: of the intervals.
-        scores: test -> its scores.
-        figure_dir: gets the files.
-
-    Raises:
-        DataError: a run that the figure needs is missing.
-    """
+    """Write Figure 18, mean RMSE [N m] over the joints of the upper body and of its limbs, as PDF, PNG and CSV."""
     rows, panels = [], []
     for scenario, title in settings.panels.items():
         own, errors = read_rows(scores[scenario], Score), {}

@@ -25,13 +25,10 @@ DOT, MARKER = 1.6, 4.0  # size of a dot [points^2]; how much larger it is in the
 
 @dataclass(frozen=True)
 class Cloud:
-    """One panel of Figure 19.
+    """One panel of Figure 19, in the column of its joint and in the row and colour of its training set.
 
-    Attributes:
-        joint: name of the joint; chooses the column.
-        training: name of the training set; chooses the row and the colour.
-        dots: joint velocity [rad/s] and desired torque [N m] in training (n, 2).
-        test: the same in the tests (m, 2), drawn over it.
+    Dots are joint velocity [rad/s] and desired torque [N m], of training (n, 2) and, drawn over it, of the tests (m,
+    2).
     """
 
     joint: str
@@ -43,9 +40,7 @@ class Cloud:
 def draw_clouds(clouds: Sequence[Cloud], test: str) -> Figure:
     """Draw desired torque [N m] over joint velocity [rad/s], a column for each joint, a row for each training set.
 
-    Args:
-        clouds: the panels, velocity in [rad/s] and torque in [N m].
-        test: name of the test data in the legend.
+    The tests' dots have the label `test`.
     """
     joints, sets = (list(dict.fromkeys(getattr(cloud, key) for cloud in clouds)) for key in ("joint", "training"))
     styles = looks(sets)
@@ -80,15 +75,7 @@ def figure_19(
 ) -> None:
     """Write Figure 19, desired torque [N m] over velocity [rad/s] of some joints, as PDF, PNG and CSV.
 
-    Args:
-        settings: joints, dots of each training set, and dots of all tests together.
-        coverage: the tests, and what counts as a push.
-        training: name of a training set -> its recordings; a row of panels each.
-        tests: recordings of each test; shown together, each with the same number of dots.
-        figure_dir: gets the files.
-
-    Raises:
-        DataError: a file or a column is missing.
+    Each training set has a row of panels; the tests are shown together, each with the same number of dots.
     """
     joints, share = settings.joints, settings.test_dots // len(tests)
     learnt = {name: read_dots(stems, joints, settings.dots) for name, stems in training.items()}
@@ -118,11 +105,7 @@ def read_dots(
 ) -> NDArray[np.float32]:
     """Return velocity [rad/s] and desired torque [N m] of joints at evenly spread samples (n, joints, 2).
 
-    Args:
-        stems: recordings, paths without a suffix.
-        joints: actuated joints.
-        count: dots wanted of all recordings together; fewer where they have fewer samples.
-        pushed: look at these samples only.
+    At most `count` of all recordings together are taken, around pushes only where those are given.
     """
     names = [f"{quantity}.{joint}" for joint in joints for quantity in (VELOCITY, DESIRED)]
     arrays = []

@@ -22,15 +22,10 @@ THOUSAND = 1e3
 
 @dataclass(frozen=True)
 class Size:
-    """One place of Figure 20, of the trainings that did not diverge.
+    """One place of Figure 20, of trainings that did not diverge; a panel shows what varies, `parameters` or `samples`.
 
-    Attributes:
-        panel: what varies, `parameters` or `samples`.
-        base: estimator whose network is varied.
-        training: one of the trainings of a variation.
-        loss: validation loss (22) of the epoch kept, mean, lowest and highest run.
-        rmse: mean over joints of the root-mean-square error on held-out data [N m]; mean, lowest and highest run. The
-            loss is of z-scored targets, this error is not.
+    Validation loss (22) and root-mean-square error [N m], the mean over joints, are those of the epoch kept on held-out
+    data: mean, lowest and highest run. The loss is of z-scored targets, the error is not.
     """
 
     panel: str
@@ -51,15 +46,7 @@ class Size:
 
 
 def figure_20(sizes_of_networks: Sequence[SweptSize], figure_dir: Path) -> None:
-    """Write Figure 20, validation loss over parameters (a) and training samples (b), as PDF, PNG and CSV.
-
-    Args:
-        sizes_of_networks: the variations and their trained networks.
-        figure_dir: gets the files.
-
-    Raises:
-        DataError: a file is missing or damaged.
-    """
+    """Write Figure 20, validation loss over parameters (a) and training samples (b), as PDF, PNG and CSV."""
     sizes = sorted((size for swept in sizes_of_networks for size in sizes_of(swept)), key=lambda size: size.place)
     panels = []
     for panel, title in TITLES.items():
@@ -72,11 +59,7 @@ def figure_20(sizes_of_networks: Sequence[SweptSize], figure_dir: Path) -> None:
 
 
 def sizes_of(swept: SweptSize) -> list[Size]:
-    """Return the place of a variation in its panel; none where all its trainings diverged.
-
-    Raises:
-        DataError: a file is missing or damaged.
-    """
+    """Return the place of a variation in its panel; none where all its trainings diverged."""
     found = [sound(trainings) for trainings in read_trainings(swept.folders).values()]
     return [size_of(swept.panel, swept.base, kept) for kept in found if kept]
 

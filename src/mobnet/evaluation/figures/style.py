@@ -58,32 +58,31 @@ class Look:
         return {"color": self.colour, "linestyle": self.dash, "zorder": self.order, **width}
 
 
+PALETTE = (
+    Look("#D55E00", "-", "////", "D"),
+    Look("#0072B2", (0, (2, 1)), "", "o"),
+    Look("#009E73", (0, (5, 1.5)), "xxxx", "^"),
+    Look("#CC79A7", (0, (6, 1, 1.5, 1)), "++++", "P"),
+    Look("#E69F00", (0, (3, 1, 1, 1, 1, 1)), "\\\\\\\\", "v"),
+    Look("#56B4E9", (0, (8, 2)), "....", "s"),
+    Look("black", (0, (1, 1)), "----", "X"),
+)
+METHODS = ("MOB-Net", "MOB", "MOB-Net-Single", "FTS-e2e", "MOB-fric-BPF", "MOB-fric")
+KINDS = ("GRU", "LSTM", "RNN", "TCN", "MLP", "MLP-500")  # of networks; never in a figure with the methods above
 LOOKS: Mapping[str, Look] = {
-    "MOB": Look("#0072B2"),
-    "MOB-fric": Look("#56B4E9", (0, (4, 1)), "....", "s"),
-    "MOB-fric-BPF": Look("#E69F00", (0, (1, 1)), "\\\\\\\\", "v"),
-    "MOB-Net": Look("#D55E00", "-", "////", "D"),
-    "MOB-Net-Single": Look("#009E73", (0, (5, 1.5)), "xxxx", "^"),
-    "FTS-e2e": Look("#CC79A7", (0, (6, 1, 1.5, 1)), "++++", "P"),
+    **dict(zip(METHODS, PALETTE, strict=False)),
+    **dict(zip(KINDS, PALETTE, strict=False)),
+    "MOB-Net-Single-2X": Look("#F0E442", (0, (3, 2)), "oooo", "*"),
     "truth": Look("black", (0, (1, 1)), width=1.1, order=3.0),  # on top of all
     "target": Look("0.72", width=2.0, order=1.0),  # wide, below all
 }
-CYCLE = (  # of what has no look of its own
-    Look("#D55E00", "-", "", "o"),
-    Look("#0072B2", (0, (5, 1.5)), "////", "s"),
-    Look("#009E73", (0, (1, 1)), "xxxx", "D"),
-    Look("#CC79A7", (0, (5, 1, 1, 1)), "....", "^"),
-    Look("#E69F00", (0, (3, 1, 1, 1, 1, 1)), "++++", "v"),
-    Look("black", (0, (8, 2)), "\\\\\\\\", "P"),
-    Look("#56B4E9", "-", "oooo", "X"),
-)
 
 
 def looks(labels: Iterable[str]) -> dict[str, Look]:
     """Return the look of everything in a figure: a method's own, or the next of those that no method in it has."""
     names = list(dict.fromkeys(labels))
     taken = {LOOKS[name].colour for name in names if name in LOOKS}
-    free = [look for look in CYCLE if look.colour not in taken]
+    free = [look for look in PALETTE if look.colour not in taken]
     others = [name for name in names if name not in LOOKS]
     return {name: LOOKS[name] if name in LOOKS else free[others.index(name) % len(free)] for name in names}
 
@@ -100,14 +99,9 @@ def entitle(axis: Axes, k: int, title: str) -> None:
 
 
 def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, last: str = "", **look: float) -> None:
-    """Put one legend of everything drawn above the panels, each label as it is drawn first.
+    """Put one legend of everything drawn above the panels, each label as it is drawn first and `last` at the end.
 
-    Args:
-        figure: holds the panels.
-        axes: the panels.
-        columns: entries in a row at most; None for all in one.
-        last: label that comes last.
-        look: other lengths of Matplotlib's legend than here [font size].
+    A row has so many columns at most, or all entries; `look` has other lengths of Matplotlib's legend [font size].
     """
     found: dict[str, Any] = {}
     for axis in axes:

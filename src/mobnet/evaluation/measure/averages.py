@@ -10,13 +10,9 @@ from mobnet.settings.evaluation import Mean
 
 @dataclass(frozen=True)
 class Column:
-    """A column of a table: the mean over joints and metrics, mostly one of each.
+    """A column of a table: the mean over joints, each with its limb (n,), and metrics, mostly one of each.
 
-    Attributes:
-        name: its head.
-        unit: unit of its joints' torque.
-        joints: limb and name of each joint, (n,).
-        metrics: names of metrics; if there are none, the metric of the row counts.
+    Without metrics, that of the row counts. The unit is that of the joints' torques.
     """
 
     name: str
@@ -28,12 +24,7 @@ class Column:
 def columns_of(layout: JointLayout, items: Sequence[str | Mean]) -> list[Column]:
     """Return the columns that a table's configuration asks for, such as those of Table 6.
 
-    Args:
-        layout: joints and limbs.
-        items: a joint, a limb for its joints one by one, or a mean over some of both.
-
-    Raises:
-        ConfigError: a joint is unknown, or a mean is over joints of different units.
+    An item is a joint, a limb for its joints one by one, or a mean over some of both.
     """
     columns: list[Column] = []
     for item in items:

@@ -35,17 +35,11 @@ STAGES = ("before", "after")  # of the scaling; also keys of a training's note
 
 @dataclass(frozen=True)
 class Grid:
-    """Measures of one limb of a method in one test.
+    """Measures of one limb of a method in one test, or in VALIDATION, which has no uncertainty level.
 
-    Attributes:
-        test: scenario, or VALIDATION.
-        level: uncertainty level; empty for held-out data.
-        pushed: joint that is pushed where only samples around pushes count, else empty.
-        method: row of the configuration's methods.
-        limb: limb of section 4.1.
-        unit: unit of the limb's torques.
-        values: means over the limb's joints (networks, tests, 2, k + 2): as learned and scaled; coverage of k nominal
-            shares, negative log-likelihood [nats] and CRPS [N m].
+    Where only samples around pushes count, `pushed` is the joint that is pushed, else it is empty. Values are means
+    over the limb's joints (networks, tests, 2, k + 2), as learned and scaled: coverage of k nominal shares, negative
+    log-likelihood [nats] and CRPS [unit].
     """
 
     test: str
@@ -80,13 +74,8 @@ def numbers_of(fit: Fit, columns: Sequence[int]) -> Array:
 def held_out(layout: JointLayout, folders: Sequence[Path], shares: Sequence[float]) -> list[Grid]:
     """Return what trainings noted of their validation data, (networks, 1, 2, k + 2), those that diverged left out.
 
-    Args:
-        layout: joints.
-        folders: of the trained networks.
-        shares: nominal shares (k,).
-
     Raises:
-        DataError: a note is missing, or has the coverage of other shares.
+        DataError: a note is missing, or has the coverage of other nominal shares than these (k,).
     """
     found: dict[Key, list[Array]] = {}
     for folder in folders:
@@ -112,17 +101,9 @@ def in_tests(
     runs: Sequence[Sequence[Run]],
     shares: Sequence[float],
 ) -> list[Grid]:
-    """Return what runs show of their standard deviations, (networks, tests, 2, k + 2) each.
+    """Return what the runs of each test show of their standard deviations, (networks, tests, 2, k + 2) each.
 
-    Args:
-        layout: joints.
-        coverage: what counts as a push, for tests of which only samples around pushes count.
-        tests: the tests.
-        runs: of each test.
-        shares: nominal shares (k,).
-
-    Raises:
-        DataError: a file or a column is missing, or an estimate has no standard deviation.
+    The shares (k,) are nominal; the section of coverage says what counts as a push.
     """
     grids: list[Grid] = []
     for test, own in zip(tests, runs, strict=True):
@@ -142,16 +123,12 @@ def in_tests(
 def run_cells(
     layout: JointLayout, run: Run, spans: Spans | None, shares: Sequence[float]
 ) -> Iterator[tuple[tuple[str, str], Array]]:
-    """Yield limb and unit, and the measures (2, k + 2) of a run, limb by limb.
+    """Yield limb and unit, and the measures (2, k + 2) of a run, limb by limb, for nominal shares (k,).
 
-    Args:
-        layout: joints.
-        run: of a method that predicts standard deviations.
-        spans: stretches of rows that count; None for all, and if there is none, nothing is yielded.
-        shares: nominal shares (k,).
+    Of the rows, the stretches `spans` count, or all if it is None; if there are no stretches, nothing is yielded.
 
     Raises:
-        DataError: a file or a column is missing, or estimate and residual do not belong together.
+        DataError: a file or column is missing, such as those of standard deviations, or files do not belong together.
     """
     if spans == ():
         return

@@ -35,17 +35,12 @@ ALL = "all"  # joints together
 
 @dataclass(frozen=True)
 class Covered:
-    """One measure of a test against both training sets: a row of the table.
+    """One measure of a test against both training sets, with and without random torque exploration: a row of the table.
 
-    Attributes:
-        scenario: test; `training` where none is needed.
-        level: its uncertainty level.
-        measure: AREA, AIR_AREA or a value of OUTSIDE, all shares, or a name of NEAREST, a distance in z-scored inputs.
-        joint: joint, or `all`, the mean over joints or inputs together.
-        block_count: blocks of test samples, each contiguous in time; 0 without a test.
-        with_rte: number against the training set with random torque exploration.
-        without_rte: the same against the set without it, of equally many samples.
-        ratio: with over without, its interval over blocks; none for the shares of test samples, which may be zero.
+    The measure is AREA, AIR_AREA or a value of OUTSIDE, all shares, or a name of NEAREST, a distance in z-scored
+    inputs; the joint may be ALL, the mean over joints or inputs together. The scenario is `training` and has no level
+    and no block where no test is needed; else its samples come in blocks, each contiguous in time. The ratio, with over
+    without, has its interval over blocks; shares of test samples have none, as they may be zero.
     """
 
     scenario: str
@@ -67,19 +62,9 @@ def covered(
     training: Mapping[str, Sequence[Path]],
     tests: Sequence[Sequence[Path]],
 ) -> list[Covered]:
-    """Return all measures of the training sets and of every test against them.
+    """Return all measures of the training sets, WITH and WITHOUT, and of every test against them.
 
-    Args:
-        settings: which samples are looked at, and which tests.
-        layout: joints and legs.
-        ports: what the network of the leg sees.
-        statistics: of the intervals.
-        seed: of the intervals.
-        training: `with RTE` and `without RTE` -> recordings.
-        tests: recordings of each test of the settings.
-
-    Raises:
-        DataError: a file or a column is missing.
+    `ports` are what the network of the leg sees.
     """
     inputs, joints = limb_inputs(layout, ports), layout.limb(settings.limb)
     foot, sets = FEET.index(foot_of(layout, joints[0])), [training[WITH], training[WITHOUT]]
@@ -106,14 +91,8 @@ def visited(
 ) -> Iterator[Covered]:
     """Yield the share of a joint's velocity-torque plane that each training set visits (Figure 19).
 
-    The plane is a rectangle of both sets together, without their rarest samples, cut into equal cells.
-
-    Args:
-        measure: AREA or AIR_AREA.
-        samples: with and without random torque exploration (n, n_in) [rad/s], [N m] among the inputs.
-        names: of the inputs (n_in,).
-        joints: joints of the limb.
-        settings: cells along each side, and the quantiles at its ends.
+    The plane is a rectangle of both sets together, without their rarest samples, cut into equal cells. The samples (n,
+    n_in) are with and without random torque exploration; their named inputs hold [rad/s] and [N m] of the joints.
     """
     where = {name: column for column, name in enumerate(names)}
     shares = []
@@ -131,12 +110,8 @@ def outside(
 ) -> Iterator[Covered]:
     """Yield the share of test samples outside the central range, for each joint and the mean over joints.
 
-    Args:
-        test: the test.
-        blocks: its inputs (n, n_in) each [their units].
-        references: with and without random torque exploration.
-        names: of the inputs (n_in,).
-        joints: joints of the limb.
+    The blocks (n, n_in) and the references, with and without random torque exploration, have these names of inputs
+    (n_in,).
     """
     where = {name: column for column, name in enumerate(names)}
     samples = np.concatenate(blocks)
@@ -153,12 +128,7 @@ def nearest(
 ) -> Iterator[Covered]:
     """Yield quantiles of the distance to the nearest training sample, means over blocks, and their ratio.
 
-    Args:
-        test: the test.
-        blocks: its z-scored inputs (n, n_in) each.
-        references: with and without random torque exploration.
-        statistics: of the intervals.
-        seed: of the intervals.
+    The blocks (n, n_in) are z-scored; the references are with and without random torque exploration.
     """
     distances = [[ref.tree.query(block)[0] for block in blocks] for ref in references]
     for measure, share in NEAREST.items():

@@ -21,13 +21,7 @@ TRUTH, TARGET = "truth", "target"  # labels: tau_e, and what is learned of the u
 
 @dataclass(frozen=True)
 class Curve:
-    """A line over time.
-
-    Attributes:
-        label: method or what else is drawn; chooses the look.
-        values: torque (T,) [N m], V1..V3 [N].
-        std: standard deviation, drawn as a band around the line (T,) [N m], V1..V3 [N]; None for no band.
-    """
+    """A line over time (T,) [N m], V1..V3 [N], perhaps with a band of its standard deviation (T,) around it."""
 
     label: str
     values: NDArray[Any]
@@ -36,14 +30,7 @@ class Curve:
 
 @dataclass(frozen=True)
 class Panel:
-    """Curves of one joint over one stretch of time.
-
-    Attributes:
-        title: what is shown.
-        time: time (T,) [s].
-        curves: lines, the last on top.
-        flags: name -> whether it holds (T,).
-    """
+    """Curves of one joint over some time (T,) [s], the last on top, and flags that hold or not (T,)."""
 
     title: str
     time: NDArray[Any]
@@ -53,17 +40,10 @@ class Panel:
 
 @dataclass(frozen=True)
 class Curves:
-    """What methods made of some joints of one recording.
+    """What methods made of some joints (n,) of one recording, whose spans (start, end) are contiguous rows.
 
-    Attributes:
-        joints: names, (n,).
-        truth: low-passed external torque (T, n) [N m], V1..V3 [N].
-        residual: residual of the momentum observer (T, n) [N m], V1..V3 [N].
-        estimates: method -> external torque (T, n) [N m], V1..V3 [N].
-        stds: method -> standard deviation (T, n) [N m], V1..V3 [N]; None where it predicts none.
-        flags: name -> whether it holds (T,).
-        spans: contiguous stretches (start, end) of rows.
-        rate_hz: samples per second [Hz].
+    Truth is the low-passed external torque, residual that of the momentum observer, both (T, n) [N m], V1..V3 [N], as
+    are each method's estimate and standard deviation, None where it predicts none. Flags hold or not (T,).
     """
 
     joints: tuple[str, ...]
@@ -76,14 +56,9 @@ class Curves:
     rate_hz: float
 
     def panel(self, title: str, joint: str, rows: slice, *, zero: int = 0, band: bool = False) -> Panel:
-        """Return a panel of a joint's truth and estimates [N m], V1..V3 [N].
+        """Return a panel of a joint's truth and estimates in some rows [N m], V1..V3 [N]; time 0 is at row `zero`.
 
-        Args:
-            title: of the panel.
-            joint: one of the joints.
-            rows: samples shown.
-            zero: row at time 0.
-            band: whether a standard deviation is shown where a method predicts it.
+        With `band`, a standard deviation is shown where a method predicts it.
         """
         k = self.joints.index(joint)
         estimates = [
@@ -119,13 +94,9 @@ class Curves:
 def read_curves(
     layout: JointLayout, runs: Sequence[Run], joints: Sequence[str], flags: Mapping[str, str] | None = None
 ) -> Curves:
-    """Read what methods made of some joints (n,) of one recording.
+    """Read what runs of several methods made of some joints (n,) of one recording.
 
-    Args:
-        layout: joints and limbs.
-        runs: one of each method, all of one recording.
-        joints: names.
-        flags: name of a flag -> column of the recording that says whether it holds.
+    Each flag to read has a name and the column of the recording that says whether it holds.
 
     Raises:
         ConfigError: a joint is not estimated by a method.
@@ -149,12 +120,6 @@ def read_curves(
 def read_cycle(layout: JointLayout, runs: Sequence[Run], joints: Sequence[str], start_s: float) -> tuple[Curves, slice]:
     """Return what methods made of joints (n,) of a leg, and the rows of the first whole gait cycle after the start.
 
-    Args:
-        layout: joints and legs.
-        runs: one of each method, all of one recording.
-        joints: names.
-        start_s: earliest start of the cycle [s].
-
     Raises:
         DataError: a file is missing or damaged, or no whole cycle follows the start.
         ConfigError: the first joint belongs to no leg.
@@ -168,15 +133,9 @@ def read_cycle(layout: JointLayout, runs: Sequence[Run], joints: Sequence[str], 
 
 
 def gait_cycle(air: NDArray[np.bool_], segments: Spans, start: int) -> slice | None:
-    """Return the rows from the first lift-off at or after `start` to the next one within the same segment.
+    """Return the rows from the first lift-off at or after `start` to the next one, or None if there is none.
 
-    Args:
-        air: whether the foot is planned to be in the air, (T,).
-        segments: contiguous stretches (start, end) of rows.
-        start: first row looked at.
-
-    Returns:
-        Rows of one cycle, or None if there is none.
+    Both are within one of the segments (start, end); `air` says whether the foot is planned to be in the air (T,).
     """
     for first, end in segments:
         begin = max(int(first), start)

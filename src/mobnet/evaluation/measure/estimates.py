@@ -18,15 +18,9 @@ from mobnet.plan.runs import Run
 
 @dataclass(frozen=True)
 class Pair:
-    """An estimate and the truth of the same joints and samples.
+    """The estimate of a run and the truth behind the observer's low-pass: external torque (T, n) [N m], V1..V3 [N].
 
-    Attributes:
-        run: whose they are.
-        joints: names, (n,).
-        estimate: estimated external torque (T, n) [N m], V1..V3 [N].
-        truth: external torque behind the observer's low-pass (T, n) [N m], V1..V3 [N].
-        spans: contiguous stretches (start, end) of rows.
-        rate_hz: samples per second [Hz].
+    Both are of the same joints (n,) and samples; spans (start, end) are contiguous rows.
     """
 
     run: Run

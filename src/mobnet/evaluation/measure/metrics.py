@@ -16,15 +16,10 @@ def parts(signal: NDArray[Any], spans: Spans) -> list[NDArray[Any]]:
 
 
 def rmse(estimate: NDArray[Any], truth: NDArray[Any], spans: Spans) -> NDArray[np.float64]:
-    """Return the root-mean-square error of each joint, the number of Tables 5 to 8.
+    """Return the root-mean-square error of each joint (n,) [N m], V1..V3 [N], the number of Tables 5 to 8.
 
-    Args:
-        estimate: estimated external torque (T, n) [N m]; V1..V3 [N].
-        truth: true external torque behind the observer's low-pass, tau~_e of (15), (T, n) [N m]; V1..V3 [N].
-        spans: stretches (start, end) of rows that count.
-
-    Returns:
-        (n,) [N m]; V1..V3 [N].
+    The truth is the external torque behind the observer's low-pass, tau~_e of (15); both are (T, n) [N m], V1..V3 [N].
+    Rows within the spans (start, end) count.
     """
     ours, true = (np.concatenate(parts(signal, spans)).astype(np.float64) for signal in (estimate, truth))
     return np.sqrt(np.mean((ours - true) ** 2, axis=0))
@@ -41,15 +36,10 @@ def relative_rmse(estimate: NDArray[Any], truth: NDArray[Any], spans: Spans) -> 
 
 
 def roughness(signal: NDArray[Any], spans: Spans, rate_hz: float) -> NDArray[np.float64]:
-    """Return how jagged each signal is: root mean square of its rate of change (section 5.1 on Figure 5).
+    """Return how jagged each signal (T, n) [N m], V1..V3 [N] is (section 5.1 on Figure 5).
 
-    Args:
-        signal: torque (T, n) [N m]; V1..V3 [N].
-        spans: contiguous stretches (start, end); no difference is taken across their borders.
-        rate_hz: samples per second [Hz].
-
-    Returns:
-        (n,) [N m/s]; V1..V3 [N/s].
+    That is the root mean square of its rate of change (n,) [N m/s], V1..V3 [N/s]; no difference is taken across the
+    borders of spans (start, end).
     """
     steps = [np.diff(np.asarray(part, dtype=np.float64), axis=0) for part in parts(signal, spans)]
     return np.sqrt(np.mean(np.concatenate(steps) ** 2, axis=0)) * rate_hz

@@ -72,11 +72,7 @@ def increase(means: NDArray[np.float64]) -> NDArray[np.float64]:
 def read_pushes(layout: JointLayout, settings: Figure06 | Figure10, runs: Sequence[Run], title: str) -> list[Panel]:
     """Return a panel for each push of a recording, in order: truth and estimates of a joint [N m], time from the push.
 
-    Args:
-        layout: joints and legs.
-        settings: joint, and what is shown around a push.
-        runs: one of each method, all of one recording.
-        title: of the panels; the number of the push takes the place of the braces.
+    The runs are one of each method; the number of the push takes the place of the braces in the title.
 
     Raises:
         DataError: a file is missing or damaged.

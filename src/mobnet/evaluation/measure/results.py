@@ -22,14 +22,7 @@ METRIC = "rmse"  # of a cell that names none
 
 @dataclass(frozen=True)
 class Results:
-    """Scores and trainings, found by what they are of.
-
-    Attributes:
-        layout: joints and limbs.
-        scores: what -> rows of its runs.
-        metrics: scenario, level and method -> metrics of their scores.
-        trainings: method -> its trainings.
-    """
+    """Scores by what they are of, metrics scored by scenario, level and method, and trainings by method."""
 
     layout: JointLayout
     scores: Mapping[Wanted, Sequence[Score]]
@@ -39,13 +32,9 @@ class Results:
     def grid(self, cell: Cell) -> NDArray[np.float64] | None:
         """Return the runs of a number (networks, tests) [unit of its metric]; a training is a network on one test.
 
-        Args:
-            cell: method, and metric, a name of `MEASURES`; or scenario, level, method, joint and metric of the scores,
-                where several joints, those of a limb and several metrics are averaged.
-
-        Returns:
-            None where the runs are there, but not what is asked of them: too short a test has no push, and trainings
-            may diverge.
+        The cell names a method and a metric of `MEASURES`; or scenario, level, method, joint and metric of the scores,
+        where several joints, those of a limb and several metrics are averaged. None is returned where the runs are
+        there, but not what is asked of them: too short a test has no push, and trainings may diverge.
 
         Raises:
             ConfigError: joints are unknown or of unlike units, or something is missing.
@@ -76,16 +65,7 @@ class Results:
 
 
 def read_results(layout: JointLayout, scores: Iterable[Path], folders: Iterable[Path]) -> Results:
-    """Read all results.
-
-    Args:
-        layout: joints and limbs.
-        scores: files of scores.
-        folders: of trained networks of one limb.
-
-    Raises:
-        DataError: a file is missing or damaged.
-    """
+    """Read all results: files of scores, and folders of trained networks of one limb."""
     found: dict[Wanted, list[Score]] = defaultdict(list)
     metrics: dict[tuple[str, ...], set[str]] = defaultdict(set)
     for row in (row for path in scores for row in read_rows(path, Score)):

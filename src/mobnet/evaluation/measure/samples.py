@@ -21,13 +21,7 @@ Blocks = Sequence[NDArray[Any]]  # one array (n, ...) for each block of samples
 
 @dataclass(frozen=True)
 class Reference:
-    """Training data that tests are compared with.
-
-    Attributes:
-        low: lower end of the central range of each input (n_in,) [unit of the input].
-        high: upper end (n_in,).
-        tree: z-scored samples.
-    """
+    """Training data that tests are compared with: a tree of z-scored samples, and the inputs' central range (n_in,)."""
 
     low: Array
     high: Array
@@ -44,16 +38,8 @@ def read_blocks(
 ) -> list[NDArray[np.float32]]:
     """Return every k-th sample of a network's inputs, block by block (n, n_in), units of `LimbInputs`.
 
-    Args:
-        stems: recordings.
-        layout: joints.
-        inputs: of the limb's network.
-        settings: length of a block, and every how many samples one is taken.
-        foot: look at samples with this foot, 0 left, 1 right, in the air only.
-        pushed: look at these samples only; a block each.
-
-    Raises:
-        DataError: a file or a column is missing.
+    Only samples with a foot, 0 left, 1 right, in the air count where one is given, and only those around pushes, a
+    block each, where pushes are.
     """
     blocks = []
     for stem in stems:
@@ -79,13 +65,10 @@ def scale_of(samples: NDArray[Any]) -> tuple[Array, Array]:
 
 
 def refer(samples: NDArray[Any], shares: Sequence[float], mean: Array, std: Array) -> Reference:
-    """Return what tests are compared with.
+    """Return what tests are compared with, from training inputs (n, n_in) [their units].
 
-    Args:
-        samples: training inputs (n, n_in) [their units].
-        shares: lower and upper quantile of the central range.
-        mean: of both training sets together (n_in,).
-        std: of both training sets together (n_in,): one scale, so that distances to the two compare.
+    The shares are quantiles at the ends of the central range. Mean and standard deviation (n_in,) are those of both
+    training sets together: one scale, so that distances to the two compare.
     """
     low, high = np.quantile(samples, shares, axis=0)
     return Reference(low, high, cKDTree((samples - mean) / std))

@@ -25,19 +25,10 @@ AVERAGE = "avg"
 
 
 def score(layout: JointLayout, runs: Sequence[Run], window: Window | None, out: Path) -> None:
-    """Score every run of a test and write one CSV.
+    """Score every run of a test and write one CSV, a row of `Score` for each joint, run and metric.
 
     The error is `tau_ext` of the estimate minus `tau_ext_lp` of the residual file, the truth behind the observer's
-    low-pass (15): what a residual can follow at best (section 5.1, on Figure 6).
-
-    Args:
-        layout: joints and limbs.
-        runs: all runs of the test.
-        window: around pushes, where they count.
-        out: gets a row of `Score` for each joint, run and metric.
-
-    Raises:
-        DataError: a file is missing or damaged, or estimate and residual do not belong together.
+    low-pass (15): what a residual can follow at best (section 5.1, on Figure 6). Pushes have a window where they count.
     """
     rows = [row for run in runs for row in score_run(layout, run, window)]
     write_csv(out, SCORES, [astuple(row) for row in rows])
@@ -73,13 +64,9 @@ def measured(pair: Pair, windows: Spans) -> Iterator[tuple[str, NDArray[np.float
 
 
 def limb_values(layout: JointLayout, values: Mapping[str, float]) -> list[tuple[str, str, float, str]]:
-    """Return (limb, joint or `avg`, value, unit) of the joints given, limb by limb.
+    """Return (limb, joint or `avg`, value, unit) of the joints' numbers given [N m], V1..V3 [N], limb by limb.
 
     The virtual joints have two averages, of N and of N m, as in Table 6.
-
-    Args:
-        layout: joints and limbs.
-        values: joint -> number [N m], V1..V3 [N].
     """
     rows: list[tuple[str, str, float, str]] = []
     for limb, members in layout.groups.items():

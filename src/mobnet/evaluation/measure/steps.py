@@ -32,9 +32,7 @@ CHOICES = 3  # the first three are ranges, the others a few values to choose fro
 def ankle_places(nominal: NominalModel, q: NDArray[Any]) -> tuple[Array, Array]:
     """Return the ankles' positions (T, 2, 3) [m] in world and the feet's yaw (T, 2) [rad], left and then right.
 
-    Args:
-        nominal: the model; its masses do not matter here.
-        q: generalized positions (T, nq) [m], [-], [rad].
+    The generalized positions are (T, nq) [m], [-], [rad]; the model's masses do not matter here.
     """
     robot, model, data = nominal.robot, nominal.model, nominal.data
     joints = [model.getJointId(robot.layout.limb(robot.feet[side].limb)[-1]) for side in SIDES]
@@ -50,13 +48,10 @@ def ankle_places(nominal: NominalModel, q: NDArray[Any]) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class Steps:
-    """Steps, each from one touch-down to the next, of the other foot.
+    """Steps, each from one touch-down to the next, of the other foot: 0 where the left one moved, 1 the right one (N,).
 
-    Attributes:
-        foot: 0 where the left foot moved, 1 where the right one did (N,).
-        commanded: step x, step y [m], turn [deg], duration [s], foot height [m] (N, 5), Table 2.
-        duration_s: how long they took (N,) [s].
-        landed: generalized positions at the touch-downs that end them (N, nq).
+    Commanded are step x, step y [m], turn [deg], duration [s] and foot height [m] (N, 5), Table 2. The time they took
+    is (N,) [s], and the generalized positions at the touch-downs that end them (N, nq).
     """
 
     foot: NDArray[np.intp]
@@ -80,11 +75,7 @@ class Steps:
     def measured(self, nominal: NominalModel, spacing_m: float) -> Array:
         """Return step x, step y [m], turn [deg] and duration [s] (N, 4) in the stance foot's yaw frame.
 
-        Step y is the distance between the feet less the controller's spacing.
-
-        Args:
-            nominal: the model whose kinematics are used.
-            spacing_m: distance between the ankles at a step y of zero [m].
+        Step y is the distance between the ankles less the controller's spacing [m].
         """
         moved = measure(nominal, self.landed, self.foot, spacing_m)
         return in_degrees(np.concatenate([moved, self.duration_s[:, None]], axis=1))
@@ -92,10 +83,6 @@ class Steps:
 
 def read_steps(stems: Sequence[Path], layout: JointLayout) -> Steps:
     """Return the steps of recordings, one after another; only the columns needed are read.
-
-    Args:
-        stems: recordings, paths without a suffix.
-        layout: joints.
 
     Raises:
         DataError: a file or a column is missing, or no step is made.
@@ -121,13 +108,9 @@ def _steps_of(stem: Path, layout: JointLayout) -> Steps:
 def step_bounds(swing: NDArray[np.bool_], command: NDArray[Any], segments: Spans) -> Iterator[tuple[int, int, int]]:
     """Yield (row of the touch-down before, row of its own touch-down, foot) of every step.
 
-    A step ends where the plan ends a swing. One is left out where the robot stands for a part of it, where its foot
-    moved twice in a row, or where it starts before the segment does.
-
-    Args:
-        swing: whether the left, right foot is planned to be in the air (T, 2).
-        command: Table 2's five numbers (T, 5) [m, m, rad, s, m]; zero while the robot stands.
-        segments: contiguous stretches (start, end) of rows.
+    A step ends where the plan ends a swing, flagged for left and right foot (T, 2). One is left out where the robot
+    stands for a part of it, which zero commands (T, 5) say, where its foot moved twice in a row, or where it starts
+    before its segment (start, end) does.
     """
     for start, end in segments:
         downs = np.argwhere(swing[start : end - 1] & ~swing[start + 1 : end])
@@ -138,13 +121,10 @@ def step_bounds(swing: NDArray[np.bool_], command: NDArray[Any], segments: Spans
 
 
 def measure(nominal: NominalModel, q: NDArray[Any], foot: NDArray[np.intp], spacing_m: float) -> NDArray[np.float64]:
-    """Return step x, step y [m] and turn [rad] of feet that have just touched down (N, 3).
+    """Return step x, step y [m] and turn [rad] (N, 3) of feet that have just touched down, 0 left, 1 right (N,).
 
-    Args:
-        nominal: the model.
-        q: generalized positions at the touch-downs (N, nq).
-        foot: 0 left, 1 right (N,).
-        spacing_m: distance between the ankles at a step y of zero [m].
+    The generalized positions at the touch-downs are (N, nq); the ankles' distance at a step y of zero is the spacing
+    [m].
     """
     position, yaw = ankle_places(nominal, q)
     rows, stance = np.arange(len(foot)), 1 - foot

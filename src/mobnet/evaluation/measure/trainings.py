@@ -24,18 +24,11 @@ MEASURES: Mapping[str, tuple[Callable[[Training], float], str]] = {  # name -> (
 
 @dataclass(frozen=True)
 class Training:
-    """One trained network.
+    """One trained network, with its parameters (column `Network Size` of Table 1) and the time its training took [s].
 
-    Attributes:
-        method: row of the configuration's methods.
-        seed: number of the repetition.
-        parameters: trained parameters, column `Network Size` of Table 1.
-        samples: samples that it learned from, without those held out for validation.
-        seconds: time that the training took [s].
-        diverged: whether it was stopped because its loss grew; its epochs end there.
-        windows_loss: validation loss (22) of the epoch kept, where the network runs through a window from a zero state
-            for every sample; all other losses are of a state that is carried on.
-        epochs: its course.
+    The samples are those learned from, without those held out. A training that diverged was stopped as its loss grew;
+    its epochs end there. The validation loss (22) on windows is that of the epoch kept where the network runs through a
+    window from a zero state for every sample; all other losses are of a state that is carried on.
     """
 
     method: str
@@ -75,11 +68,7 @@ def read_training(folder: Path) -> Training:
 
 
 def read_trainings(folders: Iterable[Path]) -> dict[str, list[Training]]:
-    """Return method -> its trainings, in the order given.
-
-    Raises:
-        DataError: a file is missing or damaged.
-    """
+    """Return method -> its trainings, in the order given."""
     found: dict[str, list[Training]] = {}
     for folder in folders:
         training = read_training(folder)

@@ -22,10 +22,7 @@ LIMBS = ("W", "LA", "RA")
 def hand_speeds(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> Array:
     """Return the speed of both hands against the pelvis (T, 2) [m/s], left and then right.
 
-    Args:
-        nominal: the model.
-        q: generalized positions (T, nq) [m], [-], [rad].
-        v: generalized velocities (T, nv) [m/s], [rad/s].
+    Generalized positions are (T, nq) [m], [-], [rad], velocities (T, nv) [m/s], [rad/s].
     """
     robot, model, data = nominal.robot, nominal.model, nominal.data
     points = {point.name: point for point in robot.points}
@@ -47,13 +44,7 @@ def hand_speeds(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> Arra
 def upper_body(every: int, stems: Sequence[Path], nominal: NominalModel) -> Iterator[tuple[str, str, float, str]]:
     """Yield quantity, part, value and unit: hand speeds against the pelvis [m/s] and joint ranges visited [rad].
 
-    Args:
-        every: samples from one that is looked at to the next.
-        stems: recordings.
-        nominal: the model whose kinematics are used.
-
-    Raises:
-        DataError: a file or a column is missing.
+    Every `every`-th sample of the recordings is looked at.
     """
     layout = nominal.robot.layout
     columns = recording_columns(layout)
@@ -76,10 +67,7 @@ def joint_ranges(
 ) -> Iterator[tuple[str, str, float, str]]:
     """Yield what joints above the legs visit of the range between their limits, limb by limb and joint by joint.
 
-    Args:
-        robot: the robot's table; gives the limits.
-        low: smallest positions (nu,) [rad].
-        high: largest positions (nu,) [rad].
+    Low and high are the smallest and largest positions (nu,) [rad].
     """
     bounds = np.array([joint.range for joint in robot.joints])
     share = (high - low) / (bounds[:, 1] - bounds[:, 0])

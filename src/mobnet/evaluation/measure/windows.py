@@ -21,11 +21,8 @@ FLAG = 0.5  # a stored flag above this is 1
 class Pushed:
     """Where in a recording the swinging left leg or an arm is pushed: it has external torque but touches nothing.
 
-    Attributes:
-        joint: joint that the push turns.
-        torque_nm: external torque above this is a push [N m].
-        after_s: how long after a push the robot is still looked at [s].
-        leg: whether the joint is the left leg's, which counts in swing and off the ground alone.
+    A push turns the joint with more than this torque [N m]; the robot is still looked at for some time after it [s]. A
+    joint of the left leg counts in swing and off the ground alone.
     """
 
     joint: str
@@ -34,11 +31,7 @@ class Pushed:
     leg: bool = True
 
     def spans(self, stem: Path) -> Spans:
-        """Return the spans (start, end) of rows around the pushes of a recording, in order.
-
-        Raises:
-            DataError: a file or a column is missing.
-        """
+        """Return the spans (start, end) of rows around the pushes of a recording, in order."""
         names = [*(f"{signal}.{FEET[0]}" for signal in (SWING, CONTACT)), f"{EXTERNAL}.{self.joint}"]
         array, meta = read_array(stem, names)
         free = (array[:, 0] > FLAG) & (array[:, 1] < FLAG) if self.leg else np.ones(len(array), dtype=bool)
@@ -50,14 +43,10 @@ class Pushed:
 def push_windows(stem: Path, rows: int, before_s: float, after_s: float) -> Spans:
     """Return the spans (start, end) of rows around each push of a recording, in order, each within its segment.
 
-    Args:
-        stem: a recording.
-        rows: samples that it must have.
-        before_s: looked at before a push [s].
-        after_s: looked at after it [s]; the truth behind the observer's low-pass outlasts a push.
+    A span begins and ends some time [s] before and after a push: the truth behind the observer's low-pass outlasts it.
 
     Raises:
-        DataError: a file or a column is missing, or the samples are not as many.
+        DataError: a file or a column is missing, or the samples are not as many as `rows`.
     """
     pushed, meta = read_array(stem, [PUSHED])
     if len(pushed) != rows:
@@ -91,12 +80,9 @@ def foot_of(layout: JointLayout, joint: str) -> str:
 
 
 def flagged_spans(flags: NDArray[np.bool_], segments: Spans, after: int) -> Spans:
-    """Return the spans (start, end) of rows in which a flag is set or was within the last `after` rows.
+    """Return the spans (start, end) of rows in which a flag (T,) is set or was within the last `after` rows.
 
-    Args:
-        flags: (T,).
-        segments: contiguous stretches (start, end); a span stays within one.
-        after: rows added to every span.
+    A span stays within one of the contiguous segments (start, end).
     """
     spans: list[tuple[int, int]] = []
     for first, last in segments:

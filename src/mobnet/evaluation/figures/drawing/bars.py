@@ -22,14 +22,10 @@ PAPER = {"marker": "D", "markersize": 3.5, "color": "white", "markeredgecolor": 
 
 @dataclass(frozen=True)
 class BarPanel:
-    """One panel of Figures 6, 10 and 18.
+    """One panel of Figures 6, 10 and 18, of n groups of bars.
 
-    Attributes:
-        title: the test.
-        groups: names of the groups of bars (n,).
-        bars: method -> its number in each group, with its interval and the paper's number (n,) [N m].
-        source: name of the paper's numbers in the legend.
-        notes: method -> text above its bar in each group (n,).
+    A method has in each group its number [N m] with its interval and perhaps the paper's, which the legend calls
+    `source`, and perhaps a note above its bar (n,).
     """
 
     title: str
@@ -40,12 +36,7 @@ class BarPanel:
 
 
 def draw_bars(panels: Sequence[BarPanel], y_label: str) -> Figure:
-    """Draw groups of bars, one for each method with its interval, and a panel for each test (Figure 18).
-
-    Args:
-        panels: numbers and intervals [N m].
-        y_label: name and unit of the heights.
-    """
+    """Draw groups of bars [N m], one for each method with its interval, and a panel for each test (Figure 18)."""
     with mpl.rc_context(STYLE):
         figure, axes = stacked(len(panels), PANEL_INCH, LEGEND_INCH)
         for k, (axis, panel) in enumerate(zip(axes, panels, strict=True)):

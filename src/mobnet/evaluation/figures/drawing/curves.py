@@ -38,13 +38,7 @@ def draw_panels(
 ) -> Figure:  # fmt: skip
     """Draw panels in rows, one column of the paper wide or, with several side by side, two (Figures 5, 7, 8 and 9).
 
-    Args:
-        panels: arrays (T,), torque in [N m], force in [N], time in [s].
-        x_label: name and unit of the time.
-        y_label: name and unit of the curves.
-        columns: panels in a row.
-        height_inch: height of a panel.
-        one_scale: whether all panels have the same vertical scale.
+    The curves are torque [N m] or force [N], (T,); with `one_scale`, all panels have the same vertical scale.
     """
     rows = -(-len(panels) // columns)
     with mpl.rc_context(STYLE):

@@ -21,13 +21,7 @@ LEGEND: Mapping[str, Any] = {"columns": 3, "handlelength": 2.6, "columnspacing":
 
 @dataclass(frozen=True)
 class Line:
-    """A number over epochs or sizes, from its lowest to its highest run.
-
-    Attributes:
-        label: name in the legend; chooses the look.
-        x: places (n,) [unit of the panel].
-        numbers: mean over runs, lowest and highest run (n,) [unit of the panel].
-    """
+    """A number at epochs or sizes (n,): mean over runs, lowest and highest run (n,) [units of the panel]."""
 
     label: str
     x: Sequence[float]
@@ -41,15 +35,7 @@ class Line:
 
 @dataclass(frozen=True)
 class LinePanel:
-    """One panel of Figures 17 and 20.
-
-    Attributes:
-        title: what is shown.
-        x_label: name and unit of the places.
-        y_label: name and unit of the numbers.
-        lines: what is drawn.
-        sizes: whether x is a size: few places, marked, on a logarithmic axis.
-    """
+    """One panel of Figures 17 and 20; where x is a size, its few places are marked, on a logarithmic axis."""
 
     title: str
     x_label: str
@@ -59,11 +45,7 @@ class LinePanel:
 
 
 def draw_lines(panels: Sequence[LinePanel]) -> Figure:
-    """Draw panels of lines with the spread of their runs below one another (Figures 17 and 20).
-
-    Args:
-        panels: numbers in the unit that each panel's labels name.
-    """
+    """Draw panels of lines with the spread of their runs below one another (Figures 17 and 20)."""
     styles = looks(line.label for panel in panels for line in panel.lines)
     with mpl.rc_context(STYLE):
         figure, axes = stacked(len(panels), PANEL_INCH, LEGEND_INCH)

@@ -24,15 +24,7 @@ LEGEND_COLUMNS = 4  # entries in a row, in one column of the paper
 
 @dataclass(frozen=True)
 class PushGroup:
-    """Curves of some pushes and their errors.
-
-    Attributes:
-        scenario: the test.
-        panels: one for each push.
-        errors: of each method [N m].
-        title: of the errors' panel.
-        source: name of the paper's numbers.
-    """
+    """Curves of the pushes of a test, a panel each, and the errors of each method [N m] with a title of their own."""
 
     scenario: str
     panels: Sequence[Panel]
@@ -70,11 +62,8 @@ def save_pushes(groups: Sequence[PushGroup], joint: str, stem: Path) -> None:
 def draw_pushes(groups: Sequence[PushGroup], joint: str, across: int = 1, note_deg: int = 0) -> Figure:
     """Draw groups side by side, one in one column of the paper and more in two: curves, and their bars below.
 
-    Args:
-        groups: curves [N m] over time from the push [s], bars [N m].
-        joint: name for the axis label.
-        across: panels of curves in a row of a group.
-        note_deg: angle of the bars' notes [deg].
+    Curves [N m] are over time from the push [s], `across` of them in a row of a group; notes at bars have an angle
+    [deg].
     """
     rows = max(1, *(-(-len(group.panels) // across) for group in groups))
     places: list[Any] = [
