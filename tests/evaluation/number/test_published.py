@@ -6,7 +6,7 @@ from itertools import chain
 import numpy as np
 import pytest
 
-from mobnet.evaluation.number.published import published_row, published_value
+from mobnet.evaluation.number.number import published_row, published_value
 from mobnet.settings.published import PublishedTable
 from mobnet.settings.settings import Settings
 

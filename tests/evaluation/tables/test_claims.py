@@ -13,8 +13,7 @@ from mobnet.core.columns import VERDICTS
 from mobnet.evaluation.measure.metrics import METRICS, PUSH, PUSHED
 from mobnet.evaluation.measure.results import listed
 from mobnet.evaluation.measure.trainings import MEASURES
-from mobnet.evaluation.number.number import Number
-from mobnet.evaluation.number.published import published_row
+from mobnet.evaluation.number.number import Number, published_row
 from mobnet.evaluation.number.quantities import QUANTITIES
 from mobnet.evaluation.tables.claims import differs, inside, rule_text, verdict_of
 from mobnet.settings.claims import Cell, Claim

@@ -10,7 +10,7 @@ from mobnet.evaluation.measure.metrics import PUSHED
 from mobnet.evaluation.measure.pushes import ALL, PushErrors, read_pushes, wanted_of
 from mobnet.evaluation.number.files import read_rows
 from mobnet.evaluation.number.grid import number_of
-from mobnet.evaluation.number.published import published_value
+from mobnet.evaluation.number.number import published_value
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import Figure06, Statistics
 from mobnet.settings.published import PublishedTable

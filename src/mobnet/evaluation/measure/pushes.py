@@ -11,8 +11,7 @@ from mobnet.evaluation.measure.curves import Panel, read_curves
 from mobnet.evaluation.measure.metrics import PUSH
 from mobnet.evaluation.measure.windows import foot_of, push_windows
 from mobnet.evaluation.number.grid import Wanted, number_of
-from mobnet.evaluation.number.number import Number
-from mobnet.evaluation.number.published import published_value
+from mobnet.evaluation.number.number import Number, published_value
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import Figure06, Figure10, PushedRuns, Runs, Statistics
 from mobnet.settings.published import PublishedTable

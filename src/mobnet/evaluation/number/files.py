@@ -58,14 +58,10 @@ def read_numbers(path: Path) -> list[tuple[dict[str, str], Number]]:
 
 
 def read_texts(path: Path, needed: Sequence[str] = ()) -> list[dict[str, str]]:
-    """Read the rows of a CSV file as mappings from column to text.
-
-    Args:
-        path: the file.
-        needed: columns that it must have.
+    """Read the rows of a CSV file, column -> text.
 
     Raises:
-        DataError: the file or a column is missing.
+        DataError: the file, or a column that is needed, is missing.
     """
     reader = csv.DictReader(io.StringIO(read_text(path)))
     held = reader.fieldnames or ()

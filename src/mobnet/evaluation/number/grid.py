@@ -15,16 +15,7 @@ from mobnet.settings.evaluation import Statistics
 
 @dataclass(frozen=True)
 class Wanted:
-    """What a table cell or a claim looks at.
-
-    Attributes:
-        scenario: the test.
-        limb: limb of section 4.1.
-        level: uncertainty level.
-        method: estimator.
-        joint: joint of the limb, or `avg`.
-        metric: a name of `metrics.METRICS`, or of a push.
-    """
+    """What a table cell or a claim looks at: a joint or `avg`, and a name of `metrics.METRICS` or of a push's."""
 
     scenario: str
     limb: str
@@ -74,18 +65,6 @@ def number_of(
     combine: Combine = mean,
     published: float | None = None,
 ) -> Number:
-    """Return a number made of errors, with its interval, in the unit of the first [N m], V1..V3 [N], or the metric's.
-
-    Args:
-        scores: of all runs.
-        wanted: errors.
-        statistics: of the interval.
-        seed: of the interval.
-        combine: makes the number of their means.
-        published: the paper's number.
-
-    Raises:
-        DataError: a run is missing.
-    """
+    """Return the number that `combine` makes of mean errors, with its interval, in the first one's unit, e.g. [N m]."""
     number = summarise([run_grid(scores, each) for each in wanted], statistics, seed, combine)
     return replace(number, unit=wanted[0].rows(scores)[0].unit, published=published)

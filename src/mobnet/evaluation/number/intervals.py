@@ -33,17 +33,10 @@ def mean(means: NDArray[np.float64]) -> NDArray[np.float64]:
 def summarise(
     grids: Sequence[NDArray[Any]], statistics: Statistics, seed: int, combine: Combine = first, unit: str = "-"
 ) -> Number:
-    """Return a number made of the means of grids of runs, and its bootstrap interval, e.g. [N m].
+    """Return a number made of the means of K grids of runs (networks, tests), and its bootstrap interval, e.g. [N m].
 
     A test recording is drawn for all grids at once, and so is a network for all that have as many: seeds are shared, so
-    a ratio is paired.
-
-    Args:
-        grids: K grids (networks, tests); a method without networks has one row.
-        statistics: confidence and number of draws.
-        seed: of the draws.
-        combine: means (K, ...) -> number (...).
-        unit: unit of the number.
+    a ratio is paired. A method without networks has one row. `combine` makes the number (...) of the means (K, ...).
 
     Raises:
         DataError: grids of different tests.
@@ -77,11 +70,7 @@ def extremes(values: NDArray[np.float64]) -> list[Number]:
 
 
 def tests_of(grids: Sequence[NDArray[Any]]) -> int:
-    """Return the number of tests of grids (networks, tests) of runs [N m].
-
-    Raises:
-        DataError: they differ.
-    """
+    """Return the number of tests of grids (networks, tests) of runs [N m], which must be the same for all."""
     if len({grid.shape[1] for grid in grids}) > 1:
         shapes = ", ".join(str(grid.shape) for grid in grids)
         raise DataError(f"runs of shape (networks, tests) do not fit together: {shapes}")

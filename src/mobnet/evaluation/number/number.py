@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from mobnet.settings.published import PublishedTable
+
 
 @dataclass(frozen=True)
 class Number:
@@ -50,3 +52,14 @@ def number_text(value: float | None, digits: int = 2) -> str:
 def interval_text(low: float | None, high: float | None, digits: int = 2) -> str:
     """Return an interval in brackets, or nothing where there is none."""
     return "" if low is None or high is None else f"[{number_text(low, digits)}, {number_text(high, digits)}]"
+
+
+def published_row(table: PublishedTable, place: str, method: str) -> dict[str, float | None]:
+    """Return the paper's numbers of a method at a place of a table, column -> [its unit]; empty if there are none."""
+    row = table.numbers.get(place, {}).get(method)
+    return {} if row is None else dict(zip(table.columns, row, strict=True))
+
+
+def published_value(table: PublishedTable, place: str, method: str, column: str) -> float | None:
+    """Return the paper's number in one column [its unit]; None where it prints none."""
+    return published_row(table, place, method).get(column)

@@ -13,33 +13,12 @@ from mobnet.settings.networks import Learning
 
 
 def calibration(
-    settings: Calibration,
-    learning: Learning,
-    coverage: Coverage,
-    layout: JointLayout,
-    statistics: Statistics,
-    seed: int,
-    folders: Sequence[Path],
-    runs: Sequence[Sequence[Run]],
-    table_dir: Path,
-    figure_dir: Path,
-) -> None:
+    settings: Calibration, learning: Learning, coverage: Coverage, layout: JointLayout, statistics: Statistics,
+    seed: int, folders: Sequence[Path], runs: Sequence[Sequence[Run]], table_dir: Path, figure_dir: Path,
+) -> None:  # fmt: skip
     """Write calibration.csv, .tex and .md, and the reliability diagram as calibration.pdf, .png and .csv.
 
-    Args:
-        settings: tests, methods that are shown, and the tolerance of the bar.
-        learning: nominal shares: that of the bar, and all in the table.
-        coverage: what counts as a push.
-        layout: joints and limbs.
-        statistics: of the intervals.
-        seed: of the intervals.
-        folders: of all trained networks.
-        runs: of each test.
-        table_dir: gets the table.
-        figure_dir: gets the figure.
-
-    Raises:
-        DataError: a file is missing or damaged.
+    `runs` are those of each test of `settings`.
     """
     levels, points = learning.calibration_levels, nominal_points(settings.points)
     grids = in_tests(layout, coverage, settings.tests, runs, [*levels, *points])

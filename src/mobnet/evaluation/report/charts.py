@@ -42,15 +42,7 @@ class Chart:
 
 def line_chart(key: str, title: str, x: Sequence[float], lines: Mapping[str, Sequence[float]],
                marked: float) -> Chart:  # fmt: skip
-    """Scale curves to the drawing.
-
-    Args:
-        key: short name.
-        title: what is drawn, with its unit.
-        x: places of the values (n,), whole numbers, at least one.
-        lines: name -> values (n,), all on one axis.
-        marked: the place to mark.
-    """
+    """Scale curves, values (n,) at whole numbers x (n,), all on one axis, to the drawing; `marked` is a place of x."""
     across = span(x)
     up = span([value for values in lines.values() for value in values])
     return Chart(

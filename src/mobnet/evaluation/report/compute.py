@@ -34,15 +34,12 @@ Uses = dict[tuple[str, str], Number]  # stage (a name of `STAGES`, `WHOLE` or `E
 
 
 def compute(settings: Compute, accounts: Path, out: Path) -> None:
-    """Write compute.csv, .tex and .md: jobs, CPU and wall time [h] and peak memory [MiB] of each stage.
+    """Write compute.csv (`out`), .tex and .md: jobs, CPU and wall time [h] and peak memory [MiB] of each stage.
 
-    Args:
-        settings: longest time without any job that still counts as part of the run.
-        accounts: folder with an account of each job; those that failed do not count.
-        out: compute.csv; the other two stand beside it.
+    Jobs that failed do not count.
 
     Raises:
-        DataError: there is no account, or a file is none.
+        DataError: there is no account of a job, or a file is none.
     """
     jobs = [job for job in map(read_account, sorted(accounts.rglob("*.json"))) if job.succeeded]
     if not jobs:
@@ -56,11 +53,7 @@ def compute(settings: Compute, accounts: Path, out: Path) -> None:
 
 
 def read_account(path: Path) -> Account:
-    """Read what one job took.
-
-    Raises:
-        DataError: the file is not an account.
-    """
+    """Read what one job took."""
     try:
         return Account(**read_json(path))
     except TypeError as error:
@@ -92,9 +85,7 @@ def uses_of(stage: str, jobs: Sequence[Account]) -> Uses:
 def whole_run(jobs: Sequence[Account], pause_s: float) -> Uses:
     """Return elapsed time [h], cores (the most jobs at once), the share of them with a job and that of CPU time [%].
 
-    Args:
-        jobs: of the run, or of several, one after another.
-        pause_s: longest time without any job that counts as part of the run [s].
+    The jobs may be of several runs, one after another: a time without any job longer than `pause_s` [s] does not count.
     """
     cores, elapsed_s = at_once(jobs), elapsed(jobs, pause_s)
     shares = {"taken": sum(job.wall_s for job in jobs), "load": sum(job.cpu_s for job in jobs)}

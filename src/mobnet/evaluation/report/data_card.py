@@ -90,9 +90,7 @@ def card(settings: Settings) -> str:
 def columns(layout: JointLayout, gain_hz: float) -> Iterator[str]:
     """Yield the tables of the columns of a recording and of a residual, a row for each group of one unit and frame.
 
-    Args:
-        layout: joints.
-        gain_hz: gain of the observer [1/s].
+    `gain_hz` is the observer's gain [1/s].
     """
     header = ["field", "columns", "number", "unit", "frame", "what it is"]
     groups = recording_columns(layout)

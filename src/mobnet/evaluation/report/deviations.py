@@ -11,11 +11,7 @@ WIDTHS = (0.13, 0.25, 0.24, 0.30)  # shares of the text width, one a column
 
 
 def deviations(markdown: Path, out: Path) -> None:
-    """Write the table of a Markdown file as a TeX tabular.
-
-    Raises:
-        DataError: the file is missing, or its table is not as wide as the paper's.
-    """
+    """Write the table of a Markdown file, which must be as wide as the paper's, as a TeX tabular."""
     header, *rows = markdown_rows(read_text(markdown), str(markdown))
     columns = "".join(rf">{{\raggedright\arraybackslash}}p{{{width}\textwidth}}" for width in WIDTHS)
     write_text(out, tex_table(columns, list(map(tex_text, header)), [list(map(tex_text, row)) for row in rows]))

@@ -15,11 +15,7 @@ BETWEEN = "  "  # sha256sum's text between hash and name
 
 
 def manifest(files: Iterable[Path], out: Path) -> None:
-    """Write one line for each file, sorted by name: SHA-256 and path as given.
-
-    Raises:
-        DataError: a file is missing.
-    """
+    """Write one line for each file, sorted by name: SHA-256 and path as given."""
     lines = [f"{file_hash(path)}{BETWEEN}{path}\n" for path in sorted(set(files))]
     write_text(out, "".join(lines))
 
@@ -29,9 +25,6 @@ def damaged_files(listed: Path) -> list[str]:
 
     Args:
         listed: file that `manifest` wrote.
-
-    Raises:
-        DataError: it is missing.
     """
     if not listed.is_file():
         raise DataError(f"{listed}: file is missing; ./reproduce all writes it")
@@ -48,11 +41,7 @@ def _fault(expected: str, name: str) -> str | None:
 
 
 def file_hash(path: Path) -> str:
-    """Return the SHA-256 of a file.
-
-    Raises:
-        DataError: the file is missing.
-    """
+    """Return the SHA-256 of a file."""
     try:
         with path.open("rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()

@@ -30,32 +30,15 @@ MILLION = 1e6
 
 
 def numbers(
-    scale: str,
-    rates: Rates,
-    sizes: Scale,
-    train: Recordings,
-    table_csvs: Sequence[Path],
-    claims_csv: Path,
-    out: Path,
+    scale: str, rates: Rates, sizes: Scale, train: Recordings, table_csvs: Sequence[Path], claims_csv: Path, out: Path
 ) -> None:
-    r"""Write the macros that the paper's text uses.
+    r"""Write the macros that the paper's text uses, a TeX file to \input before it.
 
     \ourcell{scenario}{level}{method}{joint}{metric} and \publishedcell give a cell of any table (metric: `mean` if it
     is the mean of some), \ours{level}{method}{joint} and \published a cell of Table 5. \claimed{claim} gives the
     paper's number of a claim, \found and \foundspan ours and its interval, \verdict and \cause the judgement.
-    \size{name} gives sizes of the scale and how many claims have each verdict.
-
-    Args:
-        scale: name of the scale.
-        rates: sampling rates.
-        sizes: the scale.
-        train: the recordings of random walking that networks learn from.
-        table_csvs: the tables of errors.
-        claims_csv: the judged claims.
-        out: TeX file to \input before the text.
-
-    Raises:
-        DataError: a file is missing or damaged.
+    \size{name} gives sizes of the scale and how many claims have each verdict. `train` has the recordings of random
+    walking that networks learn from.
     """
     values = {f"size@{name}": text for name, text in size_texts(scale, rates, sizes, train).items()}
     for path in table_csvs:

@@ -16,16 +16,9 @@ WARNING = 2  # docutils stops at a fault of this level
 
 
 def pages(tables: Sequence[Path], captions: Sequence[Path | None], template: Path, out: Path) -> None:
-    """Write a page for each table, beside the first one.
+    """Write a page for each table (Markdown) beside the first one, `out`, with the places of an HTML template filled.
 
-    Args:
-        tables: Markdown files.
-        captions: the caption of each table (reStructuredText), its title in the first line; None: the table's name.
-        template: HTML with the places of title, text and table.
-        out: page of the first table.
-
-    Raises:
-        DataError: a table or its caption is missing.
+    A caption is reStructuredText with its title in the first line; a table without one gets its name as title.
     """
     for table, caption in zip(tables, captions, strict=True):
         text = read_text(caption) if caption else table.stem

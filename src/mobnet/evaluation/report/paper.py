@@ -30,19 +30,13 @@ class PaperError(MobnetError):
 
 
 def paper(scale: str, main: Path, references: Path, tables: Sequence[Path], figures: Sequence[Path], out: Path) -> None:
-    """Set the paper with latexmk, and write a note of it also where TeX is missing.
+    """Set the paper with latexmk, and write a note of it (JSON) also where TeX is missing.
 
-    Args:
-        scale: name of the scale.
-        main: the paper's TeX.
-        references: its BibTeX file.
-        tables: TeX files that it inputs.
-        figures: PDF files that it includes.
-        out: the note (JSON): scale, name of the PDF beside it or null, missing packages.
+    The note holds the scale, the name of the PDF beside it or null, and the missing packages. Tables are TeX files that
+    the paper inputs, figures PDF files.
 
     Raises:
         PaperError: TeX failed; the message holds the end of its log.
-        DataError: a file is missing.
     """
     pdf, missing = out.with_name(f"{main.stem}.pdf"), missing_packages()
     pdf.unlink(missing_ok=True)
@@ -68,11 +62,7 @@ def _found(name: str) -> bool:
 
 
 def copy_sources(sources: Mapping[str, Sequence[Path]], folder: Path) -> None:
-    """Copy files into folders below an empty one.
-
-    Raises:
-        DataError: a file is missing.
-    """
+    """Copy files into folders below an empty one."""
     for name, paths in sources.items():
         (folder / name).mkdir(exist_ok=True)
         for path in paths:
@@ -82,11 +72,7 @@ def copy_sources(sources: Mapping[str, Sequence[Path]], folder: Path) -> None:
 
 
 def compile_pdf(source: Path, out: Path) -> None:
-    """Run latexmk in the source's folder and write the PDF.
-
-    Raises:
-        PaperError: TeX failed; the message holds the end of its log.
-    """
+    """Run latexmk in the source's folder and write the PDF."""
     run = subprocess.run(
         latexmk_command(source.name), cwd=source.parent, capture_output=True, text=True, errors="replace", check=False,
         stdin=subprocess.DEVNULL, env={**os.environ, "SOURCE_DATE_EPOCH": os.environ.get("SOURCE_DATE_EPOCH", EPOCH)},

@@ -33,12 +33,7 @@ Rows = dict[tuple[str, ...], dict[str, str]]
 def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Path, out: Path) -> None:
     """Copy a scale's tables (CSV, Markdown), figures (PNG) and table of compute, and note where they come from.
 
-    Args:
-        settings: the configuration behind them.
-        tables: folder of the tables.
-        figures: folder of the figures.
-        compute: table of compute (Markdown); it differs from run to run, so its CSV is not stored to be compared.
-        out: folder of the snapshot.
+    The table of compute differs from run to run, so only its Markdown is stored, and no CSV to be compared.
 
     Raises:
         DataError: there is no table to copy, or a file is missing.
@@ -58,11 +53,7 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Pat
 
 
 def with_headline(text: str, table: str) -> str:
-    """Return a page with the headline table between its marks.
-
-    Raises:
-        DataError: the page lacks the marks.
-    """
+    """Return a page with the headline table between its marks, which it must have."""
     first, last = f"<!-- {HEADLINE} -->\n", f"<!-- /{HEADLINE} -->"
     if first not in text or last not in text:
         raise DataError(f"{README}: the marks {first.strip()!r} and {last!r} are missing")
@@ -70,11 +61,7 @@ def with_headline(text: str, table: str) -> str:
 
 
 def compare_snapshot(snapshot: Path, tables: Path) -> list[str]:
-    """Return one line for each cell, row or table in which the present tables differ from a snapshot.
-
-    Raises:
-        DataError: the snapshot holds no table.
-    """
+    """Return one line for each cell, row or table in which the present tables differ from a snapshot."""
     stored = sorted(snapshot.glob("*.csv"))
     if not stored:
         raise DataError(f"{snapshot}: holds no CSV; ./reproduce snapshot stores them")

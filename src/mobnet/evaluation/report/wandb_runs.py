@@ -24,12 +24,7 @@ WANDB_PLACES = ("WANDB_CACHE_DIR", "WANDB_DATA_DIR", "WANDB_CONFIG_DIR")
 def wandb_runs(folders: Iterable[Path], out: Path) -> None:
     """Write one offline run for each network; whatever else is in the folder of runs is deleted.
 
-    Args:
-        folders: folder of each trained network.
-        out: folder of the runs; the name of a run's folder ends in the run's name.
-
-    Raises:
-        DataError: a file is missing or damaged.
+    The name of a run's folder ends in the run's name.
     """
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir(parents=True)

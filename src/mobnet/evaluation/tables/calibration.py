@@ -19,16 +19,7 @@ Trust = Mapping[tuple[str, float | None], tuple[Number, Number]]  # measure, nom
 def trust_table(
     settings: Calibration, learning: Learning, statistics: Statistics, seed: int, grids: Sequence[Grid], table_dir: Path
 ) -> None:
-    """Write calibration.csv, .tex and .md; the latter two hold some methods only.
-
-    Args:
-        settings: methods that are shown, and the tolerance of the bar.
-        learning: nominal shares: that of the bar, and all in the table.
-        statistics: of the intervals.
-        seed: of the intervals.
-        grids: of held-out data, then of the tests.
-        table_dir: gets the three files.
-    """
+    """Write calibration.csv, .tex and .md of held-out data and tests; texts hold the methods of `settings` only."""
     trusts = [(grid, trust_of(grid, learning.calibration_levels, statistics, seed)) for grid in grids]
     records = [
         (grid.test, grid.level, grid.pushed, grid.method, grid.limb, *measure, after.runs,

@@ -66,17 +66,8 @@ def claims(
 ) -> None:  # fmt: skip
     """Judge every claim and write claims.csv, .tex and .md. A claim that fails is a result, not an error.
 
-    Args:
-        claims: the claims.
-        statistics: what intervals need.
-        seed: of the intervals.
-        layout: joints and limbs.
-        scores: scenario -> scores, of all tests that the claims name.
-        folders: of the trained networks whose losses they name.
-        table_dir: where the three files go.
-
     Raises:
-        ConfigError: a claim is not well formed.
+        ConfigError: a cell of a claim is not well formed.
         DataError: a run that a claim needs is missing.
     """
     results = read_results(layout, scores.values(), folders)
@@ -101,12 +92,7 @@ def with_causes(verdicts: Sequence[Verdict], lines: Sequence[Line]) -> Iterator[
 
 
 def judge(name: str, claim: Claim, results: Results, statistics: Statistics, seed: int) -> Verdict:
-    """Return our number for a claim, its interval, and the verdict on the number itself.
-
-    Raises:
-        ConfigError: a cell is not well formed.
-        DataError: a run is missing.
-    """
+    """Return our number for a claim, its interval, and the verdict on the number itself."""
     quantity = QUANTITIES[claim.quantity]
     grids = [results.grid(cell) for cell in claim.cells]
     held = [grid for grid in grids if grid is not None]

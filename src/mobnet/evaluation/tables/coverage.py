@@ -18,18 +18,7 @@ def coverage(
 ) -> None:  # fmt: skip
     """Write coverage.csv and, joints together only, coverage.tex and .md.
 
-    Args:
-        settings: which samples are looked at, and which tests.
-        layout: joints and legs.
-        ports: what the network of the leg sees.
-        statistics: what intervals need.
-        seed: of the intervals.
-        training: `with RTE` and `without RTE` -> recordings.
-        tests: recordings of each test.
-        table_dir: gets the three files.
-
-    Raises:
-        DataError: a file or a column is missing.
+    `training` has the recordings `with RTE` and `without RTE`, `tests` those of each test.
     """
     rows = covered(settings, layout, ports, statistics, seed, training, tests)
     records = [

@@ -44,21 +44,7 @@ def data(
     settings: DataTable, robot: RobotTable, walking: Walking, commands: Commands, terrain: Terrain,
     published: PublishedData, sets: Mapping[str, Sequence[Path]], table_dir: Path,
 ) -> None:  # fmt: skip
-    """Write data.csv, .tex and .md.
-
-    Args:
-        settings: how often the upper body is looked at.
-        robot: the robot.
-        walking: the controller's spacing of the feet.
-        commands: ranges of Table 2.
-        terrain: the terrains.
-        published: what the paper says of its sets.
-        sets: name -> recordings.
-        table_dir: gets the three files.
-
-    Raises:
-        DataError: a file or a column is missing, or a set holds no step.
-    """
+    """Write data.csv, .tex and .md: what the recordings of each set hold, beside what the paper says of them."""
     nominal = NominalModel(describe(robot))
     facts: dict[tuple[str, str, str], Number] = {}
     for name, stems in sets.items():
@@ -77,11 +63,7 @@ def data(
 
 
 def extent(stems: Sequence[Path], terrains: Sequence[str]) -> Iterator[Found]:
-    """Yield length [min], samples, falls, episodes and the shares of the terrains [-] of recordings.
-
-    Raises:
-        DataError: a file is missing.
-    """
+    """Yield length [min], samples, falls, episodes and the shares of the terrains [-] of recordings."""
     notes = [read_json(stem.with_suffix(".json")) for stem in stems]
     yield "recordings", "", len(notes), ""
     yield "duration", "", sum(note["rows"] / note["rate_hz"] for note in notes) / MINUTE_S, "min"
@@ -105,11 +87,7 @@ def ground(notes: Sequence[Mapping[str, Any]], terrains: Sequence[str]) -> Itera
 
 
 def commanded(commands: Commands, spacing_m: float, stems: Sequence[Path], nominal: NominalModel) -> Iterator[Found]:
-    """Yield the time standing [-], the steps, and of each command its ends [m], [deg], [s] and the share on them [-].
-
-    Raises:
-        DataError: a file or a column is missing, or nothing is walked.
-    """
+    """Yield the time standing [-], the steps, and of a command its ends [m], [deg], [s] and the share on them [-]."""
     column = recording_columns(nominal.robot.layout)["command"][DURATION][0]
     duration = np.concatenate([read_array(stem, [column])[0][:, 0] for stem in stems])
     yield "time standing", "", float(np.mean(duration == 0.0)), "-"

@@ -25,25 +25,12 @@ Cells = Mapping[tuple[str, str, str, str], Number]  # scenario, level, method, M
 
 
 def error_budget(
-    settings: ErrorBudget,
-    statistics: Statistics,
-    seed: int,
-    layout: JointLayout,
-    scores: Mapping[str, Path],
+    settings: ErrorBudget, statistics: Statistics, seed: int, layout: JointLayout, scores: Mapping[str, Path],
     table_dir: Path,
-) -> None:
+) -> None:  # fmt: skip
     """Write error_budget.csv, .tex and .md: RMSE [N m] of joints with one source of error off, and the share [%] gone.
 
-    Args:
-        settings: joints, given as a table's columns, and tests, of which the first has every source on.
-        statistics: what intervals need.
-        seed: of the intervals.
-        layout: joints and limbs.
-        scores: scenario -> its scores.
-        table_dir: gets the three files.
-
-    Raises:
-        DataError: a run is missing.
+    The first test of `settings` has every source on.
     """
     rows = [row for path in scores.values() for row in read_rows(path, Score)]
     parts = columns_of(layout, settings.joints)
@@ -62,11 +49,7 @@ def error_budget(
 def cells_of(
     part: Column, tests: Sequence[BudgetRow], scores: Sequence[Score], statistics: Statistics, seed: int
 ) -> Cells:
-    """Return, test by test, the RMSE [N m] of a joint or a mean and the share [%] of the square that a source makes.
-
-    Raises:
-        DataError: a run is missing.
-    """
+    """Return, test by test, the RMSE [N m] of a joint or a mean and the share [%] of the square that a source makes."""
     full: list[NDArray[np.float64]] = []
     cells = {}
     for test in tests:
@@ -88,12 +71,7 @@ def share_gone(means: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def budget_lines(budgets: Mapping[Column, Cells], confidence: float) -> list[Line]:
-    """Return the lines of text, RMSE [N m] and share gone [%] in turn; intervals and a rule below each mean.
-
-    Args:
-        budgets: numbers of each joint or mean, test by test.
-        confidence: of the intervals, a share [-].
-    """
+    """Return the lines of text, RMSE [N m] and share gone [%] in turn; intervals and a rule below each mean."""
     lines: list[Line] = []
     for part, cells in budgets.items():
         own = [(metric, ours) for (*_, metric), ours in cells.items()]

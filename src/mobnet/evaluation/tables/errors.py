@@ -13,8 +13,7 @@ from mobnet.evaluation.measure.averages import Column, columns_of
 from mobnet.evaluation.measure.scores import AVERAGE
 from mobnet.evaluation.number.files import read_rows
 from mobnet.evaluation.number.grid import Wanted, number_of
-from mobnet.evaluation.number.number import Number, number_text
-from mobnet.evaluation.number.published import published_row
+from mobnet.evaluation.number.number import Number, number_text, published_row
 from mobnet.evaluation.tables.layout import Line, Table, in_blocks, text_table, write_table
 from mobnet.settings.evaluation import ErrorTable, Statistics
 from mobnet.settings.published import Floor, PublishedTable
@@ -49,7 +48,6 @@ class Look:
     """How a table is laid out.
 
     Attributes:
-        settings: the table's entry in the configuration.
         robot: whether the printed numbers were measured on the robot.
         floor: level and method of the row that later averages are compared with, or None.
         confidence: of the intervals, a share [-].
@@ -66,16 +64,6 @@ def errors(
     published: PublishedTable | None, scores: Mapping[str, Path], table_dir: Path,
 ) -> None:  # fmt: skip
     """Write a table of errors by test, method and joint [N m], as CSV, TeX and Markdown.
-
-    Args:
-        settings: the table's columns and rows.
-        name: names the files.
-        statistics: what intervals need.
-        seed: of the intervals.
-        layout: joints and limbs.
-        published: what the paper prints; None for a table that it does not have.
-        scores: scenario -> its scores.
-        table_dir: gets the three files.
 
     Raises:
         DataError: a run that the table needs is missing.
@@ -120,11 +108,7 @@ def cell_of(
     column: Column, run: tuple[str, str, str], metric: str, scores: Sequence[Score], statistics: Statistics, seed: int,
     published: float | None,
 ) -> Number:  # fmt: skip
-    """Return the number of a column [N m] over the runs of a method in a test; none where a run has too few pushes.
-
-    Raises:
-        DataError: a run is missing.
-    """
+    """Return the number of a column [N m] over the runs of a method in a test; none where a run has too few pushes."""
     metrics, held = column.metrics or (metric,), {score.metric for score in scores}
     if held and not held.issuperset(metrics):
         return Number(None, unit=column.unit, published=published)
@@ -136,21 +120,14 @@ def header_of(row: TableRow, look: Look) -> list[str]:
     """Return the heads of the columns; where torques [N m] and forces stand side by side, forces have their unit."""
     units = {column.name: number.unit for column, number in row.numbers.items()}
     mixed = len(set(units.values())) > 1
-    return [
-        *look.settings.header,
-        "Method",
-        "",
-        *(f"{name} [N]" if mixed and units[name] == "N" else name for name in units),
-    ]
+    heads = [f"{name} [N]" if mixed and unit == "N" else name for name, unit in units.items()]
+    return [*look.settings.header, "Method", "", *heads]
 
 
 def table_lines(rows: Sequence[TableRow], look: Look, stacked: bool = False) -> list[Line]:
-    """Return the lines of text, row by row; a rule stands where the first label changes.
+    """Return the lines of text [N m], row by row; a rule stands where the first label changes.
 
-    Args:
-        rows: methods in tests, numbers in [N m].
-        look: how they are laid out.
-        stacked: whether the ends of an interval stand one below the other.
+    `stacked`: whether the ends of an interval stand one below the other.
     """
     blocks, over = [], None
     for row in rows:

@@ -30,17 +30,7 @@ def kinds(
 ) -> None:  # fmt: skip
     """Write kinds.csv, .tex and .md: mean over runs of loss (22) [-] and RMSE [N m], best kind first.
 
-    Args:
-        settings: our own variants, shown below the paper's kinds.
-        figure_17: the paper's kinds.
-        statistics: what intervals need.
-        seed: of the intervals.
-        published: what the paper says of its kinds.
-        folders: of the trained networks of all of them.
-        table_dir: gets the three files.
-
-    Raises:
-        DataError: a file is missing or damaged.
+    Our own variants stand below the kinds of Figure 17, which are the paper's.
     """
     found, papers, variants = read_trainings(folders), figure_17.methods, settings.variants
     measured = {method: measures_of(found[method], statistics, seed) for method in (*papers, *variants)}
@@ -63,12 +53,9 @@ def measures_of(trainings: Sequence[Training], statistics: Statistics, seed: int
     """Return the measures of the trainings that did not diverge [-, N m], without a number if all did."""
     good = sound(trainings)
     grids = {name: np.array([[measure(run)] for run in good]) for name, (measure, _) in MEASURES.items()}
-    return {
-        name: summarise([grid], statistics, seed, unit=MEASURES[name][1])
-        if good
-        else Number(None, unit=MEASURES[name][1])
-        for name, grid in grids.items()
-    }
+    if not good:
+        return {name: Number(None, unit=unit) for name, (_, unit) in MEASURES.items()}
+    return {name: summarise([grid], statistics, seed, unit=MEASURES[name][1]) for name, grid in grids.items()}
 
 
 def _order(loss: Number) -> float:
@@ -87,13 +74,7 @@ def counts(trainings: Sequence[Training], rank: int | None, method: str, publish
 
 
 def kind_lines(traits: Mapping[str, Traits], variants: Sequence[str], confidence: float) -> list[Line]:
-    """Return the rows of text, two a kind where there are intervals, a rule above our own variants.
-
-    Args:
-        traits: all numbers, kind by kind.
-        variants: kinds below the rule.
-        confidence: of the intervals, a share [-].
-    """
+    """Return the rows of text, two a kind where there are intervals, a rule above our own variants."""
     lines: list[Line] = []
     for method, own in traits.items():
         if lines:

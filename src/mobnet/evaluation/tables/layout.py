@@ -62,10 +62,10 @@ def write_table(stem: Path, table: Table, tex: str = "") -> None:
 
 
 def in_blocks(blocks: Iterable[tuple[Sequence[str], Sequence[Sequence[str]]]], *, nested: bool = False) -> list[Line]:
-    """Return the lines of blocks, the labels of a block before its first line and a rule between blocks.
+    """Return the lines of blocks, the labels (k,) of a block before its first line and a rule between blocks.
 
     Args:
-        blocks: labels (k,), and the cells of each line after the labels.
+        blocks: labels, and the cells of each line after them.
         nested: whether a label is left out while it and those before it stay the same; while the first one does, blocks
             have a gap between them instead of a rule.
     """
@@ -99,13 +99,7 @@ def tex_escape(text: str) -> str:
 
 
 def tex_table(columns: str, header: Sequence[str], lines: Sequence[Line]) -> str:
-    """Return a tabular environment.
-
-    Args:
-        columns: TeX column specification.
-        header: TeX of the header cells.
-        lines: rows of TeX cells, `RULE` or `GAP`.
-    """
+    """Return a tabular environment of TeX cells; `columns` is a TeX column specification."""
     body = [line if isinstance(line, str) else tex_row(line) for line in lines]
     parts = [rf"\begin{{tabular}}{{{columns}}}", r"\toprule", tex_row(header), RULE, *body, r"\bottomrule"]
     return "\n".join([*parts, r"\end{tabular}"]) + "\n"
@@ -118,13 +112,9 @@ def text_table(columns: str, header: Sequence[str], lines: Sequence[Line]) -> st
 
 
 def long_table(columns: str, caption: str, header: Sequence[str], lines: Sequence[Line]) -> str:
-    """Return a longtable environment of plain text, which breaks across pages and repeats its header.
+    """Return a longtable environment of plain text: it breaks across pages, repeats its header and holds its caption.
 
-    Args:
-        columns: TeX column specification.
-        caption: TeX of the caption; a longtable holds its own.
-        header: header cells.
-        lines: rows of cells, `RULE`, `GAP` or other TeX.
+    `columns` and `caption` are TeX, and so are lines that are no cells.
     """
     head = [r"\toprule", tex_row(list(map(tex_escape, header))), RULE, r"\endhead", r"\bottomrule", r"\endfoot"]
     body = [line if isinstance(line, str) else tex_row(list(map(tex_escape, line))) for line in lines]
@@ -137,13 +127,7 @@ def tex_row(cells: Sequence[str]) -> str:
 
 
 def markdown_table(header: Sequence[str], lines: Sequence[Line], left: int = 1) -> str:
-    """Return a Markdown table; rules and gaps between rows are left out.
-
-    Args:
-        header: header cells.
-        lines: rows of cells, `RULE` or `GAP`.
-        left: columns set flush left; the others hold numbers and are set flush right.
-    """
+    """Return a Markdown table without rules and gaps; columns after the first `left` ones hold numbers, flush right."""
     marks = ["---"] * left + ["---:"] * (len(header) - left)
     rows = [header, marks, *(line for line in lines if not isinstance(line, str))]
     return "".join("| " + " | ".join(cell.replace("|", r"\|") for cell in row) + " |\n" for row in rows)

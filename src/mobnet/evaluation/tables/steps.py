@@ -22,14 +22,12 @@ HEADER = ["Set", "Command", "from", "to", "Steps", "Commanded", "Measured", "Rat
 
 @dataclass(frozen=True)
 class Followed:
-    """What came of a command.
+    """What came of a command, in a bin of it; numbers are in the command's unit [m], [deg] or [s].
 
     Attributes:
-        bin_from: lower end of the bin [unit of the command].
-        bin_to: upper end of the bin [unit of the command].
         count: steps of the foot that leads.
-        commanded: mean [unit of the command].
-        measured: mean [unit of the command].
+        commanded: mean.
+        measured: mean.
         ratio: measured over commanded; None in a bin around zero.
         within: share of the steps that lie within the tolerance of their own command; None in a bin around zero.
     """
@@ -55,19 +53,7 @@ def steps(
     settings: StepsTable, robot: RobotTable, walking: Walking, commands: Commands,
     sets: Mapping[str, Sequence[Path]], table_dir: Path,
 ) -> None:  # fmt: skip
-    """Write the table of measured against commanded steps, by bins of the command, as CSV, TeX and Markdown.
-
-    Args:
-        settings: bins and tolerance.
-        robot: the robot.
-        walking: the controller's spacing of the feet.
-        commands: ranges of Table 2.
-        sets: name -> recordings.
-        table_dir: gets steps.csv, .tex and .md.
-
-    Raises:
-        DataError: a file is missing, or a set holds no step.
-    """
+    """Write the table of measured against commanded steps, by bins of the command, as CSV, TeX and Markdown."""
     nominal, rows = NominalModel(describe(robot)), {}
     for name, stems in sets.items():
         found = read_steps(stems, nominal.robot.layout)

@@ -26,17 +26,7 @@ def table_01(
     networks: Mapping[str, Network], target: Target, layout: JointLayout, learning: Learning, seed: int,
     published: PublishedNetworks, table_dir: Path,
 ) -> None:  # fmt: skip
-    """Write Table 1 as CSV, TeX and Markdown, each network built and its parameters counted.
-
-    Args:
-        networks: limb -> its network.
-        target: what the networks learn.
-        layout: joints.
-        learning: the smallest standard deviation.
-        seed: of the weights, which are counted only.
-        published: what the paper prints of each limb.
-        table_dir: gets table_01.csv, .tex and .md.
-    """
+    """Write Table 1 as CSV, TeX and Markdown, each limb's network built and its parameters counted."""
     records = [
         describe(limb, networks[limb], TARGETS[target].format(limb=limb), layout, learning.std_min, seed, printed)
         for limb, printed in published.rows.items()

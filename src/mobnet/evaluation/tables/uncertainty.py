@@ -24,16 +24,7 @@ def uncertainty(
 ) -> None:  # fmt: skip
     """Write uncertainty.csv, .tex and .md: standard deviation of the learning target of each joint [N m], V1..V3 [N].
 
-    Args:
-        settings: limb -> accepted ratios to the robot's.
-        networks: name the training set of each limb.
-        layout: joints and limbs.
-        published: the robot's own.
-        sets: name of a training set -> its residuals.
-        table_dir: gets the three files.
-
-    Raises:
-        DataError: a file or a column is missing.
+    `sets` has the residuals of each training set.
     """
     records, blocks = [], []
     for limb in (name for name in networks if name in layout.groups):  # not those that hold several
@@ -53,11 +44,7 @@ def uncertainty(
 
 
 def target_std(stems: Sequence[Path], joints: Sequence[str]) -> NDArray[np.float64]:
-    """Return the standard deviation of r - tau_ext_lp over all samples of residual files (n,) [N m], V1..V3 [N].
-
-    Raises:
-        DataError: a file or a column is missing.
-    """
+    """Return the standard deviation of r - tau_ext_lp over all samples of residual files (n,) [N m], V1..V3 [N]."""
     names = [*named(RESIDUAL, joints), *named(EXTERNAL_LP, joints)]
     count, mean, spread = 0, np.zeros(len(joints)), np.zeros(len(joints))
     for stem in stems:
