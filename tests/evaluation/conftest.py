@@ -239,13 +239,6 @@ def make_scores() -> Callable[..., list[Score]]:
     return made_up_scores
 
 
-@pytest.fixture
-def scores_csv(tmp_path: Path) -> Path:
-    """Scores of 2 networks on 3 tests, written."""
-    write_rows(tmp_path / "scores.csv", made_up_scores())
-    return tmp_path / "scores.csv"
-
-
 def push_scores(scenario: str, means: dict[str, float], pushes: int) -> list[Score]:
     """Return scores of LL3 around pushes: `means` of all [N m], a tenth more of each later one, one less of no push."""
     rows = []
@@ -271,26 +264,12 @@ def write_push_scores(tmp_path: Path) -> Callable[..., Path]:
 
 
 def write_walk(
-    folder: Path,
-    layout: JointLayout,
-    error: float,
-    steps: int,
-    method: str,
-    joints: list[str],
-    std: float | None,
+    folder: Path, layout: JointLayout, error: float, steps: int, method: str, joints: list[str], std: float | None,
     calm: bool,
-) -> Run:
-    """Write recording, residual and estimate of a made-up walk that is pushed in every swing.
+) -> Run:  # fmt: skip
+    """Write recording, residual and estimate of a made-up walk of some gait cycles, pushed in every swing unless calm.
 
-    Args:
-        folder: gets the files.
-        layout: joints.
-        error: constant error of the estimate of every joint [N m]; the residual's is 5.
-        steps: gait cycles.
-        method: of the run.
-        joints: names in the estimate.
-        std: standard deviation that the estimate has [N m]; None: none.
-        calm: whether nothing pushes.
+    The estimate of every joint has a constant error and a standard deviation, or none, the residual an error of 5 [N m].
     """
     rows = 2 * STEP_ROWS * steps
     phase = np.arange(rows) % (2 * STEP_ROWS)
@@ -326,13 +305,9 @@ def walk(tmp_path: Path, layout: JointLayout) -> Callable[..., Run]:
     """Write a made-up walk: walk(error, steps=4, method="MOB-Net", joints=JOINTS, std=None, calm=False) -> its run."""
 
     def write(
-        error: float,
-        steps: int = 4,
-        method: str = "MOB-Net",
-        joints: list[str] = JOINTS,
-        std: float | None = None,
+        error: float, steps: int = 4, method: str = "MOB-Net", joints: list[str] = JOINTS, std: float | None = None,
         calm: bool = False,
-    ) -> Run:
+    ) -> Run:  # fmt: skip
         folder = tmp_path / f"{method}-{error}-{steps}-{joints[0]}-{std}-{calm}"
         return write_walk(folder, layout, error, steps, method, joints, std, calm)
 
@@ -342,12 +317,8 @@ def walk(tmp_path: Path, layout: JointLayout) -> Callable[..., Run]:
 def write_steps(stem: Path, layout: JointLayout, seed: int, size: float = 1.0, stands: bool = False) -> Path:
     """Write a recording of 20 s of random steps and motion, and its residual beside it; return the recording's stem.
 
-    Args:
-        stem: gets the recording; its residual's name ends in `_residual`.
-        layout: joints.
-        seed: of all that is drawn.
-        size: of velocities [rad/s] and, times 40, of desired torques [N m].
-        stands: whether the robot stands in the second half.
+    The residual's name ends in `_residual`. `size` is that of velocities [rad/s] and, times 40, of desired torques
+    [N m]; a robot that stands does so in the second half.
     """
     rng, rows = np.random.default_rng(seed), 2000
     time = np.arange(rows) / RATE_HZ
@@ -377,11 +348,7 @@ def write_steps(stem: Path, layout: JointLayout, seed: int, size: float = 1.0, s
 def write_predicted(folder: Path, layout: JointLayout, seed: int, scale: float | None) -> Run:
     """Write an estimate of the left leg whose errors have the spread that it predicts, ten times that around pushes.
 
-    Args:
-        folder: gets recording (only the columns that show pushes), residual and estimate.
-        layout: joints.
-        seed: of the errors.
-        scale: factor that is noted beside the standard deviations; None: not noted.
+    The recording has only the columns that show pushes. A scale is noted beside the standard deviations.
     """
     rng, rows = np.random.default_rng(seed), 2000
     air = (np.arange(rows) % (2 * STEP_ROWS) < STEP_ROWS).astype(float)

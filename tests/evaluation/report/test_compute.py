@@ -41,20 +41,14 @@ def uses(tmp_path: Path) -> Uses:
     return made(tmp_path, JOBS)
 
 
-def test_every_job_counts_once(uses: Uses) -> None:
+def test_every_job_counts_once_and_the_peak_is_the_largest(uses: Uses) -> None:
     for quantity in ("jobs", "CPU time", "wall time"):
         parts = [uses[stage, quantity] for stage in STAGES if (stage, quantity) in uses]
         assert sum(parts) == pytest.approx(uses[WHOLE, quantity], abs=1e-5)
     assert uses[WHOLE, "jobs"] == len(JOBS)
     assert uses[WHOLE, "CPU time"] == pytest.approx(29 / 3600, rel=1e-4)
     assert uses["collect", "jobs"] == 2
-
-
-def test_a_rule_of_no_stage_makes_tables_and_figures(uses: Uses) -> None:
-    assert uses["tables and figures", "jobs"] == 1
-
-
-def test_peak_is_the_largest(uses: Uses) -> None:
+    assert uses["tables and figures", "jobs"] == 1  # a rule of no stage
     assert uses[WHOLE, "peak memory"] == uses["collect", "peak memory"] == 500.5
     assert uses["score", "peak memory"] == 20.0
 

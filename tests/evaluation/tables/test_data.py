@@ -26,23 +26,19 @@ def facts(make_table: Callable[..., Path], data_sets: Sets) -> Facts:
     return {(row.set, row.quantity, row.part or ""): row for row in read_table(table)}
 
 
-def test_lengths_and_falls_are_sums(facts: Facts) -> None:
+def test_numbers_are_those_of_the_recordings(facts: Facts) -> None:
     assert facts["walk", "samples", ""].value == 4000
     assert facts["walk", "duration", ""].value == pytest.approx(40 / 60)
     assert facts["walk", "duration", ""].published == 60.0
     assert facts["walk", "falls", ""].value == 0
     assert facts["walk", "episodes", ""].value == 4
     assert facts["walk", "time on terrain", "checks"].value == 0.5
-
-
-def test_only_the_motion_stands_half_of_the_time(facts: Facts) -> None:
+    # only the motion stands half of the time
     assert facts["walk", "time standing", ""].value == 0.0
     assert facts["motion", "time standing", ""].value == 0.5
     assert facts["motion", "time standing", ""].published == 0.5
     assert facts["motion", "steps", ""].value < facts["walk", "steps", ""].value
-
-
-def test_commands_stand_beside_the_ends_of_table_2(facts: Facts) -> None:
+    # commands stand beside the ends of Table 2
     low, high = (facts["walk", f"{end} command", "step_x"] for end in ("smallest", "largest"))
     assert (low.published, high.published) == (-0.15, 0.2)
     assert -0.15 <= low.value < high.value <= 0.2

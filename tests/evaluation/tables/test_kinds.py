@@ -35,7 +35,7 @@ def test_order_is_by_validation_loss_among_the_kinds_that_the_paper_orders(trait
     }  # fmt: skip
 
 
-def test_numbers_are_means_over_runs_inside_their_intervals(traits: dict[Any, Any]) -> None:
+def test_numbers_are_means_over_runs_inside_their_intervals(traits: dict[Any, Any], tmp_path: Path) -> None:
     loss = traits["GRU", "validation loss"]
     assert loss.value == pytest.approx(-4.3)
     assert -4.5 <= loss.low < -4.3 < loss.high <= -4.1
@@ -44,9 +44,7 @@ def test_numbers_are_means_over_runs_inside_their_intervals(traits: dict[Any, An
     assert traits["GRU", "validation RMSE"].value == pytest.approx(5.7)
     assert traits["GRU", "validation loss on windows"].value == pytest.approx(-4.175)
     assert traits["MLP-500", "parameters"].published == 756512
-
-
-def test_runs_that_diverged_are_counted_and_left_out(traits: dict[Any, Any], tmp_path: Path) -> None:
+    # runs that diverged are counted and left out
     assert (traits["printed-rate", "runs"].value, traits["printed-rate", "diverged"].value) == (2, 1)
     assert traits["printed-rate", "validation loss"].value == pytest.approx(-4.0)
     assert "| 2, 1 diverged |" in (tmp_path / "kinds.md").read_text()

@@ -21,16 +21,7 @@ class Tick:
 
 @dataclass(frozen=True)
 class Chart:
-    """A drawing of GRID x GRID, y downwards.
-
-    Attributes:
-        key: short name.
-        title: what is drawn, with its unit.
-        lines: name of a curve -> its SVG points.
-        marked: x of the marked place.
-        x_ticks: marks on the horizontal axis.
-        y_ticks: marks on the vertical axis.
-    """
+    """A drawing of GRID x GRID, y downwards: the SVG points of each curve, the x of a marked place, and the ticks."""
 
     key: str
     title: str

@@ -28,8 +28,6 @@ REST = "tables and figures"
 WHOLE, ELAPSED = "all jobs", "elapsed"
 HOUR_S, PERCENT = 3600.0, 100.0
 HEADER = ["Stage", "Jobs", "CPU time [h]", "Wall time [h]", "Load [%]", "Peak memory [MiB]"]
-
-
 Uses = dict[tuple[str, str], Number]  # stage (a name of `STAGES`, `WHOLE` or `ELAPSED`), quantity
 
 
@@ -44,9 +42,7 @@ def compute(settings: Compute, accounts: Path, out: Path) -> None:
     jobs = [job for job in map(read_account, sorted(accounts.rglob("*.json"))) if job.succeeded]
     if not jobs:
         raise DataError(f"{accounts}: holds no account of a job; ./reproduce all makes them")
-    uses: Uses = {}
-    for stage, own in by_stage(jobs):
-        uses |= uses_of(stage, own)
+    uses = {of: use for stage, own in by_stage(jobs) for of, use in uses_of(stage, own).items()}
     uses |= whole_run(jobs, settings.pause_s)
     records = [(*of, use.value, use.unit) for of, use in uses.items()]
     write_table(out.with_suffix(""), Table(COMPUTE, records, HEADER, compute_lines(uses)))

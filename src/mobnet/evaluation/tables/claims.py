@@ -27,8 +27,6 @@ class Verdict:
     """A claim, our number and what follows.
 
     Attributes:
-        name: the claim's key.
-        claim: what the paper says.
         ours: our number; none where the tests are too short to hold what it is about, or all trainings diverged.
         differs: whether the interval leaves out equality, `yes` or `no`; empty without interval or comparison.
         verdict: one of `VERDICTS`, from the value alone.

@@ -1,7 +1,7 @@
 """What the training sets are: how long, on which ground, which commands of Table 2, how the upper body moved."""
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -27,15 +27,8 @@ Found = tuple[str, str, float, str]  # quantity, part, value, unit
 
 EDGE = 1e-3  # [-] of a range: a command nearer than this to its end counts as on the edge
 MINUTE_S = 60.0
-FORMATS: Mapping[str, Callable[[float], str]] = {
-    "-": "{:.0%}".format,
-    "": "{:.0f}".format,
-    "min": "{:.1f}".format,
-    "deg": "{:.1f}".format,
-    "rad": "{:.2f}".format,
-    "m/s": "{:.2f}".format,
-}
-PLAIN = "{:.3f}".format
+FORMATS = {"-": ".0%", "": ".0f", "min": ".1f", "deg": ".1f", "rad": ".2f", "m/s": ".2f"}  # of numbers by unit
+PLAIN = ".3f"
 
 Facts = Mapping[tuple[str, str, str], Number]  # set, quantity, part (empty: the whole set's)
 
@@ -120,10 +113,10 @@ def fact_lines(facts: Facts, sets: Sequence[str]) -> list[list[str]]:
     for quantity, part in dict.fromkeys((quantity, part) for _, quantity, part in facts):
         own = [facts.get((name, quantity, part)) for name in sets]
         unit, *_ = (fact.unit for fact in own if fact)
-        show = FORMATS.get(unit, PLAIN)
-        printed = [show(fact.published) for fact in own if fact and fact.published is not None]
+        layout = FORMATS.get(unit, PLAIN)
+        printed = [format(fact.published, layout) for fact in own if fact and fact.published is not None]
         label = f"{quantity}, {part.replace('_', ' ')}" if part else quantity
         label += f" [{unit}]" if unit not in ("", "-") else ""
-        texts = [show(fact.value) if fact and fact.value is not None else "-" for fact in own]
+        texts = [format(fact.value, layout) if fact and fact.value is not None else "-" for fact in own]
         lines.append([label, *texts, *(printed[:1] or ["-"])])
     return lines

@@ -18,8 +18,7 @@ from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
 from mobnet.settings.evaluation import BudgetRow, ErrorBudget, Statistics
 
 METRIC, GONE = "rmse", "gone"
-DIGITS = {METRIC: 2, GONE: 0}
-SIGN = {METRIC: "", GONE: " %"}
+DIGITS, SIGN = {METRIC: 2, GONE: 0}, {METRIC: "", GONE: " %"}
 
 Cells = Mapping[tuple[str, str, str, str], Number]  # scenario, level, method, METRIC or GONE
 

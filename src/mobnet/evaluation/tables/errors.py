@@ -1,7 +1,5 @@
 """Tables of errors beside the printed numbers: a row is a method in a test, a column a joint or a mean."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice, pairwise
@@ -37,10 +35,6 @@ class TableRow:
     run: tuple[str, str, str]
     metric: str
     numbers: Mapping[Column, Number]
-
-    def part(self, first: int, end: int) -> TableRow:
-        """Return the row with a span of its columns only."""
-        return replace(self, numbers=dict(islice(self.numbers.items(), first, end)))
 
 
 @dataclass(frozen=True)
@@ -96,7 +90,7 @@ def write_error_table(stem: Path, rows: Sequence[TableRow], look: Look) -> None:
     names = [column.name for column in rows[0].numbers]
     texts = []
     for first, end in pairwise([0, *map(names.index, look.settings.parts), len(names)]):
-        part = [row.part(first, end) for row in rows]
+        part = [replace(row, numbers=dict(islice(row.numbers.items(), first, end))) for row in rows]
         header = header_of(part[0], look)
         align = "l" * (len(header) - end + first) + "r" * (end - first)
         texts.append(text_table(align, header, table_lines(part, look, stacked=bool(look.settings.parts))))

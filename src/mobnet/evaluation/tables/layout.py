@@ -32,10 +32,8 @@ class Table:
     """A table as its three files hold it.
 
     Attributes:
-        columns: names of the columns of the CSV file.
-        rows: its rows.
-        header: heads of the columns that a reader sees.
-        lines: rows of text below them, `RULE` or `GAP`.
+        columns: names of the columns of the CSV file, whose rows are `rows`.
+        header: heads of the columns that a reader sees, above `lines`.
         left: leading columns that are set flush left; the others hold numbers and are set flush right.
         align: TeX column specification where it is another one.
         note: text below the table.

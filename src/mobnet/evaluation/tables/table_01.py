@@ -16,6 +16,8 @@ from mobnet.settings.networks import Learning, Network
 from mobnet.settings.published import PublishedNetwork, PublishedNetworks
 
 HEADER = ["Network", "Input", "Numbers", "Target", "Architecture", "Parameters", "Paper", "Horizon", "Paper", "Data"]
+SHOWN = ("limb", "inputs", "input_count", "target", "architecture", "parameters", "parameters_published",
+         "horizon_steps", "horizon_published", "data")  # fmt: skip
 COLUMNS = "llrllrrrrl"
 LEFT = 5  # columns of text
 TARGETS = {"uncertainty": "r^{limb} - tau_ext^{limb}", "external": "tau_ext^{limb}"}  # eq. (15), both low-passed alike
@@ -31,7 +33,7 @@ def table_01(
         describe(limb, networks[limb], TARGETS[target].format(limb=limb), layout, learning.std_min, seed, printed)
         for limb, printed in published.rows.items()
     ]
-    lines = [cells(*map(str, record)) for record in records]
+    lines = [[str(record[TABLE_01.index(name)]) for name in SHOWN] for record in records]
     tex = tex_table(COLUMNS, HEADER, list(map(tex_cells, lines)))
     write_table(table_dir / "table_01", Table(TABLE_01, records, HEADER, lines, LEFT), tex)
 
@@ -61,15 +63,6 @@ def describe(
         printed.parameters,
         printed.horizon_steps,
     )
-
-
-def cells(
-    limb: str, inputs: str, count: str, target: str, architecture: str, parameters: str, horizon: str, data: str,
-    _: str, parameters_published: str, horizon_published: str,
-) -> list[str]:  # fmt: skip
-    """Return a network's row of text."""
-    numbers = [parameters, parameters_published, horizon, horizon_published]
-    return [limb, inputs, count, target, architecture, *numbers, data]
 
 
 def tex_cells(line: Sequence[str]) -> list[str]:
