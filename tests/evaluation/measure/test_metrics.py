@@ -18,14 +18,11 @@ def test_rmse_of_a_constant_error_is_that_constant(rng: np.random.Generator) -> 
     np.testing.assert_allclose(rmse(truth + error, truth, whole(truth)), np.abs(error), atol=1e-12)
 
 
-def test_rmse_scales_with_the_error_and_is_symmetric(rng: np.random.Generator) -> None:
+def test_rmse_scales_with_the_error_is_symmetric_and_tells_the_deviation_of_noise(rng: np.random.Generator) -> None:
     estimate, truth = rng.normal(size=(2, 400, 2))
     error = rmse(estimate, truth, whole(truth))
     np.testing.assert_allclose(rmse(7 * estimate, 7 * truth, whole(truth)), 7 * error, rtol=1e-12)
     np.testing.assert_allclose(rmse(truth, estimate, whole(truth)), error, rtol=1e-12)
-
-
-def test_rmse_of_white_noise_converges_to_its_deviation(rng: np.random.Generator) -> None:
     noise = rng.normal(scale=1.5, size=(200_000, 1))
     np.testing.assert_allclose(rmse(noise, np.zeros_like(noise), whole(noise)), 1.5, rtol=0.01)
 
@@ -42,13 +39,11 @@ def test_samples_between_segments_do_not_count() -> None:
 
 
 def test_roughness_of_a_ramp_is_its_slope() -> None:
-    """A closed form."""
     ramp = (3.0 * np.arange(100) / 1000.0)[:, None]
     np.testing.assert_allclose(roughness(ramp, whole(ramp), 1000.0), 3.0, rtol=1e-9)
 
 
-def test_roughness_ignores_the_jump_between_segments() -> None:
-    """Zero, however far apart two still segments are."""
+def test_roughness_of_two_still_segments_is_zero_however_far_apart() -> None:
     signal = np.concatenate([np.zeros((50, 1)), np.full((50, 1), 100.0)])
     assert roughness(signal, ((0, 50), (50, 100)), 1000.0) == pytest.approx(0.0)
     assert roughness(signal, whole(signal), 1000.0) > 1.0

@@ -8,11 +8,11 @@ import pytest
 
 from mobnet.core.errors import DataError
 from mobnet.core.joints import NQ_BASE, JointLayout
-from mobnet.evaluation.measure.steps import Steps, measure, read_steps, step_bounds
+from mobnet.evaluation.measure.steps import Steps, ankle_places, measure, read_steps, step_bounds
 from mobnet.plan.runs import Run
 from mobnet.robot.nominal import NominalModel
 
-LEG_M, SPACING_M = 0.7, 0.205
+LEG_M, SPACING_M = 0.7, 0.205  # of thigh and shank; between the feet
 
 
 def gait(feet: str) -> tuple[np.ndarray, np.ndarray]:
@@ -33,6 +33,7 @@ def bounds(feet: str, segments: tuple[tuple[int, int], ...] | None = None) -> li
 
 def test_a_step_goes_from_touch_down_to_touch_down() -> None:
     assert bounds("LRL") == [(8, 18, 1), (18, 28, 0)]
+    assert bounds("LRLR", ((0, 20), (20, 40))) == [(8, 18, 1), (28, 38, 1)]  # none crosses a fall
 
 
 def test_a_step_that_stands_or_repeats_a_foot_is_none() -> None:
@@ -41,11 +42,8 @@ def test_a_step_that_stands_or_repeats_a_foot_is_none() -> None:
     assert bounds("--") == []
 
 
-def test_a_step_does_not_cross_a_fall() -> None:
-    assert bounds("LRLR", ((0, 20), (20, 40))) == [(8, 18, 1), (28, 38, 1)]
-
-
-def turned_legs(nominal: NominalModel, **angles: float) -> np.ndarray:
+def posture(nominal: NominalModel, **angles: float) -> np.ndarray:
+    """Return generalized positions (1, nq) with some joints turned."""
     q = np.zeros((1, nominal.robot.layout.nq))
     q[0, 3] = 1.0
     for joint, angle in angles.items():
@@ -53,23 +51,35 @@ def turned_legs(nominal: NominalModel, **angles: float) -> np.ndarray:
     return q
 
 
+def test_a_straight_leg_has_the_closed_form_of_a_circle_about_the_hip(nominal: NominalModel) -> None:
+    rest = ankle_places(nominal, posture(nominal))[0][0]
+    pitched = ankle_places(nominal, posture(nominal, LL3=0.3))[0][0]
+    np.testing.assert_allclose(pitched[0] - rest[0], [-LEG_M * np.sin(0.3), 0, LEG_M * (1 - np.cos(0.3))], atol=1e-12)
+    rolled = ankle_places(nominal, posture(nominal, RL2=-0.2))[0][0]
+    np.testing.assert_allclose(rolled[1] - rest[1], [0, -LEG_M * np.sin(0.2), LEG_M * (1 - np.cos(0.2))], atol=1e-12)
+    np.testing.assert_allclose(rolled[0], rest[0], atol=1e-12)
+
+
+def test_the_hips_yaw_is_the_feets_yaw(nominal: NominalModel) -> None:
+    yaw = ankle_places(nominal, posture(nominal, LL1=0.25, RL1=-0.4))[1][0]
+    np.testing.assert_allclose(yaw, [0.25, -0.4], atol=1e-12)
+
+
 @pytest.mark.parametrize("foot", [0, 1])
 def test_steps_of_straight_legs_have_the_closed_form_of_their_hips(nominal: NominalModel, foot: int) -> None:
     side, out = "LR"[foot], (1, -1)[foot]
-    found = {
-        "rest": measure(nominal, turned_legs(nominal), np.array([foot]), SPACING_M),
-        "pitch": measure(nominal, turned_legs(nominal, **{f"{side}L3": -0.2}), np.array([foot]), SPACING_M),
-        "roll": measure(nominal, turned_legs(nominal, **{f"{side}L2": out * 0.1}), np.array([foot]), SPACING_M),
-        "yaw": measure(nominal, turned_legs(nominal, **{f"{side}L1": 0.3}), np.array([foot]), SPACING_M),
-    }
-    np.testing.assert_allclose(found["rest"], [[0, 0, 0]], atol=1e-12)
-    np.testing.assert_allclose(found["pitch"], [[LEG_M * np.sin(0.2), 0, 0]], atol=1e-12)
-    np.testing.assert_allclose(found["roll"], [[0, out * LEG_M * np.sin(0.1), 0]], atol=1e-12)
-    np.testing.assert_allclose(found["yaw"], [[0, 0, 0.3]], atol=1e-12)
+    for angles, step in (
+        ({}, [0, 0, 0]),
+        ({f"{side}L3": -0.2}, [LEG_M * np.sin(0.2), 0, 0]),
+        ({f"{side}L2": out * 0.1}, [0, out * LEG_M * np.sin(0.1), 0]),
+        ({f"{side}L1": 0.3}, [0, 0, 0.3]),
+    ):
+        moved = measure(nominal, posture(nominal, **angles), np.array([foot]), SPACING_M)
+        np.testing.assert_allclose(moved, [step], atol=1e-12)
 
 
 def test_a_step_is_invariant_to_where_the_robot_is_and_faces(nominal: NominalModel) -> None:
-    q = turned_legs(nominal, LL1=0.2, LL3=-0.3, LL4=0.4, RL2=-0.1, RL3=0.2)
+    q = posture(nominal, LL1=0.2, LL3=-0.3, LL4=0.4, RL2=-0.1, RL3=0.2)
     here = measure(nominal, q, np.array([0]), SPACING_M)
     q[0, :7] = [3.0, -2.0, 1.0, np.cos(1.2), 0.0, 0.0, np.sin(1.2)]
     np.testing.assert_allclose(measure(nominal, q, np.array([0]), SPACING_M), here, atol=1e-12)

@@ -17,15 +17,9 @@ from mobnet.settings.published import PublishedTable
 
 
 def figure_06(
-    settings: Figure06,
-    published: PublishedTable,
-    layout: JointLayout,
-    statistics: Statistics,
-    seed: int,
-    runs: Sequence[Run],
-    scores: Mapping[str, Path],
-    figure_dir: Path,
-) -> None:
+    settings: Figure06, published: PublishedTable, layout: JointLayout, statistics: Statistics, seed: int,
+    runs: Sequence[Run], scores: Mapping[str, Path], figure_dir: Path,
+) -> None:  # fmt: skip
     """Write Figure 6, a step of torque on a swinging hip [N m]: curves around the first, errors in all windows.
 
     The runs are one of each method, all of one recording.

@@ -16,15 +16,9 @@ ROBOT = "paper (robot)"  # name of numbers that the paper measured on its robot
 
 
 def figure_10(
-    settings: Figure10,
-    published: PublishedTable,
-    layout: JointLayout,
-    statistics: Statistics,
-    seed: int,
-    runs: Mapping[str, Sequence[Run]],
-    scores: Mapping[str, Path],
-    figure_dir: Path,
-) -> None:
+    settings: Figure10, published: PublishedTable, layout: JointLayout, statistics: Statistics, seed: int,
+    runs: Mapping[str, Sequence[Run]], scores: Mapping[str, Path], figure_dir: Path,
+) -> None:  # fmt: skip
     """Write Figure 10, pushes on the knee of a leg in the air and on the ground [N m]: curves and errors of each.
 
     The title of a test leads to its runs, one of each method and all of one recording.

@@ -19,13 +19,9 @@ Errors = dict[tuple[str, str], Number]  # limb or UPPER_BODY, joint or AVERAGE -
 
 
 def figure_18(
-    settings: Figure18,
-    layout: JointLayout,
-    statistics: Statistics,
-    seed: int,
-    scores: Mapping[str, Path],
+    settings: Figure18, layout: JointLayout, statistics: Statistics, seed: int, scores: Mapping[str, Path],
     figure_dir: Path,
-) -> None:
+) -> None:  # fmt: skip
     """Write Figure 18, mean RMSE [N m] over the joints of the upper body and of its limbs, as PDF, PNG and CSV."""
     rows, panels = [], []
     for scenario, title in settings.panels.items():
@@ -62,5 +58,5 @@ def panel_of(title: str, errors: Mapping[str, Errors]) -> BarPanel:
         method: {limb: error for (limb, joint), error in own.items() if joint == AVERAGE}
         for method, own in errors.items()
     }
-    groups = list(dict.fromkeys(limb for own in bars.values() for limb in own))
-    return BarPanel(title, groups, {method: list(own.values()) for method, own in bars.items()})
+    groups = dict.fromkeys(limb for own in bars.values() for limb in own)
+    return BarPanel(title, list(groups), {method: list(own.values()) for method, own in bars.items()})

@@ -67,12 +67,9 @@ def _scatter(axis: Axes, dots: NDArray[Any], colour: str, label: str) -> None:
 
 
 def figure_19(
-    settings: Figure19,
-    coverage: Coverage,
-    training: Mapping[str, Sequence[Path]],
-    tests: Sequence[Sequence[Path]],
+    settings: Figure19, coverage: Coverage, training: Mapping[str, Sequence[Path]], tests: Sequence[Sequence[Path]],
     figure_dir: Path,
-) -> None:
+) -> None:  # fmt: skip
     """Write Figure 19, desired torque [N m] over velocity [rad/s] of some joints, as PDF, PNG and CSV.
 
     Each training set has a row of panels; the tests are shown together, each with the same number of dots.

@@ -95,12 +95,9 @@ def held_out(layout: JointLayout, folders: Sequence[Path], shares: Sequence[floa
 
 
 def in_tests(
-    layout: JointLayout,
-    coverage: Coverage,
-    tests: Sequence[CalibrationTest],
-    runs: Sequence[Sequence[Run]],
+    layout: JointLayout, coverage: Coverage, tests: Sequence[CalibrationTest], runs: Sequence[Sequence[Run]],
     shares: Sequence[float],
-) -> list[Grid]:
+) -> list[Grid]:  # fmt: skip
     """Return what the runs of each test show of their standard deviations, (networks, tests, 2, k + 2) each.
 
     The shares (k,) are nominal; the section of coverage says what counts as a push.

@@ -54,14 +54,9 @@ class Covered:
 
 
 def covered(
-    settings: Coverage,
-    layout: JointLayout,
-    ports: Limb,
-    statistics: Statistics,
-    seed: int,
-    training: Mapping[str, Sequence[Path]],
-    tests: Sequence[Sequence[Path]],
-) -> list[Covered]:
+    settings: Coverage, layout: JointLayout, ports: Limb, statistics: Statistics, seed: int,
+    training: Mapping[str, Sequence[Path]], tests: Sequence[Sequence[Path]],
+) -> list[Covered]:  # fmt: skip
     """Return all measures of the training sets, WITH and WITHOUT, and of every test against them.
 
     `ports` are what the network of the leg sees.

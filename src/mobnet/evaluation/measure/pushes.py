@@ -30,14 +30,9 @@ def wanted_of(
 
 
 def collision_errors(
-    layout: JointLayout,
-    settings: Figure10,
-    test: PushedRuns,
-    published: PublishedTable,
-    scores: Sequence[Score],
-    statistics: Statistics,
-    seed: int,
-) -> PushErrors:
+    layout: JointLayout, settings: Figure10, test: PushedRuns, published: PublishedTable, scores: Sequence[Score],
+    statistics: Statistics, seed: int,
+) -> PushErrors:  # fmt: skip
     """Return the errors of a test [N m], method by method: of each push, their average, and its increase.
 
     Raises:

@@ -29,13 +29,9 @@ class Reference:
 
 
 def read_blocks(
-    stems: Sequence[Path],
-    layout: JointLayout,
-    inputs: LimbInputs,
-    settings: Coverage,
-    foot: int | None = None,
+    stems: Sequence[Path], layout: JointLayout, inputs: LimbInputs, settings: Coverage, foot: int | None = None,
     pushed: Pushed | None = None,
-) -> list[NDArray[np.float32]]:
+) -> list[NDArray[np.float32]]:  # fmt: skip
     """Return every k-th sample of a network's inputs, block by block (n, n_in), units of `LimbInputs`.
 
     Only samples with a foot, 0 left, 1 right, in the air count where one is given, and only those around pushes, a

@@ -39,9 +39,6 @@ def score_run(layout: JointLayout, run: Run, window: Window | None = None) -> li
     """Return the rows of one run: each joint, then the average of each limb, for each metric.
 
     A metric has no row of a joint for which it is not defined, and none of a push that the run is too short for.
-
-    Raises:
-        DataError: a file is missing or damaged, or estimate, residual and recording do not belong together.
     """
     pair = read_pair(run, layout)
     names = run.scenario, run.level, run.method, run.network_seed, run.test_seed
