@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from mobnet.control.compiled import compiled
 from mobnet.plan.jobs import walk_settings
 from mobnet.plan.runs import FIRST_TRAINING_SEED
-from mobnet.settings.jobs import WalkSettings
 from mobnet.settings.load import load_settings
+from mobnet.settings.settings import WalkSettings
 from mobnet.simulation.engine import Plant
 from mobnet.simulation.native import call_step
 from mobnet.simulation.record import collect

@@ -8,9 +8,9 @@ import pytest
 
 from mobnet.core.errors import ConfigError
 from mobnet.plan.call import Call, call_of, parameters
-from mobnet.plan.captions import Shown, shown
 from mobnet.plan.needs import needs_of
 from mobnet.plan.plan import Plan, make_plan
+from mobnet.plan.products import Shown, shown
 from mobnet.plan.runs import SweptSize, files_in
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings

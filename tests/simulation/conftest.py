@@ -9,8 +9,8 @@ import pytest
 
 from mobnet.core.columns import recording_columns, recording_width
 from mobnet.plan.jobs import walk_settings
-from mobnet.settings.jobs import WalkSettings
 from mobnet.settings.load import load_settings
+from mobnet.settings.settings import WalkSettings
 from mobnet.simulation.simulator import Simulator
 from mobnet.simulation.start import start_standing
 

@@ -20,8 +20,7 @@ from mobnet.core.store import read_array
 from mobnet.estimation.observe import observe
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import RecordingSettings
-from mobnet.settings.jobs import WalkSettings
-from mobnet.settings.settings import Settings
+from mobnet.settings.settings import Settings, WalkSettings
 from mobnet.simulation.record import Course, collect, record
 from mobnet.simulation.self_collision import Clearance
 from mobnet.simulation.simulator import Simulator

@@ -12,7 +12,7 @@ from mobnet.control.parameters import DURATION, FOOT_HEIGHT
 from mobnet.control.upper_body import UpperBody, follow
 from mobnet.robot.description import SIDES
 from mobnet.robot.plant import sole_name
-from mobnet.settings.jobs import WalkSettings
+from mobnet.settings.settings import WalkSettings
 from mobnet.simulation.simulator import STREAMS, Simulator
 from mobnet.simulation.start import CLEARANCE_M
 from mobnet.simulation.world import ground_height

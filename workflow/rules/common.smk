@@ -7,8 +7,8 @@ from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
 from mobnet.estimation.methods import check_methods
 from mobnet.evaluation.report.paper import missing_packages
-from mobnet.plan.captions import shown
 from mobnet.plan.plan import make_plan
+from mobnet.plan.products import shown
 from mobnet.settings.load import load_settings
 
 ROOT = Path(workflow.basedir)

@@ -70,17 +70,8 @@ def residual_columns(layout: JointLayout) -> list[Column]:
 class Score:
     """One number measured on one run: a row of a file of scores.
 
-    Attributes:
-        scenario: the test.
-        level: uncertainty level of section 5.1.
-        method: estimator, a row of the configuration's methods.
-        network_seed: seed of the networks; 0 for a method without any.
-        test_seed: seed of the test recording.
-        limb: limb of section 4.1.
-        joint: a joint of the limb, or `avg`, the mean over the limb's joints of this unit.
-        metric: a name of `metrics.METRICS`, or of a push.
-        value: the number [unit].
-        unit: unit of the number.
+    The network seed of a method without networks is 0; `joint` is a joint of the limb, or `avg`, the mean over the
+    limb's joints of this unit; `metric` is a name of `metrics.METRICS`, or of a push.
     """
 
     scenario: str
@@ -97,15 +88,11 @@ class Score:
 
 @dataclass(frozen=True)
 class Epoch:
-    """One epoch of a training: a row of metrics.csv.
+    """One epoch of a training, counted from 1: a row of metrics.csv.
 
-    Attributes:
-        epoch: counted from 1.
-        train_loss: mean of (22) over the training samples [-].
-        validation_loss: mean of (22) over the samples held out [-].
-        validation_rmse: mean over the joints of their root-mean-square errors [N m], V1..V3 [N].
-        rate: learning rate.
-        gradient_norm: mean norm of the gradient before the clip.
+    Losses are means of (22) over the samples of the training, and over those held out; `validation_rmse` is the mean
+    over the joints of their root-mean-square errors [N m], V1..V3 [N]; `gradient_norm` is the mean norm of the gradient
+    before the clip.
     """
 
     epoch: int

@@ -25,16 +25,11 @@ MIB = 2**20
 
 @dataclass(frozen=True)
 class Account:
-    """What a job took, from the start of its work to its end; Python's own start is not in it.
+    """What a job took in time [s] and memory [MiB], from the start of its work to its end, without Python's own start.
 
-    Attributes:
-        job: name of its log below the folder of logs; the first part is the name of its rule.
-        start_s: time of its start [s since 1970, UTC].
-        end_s: time of its end [s since 1970, UTC].
-        wall_s: how long it took, by a clock that nobody sets [s].
-        cpu_s: processor time, user and system, of the process and of the children that it waited for [s].
-        peak_mib: most memory that the process, or one of these children, held at once [MiB].
-        succeeded: False where it failed or was interrupted.
+    `job` is the name of its log below the folder of logs, of which the first part is that of its rule. Start and end
+    are in seconds since 1970, UTC; `wall_s` is by a clock that nobody sets. Processor time and peak memory include the
+    children that it waited for. `succeeded` is False where it failed or was interrupted.
     """
 
     job: str

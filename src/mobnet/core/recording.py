@@ -76,13 +76,10 @@ class Truth:
 
 @dataclass(frozen=True)
 class SensedRecording:
-    """The sensed part of a stored run: samples at a fixed rate, in segments that are contiguous in time.
+    """The sensed part of a stored run: samples at a fixed rate [Hz], in segments that are contiguous in time.
 
-    Attributes:
-        sensed: signals that a robot has.
-        segments: start and end row of each contiguous stretch; a fall ends one and the next starts anew.
-        rate_hz: samples per second [Hz].
-        meta: scenario, level, seed, provenance and what else the writer noted.
+    A segment is its start and end row; a fall ends one and the next starts anew. `meta` has scenario, level, seed,
+    provenance and what else the writer noted.
     """
 
     sensed: Sensed

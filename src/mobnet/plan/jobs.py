@@ -6,8 +6,7 @@ from pathlib import Path
 from mobnet.plan.call import Call, Job
 from mobnet.plan.runs import WEIGHTS, Files, files_in
 from mobnet.settings.data import Terrain
-from mobnet.settings.jobs import WalkSettings
-from mobnet.settings.settings import Settings
+from mobnet.settings.settings import Settings, WalkSettings
 
 KINDS = "mobnet.estimation.kinds"  # modules that a method names as its kind
 

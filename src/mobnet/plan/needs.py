@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from mobnet.core.errors import ConfigError
-from mobnet.plan.runs import Files, Run
+from mobnet.plan.runs import Files
 from mobnet.settings.evaluation import Runs
 from mobnet.settings.names import uses
 
@@ -32,11 +32,6 @@ def _scores(files: Files, section: Any) -> Mapping[str, Path]:
     parts = cast("tuple[Any, ...]", section if isinstance(section, tuple) else (section,))
     named = [test for part in parts for _, kind, test in uses(part, type(part)) if kind in TESTS]
     return files.scores(dict.fromkeys(named))
-
-
-def _runs(files: Files, section: Any) -> tuple[Run, ...]:
-    """Return the first run of each method of a section."""
-    return files.first_runs(section)
 
 
 def _folders(files: Files, section: Any) -> tuple[Path, ...]:
@@ -117,7 +112,7 @@ def _figure_10(files: Files) -> Needs:
 
 USUAL: Mapping[str, Callable[[Files, Any], object]] = {  # parameter -> what it gets
     "scores": _scores,
-    "runs": _runs,
+    "runs": Files.first_runs,
     "folders": _folders,
     "sets": _sets,
 }

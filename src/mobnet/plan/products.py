@@ -7,7 +7,6 @@ from pathlib import Path
 
 from mobnet.core.code import start_of
 from mobnet.plan.call import Job, call_of, parameters
-from mobnet.plan.captions import shown
 from mobnet.plan.needs import needs_of
 from mobnet.plan.runs import ARRAY, COURSE, WEIGHTS, Files, files_in
 from mobnet.settings.evaluation import Evaluation
@@ -17,6 +16,8 @@ EVALUATION = "mobnet.evaluation"
 TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their rules: the code hash reads Python only
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "png", "csv")  # endings of a table's and of a figure's files
 BARS = ("figure_06", "figure_10")  # figures whose bars have a CSV of their own
+CAPTIONS = Path("workflow/report")
+HEADINGS = {"runs.html": "trainings", "main.pdf": "paper", ".html": "tables", ".png": "figures"}
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,15 @@ class Product:
     name: str
     job: Job
     outputs: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Shown:
+    """How the report shows a file: its heading, also the folder of its caption, its title, and its caption."""
+
+    heading: str
+    title: str
+    caption: Path | None
 
 
 @dataclass(frozen=True)
@@ -163,6 +173,18 @@ class Products:
         start_s = getattr(section, "start_s", None) if shortened is None else shortened
         own = {"name": name, "settings": section, "start_s": start_s}
         return {**{key: value for key, value in own.items() if value is not None}, "published": printed}
+
+
+def shown(file: str) -> Shown | None:
+    """Return how the report shows a file; None if it does not."""
+    path = Path(file)
+    heading = HEADINGS.get(path.name, HEADINGS.get(path.suffix))
+    if heading is None:
+        return None
+    caption = CAPTIONS / heading / f"{path.stem}.rst"
+    if not caption.is_file():
+        return Shown(heading, path.stem, None)
+    return Shown(heading, caption.read_text(encoding="utf-8").splitlines()[0], caption)
 
 
 def _made_in(floor: str) -> list[str]:

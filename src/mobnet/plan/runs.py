@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import cast
 
 from mobnet.settings.data import Recordings
-from mobnet.settings.evaluation import PushedRuns, Runs
+from mobnet.settings.evaluation import Runs
 from mobnet.settings.settings import Settings, swept_name
 
 FIRST_TRAINING_SEED = 1000  # recordings and motions for tests count from 1
@@ -138,7 +138,7 @@ class Files:
             for test in self.test_seeds
         )
 
-    def first_runs(self, test: Runs | PushedRuns) -> tuple[Run, ...]:
+    def first_runs(self, test: Runs) -> tuple[Run, ...]:
         """Return the runs of a test that a figure of one recording shows: first network, first recording."""
         first = self.test_seeds[0]
         return tuple(

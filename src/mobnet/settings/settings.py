@@ -1,4 +1,4 @@
-"""The whole configuration, and what follows from a row of it: a method's networks and trainings."""
+"""The whole configuration, what follows from a row of it, and what a walk takes; other jobs take whole sections."""
 
 from functools import cached_property
 from typing import Annotated
@@ -125,6 +125,25 @@ class Settings(Section):
             epochs=experiment.epochs,
             epoch_samples=experiment.epoch_samples,
         )
+
+
+class WalkSettings(Section):
+    """A scenario at a level, with the terrains and pushes that it names and no others; recordings draw by its name."""
+
+    seed: int
+    robot: RobotTable
+    rates: Rates
+    plant: Plant
+    walking: Walking
+    commands: Commands
+    random_torque: RandomTorque
+    recording: RecordingSettings
+    scenario_name: str
+    scenario: Scenario
+    level_name: str
+    level: Level
+    terrain: Terrain
+    pushes: dict[str, Push]
 
 
 def swept_name(base: str, key: str, value: int) -> str:

@@ -16,7 +16,7 @@ from mobnet.core.errors import SimulationError
 from mobnet.core.provenance import provenance
 from mobnet.core.store import array_writer, read_array
 from mobnet.settings.data import RecordingSettings
-from mobnet.settings.jobs import WalkSettings
+from mobnet.settings.settings import WalkSettings
 from mobnet.simulation.self_collision import Clearance
 from mobnet.simulation.simulator import Simulator
 

@@ -15,7 +15,7 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import recording_width
 from mobnet.robot.description import describe, for_walking
 from mobnet.settings.data import CommandSource, FixedCommand
-from mobnet.settings.jobs import WalkSettings
+from mobnet.settings.settings import WalkSettings
 from mobnet.simulation.engine import Plant, make_plant, run
 from mobnet.simulation.friction import make_friction
 from mobnet.simulation.native import bind
