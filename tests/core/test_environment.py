@@ -10,19 +10,13 @@ import pytest
 from mobnet.core.environment import CACHES, child_environment, quieten
 
 
-def test_caches_lie_inside_the_project(tmp_path: Path) -> None:
+def test_caches_lie_inside_the_project_and_each_process_has_one_thread(tmp_path: Path) -> None:
     variables = child_environment(tmp_path)
     for name in CACHES.keys() - {"TMPDIR"}:
         assert Path(variables[name]).is_relative_to(tmp_path)
         assert Path(variables[name]).is_dir()
-
-
-def test_one_thread_each(tmp_path: Path) -> None:
-    assert {value for name, value in child_environment(tmp_path).items() if name.endswith("_NUM_THREADS")} == {"1"}
-
-
-def test_temporary_folder_stays_short_enough_for_a_socket(tmp_path: Path) -> None:
-    assert "TMPDIR" not in child_environment(tmp_path / ("long" * 20))
+    assert {value for name, value in variables.items() if name.endswith("_NUM_THREADS")} == {"1"}
+    assert "TMPDIR" not in child_environment(tmp_path / ("long" * 20)), "too long for the path of a socket"
 
 
 def test_what_a_user_set_stays(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

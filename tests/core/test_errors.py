@@ -3,9 +3,6 @@
 from mobnet.core.errors import ConfigError, DataError, MobnetError, SimulationError, TrainingError, not_accepted
 
 
-def test_every_error_has_one_root() -> None:
+def test_every_error_has_one_root_and_its_message_names_the_value_and_the_accepted_ones_in_order() -> None:
     assert {ConfigError, DataError, SimulationError, TrainingError} <= set(MobnetError.__subclasses__())
-
-
-def test_message_names_the_value_and_the_accepted_ones_in_order() -> None:
     assert not_accepted("limb", "x", ["b", "a"]) == "limb: 'x' is not accepted; accepted: a, b"

@@ -26,12 +26,9 @@ def test_writing_makes_folders_and_a_readable_file(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("read", [read_text, read_json])
-def test_a_missing_file_is_named(tmp_path: Path, read: Callable[[Path], object]) -> None:
+def test_a_missing_file_and_damaged_json_are_named(tmp_path: Path, read: Callable[[Path], object]) -> None:
     with pytest.raises(DataError, match=r"a\.json: file is missing"):
         read(tmp_path / "a.json")
-
-
-def test_damaged_json_is_named(tmp_path: Path) -> None:
     (tmp_path / "a.json").write_text('{"rows": ')
     with pytest.raises(DataError, match=r"a\.json: not JSON"):
         read_json(tmp_path / "a.json")

@@ -7,23 +7,16 @@ from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
 
 
-def test_tocabi_has_39_degrees_of_freedom(layout: JointLayout) -> None:
+def test_tocabi_has_39_degrees_of_freedom_of_which_three_are_linear(layout: JointLayout) -> None:
     assert (layout.nv, layout.nu, layout.nq) == (39, 33, 40)
+    assert [layout.unit(name) for name in layout.names] == ["N"] * 3 + ["N m"] * 36
 
 
-def test_groups_partition_the_joints(layout: JointLayout) -> None:
+def test_groups_partition_the_joints_and_columns_are_the_inverse_of_names(layout: JointLayout) -> None:
     members = [joint for group in layout.groups.values() for joint in group]
     assert sorted(members) == sorted(layout.names)
-
-
-def test_columns_are_the_inverse_of_names(layout: JointLayout) -> None:
-    rng = np.random.default_rng(0)
-    order = rng.permutation(layout.nv)
+    order = np.random.default_rng(0).permutation(layout.nv)
     np.testing.assert_array_equal(layout.columns([layout.names[i] for i in order]), order)
-
-
-def test_linear_virtual_joints_are_forces_and_all_others_torques(layout: JointLayout) -> None:
-    assert [layout.unit(name) for name in layout.names] == ["N"] * 3 + ["N m"] * 36
 
 
 def test_unknown_limb_and_joint_are_named(layout: JointLayout) -> None:

@@ -16,6 +16,7 @@ from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
 SCALES = ("smoke", "default", "paper")
+SOURCES = ("paper/main", "paper/refs", "docs", "src", "workflow")  # files of the repository that products read
 
 
 @pytest.fixture(scope="module")
@@ -57,27 +58,18 @@ def test_every_file_is_made_once_and_read_after_it_is_made(plans: dict[str, Plan
     assert Counter(names).most_common(1)[0][1] == 1
     known = set(plans[scale].stored)
     for product in plans[scale].products:
-        sources = {
-            name
-            for name in product.job.inputs
-            if name.startswith(("paper/main", "paper/refs", "docs", "src", "workflow"))
-        }
-        assert set(product.job.inputs) - sources <= known, product.name
+        read = {name for name in product.job.inputs if not name.startswith(SOURCES)}
+        assert read <= known, product.name
         known |= set(product.outputs)
 
 
-def test_scales_never_share_a_file(plans: dict[str, Plan]) -> None:
+def test_scales_never_share_a_file_and_the_main_one_stands_where_a_reader_looks(plans: dict[str, Plan]) -> None:
     names = [name for plan in plans.values() for name in made(plan)]
     assert len(set(names)) == len(names)
-
-
-def test_the_main_scale_stands_where_a_reader_looks(plans: dict[str, Plan]) -> None:
     assert {"tables/table_05.tex", "figures/figure_05.pdf", "paper/main.pdf"} <= set(made(plans["default"]))
     assert {"tables/smoke/table_05.tex", "results/smoke/paper/main.pdf"} <= set(made(plans["smoke"]))
-
-
-def test_without_tex_there_is_no_pdf(settings: Settings) -> None:
-    assert not [name for name in made(make_plan(settings, with_pdf=False)) if name.endswith("main.pdf")]
+    without_tex = make_plan(plans["smoke"].settings, with_pdf=False)
+    assert not [name for name in made(without_tex) if name.endswith("main.pdf")]
 
 
 def test_training_and_test_recordings_are_disjoint(plans: dict[str, Plan]) -> None:
@@ -90,10 +82,9 @@ def test_training_and_test_recordings_are_disjoint(plans: dict[str, Plan]) -> No
 @pytest.mark.parametrize("scale", SCALES)
 def test_every_method_gets_its_networks(plans: dict[str, Plan], scale: str) -> None:
     settings = plans[scale].settings
-    count = sum(
-        len(settings.experiment(m, limb).seeds) for m, row in settings.all_methods.items() for limb in row.limbs
-    )
-    assert len([name for name in plans[scale].stored if name.endswith("weights.safetensors")]) == count
+    seeds = [settings.experiment(name, limb).seeds for name, row in settings.all_methods.items() for limb in row.limbs]
+    trained = [name for name in plans[scale].stored if name.endswith("weights.safetensors")]
+    assert len(trained) == sum(map(len, seeds))
 
 
 def test_a_limb_with_fewer_seeds_serves_them_in_turn(plans: dict[str, Plan]) -> None:
@@ -147,13 +138,10 @@ def test_a_setting_reruns_what_reads_it_and_nothing_else(plan: Plan) -> None:
 def test_a_push_reruns_the_walks_that_it_comes_in(plan: Plan) -> None:
     pushes = {**plan.settings.pushes, "left_knee_swing": plan.settings.pushes["left_knee_support"]}
     after = make_plan(plan.settings.model_copy(update={"pushes": pushes}), with_pdf=True)
-    moved = [
-        scenario
-        for scenario in plan.settings.tests
-        if plan.jobs.collect(scenario, "all_uncertainty", 1).call
-        != after.jobs.collect(scenario, "all_uncertainty", 1).call
-    ]
-    assert moved == ["knee_swing"]
+    calls = {
+        name: [p.jobs.collect(name, "all_uncertainty", 1).call for p in (plan, after)] for name in after.settings.tests
+    }
+    assert [name for name, (one, two) in calls.items() if one != two] == ["knee_swing"]
 
 
 def test_scores_and_runs_follow_from_the_section_of_a_product(plan: Plan) -> None:

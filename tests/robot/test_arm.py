@@ -46,12 +46,9 @@ def test_both_models_equal_the_closed_form(arm: RobotDescription, seed: int) -> 
     np.testing.assert_allclose(beta(nominal, q, v), transposed, atol=1e-10)
 
 
-def test_plant_has_hinges_and_motors_alone(arm: RobotDescription) -> None:
+def test_models_have_hinges_and_motors_alone_and_no_foot_to_load(arm: RobotDescription) -> None:
     plant = robot_spec(arm).compile()
     assert (plant.nq, plant.nv, plant.nu, plant.nsensor, plant.nsite, plant.ngeom) == (2, 2, 2, 0, 0, 0)
     assert [plant.actuator(i).name for i in range(plant.nu)] == list(arm.layout.actuated)
     assert plant.body_mass.sum() == pytest.approx(arm.mass)
-
-
-def test_an_arm_has_no_foot_to_load(arm: RobotDescription) -> None:
     assert NominalModel(arm).foot_frames == {}

@@ -43,11 +43,13 @@ def with_composite_root(model: pin.Model) -> pin.Model:
 def test_coriolis_and_its_transpose_sum_to_the_rate_of_inertia(
     nominal: NominalModel, random_state: Callable, seed: int
 ) -> None:
-    """The identity C + C^T = dM/dt."""
+    """The identity C + C^T = dM/dt; and C v with gravity is the bias."""
     q, v = random_state(seed)
     matrix = dynamics.coriolis(nominal, q, v)
     rate = mass_matrix_rate(nominal.model, to_pinocchio(q), v)
     np.testing.assert_allclose(matrix + matrix.T, rate, atol=TOLERANCE)
+    parts = matrix @ v + dynamics.gravity(nominal, q)
+    np.testing.assert_allclose(parts, dynamics.bias(nominal, q, v), atol=1e-9)
 
 
 def test_a_composite_root_would_fail_that_property(nominal: NominalModel, random_state: Callable) -> None:
@@ -59,29 +61,15 @@ def test_a_composite_root_would_fail_that_property(nominal: NominalModel, random
     assert np.abs(matrix + matrix.T - mass_matrix_rate(model, position, v)).max() > 1
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_coriolis_times_velocity_and_gravity_are_the_bias(
-    nominal: NominalModel, random_state: Callable, seed: int
-) -> None:
-    q, v = random_state(seed)
-    parts = dynamics.coriolis(nominal, q, v) @ v + dynamics.gravity(nominal, q)
-    np.testing.assert_allclose(parts, dynamics.bias(nominal, q, v), atol=1e-9)
-
-
 def test_momentum_and_beta_are_what_their_names_say(nominal: NominalModel, random_state: Callable) -> None:
+    """The momentum of the base is mass times velocity of the centre of mass."""
     q, v = random_state(3)
-    np.testing.assert_allclose(dynamics.momentum(nominal, q, v), dynamics.mass_matrix(nominal, q) @ v, atol=1e-10)
+    momentum = dynamics.momentum(nominal, q, v)
+    np.testing.assert_allclose(momentum, dynamics.mass_matrix(nominal, q) @ v, atol=1e-10)
     beta = dynamics.coriolis(nominal, q, v).T @ v - dynamics.gravity(nominal, q)
     np.testing.assert_allclose(dynamics.beta(nominal, q, v), beta, atol=1e-10)
-
-
-def test_momentum_of_the_base_is_mass_times_velocity_of_the_centre(
-    nominal: NominalModel, random_state: Callable
-) -> None:
-    q, v = random_state(4)
     pin.centerOfMass(nominal.model, nominal.data, to_pinocchio(q), v)
-    expected = nominal.robot.mass * nominal.data.vcom[0]
-    np.testing.assert_allclose(dynamics.momentum(nominal, q, v)[:3], expected, atol=1e-10)
+    np.testing.assert_allclose(momentum[:3], nominal.robot.mass * nominal.data.vcom[0], atol=1e-10)
 
 
 def test_rate_of_momentum_is_torque_plus_beta(nominal: NominalModel, random_state: Callable) -> None:

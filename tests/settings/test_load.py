@@ -12,6 +12,8 @@ from mobnet.settings.load import CONFIGS, load_settings, read_yaml
 from mobnet.settings.settings import Settings
 
 ACCEPTED = "is not accepted; accepted: "
+MISSING = ("config.seed", "config.robot", "data.pushes", "tests.tests", "scales.scales")
+OF_A_PUSH, SETS = ("pause_s", "force_n", "point", "direction"), ("walk", "walk_plain", "motion")
 
 
 def nested(key: str, value: object) -> dict[str, Any]:
@@ -108,34 +110,22 @@ def test_the_rows_of_a_table_are_run_and_printed_and_have_windows(settings: Sett
 
 
 @pytest.mark.parametrize(
-    ("part", "key"),
-    [("config", "seed"), ("config", "robot"), ("data", "pushes"), ("tests", "tests"), ("scales", "scales")],
-)
-def test_a_missing_section_is_named(folder: Path, part: str, key: str) -> None:
-    path = folder / f"{part}.yaml"
-    path.write_text(yaml.safe_dump({name: value for name, value in read_yaml(path).items() if name != key}))
-    with pytest.raises(ConfigError, match=rf"{key}: (key is missing|the path of a YAML file is expected)"):
-        load_settings(folder)
-
-
-@pytest.mark.parametrize("key", ["pause_s", "force_n", "point", "direction"])
-def test_a_push_says_where_when_and_how_hard(folder: Path, key: str) -> None:
-    """A push without a pause and without times would never end."""
-    path = folder / "data.yaml"
-    values = read_yaml(path)
-    del values["pushes"]["torso"][key]
-    path.write_text(yaml.safe_dump(values))
-    with pytest.raises(ConfigError, match=r"data\.yaml: pushes\.torso: accepted: `p"):
-        load_settings(folder)
-
-
-@pytest.mark.parametrize("name", ["walk", "walk_plain", "motion"])
-def test_every_training_set_has_a_size_at_every_scale(folder: Path, name: str) -> None:
-    path = folder / "data.yaml"
-    values = read_yaml(path)
-    del values["training_sets"][name]["sizes"]["smoke"]
-    path.write_text(yaml.safe_dump(values))
-    with pytest.raises(ConfigError, match=f"training_sets.{name}.sizes: scale is missing: smoke"):
+    ("place", "message"),
+    [
+        *((place, rf"{place.split('.')[1]}: (key is missing|the path of a YAML file)") for place in MISSING),
+        # a push without a pause and without times would never end
+        *((f"data.pushes.torso.{key}", r"data\.yaml: pushes\.torso: accepted: `p") for key in OF_A_PUSH),
+        *((f"data.training_sets.{name}.sizes.smoke", rf"\.{name}\.sizes: scale is missing: smoke") for name in SETS),
+    ],
+)  # fmt: skip
+def test_what_is_missing_is_named(folder: Path, place: str, message: str) -> None:
+    part, *above, key = place.split(".")
+    values = section = read_yaml(folder / f"{part}.yaml")
+    for name in above:
+        section = section[name]
+    del section[key]
+    (folder / f"{part}.yaml").write_text(yaml.safe_dump(values))
+    with pytest.raises(ConfigError, match=message):
         load_settings(folder)
 
 

@@ -4,7 +4,7 @@ import ast
 from pathlib import Path
 
 import pytest
-from pydantic import BaseModel, ValidationError
+from pydantic import ValidationError
 
 from mobnet.core.errors import ConfigError
 from mobnet.plan.runs import FIRST_TRAINING_SEED
@@ -33,18 +33,15 @@ def test_a_method_changes_its_networks_alone(settings: Settings) -> None:
     assert plain == base.model_copy(update={"data": "walk_plain"})
     assert base.joints == ("LL",)
     assert settings.network("MOB-Net-Single", "WB").joints == settings.robot.networks["WB"].joints
-
-
-def test_a_networks_experiment_says_how_long_it_trains(settings: Settings) -> None:
-    sizes = settings.sizes.experiments
-    assert settings.experiment("MOB-Net", "LL") == sizes["left_leg"]
-    assert settings.experiment("MOB-Net-hidden-44", "LL") == sizes["sweep"]
+    assert [settings.source_of(name) for name in ("MOB-fric", "MOB-fric-BPF")] == ["MOB-fric", "MOB-fric"]
 
 
 def test_sizes_lie_over_learning_and_the_methods_changes_over_both(settings: Settings) -> None:
-    learning = settings.training("GRU-printed-rate", "LL").learning
-    assert (learning.batch_size, learning.rate_first) == (settings.sizes.batch_size, 0.05)
+    learning, sizes = settings.training("GRU-printed-rate", "LL").learning, settings.sizes
+    assert (learning.batch_size, learning.rate_first) == (sizes.batch_size, 0.05)
     assert learning.std_min == settings.learning.std_min
+    assert settings.experiment("MOB-Net", "LL") == sizes.experiments["left_leg"]
+    assert settings.experiment("MOB-Net-hidden-44", "LL") == sizes.experiments["sweep"]
 
 
 def test_unknown_names_are_refused(settings: Settings) -> None:
@@ -54,10 +51,6 @@ def test_unknown_names_are_refused(settings: Settings) -> None:
         settings.network("MOB-Net", "tail")
     with pytest.raises(ConfigError, match=r"method to train: 'MOB' is not accepted; accepted: .*MOB-Net"):
         settings.training("MOB", "LL")
-
-
-def test_a_method_runs_on_the_files_of_the_one_it_names(settings: Settings) -> None:
-    assert [settings.source_of(name) for name in ("MOB-fric", "MOB-fric-BPF")] == ["MOB-fric", "MOB-fric"]
 
 
 def test_names_are_looked_at_in_every_section(settings: Settings) -> None:
@@ -129,19 +122,12 @@ def test_a_claim_that_does_not_fit_itself_is_refused(change: dict[str, object], 
         Claim.model_validate({**good, **change})
 
 
-def test_cells_of_a_claim_share_what_stands_at_it() -> None:
-    entry = {
-        **CLAIM,
-        **BOUNDS,
-        "cells": [["ideal", "MOB", "LL"], {"method": "A", "level": "no_noise"}],
-        "at": {"level": "x", "scenario": "s"},
-    }
+def test_cells_of_a_claim_share_what_stands_at_it_and_every_quantity_takes_its_cells() -> None:
+    cells = [["ideal", "MOB", "LL"], {"method": "A", "level": "no_noise"}]
+    entry = {**CLAIM, **BOUNDS, "cells": cells, "at": {"level": "x", "scenario": "s"}}
     first, second = Claim.model_validate(entry).cells
     assert (first.scenario, first.level, first.method, first.joint) == ("s", "ideal", "MOB", "LL")
     assert (second.scenario, second.level) == ("s", "no_noise")
-
-
-def test_every_quantity_takes_its_cells() -> None:
     for quantity, (least, step) in TAKES.items():
         for count in (least, least + step):
             Claim.model_validate({**CLAIM, **BOUNDS, "quantity": quantity, "cells": ["A"] * count})
@@ -151,7 +137,3 @@ def test_published_rows_have_a_number_for_each_column() -> None:
     table = {"printed": "Table 0", "columns": ["LL1", "avg"], "numbers": {"ideal": {"MOB": [0.1]}}}
     with pytest.raises(ValidationError, match="ideal, MOB: 1 numbers for 2 columns"):
         PublishedTable.model_validate(table)
-
-
-def test_every_section_says_what_it_is() -> None:
-    assert all(section.__doc__ for section in BaseModel.__subclasses__())
