@@ -1,5 +1,6 @@
 """Checkpoints: what is saved comes back, and what belongs elsewhere does not."""
 
+import csv
 import logging
 from pathlib import Path
 
@@ -88,3 +89,12 @@ def test_the_first_of_equal_epochs_is_the_best() -> None:
 def test_the_same_training_writes_the_same_bytes(saved: tuple[Path, Pair, Progress], tmp_path: Path) -> None:
     checkpoint.save(tmp_path / "again", "print", *saved[1], saved[2])
     assert (tmp_path / "again").read_bytes() == saved[0].read_bytes()
+
+
+def test_metrics_come_back_as_written(tmp_path: Path) -> None:
+    """Writing and reading are a round trip."""
+    epochs = [Epoch(number, *(10.0 * number + k for k in range(5))) for number in (1, 2, 3)]
+    checkpoint.write_metrics(tmp_path / checkpoint.METRICS, epochs)
+    with (tmp_path / checkpoint.METRICS).open() as file:
+        read = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+    assert read == [vars(epoch) for epoch in epochs]

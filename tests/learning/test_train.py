@@ -14,10 +14,9 @@ import pytest
 import torch
 
 from mobnet.core.errors import DataError, TrainingError
-from mobnet.learning.checkpoint import CHECKPOINT
+from mobnet.learning.checkpoint import CHECKPOINT, METRICS
 from mobnet.learning.deployed.networks import WEIGHTS, load_network
-from mobnet.learning.precision import precision_name, precision_of
-from mobnet.learning.tracking import METRICS
+from mobnet.learning.job import precision_name, precision_of
 from mobnet.learning.train import RUN
 from mobnet.settings.networks import Training
 

@@ -9,11 +9,9 @@ import pytest
 import torch
 
 from mobnet.core.errors import TrainingError
-from mobnet.learning.checkpoint import CHECKPOINT
+from mobnet.learning.checkpoint import CHECKPOINT, METRICS
 from mobnet.learning.dataset import LimbData
-from mobnet.learning.job import Job
-from mobnet.learning.precision import PRECISIONS
-from mobnet.learning.tracking import METRICS
+from mobnet.learning.job import PRECISIONS, Job
 from mobnet.learning.trainer import Trainer
 
 EPOCHS = 5

@@ -36,22 +36,12 @@ def estimate(
     recording: Path,
     out: Path,
 ) -> None:
-    """Write a method's external torque for a recording, as Table 5 scores it.
+    """Write a method's external torque for a recording made at an uncertainty level, as Table 5 scores it.
 
     Columns are `tau_ext.<joint>` [N, N m] of the method's joints and, where the method gives it, `std.<joint>`;
-    segments are the recording's, and each is run from a fresh state.
-
-    Args:
-        robot: the robot's table.
-        level: uncertainty level at which the recording was made.
-        gravity_m_s2: acceleration of gravity [m/s^2].
-        observer: the observer's settings.
-        method: name of the method.
-        methods: the method and, if it runs on another one, that one too, by name.
-        networks: limb -> folder of its trained network; empty for a method without limbs.
-        fitted: what rule `fit` wrote, for a method that is fitted without networks.
-        recording: path without a suffix.
-        out: where to write, path without a suffix.
+    segments are the recording's, and each is run from a fresh state. `methods` holds the method and, if it runs on
+    another one, that one too; `networks` the folder of each limb's network, and `fitted` is what rule `fit` wrote. The
+    recording and `out` are paths without a suffix.
 
     Raises:
         ConfigError: the method's kind is unknown, or networks do not match the method's limbs.

@@ -25,13 +25,8 @@ def write_fit(
 ) -> None:
     """Fit a method to training sets and write what `build` of its kind reads, as JSON; section 5.2 fits MOB-fric.
 
-    Args:
-        layout: the robot's joints.
-        observer: the observer's settings.
-        method: the method, which names `fitted` limbs.
-        networks: limb -> the network of Table 1 whose joints are fitted, for each of these limbs.
-        training: limb -> stems of the recordings and residuals of the limb's training set.
-        out: file to write, named after the method.
+    For each of the method's `fitted` limbs there are its network of Table 1, whose joints are fitted, and the stems of
+    the recordings and residuals of its training set.
 
     Raises:
         ConfigError: the method's kind is not one that is fitted, or the limbs are not those that the method names.

@@ -25,13 +25,7 @@ def exact_pole(gain_hz: float, rate_hz: float) -> float:
 def low_pass(x: NDArray[Any], gain_hz: float, rate_hz: float) -> Array:
     """Return x (T, ...) behind the low-pass of (11), sampled as the observer is: zero at the first sample, same pole.
 
-    Args:
-        x: means over each sample (T, ...).
-        gain_hz: K_0 of (7) [1/s].
-        rate_hz: samples per second [Hz].
-
-    Raises:
-        ConfigError: a gain or a rate is not positive.
+    The values of x are means over each sample, the gain is K_0 of (7) [1/s].
     """
     start_at_zero = np.array(x, dtype=np.float64)
     start_at_zero[:1] = 0.0

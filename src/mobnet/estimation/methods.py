@@ -44,11 +44,7 @@ def check_methods(methods: Mapping[str, Method]) -> None:
 
 
 def kind_of(name: str, method: Method) -> ModuleType:
-    """Return the module that a method names as its kind.
-
-    Raises:
-        ConfigError: there is none of this name.
-    """
+    """Return the module that a method names as its kind, or raise ConfigError."""
     if method.kind not in kind_names():
         raise ConfigError(not_accepted(f"methods.{name}.kind", method.kind, kind_names()))
     return importlib.import_module(f"{kinds.__name__}.{method.kind}")

@@ -27,15 +27,8 @@ def observe(
     """Write r of (9) and the low-passed external torque of (15) for a recording, 2 x (T, nv) [N] and [N m].
 
     Columns are `r.<joint>` and then `tau_ext_lp.<joint>`; segments are the recording's, and the observer starts anew
-    with each. The target of the networks (section 4.2.3) is their difference.
-
-    Args:
-        robot: the robot's table.
-        level: uncertainty level at which the recording was made.
-        gravity_m_s2: acceleration of gravity [m/s^2].
-        observer: the observer's settings.
-        recording: path without a suffix.
-        out: where to write, path without a suffix.
+    with each. The target of the networks (section 4.2.3) is their difference. The recording, made at the uncertainty
+    level, and `out` are paths without a suffix.
 
     Raises:
         DataError: the recording is damaged.
@@ -62,19 +55,7 @@ def observer_of(
     rate_hz: float,
     torque: TorqueKind = "mean",
 ) -> MomentumObserver:
-    """Return the observer that knows the robot as an uncertainty level of section 5.1 says.
-
-    Args:
-        robot: the robot.
-        level: what the observer's model gets wrong.
-        gravity_m_s2: acceleration of gravity [m/s^2].
-        gain_hz: K_0 of (7) [1/s].
-        rate_hz: samples per second [Hz].
-        torque: whether recordings hold means or samples of the motors' torque.
-
-    Raises:
-        ConfigError: a gain or a rate is not positive.
-    """
+    """Return the observer, gain K_0 of (7) [1/s], that knows the robot as an uncertainty level of section 5.1 says."""
     return MomentumObserver(NominalModel(robot, level.nominal_mass_ratio, gravity_m_s2), gain_hz, rate_hz, torque)
 
 

@@ -54,18 +54,12 @@ class MomentumObserver:
         gain_hz: K_0 of (7) [1/s].
         pole: gamma = exp(-K_0 T) [-].
         rate_hz: samples per second [Hz].
-        torque: what `Sensed.tau_motor` holds.
+        torque: whether `Sensed.tau_motor` holds means over the intervals that end at the ticks, as the simulator writes
+            them, or samples at the ticks.
     """
 
     def __init__(self, nominal: NominalModel, gain_hz: float, rate_hz: float, torque: TorqueKind = "mean") -> None:
         """Set up the observer.
-
-        Args:
-            nominal: the model it knows.
-            gain_hz: K_0 of (7) [1/s].
-            rate_hz: samples per second [Hz].
-            torque: whether `Sensed.tau_motor` holds means over the intervals that end at the ticks, as the simulator
-                writes them, or samples at the ticks.
 
         Raises:
             ConfigError: a gain or a rate is not positive, or the kind of torque is unknown.

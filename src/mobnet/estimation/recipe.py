@@ -99,11 +99,7 @@ class Recipe:
         return self.robot.layout
 
     def options(self, section: type[Kind]) -> Kind:
-        """Return the method's own numbers as the section `Options` of its kind.
-
-        Raises:
-            ConfigError: a number is not accepted.
-        """
+        """Return the method's own numbers as the section `Options` of its kind."""
         return options_of(self.name, self.method, section)
 
     def observer(self) -> ResidualObserver:
@@ -115,11 +111,7 @@ class Recipe:
         return observer_of(describe(self.robot), self.level, self.gravity_m_s2, gain_hz, self.rate_hz, torque)
 
     def limb_networks(self) -> LimbNetworks | None:
-        """Return the method's networks side by side, or None if it names no limbs.
-
-        Raises:
-            DataError: weights are missing or damaged.
-        """
+        """Return the method's networks side by side, or None if it names no limbs."""
         return load_limb_networks(self.networks, self.layout) if self.networks else None
 
 

@@ -46,19 +46,9 @@ class Law:
 def regress(
     law: Law, joints: Sequence[str], loaded: Collection[str], pairs: Sequence[Pair]
 ) -> dict[str, dict[str, float]]:
-    """Regress the friction of some joints.
+    """Regress the friction of actuated joints (n,), of which those that are `loaded` may have the term `load`.
 
-    Args:
-        law: what is regressed.
-        joints: actuated joints (n,).
-        loaded: joints that may have the term `load`.
-        pairs: recordings and residuals.
-
-    Returns:
-        Joint -> factors of (23), units in the keys, and the root mean squares of the target and of the error [N m].
-
-    Raises:
-        DataError: a recording is damaged.
+    Return joint -> factors of (23), units in the keys, and the root mean squares of the target and of the error [N m].
     """
     found = {}
     for joint, products in _sums(law, joints, pairs).items():
@@ -71,13 +61,9 @@ def regress(
 def regressors(
     velocity: NDArray[Any], torque: NDArray[Any], smoothing: float, stribeck: float | Array
 ) -> dict[str, Array]:
-    """Return term -> what its factor multiplies in -tau_f of (23).
+    """Return term -> what its factor multiplies in -tau_f of (23), of joint velocity [rad/s] and motor torque [N m].
 
-    Args:
-        velocity: joint velocity (..., n) [rad/s].
-        torque: motor torque (..., n) [N m].
-        smoothing: width of the sign function [rad/s].
-        stribeck: v_s of (23), one or (n,) [rad/s].
+    Both are (..., n). The width of the sign function and v_s of (23), one or (n,), are in rad/s.
     """
     sign, fade = np.tanh(velocity / smoothing), np.exp(-np.abs(velocity) / stribeck)
     return {"coulomb": sign * (1 - fade), "static": sign * fade, "viscous": velocity, "load": sign * torque**2}
@@ -121,10 +107,7 @@ def _columns(law: Law, velocity: Array, torque: Array) -> Array:
 def _solve(products: Array, terms: Sequence[str], grid: Sequence[float]) -> dict[str, float]:
     """Return the factors of (23) of one joint and the root mean squares before and after [N m].
 
-    Args:
-        products: mean products of the columns (m, m).
-        terms: terms of `TERMS` that the joint has.
-        grid: Stribeck velocities [rad/s].
+    The mean products of the columns are (m, m), the grid has Stribeck velocities [rad/s].
     """
     found = [_non_negative(products, terms, STATIC + i) for i in range(len(grid))]
     best = min(range(len(grid)), key=lambda i: found[i][1])

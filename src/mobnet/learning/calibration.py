@@ -54,11 +54,8 @@ class Calibration:
 def calibrate(error: NDArray[Any], std: NDArray[Any], share: float, shares: Sequence[float]) -> Calibration:
     """Learn the factors; test those of the first half of the data on the second half.
 
-    Args:
-        error: prediction minus target in the order of time (T, n) [N m].
-        std: predicted standard deviation (T, n) [N m].
-        share: share of the errors that its central interval shall hold.
-        shares: nominal shares at which the coverage is measured (k,).
+    Errors and predicted standard deviations are (T, n) [N m], in the order of time. `share` is the share of the errors
+    that a central interval shall hold; the coverage is measured at the nominal `shares` (k,).
     """
     cut = len(error) // 2
     halved = scale_for(error[:cut], std[:cut], share)
@@ -76,16 +73,9 @@ def scale_for(error: NDArray[Any], std: NDArray[Any], share: float) -> Array:
 
 
 def predict(network: LimbNetwork, samples: Samples, plan: Plan, horizon: int) -> tuple[Array, Array]:
-    """Run a validation with carried state.
+    """Run a network through a validation, rows (updates, lanes) and `horizon` steps together, its state carried.
 
-    Args:
-        network: trained.
-        samples: z-scored inputs (N, n_in) and targets (N, n).
-        plan: fixed course, rows (updates, lanes).
-        horizon: steps looked at together [samples].
-
-    Returns:
-        Error and standard deviation, z-scored, (T, n) each, lane after lane: in the order of time.
+    Return error and standard deviation, z-scored, (T, n) each, lane after lane: in the order of time.
     """
     errors, stds = [], []
     for mean, std, target in predictions(network, samples, plan, horizon):

@@ -79,20 +79,13 @@ class Rnn(Carried, nn.RNN):
 class Block(nn.Module):
     """Residual block of a TCN, Bai et al. (2018): two causal dilated convolutions, each with ReLU and dropout.
 
-    Attributes:
-        width: channels that go out.
-        past: samples before that of an output that it looks at [samples].
+    Its output has `width` channels and, without padding, is shorter than its input by `past` samples.
     """
 
     def __init__(self, inputs: int, width: int, kernel: int, dilation: int, dropout: float) -> None:
-        """Build the block; without padding, its output is shorter than its input by `past`.
+        """Build the block: `kernel` taps at a distance of `dilation`, both in samples.
 
-        Args:
-            inputs: channels that come in.
-            width: channels that go out; where they differ, the shortcut is a 1x1 convolution.
-            kernel: taps of a convolution [samples].
-            dilation: distance of the taps [samples].
-            dropout: share of features dropped in training.
+        Where `inputs` and `width` differ, the shortcut is a 1x1 convolution.
         """
         super().__init__()
         self.first = nn.Conv2d(inputs, width, (kernel, 1), dilation=(dilation, 1))
@@ -112,21 +105,10 @@ class Window(nn.Module):
     """One hidden tanh layer over the last samples: of the inputs (MLP), or of the output of blocks (TCN).
 
     The state is the last inputs (past, B, n_in), zeros at a fresh start.
-
-    Attributes:
-        width: number of features per sample.
-        state_size: rows and columns of a lane's state.
     """
 
     def __init__(self, inputs: int, hidden: int, steps: int, blocks: Sequence[Block] = ()) -> None:
-        """Build the layer.
-
-        Args:
-            inputs: number of inputs n_in.
-            hidden: units of the layer.
-            steps: samples in a window [samples].
-            blocks: blocks before the layer.
-        """
+        """Build the layer: `hidden` units on windows of `steps` samples, behind the blocks."""
         super().__init__()
         self.blocks = nn.Sequential(*blocks)
         self.layer = nn.Conv2d(blocks[-1].width if blocks else inputs, hidden, (steps, 1))
@@ -146,12 +128,7 @@ class Window(nn.Module):
 
 
 class Constant(nn.Module):
-    """No features: the network consists of the bias of its linear layer, a learned mean and standard deviation.
-
-    Attributes:
-        width: number of features per sample, 0.
-        state_size: rows and columns of a lane's state.
-    """
+    """No features: the network consists of the bias of its linear layer, a learned mean and standard deviation."""
 
     width = 0
     state_size = (1, 0)

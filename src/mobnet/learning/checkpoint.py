@@ -1,12 +1,14 @@
-"""The state of a training at the end of an epoch, in one file: a killed training goes on from there to the same result.
+"""What a training writes at each epoch: `metrics.csv`, and a checkpoint from which it goes on to the same result.
 
-One safetensors file holds tensors and, as its note, the numbers: a file is either whole or absent. Every random draw
-of an epoch comes from a generator seeded by seed and epoch, so there is no generator state to keep.
+One safetensors file holds tensors and, as its note, the numbers: a file is either whole or absent. Every random draw of
+an epoch comes from a generator seeded by seed and epoch, so there is no generator state to keep.
 """
 
+import csv
+import io
 import json
 import logging
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
@@ -15,23 +17,19 @@ from safetensors import SafetensorError, safe_open
 from safetensors.torch import save_file
 from torch import Tensor, nn
 
-from mobnet.core.columns import Epoch
-from mobnet.core.files import atomic_path
+from mobnet.core.columns import EPOCHS, Epoch
+from mobnet.core.files import atomic_path, write_text
 
-CHECKPOINT = "checkpoint.safetensors"
+CHECKPOINT, METRICS = "checkpoint.safetensors", "metrics.csv"
 
 log = logging.getLogger(__name__)
 
 
 @dataclass
 class Progress:
-    """How far a training has come.
+    """How far a training has come: finished epochs, weights at the smallest validation loss, time of all starts [s].
 
-    Attributes:
-        epochs: the finished epochs.
-        best: weights at the epoch of the smallest validation loss.
-        seconds: time spent so far [s], over all its starts.
-        diverged: True if the loss ran away and the training stopped there; it is never resumed.
+    A training whose loss ran away stopped there: it has `diverged`, and is never resumed.
     """
 
     epochs: list[Epoch] = field(default_factory=list)
@@ -50,15 +48,7 @@ def copy_weights(network: nn.Module) -> dict[str, Tensor]:
 
 
 def save(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.optim.Optimizer, done: Progress) -> None:
-    """Write a checkpoint atomically.
-
-    Args:
-        path: where to.
-        fingerprint: hash of all that the result depends on.
-        network: weights as they are after the last epoch.
-        optimizer: its state per parameter.
-        done: metrics and best weights so far.
-    """
+    """Write a checkpoint atomically; the fingerprint is a hash of all that the result depends on."""
     tensors = {f"last.{name}": tensor for name, tensor in copy_weights(network).items()}
     tensors |= {f"best.{name}": tensor for name, tensor in done.best.items()}
     for index, state in optimizer.state_dict()["state"].items():
@@ -71,14 +61,7 @@ def save(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.opti
 def resume(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.optim.Optimizer) -> Progress:
     """Load a checkpoint of the same run into network and optimizer; log why if it cannot be used.
 
-    Args:
-        path: checkpoint file; absent means a fresh start.
-        fingerprint: hash of all that the result depends on.
-        network: takes the weights.
-        optimizer: takes its state.
-
-    Returns:
-        How far the training has come; empty for a fresh start.
+    Return how far the training has come; nothing is done yet if there is no checkpoint of this fingerprint.
     """
     if not path.exists():
         return Progress()
@@ -102,6 +85,15 @@ def resume(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.op
     done = Progress([Epoch(**row) for row in note["epochs"]], _below("best.", tensors), note["seconds"])
     log.info("%s: resuming after epoch %d", path, len(done.epochs))
     return done
+
+
+def write_metrics(path: Path, epochs: Sequence[Epoch]) -> None:
+    """Write one line for each epoch; atomic."""
+    text = io.StringIO()
+    writer = csv.DictWriter(text, EPOCHS, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(asdict(epoch) for epoch in epochs)
+    write_text(path, text.getvalue())
 
 
 def _below(prefix: str, tensors: Mapping[str, Tensor]) -> dict[str, Tensor]:

@@ -65,15 +65,10 @@ def load_limb_data(
 ) -> LimbData:
     """Read recordings and residuals of one limb into RAM, inputs (N, n_in) and target torques (N, n) [N, N m].
 
-    Args:
-        layout: the robot's joints.
-        limb: what the network of Table 1 predicts and sees.
-        target: `uncertainty`, r - tau_e of section 4.2.3, or `external`, tau_e, both low-passed alike.
-        recordings: stems of the recordings.
-        residuals: stem of the residual file of each recording, in the same order.
+    The target is the `uncertainty`, r - tau_e of section 4.2.3, or the `external` torque, tau_e, both low-passed alike.
+    Residuals stand in the order of their recordings.
 
     Raises:
-        ConfigError: a limb is not known.
         DataError: a file is damaged, or a residual does not belong to its recording.
     """
     inputs, joints = limb_inputs(layout, limb), joints_of(layout, limb)
@@ -93,11 +88,7 @@ def load_limb_data(
 
 
 def joints_of(layout: JointLayout, limb: Limb) -> tuple[str, ...]:
-    """Return the joints whose torques a network of Table 1 predicts, limb by limb, (n,).
-
-    Raises:
-        ConfigError: a limb is not known.
-    """
+    """Return the joints whose torques a network of Table 1 predicts, limb by limb, (n,)."""
     return tuple(joint for name in limb.joints for joint in layout.limb(name))
 
 
@@ -119,11 +110,7 @@ def _load_one(
 
 
 def read_target(stem: Path, joints: Sequence[str], target: Target) -> NDArray[np.float32]:
-    """Return the torque to learn of some joints, (T, n) [N, N m], from a residual file.
-
-    Raises:
-        DataError: the file is damaged or a column is missing.
-    """
+    """Return the torque to learn of some joints, (T, n) [N, N m], from a residual file."""
     external, _ = read_array(stem, named(EXTERNAL_LP, joints))
     if target == "external":
         return external

@@ -55,11 +55,7 @@ class LimbInputs:
 def signals(sensed: Sensed) -> NDArray[np.float32]:
     """Return all that any limb network may see, in float32: the one place where physics turns into network numbers.
 
-    Args:
-        sensed: a recording or one sample.
-
-    Returns:
-        Columns of `signal_names`, (T, 3 nu + 12), or (3 nu + 12,) for one sample; units of `LimbInputs`.
+    Columns are those of `signal_names`, (T, 3 nu + 12), or (3 nu + 12,) for one sample; units as in `LimbInputs`.
     """
     parts = [
         sensed.q[..., NQ_BASE:],

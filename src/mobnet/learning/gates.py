@@ -54,16 +54,10 @@ def write(array: Products, j: int, value: np.float32) -> None:
 def step_forward(
     inputs: Array, recurrent: Products, bias: Array, before: Array, gates: Array, after: Array, rounded: Products
 ) -> None:
-    """Open the gates and write the next state (B, H), unitless.
+    """Open the gates and write the next state (B, H), unitless, as it is and `rounded` to the products' format.
 
-    Args:
-        inputs: inputs' share of the gates' sums (B, 3 H): reset, update, new.
-        recurrent: state's share of them (B, 3 H).
-        bias: biases of reset, update and new and that of the new gate's recurrent part (4 H,).
-        before: state before the step (B, H).
-        gates: gets reset, update, new and the new gate's recurrent part (B, 4 H).
-        after: gets the state after the step (B, H).
-        rounded: gets the same in the products' format (B, H).
+    The inputs' and the state's (`recurrent`) shares of the gates' sums are (B, 3 H): reset, update, new. `bias` has
+    their biases and that of the new gate's recurrent part (4 H,); `gates` gets the same four (B, 4 H).
     """
     half = np.float32(0.5)
     n = before.shape[1]
@@ -88,7 +82,7 @@ def step_backward(
     gates: Array, before: Array, given: Array, fed: Products, carried: Array, d_sums: Products, d_new: Products,
     d_bias: Array,
 ) -> None:  # fmt: skip
-    """Take the gradient (B, H), unitless, of a state back through one step.
+    """Take the gradient (B, H), unitless, of a state back through one step with the gates (B, 4 H) of `step_forward`.
 
     Args:
         gates: reset, update, new and the new gate's recurrent part (B, 4 H).

@@ -64,15 +64,9 @@ class FusedGru(torch.autograd.Function):
 def run_gru(cell: nn.GRU, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
     """Run a GRU over a stretch of time: on a CPU by the loops above, on a GPU by torch.
 
-    The products are in float32, or under `torch.autocast` in its number format.
-
-    Args:
-        cell: holds the weights.
-        x: inputs (h, B, n_in), unitless; they get no gradient on a CPU.
-        state: recurrent state (1, B, H); back-propagation is truncated there on a CPU.
-
-    Returns:
-        States (h, B, H) and the last of them (1, B, H), float32.
+    The products are in float32, or under `torch.autocast` in its number format. On a CPU the inputs (h, B, n_in),
+    unitless, get no gradient, and back-propagation is truncated at the state (1, B, H). Return the states (h, B, H) and
+    the last of them (1, B, H), float32.
     """
     if x.device.type != "cpu":
         return cell(x, state)

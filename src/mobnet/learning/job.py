@@ -1,4 +1,8 @@
-"""One repetition of a training: its random numbers, its learning rates, and a hash of all that makes its weights."""
+"""One repetition of a training: random numbers, learning rates, number format, and a hash of what makes its weights.
+
+The number format is that of a GRU's matrix products: float32, or bfloat16 with float32's range and 8 bits. Weights,
+gates and states stay float32; only what goes into a product and comes out of it is rounded.
+"""
 
 import hashlib
 from dataclasses import dataclass
@@ -7,19 +11,15 @@ import numpy as np
 import torch
 
 from mobnet.core.code import SHORT, code_hash
-from mobnet.learning.precision import precision_of
-from mobnet.settings.networks import Training
+from mobnet.settings.networks import Precision, Training
+
+PRECISIONS = {"float32": torch.float32, "bfloat16": torch.bfloat16}
+UNITS = ("avx512_bf16", "amx_bf16")  # a CPU with one of these multiplies bfloat16 several times faster than float32
 
 
 @dataclass(frozen=True)
 class Job:
-    """One repetition of a training.
-
-    Attributes:
-        training: the network and how it learns.
-        seed: number of the repetition.
-        root_seed: root of every random number.
-    """
+    """One repetition, number `seed`, of a training; the root seed is that of every random number."""
 
     training: Training
     seed: int
@@ -65,6 +65,24 @@ class Job:
             torch.__version__, device.type, self.precision(device),
         )  # fmt: skip
         return hashlib.sha256(repr(parts).encode()).hexdigest()[:SHORT]
+
+
+def precision_of(setting: Precision, device: torch.device) -> torch.dtype:
+    """Return the number format that a training's products have; `auto` is bfloat16 where the CPU computes in it.
+
+    On a GPU torch runs the GRU, its weights and states in float32.
+    """
+    if device.type != "cpu":
+        return torch.float32
+    if setting == "auto":
+        found = torch.cpu.get_capabilities()
+        return torch.bfloat16 if any(found.get(unit, False) for unit in UNITS) else torch.float32
+    return PRECISIONS[setting]
+
+
+def precision_name(precision: torch.dtype) -> str:
+    """Return the name of a number format in the configuration."""
+    return next(name for name, dtype in PRECISIONS.items() if dtype == precision)
 
 
 def _generator(*words: int | str) -> np.random.Generator:

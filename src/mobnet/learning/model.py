@@ -16,21 +16,13 @@ from mobnet.settings.networks import Cell
 class LimbNetwork(nn.Module):
     """A cell and a linear layer, GRU[n_in, hidden]-Linear[hidden, 2 n] in Table 1; all numbers z-scored, unitless.
 
-    The paper gives the variance outputs a softplus and clips the standard deviation (section 4.4); here the softplus
-    is the standard deviation itself, so that one clip serves both.
-
-    Attributes:
-        precision: number format of the cell's products in training; otherwise, as on the robot, float32.
+    The paper gives the variance outputs a softplus and clips the standard deviation (section 4.4); here the softplus is
+    the standard deviation itself, so that one clip serves both. `precision` is the number format of the cell's products
+    in training; otherwise, as on the robot, it is float32.
     """
 
     def __init__(self, cell: CellModule, joints: int, std_min: float) -> None:
-        """Put a linear layer with torch's default initial weights on a cell.
-
-        Args:
-            cell: turns inputs into features.
-            joints: number of joints n.
-            std_min: smallest standard deviation, z-scored.
-        """
+        """Put a linear layer with torch's default initial weights on a cell; `std_min` is z-scored."""
         super().__init__()
         self.cell: CellModule = cell
         with warnings.catch_warnings():  # torch warns that a layer without inputs has no weights to start from
@@ -41,14 +33,9 @@ class LimbNetwork(nn.Module):
         self.precision = torch.float32
 
     def forward(self, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor, Tensor]:
-        """Run over a stretch of time, eq. (18).
+        """Run z-scored inputs (h, B, n_in) over a stretch of time from a state (rows, B, columns), eq. (18).
 
-        Args:
-            x: z-scored inputs (h, B, n_in).
-            state: state of the cell (rows, B, columns).
-
-        Returns:
-            Mean (h, B, n), standard deviation (h, B, n), both z-scored, and the state after the stretch.
+        Return mean and standard deviation (h, B, n), both z-scored, unitless, and the state after the stretch.
         """
         rounded = self.training and self.precision != torch.float32
         with torch.autocast(x.device.type, self.precision, enabled=rounded):
@@ -63,11 +50,7 @@ class LimbNetwork(nn.Module):
         return torch.zeros(rows, lanes, columns, device=device)
 
     def normalise(self, input_gain: float) -> None:
-        """Keep the largest singular value of both matrices of the GRU and of the linear layer at 1 (authors' code).
-
-        Args:
-            input_gain: z-scored inputs are multiplied with this.
-        """
+        """Multiply inputs with a gain, and keep the largest singular values of all matrices at 1 (authors' code)."""
         for name in ("weight_ih_l0", "weight_hh_l0"):
             spectral_norm(self.get_submodule("cell"), name)
         spectral_norm(self.head)
@@ -95,14 +78,9 @@ def seeded(seed: int) -> Iterator[None]:
 
 
 def build_network(cell: Cell, inputs: int, joints: int, std_min: float, seed: int) -> LimbNetwork:
-    """Build a network of Table 1 or section 6.1, its initial weights drawn from a seed.
+    """Build a network of Table 1 or section 6.1, its initial weights drawn from a seed; `std_min` is z-scored.
 
-    Args:
-        cell: kind and sizes of its cell, and the norm of the authors' code.
-        inputs: number of inputs n_in.
-        joints: number of joints n.
-        std_min: smallest standard deviation, z-scored.
-        seed: of the initial weights; torch's own stream is untouched.
+    Torch's own stream of random numbers is untouched.
     """
     with seeded(seed):
         network = LimbNetwork(build_cell(cell, inputs), joints, std_min)

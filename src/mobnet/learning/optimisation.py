@@ -1,4 +1,4 @@
-"""One epoch of training and of validation (section 4.4).
+"""One epoch of training and of validation by the Gaussian likelihood, eqs. (19) to (22), section 4.4.
 
 The robot carries the state from sample to sample, and so does training by default. The authors' code trains on
 independent windows instead, whose state starts from zero and whose last step alone is in the loss.
@@ -10,7 +10,6 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
-from mobnet.learning.loss import gaussian_loss
 from mobnet.learning.model import LimbNetwork
 from mobnet.learning.streams import Plan, epoch_plan, window_plan
 
@@ -26,15 +25,11 @@ class Samples:
     targets: Tensor
 
     def horizons(self, plan: Plan, horizon: int) -> Iterator[tuple[Tensor, Tensor, Tensor]]:
-        """Walk through a plan.
-
-        Args:
-            plan: course of an epoch.
-            horizon: steps of one update [samples].
+        """Walk through a plan, `horizon` steps an update.
 
         Yields:
-            Inputs (h, B, n_in), targets (h, B, n), and what the carried state is multiplied with (1, B, 1): 0 where
-            a lane enters a stream.
+            Inputs (h, B, n_in), targets (h, B, n), and what the carried state is multiplied with (1, B, 1): 0 where a
+                lane enters a stream.
         """
         device = self.inputs.device
         steps = torch.arange(horizon, device=device)[:, None]
@@ -50,6 +45,14 @@ class Samples:
             )
 
 
+def gaussian_loss(mean: Tensor, std: Tensor, target: Tensor) -> Tensor:
+    """Return the mean of ln(sigma^2) + (mean - target)^2 / sigma^2 over samples and joints, (), eq. (22).
+
+    Mean, standard deviation and target torque are (..., n), z-scored, unitless.
+    """
+    return (2 * torch.log(std) + ((mean - target) / std).square()).mean()
+
+
 def train_epoch(
     network: LimbNetwork,
     optimizer: torch.optim.Optimizer,
@@ -61,17 +64,9 @@ def train_epoch(
 ) -> tuple[float, float]:
     """Run one epoch of truncated back-propagation through time: state detached every horizon, carried as planned.
 
-    Args:
-        network: trained in place.
-        optimizer: Adam.
-        samples: z-scored inputs (N, n_in) and targets (N, n).
-        plan: course of the epoch, rows (updates, lanes).
-        horizon: steps of one update [samples].
-        gradient_norm: the gradient is clipped to this norm.
-        scored: steps of a horizon that are in the loss.
-
-    Returns:
-        Mean loss (22) and mean norm of the gradient before the clip.
+    The network is trained in place on rows (updates, lanes) of the plan; the gradient is clipped to a norm, and
+    `scored` are the steps of a horizon that are in the loss. Return mean loss (22) and mean norm before the clip,
+    unitless.
     """
     network.train()
     losses, norms = [], []
@@ -92,13 +87,7 @@ def train_epoch(
 def predictions(
     network: LimbNetwork, samples: Samples, plan: Plan, horizon: int
 ) -> Iterator[tuple[Tensor, Tensor, Tensor]]:
-    """Run a network that is not trained any further, its state carried as planned.
-
-    Args:
-        network: as trained so far.
-        samples: z-scored inputs (N, n_in) and targets (N, n).
-        plan: fixed course, rows (updates, lanes).
-        horizon: steps looked at together [samples].
+    """Run a network that is not trained any further, its state carried as planned, rows (updates, lanes).
 
     Yields:
         Mean, standard deviation and target of each horizon, (h, B, n) each, z-scored.
@@ -113,17 +102,9 @@ def predictions(
 def validate(
     network: LimbNetwork, samples: Samples, plan: Plan, horizon: int, scored: slice = EVERY_STEP
 ) -> tuple[float, Tensor]:
-    """Run a validation, its state carried as planned.
+    """Run a validation, its state carried as planned; only the `scored` steps of a horizon count.
 
-    Args:
-        network: as trained so far.
-        samples: z-scored inputs (N, n_in) and targets (N, n).
-        plan: fixed course, rows (updates, lanes).
-        horizon: steps looked at together [samples].
-        scored: steps of a horizon that count.
-
-    Returns:
-        Mean loss (22), and the root mean square error of each joint (n,), z-scored.
+    Return mean loss (22), and the root mean square error of each joint (n,), z-scored.
     """
     losses, squares = [], []
     for mean, std, target in predictions(network, samples, plan, horizon):

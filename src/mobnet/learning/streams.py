@@ -37,12 +37,7 @@ class Plan:
 def split(segments: Sequence[Span], validation_share: float) -> tuple[list[Span], list[Span]]:
     """Cut the end of each contiguous segment off for validation: 9:1 in section 4.3, never single samples.
 
-    Args:
-        segments: contiguous stretches (start, end) of rows.
-        validation_share: share of the samples in (0, 1).
-
-    Returns:
-        Training blocks and validation blocks.
+    Return training blocks and validation blocks.
     """
     training, validation = [], []
     for start, end in segments:
@@ -55,17 +50,10 @@ def split(segments: Sequence[Span], validation_share: float) -> tuple[list[Span]
 def cut_streams(
     blocks: Sequence[Span], stream: int, horizon: int, rng: np.random.Generator | None = None
 ) -> list[Span]:
-    """Cut blocks into streams of whole horizons.
+    """Cut blocks into streams of whole horizons; a piece shorter than `horizon` [samples] is left out.
 
-    Args:
-        blocks: contiguous stretches (start, end) of rows.
-        stream: length of a stream [samples].
-        horizon: steps of truncated back-propagation [samples]; a piece shorter than this is left out.
-        rng: draws where the first cut of a block lies, so that epochs differ, and the order of the streams; without
-            it cuts start at the block's first row and the order stays.
-
-    Returns:
-        Streams (start, end); lengths are multiples of `horizon`.
+    The generator draws where the first cut of a block lies, so that epochs differ, and the order of the streams;
+    without it cuts start at the block's first row and the order stays.
     """
     streams = []
     for start, end in blocks:
@@ -77,12 +65,7 @@ def cut_streams(
 
 
 def deal(streams: Sequence[Span], lanes: int, horizon: int) -> Plan:
-    """Lay streams end to end and deal them to lanes of equal length, TBPTT of section 4.4.
-
-    Args:
-        streams: contiguous stretches (start, end) of whole horizons.
-        lanes: streams run side by side, the batch size.
-        horizon: steps of one update [samples].
+    """Lay streams of whole horizons end to end and deal them to lanes of equal length, TBPTT of section 4.4.
 
     Raises:
         DataError: the streams hold fewer horizons than there are lanes.
@@ -103,14 +86,7 @@ def deal(streams: Sequence[Span], lanes: int, horizon: int) -> Plan:
 
 
 def some_of(blocks: Sequence[Span], stream: int, parts: int, rng: np.random.Generator) -> list[Span]:
-    """Return one of so many parts of some blocks: streams drawn at random, as section 6.3 draws samples.
-
-    Args:
-        blocks: contiguous stretches (start, end) of rows.
-        stream: length of a stream [samples].
-        parts: how many times less to keep; 1 keeps the blocks as they are.
-        rng: draws the streams.
-    """
+    """Return one of so many parts of some blocks: streams drawn at random, as section 6.3 draws samples."""
     if parts == 1:
         return list(blocks)
     streams = [(a, min(a + stream, end)) for start, end in blocks for a in range(start, end, stream)]
@@ -123,13 +99,7 @@ def epoch_plan(
 ) -> Plan:
     """Return the course of a training epoch: new cuts, new order; arrays (updates, lanes) of rows [samples].
 
-    Args:
-        blocks: contiguous stretches (start, end) of rows.
-        stream: length of a stream [samples].
-        horizon: steps of one update [samples].
-        lanes: streams run side by side.
-        rng: draws cuts and order.
-        samples: samples of the epoch [samples], however often the blocks are gone through; None for once, all of them.
+    Blocks are gone through as often as it takes to fill so many `samples`; None means once, all of them.
 
     Raises:
         DataError: the streams hold fewer horizons than there are lanes.
@@ -150,13 +120,8 @@ def window_plan(
 ) -> Plan:
     """Return an epoch of independent windows, each from a zero state; arrays (updates, lanes) of rows [samples].
 
-    Args:
-        blocks: contiguous stretches (start, end) of rows.
-        stream: without meaning here, for windows follow each other at random.
-        horizon: length of a window [samples].
-        lanes: windows looked at together.
-        rng: draws where windows start.
-        samples: samples of the epoch [samples]; None for as many as the blocks have.
+    `stream` has no meaning here, for windows follow each other at random; without `samples` the epoch has as many as
+    the blocks.
 
     Raises:
         DataError: the blocks hold fewer windows than there are lanes.

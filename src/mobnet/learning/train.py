@@ -15,13 +15,11 @@ from mobnet.core.files import atomic_path, write_json
 from mobnet.core.joints import JointLayout
 from mobnet.core.provenance import provenance
 from mobnet.learning.calibration import Calibration
-from mobnet.learning.checkpoint import CHECKPOINT, Progress
+from mobnet.learning.checkpoint import CHECKPOINT, METRICS, Progress, write_metrics
 from mobnet.learning.dataset import LimbData, load_limb_data
 from mobnet.learning.deployed.networks import NOTE, STD_SCALE, WEIGHTS
-from mobnet.learning.job import Job
+from mobnet.learning.job import Job, precision_name
 from mobnet.learning.model import parameter_count
-from mobnet.learning.precision import precision_name
-from mobnet.learning.tracking import METRICS, write_metrics
 from mobnet.learning.trainer import Trainer
 from mobnet.settings.base import Section
 from mobnet.settings.networks import Training
@@ -43,17 +41,9 @@ def train(
 ) -> None:
     """Train one limb network of Table 1 by (22) and keep the epoch that validates best.
 
-    Args:
-        root_seed: root of every random number.
-        layout: the robot's joints.
-        training: the network and how it learns.
-        seed: number of the repetition.
-        recordings: stems of the recordings to learn from.
-        residuals: stems of their residual files, in the same order.
-        out: folder that gets `weights.safetensors`, `metrics.csv` and, last, `run.json`; nothing before the training is
-            done.
-        state: folder that gets a checkpoint and `metrics.csv` at each epoch; a killed training goes on from there to
-            the same weights. The checkpoint is deleted when the training is done.
+    The folder `out` gets `weights.safetensors`, `metrics.csv` and, last, `run.json`; nothing before the training is
+    done. The folder `state` gets a checkpoint and `metrics.csv` at each epoch; a killed training goes on from there to
+    the same weights. The checkpoint is deleted when the training is done.
 
     Raises:
         DataError: a recording or a residual is damaged or too short.

@@ -14,38 +14,25 @@ from mobnet.core.columns import Epoch
 from mobnet.core.errors import TrainingError
 from mobnet.learning import checkpoint
 from mobnet.learning.calibration import Calibration, calibrate, predict
-from mobnet.learning.checkpoint import CHECKPOINT, Progress
+from mobnet.learning.checkpoint import CHECKPOINT, METRICS, Progress, write_metrics
 from mobnet.learning.dataset import LimbData, Scale, scale_of
 from mobnet.learning.job import Job
 from mobnet.learning.model import build_network, seeded
 from mobnet.learning.optimisation import EVERY_STEP, LAST_STEP, SEQUENCES, Samples, train_epoch, validate
 from mobnet.learning.streams import Plan, some_of, split, validation_plan, window_plan
-from mobnet.learning.tracking import METRICS, write_metrics
 
 log = logging.getLogger(__name__)
 
 
 class Trainer:
-    """Trains one network on z-scored samples.
+    """Trains one network on z-scored samples, on a GPU if there is one.
 
-    Attributes:
-        job: what is trained.
-        network: as trained so far.
-        scales: z-scores of the inputs (n_in,) and targets (n,), from the training blocks alone.
-        device: where it trains, a GPU if there is one.
-        fingerprint: hash of all that the weights depend on.
+    The z-scores `scales` of the inputs (n_in,) and targets (n,) come from the training blocks alone; `fingerprint` is a
+    hash of all that the weights depend on.
     """
 
     def __init__(self, job: Job, data: LimbData) -> None:
-        """Split, scale and move the data to the device.
-
-        Args:
-            job: what is trained.
-            data: inputs (N, n_in) and targets (N, n) [N, N m].
-
-        Raises:
-            DataError: the data do not fill one batch.
-        """
+        """Split, scale and move inputs (N, n_in) and targets (N, n) [N, N m] to the device."""
         self.job = job
         self.device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
         self.fingerprint = job.fingerprint(data.digest(), self.device)
@@ -83,9 +70,6 @@ class Trainer:
 
     def run(self, state_dir: Path) -> Progress:
         """Run all epochs, or those that a killed run did not finish, and return metrics and best weights.
-
-        Args:
-            state_dir: gets a checkpoint and `metrics.csv` at each epoch.
 
         Raises:
             TrainingError: the loss is not finite or above `divergence_loss`, and the training may not diverge.

@@ -23,32 +23,17 @@ State = tuple[Any, Array]  # of the filtered method, and of the filter (sections
 
 
 class Options(Section):
-    """Numbers of the filter.
-
-    Attributes:
-        band_hz: lower and upper cut-off frequency.
-        order: order of the low-pass that the band-pass is made from; the band-pass has twice as many poles.
-    """
+    """Cut-off frequencies, and the order of the low-pass that the band-pass is made from, with twice as many poles."""
 
     band_hz: PositiveRange
     order: Count
 
 
 class BandPassEstimator:
-    """tau_e of another estimator behind a Butterworth band-pass, causal, without a standard deviation.
-
-    Attributes:
-        joints: names of the other estimator's joints, (n,).
-    """
+    """tau_e of another estimator, same joints (n,), behind a causal Butterworth band-pass; no standard deviation."""
 
     def __init__(self, inner: Estimator, band_hz: tuple[float, float], order: int, rate_hz: float) -> None:
-        """Design the filter.
-
-        Args:
-            inner: estimator to filter.
-            band_hz: lower and upper cut-off frequency [Hz], [2, 15] in section 5.3.
-            order: order of the low-pass that the band-pass is made from.
-            rate_hz: samples per second [Hz].
+        """Design the filter: cut-off frequencies [Hz], [2, 15] in section 5.3, and the order of the low-pass behind it.
 
         Raises:
             ConfigError: the band is empty, or does not lie below half the rate.
@@ -83,12 +68,7 @@ class BandPassEstimator:
 
 
 def build(recipe: Recipe) -> BandPassEstimator:
-    """Build the band-pass and the method that `of` names.
-
-    Raises:
-        ConfigError: the method names no other one, its options are not accepted, or the other one cannot be built.
-        DataError: a file of the other method is missing or damaged.
-    """
+    """Build the band-pass and the method that `of` names."""
     options = recipe.options(Options)
     if recipe.method.of is None:
         raise ConfigError(f"method {recipe.name!r} of kind 'band_pass' names no method to filter; accepted: `of`")

@@ -8,18 +8,10 @@ from mobnet.learning.deployed.limbs import LimbNetworks, State
 
 
 class DirectEstimator:
-    """tau_e as limb networks predict it, without an observer; inputs and networks of Table 1.
-
-    Attributes:
-        joints: names of the networks' joints, (n,).
-    """
+    """tau_e as limb networks predict it, without an observer; `joints` (n,) are the networks'."""
 
     def __init__(self, networks: LimbNetworks) -> None:
-        """Take networks trained on the external torque.
-
-        Args:
-            networks: one per limb.
-        """
+        """Take networks trained on the external torque, one per limb."""
         self.joints = networks.joints
         self._networks = networks
 
@@ -39,12 +31,7 @@ class DirectEstimator:
 
 
 def build(recipe: Recipe) -> DirectEstimator:
-    """Build FTS-e2e of the method's limbs.
-
-    Raises:
-        ConfigError: the method names no limbs.
-        DataError: weights are missing or damaged.
-    """
+    """Build FTS-e2e of the method's limbs."""
     networks = recipe.limb_networks()
     if networks is None:
         raise ConfigError(f"method {recipe.name!r} of kind 'direct' names no limbs; accepted: one or more networks")

@@ -36,13 +36,7 @@ Term = Literal["coulomb", "static", "viscous", "load"]
 
 
 class Options(Section):
-    """Numbers of the regression.
-
-    Attributes:
-        terms: terms of (23) that are fitted; `load` only for joints whose network sees the torque.
-        smoothing_rad_s: width of the sign function.
-        stribeck_rad_s: Stribeck velocities of which each joint takes one.
-    """
+    """Terms of (23) to fit, of which only joints whose network sees the torque get `load`; sign function; grid."""
 
     terms: Annotated[tuple[Term, ...], Field(min_length=1), AfterValidator(distinct)]
     smoothing_rad_s: Positive
@@ -70,21 +64,10 @@ class Friction:
 
 
 class FrictionModel:
-    """The filtered friction torque as an uncertainty model of (15); the base has none.
-
-    Attributes:
-        joints: names of all generalized velocities, (nv,).
-    """
+    """The filtered friction torque as an uncertainty model of (15), for all joints (nv,); the base has none."""
 
     def __init__(self, layout: JointLayout, friction: Friction, gain_hz: float, rate_hz: float) -> None:
-        """Take a fitted friction model.
-
-        Args:
-            layout: the robot's joints.
-            friction: numbers of (23).
-            gain_hz: K_0 of (7) [1/s].
-            rate_hz: samples per second [Hz].
-        """
+        """Take a fitted friction model, and the observer's gain K_0 of (7) [1/s]."""
         self.joints = layout.names
         self._base = len(layout.virtual)  # generalized velocities without a motor
         self._friction = friction
@@ -111,11 +94,7 @@ class FrictionModel:
 
 
 def build(recipe: Recipe) -> ResidualEstimator:
-    """Build MOB-fric: the residual minus the fitted friction.
-
-    Raises:
-        DataError: the fit is missing or damaged, or of another robot.
-    """
+    """Build MOB-fric: the residual minus the fitted friction."""
     layout = recipe.layout
     if recipe.fitted is None:
         raise DataError(f"method {recipe.name!r} has no fitted friction; accepted: a method that names `fitted` limbs")
@@ -131,21 +110,10 @@ def fit(
     networks: Mapping[str, Network],
     training: Mapping[str, Sequence[Pair]],
 ) -> dict[str, Any]:
-    """Regress the friction of the joints of some limbs.
+    """Regress the friction of the joints of each limb's network; the network's `T` says which joints may have load.
 
-    Args:
-        layout: the robot's joints.
-        observer: the observer's settings.
-        options: terms, the sign function and the grid.
-        networks: limb -> its network, whose joints are fitted and whose `T` says which joints may have load.
-        training: limb -> recordings and residuals.
-
-    Returns:
-        `smoothing_rad_s`, and `joints`: name -> factors of (23), units in the keys, and the root mean square of the
-        target and of what is left of it [N m].
-
-    Raises:
-        DataError: a recording is damaged.
+    Return `smoothing_rad_s`, and `joints`: name -> factors of (23), units in the keys, and the root mean square of the
+    target and of what is left of it [N m].
     """
     law = Law(options.terms, options.smoothing_rad_s, options.stribeck_rad_s, observer.gain_hz)
     found: dict[str, Mapping[str, float]] = {}

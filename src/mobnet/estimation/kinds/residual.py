@@ -45,13 +45,7 @@ class ResidualEstimator:
     def __init__(
         self, observer: ResidualObserver, layout: JointLayout, uncertainty: UncertaintyModel | None = None
     ) -> None:
-        """Join an observer and a model of what it cannot know.
-
-        Args:
-            observer: observer of the robot's residual.
-            layout: the robot's joints.
-            uncertainty: predicts the uncertainty torque; None for MOB.
-        """
+        """Join an observer and a model of what it cannot know; None for MOB."""
         self.joints = layout.names if uncertainty is None else uncertainty.joints
         self._observer, self._uncertainty = observer, uncertainty
         self._columns = layout.columns(self.joints)
@@ -80,9 +74,5 @@ class ResidualEstimator:
 
 
 def build(recipe: Recipe) -> ResidualEstimator:
-    """Build MOB, or MOB-Net of the method's limbs.
-
-    Raises:
-        DataError: weights are missing or damaged.
-    """
+    """Build MOB, or MOB-Net of the method's limbs."""
     return ResidualEstimator(recipe.observer(), recipe.layout, recipe.limb_networks())

@@ -17,23 +17,10 @@ State = tuple[Any, ...]  # state of each network, such as (hidden,) of a GRU
 
 
 class LimbNetworks:
-    """Limb networks side by side, Figure 2 (b).
-
-    Attributes:
-        networks: one per limb.
-        joints: names of all their joints, (n,), in the networks' order.
-    """
+    """Limb networks side by side, Figure 2 (b); `joints` are the names of all their joints, (n,), in their order."""
 
     def __init__(self, networks: Sequence[Deployed], layout: JointLayout) -> None:
-        """Find each network's inputs among the robot's signals.
-
-        Args:
-            networks: one per limb.
-            layout: the robot's joints.
-
-        Raises:
-            DataError: a network wants a signal that the robot does not have.
-        """
+        """Find each network's inputs among the robot's signals."""
         self.networks = tuple(networks)
         self.joints = tuple(joint for network in networks for joint in network.joints)
         self._columns = [_columns(network, layout) for network in networks]
@@ -60,11 +47,7 @@ class LimbNetworks:
 
 
 def load_limb_networks(folders: Mapping[str, Path], layout: JointLayout) -> LimbNetworks:
-    """Read the networks of some limbs.
-
-    Args:
-        folders: limb -> folder with the weights of its network.
-        layout: the robot's joints.
+    """Read the networks of some limbs, each from its folder.
 
     Raises:
         DataError: weights are missing or damaged, or belong to another limb or robot.

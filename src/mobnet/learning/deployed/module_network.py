@@ -18,13 +18,7 @@ class ModuleNetwork(Deployed):
     """A network of any cell with its z-scores, dropout off; the state is the cell's, (rows, 1, columns)."""
 
     def __init__(self, tensors: Mapping[str, Array], *names: Any, cell: Cell) -> None:
-        """Build the module and load its weights.
-
-        Args:
-            tensors: `cell.*`, `head.*` and the z-scores of `Deployed`.
-            names: the other arguments of `Deployed`.
-            cell: kind and sizes of its cell.
-        """
+        """Build the module of a cell and load its weights; `names` are the other arguments of `Deployed`."""
         super().__init__(tensors, *names)
         sizes = len(self.input_names), len(self.joints), float(self.std_min)
         self._module = build_network(cell, *sizes, seed=0).eval()

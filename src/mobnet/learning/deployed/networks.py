@@ -40,11 +40,7 @@ class Prediction:
 class Deployed(ABC):
     """A trained network: physical inputs in, torques [N, N m] out, its state carried by the caller.
 
-    Attributes:
-        limb: name of the limb.
-        joints: names of the joints, (n,).
-        input_names: names of the inputs, (n_in,).
-        std_scale: factors that are in its standard deviations, (n,).
+    `joints` (n,) and `input_names` (n_in,) are names, `std_scale` (n,) are factors that are in its standard deviations.
     """
 
     def __init__(
@@ -57,13 +53,8 @@ class Deployed(ABC):
     ) -> None:
         """Take the z-scores; each kind also takes its weights, which have the names that torch gives them.
 
-        Args:
-            tensors: `cell.*`, `head.*`, `input.mean|std` (n_in,), `target.mean|std` (n,) [N, N m] and, perhaps,
-                `std.scale` (n,).
-            limb: name of the limb.
-            joints: names of the joints.
-            input_names: names of the inputs.
-            std_min: smallest standard deviation, z-scored.
+        Tensors are `cell.*`, `head.*`, `input.mean|std` (n_in,), `target.mean|std` (n,) [N, N m] and, perhaps,
+        `std.scale` (n,); `std_min`, the smallest standard deviation, is z-scored.
         """
         self.limb, self.joints, self.input_names = limb, joints, input_names
         self.std_min = np.float32(std_min)
