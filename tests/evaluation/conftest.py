@@ -269,7 +269,7 @@ def write_walk(
 ) -> Run:  # fmt: skip
     """Write recording, residual and estimate of a made-up walk of some gait cycles, pushed in every swing unless calm.
 
-    The estimate of every joint has a constant error and a standard deviation, or none, the residual an error of 5 [N m].
+    Of every joint the estimate has a constant error and a standard deviation, or none; the residual errs by 5 [N m].
     """
     rows = 2 * STEP_ROWS * steps
     phase = np.arange(rows) % (2 * STEP_ROWS)
