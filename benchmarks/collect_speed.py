@@ -88,16 +88,16 @@ def _noted_steps(settings: WalkSettings) -> tuple[Simulator, Inputs]:
     """Walk what is collected, with notes in stretches spread evenly over it; return the plant and the notes."""
     simulator = Simulator(settings, SEED)
     simulator.start()
-    plant, data, walking = simulator.plant, simulator.world.data, simulator.setting
+    plant, data = simulator.plant, simulator.world.data
     before = (plant.qpos, plant.qvel, data.qacc_warmstart)  # what a step changes; the loop sets the others
     live = (*before, plant.ctrl, plant.qfrc_applied, plant.xfrc_applied.ravel())
     values: list[list[NDArray[np.float64]]] = [[] for _ in live]
     unnoted = np.zeros((round(UNNOTED_S * settings.rates.data_hz), simulator.width), np.float32)
     for _ in range(round(COLLECTED_S / (UNNOTED_S + NOTED_S))):
-        simulator.setting = walking
+        simulator.plant = plant
         if simulator.run(unnoted) < len(unnoted):
             break  # a fall
-        simulator.setting = walking._replace(plant=plant._replace(every=1))
+        simulator.plant = plant._replace(every=1)
         for _ in range(round(NOTED_S * settings.rates.plant_hz)):
             states = [array.copy() for array in before]
             simulator.run(unnoted[:1])

@@ -119,7 +119,4 @@ def test_elimination_solves_what_numpy_solves(seed: int) -> None:
     expected = np.linalg.solve(matrix, right)
     assert solve(matrix, right)
     np.testing.assert_allclose(right, expected, rtol=1e-9)
-
-
-def test_elimination_reports_a_singular_matrix() -> None:
-    assert not solve(np.ones((3, 3)), np.ones(3))
+    assert not solve(np.ones((3, 3)), np.ones(3))  # singular

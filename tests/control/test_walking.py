@@ -32,6 +32,11 @@ class Walk:
         """Advance by one tick."""
         walk(self.walker, self.s, self.q, self.v, self.wrenches, COMMANDS, TICK_S, self.tau)
 
+    def land(self, force_n: float = WEIGHT_N) -> None:
+        """Advance by one tick with a vertical force on the right foot."""
+        self.wrenches[RIGHT, 2] = force_n
+        self.tick()
+
     def to(self, t: float) -> None:
         """Advance until the step's time is t [s]."""
         while self.s.t < t - 1e-12:
@@ -60,17 +65,16 @@ def test_foot_leaves_at_the_end_of_double_support(walking: Walk) -> None:
     np.testing.assert_allclose(walking.s.lift, walking.walker.pose.position[walking.walker.feet[RIGHT]])
 
 
-def test_contact_early_in_the_swing_is_ignored(walking: Walk) -> None:
-    walking.to(0.3 * COMMANDS[0, DURATION])
-    walking.wrenches[RIGHT, 2] = WEIGHT_N
-    walking.tick()
+@pytest.mark.parametrize(("share", "touches"), [(0.3, 10.0), (0.7, 0.9)])
+def test_contact_early_in_the_swing_or_light_is_ignored(walking: Walk, share: float, touches: float) -> None:
+    walking.to(share * COMMANDS[0, DURATION])
+    walking.land(touches * walking.walker.par.touch_force_n)
     assert (walking.s.steps, walking.s.side) == (0, 1.0)
 
 
 def test_early_contact_swaps_the_feet_and_waits_for_the_schedule(swinging: Walk) -> None:
-    swinging.wrenches[RIGHT, 2] = 1.1 * swinging.walker.par.touch_force_n
     left, remaining = swinging.walker.pose.position[swinging.walker.feet[0]].copy(), swinging.s.total - swinging.s.t
-    swinging.tick()
+    swinging.land(1.1 * swinging.walker.par.touch_force_n)
     s = swinging.s
     assert (s.steps, s.side, s.swinging) == (1, -1.0, 0)
     assert s.t == pytest.approx(-min(remaining - TICK_S, swinging.walker.par.early_max_s), abs=1e-3)
@@ -80,20 +84,13 @@ def test_early_contact_swaps_the_feet_and_waits_for_the_schedule(swinging: Walk)
     assert s.load[RIGHT] == 0.0  # all weight stays on the old foot while it waits
 
 
-def test_light_contact_does_not_end_the_step(swinging: Walk) -> None:
-    swinging.wrenches[RIGHT, 2] = 0.9 * swinging.walker.par.touch_force_n
-    swinging.tick()
-    assert swinging.s.steps == 0
-
-
 def test_late_foot_keeps_going_down_and_lands_without_waiting(swinging: Walk) -> None:
     swinging.to(swinging.s.total)
     before = swinging.s.foot[2]
     swinging.to(swinging.s.total + 0.5 * swinging.walker.par.late_max_s)
     assert swinging.s.swinging == 1
     assert swinging.s.foot[2] < before
-    swinging.wrenches[RIGHT, 2] = WEIGHT_N
-    swinging.tick()
+    swinging.land()
     assert (swinging.s.steps, swinging.s.t) == (1, 0.0)
 
 
@@ -108,41 +105,29 @@ def test_missed_contact_ends_the_step_at_the_latest(swinging: Walk) -> None:
 def test_last_command_is_repeated(walking: Walk) -> None:
     walking.s.steps = 10
     walking.to(0.7 * COMMANDS[0, DURATION])
-    walking.wrenches[RIGHT, 2] = WEIGHT_N
-    walking.tick()
+    walking.land()
     np.testing.assert_array_equal(walking.s.command, COMMANDS[-1])
 
 
 @pytest.mark.parametrize(("share", "stumbles"), [(0.99, False), (1.01, True)])
-@pytest.mark.parametrize("direction", [(1.0, 0.0), (0.0, -1.0), (0.6, 0.8)])
-def test_step_after_a_stumble_is_made_in_place_and_later_ones_as_commanded(
-    swinging: Walk, share: float, stumbles: bool, direction: tuple[float, float]
-) -> None:
-    """The command's duration and foot height stay, its step and turn are zero where the DCM error is large."""
-    swinging.wrenches[RIGHT, 2] = WEIGHT_N
-    swinging.s.error = share * swinging.walker.par.stumble_m * np.array(direction)
-    swinging.tick()
+@pytest.mark.parametrize("way", [(1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.6, 0.8, 0.0), (0.0, 0.0, 1.0)])
+def test_only_the_step_after_a_stumble_is_in_place(swinging: Walk, share: float, stumbles: bool, way: tuple) -> None:
+    """Step and turn are zero where the DCM error (x, y) is large or the pelvis has sunk: knees at their limits
+    straighten only in place. The command's duration and foot height stay, and later steps are as commanded."""
+    par = swinging.walker.par
+    swinging.s.error = share * par.stumble_m * np.array(way[:2])
+    if way[2]:
+        swinging.s.height = swinging.q[2] + share * par.stumble_sunk_m
+    swinging.land()
     expected = COMMANDS[1].copy()
     expected[:DURATION] *= not stumbles
     np.testing.assert_array_equal(swinging.s.command, expected)
     assert swinging.s.total == COMMANDS[1, DURATION]
     swinging.s.swinging, swinging.s.t = 1, swinging.s.total
-    swinging.s.error = [0.0, 0.0]
+    swinging.s.error, swinging.s.height = [0.0, 0.0], swinging.q[2]
     swinging.wrenches[0, 2] = WEIGHT_N
     swinging.tick()
     np.testing.assert_array_equal(swinging.s.command, COMMANDS[-1])
-
-
-@pytest.mark.parametrize(("share", "sinks"), [(0.99, False), (1.01, True)])
-def test_step_of_a_robot_that_sinks_is_made_in_place(swinging: Walk, share: float, sinks: bool) -> None:
-    """The pelvis is lower than wanted: knees at their limits straighten only in place."""
-    swinging.wrenches[RIGHT, 2] = WEIGHT_N
-    swinging.s.error = [0.0, 0.0]
-    swinging.s.height = swinging.q[2] + share * swinging.walker.par.stumble_sunk_m
-    swinging.tick()
-    expected = COMMANDS[1].copy()
-    expected[:DURATION] *= not sinks
-    np.testing.assert_array_equal(swinging.s.command, expected)
 
 
 @pytest.mark.parametrize("lacks", [-120.0, 0.0, 200.0])

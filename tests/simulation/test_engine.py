@@ -249,10 +249,9 @@ def test_random_torque_is_part_of_the_desired_torque_but_not_on_support(simulate
     each, once = simulator.plant, simulator.plant._replace(every=1)
     half_weight = simulator.robot.mass * 9.81 / 2
     for _ in range(250):
-        simulator.setting = simulator.setting._replace(plant=each)
-        simulator.torque.value[:] = 0.0
+        simulator.plant, simulator.torque.value[:] = each, 0.0
         run(simulator, 0.012)
-        simulator.setting = simulator.setting._replace(plant=once)
+        simulator.plant = once
         quiet, moved = tick(simulator, run, np.zeros(33)), tick(simulator, run, added)
         expected = added.copy()
         for k, foot in enumerate(("left", "right")):

@@ -27,7 +27,7 @@ def watch(simulator: Simulator, run: Callable, seconds: float) -> list[dict[str,
         s = simulator.state
         seen.append({
             "clock": s.clock, "swinging": s.swinging, "side": s.side, "share": s.t / s.total,
-            "state": simulator.setting.pushes.state.copy(), "tau_ext": log["tau_ext"][0].copy(),
+            "state": simulator.pushes.state.copy(), "tau_ext": log["tau_ext"][0].copy(),
             "wrench": np.concatenate([log["wrench_left_foot"][0], log["wrench_right_foot"][0]]),
             "contact": log["contact"][0].copy(), "pushed": log["pushed"][0, 0],
         })  # fmt: skip
@@ -106,11 +106,11 @@ def test_push_of_the_knee_goes_against_its_front(simulate: Callable, run: Callab
     row = {"point": "left_knee_front", "at_s": [0.0], "force_n": [9.0, 9.0], "duration_s": [1.0, 1.0]}
     simulator = pushed(simulate, knee={**row, "direction": "backward", "shape": "step"})
     forward = None
-    while not simulator.setting.pushes.state["active"][0]:
+    while not simulator.pushes.state["active"][0]:
         forward = simulator.world.data.body("L_Knee_Link").xmat.reshape(3, 3)[:, 0].copy()
         run(simulator, 0.001)
     assert forward is not None
-    np.testing.assert_allclose(simulator.setting.pushes.state["direction"][0], -forward, atol=0.01)
+    np.testing.assert_allclose(simulator.pushes.state["direction"][0], -forward, atol=0.01)
 
 
 def test_words_of_the_configuration_are_all_known() -> None:

@@ -197,5 +197,5 @@ def test_nothing_of_an_episode_is_left_in_the_next(prepare: Callable, run: Calla
     simulator.start()
     for left in (simulator.plant.xfrc_applied, simulator.sensors.wrenches, simulator.state.integral):
         np.testing.assert_array_equal(left, 0)
-    assert simulator.setting.pushes.state["active"].tolist() == [0]
+    assert simulator.pushes.state["active"].tolist() == [0]
     assert simulator.state.clock == -simulator.settings.recording.settle_s

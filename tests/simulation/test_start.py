@@ -46,11 +46,9 @@ def test_pendulum_that_starts_so_returns_after_two_steps(simulator: Simulator) -
     height = walker.pose.com[2] - CLEARANCE_M
     omega, y, speed = np.sqrt(walker.gravity / height), 0.0, v[1]
     middle = []
+    grown, swung = (f(omega * command[DURATION]) for f in (np.cosh, np.sinh))
     for side in (1, -1):
-        zmp, grown, swung = (
-            side * walker.par.foot_spacing_m / 2,
-            *(f(omega * command[DURATION]) for f in (np.cosh, np.sinh)),
-        )
+        zmp = side * walker.par.foot_spacing_m / 2
         y, speed = zmp + (y - zmp) * grown + speed / omega * swung, (y - zmp) * omega * swung + speed * grown
         middle.append((y, speed))
     np.testing.assert_allclose(middle, [(0, -v[1]), (0, v[1])], atol=1e-9)

@@ -114,12 +114,10 @@ def _simulator(options: argparse.Namespace, seconds: float) -> Simulator:
 def _settings(options: argparse.Namespace) -> Settings:
     """Return the configuration in which the scenario walks on the terrain that is asked for."""
     settings = load_settings(options.config)
-    for option, name, accepted in (
-        ("scenario", options.scenario, settings.scenarios),
-        ("level", options.level, settings.levels),
-    ):
-        if name not in accepted:
-            raise ConfigError(not_accepted(f"--{option}", name, accepted))
+    if options.scenario not in settings.scenarios:
+        raise ConfigError(not_accepted("--scenario", options.scenario, settings.scenarios))
+    if options.level not in settings.levels:
+        raise ConfigError(not_accepted("--level", options.level, settings.levels))
     if options.terrain is None:
         return settings
     return load_settings(options.config, {"scenarios": {options.scenario: {"terrain": [options.terrain]}}})

@@ -57,21 +57,20 @@ def part_and_variant(seed: int, variants: int) -> tuple[int, int]:
 
 
 def plan(
-    robot: RobotDescription, settings: Motion, reacher: Reacher, variant: int, rng: np.random.Generator,
-    duration_s: float,
-) -> Array:  # fmt: skip
+    robot: RobotDescription, motion: Motion, reacher: Reacher, variant: int, rng: np.random.Generator, duration_s: float
+) -> Array:
     """Return knots (T, n) [rad] that start at rest where the reacher is."""
-    change, limits = settings.variants[variant], working_range(settings)
-    time = np.arange(round(duration_s * settings.knot_hz) + 1) / settings.knot_hz
-    waves = band_limited(change.speed * time, HAND_WAVES + len(limits), settings, rng)
-    hands = hand_targets(shoulder(robot) + np.array(change.hand_offset_m), settings, waves[:, :HAND_WAVES])
+    change, limits = motion.variants[variant], working_range(motion)
+    time = np.arange(round(duration_s * motion.knot_hz) + 1) / motion.knot_hz
+    waves = band_limited(change.speed * time, HAND_WAVES + len(limits), motion, rng)
+    hands = hand_targets(shoulder(robot) + np.array(change.hand_offset_m), motion, waves[:, :HAND_WAVES])
     joints = limits.mean(axis=1) + 0.5 * np.diff(limits)[:, 0] * waves[:, HAND_WAVES:]
-    share = smooth_step((time - settings.still_s) / settings.ease_s)
+    share = smooth_step((time - motion.still_s) / motion.ease_s)
     place, posture = reacher.hand_positions(), reacher.configuration.q
     knots = np.zeros((len(time), len(limits)))
     for i, s in enumerate(share):
         knots[i] = reacher.step(place + s * (hands[i] - place), posture + s * (joints[i] - posture))
-    return gaussian_filter1d(knots, settings.smoothing_s * settings.knot_hz, axis=0, mode="nearest")
+    return gaussian_filter1d(knots, motion.smoothing_s * motion.knot_hz, axis=0, mode="nearest")
 
 
 def measured(reacher: Reacher, settings: Motion, knots: Array) -> dict[str, float]:

@@ -64,30 +64,15 @@ class Simulator:
         self.commands: Array = np.zeros((0, 0))
         self.terrains: dict[str, Setting] = {}
         self.coming: list[str] = []  # terrains until all have been walked once more
-        self.setting = self._setting(scenario.terrain[0])
-
-    @property
-    def world(self) -> World:
-        """The terrain of the episode, with the robot on it."""
-        return self.setting.world
-
-    @property
-    def plant(self) -> Plant:
-        """The plant of the episode."""
-        return self.setting.plant
-
-    @property
-    def sensors(self) -> Sensors:
-        """The sensors of the episode."""
-        return self.setting.sensors
+        self._enter(scenario.terrain[0])
 
     @property
     def width(self) -> int:
         """Number of columns of a sample."""
         return recording_width(self.robot.layout)
 
-    def _setting(self, terrain: str) -> Setting:
-        """Return a terrain with the robot on it, built once a recording."""
+    def _enter(self, terrain: str) -> None:
+        """Put the robot on a terrain, which is built once a recording."""
         if terrain not in self.terrains:
             settings, plant, rates = self.settings, self.settings.plant, self.settings.rates
             drawn = draw_terrain(dict(settings.terrain)[terrain], self.rng["terrain"])
@@ -100,7 +85,8 @@ class Simulator:
             pushes = make_pushes(settings.pushes, world.model, self.robot)
             plant = make_plant(world, native, friction, limits, fall_height, every)
             self.terrains[terrain] = Setting(terrain, world, plant, sensors, pushes)
-        return self.terrains[terrain]
+        self.setting = self.terrains[terrain]
+        _, self.world, self.plant, self.sensors, self.pushes = self.setting
 
     def start(self, motion_s: float = 0.0) -> None:
         """Begin an episode on one of the scenario's terrains, amid a step or standing, anywhere, facing anywhere.
@@ -110,7 +96,7 @@ class Simulator:
         """
         if not self.coming:
             self.coming = self.rng["place"].permutation(self.settings.scenario.terrain).tolist()
-        self.setting = self._setting(self.coming.pop())
+        self._enter(self.coming.pop())
         wanted = self.settings.scenario.commands
         kind = wanted[self.episode % len(wanted)] if isinstance(wanted, tuple) else wanted
         self.episode += 1
@@ -124,7 +110,7 @@ class Simulator:
         turn(self.state, q, v, yaw, place * self.world.period)
         raise_start(self.state, q, ground_height(self.world, self._sole_points(yaw)).max())
         self.state.clock = clock
-        reset_pushes(self.setting.pushes, clock, self.rng["pushes"])
+        reset_pushes(self.pushes, clock, self.rng["pushes"])
         self._put(q, v)
 
     def _commands(self, kind: CommandSource | FixedCommand) -> Array:
@@ -158,5 +144,5 @@ class Simulator:
         rng = self.rng
         return run(
             self.plant, self.walker, self.sensors, self.state, self.commands, self.upper, self.torque,
-            self.setting.pushes, rng["noise"], rng["torque"], rng["pushes"], rows,
+            self.pushes, rng["noise"], rng["torque"], rng["pushes"], rows,
         )  # fmt: skip
