@@ -112,7 +112,7 @@ def test_the_rows_of_a_table_are_run_and_printed_and_have_windows(settings: Sett
 @pytest.mark.parametrize(
     ("place", "message"),
     [
-        *((place, rf"{place.split('.')[1]}: (key is missing|the path of a YAML file)") for place in MISSING),
+        *((place, rf"{place.split('.')[1]}: (key is missing|the path of a YAML file is expected)") for place in MISSING),
         # a push without a pause and without times would never end
         *((f"data.pushes.torso.{key}", r"data\.yaml: pushes\.torso: accepted: `p") for key in OF_A_PUSH),
         *((f"data.training_sets.{name}.sizes.smoke", rf"\.{name}\.sizes: scale is missing: smoke") for name in SETS),
