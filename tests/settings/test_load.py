@@ -12,6 +12,7 @@ from mobnet.settings.load import CONFIGS, load_settings, read_yaml
 from mobnet.settings.settings import Settings
 
 ACCEPTED = "is not accepted; accepted: "
+EXPECTED = "(key is missing|the path of a YAML file is expected)"
 MISSING = ("config.seed", "config.robot", "data.pushes", "tests.tests", "scales.scales")
 OF_A_PUSH, SETS = ("pause_s", "force_n", "point", "direction"), ("walk", "walk_plain", "motion")
 
@@ -112,7 +113,7 @@ def test_the_rows_of_a_table_are_run_and_printed_and_have_windows(settings: Sett
 @pytest.mark.parametrize(
     ("place", "message"),
     [
-        *((place, rf"{place.split('.')[1]}: (key is missing|the path of a YAML file is expected)") for place in MISSING),
+        *((place, rf"{place.split('.')[1]}: {EXPECTED}") for place in MISSING),
         # a push without a pause and without times would never end
         *((f"data.pushes.torso.{key}", r"data\.yaml: pushes\.torso: accepted: `p") for key in OF_A_PUSH),
         *((f"data.training_sets.{name}.sizes.smoke", rf"\.{name}\.sizes: scale is missing: smoke") for name in SETS),
