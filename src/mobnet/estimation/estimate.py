@@ -17,6 +17,7 @@ from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.observe import CARRIED
 from mobnet.estimation.recipe import Recipe
 from mobnet.learning.deployed.networks import load_network
+from mobnet.robot.description import describe
 from mobnet.settings.methods import Method, Observer
 from mobnet.settings.plant import Level
 from mobnet.settings.robot import RobotTable
@@ -47,7 +48,8 @@ def estimate(
         ConfigError: the method's kind is unknown, or networks do not match the method's limbs.
         DataError: the recording, a network or the fit is damaged.
     """
-    layout, read = robot.layout, read_sensed(recording, robot.layout)
+    layout = describe(robot).layout
+    read = read_sensed(recording, layout)
     recipe = Recipe(method, methods, robot, level, gravity_m_s2, observer, read.rate_hz, networks, fitted)
     estimator = build_estimator(recipe)
     array, columns = table_of(run_segments(estimator, read), estimator.joints, layout)

@@ -17,6 +17,7 @@ from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
 from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
+from mobnet.robot.description import describe
 from mobnet.settings.base import Section
 from mobnet.settings.load import problems
 from mobnet.settings.methods import Method, Observer
@@ -96,7 +97,7 @@ class Recipe:
     @property
     def layout(self) -> JointLayout:
         """The robot's joints."""
-        return self.robot.layout
+        return describe(self.robot).layout
 
     def options(self, section: type[Kind]) -> Kind:
         """Return the method's own numbers as the section `Options` of its kind."""
@@ -105,7 +106,6 @@ class Recipe:
     def observer(self) -> ResidualObserver:
         """Return the momentum observer of the level's nominal model."""
         from mobnet.estimation.observe import observer_of
-        from mobnet.robot.description import describe
 
         gain_hz, torque = self.observing.gain_hz, self.observing.torque
         return observer_of(describe(self.robot), self.level, self.gravity_m_s2, gain_hz, self.rate_hz, torque)

@@ -106,9 +106,11 @@ class WalkingRobot(RobotDescription):
 
 def describe(table: RobotTable) -> RobotDescription:
     """Return a robot's table with both sides of what is mirrored, and its posture in motor order."""
+    # not `table.layout`: the code of settings is in no hash, so a job computes nothing with it
+    legs = {side: foot.limb for side, foot in table.feet.items()}
     return RobotDescription(
         name=table.name,
-        layout=table.layout,
+        layout=JointLayout(table.order.virtual, table.order.actuated, table.groups, legs),
         bodies=tuple(map(_with_unit_quaternion, table.bodies)),
         joints=table.joints,
         feet={**table.feet},
