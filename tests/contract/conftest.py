@@ -9,13 +9,14 @@ import torch
 from safetensors.torch import save_file
 
 from mobnet.core.estimator import Estimator
+from mobnet.core.files import WEIGHTS
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording, Sensed
 from mobnet.estimation.fitting import write_fit
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe
 from mobnet.learning.dataset import joints_of
-from mobnet.learning.deployed.networks import NOTE, WEIGHTS
+from mobnet.learning.deployed.networks import NOTE
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network
 from mobnet.settings.networks import Training

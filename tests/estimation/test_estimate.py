@@ -8,13 +8,14 @@ import numpy as np
 from safetensors.numpy import save_file
 
 from mobnet.core.estimator import Estimate
+from mobnet.core.files import WEIGHTS
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
 from mobnet.core.store import read_array
 from mobnet.estimation.estimate import estimate, run_segments, std_scales, table_of
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe
-from mobnet.learning.deployed.networks import NOTE, STD_SCALE, WEIGHTS, Z_SCORES
+from mobnet.learning.deployed.networks import NOTE, STD_SCALE, Z_SCORES
 from mobnet.settings.settings import Settings
 
 Write = Callable[[Path, Recording], tuple[Path, Path]]

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 from safetensors import safe_open
 from scipy.special import ndtr
 
+from mobnet.core.files import RUN, WEIGHTS
 from mobnet.learning.calibration import calibrate, predict, scale_for
-from mobnet.learning.deployed.networks import STD_SCALE, WEIGHTS
+from mobnet.learning.deployed.networks import STD_SCALE
 from mobnet.learning.gaussian import coverage, half_width
 from mobnet.learning.optimisation import Samples
 from mobnet.learning.streams import deal
-from mobnet.learning.train import RUN
 
 Array = NDArray[np.float64]
 HORIZON = 10

@@ -8,6 +8,7 @@ import pytest
 import torch
 
 from mobnet.core.columns import Epoch
+from mobnet.core.files import METRICS
 from mobnet.learning import checkpoint
 from mobnet.learning.cells import Gru
 from mobnet.learning.checkpoint import Progress
@@ -94,7 +95,7 @@ def test_the_same_training_writes_the_same_bytes(saved: tuple[Path, Pair, Progre
 def test_metrics_come_back_as_written(tmp_path: Path) -> None:
     """Writing and reading are a round trip."""
     epochs = [Epoch(number, *(10.0 * number + k for k in range(5))) for number in (1, 2, 3)]
-    checkpoint.write_metrics(tmp_path / checkpoint.METRICS, epochs)
-    with (tmp_path / checkpoint.METRICS).open() as file:
+    checkpoint.write_metrics(tmp_path / METRICS, epochs)
+    with (tmp_path / METRICS).open() as file:
         read = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
     assert read == [vars(epoch) for epoch in epochs]

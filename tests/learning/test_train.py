@@ -14,10 +14,10 @@ import pytest
 import torch
 
 from mobnet.core.errors import DataError, TrainingError
-from mobnet.learning.checkpoint import CHECKPOINT, METRICS
-from mobnet.learning.deployed.networks import WEIGHTS, load_network
+from mobnet.core.files import METRICS, RUN, WEIGHTS
+from mobnet.learning.checkpoint import CHECKPOINT
+from mobnet.learning.deployed.networks import load_network
 from mobnet.learning.job import precision_name, precision_of
-from mobnet.learning.train import RUN
 from mobnet.settings.networks import Training
 
 SCRIPT = "import pickle, sys; from mobnet.learning.train import train; train(**pickle.load(sys.stdin.buffer))"

@@ -9,7 +9,8 @@ import pytest
 import torch
 
 from mobnet.core.errors import TrainingError
-from mobnet.learning.checkpoint import CHECKPOINT, METRICS
+from mobnet.core.files import METRICS
+from mobnet.learning.checkpoint import CHECKPOINT
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.job import PRECISIONS, Job
 from mobnet.learning.trainer import Trainer

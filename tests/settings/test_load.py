@@ -54,6 +54,8 @@ def test_every_scale_is_accepted(scale: str) -> None:
         ("learning.precision", "half", "precision: 'half' is not accepted; .* 'auto', 'float32' or 'bfloat16'"),
         ("methods.MOB-Net.target", "all", "MOB-Net.target: 'all' is not accepted; .* 'uncertainty' or 'external'"),
         ("methods.TCN.network.head", None, "methods.TCN.network: head is missing; a cell TCN needs hidden"),
+        ("methods.GRU.network.foo", 1, "methods.GRU.network.foo: key: 'foo' is not accepted; accepted: Q, T, cell, "),
+        ("methods.LSTM.learning.foo", 1, "methods.LSTM.learning.foo: key: 'foo' is not accepted; accepted: batch_"),
         ("methods.LSTM.network.spectral", True, "methods.LSTM.network: a cell LSTM with `spectral` is not accepted"),
         ("methods.MOB.limbs", ["LL"], "methods.MOB: `target` and `limbs` are accepted together only"),
         ("scale", "huge", f"scale: scale: 'huge' {ACCEPTED}default, paper, smoke"),

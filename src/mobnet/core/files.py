@@ -10,6 +10,8 @@ from typing import Any
 
 from mobnet.core.errors import DataError
 
+WEIGHTS, METRICS, RUN = "weights.safetensors", "metrics.csv", "run.json"  # files of a trained network
+
 
 @contextlib.contextmanager
 def atomic_path(path: Path) -> Iterator[Path]:

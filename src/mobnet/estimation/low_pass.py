@@ -6,9 +6,8 @@ import numpy as np
 import scipy  # its parts are imported where they are used first: the workflow imports kinds before it starts
 from numpy.typing import NDArray
 
+from mobnet.core.arrays import Array
 from mobnet.core.errors import ConfigError
-
-Array = NDArray[np.float64]
 
 
 def exact_pole(gain_hz: float, rate_hz: float) -> float:

@@ -17,13 +17,13 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.core.arrays import Array
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.recording import Sensed
 from mobnet.estimation.low_pass import exact_pole, filtered
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
 
-Array = NDArray[np.float64]
 TorqueKind = Literal["mean", "sample"]  # over the interval that ends at the tick, or at the tick
 LOGGED_ROWS = 100_000  # samples between two messages of progress
 log = logging.getLogger(__name__)

@@ -14,12 +14,12 @@ import numpy as np
 import scipy  # its parts are imported where they are used first: the workflow imports kinds before it starts
 from numpy.typing import NDArray
 
+from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL_LP, MOTOR, RESIDUAL, VELOCITY, named
 from mobnet.core.errors import DataError
 from mobnet.core.store import read_array, spans_and_rate
 from mobnet.estimation.low_pass import low_pass
 
-Array = NDArray[np.float64]
 Pair = tuple[Path, Path]  # stems of a recording and of its residual
 TERMS = {"coulomb": "coulomb_nm", "static": "static_nm", "viscous": "viscous_nms", "load": "load_per_nm"}
 SIGN, VISCOUS, LOAD, STATIC = range(4)  # columns; one of `static` for each Stribeck velocity, then the target

@@ -13,12 +13,11 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
+from mobnet.core.arrays import Array
 from mobnet.learning.gaussian import Fit, fit_of, half_width
 from mobnet.learning.model import LimbNetwork
 from mobnet.learning.optimisation import Samples, predictions
 from mobnet.learning.streams import Plan
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

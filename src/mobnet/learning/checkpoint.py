@@ -20,7 +20,7 @@ from torch import Tensor, nn
 from mobnet.core.columns import EPOCHS, Epoch
 from mobnet.core.files import atomic_path, write_text
 
-CHECKPOINT, METRICS = "checkpoint.safetensors", "metrics.csv"
+CHECKPOINT = "checkpoint.safetensors"
 
 log = logging.getLogger(__name__)
 

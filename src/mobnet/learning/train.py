@@ -11,20 +11,18 @@ import numpy as np
 import torch
 from safetensors.torch import save_file
 
-from mobnet.core.files import atomic_path, write_json
+from mobnet.core.files import METRICS, RUN, WEIGHTS, atomic_path, write_json
 from mobnet.core.joints import JointLayout
 from mobnet.core.provenance import provenance
 from mobnet.learning.calibration import Calibration
-from mobnet.learning.checkpoint import CHECKPOINT, METRICS, Progress, write_metrics
+from mobnet.learning.checkpoint import CHECKPOINT, Progress, write_metrics
 from mobnet.learning.dataset import LimbData, load_limb_data
-from mobnet.learning.deployed.networks import NOTE, STD_SCALE, WEIGHTS
+from mobnet.learning.deployed.networks import NOTE, STD_SCALE
 from mobnet.learning.job import Job, precision_name
 from mobnet.learning.model import parameter_count
 from mobnet.learning.trainer import Trainer
 from mobnet.settings.base import Section
 from mobnet.settings.networks import Training
-
-RUN = "run.json"
 
 log = logging.getLogger(__name__)
 

@@ -12,9 +12,10 @@ from torch import Tensor
 
 from mobnet.core.columns import Epoch
 from mobnet.core.errors import TrainingError
+from mobnet.core.files import METRICS
 from mobnet.learning import checkpoint
 from mobnet.learning.calibration import Calibration, calibrate, predict
-from mobnet.learning.checkpoint import CHECKPOINT, METRICS, Progress, write_metrics
+from mobnet.learning.checkpoint import CHECKPOINT, Progress, write_metrics
 from mobnet.learning.dataset import LimbData, Scale, scale_of
 from mobnet.learning.job import Job
 from mobnet.learning.model import build_network, seeded

@@ -3,8 +3,9 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from mobnet.core.files import WEIGHTS
 from mobnet.plan.call import Call, Job
-from mobnet.plan.runs import WEIGHTS, Files, files_in
+from mobnet.plan.runs import Files, files_in
 from mobnet.settings.data import Terrain
 from mobnet.settings.settings import Settings, WalkSettings
 

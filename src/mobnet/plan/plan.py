@@ -31,4 +31,4 @@ def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
     folders = Folders(results, Path("tables") / part, Path("figures") / part, paper, manifest / "MANIFEST.sha256")
     files = Files(settings, results)
     products = Products(settings, files, folders, with_pdf)
-    return Plan(settings, folders, files, Jobs(settings, files), tuple(products.all()), tuple(products.stored()))
+    return Plan(settings, folders, files, Jobs(settings, files), tuple(products.all()), tuple(products.stored))

@@ -6,9 +6,10 @@ from functools import cached_property
 from pathlib import Path
 
 from mobnet.core.code import start_of
+from mobnet.core.files import WEIGHTS
 from mobnet.plan.call import Job, call_of, parameters
 from mobnet.plan.needs import needs_of
-from mobnet.plan.runs import ARRAY, COURSE, WEIGHTS, Files, files_in
+from mobnet.plan.runs import ARRAY, COURSE, Files, files_in
 from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.settings import Settings
 
@@ -73,6 +74,7 @@ class Products:
         made = [*self._tables_and_figures(), *self._texts()]
         return [*made, *self._report(made)]
 
+    @cached_property
     def stored(self) -> list[str]:
         """Return every file that products are made from, also those that could be made again."""
         arrays = [
@@ -121,7 +123,7 @@ class Products:
         """Yield what looks at all other products: compute, the paper, the pages of the report and the manifest."""
         tables, results, paper = self.folders.tables, self.folders.results, self.folders.paper
         outputs = [Path(name) for product in made for name in product.outputs if product.name != "wandb_runs"]
-        accounts = {"accounts": results / "logs", "after": [*map(Path, self.stored()), *outputs]}
+        accounts = {"accounts": results / "logs", "after": [*map(Path, self.stored), *outputs]}
         compute = [results / f"compute.{ending}" for ending in TABLE]
         yield self._report_product("compute", accounts, compute)
         texts = [tables / f"{name}.tex" for name in (*self.table_names, "numbers", "deviations")] + [compute[1]]
@@ -134,7 +136,7 @@ class Products:
         captions = [found.caption for page in pages if (found := shown(str(page)))]
         needs = {"tables": listed, "captions": captions, "template": TEMPLATES / "table.html"}
         yield self._report_product("pages", needs, pages)
-        results_of_all = [*map(Path, self.stored()), *outputs, *compute, *built, *pages]
+        results_of_all = [*map(Path, self.stored), *outputs, *compute, *built, *pages]
         yield self._report_product("manifest", {"files": results_of_all}, [self.folders.manifest])
 
     def _report_product(self, name: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:

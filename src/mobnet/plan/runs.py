@@ -5,14 +5,14 @@ from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
 from typing import cast
 
+from mobnet.core.files import METRICS, RUN
 from mobnet.settings.data import Recordings
 from mobnet.settings.evaluation import Runs
 from mobnet.settings.settings import Settings, swept_name
 
 FIRST_TRAINING_SEED = 1000  # recordings and motions for tests count from 1
 ARRAY = ".parquet"
-COURSE = ("run.json", "metrics.csv")  # files of a trained network that say how its training went
-WEIGHTS = "weights.safetensors"
+COURSE = (RUN, METRICS)  # files of a trained network that say how its training went
 NETWORKS = "networks"
 
 

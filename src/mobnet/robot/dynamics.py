@@ -9,9 +9,8 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
+from mobnet.core.arrays import Array
 from mobnet.robot.nominal import NominalModel
-
-Array = NDArray[np.float64]
 
 
 def mass_matrix(nominal: NominalModel, q: NDArray[Any]) -> Array:

@@ -7,10 +7,9 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
+from mobnet.core.arrays import Array
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.robot.nominal import NominalModel
-
-Array = NDArray[np.float64]
 
 
 def foot_jacobian(nominal: NominalModel, q: NDArray[Any], side: str) -> Array:

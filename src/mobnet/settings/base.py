@@ -57,7 +57,6 @@ NotNegativeRange = Annotated[tuple[NotNegative, NotNegative], AfterValidator(_or
 ShareRange = Annotated[tuple[Share, Share], AfterValidator(_ordered)]
 CountRange = Annotated[tuple[Count, Count], AfterValidator(_ordered)]
 PositivePair = tuple[Positive, Positive]
-RealPair = tuple[Real, Real]
 Vector3 = tuple[Real, Real, Real]
 Choices = Some[Positive]
 InnerShares = Annotated[Some[InnerShare], AfterValidator(distinct)]

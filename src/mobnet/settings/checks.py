@@ -1,6 +1,7 @@
 """What must hold between sections: names that are used exist, runs that are shown are run, pushes have windows."""
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from functools import partial
 from itertools import product
 from typing import Annotated, cast
 
@@ -9,7 +10,7 @@ from pydantic import BaseModel, ValidationError
 from mobnet.core.errors import not_accepted
 from mobnet.settings.evaluation import Mean
 from mobnet.settings.names import Place, Use, unknown, uses
-from mobnet.settings.networks import Network
+from mobnet.settings.networks import Learning, Network
 from mobnet.settings.settings import Settings
 
 Problem = tuple[Place, str]
@@ -122,12 +123,12 @@ def _missing_places(settings: Settings) -> Iterator[Problem]:
                 yield (*ROOT, "tables", name, "rows"), not_accepted("paper", row.paper, accepted)
 
 
-def refused_changes(settings: Settings) -> Iterator[tuple[Place, ValidationError]]:
-    """Yield where a method changes a key of its networks or of learning to something that is not accepted."""
+def refused_changes(settings: Settings) -> Iterator[tuple[Place, type[BaseModel], ValidationError]]:
+    """Yield the place of every change by a method that is not accepted, the section that it changes, and the error."""
     for name, method in settings.all_methods.items():
-        for part, made in (("network", settings.network), ("learning", settings.training)):
-            for limb in method.limbs:
-                try:
-                    made(name, limb)
-                except ValidationError as error:
-                    yield ("methods", name, part), error
+        checks = [("network", Network, partial(settings.network, name, limb)) for limb in method.limbs]
+        for part, section, made in (*checks, ("learning", Learning, partial(settings.learned, name))):
+            try:
+                made()
+            except ValidationError as error:
+                yield ("methods", name, part), section, error

@@ -13,7 +13,6 @@ from pydantic import BaseModel, ValidationError
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.settings.base import Section
 from mobnet.settings.checks import inconsistencies, refused_changes, unknown_names
-from mobnet.settings.networks import Training
 from mobnet.settings.settings import Settings
 
 ROOT = Path(__file__).parents[3]
@@ -94,8 +93,8 @@ def _checked(read: Mapping[str, Any], files: Mapping[str, Path], main: Path) -> 
         raise ConfigError(_lines((files.get(str(place[0]), main), place, text) for place, text in found)) from None
     wrong = list(unknown_names(settings))
     if not wrong:  # only then can what they name be looked up
-        for place, error in refused_changes(settings):
-            wrong += [((*place, *map(str, inner)), text) for inner, text in problems(error, Training)]
+        for place, section, error in refused_changes(settings):
+            wrong += [((*place, *map(str, inner)), text) for inner, text in problems(error, section)]
         wrong += inconsistencies(settings)
     if wrong:
         raise ConfigError(_lines((files[place[0]], place, text) for place, text in dict.fromkeys(wrong)))

@@ -28,7 +28,7 @@ from mobnet.settings.parts import (
     Side,
     SoleRow,
     Totals,
-)  # fmt: skip
+)
 
 WORLD = "world"
 MASS_TOLERANCE = 1e-6  # relative, of the total

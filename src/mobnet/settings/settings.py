@@ -18,7 +18,7 @@ from mobnet.settings.data import (
     Scenario,
     Terrain,
     TrainingSet,
-)  # fmt: skip
+)
 from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.methods import Method, Observer, Sweep
 from mobnet.settings.networks import Learning, Network, NetworkRow, Training
@@ -103,25 +103,29 @@ class Settings(Section):
         """Return how long and how often a method's network is trained at the chosen scale."""
         return self.sizes.experiments[self.network(method, limb).experiment]
 
+    def learned(self, method: str) -> Learning:
+        """Return how a method's networks learn: the chosen scale's sizes, then its own changes, over `learning`."""
+        scaled = {name: getattr(self.sizes, name) for name in ("batch_size", "stream_s", "rate_decay_share")}
+        known = {name: value for name, value in scaled.items() if value is not None}
+        return Learning.model_validate({**vars(self.learning), **known, **self.method(method).learning})
+
     def training(self, method: str, limb: str) -> Training:
         """Return all that a training of a method's network takes.
 
         Raises:
             ConfigError: the method is unknown or learns nothing, or the network is unknown.
         """
-        row, sizes = self.method(method), self.sizes
+        row = self.method(method)
         if row.target is None:
             accepted = [name for name, other in self.all_methods.items() if other.target]
             raise ConfigError(not_accepted("method to train", method, accepted))
-        scaled = {name: getattr(sizes, name) for name in ("batch_size", "stream_s", "rate_decay_share")}
-        known = {name: value for name, value in scaled.items() if value is not None}
         experiment = self.experiment(method, limb)
         return Training(
             method=method,
             limb=limb,
             target=row.target,
             network=self.network(method, limb),
-            learning=Learning.model_validate({**vars(self.learning), **known, **row.learning}),
+            learning=self.learned(method),
             epochs=experiment.epochs,
             epoch_samples=experiment.epoch_samples,
         )

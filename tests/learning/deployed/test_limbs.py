@@ -11,10 +11,11 @@ from safetensors import safe_open
 from safetensors.numpy import save_file
 
 from mobnet.core.errors import DataError
+from mobnet.core.files import WEIGHTS
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
 from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
-from mobnet.learning.deployed.networks import NOTE, WEIGHTS, load_network
+from mobnet.learning.deployed.networks import NOTE, load_network
 from mobnet.learning.features import limb_inputs
 from mobnet.settings.networks import Limb
 

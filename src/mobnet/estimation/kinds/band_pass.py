@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 import scipy  # its parts are imported where they are used first: the workflow imports kinds before it starts
-from numpy.typing import NDArray
 
+from mobnet.core.arrays import Array
 from mobnet.core.errors import ConfigError
 from mobnet.core.estimator import Estimate, Estimator
 from mobnet.core.recording import Sensed
@@ -18,7 +18,6 @@ from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe
 from mobnet.settings.base import Count, PositiveRange, Section
 
-Array = NDArray[np.float64]
 State = tuple[Any, Array]  # of the filtered method, and of the filter (sections, 2, n) [N, N m]
 
 

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import AfterValidator, Field
 
+from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import read_json
 from mobnet.core.joints import JointLayout
@@ -31,7 +32,6 @@ from mobnet.settings.base import Choices, Positive, Section, distinct
 from mobnet.settings.methods import Observer
 from mobnet.settings.networks import Network
 
-Array = NDArray[np.float64]
 Term = Literal["coulomb", "static", "viscous", "load"]
 
 

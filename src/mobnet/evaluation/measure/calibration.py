@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mobnet.core.arrays import Array
 from mobnet.core.columns import STD
 from mobnet.core.errors import DataError
-from mobnet.core.files import read_json
+from mobnet.core.files import RUN, read_json
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import NOTE
 from mobnet.evaluation.measure.estimates import read_pair, read_std
@@ -27,7 +27,6 @@ from mobnet.settings.evaluation import CalibrationTest, Coverage
 
 log = logging.getLogger(__name__)
 
-Array = NDArray[np.float64]
 Key = tuple[str, str, str]  # method, limb, unit of its torques
 VALIDATION = "validation"  # name of held-out data where other rows have the name of a test
 STAGES = ("before", "after")  # of the scaling; also keys of a training's note
@@ -79,7 +78,7 @@ def held_out(layout: JointLayout, folders: Sequence[Path], shares: Sequence[floa
     """
     found: dict[Key, list[Array]] = {}
     for folder in folders:
-        path = folder / "run.json"
+        path = folder / RUN
         note = read_json(path)
         if note["diverged"]:
             log.info("%s: diverged, left out", path)

@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from mobnet.core.arrays import Array
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import read_sensed
 from mobnet.evaluation.measure.windows import FLAG, Pushed, blocks_of, evenly
 from mobnet.learning.features import LimbInputs
 from mobnet.settings.evaluation import Coverage
 
-Array = NDArray[np.float64]
 Blocks = Sequence[NDArray[Any]]  # one array (n, ...) for each block of samples
 
 

@@ -11,6 +11,7 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from mobnet.control.parameters import DURATION, STEP_Y, TURN
+from mobnet.core.arrays import Array
 from mobnet.core.columns import FEET, recording_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
@@ -22,7 +23,6 @@ from mobnet.robot.frames import to_pinocchio
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.data import Commands
 
-Array = NDArray[np.float64]
 SIGN = np.array([1.0, -1.0])  # outwards in y, left and right foot
 KEYS = ("step_x_m", "step_y_m", "turn_deg", "duration_s", "foot_height_m")  # of the configuration's commands
 UNITS = ("m", "m", "deg", "s", "m")  # of a command here; recordings have turns in rad

@@ -8,11 +8,9 @@ from pathlib import Path
 
 from mobnet.core.columns import Epoch
 from mobnet.core.errors import DataError
-from mobnet.core.files import read_json
+from mobnet.core.files import METRICS, RUN, read_json
 from mobnet.evaluation.number.files import read_rows
-from mobnet.plan.runs import COURSE
 
-RUN, METRICS = COURSE  # files of a network's folder
 MEASURES: Mapping[str, tuple[Callable[[Training], float], str]] = {  # name -> (of a training, unit)
     "validation loss": (lambda training: training.kept.validation_loss, "-"),
     "validation RMSE": (lambda training: training.kept.validation_rmse, "N m"),

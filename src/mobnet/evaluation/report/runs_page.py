@@ -11,8 +11,8 @@ from typing import Any
 
 from mobnet.core.columns import Epoch
 from mobnet.core.errors import DataError
-from mobnet.core.files import read_json, write_text
-from mobnet.evaluation.measure.trainings import METRICS, RUN, Training, read_training
+from mobnet.core.files import METRICS, RUN, read_json, write_text
+from mobnet.evaluation.measure.trainings import Training, read_training
 from mobnet.evaluation.report.charts import Chart, line_chart
 from mobnet.evaluation.report.html import rendered
 

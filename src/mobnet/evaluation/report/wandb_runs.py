@@ -12,8 +12,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from mobnet.core.columns import Epoch
-from mobnet.core.files import read_json
-from mobnet.evaluation.measure.trainings import METRICS, RUN
+from mobnet.core.files import METRICS, RUN, read_json
 from mobnet.evaluation.number.files import read_rows
 
 SETTINGS = ("name", "method", "limb", "seed", "target", "settings", "fingerprint", "provenance")  # keys of run.json

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from safetensors import SafetensorError, safe_open
 
 from mobnet.core.errors import DataError
+from mobnet.core.files import WEIGHTS
 from mobnet.settings.networks import Cell, CellKind
 
-WEIGHTS = "weights.safetensors"
 NOTE = "note"  # the only entry of the file's metadata: several would be written in an order that changes
 GRU_TENSORS = (
     *(f"cell.{kind}_{source}_l0" for kind in ("weight", "bias") for source in ("ih", "hh")),
