@@ -5,6 +5,8 @@ from pathlib import Path
 
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
+from mobnet.core.lock import job_prefix
+from mobnet.core.run import prepare, start_jobs
 from mobnet.estimation.methods import check_methods
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.plan.plan import make_plan
@@ -13,8 +15,9 @@ from mobnet.settings.load import load_settings
 
 ROOT = Path(workflow.basedir)
 quieten(ROOT)
-# every job, also one that outlives a killed run, holds this lock; ./reproduce clears up only once it holds it alone
-shell.prefix(f"exec 9<>'{ROOT}/.cache/run.lock'; flock -s 9; ")
+shell.prefix(job_prefix(ROOT))
+if workflow.is_main_process:
+    prepare(ROOT)
 
 try:
     SETTINGS = load_settings(ROOT / "configs", config)
@@ -26,6 +29,10 @@ except MobnetError as error:
 config["scale"] = SETTINGS.scale  # the report names it
 RECORDING = "{scenario}", "{level}", "s{seed}"  # place of what belongs to a recording
 LOGS = PLAN.folders.results / "logs"
+
+
+onstart:
+    start_jobs(ROOT)
 
 
 wildcard_constraints:

@@ -1,8 +1,10 @@
 """Writing files so that a reader finds either the old or the complete new one, and reading text and JSON."""
 
 import contextlib
+import errno
 import json
 import os
+import shutil
 import tempfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -11,23 +13,53 @@ from typing import Any
 from mobnet.core.errors import DataError
 
 WEIGHTS, METRICS, RUN = "weights.safetensors", "metrics.csv", "run.json"  # files of a trained network
+PARTIAL = ".partial."  # first characters of the name of a file that is being written
+FULL = frozenset({errno.ENOSPC, errno.EDQUOT})
+REFUSALS = FULL | {
+    errno.EACCES, errno.EPERM, errno.EROFS, errno.EEXIST, errno.ENOTDIR, errno.EISDIR, errno.ENAMETOOLONG,
+}  # fmt: skip
+MIB = 2**20
 
 
 @contextlib.contextmanager
 def atomic_path(path: Path) -> Iterator[Path]:
-    """Yield a temporary path beside `path`; on success it is synced to disk and replaces `path`, else it is deleted."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=path.suffix, dir=path.parent)
-    os.close(handle)
-    temporary = Path(name)
+    """Yield a temporary path beside `path`; on success it is synced to disk and replaces `path`, else it is deleted.
+
+    Raises:
+        DataError: the disk is full, or the place cannot be written to.
+    """
+    temporary = path
     try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(prefix=PARTIAL, suffix=f".{path.name}", dir=path.parent)
+        os.close(handle)
+        temporary = Path(name)
         yield temporary
         with temporary.open("rb+") as file:
             os.fsync(file.fileno())
         temporary.chmod(0o644)
         os.replace(temporary, path)
+    except OSError as error:
+        if error.errno not in REFUSALS:
+            raise
+        raise DataError(refusal(error, path, temporary)) from None
     finally:
-        temporary.unlink(missing_ok=True)
+        if temporary != path:
+            temporary.unlink(missing_ok=True)
+
+
+def refusal(error: OSError, path: Path, temporary: Path) -> str:
+    """Return one line for a file that could not be written; on a full disk with the space [MiB] needed and free.
+
+    What is needed is unknown before a file is whole: more than what is free and what the unfinished file takes.
+    """
+    if error.errno not in FULL:
+        blamed = f" ({error.filename})" if error.filename not in (None, str(path), str(temporary)) else ""
+        return f"{path}: cannot be written: {error.strerror}{blamed}; accepted: a folder that you may write to"
+    place = next(folder for folder in path.parents if folder.is_dir())
+    taken = temporary.stat().st_size if temporary != path else 0
+    free = (shutil.disk_usage(place).free + taken) / MIB
+    return f"{path}: cannot be written: {error.strerror}; needed: more than {free:.1f} MiB, free: {free:.1f} MiB"
 
 
 def write_text(path: Path, text: str) -> None:

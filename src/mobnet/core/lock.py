@@ -1,0 +1,89 @@
+"""One run of the workflow at a time in a folder, and what killed runs left there.
+
+A run holds `run.lock` alone until its process ends. Each of its jobs holds `jobs.lock` together with the others, also
+one that outlives a killed run. Whoever holds both alone may remove unfinished files. The locks are those of flock, which
+ends with the process; this is the only module that takes them. Standard library only.
+"""
+
+import fcntl
+import logging
+import os
+import shlex
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+from mobnet.core.files import PARTIAL
+
+log = logging.getLogger(__name__)
+
+LOCKS = {  # file below the project -> what holds it
+    ".cache/run.lock": "another run in this folder",
+    ".cache/jobs.lock": "jobs of a run that was killed",
+}
+RUN, JOBS = LOCKS
+ANY = "[a-z0-9_]" * 8  # what tempfile puts into the name of a file
+SWEPT = {  # folder of the project -> unfinished files in it and below
+    **dict.fromkeys(("results", "tables", "figures", "paper", "docs/results"), f"**/{PARTIAL}{ANY}.*"),
+    ".snakemake/scripts": f"tmp{ANY}.call.py",
+    ".cache/tmp": "run-*",
+}
+
+
+def job_prefix(root: Path) -> str:
+    """Return what a job's shell does first: hold the lock of the jobs, and leave Ctrl-C to the run that started it."""
+    return f"trap '' INT; exec 9<>{shlex.quote(str(root / JOBS))}; flock -s 9; "
+
+
+def begin_run(root: Path) -> bool:
+    """Take the locks of a run, waiting for who holds them, and remove unfinished files; return whether it waited.
+
+    The lock of the run is held until this process ends, that of the jobs is released.
+    """
+    waited = False
+    for name in LOCKS:
+        handle = opened(root / name)
+        if not taken(handle):
+            log.warning("%s: held by %s; waiting for the end", name, LOCKS[name])
+            fcntl.flock(handle, fcntl.LOCK_EX)
+            waited = True
+    sweep(root)
+    fcntl.flock(handle, fcntl.LOCK_UN)
+    return waited
+
+
+def holder(root: Path) -> str | None:
+    """Take the locks of a run, without waiting; return who holds one of them, None where both are taken."""
+    return next((LOCKS[name] for name in LOCKS if not taken(opened(root / name))), None)
+
+
+def opened(path: Path) -> int:
+    """Return the descriptor of a lock's file, which nothing closes before this process ends."""
+    path.parent.mkdir(exist_ok=True)
+    return os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
+
+
+def taken(handle: int) -> bool:
+    """Take a lock alone, if nobody holds it, and return whether that is so."""
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
+
+
+def sweep(root: Path) -> None:
+    """Remove what interrupted writes left; the caller knows that nobody writes."""
+    for path in list(unfinished(root)):
+        shutil.rmtree(path, ignore_errors=True) if path.is_dir() else path.unlink(missing_ok=True)
+
+
+def unfinished(root: Path) -> Iterator[Path]:
+    """Yield the files and folders of interrupted writes, and the folders for temporary files of other runs."""
+    for folder, pattern in SWEPT.items():
+        yield from (path for path in (root / folder).glob(pattern) if path != scratch(root))
+
+
+def scratch(root: Path) -> Path:
+    """Return the folder for temporary files of this process and its children."""
+    return root / ".cache" / "tmp" / f"run-{os.getpid()}"

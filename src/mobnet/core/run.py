@@ -1,0 +1,94 @@
+"""The main process of the workflow: Ctrl-C ends it and its jobs at once, with one line, from its first moment on.
+
+`./reproduce` starts `python -m mobnet.core.run` in place of `python -m snakemake`, with the same words.
+"""
+
+import atexit
+import contextlib
+import os
+import shutil
+import signal
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import psutil
+
+from mobnet.core.code import ROOT
+from mobnet.core.environment import LONGEST_TEMPORARY
+from mobnet.core.lock import begin_run, scratch, sweep
+
+STOPPED = "stopped; the same command goes on from here"
+LONGEST_S, PAUSE_S = 3.0, 0.02  # that killed processes may take to end, and between two looks at them
+
+
+def prepare(root: Path) -> None:
+    """Make Ctrl-C end this process at once, and give it and its children a folder for temporary files in a project."""
+    signal.signal(signal.SIGINT, lambda number, _: stop(root, number, alone=False))
+    folder = scratch(root)
+    if len(str(folder)) > LONGEST_TEMPORARY:
+        return
+    folder.mkdir(parents=True, exist_ok=True)
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    os.environ["TMPDIR"] = tempfile.tempdir = str(folder)
+
+
+def stop(root: Path, number: int, *, alone: bool) -> None:
+    """Kill all children, remove what they had not finished if this run is alone in the folder, say one line and end.
+
+    Files appear whole or not at all, so that nothing is lost by killing, and no job has time to tell a fault.
+    """
+    signal.signal(number, signal.SIG_IGN)
+    terminal, nowhere = os.dup(sys.stderr.fileno()), os.open(os.devnull, os.O_WRONLY)
+    for stream in (sys.stdout, sys.stderr):
+        os.dup2(nowhere, stream.fileno())
+    kill_children()
+    if alone:
+        sweep(root)
+    shutil.rmtree(scratch(root), ignore_errors=True)
+    os.write(terminal, f"{STOPPED}\n".encode())
+    os._exit(128 + number)
+
+
+def kill_children() -> None:
+    """Kill all children of this process with theirs; they are held first, until no new one appears."""
+    found: set[psutil.Process] = set()
+    while new := set(psutil.Process().children(recursive=True)) - found:
+        found |= new
+        for child in new:
+            with contextlib.suppress(psutil.Error):
+                child.suspend()
+    for child in found:
+        with contextlib.suppress(psutil.Error):
+            child.kill()
+    end = time.monotonic() + LONGEST_S
+    while any(map(lives, found)) and time.monotonic() < end:
+        time.sleep(PAUSE_S)
+
+
+def lives(process: psutil.Process) -> bool:
+    """Return whether a process can still write."""
+    with contextlib.suppress(psutil.Error):
+        return process.status() != psutil.STATUS_ZOMBIE
+    return False
+
+
+def start_jobs(root: Path) -> None:
+    """Wait until this run is alone in the folder; what another one made meanwhile needs a new plan."""
+    if begin_run(root):
+        os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:]])
+    signal.signal(signal.SIGINT, lambda number, _: stop(root, number, alone=True))
+
+
+def main() -> None:
+    """Run snakemake; `reproduce` blocked Ctrl-C until here, so that it is never a traceback."""
+    prepare(ROOT)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+    from snakemake.cli import main as snakemake
+
+    snakemake()
+
+
+if __name__ == "__main__":
+    main()
