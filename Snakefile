@@ -2,6 +2,13 @@
 # `snakemake --cores 2` makes all of it at the scale that configs/config.yaml names; --config scale=smoke takes minutes.
 # What is made from what stands in src/mobnet/plan.
 
+from pathlib import Path
+
+from mobnet.core.run import prepare
+
+if workflow.is_main_process:
+    prepare(Path(workflow.basedir))
+
 
 report: "workflow/report/workflow.rst"
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
 from mobnet.core.lock import job_prefix
-from mobnet.core.run import prepare, start_jobs
+from mobnet.core.run import start_jobs
 from mobnet.estimation.methods import check_methods
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.plan.plan import make_plan
@@ -16,8 +16,6 @@ from mobnet.settings.load import load_settings
 ROOT = Path(workflow.basedir)
 quieten(ROOT)
 shell.prefix(job_prefix(ROOT))
-if workflow.is_main_process:
-    prepare(ROOT)
 
 try:
     SETTINGS = load_settings(ROOT / "configs", config)

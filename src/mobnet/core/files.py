@@ -28,7 +28,7 @@ def atomic_path(path: Path) -> Iterator[Path]:
     Raises:
         DataError: the disk is full, or the place cannot be written to.
     """
-    temporary = path
+    temporary = None
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, name = tempfile.mkstemp(prefix=PARTIAL, suffix=f".{path.name}", dir=path.parent)
@@ -44,11 +44,11 @@ def atomic_path(path: Path) -> Iterator[Path]:
             raise
         raise DataError(refusal(error, path, temporary)) from None
     finally:
-        if temporary != path:
+        if temporary:
             temporary.unlink(missing_ok=True)
 
 
-def refusal(error: OSError, path: Path, temporary: Path) -> str:
+def refusal(error: OSError, path: Path, temporary: Path | None = None) -> str:
     """Return one line for a file that could not be written; on a full disk with the space [MiB] needed and free.
 
     What is needed is unknown before a file is whole: more than what is free and what the unfinished file takes.
@@ -56,10 +56,10 @@ def refusal(error: OSError, path: Path, temporary: Path) -> str:
     if error.errno not in FULL:
         blamed = f" ({error.filename})" if error.filename not in (None, str(path), str(temporary)) else ""
         return f"{path}: cannot be written: {error.strerror}{blamed}; accepted: a folder that you may write to"
-    place = next(folder for folder in path.parents if folder.is_dir())
-    taken = temporary.stat().st_size if temporary != path else 0
+    place = next(folder for folder in (path, *path.absolute().parents) if folder.is_dir())
+    taken = temporary.stat().st_size if temporary else 0
     free = (shutil.disk_usage(place).free + taken) / MIB
-    return f"{path}: cannot be written: {error.strerror}; needed: more than {free:.1f} MiB, free: {free:.1f} MiB"
+    return f"{path}: cannot be written: {error.strerror}; needed: more than {free:.3f} MiB, free: {free:.3f} MiB"
 
 
 def write_text(path: Path, text: str) -> None:

@@ -2,18 +2,21 @@
 
 import contextlib
 import logging
+import os
 import re
 import resource
+import shutil
 import signal
 import sys
+import tempfile
 import threading
 import time
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from mobnet.core.errors import MobnetError
-from mobnet.core.files import write_json
+from mobnet.core.errors import DataError, MobnetError
+from mobnet.core.files import REFUSALS, refusal, write_json
 
 log = logging.getLogger(__name__)
 
@@ -56,8 +59,7 @@ def job(log_file: Path | str) -> Iterator[None]:
 @contextlib.contextmanager
 def logged(path: Path) -> Iterator[None]:
     """Log to a file and to the terminal; an expected error is one line, and the end with status 1."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handlers = [logging.FileHandler(path, mode="w", encoding="utf-8"), logging.StreamHandler(sys.stderr)]
+    handlers = [logging.StreamHandler(sys.stderr), *log_file(path)]
     root = logging.getLogger()
     previous = root.handlers[:], root.level
     root.handlers[:] = []
@@ -71,10 +73,44 @@ def logged(path: Path) -> Iterator[None]:
     except MobnetError as error:
         log.error("%s", error)
         raise SystemExit(1) from None
+    except OSError as error:
+        if error.errno not in REFUSALS:
+            raise
+        log.error("%s", refusal(error, Path(error.filename2 or error.filename or fullest())))
+        raise SystemExit(1) from None
     finally:
         logging.captureWarnings(capture=False)
-        handlers[0].close()
+        for handler in handlers[1:]:
+            handler.close()
         root.handlers[:], root.level = previous
+
+
+class LogFile(logging.FileHandler):
+    """A log that a full disk cuts short, and no job fails by that."""
+
+    def handleError(self, record: logging.LogRecord) -> None:
+        """Say nothing: the terminal has the same line."""
+
+    def close(self) -> None:
+        """Close, whatever could not be written."""
+        with contextlib.suppress(OSError):
+            super().close()
+
+
+def log_file(path: Path) -> list[logging.Handler]:
+    """Return the handler of a new log; none where it cannot be written."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        return [LogFile(path, mode="w", encoding="utf-8")]
+    except OSError as error:
+        sys.stderr.write(f"{refusal(error, path)}\n")
+        return []
+
+
+def fullest() -> str:
+    """Return the folder with the least free space of those in which others write files that their errors do not name."""
+    places = [tempfile.gettempdir(), os.environ.get("NUMBA_CACHE_DIR", "."), "."]
+    return min((place for place in places if Path(place).is_dir()), key=lambda place: shutil.disk_usage(place).free)
 
 
 @contextlib.contextmanager
@@ -91,7 +127,8 @@ def accounted(log_path: Path) -> Iterator[None]:
         wall_s, used_s = time.monotonic() - begin, cpu_s() - used_s
         told = Account(name, start_s, time.time(), wall_s, used_s, peak_mib(), succeeded)
         rounded = {key: round(value, 3) for key, value in asdict(told).items() if isinstance(value, float)}
-        write_json(account, asdict(told) | rounded)
+        with contextlib.suppress(DataError):  # on a full disk
+            write_json(account, asdict(told) | rounded)
 
 
 @contextlib.contextmanager

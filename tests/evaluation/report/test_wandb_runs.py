@@ -33,8 +33,9 @@ def wandb_dir(tmp_path_factory: pytest.TempPathFactory, write_run: Callable[...,
 
 def test_runs_written_again_take_the_place_of_all(wandb_dir: Path) -> None:
     (run,) = wandb_dir.iterdir()
-    assert run.name.endswith("-MOB-Net-LL-s0")
-    assert (run / "run-MOB-Net-LL-s0.wandb").is_file()
+    assert run.name.startswith("run-MOB-Net-LL-s0-")
+    assert [path.name for path in run.iterdir()] == ["run-MOB-Net-LL-s0.wandb"]
+    assert not list(wandb_dir.parent.glob(".partial.*"))
 
 
 def test_a_run_holds_settings_and_results(wandb_dir: Path) -> None:
@@ -61,7 +62,7 @@ def test_the_terminal_viewer_opens_the_folder(wandb_dir: Path) -> None:
         os.killpg(viewer.pid, signal.SIGTERM)
     os.close(master)
     os.close(slave)
-    assert b"MOB-Net-LL-s0" in shown
+    assert b"run-MOB-Net-LL-s0-" in shown
     assert b"validation_rmse" in shown
 
 

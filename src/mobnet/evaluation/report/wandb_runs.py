@@ -12,26 +12,31 @@ from dataclasses import asdict
 from pathlib import Path
 
 from mobnet.core.columns import Epoch
-from mobnet.core.files import METRICS, RUN, read_json
+from mobnet.core.files import METRICS, PARTIAL, RUN, read_json
 from mobnet.evaluation.number.files import read_rows
 
 SETTINGS = ("name", "method", "limb", "seed", "target", "settings", "fingerprint", "provenance")  # keys of run.json
-DATED = "run-00000000_000000-"  # `wandb leet` opens only folders that are named by a date; a fixed one, for equal names
+# `wandb leet` lists only folders whose names start with `run-` and have a date before the run's identifier. Of a name
+# it shows the first 29 characters, so that the run's name comes first. The date is fixed: equal runs have equal names.
+FOLDER = "run-{0}-run-00000000_000000-{0}"
 WANDB_PLACES = ("WANDB_CACHE_DIR", "WANDB_DATA_DIR", "WANDB_CONFIG_DIR")
 
 
 def wandb_runs(folders: Iterable[Path], out: Path) -> None:
-    """Write one offline run for each network; whatever else is in the folder of runs is deleted.
-
-    The name of a run's folder ends in the run's name.
-    """
-    shutil.rmtree(out, ignore_errors=True)
-    out.mkdir(parents=True)
-    with tempfile.TemporaryDirectory(prefix=".scratch-", dir=out) as scratch:
+    """Write one offline run for each network, a file in a folder; they replace the folder of runs together."""
+    out.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix=PARTIAL, suffix=f".{out.name}", dir=out.parent) as scratch:
+        runs = Path(scratch) / "runs"
+        runs.mkdir()
         for folder in folders:
             name = _log_run(scratch, folder)
-            (run,) = (Path(scratch) / "wandb").glob("offline-run-*")
-            os.replace(run, out / f"{DATED}{name}")
+            place = runs / FOLDER.format(name)
+            place.mkdir()
+            (run,) = (Path(scratch) / "wandb").glob(f"offline-run-*/run-{name}.wandb")
+            os.replace(run, place / run.name)
+            shutil.rmtree(run.parent)
+        shutil.rmtree(out, ignore_errors=True)
+        os.replace(runs, out)
 
 
 def _log_run(scratch: str, folder: Path) -> str:
