@@ -187,7 +187,7 @@ def write_training(tmp_path: Path) -> Callable[..., Path]:
         course = [loss + epochs - 2 - k for k in range(epochs - 1)] + [loss + 0.5] * (epochs > 0)
         epochs_done = [Epoch(k + 1, x - 0.25, x, 10.0 + x, 0.005, 1.5) for k, x in enumerate(course)]
         write_rows(folder / "metrics.csv", epochs_done, Epoch)
-        note = {"method": method, "seed": seed, "parameters": 83712, "samples": 1620000, "seconds": 100.0 + seed}
+        note = {"method": method, "seed": seed, "parameters": 83712, "samples": 1620000}
         note["on_windows"] = {"loss": loss + 0.125}
         write_json(folder / "run.json", note | changes)
         return folder

@@ -74,20 +74,27 @@ def write_json(path: Path, value: Mapping[str, object]) -> None:
 
 
 def read_text(path: Path) -> str:
-    """Read a text file; a DataError names a missing one."""
+    """Read a text file; a DataError names one that is missing or cannot be read."""
     try:
         return path.read_text(encoding="utf-8")
     except FileNotFoundError:
         raise DataError(f"{path}: file is missing") from None
+    except UnicodeDecodeError as error:
+        raise DataError(f"{path}: not text in UTF-8, byte {error.start}") from None
+    except OSError as error:
+        raise DataError(f"{path}: cannot be read: {error.strerror}") from None
 
 
 def read_json(path: Path) -> dict[str, Any]:
     """Read a JSON object.
 
     Raises:
-        DataError: the file is missing or is not JSON.
+        DataError: the file is missing or is not a JSON object.
     """
     try:
-        return json.loads(read_text(path))
-    except json.JSONDecodeError as error:
+        found = json.loads(read_text(path))
+    except (ValueError, RecursionError) as error:
         raise DataError(f"{path}: not JSON, {error}") from None
+    if not isinstance(found, dict):
+        raise DataError(f"{path}: {type(found).__name__} is not accepted; accepted: a JSON object")
+    return found

@@ -58,7 +58,7 @@ def train(
     write_metrics(out / METRICS, done.epochs)
     write_json(out / RUN, note)
     (state / CHECKPOINT).unlink(missing_ok=True)
-    log.info("%s: done after epoch %d", job.name, len(done.epochs))
+    log.info("%s: done after epoch %d, %.1f s", job.name, len(done.epochs), done.seconds)
 
 
 def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress, calibration: Calibration) -> None:
@@ -82,7 +82,7 @@ def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress, 
 
 
 def run_note(trainer: Trainer, data: LimbData, done: Progress, calibration: Calibration) -> dict[str, Any]:
-    """Return the content of `run.json`: settings, sizes, the best epoch, calibration, time [s] and provenance."""
+    """Return the content of `run.json`: settings, sizes, the best epoch, calibration and provenance."""
     job, training = trainer.job, trainer.job.training
     return {
         "name": job.name,
@@ -102,7 +102,6 @@ def run_note(trainer: Trainer, data: LimbData, done: Progress, calibration: Cali
         "best": asdict(done.best_epoch()) if done.epochs else None,
         "on_windows": trainer.on_windows(done),
         "calibration": calibration.note(data.joints, training.learning.calibration_levels),
-        "seconds": round(done.seconds, 1),
         "device": trainer.device.type,
         "precision": precision_name(trainer.network.precision),
         "fingerprint": trainer.fingerprint,

@@ -17,6 +17,8 @@ EVALUATION = "mobnet.evaluation"
 TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their rules: the code hash reads Python only
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "png", "csv")  # endings of a table's and of a figure's files
 BARS = ("figure_06", "figure_10")  # figures whose bars have a CSV of their own
+TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
+TIMED = ("runs.html", "main.pdf", "compute.html")  # they show what jobs took, as the table of compute does
 CAPTIONS = Path("workflow/report")
 HEADINGS = {"runs.html": "trainings", "main.pdf": "paper", ".html": "tables", ".png": "figures"}
 
@@ -116,7 +118,9 @@ class Products:
         yield self._report_product("deviations", {"markdown": Path("docs/deviations.md")}, [tables / "deviations.tex"])
         networks = {"folders": self.files.all_networks()}
         parts = [TEMPLATES / f"runs.{ending}" for ending in ("html", "css", "js")]
-        yield self._report_product("runs_page", {**networks, "templates": parts}, [results / "runs.html"])
+        yield self._report_product(
+            "runs_page", {**networks, "templates": parts, "accounts": results / "logs"}, [results / "runs.html"]
+        )
         yield self._report_product("wandb_runs", networks, [results / "wandb"])
 
     def _report(self, made: list[Product]) -> Iterator[Product]:
@@ -137,7 +141,10 @@ class Products:
         needs = {"tables": listed, "captions": captions, "template": TEMPLATES / "table.html"}
         yield self._report_product("pages", needs, pages)
         results_of_all = [*map(Path, self.stored), *outputs, *compute, *built, *pages]
-        yield self._report_product("manifest", {"files": results_of_all}, [self.folders.manifest])
+        timed = [*compute, *(path for path in results_of_all if path.name in TIMED)]
+        equal = [path for path in results_of_all if path not in timed]
+        listed = [self.folders.manifest, self.folders.manifest.with_name(TIMES)]
+        yield self._report_product("manifest", {"files": equal, "timed": timed}, listed)
 
     def _report_product(self, name: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:
         """Return a product of the module of its name in `report`."""

@@ -18,7 +18,7 @@ HEAD = "epoch,train_loss,validation_loss,validation_rmse,rate,gradient_norm"
 NOTE: dict[str, Any] = {
     "target": "uncertainty", "settings": {"epochs": 3, "network": {"cell": "GRU", "Q": ["LL", "RL"]}},
     "parameters": 83712, "samples": 1800000, "diverged": False, "best": {"epoch": 99, "validation_loss": -99.0},
-    "seconds": 360.0, "on_windows": {"loss": -1.0}, "device": "cpu", "precision": "float32",
+    "on_windows": {"loss": -1.0}, "device": "cpu", "precision": "float32",
     "fingerprint": "<script>alert(1)</script>", "provenance": {"commit": "c"},
 }  # fmt: skip
 

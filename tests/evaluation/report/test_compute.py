@@ -84,5 +84,5 @@ def test_no_account_and_a_damaged_one_are_named(tmp_path: Path) -> None:
     with pytest.raises(DataError, match=r"logs: holds no account of a job; \./reproduce all makes them"):
         compute(Compute(pause_s=60.0), tmp_path / "logs", tmp_path / "compute.csv")
     write_json(tmp_path / "logs" / "paper.json", {"wall_s": 1.0})
-    with pytest.raises(DataError, match=r"logs/paper\.json: not an account of a job, .* missing"):
+    with pytest.raises(DataError, match=r"logs/paper\.json: job: None is not accepted; accepted: the account of a job"):
         compute(Compute(pause_s=60.0), tmp_path / "logs", tmp_path / "compute.csv")

@@ -3,12 +3,15 @@
 import re
 from collections import Counter
 from collections.abc import Callable
+from dataclasses import asdict
 from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
 from browser import Browser, with_browser
 
+from mobnet.core.files import write_json
+from mobnet.core.logs import Account
 from mobnet.evaluation.report.runs_page import COLUMNS, runs_page
 from mobnet.plan.products import TEMPLATES
 
@@ -19,6 +22,7 @@ RUNS = {  # name -> cell, best validation loss, RMSE [N m]; the first one diverg
     "GRU-LL-s1": ("GRU", -4.0, 11.5),
     "LSTM-LL-s0": ("LSTM", -4.5, 2.5),
 }
+LOST = "FTS-e2e-LL-s0"  # its account
 SHOWN = "[...document.querySelectorAll('tbody:not([hidden])')].map((run) => run.dataset.name)"
 OPEN = "[...document.querySelectorAll('.more')].filter((row) => row.getClientRects().length).map((row) => row.id)"
 
@@ -31,14 +35,17 @@ def page(tmp_path_factory: pytest.TempPathFactory, write_run: Callable[..., Path
         rows = [(loss + x, rmse + x) for x in (1, 0, 0.5)] if loss and rmse else []
         lines = [f"{i},{a - 0.25},{a},{b},{0.005 / i},9" for i, (a, b) in enumerate(rows, start=1)]
         write_run(networks, name, lines, diverged=not rows, settings={"network": {"cell": cell}})
+        account = Account(f"train/{name}", 0.0, 360.0, 360.0, 350.0, 900.0, succeeded=True)
+        if name != LOST:
+            write_json(networks.with_name("logs") / "train" / f"{name}.json", asdict(account))
     return make_page(networks)
 
 
 def make_page(networks: Path) -> Path:
     """Write the page of all trainings in a folder, beside that folder."""
     parts = [REPO / TEMPLATES / f"runs.{ending}" for ending in ("html", "css", "js")]
-    page = networks.with_name("runs.html")
-    runs_page("default", sorted(networks.iterdir()), parts, page)
+    page, accounts = networks.with_name("runs.html"), networks.with_name("logs")
+    runs_page("default", sorted(networks.iterdir()), parts, accounts, page)
     return page
 
 
@@ -84,6 +91,7 @@ def test_every_run_has_a_row_with_its_numbers(page: Path) -> None:
         "GRU", "LL", "1", "GRU", "83,712", "1,800,000", "3", "2", "-4.000", "11.50", "360.0", "cpu", "float32", "done",
     ]  # fmt: skip
     assert rows["FTS-e2e-LL-s0"][8:12] == ["0", "–", "–", "–"]
+    assert rows[LOST][12] == "–"
     assert rows["FTS-e2e-LL-s0"][-1] == "diverged"
     assert len(rows["name"]) == len(COLUMNS) + 1
 
@@ -132,7 +140,7 @@ def test_the_address_says_what_is_shown(browse: Callable[[str], Browser]) -> Non
     assert browser.value(SHOWN) == ["GRU-LL-s1", "GRU-LL-s0", "FTS-e2e-LL-s0"]
     assert browser.value(OPEN) == ["more-GRU-LL-s0"]
     assert browser.value("document.querySelector('#filter').value") == "gru LL"
-    assert browser.value("document.querySelector('#shown').value") == "3 of 4 runs, 0.30 h of training"
+    assert browser.value("document.querySelector('#shown').value") == "3 of 4 runs, 0.20 h of training"
 
 
 @with_browser

@@ -16,19 +16,19 @@ NAME, ONE = "LSTM-LL-s3", "1,0,-1,4,.1,9"
 def test_numbers_of_the_best_epoch_come_from_the_metrics(tmp_path: Path, write_run: Write) -> None:
     """The first of the smallest validation losses counts, whatever run.json says."""
     lines = [ONE, "2,-1,-3,2,.1,9", "3,-2,-3,1,.1,9"]
-    run = read_training_run(write_run(tmp_path, NAME, lines, seconds=12.5, precision="bfloat16"))
+    run = read_training_run(write_run(tmp_path, NAME, lines, precision="bfloat16"), tmp_path)
     assert (run.best_epoch, run.loss, run.rmse, run.epoch_count) == (2, -3.0, 2.0, 3)
     assert (run.name, run.cell, run.parameters) == (NAME, "GRU", 83712)
-    assert (run.seconds, run.precision, run.state) == (12.5, "bfloat16", "done")
+    assert (run.seconds, run.precision, run.state) == (None, "bfloat16", "done")
 
 
 def test_a_training_that_diverged_at_once_has_no_numbers(tmp_path: Path, write_run: Write) -> None:
-    run = read_training_run(write_run(tmp_path, NAME, [], diverged=True, best=None))
+    run = read_training_run(write_run(tmp_path, NAME, [], diverged=True, best=None), tmp_path)
     assert (run.best_epoch, run.loss, run.rmse, run.epoch_count, run.state) == (None, None, None, 0, "diverged")
 
 
 def test_settings_are_flat_and_whole(tmp_path: Path, write_run: Write) -> None:
-    settings = read_training_run(write_run(tmp_path, NAME, [ONE])).settings
+    settings = read_training_run(write_run(tmp_path, NAME, [ONE]), tmp_path).settings
     assert settings["settings.network.Q"] == "LL, RL"
     assert settings["target"] == "uncertainty"
     assert settings["provenance.commit"] == "c"
@@ -41,4 +41,4 @@ def test_a_missing_key_is_named(tmp_path: Path, write_run: Write, name: str) -> 
     note = write_run(tmp_path, NAME, [ONE]) / "run.json"
     write_json(note, {key: value for key, value in read_json(note).items() if key != name})
     with pytest.raises(DataError, match=rf"run\.json: key '{name}' is missing"):
-        read_training_run(note.parent)
+        read_training_run(note.parent, tmp_path)

@@ -22,7 +22,7 @@ MEASURES: Mapping[str, tuple[Callable[[Training], float], str]] = {  # name -> (
 
 @dataclass(frozen=True)
 class Training:
-    """One trained network, with its parameters (column `Network Size` of Table 1) and the time its training took [s].
+    """One trained network, with its parameters (column `Network Size` of Table 1).
 
     The samples are those learned from, without those held out. A training that diverged was stopped as its loss grew;
     its epochs end there. The validation loss (22) on windows is that of the epoch kept where the network runs through a
@@ -33,7 +33,6 @@ class Training:
     seed: int
     parameters: int
     samples: int
-    seconds: float
     diverged: bool
     windows_loss: float
     epochs: tuple[Epoch, ...]
@@ -60,7 +59,7 @@ def read_training(folder: Path) -> Training:
     if not epochs and not diverged:
         raise DataError(f"{folder / METRICS}: no epoch, though {RUN} does not say that the training diverged")
     return Training(
-        note["method"], note["seed"], note["parameters"], note["samples"], note["seconds"], diverged,
+        note["method"], note["seed"], note["parameters"], note["samples"], diverged,
         note["on_windows"]["loss"], epochs,
     )  # fmt: skip
 

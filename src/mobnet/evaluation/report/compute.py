@@ -9,9 +9,9 @@ from pathlib import Path
 
 from mobnet.core.columns import COMPUTE
 from mobnet.core.errors import DataError
-from mobnet.core.files import read_json
 from mobnet.core.logs import Account
 from mobnet.evaluation.number.number import Number
+from mobnet.evaluation.report.accounts import read_account
 from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
 from mobnet.settings.evaluation import Compute
 
@@ -46,14 +46,6 @@ def compute(settings: Compute, accounts: Path, out: Path) -> None:
     uses |= whole_run(jobs, settings.pause_s)
     records = [(*of, use.value, use.unit) for of, use in uses.items()]
     write_table(out.with_suffix(""), Table(COMPUTE, records, HEADER, compute_lines(uses)))
-
-
-def read_account(path: Path) -> Account:
-    """Read what one job took."""
-    try:
-        return Account(**read_json(path))
-    except TypeError as error:
-        raise DataError(f"{path}: not an account of a job, {error}") from None
 
 
 def by_stage(jobs: Sequence[Account]) -> Iterator[tuple[str, Sequence[Account]]]:

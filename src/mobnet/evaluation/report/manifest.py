@@ -1,38 +1,70 @@
-"""The list of every result file with its hash, in the format of sha256sum.
+"""The lists of every result file with its hash, in the format of sha256sum: the manifest, and that of files with times.
 
-It shows whether files are still as their run wrote them. Some differ from one run to the next: `run.json` and
-`runs.html` hold times, and so do the table of compute, its page and the paper.
+They show whether files are still as their run wrote them. Equal runs have equal manifests. What a job took is only in
+the files of the second list: the table of compute, the page of trainings, the paper.
 """
 
 import hashlib
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from mobnet.core.errors import DataError
-from mobnet.core.files import write_text
+from mobnet.core.files import read_text, write_text
 
-BETWEEN = "  "  # sha256sum's text between hash and name
+LINE = re.compile(r"([0-9a-f]{64})  (.+)")
+TIMES = "TIMES.sha256"  # beside the manifest
+RESULTS = "results"
+# Folders of results, and names of files, that no list has: what jobs tell, what a training goes on from, what others keep
+UNLISTED = ("logs", "state", "wandb")
+KEPT = ("README.md", ".gitignore", ".snakemake_timestamp")
 
 
-def manifest(files: Iterable[Path], out: Path) -> None:
-    """Write one line for each file, sorted by name: SHA-256 and path as given."""
-    lines = [f"{file_hash(path)}{BETWEEN}{path}\n" for path in sorted(set(files))]
-    write_text(out, "".join(lines))
+def manifest(files: Iterable[Path], timed: Iterable[Path], out: Path) -> None:
+    """Write one line for each file, sorted by name: SHA-256 and path as given; of files with times into `TIMES`."""
+    for listed, paths in ((out.with_name(TIMES), timed), (out, files)):
+        write_text(listed, "".join(f"{file_hash(path)}  {path}\n" for path in sorted(set(paths))))
 
 
-def damaged_files(listed: Path) -> list[str]:
-    """Return one line for each file that is missing or differs from its hash; paths are relative to the working folder.
+def differences(listed: Path) -> list[str]:
+    """Return one line for each file that is missing, differs from its hash or is in no list.
+
+    Paths are relative to the working folder.
 
     Args:
         listed: file that `manifest` wrote.
+
+    Raises:
+        DataError: one of the two lists is missing or damaged.
     """
+    hashes = {name: found for path in (listed, listed.with_name(TIMES)) for found, name in read_lines(path)}
+    faults = [fault for fault in (_fault(*pair) for pair in hashes.items()) if fault]
+    return faults + [f"{path}: is in no list; accepted: the files of {listed}" for path in too_many(hashes)]
+
+
+def read_lines(listed: Path) -> Iterator[tuple[str, str]]:
+    """Yield hash and name of each file in a list."""
     if not listed.is_file():
         raise DataError(f"{listed}: file is missing; ./reproduce all writes it")
-    lines = listed.read_text(encoding="utf-8").splitlines()
-    return [fault for fault in (_fault(*line.split(BETWEEN, 1)) for line in lines) if fault]
+    for number, line in enumerate(read_text(listed).splitlines(), 1):
+        match = LINE.fullmatch(line)
+        if match is None:
+            raise DataError(f"{listed}:{number}: {line[:80]!r} is not accepted; accepted: SHA-256, two spaces, a file")
+        yield match[1], match[2]
 
 
-def _fault(expected: str, name: str) -> str | None:
+def too_many(names: Iterable[str]) -> list[Path]:
+    """Return the files that are not among those named, in a scale's folder of results and beside tables and figures."""
+    known = {Path(name) for name in names}
+    scales = {Path(*path.parts[:2]) for path in known if path.parts[0] == RESULTS}
+    beside = {path.parent for path in known if path.parts[0] != RESULTS}
+    found = [path for scale in scales for path in scale.rglob("*") if path.relative_to(scale).parts[0] not in UNLISTED]
+    found += [path for folder in beside for path in folder.glob("*") if folder.name != "paper"]
+    kept = {*KEPT, TIMES, "MANIFEST.sha256"}
+    return sorted(path for path in set(found) - known if path.is_file() and path.name not in kept)
+
+
+def _fault(name: str, expected: str) -> str | None:
     """Return what is wrong with a file, or None."""
     if not Path(name).is_file():
         return f"{name}: file is missing"

@@ -13,6 +13,7 @@ from mobnet.core.columns import Epoch
 from mobnet.core.errors import DataError
 from mobnet.core.files import METRICS, RUN, read_json, write_text
 from mobnet.evaluation.measure.trainings import Training, read_training
+from mobnet.evaluation.report.accounts import read_account
 from mobnet.evaluation.report.charts import Chart, line_chart
 from mobnet.evaluation.report.html import rendered
 
@@ -34,6 +35,7 @@ class TrainingRun(Training):
         cell: kind of network.
         settings: what was trained on what, dotted name -> text.
         metrics: file that holds the curves.
+        seconds: time of the training's last start [s]; None where its job left no account.
     """
 
     name: str
@@ -43,6 +45,7 @@ class TrainingRun(Training):
     cell: str
     settings: Mapping[str, str]
     metrics: Path
+    seconds: float | None
 
     @property
     def state(self) -> str:
@@ -75,13 +78,13 @@ class TrainingRun(Training):
         return self.best.validation_rmse if self.best else None
 
 
-def read_training_run(folder: Path) -> TrainingRun:
-    """Read a network's folder.
+def read_training_run(folder: Path, accounts: Path) -> TrainingRun:
+    """Read a network's folder, and what its training took from the folder of the jobs' accounts.
 
     Raises:
         DataError: a file is missing or damaged, or lacks a key or a column.
     """
-    note = read_json(folder / RUN)
+    note, account = read_json(folder / RUN), accounts / "train" / f"{folder.name}.json"
     try:
         return TrainingRun(
             **vars(read_training(folder)),
@@ -89,6 +92,7 @@ def read_training_run(folder: Path) -> TrainingRun:
             cell=note["settings"]["network"]["cell"],
             settings=dict(pair for key in SETTINGS for pair in flattened(key, note[key])),
             metrics=folder / METRICS,
+            seconds=read_account(account).wall_s if account.is_file() else None,
         )
     except KeyError as error:
         raise DataError(f"{folder / RUN}: key {error} is missing; it holds {', '.join(note)}") from None
@@ -146,12 +150,14 @@ COLUMNS = (
 )
 
 
-def runs_page(scale: str, folders: Sequence[Path], templates: Sequence[Path], out: Path) -> None:
+def runs_page(scale: str, folders: Sequence[Path], templates: Sequence[Path], accounts: Path, out: Path) -> None:
     """Write the page of all trained networks; its links to the metrics are relative.
 
     `templates` has the page's HTML, then the files that it includes.
     """
-    runs = sorted(map(read_training_run, folders), key=lambda run: (run.method, run.limb, run.seed))
+    runs = sorted(
+        (read_training_run(folder, accounts) for folder in folders), key=lambda run: (run.method, run.limb, run.seed)
+    )
     text = rendered(
         templates[0], scale=scale, columns=COLUMNS, runs=runs, diverged=DIVERGED,
         charts={run.name: charts(run) for run in runs},

@@ -14,7 +14,7 @@ from mobnet.core.errors import DataError, MobnetError
 from mobnet.core.files import atomic_path, read_text, write_json, write_text
 from mobnet.core.provenance import provenance
 from mobnet.evaluation.number.files import read_texts
-from mobnet.evaluation.report.manifest import damaged_files
+from mobnet.evaluation.report.manifest import differences, file_hash
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
@@ -111,15 +111,14 @@ def main(words: list[str]) -> int:
             write_text(README, with_headline(read_text(README), table))
             return 0
         compares = options.command == "compare"
-        found = compare_snapshot(SNAPSHOT, TABLES) if compares else damaged_files(options.manifest)
+        found = compare_snapshot(SNAPSHOT, TABLES) if compares else differences(options.manifest)
     except MobnetError as error:
         log.error("%s", error)
         return 1
     for line in found:
         log.info("%s", line)
-    log.info(
-        "%s: %s", SNAPSHOT if compares else options.manifest, f"{len(found)} differences" if found else "no difference"
-    )
+    listed = SNAPSHOT if compares else f"{options.manifest} ({file_hash(options.manifest)})"
+    log.info("%s: %s", listed, f"{len(found)} differences" if found else "no difference")
     return 1 if found else 0
 
 

@@ -48,7 +48,7 @@ function sift(text) {
   }
   if (filter.value !== text) filter.value = text;
   const shown = runs.filter((run) => !run.hidden);
-  const hours = shown.reduce((sum, run) => sum + value(run, named("seconds")), 0) / 3600;
+  const hours = shown.reduce((sum, run) => sum + (value(run, named("seconds")) || 0), 0) / 3600;
   document.querySelector("#shown").value = `${shown.length} of ${runs.length} runs, ${hours.toFixed(2)} h of training`;
 }
 
