@@ -1,8 +1,8 @@
 """One run of the workflow at a time in a folder, and what killed runs left there.
 
 A run holds `run.lock` alone until its process ends. Each of its jobs holds `jobs.lock` together with the others, also
-one that outlives a killed run. Whoever holds both alone may remove unfinished files. The locks are those of flock, which
-ends with the process; this is the only module that takes them. Standard library only.
+one that outlives a killed run. Whoever holds both alone may remove unfinished files. The system frees a lock when its
+process ends. No other module takes them. Standard library only.
 """
 
 import fcntl
@@ -21,7 +21,7 @@ LOCKS = {  # file below the project -> what holds it
     ".cache/run.lock": "another run in this folder",
     ".cache/jobs.lock": "jobs of a run that was killed",
 }
-RUN, JOBS = LOCKS
+_, JOBS = LOCKS
 ANY = "[a-z0-9_]" * 8  # what tempfile puts into the name of a file
 SWEPT = {  # folder of the project -> unfinished files in it and below
     **dict.fromkeys(("results", "tables", "figures", "paper", "docs/results"), f"**/{PARTIAL}{ANY}.*"),
@@ -41,14 +41,14 @@ def begin_run(root: Path) -> bool:
     The lock of the run is held until this process ends, that of the jobs is released.
     """
     waited = False
-    for name in LOCKS:
-        handle = opened(root / name)
+    handles = {name: opened(root / name) for name in LOCKS}
+    for name, handle in handles.items():
         if not taken(handle):
             log.warning("%s: held by %s; waiting for the end", name, LOCKS[name])
             fcntl.flock(handle, fcntl.LOCK_EX)
             waited = True
     sweep(root)
-    fcntl.flock(handle, fcntl.LOCK_UN)
+    fcntl.flock(handles[JOBS], fcntl.LOCK_UN)
     return waited
 
 

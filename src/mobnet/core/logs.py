@@ -108,7 +108,7 @@ def log_file(path: Path) -> list[logging.Handler]:
 
 
 def fullest() -> str:
-    """Return the folder with the least free space of those in which others write files that their errors do not name."""
+    """Return the folder with the least free space of those in which packages write files of their own."""
     places = [tempfile.gettempdir(), os.environ.get("NUMBA_CACHE_DIR", "."), "."]
     return min((place for place in places if Path(place).is_dir()), key=lambda place: shutil.disk_usage(place).free)
 

@@ -15,7 +15,7 @@ from mobnet.core.files import read_text, write_text
 LINE = re.compile(r"([0-9a-f]{64})  (.+)")
 TIMES = "TIMES.sha256"  # beside the manifest
 RESULTS = "results"
-# Folders of results, and names of files, that no list has: what jobs tell, what a training goes on from, what others keep
+# Folders of results, and names of files, that no list has: logs, what a training goes on from, views, others' files
 UNLISTED = ("logs", "state", "wandb")
 KEPT = ("README.md", ".gitignore", ".snakemake_timestamp")
 
