@@ -14,7 +14,7 @@ from pathlib import Path
 
 import torch
 from safetensors import SafetensorError, safe_open
-from safetensors.torch import save_file
+from safetensors.torch import save as to_bytes
 from torch import Tensor, nn
 
 from mobnet.core.columns import EPOCHS, Epoch
@@ -55,7 +55,7 @@ def save(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.opti
         tensors |= {f"optimizer.{index}.{key}": value.detach().cpu().clone() for key, value in state.items()}
     note = {"fingerprint": fingerprint, "epochs": [asdict(epoch) for epoch in done.epochs], "seconds": done.seconds}
     with atomic_path(path) as temporary:
-        save_file(tensors, temporary, {"note": json.dumps(note)})
+        temporary.write_bytes(to_bytes(tensors, {"note": json.dumps(note)}))
 
 
 def resume(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.optim.Optimizer) -> Progress:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import torch
-from safetensors.torch import save_file
+from safetensors.torch import save as to_bytes
 
 from mobnet.core.files import METRICS, RUN, WEIGHTS, atomic_path, write_json
 from mobnet.core.joints import JointLayout
@@ -78,7 +78,7 @@ def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress, 
         "network": json_of(training.network),
     }
     with atomic_path(path) as temporary:
-        save_file(tensors, temporary, {NOTE: json.dumps(note)})
+        temporary.write_bytes(to_bytes(tensors, {NOTE: json.dumps(note)}))
 
 
 def run_note(trainer: Trainer, data: LimbData, done: Progress, calibration: Calibration) -> dict[str, Any]:
