@@ -11,6 +11,7 @@ from mobnet.estimation.methods import check_methods
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.plan.plan import make_plan
 from mobnet.plan.products import shown
+from mobnet.plan.space import check_space
 from mobnet.settings.load import load_settings
 
 ROOT = Path(workflow.basedir)
@@ -30,7 +31,11 @@ LOGS = PLAN.folders.results / "logs"
 
 
 onstart:
-    start_jobs(ROOT)
+    try:
+        start_jobs(ROOT)
+        check_space(PLAN, [str(path) for job in workflow.dag.needrun_jobs() for path in job.output])
+    except MobnetError as error:
+        sys.exit(str(error))
 
 
 wildcard_constraints:

@@ -19,6 +19,7 @@ REFUSALS = FULL | {
     errno.EACCES, errno.EPERM, errno.EROFS, errno.EEXIST, errno.ENOTDIR, errno.EISDIR, errno.ENAMETOOLONG,
 }  # fmt: skip
 MIB = 2**20
+ROOM_BYTES = 2**16
 
 
 @contextlib.contextmanager
@@ -54,12 +55,23 @@ def refusal(error: OSError, path: Path, temporary: Path | None = None) -> str:
     What is needed is unknown before a file is whole: more than what is free and what the unfinished file takes.
     """
     if error.errno not in FULL:
-        blamed = f" ({error.filename})" if error.filename not in (None, str(path), str(temporary)) else ""
-        return f"{path}: cannot be written: {error.strerror}{blamed}; accepted: a folder that you may write to"
+        other = error.filename if error.filename != str(path) and PARTIAL not in str(error.filename) else None
+        why = f"{error.strerror} ({other})" if other else error.strerror
+        return f"{path}: cannot be written: {why}; accepted: a folder that you may write to"
     place = next(folder for folder in (path, *path.absolute().parents) if folder.is_dir())
     taken = temporary.stat().st_size if temporary else 0
     free = (shutil.disk_usage(place).free + taken) / MIB
     return f"{path}: cannot be written: {error.strerror}; needed: more than {free:.3f} MiB, free: {free:.3f} MiB"
+
+
+def check_room(path: Path) -> None:
+    """Check that the disk of a path is not full: programs that write there do not always say so.
+
+    Raises:
+        DataError: it is full.
+    """
+    if shutil.disk_usage(path.parent).free < ROOM_BYTES:
+        raise DataError(refusal(OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)), path))
 
 
 def write_text(path: Path, text: str) -> None:

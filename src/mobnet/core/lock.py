@@ -13,7 +13,8 @@ import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
-from mobnet.core.files import PARTIAL
+from mobnet.core.errors import DataError
+from mobnet.core.files import PARTIAL, refusal
 
 log = logging.getLogger(__name__)
 
@@ -58,9 +59,16 @@ def holder(root: Path) -> str | None:
 
 
 def opened(path: Path) -> int:
-    """Return the descriptor of a lock's file, which nothing closes before this process ends."""
-    path.parent.mkdir(exist_ok=True)
-    return os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
+    """Return the descriptor of a lock's file, which nothing closes before this process ends.
+
+    Raises:
+        DataError: it cannot be written.
+    """
+    try:
+        path.parent.mkdir(exist_ok=True)
+        return os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
+    except OSError as error:
+        raise DataError(refusal(error, path)) from None
 
 
 def taken(handle: int) -> bool:

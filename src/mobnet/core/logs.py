@@ -68,6 +68,7 @@ def logged(path: Path) -> Iterator[None]:
         root.addHandler(handler)
     logging.getLogger("mobnet").setLevel(logging.INFO)
     logging.captureWarnings(capture=True)
+    logging.raiseExceptions = False  # no job fails, or says more, because a full disk cuts its log short
     try:
         yield
     except MobnetError as error:
@@ -81,27 +82,16 @@ def logged(path: Path) -> Iterator[None]:
     finally:
         logging.captureWarnings(capture=False)
         for handler in handlers[1:]:
-            handler.close()
+            with contextlib.suppress(OSError):
+                handler.close()
         root.handlers[:], root.level = previous
-
-
-class LogFile(logging.FileHandler):
-    """A log that a full disk cuts short, and no job fails by that."""
-
-    def handleError(self, record: logging.LogRecord) -> None:
-        """Say nothing: the terminal has the same line."""
-
-    def close(self) -> None:
-        """Close, whatever could not be written."""
-        with contextlib.suppress(OSError):
-            super().close()
 
 
 def log_file(path: Path) -> list[logging.Handler]:
     """Return the handler of a new log; none where it cannot be written."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        return [LogFile(path, mode="w", encoding="utf-8")]
+        return [logging.FileHandler(path, mode="w", encoding="utf-8")]
     except OSError as error:
         sys.stderr.write(f"{refusal(error, path)}\n")
         return []
@@ -117,7 +107,8 @@ def fullest() -> str:
 def accounted(log_path: Path) -> Iterator[None]:
     """Write what happens meanwhile took beside a log; a job that is killed outright leaves no account."""
     account, below = log_path.with_suffix(".json"), log_path.with_suffix("").parts
-    account.unlink(missing_ok=True)
+    with contextlib.suppress(OSError):
+        account.unlink(missing_ok=True)
     name = "/".join(below[below.index(LOGS) + 1 :] if LOGS in below else below[-1:])
     start_s, begin, used_s, succeeded = time.time(), time.monotonic(), cpu_s(), False
     try:

@@ -5,6 +5,7 @@
 
 import atexit
 import contextlib
+import logging
 import os
 import shutil
 import signal
@@ -18,9 +19,12 @@ import psutil
 from mobnet.core.code import ROOT
 from mobnet.core.environment import LONGEST_TEMPORARY
 from mobnet.core.lock import begin_run, scratch, sweep
+from mobnet.core.provenance import UNKNOWN, commit
 
 STOPPED = "stopped; the same command goes on from here"
 LONGEST_S, PAUSE_S = 3.0, 0.02  # that killed processes may take to end, and between two looks at them
+
+log = logging.getLogger(__name__)
 
 
 def prepare(root: Path) -> None:
@@ -78,6 +82,8 @@ def start_jobs(root: Path) -> None:
     """Wait until this run is alone in the folder; what another one made meanwhile needs a new plan."""
     if begin_run(root):
         os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:]])
+    if commit() == UNKNOWN:
+        log.warning("%s: git knows no commit here; results will not say which code made them (commit: unknown)", root)
     signal.signal(signal.SIGINT, lambda number, _: stop(root, number, alone=True))
 
 

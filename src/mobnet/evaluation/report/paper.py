@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from mobnet.core.errors import DataError, MobnetError
-from mobnet.core.files import atomic_path, write_json
+from mobnet.core.files import atomic_path, check_room, write_json
 
 log = logging.getLogger(__name__)
 
@@ -78,6 +78,7 @@ def compile_pdf(source: Path, out: Path) -> None:
         stdin=subprocess.DEVNULL, env={**os.environ, "SOURCE_DATE_EPOCH": os.environ.get("SOURCE_DATE_EPOCH", EPOCH)},
     )  # fmt: skip
     if run.returncode != 0:
+        check_room(source)
         lines = [line for line in run.stdout.splitlines() if line.strip()]
         raise PaperError(f"{out}: latexmk ended with {run.returncode}:\n" + "\n".join(lines[-LOG_LINES:]))
     with atomic_path(out) as temporary:

@@ -12,7 +12,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from mobnet.core.columns import Epoch
-from mobnet.core.files import METRICS, PARTIAL, RUN, read_json
+from mobnet.core.files import METRICS, PARTIAL, RUN, check_room, read_json
 from mobnet.evaluation.number.files import read_rows
 
 SETTINGS = ("name", "method", "limb", "seed", "target", "settings", "fingerprint", "provenance")  # keys of run.json
@@ -23,13 +23,20 @@ WANDB_PLACES = ("WANDB_CACHE_DIR", "WANDB_DATA_DIR", "WANDB_CONFIG_DIR")
 
 
 def wandb_runs(folders: Iterable[Path], out: Path) -> None:
-    """Write one offline run for each network, a file in a folder; they replace the folder of runs together."""
+    """Write one offline run for each network, a file in a folder; they replace the folder of runs together.
+
+    Raises:
+        DataError: the disk is full.
+    """
     out.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=PARTIAL, suffix=f".{out.name}", dir=out.parent) as scratch:
         runs = Path(scratch) / "runs"
         runs.mkdir()
         for folder in folders:
-            name = _log_run(scratch, folder)
+            try:
+                name = _log_run(scratch, folder)
+            finally:
+                check_room(out)
             place = runs / FOLDER.format(name)
             place.mkdir()
             (run,) = (Path(scratch) / "wandb").glob(f"offline-run-*/run-{name}.wandb")
