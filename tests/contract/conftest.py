@@ -16,7 +16,7 @@ from mobnet.estimation.fitting import write_fit
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe
 from mobnet.learning.dataset import joints_of
-from mobnet.learning.deployed.networks import NOTE
+from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network
 from mobnet.settings.networks import Training

@@ -15,7 +15,7 @@ from mobnet.core.store import read_array
 from mobnet.estimation.estimate import estimate, run_segments, std_scales, table_of
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe
-from mobnet.learning.deployed.networks import NOTE, STD_SCALE, Z_SCORES
+from mobnet.learning.deployed.weights import NOTE, STD_SCALE, Z_SCORES
 from mobnet.settings.settings import Settings
 
 Write = Callable[[Path, Recording], tuple[Path, Path]]

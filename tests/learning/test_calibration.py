@@ -13,7 +13,7 @@ from scipy.special import ndtr
 
 from mobnet.core.files import RUN, WEIGHTS
 from mobnet.learning.calibration import calibrate, predict, scale_for
-from mobnet.learning.deployed.networks import STD_SCALE
+from mobnet.learning.deployed.weights import STD_SCALE
 from mobnet.learning.gaussian import coverage, half_width
 from mobnet.learning.optimisation import Samples
 from mobnet.learning.streams import deal

@@ -1,6 +1,12 @@
 """Errors a user can act on: one line that names the bad value and what is accepted."""
 
 from collections.abc import Iterable
+from reprlib import Repr
+
+MOST = 20  # faults of a file that are told
+SHOWN = Repr()  # a value takes a part of a line, whatever it is
+SHOWN.maxstring = SHOWN.maxother = 120
+SHOWN.maxlist = SHOWN.maxtuple = SHOWN.maxdict = 12
 
 
 class MobnetError(Exception):
@@ -29,4 +35,26 @@ class DrawingError(MobnetError):
 
 def not_accepted(what: str, value: object, accepted: Iterable[object]) -> str:
     """Return the house's one-line message for a value outside a closed set."""
-    return f"{what}: {value!r} is not accepted; accepted: {', '.join(sorted(map(str, accepted)))}"
+    return f"{what}: {SHOWN.repr(value)} is not accepted; accepted: {', '.join(sorted(map(str, accepted)))}"
+
+
+def refuse(path: object, faults: Iterable[str]) -> None:
+    """Raise a DataError with one line for each fault of a file, if there are any.
+
+    Raises:
+        DataError: there is a fault.
+    """
+    refuse_lines(f"{path}: {fault}" for fault in faults)
+
+
+def refuse_lines(faults: Iterable[str]) -> None:
+    """Raise a DataError with these lines, of which only the first are told, if there are any.
+
+    Raises:
+        DataError: there is a fault.
+    """
+    lines = list(dict.fromkeys(faults))
+    if len(lines) > MOST:
+        lines[MOST:] = [f"{lines[0].partition(': ')[0]}: {len(lines) - MOST} further faults"]
+    if lines:
+        raise DataError("\n".join(lines))

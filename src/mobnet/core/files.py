@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from mobnet.core.errors import DataError
+from mobnet.core.errors import DataError, not_accepted
 
 WEIGHTS, METRICS, RUN = "weights.safetensors", "metrics.csv", "run.json"  # files of a trained network
 PARTIAL = ".partial."  # first characters of the name of a file that is being written
@@ -86,7 +86,11 @@ def write_json(path: Path, value: Mapping[str, object]) -> None:
 
 
 def read_text(path: Path) -> str:
-    """Read a text file; a DataError names one that is missing or cannot be read."""
+    """Read a text file, UTF-8.
+
+    Raises:
+        DataError: it is missing, cannot be read or is no text.
+    """
     try:
         return path.read_text(encoding="utf-8")
     except FileNotFoundError:
@@ -101,12 +105,31 @@ def read_json(path: Path) -> dict[str, Any]:
     """Read a JSON object.
 
     Raises:
-        DataError: the file is missing or is not a JSON object.
+        DataError: the file is missing or is not JSON, a key occurs twice or a number is not finite.
     """
+    return parse_json(read_text(path), str(path))
+
+
+def parse_json(text: str, place: str) -> dict[str, Any]:
+    """Return the JSON object that a text is; a DataError names its place, as `read_json` does."""
     try:
-        found = json.loads(read_text(path))
+        value = json.loads(text, object_pairs_hook=_object, parse_constant=_no_number)
     except (ValueError, RecursionError) as error:
-        raise DataError(f"{path}: not JSON, {error}") from None
-    if not isinstance(found, dict):
-        raise DataError(f"{path}: {type(found).__name__} is not accepted; accepted: a JSON object")
+        raise DataError(f"{place}: not JSON, {error}") from None
+    if not isinstance(value, dict):
+        raise DataError(not_accepted(place, value, ["a JSON object"]))
+    return value
+
+
+def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Return a JSON object whose keys each occur once."""
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        names = [name for name, _ in pairs]
+        raise ValueError(f"key {next(name for name in names if names.count(name) > 1)!r} occurs twice; accepted: once")
     return found
+
+
+def _no_number(text: str) -> None:
+    """Refuse NaN and infinity, which Python's reader takes."""
+    raise ValueError(f"{text} is not accepted; accepted: finite numbers")

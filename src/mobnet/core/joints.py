@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,15 @@ from mobnet.core.errors import ConfigError, not_accepted
 N_VIRTUAL = 6  # degrees of freedom of a floating base
 NQ_BASE = 7  # position (3) and unit quaternion (4) of a floating base
 VIRTUAL_UNITS = ("N", "N", "N", "N m", "N m", "N m")
+
+
+class Limits(NamedTuple):
+    """What a joint can do: range [rad], largest speed [rad/s] and torque of its motor [N m]."""
+
+    low: float
+    high: float
+    speed: float
+    torque: float
 
 
 @dataclass(frozen=True)
@@ -23,12 +33,14 @@ class JointLayout:
         actuated: names of the actuated joints, in motor order, (nu,).
         groups: limb name -> joint names; section 4.1 uses V, LL, RL, W, LA, RA.
         legs: `left`, `right` -> limb that stands on the foot of that side; empty for a robot without feet.
+        limits: actuated joint -> what it can do, to which recordings are compared.
     """
 
     virtual: tuple[str, ...]
     actuated: tuple[str, ...]
     groups: Mapping[str, tuple[str, ...]]
     legs: Mapping[str, str] = field(default_factory=dict)
+    limits: Mapping[str, Limits] = field(default_factory=dict)
 
     @property
     def names(self) -> tuple[str, ...]:

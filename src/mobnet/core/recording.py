@@ -133,6 +133,6 @@ def _read_fields(
 ) -> tuple[dict[str, NDArray[np.float32]], dict[str, Any]]:
     """Return fields of a recording, each (T, C) and a view of one array, and the file's description."""
     columns = recording_columns(layout)
-    array, meta = read_array(stem, [name for field in fields for name, _, _ in columns[field]])
+    array, meta = read_array(stem, [name for field in fields for name, _, _ in columns[field]], layout)
     ends = np.cumsum([len(columns[field]) for field in fields])
     return dict(zip(fields, np.split(array, ends[:-1], axis=1), strict=True)), meta

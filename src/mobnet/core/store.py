@@ -17,13 +17,18 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from mobnet.core.columns import Column
-from mobnet.core.errors import DataError
-from mobnet.core.files import atomic_path, read_json, write_json
+from mobnet.core.contract import Values, column_faults
+from mobnet.core.errors import DataError, not_accepted, refuse
+from mobnet.core.files import atomic_path, write_json
+from mobnet.core.joints import JointLayout
+from mobnet.core.motion import Motion
+from mobnet.core.notes import check_array_note, note_differences, read_array_note
 
 ARRAY, NOTE = ".parquet", ".json"
 # Note 0010 has the measurements behind these numbers.
 GROUP_ROWS = 60_000  # rows stored together, a minute at 1 kHz: writer and reader hold as many besides their result
 BLOCK_ROWS = 256  # rows transposed together: they fit into the processor's cache
+FLOATS = (pa.float32(), pa.float64())  # types of columns
 CODING = {
     "compression": "lz4",
     "use_byte_stream_split": True,
@@ -68,10 +73,15 @@ class ArrayWriter:
         """Describe the rows, of which no more follow; the files appear when the writer's block ends.
 
         The note must hold `rate_hz` [Hz]; segments are contiguous stretches (start, end) of rows, one when not given.
+
+        Raises:
+            DataError: there is no row, or the note is not accepted.
         """
         described = [dict(zip(("name", "unit", "frame"), column, strict=True)) for column in self._columns]
         spans = [list(span) for span in (segments or [(0, self.rows)])]
-        self._note = {"rows": self.rows, "segments": spans, **meta, "columns": described}
+        note = {"rows": self.rows, "segments": spans, **meta, "columns": described}
+        check_array_note(self._stem.with_suffix(NOTE), note)
+        self._note = note
 
     def finish(self) -> dict[str, Any]:
         """Store the remaining rows and return the description; `array_writer` calls this at its end.
@@ -130,61 +140,95 @@ def write_array(
         writer.close(meta, segments)
 
 
-def read_array(stem: Path, names: Sequence[str] | None = None) -> tuple[NDArray[np.float32], dict[str, Any]]:
+def read_array(
+    stem: Path, names: Sequence[str] | None = None, layout: JointLayout | None = None
+) -> tuple[NDArray[np.float32], dict[str, Any]]:
     """Return samples (T, C) of an array, contiguous, and the description of the whole file.
 
-    Of the columns only the wanted ones are read, in the order of their names; all when none are given.
+    Of the columns only the wanted ones are read, in the order of their names; all when none are given. Numbers, units
+    and frames are compared with `mobnet.core.contract`; with a layout, also with what the robot's joints can do.
 
     Raises:
-        DataError: a file is missing, truncated, holds NaN, lacks a column, or the two do not agree.
+        DataError: a file is missing, damaged or not accepted, lacks a column, or the two do not agree; all faults of a
+            kind are told, one line each.
     """
-    meta = read_json(stem.with_suffix(NOTE))
+    note = read_array_note(stem.with_suffix(NOTE))
+    wanted = [column["name"] for column in note["columns"]] if names is None else list(names)
+    array = np.empty((0, 0), dtype=np.float32)
+    for first, columns in read_pieces(stem, note, wanted, layout):
+        if not first:
+            array = np.empty((note["rows"], len(wanted)), dtype=np.float32)
+        rows = array[first : first + columns.shape[1]]
+        for start in range(0, len(rows), BLOCK_ROWS):
+            rows[start : start + BLOCK_ROWS] = columns[:, start : start + BLOCK_ROWS].T
+    return array, note
+
+
+def read_pieces(
+    stem: Path, note: Mapping[str, Any], names: Sequence[str], layout: JointLayout | None = None
+) -> Iterator[tuple[int, NDArray[np.float32]]]:
+    """Yield the number of the first row and the columns (C, n) of each piece of an array, in the memory of one.
+
+    A piece is overwritten by the next one. Nothing read before the end may be used: faults are told there.
+
+    Raises:
+        DataError: as `read_array`.
+    """
     path = stem.with_suffix(ARRAY)
+    whole = sum(end - start for start, end in note["segments"]) == note["rows"]
+    values, motion = Values(names, layout, whole), Motion(names, note["segments"], note["rate_hz"])
     try:
         with pq.ParquetFile(path, page_checksum_verification=True) as file:
-            wanted = _agreed_names(stem, file, meta, names)
-            return _read_columns(path, file, wanted), meta
+            refuse(path, _disagreements(file, stem, note, names, layout))
+            for first, columns in _pieces(file, names):
+                values.look(first, columns)
+                motion.look(first, columns)
+                yield first, columns
     except FileNotFoundError:
         raise DataError(f"{path}: file is missing") from None
-    except (pa.ArrowException, OSError) as error:
+    except (pa.ArrowException, OSError, ValueError, MemoryError) as error:
         raise DataError(f"{path}: truncated or damaged ({' '.join(str(error).split())})") from None
+    refuse(path, [*values.faults(), *motion.faults()])
 
 
-def _agreed_names(
-    stem: Path, file: pq.ParquetFile, meta: Mapping[str, Any], names: Sequence[str] | None
-) -> Sequence[str]:
-    """Return the columns to read, after checking that the file has them and agrees with its description."""
-    held, noted = file.schema_arrow.names, [column["name"] for column in meta["columns"]]
-    shape, noted_shape = (file.metadata.num_rows, len(held)), (meta["rows"], len(noted))
-    if shape != noted_shape:
-        raise DataError(f"{stem}{ARRAY}: shape {shape}, but {stem.name}{NOTE} says {noted_shape}")
-    for found, expected in zip(held, noted, strict=True):
-        if found != expected:
-            raise DataError(f"{stem}{ARRAY}: column {found!r}, but {stem.name}{NOTE} says {expected!r}")
-    for name in names or ():
-        if name not in held:
-            raise DataError(
-                f"{stem}{ARRAY}: column {name!r} is missing; it holds {len(held)} columns: {', '.join(held[:3])}, ..."
-            )
-    return held if names is None else names
-
-
-def _read_columns(path: Path, file: pq.ParquetFile, names: Sequence[str]) -> NDArray[np.float32]:
-    """Return columns of an open file, (T, C)."""
-    array = np.empty((file.metadata.num_rows, len(names)), dtype=np.float32)
-    start = 0
-    for group in range(file.num_row_groups):
-        table = file.read_row_group(group, columns=list(names), use_threads=False)
-        columns = np.empty((len(names), table.num_rows), dtype=np.float32)
-        with np.errstate(over="ignore"):  # a foreign file may hold more than float32 can; infinite is refused below
+def _pieces(file: pq.ParquetFile, names: Sequence[str]) -> Iterator[tuple[int, NDArray[np.float32]]]:
+    """Yield the pieces of an open file: the first row, and columns (C, n), each overwritten by the next one."""
+    first, rows = 0, file.metadata.num_rows
+    piece = np.empty((len(names), min(rows, GROUP_ROWS)), dtype=np.float32)
+    for batch in file.iter_batches(GROUP_ROWS, columns=list(names), use_threads=False):
+        columns = piece[:, : batch.num_rows]
+        with np.errstate(over="ignore"):  # a foreign file may hold more than float32 can; infinite is refused
             for column, name in zip(columns, names, strict=True):
-                column[:] = table.column(name)
-        rows = array[start : start + table.num_rows]
-        for first in range(0, len(rows), BLOCK_ROWS):
-            rows[first : first + BLOCK_ROWS] = columns[:, first : first + BLOCK_ROWS].T
-        check_finite(str(path), rows, names, start)
-        start += len(rows)
-    return array
+                column[:] = batch.column(name)
+        yield first, columns
+        first += batch.num_rows
+    if first != rows:
+        raise ValueError(f"{first} of {rows} rows")
+
+
+def _disagreements(
+    file: pq.ParquetFile, stem: Path, note: Mapping[str, Any], names: Sequence[str], layout: JointLayout | None
+) -> Iterator[str]:
+    """Yield where a file's columns are not what its note says, or its note and the reader expect."""
+    schema, held = file.schema_arrow, file.schema_arrow.names
+    noted = [column["name"] for column in note["columns"]]
+    shape, noted_shape = (file.metadata.num_rows, len(held)), (note["rows"], len(noted))
+    if shape != noted_shape:
+        yield f"shape {shape}, but {stem.name}{NOTE} says {noted_shape}"
+        return
+    for found, column in zip(schema, note["columns"], strict=True):
+        if found.name != column["name"]:
+            yield f"column {found.name!r}, but {stem.name}{NOTE} says {column['name']!r}"
+        if found.type not in FLOATS:
+            yield not_accepted(f"column {found.name!r}: type", str(found.type), map(str, FLOATS))
+        for key in ("unit", "frame"):
+            value = (found.metadata or {}).get(key.encode())
+            if value is not None and value.decode(errors="replace") != column[key]:
+                yield f"column {found.name!r}: {key} {value!r}, but {stem.name}{NOTE} says {column[key]!r}"
+    for name in names:
+        if name not in held:
+            yield f"column {name!r} is missing; it holds {len(held)} columns: {', '.join(held[:3])}, ..."
+    yield from column_faults(note["columns"], layout)
 
 
 def check_finite(name: str, rows: NDArray[Any], names: Sequence[str], first: int = 0) -> None:
@@ -192,11 +236,23 @@ def check_finite(name: str, rows: NDArray[Any], names: Sequence[str], first: int
     finite = np.isfinite(rows)
     if not finite.all():
         row, column = np.argwhere(~finite)[0]
-        raise DataError(
-            f"{name}: column {names[column]!r}, row {first + row}: {rows[row, column]} (accepted: finite numbers)"
-        )
+        where = f"{name}: column {names[column]!r}, row {first + row}"
+        raise DataError(not_accepted(where, float(rows[row, column]), ["finite numbers"]))
 
 
 def spans_and_rate(meta: Mapping[str, Any]) -> tuple[tuple[tuple[int, int], ...], float]:
     """Return segments, (start, end) each, and rate [Hz] of an array's description."""
     return tuple((int(start), int(end)) for start, end in meta["segments"]), float(meta["rate_hz"])
+
+
+def check_pair(recording: Path, residual: Path) -> None:
+    """Raise a DataError that says in what a residual is not of its recording, one line for each difference."""
+    note, other = (read_array_note(stem.with_suffix(NOTE)) for stem in (residual, recording))
+    refuse(f"{residual}{NOTE}", note_differences(note, other, f"{recording}{NOTE}, its recording"))
+
+
+def check_rate(stem: Path, rate_hz: float | None) -> None:
+    """Raise a DataError unless an array is sampled at a rate [Hz], that of the configuration, if one is given."""
+    found = read_array_note(stem.with_suffix(NOTE))["rate_hz"]
+    if rate_hz is not None and found != rate_hz:
+        raise DataError(f"{stem}{NOTE}: {not_accepted('rate_hz', found, [f'{rate_hz:g}, `rates.data_hz`'])}")

@@ -12,7 +12,7 @@ from mobnet.core.columns import EXTERNAL, STD, Column, torque_columns
 from mobnet.core.estimator import Estimate, Estimator
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import SensedRecording, read_sensed
-from mobnet.core.store import write_array
+from mobnet.core.store import check_rate, write_array
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.observe import CARRIED
 from mobnet.estimation.recipe import Recipe
@@ -36,19 +36,22 @@ def estimate(
     fitted: Path | None,
     recording: Path,
     out: Path,
+    rate_hz: float | None = None,
 ) -> None:
     """Write a method's external torque for a recording made at an uncertainty level, as Table 5 scores it.
 
     Columns are `tau_ext.<joint>` [N, N m] of the method's joints and, where the method gives it, `std.<joint>`;
     segments are the recording's, and each is run from a fresh state. `methods` holds the method and, if it runs on
     another one, that one too; `networks` the folder of each limb's network, and `fitted` is what rule `fit` wrote. The
-    recording and `out` are paths without a suffix.
+    recording and `out` are paths without a suffix. Networks run at the rate [Hz] of their training alone; without it,
+    any is accepted.
 
     Raises:
         ConfigError: the method's kind is unknown, or networks do not match the method's limbs.
         DataError: the recording, a network or the fit is damaged.
     """
     layout = describe(robot).layout
+    check_rate(recording, rate_hz)
     read = read_sensed(recording, layout)
     recipe = Recipe(method, methods, robot, level, gravity_m_s2, observer, read.rate_hz, networks, fitted)
     estimator = build_estimator(recipe)

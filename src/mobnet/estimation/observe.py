@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.columns import residual_columns
 from mobnet.core.recording import Recording, read_recording
-from mobnet.core.store import write_array
+from mobnet.core.store import check_rate, write_array
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observer import MomentumObserver, TorqueKind
 from mobnet.robot.description import RobotDescription, describe
@@ -22,18 +22,26 @@ log = logging.getLogger(__name__)
 
 
 def observe(
-    robot: RobotTable, level: Level, gravity_m_s2: float, observer: Observer, recording: Path, out: Path
+    robot: RobotTable,
+    level: Level,
+    gravity_m_s2: float,
+    observer: Observer,
+    recording: Path,
+    out: Path,
+    rate_hz: float | None = None,
 ) -> None:
     """Write r of (9) and the low-passed external torque of (15) for a recording, 2 x (T, nv) [N] and [N m].
 
     Columns are `r.<joint>` and then `tau_ext_lp.<joint>`; segments are the recording's, and the observer starts anew
     with each. The target of the networks (section 4.2.3) is their difference. The recording, made at the uncertainty
-    level, and `out` are paths without a suffix.
+    level, and `out` are paths without a suffix. The observer runs at the recording's rate, which is `rate_hz` [Hz]
+    where that is given.
 
     Raises:
         DataError: the recording is damaged.
     """
     description = describe(robot)
+    check_rate(recording, rate_hz)
     read = read_recording(recording, description.layout)
     momentum = observer_of(description, level, gravity_m_s2, observer.gain_hz, read.rate_hz, observer.torque)
     log.info("%s: %d samples in %d segments", recording, len(read.sensed), len(read.segments))

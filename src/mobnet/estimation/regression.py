@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL_LP, MOTOR, RESIDUAL, VELOCITY, named
-from mobnet.core.errors import DataError
-from mobnet.core.store import read_array, spans_and_rate
+from mobnet.core.store import check_pair, read_array, spans_and_rate
 from mobnet.estimation.low_pass import low_pass
 
 Pair = tuple[Path, Path]  # stems of a recording and of its residual
@@ -74,10 +73,9 @@ def _sums(law: Law, joints: Sequence[str], pairs: Sequence[Pair]) -> dict[str, A
     m = STATIC + len(law.stribeck) + 1
     sums, count = {joint: np.zeros((m, m)) for joint in joints}, 0
     for recording, residual in pairs:
+        check_pair(recording, residual)
         velocity, torque, spans, rate_hz = _halves(recording, (VELOCITY, MOTOR), joints)
         observed, external, _, _ = _halves(residual, (RESIDUAL, EXTERNAL_LP), joints)
-        if len(observed) != len(velocity):
-            raise DataError(f"{residual}.parquet: {len(observed)} rows, but its recording has {len(velocity)}")
         for span in (slice(*ends) for ends in spans):
             for i, joint in enumerate(joints):
                 columns = low_pass(_columns(law, velocity[span, i], torque[span, i]), law.gain_hz, rate_hz)

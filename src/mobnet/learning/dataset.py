@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mobnet.core.columns import EXTERNAL_LP, RESIDUAL, named
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
-from mobnet.core.store import read_array, spans_and_rate
+from mobnet.core.store import check_pair, check_rate, read_array, spans_and_rate
 from mobnet.learning.features import LimbInputs, limb_inputs
 from mobnet.learning.streams import Span
 from mobnet.settings.methods import Target
@@ -62,25 +62,28 @@ def load_limb_data(
     target: Target,
     recordings: Sequence[Path],
     residuals: Sequence[Path],
+    rate_hz: float | None = None,
 ) -> LimbData:
     """Read recordings and residuals of one limb into RAM, inputs (N, n_in) and target torques (N, n) [N, N m].
 
     The target is the `uncertainty`, r - tau_e of section 4.2.3, or the `external` torque, tau_e, both low-passed alike.
-    Residuals stand in the order of their recordings.
+    Residuals stand in the order of their recordings. Without a rate [Hz], any one is accepted.
 
     Raises:
         DataError: a file is damaged, or a residual does not belong to its recording.
     """
     inputs, joints = limb_inputs(layout, limb), joints_of(layout, limb)
+    for stem in recordings:
+        check_rate(stem, rate_hz)
     parts: list[tuple[NDArray[np.float32], NDArray[np.float32]]] = []
     segments: list[Span] = []
     rates: set[float] = set()
     for recording, residual in zip(recordings, residuals, strict=True):
         offset = sum(len(x) for x, _ in parts)
-        x, y, spans, rate_hz = _load_one(inputs, joints, target, recording, residual)
+        x, y, spans, rate = _load_one(layout, inputs, joints, target, recording, residual)
         parts.append((x, y))
         segments += [(offset + start, offset + end) for start, end in spans]
-        rates.add(rate_hz)
+        rates.add(rate)
     if len(rates) != 1:
         raise DataError(f"recordings at {sorted(rates)} Hz cannot be mixed; accepted: one or more at a single rate")
     xs, ys = (np.concatenate(column) for column in zip(*parts, strict=True))
@@ -93,6 +96,7 @@ def joints_of(layout: JointLayout, limb: Limb) -> tuple[str, ...]:
 
 
 def _load_one(
+    layout: JointLayout,
     inputs: LimbInputs,
     joints: Sequence[str],
     target: Target,
@@ -100,12 +104,9 @@ def _load_one(
     residual: Path,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], tuple[Span, ...], float]:
     """Return inputs, targets, segments and rate of one recording."""
-    recorded, meta = read_array(recording, inputs.recorded)
+    check_pair(recording, residual)
+    recorded, meta = read_array(recording, inputs.recorded, layout)
     torque = read_target(residual, joints, target)
-    if len(torque) != len(recorded):
-        raise DataError(
-            f"{residual}.parquet: {len(torque)} rows, but its recording {recording}.parquet has {len(recorded)}"
-        )
     return inputs.from_recorded(recorded), torque, *spans_and_rate(meta)
 
 

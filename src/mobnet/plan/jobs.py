@@ -75,6 +75,7 @@ class Jobs:
         arguments = {
             "root_seed": self.settings.seed,
             "layout": self.settings.layout,
+            "rate_hz": self.settings.rates.data_hz,
             "training": training,
             "seed": seed,
             "recordings": recordings,
@@ -118,6 +119,7 @@ class Jobs:
     def _observer(self, level: str) -> dict[str, object]:
         """Return what the observer takes."""
         return {
+            "rate_hz": self.settings.rates.data_hz,
             "robot": self.settings.robot,
             "gravity_m_s2": self.settings.plant.gravity_m_s2,
             "observer": self.settings.observer,

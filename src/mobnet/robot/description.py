@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.errors import ConfigError
-from mobnet.core.joints import JointLayout, right_of, with_image
+from mobnet.core.joints import JointLayout, Limits, right_of, with_image
 from mobnet.settings.parts import BodyRow, Colour, FootRow, ImuRow, JointRow, LegRow, PointRow, ShapeRow, SoleRow
 from mobnet.settings.robot import RobotTable
 
@@ -108,9 +108,10 @@ def describe(table: RobotTable) -> RobotDescription:
     """Return a robot's table with both sides of what is mirrored, and its posture in motor order."""
     # not `table.layout`: the code of settings is in no hash, so a job computes nothing with it
     legs = {side: foot.limb for side, foot in table.feet.items()}
+    limits = {row.id: Limits(*row.range, row.velocity_limit, row.torque_limit) for row in table.joints}
     return RobotDescription(
         name=table.name,
-        layout=JointLayout(table.order.virtual, table.order.actuated, table.groups, legs),
+        layout=JointLayout(table.order.virtual, table.order.actuated, table.groups, legs, limits),
         bodies=tuple(map(_with_unit_quaternion, table.bodies)),
         joints=table.joints,
         feet={**table.feet},

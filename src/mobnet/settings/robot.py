@@ -11,7 +11,7 @@ from pydantic import Field, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
 from mobnet.core.errors import not_accepted
-from mobnet.core.joints import N_VIRTUAL, JointLayout, right_of, with_image
+from mobnet.core.joints import N_VIRTUAL, JointLayout, Limits, right_of, with_image
 from mobnet.settings.base import BodyName, JointName, LimbName, Section, Some, Text
 from mobnet.settings.names import Place, unknown, uses
 from mobnet.settings.networks import Limb
@@ -75,7 +75,8 @@ class RobotTable(Section):
     def layout(self) -> JointLayout:
         """Joints and limbs."""
         legs = {side: foot.limb for side, foot in self.feet.items()}
-        return JointLayout(self.order.virtual, self.order.actuated, self.groups, legs)
+        limits = {row.id: Limits(*row.range, row.velocity_limit, row.torque_limit) for row in self.joints}
+        return JointLayout(self.order.virtual, self.order.actuated, self.groups, legs, limits)
 
     @property
     def accepted_names(self) -> dict[str, Collection[str]]:

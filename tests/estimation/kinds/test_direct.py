@@ -12,7 +12,8 @@ from mobnet.estimation.kinds.direct import DirectEstimator
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe
 from mobnet.learning.deployed.limbs import LimbNetworks
-from mobnet.learning.deployed.networks import GRU_TENSORS, Z_SCORES, Network
+from mobnet.learning.deployed.networks import Network
+from mobnet.learning.deployed.weights import GRU_TENSORS, Z_SCORES
 from mobnet.learning.features import limb_inputs
 from mobnet.settings.methods import Method
 from mobnet.settings.networks import Limb

@@ -15,7 +15,8 @@ from mobnet.core.files import WEIGHTS
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
 from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
-from mobnet.learning.deployed.networks import NOTE, load_network
+from mobnet.learning.deployed.networks import load_network
+from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.features import limb_inputs
 from mobnet.settings.networks import Limb
 

@@ -12,15 +12,8 @@ from safetensors.torch import save_file
 from mobnet.core.errors import DataError
 from mobnet.learning.deployed import module_network
 from mobnet.learning.deployed.module_network import CHUNK, ModuleNetwork
-from mobnet.learning.deployed.networks import (
-    NOTE,
-    STD_SCALE,
-    WEIGHTS,
-    ConstantNetwork,
-    Deployed,
-    Network,
-    load_network,
-)
+from mobnet.learning.deployed.networks import WEIGHTS, ConstantNetwork, Deployed, Network, load_network
+from mobnet.learning.deployed.weights import NOTE, STD_SCALE
 from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.learning.streams import split
 from mobnet.settings.networks import SIZES, Cell, CellKind

@@ -16,12 +16,13 @@ from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, ConfigDict, Field
 
 from mobnet.core.arrays import Array
-from mobnet.core.errors import DataError, not_accepted
-from mobnet.core.files import read_json
+from mobnet.core.errors import DataError, not_accepted, refuse
 from mobnet.core.joints import JointLayout
+from mobnet.core.notes import Note, NotNegative, read_note
+from mobnet.core.notes import Positive as AboveZero
 from mobnet.core.recording import Sensed
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.low_pass import exact_pole, low_pass
@@ -41,6 +42,29 @@ class Options(Section):
     terms: Annotated[tuple[Term, ...], Field(min_length=1), AfterValidator(distinct)]
     smoothing_rad_s: Positive
     stribeck_rad_s: Choices
+
+
+class JointNote(Note):
+    """The fitted numbers of a joint, and the root mean square of the target and of what is left of it [N m]."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    coulomb_nm: NotNegative
+    static_nm: NotNegative
+    viscous_nms: NotNegative
+    load_per_nm: NotNegative
+    stribeck_rad_s: AboveZero
+    target_rms_nm: NotNegative
+    left_rms_nm: NotNegative
+
+
+class FrictionNote(Note):
+    """The file of a fit."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    smoothing_rad_s: AboveZero
+    joints: dict[str, JointNote]
 
 
 @dataclass(frozen=True)
@@ -131,20 +155,15 @@ def read_friction(path: Path, joints: Sequence[str]) -> Friction:
     Raises:
         DataError: the file is missing, damaged, or names a joint that the robot does not have.
     """
-    found = read_json(path)
-    try:
-        rows, smoothing = found["joints"], float(found["smoothing_rad_s"])
-        unknown = [name for name in rows if name not in joints]
-        if unknown:
-            raise DataError(f"{path}: {not_accepted('joint', unknown[0], joints)}")
-        terms = {
-            term: np.array([rows[joint][key] if joint in rows else 0.0 for joint in joints], dtype=np.float64)
-            for term, key in TERMS.items()
-        }
-        stribeck = np.array([rows[joint]["stribeck_rad_s"] if joint in rows else 1.0 for joint in joints])
-    except (KeyError, TypeError, ValueError) as error:
-        raise DataError(f"{path}: not a fitted friction model ({error!r})") from None
-    return Friction(terms, stribeck, smoothing)
+    found = read_note(path, FrictionNote)
+    rows = found.joints
+    refuse(path, [not_accepted("joint", name, joints) for name in rows if name not in joints])
+    terms = {
+        term: np.array([getattr(rows[joint], key) if joint in rows else 0.0 for joint in joints], dtype=np.float64)
+        for term, key in TERMS.items()
+    }
+    stribeck = np.array([rows[joint].stribeck_rad_s if joint in rows else 1.0 for joint in joints], dtype=np.float64)
+    return Friction(terms, stribeck, found.smoothing_rad_s)
 
 
 def _prediction(torque: NDArray[Any]) -> Prediction:

@@ -3,14 +3,13 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from mobnet.core.columns import Score
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.figures.drawing.pushes import PushGroup, save_pushes
 from mobnet.evaluation.measure.metrics import PUSHED
 from mobnet.evaluation.measure.pushes import ALL, PushErrors, read_pushes, wanted_of
-from mobnet.evaluation.number.files import read_rows
 from mobnet.evaluation.number.grid import number_of
 from mobnet.evaluation.number.number import published_value
+from mobnet.evaluation.number.rows import read_scores
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import Figure06, Statistics
 from mobnet.settings.published import PublishedTable
@@ -24,7 +23,7 @@ def figure_06(
 
     The runs are one of each method, all of one recording.
     """
-    joint, rows = settings.joint, read_rows(scores[settings.scenario], Score)
+    joint, rows = settings.joint, read_scores(scores[settings.scenario])
     errors: PushErrors = {}
     for method in settings.methods:
         wanted = wanted_of(layout, settings, method, joint, PUSHED)

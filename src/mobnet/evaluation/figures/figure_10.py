@@ -3,11 +3,10 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from mobnet.core.columns import Score
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.figures.drawing.pushes import PushGroup, save_pushes
 from mobnet.evaluation.measure.pushes import collision_errors, read_pushes
-from mobnet.evaluation.number.files import read_rows
+from mobnet.evaluation.number.rows import read_scores
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import Figure10, Statistics
 from mobnet.settings.published import PublishedTable
@@ -23,7 +22,7 @@ def figure_10(
 
     The title of a test leads to its runs, one of each method and all of one recording.
     """
-    rows = [row for path in scores.values() for row in read_rows(path, Score)]
+    rows = [row for path in scores.values() for row in read_scores(path)]
     groups = []
     for title, test in settings.tests.items():
         errors = collision_errors(layout, settings, test, published, rows, statistics, seed)

@@ -3,14 +3,15 @@
 from collections.abc import Mapping
 from pathlib import Path
 
-from mobnet.core.columns import LIMB_ERRORS, Score
+from mobnet.core.columns import LIMB_ERRORS
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.figures.drawing.bars import BarPanel, draw_bars
 from mobnet.evaluation.figures.style import save_figure
 from mobnet.evaluation.measure.scores import AVERAGE
-from mobnet.evaluation.number.files import read_rows, write_csv
+from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.number import Number
+from mobnet.evaluation.number.rows import read_scores
 from mobnet.settings.evaluation import Figure18, Statistics
 
 UPPER_BODY = "upper body"  # all limbs of the figure together
@@ -25,7 +26,7 @@ def figure_18(
     """Write Figure 18, mean RMSE [N m] over the joints of the upper body and of its limbs, as PDF, PNG and CSV."""
     rows, panels = [], []
     for scenario, title in settings.panels.items():
-        own, errors = read_rows(scores[scenario], Score), {}
+        own, errors = read_scores(scores[scenario]), {}
         for method in settings.methods:
             wanted = wanted_of(settings, layout, scenario, method)
             errors[method] = {place: number_of(own, of, statistics, seed) for place, of in wanted.items()}

@@ -7,7 +7,7 @@ and tested on the second half. In tests the factors are those that were fitted t
 import logging
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 
 import numpy as np
@@ -15,11 +15,13 @@ import numpy as np
 from mobnet.core.arrays import Array
 from mobnet.core.columns import STD
 from mobnet.core.errors import DataError
-from mobnet.core.files import RUN, read_json
+from mobnet.core.files import RUN
 from mobnet.core.joints import JointLayout
+from mobnet.core.notes import read_array_note
 from mobnet.core.store import NOTE
 from mobnet.evaluation.measure.estimates import read_pair, read_std
 from mobnet.evaluation.measure.metrics import Spans, parts
+from mobnet.evaluation.measure.trainings import read_training_note
 from mobnet.evaluation.measure.windows import pushed_of
 from mobnet.learning.gaussian import Fit, fit_of
 from mobnet.plan.runs import Run
@@ -78,18 +80,20 @@ def held_out(layout: JointLayout, folders: Sequence[Path], shares: Sequence[floa
     """
     found: dict[Key, list[Array]] = {}
     for folder in folders:
-        path = folder / RUN
-        note = read_json(path)
-        if note["diverged"]:
+        path, note = folder / RUN, read_training_note(folder)
+        if note.diverged:
             log.info("%s: diverged, left out", path)
             continue
-        measured = note["calibration"]
-        if measured["shares"] != list(shares):
-            raise DataError(f"{path}: coverage of shares {measured['shares']}, but {list(shares)} are asked for")
-        fits = [Fit(**{name: np.array(values) for name, values in measured[stage].items()}) for stage in STAGES]
-        for (limb, unit), columns in limb_columns(layout, measured["joints"]).items():
+        measured = note.calibration
+        if measured.shares != list(shares):
+            raise DataError(f"{path}: coverage of shares {measured.shares}, but {list(shares)} are asked for")
+        fits = [
+            Fit(*(np.array(getattr(noted, field.name), dtype=np.float64) for field in fields(Fit)))
+            for noted in (getattr(measured, stage) for stage in STAGES)
+        ]
+        for (limb, unit), columns in limb_columns(layout, measured.joints).items():
             cell = np.array([numbers_of(fit, columns) for fit in fits])
-            found.setdefault((note["method"], limb, unit), []).append(cell)
+            found.setdefault((note.method, limb, unit), []).append(cell)
     return [Grid(VALIDATION, "", "", *key, np.array(cells)[:, None]) for key, cells in found.items()]
 
 
@@ -132,7 +136,7 @@ def run_cells(
     std = read_std(run, pair.joints)
     if std is None:
         raise DataError(f"{run.estimate}.json: columns {STD}.<joint> are missing")
-    noted = read_json(run.estimate.with_suffix(NOTE)).get("std_scale", {})
+    noted = read_array_note(run.estimate.with_suffix(NOTE)).get("std_scale", {})
     factors = np.array([noted.get(joint, 1.0) for joint in pair.joints])
     arrays = pair.estimate.astype(np.float64) - pair.truth, std.astype(np.float64)
     error, scaled = (np.concatenate(parts(array, spans or pair.spans)) for array in arrays)

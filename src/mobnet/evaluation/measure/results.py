@@ -13,8 +13,8 @@ from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.averages import column_of, members
 from mobnet.evaluation.measure.trainings import MEASURES, Training, read_trainings, sound
-from mobnet.evaluation.number.files import read_rows
 from mobnet.evaluation.number.grid import Wanted, run_grid
+from mobnet.evaluation.number.rows import read_scores
 from mobnet.settings.claims import Cell
 
 METRIC = "rmse"  # of a cell that names none
@@ -68,7 +68,7 @@ def read_results(layout: JointLayout, scores: Iterable[Path], folders: Iterable[
     """Read all results: files of scores, and folders of trained networks of one limb."""
     found: dict[Wanted, list[Score]] = defaultdict(list)
     metrics: dict[tuple[str, ...], set[str]] = defaultdict(set)
-    for row in (row for path in scores for row in read_rows(path, Score)):
+    for row in (row for path in scores for row in read_scores(path)):
         found[Wanted(row.scenario, row.limb, row.level, row.method, row.joint, row.metric)].append(row)
         metrics[row.scenario, row.level, row.method].add(row.metric)
     return Results(layout, found, metrics, read_trainings(folders))

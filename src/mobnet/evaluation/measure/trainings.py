@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
 
 from mobnet.core.columns import Epoch
-from mobnet.core.errors import DataError
-from mobnet.core.files import METRICS, RUN, read_json
-from mobnet.evaluation.number.files import read_rows
+from mobnet.core.errors import not_accepted, refuse
+from mobnet.core.files import METRICS, RUN
+from mobnet.core.notes import Count, Index, Names, Note, NotNegative, Positive, Text, read_note
+from mobnet.evaluation.number.rows import read_epochs
+from mobnet.settings.networks import CellKind
 
 MEASURES: Mapping[str, tuple[Callable[[Training], float], str]] = {  # name -> (of a training, unit)
     "validation loss": (lambda training: training.kept.validation_loss, "-"),
@@ -18,6 +23,77 @@ MEASURES: Mapping[str, tuple[Callable[[Training], float], str]] = {  # name -> (
     "training loss at the end": (lambda training: training.last.train_loss, "-"),
     "validation loss at the end": (lambda training: training.last.validation_loss, "-"),
 }
+
+
+Row = list[float]
+Share = Annotated[float, Field(ge=0, le=1)]
+
+
+class NotedNetwork(Note):
+    """The network that was trained."""
+
+    cell: CellKind
+
+
+class NotedSettings(Note):
+    """Settings of a training; `epochs` is how many there are if it does not diverge."""
+
+    epochs: Count
+    network: NotedNetwork
+
+
+class NotedEpoch(Note):
+    """The epoch whose weights are kept."""
+
+    epoch: Count
+    validation_loss: float
+
+
+class OnWindows(Note):
+    """Errors where the network runs through a window from a zero state for every sample."""
+
+    loss: float
+    rmse: NotNegative
+
+
+class NotedFit(Note):
+    """How well n standard deviations fit: coverage of k shares (k, n), likelihood and CRPS (n,)."""
+
+    coverage: list[list[Share]]
+    nll: Row
+    crps: list[NotNegative]
+
+
+class NotedCalibration(Note):
+    """Factors on the standard deviations of n joints, and how well these fit before and after."""
+
+    joints: Names
+    shares: Annotated[list[Share], Field(min_length=1)]
+    scale: list[Positive]
+    likelihood_scale: list[Positive]
+    before: NotedFit
+    after: NotedFit
+
+
+class TrainingNote(Note):
+    """The note of a training, `run.json`; one that diverged in its first epoch has no best one."""
+
+    name: Text
+    method: Text
+    limb: Text
+    seed: Index
+    target: Literal["uncertainty", "external"]
+    settings: NotedSettings
+    parameters: Count
+    samples: Count
+    diverged: bool
+    best: NotedEpoch | None
+    on_windows: OnWindows
+    calibration: NotedCalibration
+    device: Text
+    precision: Text
+    fingerprint: Text
+    provenance: dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -52,16 +128,50 @@ def read_training(folder: Path) -> Training:
     """Read a network's folder.
 
     Raises:
-        DataError: a file is missing or damaged, or a training that did not diverge has no epoch.
+        DataError: a file is missing or damaged, or they do not agree, one line for each fault.
     """
-    note, epochs = read_json(folder / RUN), tuple(read_rows(folder / METRICS, Epoch))
-    diverged = bool(note.get("diverged", False))
-    if not epochs and not diverged:
-        raise DataError(f"{folder / METRICS}: no epoch, though {RUN} does not say that the training diverged")
-    return Training(
-        note["method"], note["seed"], note["parameters"], note["samples"], diverged,
-        note["on_windows"]["loss"], epochs,
-    )  # fmt: skip
+    note, epochs = read_training_note(folder), read_epochs(folder / METRICS)
+    refuse(folder / METRICS, _disagreements(note, epochs))
+    return Training(note.method, note.seed, note.parameters, note.samples, note.diverged, note.on_windows.loss, epochs)
+
+
+def read_training_note(folder: Path) -> TrainingNote:
+    """Read the note of a network's folder.
+
+    Raises:
+        DataError: it is missing or damaged, or a key or a value is not accepted; one line for each.
+    """
+    note = read_note(folder / RUN, TrainingNote)
+    refuse(folder / RUN, _calibration_faults(note.calibration))
+    return note
+
+
+def _disagreements(note: TrainingNote, epochs: Sequence[Epoch]) -> Iterator[str]:
+    """Yield where the epochs are not what the note says: how many, and which one is kept."""
+    count = note.settings.epochs
+    if not note.diverged and len(epochs) != count:
+        yield not_accepted("epochs", len(epochs), [f"{count}, as {RUN} says of a training that did not diverge"])
+    if len(epochs) > count:
+        yield not_accepted("epochs", len(epochs), [f"at most {count}, as {RUN} says"])
+    kept = min(epochs, key=lambda epoch: epoch.validation_loss, default=None)
+    noted = note.best.epoch if note.best else None
+    if noted != (kept.epoch if kept else None):
+        yield not_accepted("epoch of the smallest validation_loss", kept and kept.epoch, [f"{noted}, as {RUN} says"])
+
+
+def _calibration_faults(noted: NotedCalibration) -> Iterator[str]:
+    """Yield lists that are not as long as there are joints or shares."""
+    joints, shares = len(noted.joints), len(noted.shares)
+    fits = {"before": noted.before, "after": noted.after}
+    lists: dict[str, Sequence[object]] = {"scale": noted.scale, "likelihood_scale": noted.likelihood_scale}
+    lists |= {f"{when}.{name}": getattr(fit, name) for when, fit in fits.items() for name in ("nll", "crps")}
+    lists |= {f"{when}.coverage.{k}": row for when, fit in fits.items() for k, row in enumerate(fit.coverage)}
+    for name, values in lists.items():
+        if len(values) != joints:
+            yield not_accepted(f"calibration.{name}", values, [f"{joints} numbers, one for each joint"])
+    for when, fit in fits.items():
+        if len(fit.coverage) != shares:
+            yield not_accepted(f"calibration.{when}.coverage", fit.coverage, [f"{shares} rows, one for each share"])
 
 
 def read_trainings(folders: Iterable[Path]) -> dict[str, list[Training]]:

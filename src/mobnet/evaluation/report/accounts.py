@@ -2,19 +2,34 @@
 
 from pathlib import Path
 
-from mobnet.core.errors import DataError
-from mobnet.core.files import read_json
+from pydantic import ConfigDict
+
+from mobnet.core.errors import not_accepted, refuse
 from mobnet.core.logs import Account
+from mobnet.core.notes import Note, NotNegative, Text, read_note
+
+
+class AccountNote(Note):
+    """The file of an `Account`."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    job: Text
+    start_s: NotNegative
+    end_s: NotNegative
+    wall_s: NotNegative
+    cpu_s: NotNegative
+    peak_mib: NotNegative
+    succeeded: bool
 
 
 def read_account(path: Path) -> Account:
     """Read what one job took.
 
     Raises:
-        DataError: the file is damaged, or is not an account.
+        DataError: the file is missing or damaged, or a key or a value is not accepted; one line for each.
     """
-    found, wanted = read_json(path), Account.__annotations__
-    wrong = [key for key in {**wanted, **found} if not isinstance(found.get(key), wanted.get(key, ()))]
-    if wrong:
-        raise DataError(f"{path}: {wrong[0]}: {found.get(wrong[0])!r} is not accepted; accepted: the account of a job")
-    return Account(**found)
+    note = read_note(path, AccountNote)
+    if note.end_s < note.start_s:
+        refuse(path, [not_accepted("end_s", note.end_s, [f"{note.start_s} or more, the start"])])
+    return Account(**dict(note))

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 from mobnet.core.columns import Epoch
-from mobnet.core.errors import DataError
 from mobnet.core.files import METRICS, RUN, read_json, write_text
 from mobnet.evaluation.measure.trainings import Training, read_training
 from mobnet.evaluation.report.accounts import read_account
@@ -84,18 +83,15 @@ def read_training_run(folder: Path, accounts: Path) -> TrainingRun:
     Raises:
         DataError: a file is missing or damaged, or lacks a key or a column.
     """
-    note, account = read_json(folder / RUN), accounts / "train" / f"{folder.name}.json"
-    try:
-        return TrainingRun(
-            **vars(read_training(folder)),
-            **{key: note[key] for key in SHOWN},
-            cell=note["settings"]["network"]["cell"],
-            settings=dict(pair for key in SETTINGS for pair in flattened(key, note[key])),
-            metrics=folder / METRICS,
-            seconds=read_account(account).wall_s if account.is_file() else None,
-        )
-    except KeyError as error:
-        raise DataError(f"{folder / RUN}: key {error} is missing; it holds {', '.join(note)}") from None
+    training, note, account = read_training(folder), read_json(folder / RUN), accounts / "train" / f"{folder.name}.json"
+    return TrainingRun(
+        **vars(training),
+        **{key: note[key] for key in SHOWN},
+        cell=note["settings"]["network"]["cell"],
+        settings=dict(pair for key in SETTINGS for pair in flattened(key, note[key])),
+        metrics=folder / METRICS,
+        seconds=read_account(account).wall_s if account.is_file() else None,
+    )
 
 
 def flattened(name: str, value: Any) -> Iterator[tuple[str, str]]:

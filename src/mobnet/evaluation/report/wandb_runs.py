@@ -11,9 +11,8 @@ from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
 
-from mobnet.core.columns import Epoch
-from mobnet.core.files import METRICS, PARTIAL, RUN, check_room, read_json
-from mobnet.evaluation.number.files import read_rows
+from mobnet.core.files import PARTIAL, RUN, check_room, read_json
+from mobnet.evaluation.measure.trainings import read_training
 
 SETTINGS = ("name", "method", "limb", "seed", "target", "settings", "fingerprint", "provenance")  # keys of run.json
 # `wandb leet` lists only folders whose names start with `run-` and have a date before the run's identifier. Of a name
@@ -52,7 +51,7 @@ def _log_run(scratch: str, folder: Path) -> str:
     The keys SETTINGS of its note become the run's configuration, all others its summary. Runs are grouped by method,
     and the limb is their type of job.
     """
-    note, epochs = read_json(folder / RUN), read_rows(folder / METRICS, Epoch)
+    training, note = read_training(folder), read_json(folder / RUN)
     os.environ |= dict.fromkeys(WANDB_PLACES, scratch) | {"WANDB_ERROR_REPORTING": "false"}
     import wandb  # reads its environment when imported
 
@@ -65,7 +64,7 @@ def _log_run(scratch: str, folder: Path) -> str:
         config={key: note[key] for key in SETTINGS},
         dir=scratch, mode="offline", settings=quiet,
     ) as run:  # fmt: skip
-        for epoch in epochs:
+        for epoch in training.epochs:
             run.log(asdict(epoch), step=epoch.epoch)
         run.summary.update({key: value for key, value in note.items() if key not in SETTINGS})
     return note["name"]

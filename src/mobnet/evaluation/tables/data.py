@@ -9,8 +9,9 @@ import numpy as np
 
 from mobnet.control.parameters import DURATION
 from mobnet.core.columns import COMMAND, DATA, recording_columns
-from mobnet.core.files import read_json
-from mobnet.core.store import read_array
+from mobnet.core.errors import refuse_lines
+from mobnet.core.notes import read_array_note
+from mobnet.core.store import NOTE, read_array
 from mobnet.evaluation.measure.steps import CHOICES, KEYS, UNITS, read_steps
 from mobnet.evaluation.measure.upper_body import upper_body
 from mobnet.evaluation.number.number import Number
@@ -57,7 +58,10 @@ def data(
 
 def extent(stems: Sequence[Path], terrains: Sequence[str]) -> Iterator[Found]:
     """Yield length [min], samples, falls, episodes and the shares of the terrains [-] of recordings."""
-    notes = [read_json(stem.with_suffix(".json")) for stem in stems]
+    notes = [read_array_note(stem.with_suffix(NOTE)) for stem in stems]
+    needed = ("falls", "terrains")
+    refuse_lines(f"{stem}{NOTE}: {key}: key is missing; accepted: what the simulator writes"
+                 for stem, note in zip(stems, notes, strict=True) for key in needed if key not in note)  # fmt: skip
     yield "recordings", "", len(notes), ""
     yield "duration", "", sum(note["rows"] / note["rate_hz"] for note in notes) / MINUTE_S, "min"
     yield "samples", "", sum(note["rows"] for note in notes), ""

@@ -10,10 +10,10 @@ from mobnet.core.columns import ERRORS, Score
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.averages import Column, columns_of
 from mobnet.evaluation.measure.metrics import PERCENT
-from mobnet.evaluation.number.files import read_rows
 from mobnet.evaluation.number.grid import Wanted, run_grid
 from mobnet.evaluation.number.intervals import mean, summarise
 from mobnet.evaluation.number.number import Number
+from mobnet.evaluation.number.rows import read_scores
 from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
 from mobnet.settings.evaluation import BudgetRow, ErrorBudget, Statistics
 
@@ -31,7 +31,7 @@ def error_budget(
 
     The first test of `settings` has every source on.
     """
-    rows = [row for path in scores.values() for row in read_rows(path, Score)]
+    rows = [row for path in scores.values() for row in read_scores(path)]
     parts = columns_of(layout, settings.joints)
     budgets = {part: cells_of(part, settings.tests, rows, statistics, seed) for part in parts}
     records = [

@@ -9,9 +9,9 @@ from mobnet.core.columns import ERRORS, Score
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.averages import Column, columns_of
 from mobnet.evaluation.measure.scores import AVERAGE
-from mobnet.evaluation.number.files import read_rows
 from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.number import Number, number_text, published_row
+from mobnet.evaluation.number.rows import read_scores
 from mobnet.evaluation.tables.layout import Line, Table, in_blocks, text_table, write_table
 from mobnet.settings.evaluation import ErrorTable, Statistics
 from mobnet.settings.published import Floor, PublishedTable
@@ -64,7 +64,7 @@ def errors(
         ConfigError: a column is not well formed.
     """
     columns = columns_of(layout, settings.columns)
-    read = {scenario: read_rows(path, Score) for scenario, path in scores.items()}
+    read = {scenario: read_scores(path) for scenario, path in scores.items()}
     rows = []
     for test in settings.rows:
         for method in test.methods:

@@ -3,11 +3,11 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from mobnet.core.columns import METHODS, Score
+from mobnet.core.columns import METHODS
 from mobnet.evaluation.measure.scores import AVERAGE
-from mobnet.evaluation.number.files import read_rows
 from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.number import Number
+from mobnet.evaluation.number.rows import read_scores
 from mobnet.evaluation.tables.layout import Line, Table, in_blocks, with_intervals, write_table
 from mobnet.settings.evaluation import MethodsRow, Statistics
 
@@ -18,7 +18,7 @@ def methods(
     """Write methods.csv, .tex and .md: RMSE [N m] of every method, a column a joint or a limb's average."""
     errors: dict[Wanted, Number] = {}
     for test in settings:
-        rows = read_rows(scores[test.scenario], Score)
+        rows = read_scores(scores[test.scenario])
         for method in test.methods:
             places = [(limb, joint) for limb, joints in test.columns.items() for joint in joints]
             for wanted in (Wanted(test.scenario, limb, test.level, method, joint) for limb, joint in places):

@@ -4,7 +4,6 @@ Small matrix-vector products at batch 1 cost less in NumPy than a call into torc
 `torch.nn.GRU` documents them. The other cells of section 6.1 run by the module that was trained.
 """
 
-import json
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -13,19 +12,11 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from safetensors import SafetensorError, safe_open
 
-from mobnet.core.errors import DataError
 from mobnet.core.files import WEIGHTS
-from mobnet.settings.networks import Cell, CellKind
+from mobnet.learning.deployed.weights import GRU_TENSORS, STD_SCALE, Z_SCORES, WeightsNote, read_weights
+from mobnet.settings.networks import CellKind
 
-NOTE = "note"  # the only entry of the file's metadata: several would be written in an order that changes
-GRU_TENSORS = (
-    *(f"cell.{kind}_{source}_l0" for kind in ("weight", "bias") for source in ("ih", "hh")),
-    *("head.weight", "head.bias"),
-)
-Z_SCORES = ("input.mean", "input.std", "target.mean", "target.std")
-STD_SCALE = "std.scale"  # factors on the standard deviations, learned after the training; absent means 1
 Array = NDArray[np.float32]
 
 
@@ -164,25 +155,15 @@ def load_network(folder: Path) -> Deployed:
     """Read a trained network from its folder.
 
     Raises:
-        DataError: the weights are missing or damaged.
+        DataError: the weights are missing, damaged or not accepted, one line for each fault.
     """
-    path = folder / WEIGHTS
-    try:
-        with safe_open(path, framework="numpy") as file:
-            note = json.loads(file.metadata()[NOTE])
-            tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118, not a dict
-        return _deployed(tensors, note)
-    except FileNotFoundError:
-        raise DataError(f"{path}: file is missing") from None
-    except (SafetensorError, KeyError, TypeError, ValueError, RuntimeError) as error:
-        why = " ".join(str(error).split())  # torch lists missing weights line by line
-        raise DataError(f"{path}: not the weights of a limb network ({why})") from None
+    return _deployed(*read_weights(folder / WEIGHTS))
 
 
-def _deployed(tensors: Mapping[str, Array], note: Mapping[str, Any]) -> Deployed:
+def _deployed(tensors: Mapping[str, Array], note: WeightsNote) -> Deployed:
     """Return the network that a file's tensors and note describe."""
-    common = note["limb"], tuple(note["joints"]), tuple(note["inputs"]), note["std_min"]
-    cell = Cell.model_validate({key: value for key, value in note["network"].items() if key in Cell.model_fields})
+    common = note.limb, tuple(note.joints), tuple(note.inputs), note.std_min
+    cell = note.cell
     if cell.cell in WITHOUT_TORCH:
         return WITHOUT_TORCH[cell.cell](tensors, *common)
     from mobnet.learning.deployed.module_network import ModuleNetwork  # torch starts slowly, and MOB-Net does without
