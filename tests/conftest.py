@@ -10,7 +10,7 @@ import pytest
 from browser import BROWSER, Browser
 from numpy.typing import NDArray
 
-from mobnet.core.columns import recording_columns
+from mobnet.core.columns import residual_columns
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Recording, Sensed, Truth, write_recording
 from mobnet.core.store import write_array
@@ -96,12 +96,7 @@ def write_pair(layout: JointLayout) -> Callable[[Path, Recording], tuple[Path, P
         write_recording(stems[0], recording, layout)
         external = recording.truth.tau_ext
         array = np.concatenate([external + _uncertainty(recording.sensed, layout), external], axis=1)
-        columns = [
-            (f"{quantity}.{name.removeprefix('tau_ext.')}", unit, frame)
-            for quantity in ("r", "tau_ext_lp")
-            for name, unit, frame in recording_columns(layout)["tau_ext"]
-        ]
-        write_array(stems[1], array, columns, {"rate_hz": RATE_HZ}, recording.segments)
+        write_array(stems[1], array, residual_columns(layout), {"rate_hz": recording.rate_hz}, recording.segments)
         return stems
 
     return write

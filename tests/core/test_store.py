@@ -26,7 +26,7 @@ def array_stem(tmp_path: Path) -> Path:
     return stem
 
 
-@pytest.mark.parametrize("rows", [0, 1, GROUP_ROWS - 1, GROUP_ROWS, GROUP_ROWS + 1])
+@pytest.mark.parametrize("rows", [1, GROUP_ROWS - 1, GROUP_ROWS, GROUP_ROWS + 1])
 def test_array_round_trip_is_identity_in_float32_and_gives_the_same_bytes_again(tmp_path: Path, rows: int) -> None:
     array = np.arange(rows)[:, None] * [1.0, -2.0]
     write_array(tmp_path / "s1", array, COLUMNS, META)
@@ -79,7 +79,7 @@ def test_value_that_is_not_finite_is_refused_by_writer_and_reader(array_stem: Pa
     array = np.zeros((10, 2))
     array[7, 1] = value
     before = array_stem.with_suffix(".parquet").read_bytes()
-    with pytest.raises(DataError, match=r"s1\.parquet: column 'b', row 7: -?(nan|inf) \(accepted: finite numbers\)"):
+    with pytest.raises(DataError, match=r"s1\.parquet: column 'b', row 7: -?(nan|inf) is not accepted; accepted: fini"):
         write_array(array_stem, array, COLUMNS, META)
     assert array_stem.with_suffix(".parquet").read_bytes() == before
     foreign(array_stem.with_suffix(".parquet"), array)

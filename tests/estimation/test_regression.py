@@ -117,5 +117,7 @@ def test_a_residual_of_another_recording_is_refused(
 ) -> None:
     short = made_up(0, 0.5)
     other = write("short", short, friction(short, TRUE))
-    with pytest.raises(DataError, match=r"one-residual\.parquet: 4000 rows, but its recording has 500"):
+    with pytest.raises(
+        DataError, match=r"one-residual\.json: rows: 4000 is not accepted; accepted: 500, as in .*, its r"
+    ):
         fit((other[0], pair[1]))

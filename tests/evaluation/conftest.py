@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 from csv_files import write_rows
+from made_notes import training_note
 
-from mobnet.core.columns import FEET, Epoch, Score
+from mobnet.core.columns import FEET, Epoch, Score, residual_columns, torque_columns
 from mobnet.core.files import write_json
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Recording, Sensed, Truth, write_recording
@@ -187,9 +188,8 @@ def write_training(tmp_path: Path) -> Callable[..., Path]:
         course = [loss + epochs - 2 - k for k in range(epochs - 1)] + [loss + 0.5] * (epochs > 0)
         epochs_done = [Epoch(k + 1, x - 0.25, x, 10.0 + x, 0.005, 1.5) for k, x in enumerate(course)]
         write_rows(folder / "metrics.csv", epochs_done, Epoch)
-        note = {"method": method, "seed": seed, "parameters": 83712, "samples": 1620000}
-        note["on_windows"] = {"loss": loss + 0.125}
-        write_json(folder / "run.json", note | changes)
+        own = {"samples": 1620000, "on_windows": {"loss": loss + 0.125, "rmse": 7.0}, **changes}
+        write_json(folder / "run.json", training_note(folder.name, course, **own))
         return folder
 
     return write
@@ -277,18 +277,18 @@ def write_walk(
     load = np.where(air > 0, 0.0, 60.0 * np.sin(np.pi * (phase - STEP_ROWS) / STEP_ROWS))
     truth = load[:, None] * np.linspace(-1, 1, layout.nv)
     zeros = np.zeros
-    sensed = Sensed(zeros((rows, layout.nq)), zeros((rows, layout.nv)), zeros((rows, 3)), zeros((rows, layout.nu)),
+    q, acc = np.tile(np.eye(1, layout.nq, 3), (rows, 1)), np.tile([0.0, 0.0, 9.81], (rows, 1))
+    sensed = Sensed(q, zeros((rows, layout.nv)), acc, zeros((rows, layout.nu)),
                     zeros((rows, layout.nu)), np.stack([air, 1 - air], axis=1), zeros((rows, 5)))  # fmt: skip
     wrench, pushed = zeros((rows, 6)), (np.isin(phase, PUSHED_ROWS) & (not calm)).astype(float)[:, None]
     recording = Recording(sensed, ((0, rows),), RATE_HZ, {}, Truth(truth, wrench, wrench, zeros((rows, 2)), pushed))
     write_recording(folder / "recording", recording, layout)
-    lp = [(f"tau_ext_lp.{joint}", layout.unit(joint), "joint") for joint in layout.names]
-    r = [(f"r.{joint}", layout.unit(joint), "joint") for joint in layout.names]
-    write_array(folder / "residual", np.concatenate([truth + 5, truth], axis=1), r + lp, {"rate_hz": RATE_HZ})
-    columns = [(f"tau_ext.{joint}", layout.unit(joint), "joint") for joint in joints]
+    written = np.concatenate([truth + 5, truth], axis=1)
+    write_array(folder / "residual", written, residual_columns(layout), {"rate_hz": RATE_HZ})
+    columns = torque_columns(layout, ["tau_ext"], joints)
     estimate = truth[:, layout.columns(joints)] + error
     if std is not None:
-        columns += [(f"std.{joint}", layout.unit(joint), "joint") for joint in joints]
+        columns += torque_columns(layout, ["std"], joints)
         estimate = np.concatenate([estimate, np.full(estimate.shape, std)], axis=1)
     write_array(folder / "estimate", estimate, columns, {"rate_hz": RATE_HZ})
     return run_of(folder, method)
@@ -322,9 +322,11 @@ def write_steps(stem: Path, layout: JointLayout, seed: int, size: float = 1.0, s
     """
     rng, rows = np.random.default_rng(seed), 2000
     time = np.arange(rows) / RATE_HZ
-    waves = np.sin(2 * np.pi * rng.uniform(0.2, 2.0, layout.nu) * time[:, None] + rng.uniform(0, 6.3, layout.nu))
+    speed = 2 * np.pi * rng.uniform(0.2, 2.0, layout.nu)
+    phase = speed * time[:, None] + rng.uniform(0, 6.3, layout.nu)
     q, v = np.zeros((rows, layout.nq)), np.zeros((rows, layout.nv))
-    q[:, 3], q[:, NQ_BASE:], v[:, N_VIRTUAL:] = 1.0, 0.2 * waves, size * waves[:, ::-1]
+    q[:, 3], q[:, NQ_BASE:] = 1.0, -size * (np.cos(phase) / speed)[:, ::-1]
+    v[:, N_VIRTUAL:] = size * np.sin(phase)[:, ::-1]
     step = np.arange(rows) // STEP_ROWS
     low, high = np.array([-0.15, -0.1, -0.3, 0.6, 0.04]), np.array([0.2, 0.1, 0.3, 0.9, 0.07])
     command = rng.uniform(low, high, (step[-1] + 1, len(low)))[step]
@@ -332,16 +334,15 @@ def write_steps(stem: Path, layout: JointLayout, seed: int, size: float = 1.0, s
     if stands:
         command[rows // 2 :], swing[rows // 2 :] = 0.0, False
     torque = 40.0 * size * rng.normal(size=(rows, layout.nu))
-    sensed = Sensed(q, v, rng.normal(size=(rows, 3)), torque, torque, swing.astype(float), command)
+    acc = rng.normal(size=(rows, 3)) + [0.0, 0.0, 9.81]
+    sensed = Sensed(q, v, acc, torque, np.clip(torque, -50.0, 50.0), swing.astype(float), command)
     truth = Truth(rng.normal(size=v.shape), np.zeros((rows, 6)), np.zeros((rows, 6)), 1.0 - swing, np.zeros((rows, 1)))
     meta = {"falls": seed % 2, "terrains": ["checks", "flat"]}
     spans = ((0, rows // 2), (rows // 2, rows))
     write_recording(stem, Recording(sensed, spans, RATE_HZ, meta, truth), layout)
-    columns = [
-        (f"{kind}.{joint}", layout.unit(joint), "joint") for kind in ("r", "tau_ext_lp") for joint in layout.names
-    ]
     residual = np.concatenate([size * 20.0 * rng.normal(size=v.shape), truth.tau_ext], axis=1)
-    write_array(stem.with_name(f"{stem.name}_residual"), residual, columns, {"rate_hz": RATE_HZ}, spans)
+    beside = stem.with_name(f"{stem.name}_residual")
+    write_array(beside, residual, residual_columns(layout), {"rate_hz": RATE_HZ}, spans)
     return stem
 
 
@@ -353,12 +354,12 @@ def write_predicted(folder: Path, layout: JointLayout, seed: int, scale: float |
     rng, rows = np.random.default_rng(seed), 2000
     air = (np.arange(rows) % (2 * STEP_ROWS) < STEP_ROWS).astype(float)
     pushed = np.isin(np.arange(rows) % (10 * STEP_ROWS), range(30, 40))
-    names = [f"swing.{FEET[0]}", f"contact.{FEET[0]}", "tau_ext.LL3"]
+    columns = [(f"swing.{FEET[0]}", "-", "plan"), (f"contact.{FEET[0]}", "-", "ground"),
+               ("tau_ext.LL3", "N m", "joint")]  # fmt: skip
     array = np.stack([air, 1.0 - air, 30.0 * pushed], axis=1)
-    write_array(folder / "recording", array, [(name, "-", "-") for name in names], {"rate_hz": RATE_HZ})
+    write_array(folder / "recording", array, columns, {"rate_hz": RATE_HZ})
     truth, std = 20.0 * rng.normal(size=(rows, layout.nv)), rng.uniform(0.5, 3.0, (rows, len(JOINTS)))
-    columns = [(f"tau_ext_lp.{joint}", layout.unit(joint), "joint") for joint in layout.names]
-    write_array(folder / "residual", truth, columns, {"rate_hz": RATE_HZ})
+    write_array(folder / "residual", truth, torque_columns(layout, ["tau_ext_lp"], layout.names), {"rate_hz": RATE_HZ})
     near = np.convolve(pushed, np.ones(11))[:rows] > 0  # a push and the tenth of a second after it
     error = std * rng.normal(size=std.shape) * np.where(near, 10.0, 1.0)[:, None]
     columns = [(f"{kind}.{joint}", "N m", "joint") for kind in ("tau_ext", "std") for joint in JOINTS]

@@ -1,7 +1,7 @@
 """Training data: the target of section 4.2.3, z-scores, and files that do not fit."""
 
-import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -25,9 +25,10 @@ def stems(tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write) 
 
 @pytest.fixture
 def load(stems: list[tuple[Path, Path]], settings: Settings) -> Callable[..., LimbData]:
-    def load(target: Target) -> LimbData:
+    def load(target: Target, rate_hz: float | None = None) -> LimbData:
         recordings, residuals = zip(*stems, strict=True)
-        return load_limb_data(settings.layout, settings.network("MOB-Net", "LL"), target, recordings, residuals)
+        limb = settings.network("MOB-Net", "LL")
+        return load_limb_data(settings.layout, limb, target, recordings, residuals, rate_hz)
 
     return load
 
@@ -76,12 +77,17 @@ def test_a_missing_column_is_named(stems: list[tuple[Path, Path]], load: Callabl
 
 def test_a_residual_of_another_recording_is_refused(stems: list[tuple[Path, Path]], settings: Settings) -> None:
     limb = settings.network("MOB-Net", "LL")
-    with pytest.raises(DataError, match=r"2000 rows, but its recording .* has 1000"):
+    with pytest.raises(DataError, match=r"residual.*\.json: rows: 2000 is not accepted; accepted: 1000, as in"):
         load_limb_data(settings.layout, limb, "external", [stems[0][0]], [stems[1][1]])
 
 
-def test_recordings_at_two_rates_are_refused(stems: list[tuple[Path, Path]], load: Callable[..., LimbData]) -> None:
-    path = stems[1][0].with_suffix(".json")
-    path.write_text(json.dumps(json.loads(path.read_text()) | {"rate_hz": 500.0}))
+def test_recordings_at_two_rates_or_not_at_that_asked_for_are_refused(
+    stems: list[tuple[Path, Path]], load: Callable[..., LimbData], made_up: Callable[..., Recording], write_pair: Write
+) -> None:
+    whole = made_up(1, 2.0)
+    slow = replace(whole, sensed=whole.sensed[::2], truth=whole.truth[::2], segments=((0, 1000),), rate_hz=500.0)
+    stems[1] = write_pair(stems[0][0].parent, slow)
     with pytest.raises(DataError, match=r"\[500.0, 1000.0\] Hz"):
         load("external")
+    with pytest.raises(DataError, match=r"\.json: rate_hz: 500.0 is not accepted; accepted: 1000, `rates.data_hz`"):
+        load("external", 1000.0)

@@ -38,23 +38,25 @@ def not_accepted(what: str, value: object, accepted: Iterable[object]) -> str:
     return f"{what}: {SHOWN.repr(value)} is not accepted; accepted: {', '.join(sorted(map(str, accepted)))}"
 
 
-def refuse(path: object, faults: Iterable[str]) -> None:
-    """Raise a DataError with one line for each fault of a file, if there are any.
+def refusal(path: object, faults: Iterable[str]) -> DataError:
+    """Return the error that tells the faults of a file, one line for each, of which only the first are told."""
+    return _told([f"{path}: {fault}" for fault in faults])
 
-    Raises:
-        DataError: there is a fault.
-    """
+
+def refuse(path: object, faults: Iterable[str]) -> None:
+    """Raise a DataError with one line for each fault of a file, if there are any."""
     refuse_lines(f"{path}: {fault}" for fault in faults)
 
 
 def refuse_lines(faults: Iterable[str]) -> None:
-    """Raise a DataError with these lines, of which only the first are told, if there are any.
-
-    Raises:
-        DataError: there is a fault.
-    """
+    """Raise a DataError with these lines, of which only the first are told, if there are any."""
     lines = list(dict.fromkeys(faults))
-    if len(lines) > MOST:
-        lines[MOST:] = [f"{lines[0].partition(': ')[0]}: {len(lines) - MOST} further faults"]
     if lines:
-        raise DataError("\n".join(lines))
+        raise _told(lines)
+
+
+def _told(lines: list[str]) -> DataError:
+    """Return an error of some lines, of which only the first are told."""
+    if len(lines) > MOST:
+        lines = [*lines[:MOST], f"{lines[0].partition(': ')[0]}: {len(lines) - MOST} further faults"]
+    return DataError("\n".join(lines))

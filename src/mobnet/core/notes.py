@@ -9,7 +9,7 @@ from typing import Annotated, Any, TypeVar
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
-from mobnet.core.errors import SHOWN, not_accepted, refuse
+from mobnet.core.errors import SHOWN, not_accepted, refusal, refuse
 from mobnet.core.files import read_json
 
 
@@ -107,8 +107,7 @@ def checked(path: Path, value: object, kind: type[Kind]) -> Kind:
     try:
         return kind.model_validate(value)
     except ValidationError as error:
-        refuse(path, [_fault(found, kind) for found in error.errors(include_url=False)])
-        raise
+        raise refusal(path, [_fault(found, kind) for found in error.errors(include_url=False)]) from None
 
 
 def _fault(found: Mapping[str, Any], kind: type[Note]) -> str:

@@ -100,8 +100,8 @@ def test_numbers_are_read_by_name(fitted: Path, layout: JointLayout) -> None:
     ("found", "message"),
     [
         ({"smoothing_rad_s": 0.02, "joints": {"LL9": KNEE}}, "'LL9' is not accepted; accepted: LA1"),
-        ({"smoothing_rad_s": 0.02, "joints": {"LL4": {"coulomb_nm": 1.0}}}, "not a fitted friction model"),
-        ({"joints": {}}, "not a fitted friction model"),
+        ({"smoothing_rad_s": 0.02, "joints": {"LL4": {"coulomb_nm": 1.0}}}, r"joints\.LL4\.static_nm: key is missing"),
+        ({"joints": {}}, "smoothing_rad_s: key is missing; accepted: smoothing_rad_s, joints"),
     ],
 )
 def test_files_that_are_no_fit_are_refused(

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from made_notes import training_note
 
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
@@ -76,8 +77,9 @@ def write_note(folder: Path, seed: int, diverged: bool = False) -> Path:
     folder.mkdir(parents=True)
     std = np.full((4000, 2), 0.5)
     found = calibrate(2.0 * std * np.random.default_rng(seed).normal(size=std.shape), std, 0.68, SHARES)
-    note = {"method": "GRU", "limb": "LL", "seed": seed, "diverged": diverged}
-    (folder / "run.json").write_text(json.dumps(note | {"calibration": found.note(["LL1", "LL2"], SHARES)}))
+    calibration = found.note(["LL1", "LL2"], SHARES)
+    note = training_note(f"GRU-LL-s{seed}", [1.0], diverged=diverged, calibration=calibration)
+    (folder / "run.json").write_text(json.dumps(note))
     return folder
 
 

@@ -20,7 +20,7 @@ WALK = Cell(scenario="walk", level="ideal", method="MOB")
 def results(tmp_path: Path, layout: JointLayout, write_training: Callable[..., Path]) -> Results:
     """Two tests of one method, its errors 1, 2 and 3 at the waist, and two kinds of trainings, one all diverged."""
     rows = [
-        Score("walk", "ideal", "MOB", 0, test, limb, joint, metric, factor * value * test, "")
+        Score("walk", "ideal", "MOB", 0, test, limb, joint, metric, factor * value * test, "N m")
         for test in (1, 2)
         for limb, joint, value in (("W", "W1", 1.0), ("W", "W2", 2.0), ("W", "W3", 3.0), ("LL", "LL1", 8.0))
         for metric, factor in (("rmse", 1.0), ("rmse_push_1", 10.0))

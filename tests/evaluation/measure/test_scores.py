@@ -58,7 +58,10 @@ def test_files_that_do_not_belong_together_are_refused(tmp_path: Path, walk: Wal
     run, stem = walk(1.0), tmp_path / "std"
     write_array(stem, np.ones((560, 1)), [("std.LL1", "N m", "joint")], RATE)
     for changed, says in (
-        (replace(run, residual=walk(1.0, steps=3).residual), r"rows is 560, but 420"),
+        (
+            replace(run, residual=walk(1.0, steps=3).residual),
+            r"rows: 560 is not accepted; accepted: 420, as in .*residual\.json",
+        ),
         (replace(run, estimate=stem), r"no column tau_ext\.<joint>; it holds std\.LL1"),
         (replace(run, residual=stem), r"column 'tau_ext_lp\.LL1' is missing"),
     ):
@@ -70,7 +73,7 @@ def test_pushes_are_scored_each_and_together(tmp_path: Path, walk: Walk, layout:
     run, rows = walk(2.0), np.arange(560)
     pushed = np.isin(rows, [*range(100, 110), *range(300, 330)])
     error = np.where(rows < 200, 1.0, 3.0) * pushed
-    write_array(tmp_path / "recording", pushed[:, None].astype(float), [("pushed", "-", "-")], RATE)
+    write_array(tmp_path / "recording", pushed[:, None].astype(float), [("pushed", "-", "scenario")], RATE)
     truth, _ = read_array(run.residual, ["tau_ext_lp.LL3"])
     write_array(tmp_path / "e", truth + error[:, None], [("tau_ext.LL3", "N m", "joint")], RATE)
     run = replace(run, recording=tmp_path / "recording", estimate=tmp_path / "e")

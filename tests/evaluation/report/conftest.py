@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from made_notes import training_note
 
 from mobnet.core.columns import VERDICTS
 from mobnet.settings.load import load_settings
@@ -15,12 +16,6 @@ from mobnet.settings.settings import Settings
 
 GOLDEN = Path(__file__).parents[2] / "golden"
 HEAD = "epoch,train_loss,validation_loss,validation_rmse,rate,gradient_norm"
-NOTE: dict[str, Any] = {
-    "target": "uncertainty", "settings": {"epochs": 3, "network": {"cell": "GRU", "Q": ["LL", "RL"]}},
-    "parameters": 83712, "samples": 1800000, "diverged": False, "best": {"epoch": 99, "validation_loss": -99.0},
-    "on_windows": {"loss": -1.0}, "device": "cpu", "precision": "float32",
-    "fingerprint": "<script>alert(1)</script>", "provenance": {"commit": "c"},
-}  # fmt: skip
 
 
 @pytest.fixture(scope="session")
@@ -34,11 +29,11 @@ def write_run() -> Callable[..., Path]:
     """Write a made-up training: write_run(networks, name, lines of metrics.csv, **keys of run.json) -> its folder."""
 
     def write(networks: Path, name: str, lines: Iterable[str], **changed: Any) -> Path:
-        method, limb, seed = name.rsplit("-", 2)
-        named = {"name": name, "method": method, "limb": limb, "seed": int(seed[1:])}
         (networks / name).mkdir(parents=True, exist_ok=True)
-        (networks / name / "run.json").write_text(json.dumps(named | NOTE | changed))
-        (networks / name / "metrics.csv").write_text("\n".join([HEAD, *lines, ""]))
+        rows = list(lines)
+        note = training_note(name, [float(row.split(",")[2]) for row in rows], **changed)
+        (networks / name / "run.json").write_text(json.dumps(note))
+        (networks / name / "metrics.csv").write_text("\n".join([HEAD, *rows, ""]))
         return networks / name
 
     return write

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from csv_files import check_golden, read_table
+from made_notes import training_note
 
 from mobnet.evaluation.figures.calibration import nominal_points
 from mobnet.evaluation.measure.calibration import Grid
@@ -27,7 +28,7 @@ def made(tmp_path: Path, settings: Settings, evaluation: Evaluation, predicted: 
     std, learning = np.full((2000, 6), 0.5), settings.learning
     error, shares = np.random.default_rng(3).normal(size=std.shape), learning.calibration_levels
     note = calibrate(error, std, learning.calibration_share, shares).note(settings.layout.limb("LL"), shares)
-    (folder / "run.json").write_text(json.dumps({"method": "MOB-Net", "diverged": False, "calibration": note}))
+    (folder / "run.json").write_text(json.dumps(training_note("MOB-Net-LL-s0", [1.0], calibration=note)))
     calibration(
         evaluation.calibration.model_copy(update={"tests": tests}), learning, evaluation.coverage, settings.layout,
         evaluation.statistics, settings.seed, [folder], runs, tmp_path, tmp_path / "figures",

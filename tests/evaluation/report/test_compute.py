@@ -70,7 +70,7 @@ def test_a_short_wait_is_part_of_the_run_and_jobs_in_turn_are_not_at_once(tmp_pa
 
 
 def test_text_has_a_row_a_stage_and_two_of_the_whole(tmp_path: Path) -> None:
-    made(tmp_path, {"train/a": (8200.0, 7200.0, 3600.0, 900.4), "collect/b": (1000.0, 3600.0, 3600.0, 5.0)})
+    made(tmp_path, {"train/a": (11800.0, 7200.0, 3600.0, 900.4), "collect/b": (4600.0, 3600.0, 3600.0, 5.0)})
     assert (tmp_path / "compute.md").read_text().splitlines()[2:] == [
         "| collect | 1 | 1.00 | 1.00 | 100 | 5 |",
         "| train | 1 | 1.00 | 2.00 | 50 | 900 |",
@@ -84,5 +84,5 @@ def test_no_account_and_a_damaged_one_are_named(tmp_path: Path) -> None:
     with pytest.raises(DataError, match=r"logs: holds no account of a job; \./reproduce all makes them"):
         compute(Compute(pause_s=60.0), tmp_path / "logs", tmp_path / "compute.csv")
     write_json(tmp_path / "logs" / "paper.json", {"wall_s": 1.0})
-    with pytest.raises(DataError, match=r"logs/paper\.json: job: None is not accepted; accepted: the account of a job"):
+    with pytest.raises(DataError, match=r"logs/paper\.json: job: key is missing; accepted: job, start_s"):
         compute(Compute(pause_s=60.0), tmp_path / "logs", tmp_path / "compute.csv")

@@ -54,8 +54,8 @@ class JointNote(Note):
     viscous_nms: NotNegative
     load_per_nm: NotNegative
     stribeck_rad_s: AboveZero
-    target_rms_nm: NotNegative
-    left_rms_nm: NotNegative
+    target_rms_nm: NotNegative = 0.0
+    left_rms_nm: NotNegative = 0.0
 
 
 class FrictionNote(Note):
