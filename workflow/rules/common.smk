@@ -9,9 +9,9 @@ from mobnet.core.lock import job_prefix
 from mobnet.core.run import start_jobs
 from mobnet.estimation.methods import check_methods
 from mobnet.evaluation.report.paper import missing_packages
+from mobnet.plan.disk import check_places, check_space
 from mobnet.plan.plan import make_plan
 from mobnet.plan.products import shown
-from mobnet.plan.space import check_space
 from mobnet.settings.load import load_settings
 
 ROOT = Path(workflow.basedir)
@@ -22,6 +22,7 @@ try:
     SETTINGS = load_settings(ROOT / "configs", config)
     check_methods(SETTINGS.methods)
     PLAN = make_plan(SETTINGS, with_pdf=not missing_packages())
+    check_places(PLAN)
 except MobnetError as error:
     sys.exit(str(error))
 

@@ -19,12 +19,14 @@ REFUSALS = FULL | {
     errno.EACCES, errno.EPERM, errno.EROFS, errno.EEXIST, errno.ENOTDIR, errno.EISDIR, errno.ENAMETOOLONG,
 }  # fmt: skip
 MIB = 2**20
-ROOM_BYTES = 2**16
+ROOM_BYTES = 2**17  # below this a disk counts as full
 
 
 @contextlib.contextmanager
-def atomic_path(path: Path) -> Iterator[Path]:
+def atomic_path(path: Path, size: int = 0) -> Iterator[Path]:
     """Yield a temporary path beside `path`; on success it is synced to disk and replaces `path`, else it is deleted.
+
+    The size [bytes] of the whole file, if it is known, is told where the disk is full.
 
     Raises:
         DataError: the disk is full, or the place cannot be written to.
@@ -43,41 +45,46 @@ def atomic_path(path: Path) -> Iterator[Path]:
     except OSError as error:
         if error.errno not in REFUSALS:
             raise
-        raise DataError(refusal(error, path, temporary)) from None
+        raise DataError(refusal(error, path, temporary, size)) from None
     finally:
         if temporary:
             temporary.unlink(missing_ok=True)
 
 
-def refusal(error: OSError, path: Path, temporary: Path | None = None) -> str:
+def refusal(error: OSError, path: Path, temporary: Path | None = None, size: int = 0) -> str:
     """Return one line for a file that could not be written; on a full disk with the space [MiB] needed and free.
 
-    What is needed is unknown before a file is whole: more than what is free and what the unfinished file takes.
+    Where the size [bytes] of the whole file is not known, more is needed than is free, its unfinished part included.
     """
     if error.errno not in FULL:
-        other = error.filename if error.filename != str(path) and PARTIAL not in str(error.filename) else None
-        why = f"{error.strerror} ({other})" if other else error.strerror
+        beside = str(error.filename).startswith((str(path), str(path.parent / PARTIAL)))
+        why = error.strerror if error.filename is None or beside else f"{error.strerror} ({error.filename})"
         return f"{path}: cannot be written: {why}; accepted: a folder that you may write to"
     place = next(folder for folder in (path, *path.absolute().parents) if folder.is_dir())
-    taken = temporary.stat().st_size if temporary else 0
-    free = (shutil.disk_usage(place).free + taken) / MIB
-    return f"{path}: cannot be written: {error.strerror}; needed: more than {free:.3f} MiB, free: {free:.3f} MiB"
+    free = shutil.disk_usage(place).free + (temporary.stat().st_size if temporary else 0)
+    needed = f"{size / MIB:.3f}" if size > free else f"more than {free / MIB:.3f}"
+    return f"{path}: cannot be written: {error.strerror}; needed: {needed} MiB, free: {free / MIB:.3f} MiB"
 
 
-def check_room(path: Path) -> None:
-    """Check that the disk of a path is not full: programs that write there do not always say so.
+def check_room(folder: Path) -> None:
+    """Check that a folder can be made and written to, by a small file that is gone at once.
 
     Raises:
-        DataError: it is full.
+        DataError: the disk is full, or the folder cannot be written to.
     """
-    if shutil.disk_usage(path.parent).free < ROOM_BYTES:
-        raise DataError(refusal(OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)), path))
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder) as file:
+            file.write(bytes(ROOM_BYTES))
+    except OSError as error:
+        raise DataError(refusal(error, folder, size=ROOM_BYTES)) from None
 
 
 def write_text(path: Path, text: str) -> None:
     """Write a text file atomically."""
-    with atomic_path(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+    content = text.encode()
+    with atomic_path(path, len(content)) as temporary:
+        temporary.write_bytes(content)
 
 
 def write_json(path: Path, value: Mapping[str, object]) -> None:

@@ -18,9 +18,12 @@ import psutil
 
 from mobnet.core.code import ROOT
 from mobnet.core.environment import LONGEST_TEMPORARY
+from mobnet.core.errors import MobnetError
+from mobnet.core.files import check_room
 from mobnet.core.lock import begin_run, scratch, sweep
 from mobnet.core.provenance import UNKNOWN, commit
 
+WRITTEN = (".snakemake", ".cache")  # below the project, by Snakemake itself and by packages
 STOPPED = "stopped; the same command goes on from here"
 LONGEST_S, PAUSE_S = 3.0, 0.02  # that killed processes may take to end, and between two looks at them
 
@@ -30,6 +33,11 @@ log = logging.getLogger(__name__)
 def prepare(root: Path) -> None:
     """Make Ctrl-C end this process at once, and give it and its children a folder for temporary files in a project."""
     signal.signal(signal.SIGINT, lambda number, _: stop(root, number, alone=False))
+    for name in WRITTEN:
+        try:
+            check_room(root / name)
+        except MobnetError as error:
+            sys.exit(str(error))
     folder = scratch(root)
     if len(str(folder)) > LONGEST_TEMPORARY:
         return

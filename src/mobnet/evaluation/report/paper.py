@@ -78,7 +78,7 @@ def compile_pdf(source: Path, out: Path) -> None:
         stdin=subprocess.DEVNULL, env={**os.environ, "SOURCE_DATE_EPOCH": os.environ.get("SOURCE_DATE_EPOCH", EPOCH)},
     )  # fmt: skip
     if run.returncode != 0:
-        check_room(source)
+        check_room(source.parent)
         lines = [line for line in run.stdout.splitlines() if line.strip()]
         raise PaperError(f"{out}: latexmk ended with {run.returncode}:\n" + "\n".join(lines[-LOG_LINES:]))
     with atomic_path(out) as temporary:

@@ -35,7 +35,7 @@ def wandb_runs(folders: Iterable[Path], out: Path) -> None:
             try:
                 name = _log_run(scratch, folder)
             finally:
-                check_room(out)
+                check_room(out.parent)
             place = runs / FOLDER.format(name)
             place.mkdir()
             (run,) = (Path(scratch) / "wandb").glob(f"offline-run-*/run-{name}.wandb")

@@ -1,0 +1,64 @@
+"""Whether the files that a run is about to write have a place and room, before it starts."""
+
+import shutil
+from collections.abc import Iterable
+from pathlib import Path
+
+from mobnet.core.columns import recording_width, residual_columns
+from mobnet.core.errors import DataError
+from mobnet.core.files import MIB, check_room
+from mobnet.plan.plan import Plan
+from mobnet.plan.runs import ARRAY
+
+NUMBER_BYTES = 4
+STORED = 0.85  # of the bytes of a recording remain after compression, of other arrays less
+OTHER_BYTES = MIB // 2  # of a file that is no array: the largest are weights and figures
+
+
+def check_places(plan: Plan) -> None:
+    """Check that no folder is where the plan has a file, nor a file where it has a folder.
+
+    Raises:
+        DataError: one is.
+    """
+    files = [Path(name) for name in (*plan.stored, *(name for product in plan.products for name in product.outputs))]
+    for path in files:
+        if path.suffix and path.is_dir():
+            raise DataError(f"{path}: a folder is not accepted; accepted: a file, or nothing")
+    for folder in {folder for path in files for folder in path.parents}:
+        if folder.exists() and not folder.is_dir():
+            raise DataError(f"{folder}: a file is not accepted; accepted: a folder, or nothing")
+
+
+def check_space(plan: Plan, outputs: Iterable[str]) -> None:
+    """Check that files can be written, and that there is room for all of them.
+
+    Raises:
+        DataError: a folder cannot be written to, or a disk has less free space than its files will take.
+    """
+    needed: dict[Path, int] = {}
+    for path in map(Path, outputs):
+        folder = next(folder for folder in path.absolute().parents if folder.is_dir())
+        needed[folder] = needed.get(folder, 0) + expected_bytes(plan, path)
+    disks: dict[int, list[Path]] = {}
+    for folder in needed:
+        check_room(folder)
+        disks.setdefault(folder.stat().st_dev, []).append(folder)
+    for folders in disks.values():
+        whole, free = sum(needed[folder] for folder in folders), shutil.disk_usage(folders[0]).free
+        if free < whole:
+            raise DataError(
+                f"{min(folders)}: too little space for what the run writes; "
+                f"needed: {whole / MIB:,.0f} MiB, free: {free / MIB:,.0f} MiB"
+            )
+
+
+def expected_bytes(plan: Plan, path: Path) -> int:
+    """Return about how many bytes a file of the plan will have: rows by columns for an array."""
+    layout, of_residual = plan.settings.layout, len(residual_columns(plan.settings.layout))
+    widths = {"recordings": recording_width(layout), "residuals": of_residual, "estimates": of_residual}
+    kind = path.relative_to(plan.folders.results).parts[0] if path.is_relative_to(plan.folders.results) else ""
+    if path.suffix != ARRAY or kind not in widths:
+        return OTHER_BYTES
+    duration_s = plan.files.duration_s([path.parts[-3]], int(path.stem.removeprefix("s")))
+    return round(duration_s * plan.settings.rates.data_hz * widths[kind] * NUMBER_BYTES * STORED)
