@@ -2,10 +2,16 @@
 # `snakemake --cores 2` makes all of it at the scale that configs/config.yaml names; --config scale=smoke takes minutes.
 # What is made from what stands in src/mobnet/plan.
 
+import sys
 from pathlib import Path
 
+sys.path.insert(0, f"{workflow.basedir}/src")  # of this folder, whatever Python reads this file
+
+from mobnet.core.environment import fault_of_process
 from mobnet.core.run import prepare
 
+if fault := fault_of_process(Path(workflow.basedir)):
+    sys.exit(fault)
 if workflow.is_main_process:
     prepare(Path(workflow.basedir))
 

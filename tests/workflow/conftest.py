@@ -1,7 +1,5 @@
 """Copies of the project in which the workflow may run without touching the checkout's results."""
 
-import hashlib
-import os
 import shutil
 import subprocess
 import sys
@@ -12,8 +10,8 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PARTS = ("Snakefile", "workflow", "profiles", "configs", "src", "docs", "paper", "reproduce")
 LOCKS = ("environment.lock", "cuda.constraints")
+PARTS = ("Snakefile", "workflow", "profiles", "configs", "src", "docs", "paper", "reproduce", *LOCKS)
 Snakemake = Callable[..., subprocess.CompletedProcess[str]]
 
 
@@ -22,9 +20,8 @@ def snakemake() -> Snakemake:
     """Return a function that runs snakemake in a folder and returns what it printed."""
 
     def run(*words: str, folder: Path = ROOT) -> subprocess.CompletedProcess[str]:
-        environment = {**os.environ, "PYTHONPATH": str(folder / "src")}
-        words = (sys.executable, "-m", "snakemake", *words)
-        return subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True, check=False)
+        words = (str(folder / ".venv" / "bin" / "python"), "-m", "snakemake", *words)
+        return subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
 
     return run
 
@@ -45,7 +42,7 @@ def outputs(snakemake: Snakemake) -> Callable[[str], dict[str, str]]:
 
 @pytest.fixture(scope="session")
 def make_project(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
-    """Return a function of a name that copies the project, or a copy; `.venv` stands for the Python of the tests."""
+    """Return a function of a name that copies the project, or a copy, without its environment."""
 
     def make(name: str, origin: Path = ROOT) -> Path:
         folder = tmp_path_factory.mktemp(name)
@@ -56,14 +53,7 @@ def make_project(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path
                 shutil.copytree(source, folder / part, symlinks=True, ignore=ignored)
             else:
                 shutil.copy2(source, folder / part)
-        content = b"".join((ROOT / lock).read_bytes() for lock in LOCKS)
-        for lock in LOCKS:
-            shutil.copy2(ROOT / lock, folder / lock)
-        python = folder / ".venv" / "bin" / "python"
-        python.parent.mkdir(parents=True)
-        python.write_text(f'#!/bin/sh\nPYTHONPATH="{folder}/src" exec "{sys.executable}" "$@"\n')
-        python.chmod(0o755)
-        (folder / ".venv" / "installed-lock.sha256").write_text(hashlib.sha256(content).hexdigest())
+        (folder / ".venv").symlink_to(sys.prefix)  # runs the code of the folder in which it is called
         return folder
 
     return make

@@ -1,5 +1,6 @@
 """What the rules share: the checked configuration, the plan that follows from it, and what each rule depends on."""
 
+import shlex
 import sys
 from pathlib import Path
 
@@ -10,6 +11,7 @@ from mobnet.core.run import start_jobs
 from mobnet.estimation.methods import check_methods
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.plan.disk import check_places, check_space
+from mobnet.plan.places import check_scale
 from mobnet.plan.plan import make_plan
 from mobnet.plan.products import shown
 from mobnet.settings.load import load_settings
@@ -17,11 +19,13 @@ from mobnet.settings.load import load_settings
 ROOT = Path(workflow.basedir)
 quieten(ROOT)
 shell.prefix(job_prefix(ROOT))
+sys.executable = shlex.quote(sys.executable)  # snakemake writes it into shell commands as it is
 
 try:
     SETTINGS = load_settings(ROOT / "configs", config)
     check_methods(SETTINGS.methods)
     PLAN = make_plan(SETTINGS, with_pdf=not missing_packages())
+    check_scale(sys.argv[1:], SETTINGS.scale)
     check_places(PLAN)
 except MobnetError as error:
     sys.exit(str(error))

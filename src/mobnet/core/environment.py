@@ -4,8 +4,12 @@ Standard library only: `reproduce` reads it before anything is installed.
 """
 
 import os
+import re
+import shlex
+import sys
 from pathlib import Path
 
+REFUSED = re.compile(r'[:{}"\\\x00-\x1f]')  # in the project's path: a colon parts PATH, others are signs for tools
 LONGEST_TEMPORARY = 70  # characters; the path of a Unix socket below it must not pass 108
 THREADED = ("OMP", "OPENBLAS", "MKL", "NUMEXPR", "NUMBA")
 CACHES = {
@@ -47,3 +51,28 @@ def quieten(root: Path) -> None:
     """Give this process, and so its children, the variables it does not have."""
     for name, value in child_environment(root).items():
         os.environ.setdefault(name, value)
+
+
+def fault_of_place(root: Path) -> str | None:
+    """Return why a project cannot be worked with in its folder: a character that other tools do not take as it is."""
+    found = REFUSED.search(str(root))
+    return found and f"{root}: {found[0]!r} is not accepted in the path of the project; move it to another folder"
+
+
+def fault_of_process(root: Path) -> str | None:
+    """Return why this Python must not run a project: it, and so its jobs, would take code from elsewhere.
+
+    The caller has put the project's `src` at the front of `sys.path`.
+    """
+    source = root / "src"
+    foreign = [place for place in os.environ.get("PYTHONPATH", "").split(os.pathsep) if place and Path(place) != source]
+    if foreign:
+        return (
+            f"PYTHONPATH: {foreign[0]!r} holds packages of other software; accepted: `unset PYTHONPATH`, or ./reproduce"
+        )
+    places = (Path(place) for place in sys.path[1:])
+    found = next((place for place in places if (place / "mobnet" / "__init__.py").is_file()), None)
+    if found is not None and found.resolve() == source.resolve():
+        return fault_of_place(root)
+    remedy = f"`cd {shlex.quote(str(root))}; ./reproduce setup; . .venv/bin/activate`"
+    return f"{sys.executable}: runs {found or 'no code of a project'} in place of {source}; accepted: {remedy}"

@@ -17,6 +17,10 @@ class ConfigError(MobnetError):
     """A key or a value of the configuration is not accepted."""
 
 
+class CommandError(MobnetError):
+    """A command of ./reproduce cannot be done on this machine, or in this folder."""
+
+
 class DataError(MobnetError):
     """A recording or a result file is missing, damaged or incomplete."""
 

@@ -7,6 +7,7 @@ import atexit
 import contextlib
 import logging
 import os
+import shlex
 import shutil
 import signal
 import sys
@@ -89,7 +90,8 @@ def lives(process: psutil.Process) -> bool:
 def start_jobs(root: Path) -> None:
     """Wait until this run is alone in the folder; what another one made meanwhile needs a new plan."""
     if begin_run(root):
-        os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:]])
+        python = shlex.split(sys.executable)[0]  # common.smk quotes it for snakemake
+        os.execv(python, [python, *sys.orig_argv[1:]])
     if commit() == UNKNOWN:
         log.warning("%s: git knows no commit here; results will not say which code made them (commit: unknown)", root)
     signal.signal(signal.SIGINT, lambda number, _: stop(root, number, alone=True))

@@ -4,11 +4,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mobnet.plan.jobs import Jobs
+from mobnet.plan.places import MAIN
 from mobnet.plan.products import Folders, Product, Products
 from mobnet.plan.runs import Files
 from mobnet.settings.settings import Settings
-
-MAIN = "default"  # the scale whose tables stand where a reader looks for them; others have folders of their own
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,70 @@
+"""The commands of `./reproduce`."""
+
+import os
+import re
+import signal
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+from mobnet.commands.clean import clean
+from mobnet.commands.setup import set_up
+from mobnet.commands.tell import say
+from mobnet.commands.words import Words, parse
+from mobnet.core.environment import child_environment, fault_of_place
+from mobnet.core.errors import CommandError, MobnetError
+
+MODULES = {  # command -> the module that `python -m` runs, with words that come first
+    "test": ("pytest", "-n", "2", "--dist", "loadfile", "--max-worker-restart", "0"),
+    "bench": ("benchmarks",),
+    "check": ("mobnet.check",),
+    **{name: ("mobnet.evaluation.report.snapshot", name) for name in ("verify", "compare", "snapshot")},
+}
+REPORT = ("--report", "report.html", "--report-after-run")
+
+
+def main(root: Path, words: Sequence[str]) -> int:
+    """Run one command in a project's folder; return its exit status."""
+    try:
+        return run(root, parse(words))
+    except MobnetError as problem:
+        say(str(problem))
+    except OSError as problem:
+        place = problem.filename or root
+        say(f"{place}: {problem.strerror}; accepted: a folder with free space, in which you may write and remove")
+    except KeyboardInterrupt:
+        say("stopped; the same command goes on from here")
+        return 130
+    return 1
+
+
+def run(root: Path, words: Words) -> int:
+    """Run a command; all but `clean` set the environment up first."""
+    if fault := fault_of_place(root):
+        raise CommandError(fault)
+    if words.command == "clean":
+        options = words.options
+        return clean(root, everything=options.all, is_dry=options.dry_run, is_sure=options.yes)
+    os.chdir(root)
+    os.environ.update(environment(root))
+    set_up(root, getattr(words.options, "build", None))
+    if words.command == "setup":
+        return 0
+    python = str(root / ".venv" / "bin" / "python")
+    if words.command in MODULES:
+        return subprocess.run([python, "-m", *MODULES[words.command], *words.extra], check=False).returncode
+    return run_workflow(python, [*words.extra, *(REPORT if words.command == "report" else ())])
+
+
+def environment(root: Path) -> dict[str, str]:
+    """Return the variables that every child gets."""
+    venv = root / ".venv"
+    path = f"{venv / 'bin'}{os.pathsep}{os.environ.get('PATH', os.defpath)}"
+    return {**child_environment(root), "PATH": path, "VIRTUAL_ENV": str(venv)}
+
+
+def run_workflow(python: str, words: Sequence[str]) -> int:
+    """Become snakemake; Ctrl-C waits until it can be answered."""
+    cores = [] if any(re.match(r"(-j|-c|--cores|--jobs)", word) for word in words) else ["--cores", "2"]
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    os.execv(python, [python, "-m", "mobnet.core.run", *cores, *words])

@@ -1,0 +1,120 @@
+"""The words of `./reproduce`: its commands, or targets and options of snakemake."""
+
+import argparse
+import difflib
+import re
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from mobnet.commands.builds import BUILDS
+from mobnet.core.errors import CommandError, not_accepted
+from mobnet.plan.places import scale_of
+
+COMMANDS = {
+    "all": "make every table, figure and the paper (snakemake --cores 2 all); further words go to snakemake",
+    "test": "run pytest, lint, format, types and the smoke run included; further words go to pytest",
+    "verify": "check every result file against results/MANIFEST.sha256, or --manifest FILE",
+    "check": "check recordings, weights and configurations from outside: ./reproduce check FILE...",
+    "report": "make everything, then report.html: every table and figure with its caption, in one file",
+    "compare": "print what differs between docs/results and the fresh tables",
+    "snapshot": "store the fresh tables and figures as docs/results",
+    "bench": "run the benchmarks; prints ratios taken in one run; further words are names of benchmarks",
+    "clean": "remove results, tables, figures and paper outputs after a question; --all: environment and caches too",
+    "setup": "make .venv from environment.lock and stop; --cpu or --cuda: which build of torch",
+}
+EXAMPLES = """
+  ./reproduce all -n                     show what would run
+  ./reproduce all --config scale=smoke   the same line in minutes
+  ./reproduce tables/table_05.tex        make one file and what it needs; tables/smoke/table_05.tex at that scale"""
+OWN = {"clean", "setup"}  # commands with options of their own
+HELP = {"-h", "--help"}
+CONFIG = {"-C", "--config"}
+
+
+class Words(NamedTuple):
+    """A command, its own options, and the words that it hands on."""
+
+    command: str
+    options: argparse.Namespace
+    extra: list[str]
+
+
+def parse(words: Sequence[str]) -> Words:
+    """Take the words apart; --help and words that are not accepted end the process as those of argparse do."""
+    first = words[0] if words else "--help"
+    if first in HELP:
+        overview().print_help()
+        overview().exit(0 if words else 2)
+    if re.search(r"^-|[/.]", first):
+        return Words("all", argparse.Namespace(), in_order(words))
+    if first not in COMMANDS:
+        near = difflib.get_close_matches(first, COMMANDS, 1)
+        overview().error(not_accepted("command", first, COMMANDS) + "".join(f"; did you mean {n}?" for n in near))
+    options = parser_of(first)
+    if first in OWN:
+        return Words(first, options.parse_args(words[1:]), [])
+    if HELP & set(words[1:]):
+        options.parse_args(["--help"])
+    extra = ["all", *in_order(words[1:])] if first in ("all", "report") else list(words[1:])
+    return Words(first, argparse.Namespace(), extra)
+
+
+def overview() -> argparse.ArgumentParser:
+    """Return the parser that knows all commands by a line."""
+    listing = "".join(f"\n  {name:<10}{text}" for name, text in COMMANDS.items())
+    return argparse.ArgumentParser(
+        prog="./reproduce",
+        usage="./reproduce COMMAND [WORDS], or ./reproduce TARGET...",
+        description="Set up the project and run it: one command from an empty machine to every table and figure.",
+        epilog=f"commands:{listing}\n{EXAMPLES}",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+
+
+def parser_of(command: str) -> argparse.ArgumentParser:
+    """Return the parser of a command's own options."""
+    usage = None if command in OWN else f"./reproduce {command} [WORDS]"
+    parser = argparse.ArgumentParser(f"./reproduce {command}", usage, description=COMMANDS[command], allow_abbrev=False)
+    if command == "clean":
+        parser.add_argument("--all", action="store_true", help="remove .venv and the caches too")
+        parser.add_argument("-n", "--dry-run", action="store_true", help="list what would go, and remove nothing")
+        parser.add_argument("--yes", action="store_true", help="remove without a question")
+    if command == "setup":
+        build = parser.add_mutually_exclusive_group()
+        for name in BUILDS:
+            build.add_argument(
+                f"--{name}", dest="build", action="store_const", const=name, help=f"the {name.upper()} build of torch"
+            )
+    return parser
+
+
+def in_order(words: Sequence[str]) -> list[str]:
+    """Return words for snakemake: targets before `--config`, which takes all after it, and the scale that they name.
+
+    Raises:
+        CommandError: targets belong to several scales.
+    """
+    targets: list[str] = []
+    others: list[str] = []
+    taking = False
+    for word in words:
+        swallowed = taking and not word.startswith("-") and "=" not in word
+        (targets if swallowed else others).append(word)
+        taking = word in CONFIG or (taking and not word.startswith("-"))
+    ordered = [*targets, *others]
+    return ordered if any(word.startswith("scale=") for word in words) else with_scale(ordered)
+
+
+def with_scale(words: list[str]) -> list[str]:
+    """Add the scale that the paths of targets name."""
+    scales = sorted({scale for scale in map(scale_of, words) if scale})
+    if not scales:
+        return words
+    if len(scales) > 1:
+        raise CommandError(f"targets of the scales {', '.join(scales)}: one scale can be made at a time")
+    named = f"scale={scales[0]}"
+    given = next((place for place, word in enumerate(words) if word in CONFIG), None)
+    if given is not None:
+        return [*words[: given + 1], named, *words[given + 1 :]]
+    first = next((place for place, word in enumerate(words) if word.startswith("-")), len(words))
+    return [*words[:first], "--config", named, *words[first:]]
