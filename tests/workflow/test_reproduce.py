@@ -1,82 +1,174 @@
-"""The entry script: its lock, its words, and how it starts on a bare machine."""
+"""The entry script on a bare machine, and in folders that were copied, moved, or are named as nobody expects."""
 
-import importlib.util
-import re
+import os
+import shutil
 import subprocess
 import sys
-from importlib.machinery import SourceFileLoader
+import time
+from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
-from types import ModuleType
 
 import pytest
 
-from .conftest import ROOT
+from mobnet.commands.main import environment
+from mobnet.commands.setup import fault_of
+from mobnet.commands.words import COMMANDS
+
+from .conftest import ROOT, Snakemake
+
+ENTRY = str(ROOT / "reproduce")
+CHECK_S = 1.0  # 0.1 s on an idle machine
+
+
+def call(*words: str | Path, folder: Path = ROOT, **variables: str) -> subprocess.CompletedProcess[str]:
+    """Run a command in a folder and return what it printed, its two streams together."""
+    both = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True, "check": False}
+    return subprocess.run(list(map(str, words)), cwd=folder, env={**os.environ, **variables}, **both)
+
+
+@pytest.mark.parametrize("words", [["--help"], ["-h"], ["clean", "--help"], ["all", "-h"]])
+def test_help_needs_no_environment(words: list[str]) -> None:
+    bare = [sys.executable, "-I", "-S", ENTRY, *words]
+    done = subprocess.run(bare, capture_output=True, text=True, check=True, env={"PATH": "/usr/bin:/bin"})
+    assert all(command in done.stdout for command in COMMANDS) or words[0] in done.stdout
+
+
+@pytest.mark.parametrize("words", [[], ["al"], ["clean", "--al"], ["setup", "--cpu", "--cuda"]])
+def test_unknown_words_are_refused(words: list[str]) -> None:
+    done = call(sys.executable, ENTRY, *words)
+    assert done.returncode == 2
+    assert "usage: ./reproduce" in done.stdout
+
+
+def test_foreign_modules_never_reach_it(tmp_path: Path) -> None:
+    (tmp_path / "argparse.py").write_text("raise ImportError('foreign argparse')")
+    done = call(
+        sys.executable, ENTRY, "--help", PYTHONPATH=str(tmp_path), PYTHONSTARTUP="/none", PYTHONWARNINGS="error"
+    )
+    assert done.returncode == 0, done.stdout
+
+
+def test_an_accepted_python_is_looked_for_on_path(tmp_path: Path) -> None:
+    older = tmp_path / "older.py"  # runs the script as a Python that is not accepted
+    older.write_text(f"import sys, runpy\nsys.version_info = (3, 9, 2)\nsys.argv = [{ENTRY!r}, 'al']\n")
+    older.write_text(older.read_text() + f"runpy.run_path({ENTRY!r}, run_name='__main__')\n")
+    shim = tmp_path / "bin" / "python3.11"
+    shim.parent.mkdir()
+    shim.write_text("#!/bin/sh\nexit 127\n")  # as pyenv's for a version that is not chosen
+    shim.chmod(0o755)
+    script = ENTRY.replace(str(ROOT), str(tmp_path))
+    shutil.copy2(ENTRY, script)
+    older.write_text(older.read_text().replace(ENTRY, script))
+    done = call(sys.executable, older, PATH=str(shim.parent))
+    assert "python3.11, python3.12, python3.13: one is needed, found Python 3.9.2" in done.stdout
+    (tmp_path / "bin" / "python3.12").symlink_to(sys.executable)
+    (tmp_path / "src").symlink_to(ROOT / "src")
+    assert "'al' is not accepted" in call(sys.executable, older, PATH=str(shim.parent)).stdout
+
+
+def test_environment_keeps_caches_inside_the_project() -> None:
+    variables = environment(ROOT)
+    assert variables["PATH"].startswith(str(ROOT / ".venv" / "bin"))
+    assert variables["OMP_NUM_THREADS"] == "1"
+
+
+def test_every_start_checks_the_environment_in_no_time() -> None:
+    times = [time.monotonic()]
+    for _ in range(3):
+        assert fault_of(ROOT, None) is None
+        times.append(time.monotonic())
+    assert min(end - start for start, end in pairwise(times)) < CHECK_S
 
 
 @pytest.fixture(scope="module")
-def reproduce() -> ModuleType:
-    loader = SourceFileLoader("reproduce_script", str(ROOT / "reproduce"))
-    spec = importlib.util.spec_from_loader("reproduce_script", loader)
-    assert spec is not None
-    module = importlib.util.module_from_spec(spec)
-    loader.exec_module(module)
-    return module
+def copied(make_project: Callable[..., Path]) -> Path:
+    """A copy of the project with its environment, whose packages are linked to save time, under an awkward name."""
+    folder = make_project("copied")
+    (folder / ".venv").unlink()
+    (folder / ".venv").mkdir()
+    for name in ("pyvenv.cfg", "installed"):
+        shutil.copy2(ROOT / ".venv" / name, folder / ".venv" / name)
+    shutil.copytree(ROOT / ".venv" / "bin", folder / ".venv" / "bin", symlinks=True, copy_function=os.link)
+    (folder / ".venv" / "lib").symlink_to(ROOT / ".venv" / "lib")
+    return folder.rename(folder.with_name("it's a [copy]"))
 
 
-def test_every_package_but_torch_has_hashes() -> None:
-    lines = (ROOT / "environment.lock").read_text().splitlines()
-    packages = [line for line in lines if line and line[0] not in " #-"]
-    assert [line for line in packages if not line.endswith(" \\")] == ["torch==2.13.0"]
-    assert all(re.fullmatch(r"    --hash=sha256:[0-9a-f]{64}( \\)?", line) for line in lines if line.startswith(" "))
+def test_a_copy_runs_its_own_code(copied: Path) -> None:
+    assert call(sys.executable, copied / "reproduce", "setup").stdout == ""
+    done = call(copied / ".venv/bin/python", "-c", "import mobnet; print(mobnet.__file__)", folder=copied)
+    assert done.stdout == f"{copied}/src/mobnet/__init__.py\n"
 
 
-def test_constraints_pin_what_they_name() -> None:
-    lines = [line for line in (ROOT / "cuda.constraints").read_text().splitlines() if not line.startswith("#")]
-    assert all(re.fullmatch(r"[a-z0-9-]+==[0-9.]+", line) for line in lines)
+@pytest.mark.parametrize("shell", ["sh", "bash"])
+def test_activation_is_that_of_the_copy(copied: Path, shell: str) -> None:
+    script = ". .venv/bin/activate; echo $VIRTUAL_ENV; command -v snakemake; snakemake --version >&2"
+    done = call(shell, "-c", script, folder=copied)
+    assert done.stdout.startswith(f"{copied}/.venv\n{copied}/.venv/bin/snakemake\n9.")
 
 
-@pytest.mark.parametrize("words", [["--help"], ["-h"]])
-def test_help_names_every_command_and_needs_no_environment(words: list[str], reproduce: ModuleType) -> None:
-    bare = [sys.executable, "-I", "-S", str(ROOT / "reproduce"), *words]
-    done = subprocess.run(bare, capture_output=True, text=True, check=True, env={"PATH": "/usr/bin:/bin"})
-    assert all(command in done.stdout for command in reproduce.COMMANDS)
+@pytest.mark.slow
+def test_jobs_of_a_copy_run_its_code(copied: Path) -> None:
+    module = copied / "src/mobnet/simulation/record.py"
+    text = module.read_text()
+    module.write_text(f"{text}\nraise SystemExit('the code of the copy')\n")
+    target = "results/smoke/recordings/forward_walk/ideal/s1.parquet"
+    done = call(sys.executable, copied / "reproduce", target, "--cores", "1", folder=copied)
+    module.write_text(text)
+    assert done.returncode == 1
+    assert "the code of the copy" in done.stdout
+    assert "Syntax error" not in done.stdout
 
 
-@pytest.mark.parametrize("words", [[], ["al"]])
-def test_unknown_command_is_refused(words: list[str]) -> None:
-    done = subprocess.run([sys.executable, ROOT / "reproduce", *words], capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    assert "command" in done.stderr
+@pytest.mark.slow
+def test_foreign_packages_never_reach_a_run(copied: Path, tmp_path: Path) -> None:
+    (tmp_path / "yaml.py").write_text("safe_load = None")
+    target = "tables/smoke/table_05.tex"
+    for words in (
+        [sys.executable, copied / "reproduce", target, "-n"],
+        [copied / ".venv/bin/snakemake", "-n", "--config", "scale=smoke", "--", target],
+    ):
+        done = call(*words, folder=copied, PYTHONPATH=str(tmp_path))
+        assert done.returncode == 0, done.stdout
+        assert "table_05" in done.stdout
 
 
-def test_pip_configuration_is_handed_to_uv(reproduce: ModuleType, tmp_path: Path) -> None:
-    pip = tmp_path / "pip"
-    pip.write_text(
-        "#!/bin/sh\ncat <<'E'\n:env:.find-links='/a'\nglobal.find-links='/wheels /more'\n"
-        "global.extra-index-url='file:///x file:///y'\nglobal.cert='/ca.pem'\nE\n"
-    )
-    pip.chmod(0o755)
-    settings = reproduce.uv_settings([str(pip)])
-    assert settings["UV_FIND_LINKS"] == "/wheels,/more"
-    assert settings["UV_INDEX"] == "file:///x file:///y"
-    assert settings["SSL_CERT_FILE"] == "/ca.pem"
-
-
-def test_clean_removes_only_what_git_ignores(
-    reproduce: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_another_python_is_refused_with_one_line(
+    make_project: Callable[..., Path], snakemake: Snakemake, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    subprocess.run(["git", "init", "-q", tmp_path], check=True)
-    (tmp_path / ".gitignore").write_text("results/\n/tables/*\n!/tables/README.md\n")
-    for name in ("results/a.parquet", "tables/t.csv", "tables/README.md", "src/kept.py"):
-        (tmp_path / name).parent.mkdir(exist_ok=True)
-        (tmp_path / name).write_text("x")
-    monkeypatch.setattr(reproduce, "ROOT", tmp_path)
-    assert reproduce.clean(everything=False) == 0
-    left = {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*.*") if ".git/" not in str(path)}
-    assert left == {".git", ".gitignore", "tables/README.md", "src/kept.py"}
+    original = call(sys.executable, "-m", "snakemake", "-n", folder=make_project("original"))
+    assert original.returncode == 1
+    assert f"runs {ROOT}/src in place of" in original.stdout.splitlines()[-1]
+    monkeypatch.setenv("PYTHONPATH", "/opt/ros/lib")
+    foreign = snakemake("-n")
+    assert foreign.stderr.splitlines()[-1].startswith("PYTHONPATH: '/opt/ros/lib' holds packages of other software")
+    assert "Traceback" not in original.stdout + foreign.stderr
 
 
-def test_environment_keeps_caches_inside_the_project(reproduce: ModuleType) -> None:
-    variables = reproduce.environment()
-    assert variables["PATH"].startswith(str(ROOT / ".venv" / "bin"))
-    assert variables["OMP_NUM_THREADS"] == "1"
+@pytest.mark.parametrize("name", ["a:b", "a{b}", 'a"b', "a\\b"])
+def test_a_path_that_tools_misread_is_refused(
+    make_project: Callable[..., Path], snakemake: Snakemake, name: str
+) -> None:
+    folder = make_project("named")
+    folder = folder.rename(folder.with_name(name))
+    for done in (call(sys.executable, folder / "reproduce", "all", "-n"), snakemake("-n", folder=folder)):
+        told = done.stdout + (done.stderr or "")
+        assert done.returncode == 1
+        assert "is not accepted in the path of the project" in told.splitlines()[-1]
+
+
+@pytest.mark.parametrize(
+    ("target", "scale", "line"),
+    [
+        ("tables/smoke/table_05.tex", "default", "tables/smoke/table_05.tex: is not made at scale=default"),
+        (
+            "tables/table_05.tex",
+            "smoke",
+            "tables/table_05.tex: is not made at scale=smoke; accepted: --config scale=default",
+        ),
+    ],
+)
+def test_a_target_of_another_scale_is_told(snakemake: Snakemake, target: str, scale: str, line: str) -> None:
+    done = snakemake("-n", target, "--config", f"scale={scale}")
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-1].startswith(line)

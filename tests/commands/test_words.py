@@ -1,0 +1,74 @@
+"""The words of ./reproduce: commands, targets, their order and their scale."""
+
+import pytest
+
+from mobnet.commands.words import COMMANDS, in_order, parse
+from mobnet.core.errors import CommandError
+from mobnet.plan.places import scale_of
+
+
+@pytest.mark.parametrize(
+    ("words", "handed"),
+    [
+        (["all", "-n"], ["all", "-n"]),
+        (["-n"], ["-n"]),
+        (["tables/table_05.tex"], ["tables/table_05.tex", "--config", "scale=default"]),
+        (["tables/smoke/table_05.tex", "-n"], ["tables/smoke/table_05.tex", "--config", "scale=smoke", "-n"]),
+        (["./results/paper/runs.html"], ["./results/paper/runs.html", "--config", "scale=paper"]),
+        (["report.html"], ["report.html"]),
+        (
+            ["all", "--config", "scale=smoke", "seed=1", "tables/smoke/table_05.tex", "-n"],
+            ["all", "tables/smoke/table_05.tex", "--config", "scale=smoke", "seed=1", "-n"],
+        ),
+        (["tables/smoke/x.md", "--config", "seed=1"], ["tables/smoke/x.md", "--config", "scale=smoke", "seed=1"]),
+        (["all", "--config", "scale=smoke", "--", "x.md"], ["all", "--config", "scale=smoke", "--", "x.md"]),
+    ],
+)
+def test_targets_come_first_and_name_the_scale(words: list[str], handed: list[str]) -> None:
+    assert parse(words)[::2] == ("all", handed)
+
+
+def test_targets_of_two_scales_are_refused() -> None:
+    with pytest.raises(CommandError, match="targets of the scales default, smoke: one scale"):
+        in_order(["tables/table_05.tex", "tables/smoke/table_05.tex"])
+
+
+@pytest.mark.parametrize(
+    ("target", "scale"),
+    [
+        ("tables/table_05.tex", "default"),
+        ("figures/smoke/figure_05.pdf", "smoke"),
+        ("results/MANIFEST.sha256", "default"),
+        ("./paper/main.pdf", "default"),
+        ("results/paper/networks/x", "paper"),
+        ("configs/config.yaml", None),
+        ("all", None),
+    ],
+)
+def test_a_path_tells_its_scale(target: str, scale: str | None) -> None:
+    assert scale_of(target) == scale
+
+
+@pytest.mark.parametrize(
+    "words", [["al"], ["clean", "--al"], ["clean", "-a"], ["clean", "all"], ["clean", "--scale", "x"]]
+)
+def test_misspelt_words_are_refused(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        parse(words)
+    assert words[-1] in capsys.readouterr().err
+
+
+def test_a_misspelt_command_is_told_with_the_nearest(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        parse(["cleen"])
+    told = capsys.readouterr().err
+    assert all(command in told for command in COMMANDS)
+    assert "did you mean clean?" in told
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("word", ["-h", "--help"])
+def test_help_of_every_command_does_nothing_else(command: str, word: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="0"):
+        parse([command, word])
+    assert f"./reproduce {command}" in capsys.readouterr().out
