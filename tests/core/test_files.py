@@ -1,5 +1,7 @@
 """A file is the old one or the whole new one."""
 
+import errno
+import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -23,6 +25,29 @@ def test_writing_makes_folders_and_a_readable_file(tmp_path: Path) -> None:
     write_text(path, "text")
     assert path.read_text() == "text"
     assert path.stat().st_mode & 0o444 == 0o444
+
+
+@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES])
+def test_what_cannot_be_written_is_one_line(tmp_path: Path, number: int) -> None:
+    with pytest.raises(DataError) as told, atomic_path(tmp_path / "a.txt", 2**60) as temporary:
+        raise OSError(number, os.strerror(number), str(temporary))
+    assert str(told.value).startswith(f"{tmp_path}/a.txt: cannot be written: {os.strerror(number)}; ")
+    full = number in (errno.ENOSPC, errno.EDQUOT)
+    assert ("needed: 1099511627776.000 MiB, free: " in str(told.value)) == full
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_file_in_place_of_a_folder_is_named(tmp_path: Path) -> None:
+    (tmp_path / "a").touch()
+    with pytest.raises(DataError, match=rf"a/b/c\.txt: cannot be written: Not a directory \({tmp_path}/a/b\)"):
+        write_text(tmp_path / "a/b/c.txt", "text")
+
+
+@pytest.mark.parametrize("content", [b"[1]", b"\xff", b"1" * 5000 + b"x"])
+def test_what_is_no_json_object_is_refused(tmp_path: Path, content: bytes) -> None:
+    (tmp_path / "a.json").write_bytes(content)
+    with pytest.raises(DataError, match=r"a\.json: "):
+        read_json(tmp_path / "a.json")
 
 
 @pytest.mark.parametrize("read", [read_text, read_json])

@@ -46,6 +46,17 @@ def products(folder: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in found}
 
 
+def manifest_of(folder: Path) -> str:
+    """Return the list of results with their hashes; two runs of the same code have the same."""
+    return (folder / "results" / "smoke" / "MANIFEST.sha256").read_text()
+
+
+def names(folder: Path) -> set[str]:
+    """Return the names of all files but those that only some runs have: Snakemake's own, reports, caches."""
+    places = ("results", "tables", "figures", "paper", ".snakemake/scripts", ".cache/tmp")
+    return {str(path.relative_to(folder)) for place in places for path in (folder / place).rglob("*")}
+
+
 @pytest.fixture(scope="module")
 def plan() -> Plan:
     """What the smoke scale makes."""
@@ -222,3 +233,5 @@ def test_killed_at_random_moments_ends_with_the_same_tables(unbroken: Path, make
         run.wait()
     assert reproduce(folder, "--cores", "3").wait() == 0, told(folder)  # whatever the number of cores is
     assert products(folder) == products(unbroken)
+    assert manifest_of(folder) == manifest_of(unbroken)
+    assert names(folder) == names(unbroken)

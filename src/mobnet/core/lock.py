@@ -55,7 +55,12 @@ def begin_run(root: Path) -> bool:
 
 def holder(root: Path) -> str | None:
     """Take the locks of a run, without waiting; return who holds one of them, None where both are taken."""
-    return next((LOCKS[name] for name in LOCKS if not taken(opened(root / name))), None)
+    handles = {name: opened(root / name) for name in LOCKS}
+    found = next((LOCKS[name] for name, handle in handles.items() if not taken(handle)), None)
+    if found:
+        for handle in handles.values():
+            os.close(handle)
+    return found
 
 
 def opened(path: Path) -> int:

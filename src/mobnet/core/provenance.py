@@ -22,9 +22,12 @@ def provenance(settings: Mapping[str, object]) -> dict[str, str]:
 
 @functools.cache
 def commit() -> str:
-    """Return the commit of this checkout, `-changed` added where tracked files differ from it."""
+    """Return the commit of this checkout, `-changed` added where tracked files differ from it.
+
+    A copy that lies in a repository of something else has none.
+    """
     name = _git("rev-parse", "HEAD")
-    if name is None:
+    if name is None or not _git("ls-files", LOCK.name):
         return UNKNOWN
     return f"{name}-changed" if _git("status", "--porcelain", "--untracked-files=no") else name
 

@@ -1,0 +1,58 @@
+"""Before a run: places that cannot be files or folders, and disks without room, are named."""
+
+import shutil
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+from mobnet.core.errors import DataError
+from mobnet.plan.disk import check_places, check_space, expected_bytes
+from mobnet.plan.plan import Plan, make_plan
+from mobnet.settings.load import load_settings
+
+ARRAY = "results/smoke/recordings/forward_walk/ideal/s1.parquet"
+
+
+class Usage(NamedTuple):
+    """What shutil.disk_usage returns."""
+
+    total: int
+    used: int
+    free: int
+
+
+@pytest.fixture(scope="module")
+def plan() -> Plan:
+    return make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False)
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Work in an empty folder."""
+    monkeypatch.chdir(tmp_path)
+
+
+def test_a_folder_in_place_of_a_file_and_a_file_in_place_of_a_folder_are_named(plan: Plan) -> None:
+    check_places(plan)
+    Path(ARRAY).mkdir(parents=True)
+    with pytest.raises(DataError, match=rf"^{ARRAY}: a folder is not accepted; accepted: a file"):
+        check_places(plan)
+    shutil.rmtree("results")
+    Path("results").touch()
+    with pytest.raises(DataError, match=r"^results: a file is not accepted; accepted: a folder"):
+        check_places(plan)
+
+
+def test_an_array_takes_its_rows_by_its_columns(plan: Plan) -> None:
+    """Ten seconds at 1 kHz of some 200 columns of four bytes."""
+    assert 5_000_000 < expected_bytes(plan, Path(ARRAY)) < 8_500_000
+    assert expected_bytes(plan, Path("tables/smoke/table_05.csv")) < 1_000_000
+
+
+def test_too_little_room_is_told_with_what_is_needed_and_free(plan: Plan, monkeypatch: pytest.MonkeyPatch) -> None:
+    check_space(plan, [ARRAY])
+    monkeypatch.setattr("shutil.disk_usage", lambda _: Usage(10, 5, 2**20))
+    with pytest.raises(DataError, match=r"too little space .*; needed: [5-8] MiB, free: 1 MiB"):
+        check_space(plan, [ARRAY])
+    check_space(plan, ["tables/smoke/table_05.csv"])

@@ -1,0 +1,160 @@
+"""A run is stopped, killed or finds no room: one line, nothing is left behind, and the same command goes on."""
+
+import fcntl
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import psutil
+import pytest
+
+from .conftest import Snakemake
+
+SMOKE = ("--config", "scale=smoke")
+QUICK, SLOW = "tables/smoke/table_01.csv", "results/smoke/recordings/forward_walk/ideal/s1.parquet"
+ONE_CORE = ("--cores", "1", *SMOKE, "--")
+MOMENTS_S = (0.3, 1.0, 2.0, 4.0, 8.0)  # after the start: before and while the workflow is planned, while jobs run
+SOON_S, LONGEST_S = 15.0, 300.0  # five and thirty on an idle machine
+STOPPED, AGAIN = (
+    "stopped; the same command goes on from here",
+    "held by another run in this folder; waiting for the end",
+)
+
+pytestmark = [pytest.mark.slow, pytest.mark.sim]
+
+
+@pytest.fixture(scope="module")
+def project(make_project: Callable[..., Path]) -> Path:
+    """A copy of the project without results."""
+    return make_project("faults")
+
+
+@contextmanager
+def small_disk(folder: Path, size: str, *, how: str = "rw") -> Iterator[None]:
+    """Mount an empty file system on a folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    words = ["mount", "-t", "tmpfs", "-o", f"size={size},{how}", "none", str(folder)]
+    if os.geteuid() != 0 or subprocess.run(words, check=False, capture_output=True).returncode != 0:
+        pytest.skip("only root can mount a small file system")
+    try:
+        yield
+    finally:
+        subprocess.run(["umount", str(folder)], check=True)
+
+
+def told(done: subprocess.CompletedProcess[str]) -> str:
+    """Return all that a run printed."""
+    return done.stdout + done.stderr
+
+
+def processes(folder: Path) -> list[psutil.Process]:
+    """Return the processes that work in a project."""
+    found = [process.info for process in psutil.process_iter(["cwd", "pid", "status"])]
+    return [info for info in found if info["cwd"] == str(folder) and info["status"] != psutil.STATUS_ZOMBIE]
+
+
+def left_behind(folder: Path) -> list[Path]:
+    """Return unfinished files and the like."""
+    places = ("results/**/.partial.*", ".snakemake/scripts/*", ".cache/tmp/run-*")
+    return [path for place in places for path in folder.glob(place)]
+
+
+@pytest.mark.parametrize("moment_s", MOMENTS_S)
+def test_ctrl_c_ends_at_once_with_one_line(project: Path, moment_s: float) -> None:
+    words = [sys.executable, str(project / "reproduce"), "all", *SMOKE]
+    with (project / "out.log").open("w+") as out:
+        run = subprocess.Popen(words, cwd=project, stdout=out, stderr=out, start_new_session=True)
+        time.sleep(moment_s)
+        out.seek(0)
+        before = out.read()
+        os.killpg(run.pid, signal.SIGINT)  # as a terminal does
+        assert run.wait(SOON_S) == 128 + signal.SIGINT
+        out.seek(0)
+        after = out.read().removeprefix(before)
+    assert after.count(STOPPED) == 1
+    assert after.endswith(f"{STOPPED}\n")
+    assert "Traceback" not in after
+    assert "Error" not in after
+    assert processes(project) == left_behind(project) == []
+
+
+def test_a_run_waits_for_another_one_removes_what_it_left_and_plans_again(project: Path) -> None:
+    unfinished, foreign = project / "results/smoke/.partial.abcd_123.s1.parquet", project / "results/smoke/.mine.s1"
+    unfinished.parent.mkdir(parents=True, exist_ok=True)
+    for path in (unfinished, foreign):
+        path.write_text("half")
+    environment = {**os.environ, "PYTHONPATH": str(project / "src")}
+    words = [sys.executable, "-m", "snakemake", *ONE_CORE, QUICK]
+    with (project / ".cache" / "run.lock").open("w") as lock, (project / "out.log").open("w+") as out:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        run = subprocess.Popen(words, cwd=project, stdout=out, stderr=out, env=environment)
+        end = time.monotonic() + LONGEST_S
+        while AGAIN not in (project / "out.log").read_text() and time.monotonic() < end:
+            time.sleep(0.1)
+        assert unfinished.exists()
+        fcntl.flock(lock, fcntl.LOCK_UN)
+        assert run.wait(LONGEST_S) == 0
+    assert (project / "out.log").read_text().count("Building DAG of jobs...") == 2
+    assert (project / QUICK).is_file()
+    assert not unfinished.exists()
+    assert foreign.exists()
+
+
+@pytest.mark.parametrize(
+    ("folder", "size", "target"),
+    [("results", "4m", SLOW), ("tables/smoke", "64k", QUICK), (".cache", "64k", QUICK), (".snakemake", "64k", QUICK)],
+)
+def test_a_full_disk_is_one_line_with_what_is_needed_and_free(
+    project: Path, snakemake: Snakemake, folder: str, size: str, target: str
+) -> None:
+    (project / target).unlink(missing_ok=True)
+    with small_disk(project / folder, size):
+        done = snakemake(*ONE_CORE, target, folder=project)
+    assert done.returncode != 0
+    (line,) = [line for line in told(done).splitlines() if "needed: " in line]
+    assert line.startswith(str(project / folder))
+    assert " MiB, free: " in line
+    assert "Traceback" not in told(done)
+    assert snakemake(*ONE_CORE, QUICK, folder=project).returncode == 0
+    assert (project / QUICK).is_file()
+
+
+def test_a_disk_that_fills_while_a_job_writes_is_told_by_the_job(project: Path, snakemake: Snakemake) -> None:
+    with small_disk(project / "results", "8m"):
+        words = [sys.executable, "-m", "snakemake", *ONE_CORE, SLOW]
+        environment = {**os.environ, "PYTHONPATH": str(project / "src")}
+        run = subprocess.Popen(words, cwd=project, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        end = time.monotonic() + LONGEST_S
+        while not list((project / "results").rglob(".partial.*")) and time.monotonic() < end:
+            time.sleep(0.05)
+        fill = project / "results" / "fill"
+        fill.write_bytes(bytes(7 * 2**20))
+        output = run.communicate()[0].decode()
+        assert run.returncode != 0
+        assert f"{SLOW}: cannot be written: No space left on device; needed: more than" in output
+        assert "Traceback" not in output
+        assert left_behind(project) == []
+        fill.unlink()
+        assert snakemake(*ONE_CORE, SLOW, folder=project).returncode == 0
+
+
+def test_a_read_only_folder_is_one_line(project: Path, snakemake: Snakemake) -> None:
+    (project / QUICK).unlink(missing_ok=True)
+    shutil.rmtree(project / "tables" / "smoke", ignore_errors=True)
+    with small_disk(project / "tables" / "smoke", "1m", how="ro"):
+        done = snakemake(*ONE_CORE, QUICK, folder=project)
+    assert done.returncode != 0
+    assert told(done).count("tables/smoke: cannot be written: Read-only file system") == 1
+    assert "Traceback" not in told(done)
+
+
+def test_without_git_a_run_says_that_results_name_no_commit(project: Path, snakemake: Snakemake) -> None:
+    done = snakemake("--forceall", *ONE_CORE, QUICK, folder=project)
+    assert done.returncode == 0
+    assert told(done).count("(commit: unknown)") == 1
