@@ -33,7 +33,7 @@ def clean(root: Path, *, everything: bool, is_dry: bool, is_sure: bool) -> int:
     if is_dry or not found:
         return 0
     if (busy := holder(root)) is not None:
-        raise CommandError(f"{busy} is going on: nothing is removed; stop it, or wait for its end")
+        raise CommandError(f"nothing is removed: the folder is in use by {busy}; wait for the end")
     if not (is_sure or agreed()):
         say("nothing is removed")
         return 1

@@ -5,6 +5,8 @@ import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
+from mobnet.core.errors import CommandError
+
 
 def sizes_of(*places: Path) -> list[int]:
     """Return the bytes that files and folders take; what has several names counts where it is met first."""
@@ -30,8 +32,16 @@ def stats(place: Path) -> Iterator[os.stat_result]:
 
 
 def remove(place: Path) -> None:
-    """Remove a file, a link or a folder, if there is one."""
-    if place.is_dir() and not place.is_symlink():
-        shutil.rmtree(place)
-    else:
-        place.unlink(missing_ok=True)
+    """Remove a file, a link or a folder, if there is one.
+
+    Raises:
+        CommandError: it cannot be removed.
+    """
+    try:
+        if place.is_dir() and not place.is_symlink():
+            shutil.rmtree(place)
+        else:
+            place.unlink(missing_ok=True)
+    except OSError as problem:
+        reason = f"{problem.strerror} ({problem.filename})"
+        raise CommandError(f"{place}: cannot be removed: {reason}; accepted: what you may remove") from problem

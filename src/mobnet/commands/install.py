@@ -3,6 +3,7 @@
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -74,7 +75,8 @@ class Tools:
         if done.returncode == 0:
             return None
         if cause := cause_of(done.stdout):
-            raise CommandError(f"{self.root}: {cause}{SAME}")
+            free = in_gb(shutil.disk_usage(self.root).free)
+            raise CommandError(f"{self.root}: {cause}{SAME} ({free} of disk free; all output: .cache/setup.log)")
         return done.stdout
 
     def run(self, what: str, *words: str) -> None:
