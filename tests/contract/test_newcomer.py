@@ -11,11 +11,10 @@ import numpy as np
 import pytest
 import yaml
 
-from mobnet.core.errors import ConfigError
 from mobnet.core.estimator import Estimator
 from mobnet.core.recording import Sensed
 from mobnet.estimation import kinds
-from mobnet.estimation.methods import build_estimator, check_methods
+from mobnet.estimation.methods import build_estimator, method_problems
 from mobnet.estimation.recipe import Recipe
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
@@ -55,15 +54,17 @@ def estimator(extended: Settings, recipe_of: Callable[..., Recipe], added: None)
 
 @pytest.mark.usefixtures("added")
 def test_one_file_and_one_row_are_accepted_beside_all_other_methods(extended: Settings) -> None:
-    check_methods(extended.all_methods)
+    assert not list(method_problems(extended))
     wide = extended.method(NAME).model_copy(update={"options": {"width_nm": -2.0}})
-    with pytest.raises(ConfigError, match=f"^methods.{NAME}.options.width_nm: -2.0 is not accepted; .*greater than 0$"):
-        check_methods({**extended.methods, NAME: wide})
+    (fault,) = method_problems(extended.model_copy(update={"methods": {**extended.methods, NAME: wide}}))
+    place = ("methods", NAME, "options", "width_nm")
+    assert fault == (place, "-2.0 is not accepted; accepted: a number above 0")
 
 
 def test_without_its_file_the_kind_is_named(extended: Settings) -> None:
-    with pytest.raises(ConfigError, match=f"^methods.{NAME}.kind: 'dead_band' is not accepted; accepted: band_pass, "):
-        check_methods(extended.methods)
+    ((place, text),) = method_problems(extended)
+    assert place == ("methods", NAME, "kind")
+    assert text.startswith("kind: 'dead_band' is not accepted; accepted: ")
 
 
 @pytest.mark.parametrize("check", CHECKS, ids=[check.__name__ for check in CHECKS])

@@ -1,5 +1,6 @@
 """From a method of the configuration to an estimator, and methods that make none."""
 
+import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -8,23 +9,31 @@ from pathlib import Path
 import pytest
 
 from mobnet.core.code import SOURCE, reached, start_of
-from mobnet.core.errors import ConfigError, DataError
+from mobnet.core.errors import DataError
 from mobnet.estimation.kinds.residual import ResidualEstimator
-from mobnet.estimation.methods import build_estimator, check_methods, kind_names
+from mobnet.estimation.methods import build_estimator, kind_names, method_problems
 from mobnet.estimation.recipe import Recipe
 from mobnet.settings.methods import Method
+from mobnet.settings.reading import dotted
 from mobnet.settings.settings import Settings
 
 HEAVY = {"torch", "pinocchio", "numba", "scipy.signal", "scipy.optimize"}
 FRICTION = {"terms": ["coulomb"], "smoothing_rad_s": 0.02, "stribeck_rad_s": [0.1]}
 CHECK = """
 import sys
-from mobnet.estimation.methods import check_methods
+from mobnet.estimation.methods import method_problems
 from mobnet.settings.load import load_settings
-check_methods(load_settings().methods)
+load_settings(further=method_problems)
 print(*sys.modules)
 """
-TERMS = "input should be 'coulomb', 'static', 'viscous' or 'load'"
+TERMS = "accepted: 'coulomb', 'static', 'viscous', 'load'"
+
+
+def told(settings: Settings, methods: dict[str, dict[str, object]]) -> list[str]:
+    """Return what is not accepted in some methods, a line for each fault."""
+    rows = {name: Method.model_validate({"kind": "residual", **row}) for name, row in methods.items()}
+    found = method_problems(settings.model_copy(update={"methods": rows}))
+    return [f"{dotted(place)}: {text}" for place, text in found]
 
 
 def test_mob_estimates_every_joint(recipe_of: Callable[..., Recipe]) -> None:
@@ -39,38 +48,40 @@ def test_missing_weights_are_named(recipe_of: Callable[..., Recipe], tmp_path: P
 
 
 def test_the_configured_methods_are_accepted(settings: Settings) -> None:
-    check_methods(settings.all_methods)
+    assert not list(method_problems(settings))
     assert {"band_pass", "direct", "friction", "residual"} <= set(kind_names())
 
 
 @pytest.mark.parametrize(
     ("kind", "options", "message"),
     [
-        ("magic", {}, "kind: 'magic' is not accepted; accepted: .*residual"),
-        ("residual", {"gain": 1.0}, "options.gain: key: 'gain' is not accepted; accepted: $"),
-        ("band_pass", {"band_hz": [15.0, 2.0], "order": 2}, "options.band_hz: the lower end must come first"),
-        ("band_pass", {"band_hz": [2.0, 15.0]}, "options.order: key is missing"),
-        ("band_pass", {"band_hz": [2.0, 15.0], "order": 0}, "options.order: 0 is not accepted; .* equal to 1"),
+        ("magic", {}, "kind: kind: 'magic' is not accepted; accepted: .*residual"),
+        ("residual", {"gain": 1.0}, "options.gain: key: 'gain' is not accepted; accepted: none"),
+        ("band_pass", {"band_hz": [15.0, 2.0], "order": 2}, "options.band_hz: .* accepted: two numbers, the lower one"),
+        ("band_pass", {"band_hz": [2.0, 15.0]}, "options.order: key is missing; accepted: a whole number from 1"),
+        ("band_pass", {"band_hz": [2.0, 15.0], "order": 0}, "options.order: 0 is not accepted; accepted: .* from 1"),
+        ("band_pass", {"band_hz": [2.0, 501.0], "order": 2}, "options.band_hz.1: 501.0 is not accepted; .* 500.0"),
         ("friction", {**FRICTION, "terms": ["coulomb", "glue"]}, f"options.terms.1: 'glue' is not accepted; {TERMS}"),
-        ("friction", {**FRICTION, "terms": ["load", "load"]}, "options.terms: each value may occur once"),
-        ("friction", {**FRICTION, "terms": []}, r"options.terms: \[\] is not accepted; .* at least 1 item"),
-        ("friction", {**FRICTION, "smoothing_rad_s": 0.0}, "options.smoothing_rad_s: 0.0 is not accepted; .* than 0"),
-        ("friction", {**FRICTION, "stribeck_rad_s": [-1.0]}, r"options.stribeck_rad_s.0: -1.0 is not accepted; .* 0"),
+        ("friction", {**FRICTION, "terms": ["load", "load"]}, "options.terms: .* is not accepted; .*each value once"),
+        ("friction", {**FRICTION, "terms": []}, r"options.terms: \[\] is not accepted; accepted: a list of 1 or more"),
+        ("friction", {**FRICTION, "smoothing_rad_s": 0.0}, "options.smoothing_rad_s: 0.0 is not accepted; accepted"),
+        ("friction", {**FRICTION, "stribeck_rad_s": [-1.0]}, r"options.stribeck_rad_s.0: -1.0 is not accepted; acc"),
+        ("friction", FRICTION, "fitted: .* is not accepted; accepted: limbs to fit"),
     ],
 )  # fmt: skip
 def test_a_kind_or_an_option_that_is_not_accepted_is_one_line(
-    kind: str, options: dict[str, object], message: str
+    settings: Settings, kind: str, options: dict[str, object], message: str
 ) -> None:
-    with pytest.raises(ConfigError, match=rf"^methods\.b\.{message}"):
-        check_methods({"a": Method(kind="residual"), "b": Method.model_validate({"kind": kind, "options": options})})
+    row = {"of": "a"} if kind == "band_pass" else {}
+    (line,) = told(settings, {"a": {}, "b": {"kind": kind, "options": options, **row}})
+    assert re.match(rf"methods\.b\.{message}", line)
 
 
-def test_all_faults_of_all_methods_are_told_at_once() -> None:
-    bad = {"a": Method(kind="magic"), "b": Method(kind="band_pass"), "c": Method(kind="residual")}
-    with pytest.raises(ConfigError) as caught:
-        check_methods(bad)
-    places = [line.split(": ")[0] for line in str(caught.value).splitlines()]
-    assert places == ["methods.a.kind", "methods.b.options.band_hz", "methods.b.options.order"]
+def test_all_faults_of_all_methods_are_told_at_once(settings: Settings) -> None:
+    learned = {"kind": "direct", "target": "uncertainty", "limbs": ["LL"]}
+    lines = told(settings, {"a": {"kind": "magic"}, "b": {"kind": "band_pass"}, "c": {}, "d": learned})
+    places = [line.split(": ")[0] for line in lines]
+    assert places == ["methods.a.kind", "methods.b.options.band_hz", "methods.b.options.order", "methods.d.target"]
 
 
 def test_the_check_imports_nothing_heavy() -> None:

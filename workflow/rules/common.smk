@@ -8,13 +8,13 @@ from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
 from mobnet.core.lock import job_prefix
 from mobnet.core.run import start_jobs
-from mobnet.estimation.methods import check_methods
+from mobnet.estimation.methods import method_problems
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.plan.disk import check_places, check_space
 from mobnet.plan.places import check_scale
 from mobnet.plan.plan import make_plan
 from mobnet.plan.products import shown
-from mobnet.settings.load import load_settings
+from mobnet.settings.load import load_settings, refuse_configfiles
 
 ROOT = Path(workflow.basedir)
 quieten(ROOT)
@@ -22,8 +22,8 @@ shell.prefix(job_prefix(ROOT))
 sys.executable = shlex.quote(sys.executable)  # snakemake writes it into shell commands as it is
 
 try:
-    SETTINGS = load_settings(ROOT / "configs", config)
-    check_methods(SETTINGS.methods)
+    refuse_configfiles(workflow.overwrite_configfiles)
+    SETTINGS = load_settings(ROOT / "configs", config, method_problems)
     PLAN = make_plan(SETTINGS, with_pdf=not missing_packages())
     check_scale(sys.argv[1:], SETTINGS.scale)
     check_places(PLAN)

@@ -1,6 +1,7 @@
 """Errors a user can act on: one line that names the bad value and what is accepted."""
 
 from collections.abc import Iterable
+from difflib import get_close_matches
 from reprlib import Repr
 
 MOST = 20  # faults of a file that are told
@@ -38,8 +39,15 @@ class DrawingError(MobnetError):
 
 
 def not_accepted(what: str, value: object, accepted: Iterable[object]) -> str:
-    """Return the house's one-line message for a value outside a closed set."""
-    return f"{what}: {SHOWN.repr(value)} is not accepted; accepted: {', '.join(sorted(map(str, accepted)))}"
+    """Return the house's one-line message for a value outside a closed set; what it was meant to be comes first."""
+    names = sorted(set(map(str, accepted)))
+    ordered = dict.fromkeys([*get_close_matches(str(value), names, n=1), *names])
+    return f"{what}: {SHOWN.repr(value)} is not accepted; accepted: {', '.join(ordered) or 'none'}"
+
+
+def misfit(value: object, accepted: object) -> str:
+    """Return the message about a value that does not fit others, and what would."""
+    return f"{value} is not accepted; accepted: {accepted}"
 
 
 def refusal(path: object, faults: Iterable[str]) -> DataError:

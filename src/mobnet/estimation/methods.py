@@ -1,20 +1,26 @@
 """From a method of the configuration to an estimator; its `kind` names a module of `mobnet.estimation.kinds`.
 
 Such a module has a function `build(recipe) -> Estimator` and, where a kind has numbers of its own, a section `Options`.
-A kind that is fitted without networks also has `fit(layout, observer, options, networks, training)`; it returns JSON.
+What it asks of a method's row is said by `check(method, options, rate_hz)`, which yields places and texts. A kind that
+is fitted without networks also has `fit(layout, observer, options, networks, training)`; it returns JSON.
 """
 
 import importlib
 import pkgutil
-from collections.abc import Mapping
+from collections.abc import Iterator
 from types import ModuleType
+
+from pydantic import ValidationError
 
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.estimator import Estimator
 from mobnet.estimation import kinds
-from mobnet.estimation.recipe import Recipe, options_of
+from mobnet.estimation.recipe import Recipe
 from mobnet.settings.base import Section
+from mobnet.settings.faults import problems
 from mobnet.settings.methods import Method
+from mobnet.settings.reading import Place
+from mobnet.settings.settings import Settings
 
 
 def build_estimator(recipe: Recipe) -> Estimator:
@@ -27,20 +33,24 @@ def build_estimator(recipe: Recipe) -> Estimator:
     return kind_of(recipe.name, recipe.method).build(recipe)
 
 
-def check_methods(methods: Mapping[str, Method]) -> None:
-    """Check that every method's kind exists and accepts the method's options.
-
-    Raises:
-        ConfigError: one line for each kind or option that is not accepted.
-    """
-    wrong = []
-    for name, method in methods.items():
+def method_problems(settings: Settings) -> Iterator[tuple[Place, str]]:
+    """Yield the place and the text of every kind, option or key of a method that its kind does not accept."""
+    for name, method in settings.methods.items():
+        place: Place = ("methods", name)
+        if method.kind not in kind_names():
+            yield (*place, "kind"), not_accepted("kind", method.kind, kind_names())
+            continue
+        kind = kind_of(name, method)
+        section = getattr(kind, "Options", Section)
         try:
-            options_of(name, method, getattr(kind_of(name, method), "Options", Section))
-        except ConfigError as error:
-            wrong.append(str(error))
-    if wrong:
-        raise ConfigError("\n".join(wrong))
+            options = section.model_validate(method.options)
+        except ValidationError as error:
+            found = problems(error, section, method.options)
+            yield from (((*place, "options", *inner), text) for inner, text in found)
+        else:
+            check = getattr(kind, "check", None)
+            found = check(method, options, settings.rates.data_hz) if check else ()
+            yield from (((*place, *inner), text) for inner, text in found)
 
 
 def kind_of(name: str, method: Method) -> ModuleType:

@@ -19,9 +19,10 @@ from mobnet.core.recording import Sensed
 from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
 from mobnet.robot.description import describe
 from mobnet.settings.base import Section
-from mobnet.settings.load import problems
+from mobnet.settings.faults import problems
 from mobnet.settings.methods import Method, Observer
 from mobnet.settings.plant import Level
+from mobnet.settings.reading import dotted
 from mobnet.settings.robot import RobotTable
 
 Kind = TypeVar("Kind", bound=Section)
@@ -124,5 +125,6 @@ def options_of(name: str, method: Method, section: type[Kind]) -> Kind:
     try:
         return section.model_validate(method.options)
     except ValidationError as error:
-        lines = [f"methods.{name}.options.{'.'.join(map(str, at))}: {text}" for at, text in problems(error, section)]
+        found = problems(error, section, method.options)
+        lines = [f"methods.{name}.options.{dotted(place)}: {text}" for place, text in found]
         raise ConfigError("\n".join(lines)) from None

@@ -1,10 +1,12 @@
 """What every section of the configuration is made of: frozen classes, bounded numbers, names that must exist elsewhere.
 
-A unit stands at the end of a field's name. Sections hold values and their checks, no computation: their code is not
-part of a rule's code hash, their values are parameters of every rule that takes them.
+A unit stands at the end of a field's name. Bounds are wide: what a humanoid or an arm of any size may need lies inside,
+a wrong unit (mm, ms, kHz, deg for rad) outside. Sections hold values and their checks, no computation: their code is
+not part of a rule's code hash, their values are parameters of every rule that takes them.
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Annotated, TypeVar
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, JsonValue
@@ -29,14 +31,28 @@ class Named:
 def _ordered(bounds: tuple[Number, Number]) -> tuple[Number, Number]:
     """Check that a range has its lower end first."""
     if bounds[0] > bounds[1]:
-        raise ValueError("the lower end must come first")
+        raise ValueError("accepted: two numbers, the lower one first")
     return bounds
+
+
+def _spread(bounds: tuple[Number, Number]) -> tuple[Number, Number]:
+    """Check that a range has its lower end first and is not a single value."""
+    if bounds[0] >= bounds[1]:
+        raise ValueError("accepted: two numbers, the lower one first")
+    return bounds
+
+
+def _ascending(values: tuple[Number, ...]) -> tuple[Number, ...]:
+    """Check that each value is above the one before it."""
+    if any(low >= high for low, high in pairwise(values)):
+        raise ValueError("accepted: numbers that rise, each once")
+    return values
 
 
 def distinct(values: tuple[Item, ...]) -> tuple[Item, ...]:
     """Check that no value occurs twice."""
     if len(set(values)) < len(values):
-        raise ValueError("each value may occur once")
+        raise ValueError("accepted: each value once")
     return values
 
 
@@ -45,22 +61,35 @@ Positive = Annotated[float, Field(strict=True, gt=0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(strict=True, ge=0, allow_inf_nan=False)]
 Share = Annotated[float, Field(strict=True, ge=0, le=1)]
 InnerShare = Annotated[float, Field(strict=True, gt=0, lt=1)]
-Count = Annotated[int, Field(strict=True, ge=1)]
-Index = Annotated[int, Field(strict=True, ge=0)]
+PositiveShare = Annotated[float, Field(strict=True, gt=0, le=1)]
+Whole = Annotated[int, Field(strict=True)]
+Count = Annotated[int, Field(strict=True, ge=1, le=1_000_000_000)]
+Index = Annotated[int, Field(strict=True, ge=0, le=2**32 - 1)]
 Flag = Annotated[bool, Field(strict=True)]
-Text = Annotated[str, Field(min_length=1)]
+Text = Annotated[str, Field(min_length=1, max_length=2000, pattern=r"\S")]
 Some = Annotated[tuple[Item, ...], Field(min_length=1)]
+Distinct = Annotated[Some[Item], AfterValidator(distinct)]
 
-Range = Annotated[tuple[Real, Real], AfterValidator(_ordered)]
-PositiveRange = Annotated[tuple[Positive, Positive], AfterValidator(_ordered)]
-NotNegativeRange = Annotated[tuple[NotNegative, NotNegative], AfterValidator(_ordered)]
-ShareRange = Annotated[tuple[Share, Share], AfterValidator(_ordered)]
-CountRange = Annotated[tuple[Count, Count], AfterValidator(_ordered)]
-PositivePair = tuple[Positive, Positive]
-Vector3 = tuple[Real, Real, Real]
-Choices = Some[Positive]
-InnerShares = Annotated[Some[InnerShare], AfterValidator(distinct)]
-Seeds = Annotated[Some[Index], AfterValidator(distinct)]
+# What becomes part of file names and wildcards: short, and without anything that a path or a pattern could mean.
+LowerName = Annotated[str, Field(pattern="^[a-z][a-z0-9_]*$", max_length=50)]
+RowName = Annotated[str, Field(pattern="^[A-Za-z0-9][A-Za-z0-9-]*$", max_length=50)]
+PartName = Annotated[str, Field(pattern="^[A-Za-z][A-Za-z0-9_]*$", max_length=50)]
+
+Metres = Annotated[Real, Field(ge=-1.5, le=1.5)]  # between neighbouring parts of a robot
+Length = Annotated[Positive, Field(ge=0.001, le=10)]
+Radians = Annotated[Real, Field(ge=-12.6, le=12.6)]  # two turns
+Degrees = Annotated[Real, Field(ge=-180, le=180)]
+Seconds = Annotated[Positive, Field(ge=0.001, le=600)]
+Pause = Annotated[NotNegative, Field(le=600)]
+Newton = Annotated[NotNegative, Field(le=2000)]
+NewtonMetre = Annotated[Real, Field(ge=-1000, le=1000)]
+
+Range = Annotated[tuple[Item, Item], AfterValidator(_ordered)]  # both ends may be the same
+Span = Annotated[tuple[Item, Item], AfterValidator(_spread)]
+Rising = Annotated[Some[Item], AfterValidator(_ascending)]
+LengthPair = tuple[Length, Length]
+Vector3 = tuple[Metres, Metres, Metres]
+Seeds = Annotated[Distinct[Annotated[Index, Field(le=1_000_000)]], Field(max_length=100)]
 
 LevelName = Annotated[str, Named("level")]
 TerrainName = Annotated[str, Named("terrain")]
@@ -85,6 +114,6 @@ ToneName = Annotated[str, Named("tone")]
 PointName = Annotated[str, Named("point")]
 RobotNetworkName = Annotated[str, Named("network of the robot")]
 
-MethodNames = Some[MethodName]
-LimbNames = tuple[LimbName, ...]
+MethodNames = Distinct[MethodName]
+LimbNames = Annotated[tuple[LimbName, ...], AfterValidator(distinct)]
 Change = dict[str, JsonValue]  # keys of another section that are replaced, checked once they are

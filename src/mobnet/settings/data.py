@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import model_validator
+from pydantic import AfterValidator, Field
 
 from mobnet.settings import base
 from mobnet.settings.base import Section
@@ -14,12 +14,22 @@ Direction = Literal["any", "horizontal", "down", "backward"]
 CommandSource = Literal["random", "stand"]
 
 
+Height = Annotated[base.Real, Field(ge=0.0005, le=0.2)]
+Step = Annotated[base.Real, Field(ge=-1, le=1)]  # [m]
+Turn = Annotated[base.Real, Field(ge=-90, le=90)]  # [deg]
+StepTime = Annotated[base.Real, Field(ge=0.2, le=3)]  # [s]
+Duration = Annotated[base.Real, Field(ge=0.002, le=60)]  # of a push [s]
+FootHeight = Annotated[base.Real, Field(ge=0.005, le=0.5)]  # [m]
+Offset = Annotated[base.Real, Field(ge=-0.5, le=0.5)]  # [m]
+Cost = Annotated[base.Real, Field(ge=0.001, le=50)]
+
+
 class Checks(Section):
     """Raised squares, Figure 3 (a)."""
 
-    height_m: base.Positive
-    cell_m: base.Positive
-    bevel_m: base.Positive
+    height_m: Height
+    cell_m: base.Real = Field(ge=0.1, le=10)
+    bevel_m: base.Length
 
 
 class Flat(Section):
@@ -29,19 +39,19 @@ class Flat(Section):
 class Plates(Section):
     """Loose wooden plates, Figure 3 (b)."""
 
-    height_m: base.Positive
-    sizes_m: base.Some[base.PositivePair]
-    bevel_m: base.Positive
-    gap_m: base.NotNegative
-    period_m: base.Positive
+    height_m: Height
+    sizes_m: Annotated[base.Some[base.LengthPair], Field(max_length=20)]
+    bevel_m: base.Length
+    gap_m: base.NotNegative = Field(le=10)
+    period_m: base.Real = Field(ge=0.2, le=20)
 
 
 class Slope(Section):
     """Even ground, up, even ground, down, Figure 3 (c)."""
 
-    angle_deg: base.Positive
-    slope_m: base.Positive
-    even_m: base.Positive
+    angle_deg: base.Real = Field(ge=0.1, le=30)
+    slope_m: base.Real = Field(ge=0.1, le=10)
+    even_m: base.Real = Field(ge=0.1, le=10)
 
 
 class Terrain(Section):
@@ -56,89 +66,89 @@ class Terrain(Section):
 class RandomCommands(Section):
     """How commands are drawn and held, in place of a joystick."""
 
-    hold_steps: base.CountRange
+    hold_steps: base.Range[Annotated[base.Count, Field(le=1000)]]
     kinds: dict[Literal["omnidirectional", "forward", "turn", "sideways", "backward"], base.Share]
     edge_probability: base.Share
-    slew_step_x_m: base.Positive
-    slew_step_y_m: base.Positive
-    slew_turn_deg: base.Positive
-    in_place_steps: base.Index
+    slew_step_x_m: base.Real = Field(ge=0.001, le=1)
+    slew_step_y_m: base.Real = Field(ge=0.001, le=1)
+    slew_turn_deg: base.Real = Field(ge=0.1, le=90)
+    in_place_steps: base.Whole = Field(ge=0, le=100)
 
 
 class Commands(Section):
     """Ranges of Table 2."""
 
-    step_x_m: base.Range
-    step_y_m: base.Range
-    turn_deg: base.Range
-    duration_s: base.Choices
-    foot_height_m: base.Choices
+    step_x_m: base.Span[Step]
+    step_y_m: base.Span[Step]
+    turn_deg: base.Span[Turn]
+    duration_s: Annotated[base.Rising[StepTime], Field(min_length=2)]
+    foot_height_m: Annotated[base.Rising[FootHeight], Field(min_length=2)]
     random: RandomCommands
 
 
 class Narrowed(Section):
     """Ranges of Table 2 that a scenario replaces by narrower ones."""
 
-    step_x_m: base.Range | None = None
-    step_y_m: base.Range | None = None
-    turn_deg: base.Range | None = None
-    duration_s: base.Choices | None = None
-    foot_height_m: base.Choices | None = None
+    step_x_m: base.Range[Step] | None = None
+    step_y_m: base.Range[Step] | None = None
+    turn_deg: base.Range[Turn] | None = None
+    duration_s: base.Rising[StepTime] | None = None
+    foot_height_m: base.Rising[FootHeight] | None = None
 
 
 class FixedCommand(Section):
     """One walking command that is held."""
 
-    step_x_m: base.Real
-    step_y_m: base.Real
-    turn_deg: base.Real
-    duration_s: base.Positive
-    foot_height_m: base.Positive
+    step_x_m: Step
+    step_y_m: Step
+    turn_deg: Turn
+    duration_s: StepTime
+    foot_height_m: FootHeight
 
 
 class RandomTorque(Section):
     """Random torque exploration, section 4.3."""
 
-    period_s: base.PositiveRange
-    legs_waist_nm: base.NotNegative
-    arms_nm: tuple[base.NotNegative, ...]
-    neck_nm: base.NotNegative
+    period_s: base.Range[Annotated[base.Real, Field(ge=0.005, le=20)]]
+    legs_waist_nm: base.NotNegative = Field(le=1000)
+    arms_nm: tuple[Annotated[base.NotNegative, Field(le=1000)], ...]
+    neck_nm: base.NotNegative = Field(le=1000)
 
 
 class MotionVariant(Section):
     """Another speed and another place of the hands for the same drawn motion, section 4.3."""
 
-    speed: base.Positive
-    hand_offset_m: base.Vector3
+    speed: base.Real = Field(ge=0.1, le=10)
+    hand_offset_m: tuple[Offset, Offset, Offset]
 
 
 class Motion(Section):
     """Random motion of the joints above the legs, section 4.3."""
 
-    knot_hz: base.Positive
-    band_hz: base.PositiveRange
-    waves: base.Count
-    hand_azimuth_rad: base.Range
-    hand_elevation_rad: base.Range
-    hand_distance_m: base.PositiveRange
-    waist_rad: tuple[base.Range, ...]
-    neck_rad: tuple[base.Range, ...]
-    arm_rad: tuple[base.Range, ...]
-    hand_cost: base.Positive
-    arm_cost: base.Positive
-    trunk_cost: base.Positive
-    inertia_cost: base.Positive
-    gain: base.Share
-    hand_speed_max_m_s: base.Positive
-    speed_share: base.Share
-    clearance_m: base.Positive
-    clearance_least_m: base.NotNegative
-    guard_m: base.Positive
-    leg_poses_rad: tuple[tuple[base.Real, base.Real, base.Real, base.Real], ...]
-    still_s: base.NotNegative
-    ease_s: base.Positive
-    smoothing_s: base.Positive
-    variants: base.Some[MotionVariant]
+    knot_hz: base.Real = Field(ge=5, le=1000)
+    band_hz: base.Span[Annotated[base.Real, Field(ge=0.001, le=20)]]
+    waves: base.Whole = Field(ge=1, le=1000)
+    hand_azimuth_rad: base.Span[Annotated[base.Real, Field(ge=-3.15, le=3.15)]]
+    hand_elevation_rad: base.Span[Annotated[base.Real, Field(ge=-1.58, le=1.58)]]
+    hand_distance_m: base.Span[Annotated[base.Real, Field(ge=0.02, le=2)]]
+    waist_rad: tuple[base.Span[base.Radians], ...]
+    neck_rad: tuple[base.Span[base.Radians], ...]
+    arm_rad: tuple[base.Span[base.Radians], ...]
+    hand_cost: Cost
+    arm_cost: Cost
+    trunk_cost: Cost
+    inertia_cost: Cost
+    gain: base.PositiveShare
+    hand_speed_max_m_s: base.Real = Field(ge=0.05, le=10)
+    speed_share: base.PositiveShare
+    clearance_m: base.Real = Field(ge=0.001, le=0.5)
+    clearance_least_m: base.NotNegative = Field(le=0.5)
+    guard_m: base.Real = Field(ge=0.001, le=0.5)
+    leg_poses_rad: base.Some[tuple[base.Radians, base.Radians, base.Radians, base.Radians]]
+    still_s: base.NotNegative = Field(le=60)
+    ease_s: base.Real = Field(ge=0.05, le=60)
+    smoothing_s: base.Real = Field(ge=0.001, le=2)
+    variants: Annotated[base.Some[MotionVariant], Field(max_length=100)]
 
 
 class Push(Section):
@@ -147,37 +157,24 @@ class Push(Section):
     point: base.PointName | None = None
     joint: base.MotorName | None = None
     during: Phase = "always"
-    share: base.NotNegativeRange = (0.0, 0.0)
-    pause_s: base.NotNegativeRange | None = None
-    at_s: base.Some[base.NotNegative] | None = None
-    force_n: base.Range | None = None
-    torque_nm: base.Range | None = None
-    duration_s: base.PositiveRange
+    share: base.Range[base.Share] = (0.0, 0.0)
+    pause_s: base.Range[base.Pause] | None = None
+    at_s: base.Rising[Annotated[base.NotNegative, Field(le=3600)]] | None = None
+    force_n: base.Range[base.Newton] | None = None
+    torque_nm: base.Range[base.NewtonMetre] | None = None
+    duration_s: base.Range[Duration]
     direction: Direction = "any"
     shape: Literal["step", "half_sine"]
-
-    @model_validator(mode="after")
-    def _is_one_of_two(self) -> Push:
-        """Check that it is a force at a point or a torque on a joint, and that its times are given."""
-        force, torque = (self.point, self.force_n), (self.joint, self.torque_nm)
-        whole, empty = (force, torque) if self.joint is None else (torque, force)
-        if None in whole or any(value is not None for value in empty):
-            raise ValueError("accepted: `point`, `force_n` and `direction`, or `joint` and `torque_nm`")
-        if self.joint is None and "direction" not in self.model_fields_set:
-            raise ValueError("accepted: `point`, `force_n` and `direction`, or `joint` and `torque_nm`")
-        if self.pause_s is None and self.at_s is None:
-            raise ValueError("accepted: `pause_s` or `at_s`")
-        return self
 
 
 class Scenario(Section):
     """What is walked; a level and a seed make it a recording."""
 
-    terrain: base.Some[base.TerrainName]
+    terrain: base.Distinct[base.TerrainName]
     commands: CommandSource | base.Some[CommandSource] | FixedCommand
     narrowed: Narrowed = Narrowed()
     random_torque: base.Flag
-    pushes: tuple[base.PushName, ...] = ()
+    pushes: Annotated[tuple[base.PushName, ...], AfterValidator(base.distinct)] = ()
     motion: base.MotionName | None = None
     draws: base.ScenarioName | None = None
 
@@ -185,8 +182,8 @@ class Scenario(Section):
 class Recordings(Section):
     """Number of recordings and duration of each."""
 
-    shards: base.Count
-    shard_s: base.Positive
+    shards: base.Whole = Field(ge=1, le=500)
+    shard_s: base.Real = Field(ge=1, le=7200)
 
 
 class TrainingSet(Section):
@@ -200,10 +197,10 @@ class TrainingSet(Section):
 class RecordingSettings(Section):
     """How a walk is cut into episodes and when it counts as a fall."""
 
-    fall_height_m: base.Positive
-    dropped_before_fall_s: base.NotNegative
-    chunk_s: base.Positive
-    settle_s: base.NotNegative
-    clearance_hz: base.Positive
-    episode_s: base.Positive
-    episode_steps: base.Count
+    fall_height_m: base.Real = Field(ge=0.1, le=2)
+    dropped_before_fall_s: base.NotNegative = Field(le=60)
+    chunk_s: base.Real = Field(ge=0.001, le=10)
+    settle_s: base.NotNegative = Field(le=60)
+    clearance_hz: base.Real = Field(ge=1, le=10_000)
+    episode_s: base.Real = Field(ge=0.1, le=7200)
+    episode_steps: base.Whole = Field(ge=1, le=100_000)

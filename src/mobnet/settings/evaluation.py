@@ -2,27 +2,28 @@
 
 from typing import Annotated
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from mobnet.settings import base
 from mobnet.settings.base import Section
 
 Metric = Annotated[str, Field(pattern=r"^(rmse|r_rmse|roughness|rmse_pushed|rmse_push_[1-9][0-9]*)$")]
-LimbsOrJoints = base.Some[base.LimbOrJointName]
+LimbsOrJoints = base.Distinct[base.LimbOrJointName]
+Texts = Annotated[tuple[base.Text, ...], AfterValidator(base.distinct)]
 
 
 class Statistics(Section):
     """Intervals over networks and test recordings."""
 
-    confidence: base.InnerShare
-    bootstrap_draws: base.Count
+    confidence: base.Real = Field(ge=0.5, lt=1)
+    bootstrap_draws: base.Whole = Field(ge=100, le=100_000)
 
 
 class Window(Section):
     """Time around each push of a test that its push metrics look at."""
 
-    before_s: base.NotNegative
-    after_s: base.NotNegative
+    before_s: base.NotNegative = Field(le=10)
+    after_s: base.NotNegative = Field(le=10)
 
 
 class Runs(Section):
@@ -44,7 +45,7 @@ class Mean(Section):
 
     name: base.Text
     joints: LimbsOrJoints
-    metrics: tuple[Metric, ...] = ()
+    metrics: Annotated[tuple[Metric, ...], AfterValidator(base.distinct)] = ()
 
 
 Columns = base.Some[base.LimbOrJointName | Mean]
@@ -53,7 +54,7 @@ Columns = base.Some[base.LimbOrJointName | Mean]
 class ErrorRow(Runs):
     """Rows of a table of errors, one for each method; `labels` are the texts of the leading columns."""
 
-    labels: tuple[str, ...]
+    labels: tuple[base.Text, ...]
     metric: Metric = "rmse"
     paper: base.Text | None = None
 
@@ -64,10 +65,10 @@ class ErrorTable(Section):
     `header` has the heads of the leading columns; `names` says how the table calls a method, where not by its own name.
     """
 
-    header: tuple[str, ...]
+    header: Texts
     columns: Columns
-    parts: tuple[str, ...] = ()
-    names: dict[base.MethodName, str] = {}
+    parts: Texts = ()
+    names: dict[base.MethodName, base.Text] = {}
     rows: base.Some[ErrorRow]
 
 
@@ -98,8 +99,8 @@ class Figure05(Section):
 
     scenario: base.TestName
     joint: base.JointName
-    start_s: base.NotNegative
-    panels: dict[base.LevelName, base.MethodNames]
+    start_s: base.NotNegative = Field(le=3600)
+    panels: Annotated[dict[base.LevelName, base.MethodNames], Field(min_length=1)]
 
 
 class Figure06(PushedRuns, Window):
@@ -111,24 +112,24 @@ class Figure06(PushedRuns, Window):
 class Figure07(Runs):
     """Figure 7: a load on the left hand; every so many samples is drawn."""
 
-    joints: base.Some[base.JointName]
-    start_s: base.NotNegative
-    end_s: base.Positive
-    every: base.Count
+    joints: base.Distinct[base.JointName]
+    start_s: base.NotNegative = Field(le=3600)
+    end_s: base.Positive = Field(le=3600)
+    every: base.Whole = Field(ge=1, le=1000)
 
 
 class GaitFigure(Runs):
     """Figures 8 and 9: a limb over a gait cycle."""
 
     limb: base.LimbName
-    start_s: base.NotNegative
+    start_s: base.NotNegative = Field(le=3600)
 
 
 class Figure10(Window):
     """Figure 10: knee collisions; errors are increases over the walk that nothing pushes."""
 
     joint: base.MotorName
-    tests: Annotated[dict[str, PushedRuns], Field(min_length=1)]
+    tests: Annotated[dict[base.Text, PushedRuns], Field(min_length=1)]
     against: Runs
 
 
@@ -142,24 +143,24 @@ class Figure17(Section):
 class Kinds(Section):
     """The table of kinds of networks: variants below those of Figure 17."""
 
-    variants: tuple[base.MethodName, ...]
+    variants: Annotated[tuple[base.MethodName, ...], AfterValidator(base.distinct)]
 
 
 class Figure18(Section):
     """Figure 18: one network for each limb against one for the whole body; the panel's title of each test."""
 
     level: base.LevelName
-    limbs: base.Some[base.LimbName]
+    limbs: base.Distinct[base.LimbName]
     methods: base.MethodNames
-    panels: Annotated[dict[base.TestName, str], Field(min_length=1)]
+    panels: Annotated[dict[base.TestName, base.Text], Field(min_length=1)]
 
 
 class Figure19(Section):
     """Figure 19: velocity and torque in training and tests."""
 
-    joints: base.Some[base.MotorName]
-    dots: base.Count
-    test_dots: base.Count
+    joints: base.Distinct[base.MotorName]
+    dots: base.Whole = Field(ge=10, le=1_000_000)
+    test_dots: base.Whole = Field(ge=10, le=1_000_000)
 
 
 class Figure20(Section):
@@ -173,7 +174,7 @@ class Figure20(Section):
 class MethodsRow(Runs):
     """Methods side by side on one test; limb -> its columns, joints or `avg`."""
 
-    columns: Annotated[dict[base.LimbName, tuple[str, ...]], Field(min_length=1)]
+    columns: Annotated[dict[base.LimbName, base.Distinct[base.Text]], Field(min_length=1)]
 
 
 class CoverageTest(Section):
@@ -188,14 +189,14 @@ class Coverage(Section):
     """What the training data hold of what the tests ask about."""
 
     limb: base.NetworkName
-    samples: base.Count
-    every: base.Count
-    block_s: base.Positive
-    range: base.ShareRange
-    cells: base.Count
-    cell_range: base.ShareRange
-    push_nm: base.Positive
-    push_after_s: base.NotNegative
+    samples: base.Whole = Field(ge=100, le=10_000_000)
+    every: base.Whole = Field(ge=1, le=1000)
+    block_s: base.Real = Field(ge=0.1, le=600)
+    range: base.Span[base.Share]
+    cells: base.Whole = Field(ge=2, le=1000)
+    cell_range: base.Span[base.Share]
+    push_nm: base.Real = Field(ge=0.01, le=1000)
+    push_after_s: base.NotNegative = Field(le=10)
     tests: base.Some[CoverageTest]
 
 
@@ -203,14 +204,14 @@ class CalibrationTest(CoverageTest):
     """A test of the standard deviations; limbs: those whose training set is like the test."""
 
     methods: base.MethodNames
-    limbs: base.Some[base.LimbName]
+    limbs: base.Distinct[base.LimbName]
 
 
 class Calibration(Section):
     """How far the networks' standard deviations can be trusted; nominal shares are those of section `learning`."""
 
-    tolerance: base.Share
-    points: base.Count
+    tolerance: base.Real = Field(ge=0.001, le=0.5)
+    points: base.Whole = Field(ge=3, le=1000)
     methods: base.MethodNames
     tests: base.Some[CalibrationTest]
 
@@ -218,32 +219,32 @@ class Calibration(Section):
 class DataTable(Section):
     """The table of the training sets: samples from one look at the upper body to the next."""
 
-    every: base.Count
+    every: base.Whole = Field(ge=1, le=1000)
 
 
 class CommandsFigure(Section):
     """Histograms of the walking commands."""
 
-    bins: base.Count
+    bins: base.Whole = Field(ge=2, le=200)
 
 
 class Steps(Section):
     """Measured against commanded steps: a step within the tolerance of its command follows it."""
 
-    bins: base.Count
-    tolerance: base.Share
+    bins: base.Whole = Field(ge=2, le=200)
+    tolerance: base.Real = Field(ge=0.001, le=0.5)
 
 
 class Uncertainty(Section):
     """Size of the uncertainty torque: limb -> accepted ratio of simulated to real size."""
 
-    ratio: dict[base.NetworkName, base.Range]
+    ratio: dict[base.NetworkName, base.Span[Annotated[base.Real, Field(ge=0.01, le=100)]]]
 
 
 class Compute(Section):
     """The table of compute: a longer time without any job lies between two runs."""
 
-    pause_s: base.Positive
+    pause_s: base.Real = Field(ge=1, le=3600)
 
 
 class Evaluation(Section):
@@ -252,7 +253,7 @@ class Evaluation(Section):
     statistics: Statistics
     windows: dict[base.TestName, Window]
     table_01: Table01
-    tables: dict[Annotated[str, Field(pattern="^[a-z0-9_]+$")], ErrorTable]
+    tables: dict[base.LowerName, ErrorTable]
     error_budget: ErrorBudget
     figure_05: Figure05
     figure_06: Figure06

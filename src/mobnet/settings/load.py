@@ -1,48 +1,118 @@
-"""From the YAML files of `configs/` to `Settings`; the only module that knows YAML.
+"""From the YAML files of `configs/` to `Settings`; every fault is one line with file, line, key, value and accepted.
 
 Reading and checking run in the workflow's own process: a job receives values, so a check's code is part of no result.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar, cast, get_args
+from typing import Any, TypeVar, cast
 
-import yaml
-from pydantic import BaseModel, ValidationError
+from pydantic import ValidationError
 
-from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.core.errors import ConfigError, misfit
 from mobnet.settings.base import Section
-from mobnet.settings.checks import inconsistencies, refused_changes, unknown_names
+from mobnet.settings.checks.robot import robot_problems
+from mobnet.settings.checks.sections import inconsistencies, refused_changes, unknown_names
+from mobnet.settings.claims import place_of, spelt_out
+from mobnet.settings.faults import problems
+from mobnet.settings.reading import Document, Place, dotted, read_override
+from mobnet.settings.robot import RobotTable
 from mobnet.settings.settings import Settings
 
 ROOT = Path(__file__).parents[3]
 CONFIGS = ROOT / "configs"
 PARTS = ("config", "plant", "walking", "data", "networks", "methods", "tests", "evaluation", "scales")
 NAMED_FILES = ("robot", "published", "claims")  # sections that stand in files which config.yaml names
+WITH_NULLS = ("published", "claims")  # null: the paper prints no number; a range has no bound
 Kind = TypeVar("Kind", bound=Section)
-Place = tuple[str | int, ...]
+Problem = tuple[Place, str]
+Check = Callable[[Settings], Iterable[Problem]]
 
 
-def load_settings(folder: Path = CONFIGS, overrides: Mapping[str, Any] | None = None) -> Settings:
+@dataclass(frozen=True)
+class Sources:
+    """Where values come from: the file of each section, and overrides, whose values replace those of files."""
+
+    main: Document
+    files: Mapping[str, Document]
+    overrides: Mapping[str, Any]
+
+    def told(self, place: Place, text: str) -> str:
+        """Return one line about a place."""
+        if place and self._overridden(place):
+            return f"--config: {dotted(place)}: {text}"
+        section = str(place[0]) if place else ""
+        document = self.files.get(section, self.main)
+        if section == "claims":
+            place = place_of(place, document.values)
+        is_own = section in NAMED_FILES and document is not self.main
+        return document.told(place[1:] if is_own else place, text)
+
+    def _overridden(self, place: Place) -> bool:
+        """Return whether what stands at a place is an override, or belongs to one."""
+        value: Any = self.overrides
+        for index, key in enumerate(place):
+            if not isinstance(value, Mapping):
+                return True
+            if key not in value:
+                return self._is_new(place[:index])
+            value = cast("Mapping[Any, Any]", value)[key]
+        return True
+
+    def _is_new(self, place: Place) -> bool:
+        """Return whether no file holds what stands at a place."""
+        document = self.files.get(str(place[0])) if place else self.main
+        return document is None or not document.holds(place)
+
+
+def load_settings(
+    folder: Path = CONFIGS, overrides: Mapping[str, Any] | None = None, further: Check | None = None
+) -> Settings:
     """Read and check the configuration of a folder; overrides, those of `snakemake --config`, replace its values.
+
+    What other packages know, such as the options of a method's kind, is checked by `further`.
 
     Raises:
         ConfigError: a file, a key or a value is not accepted; one line for each of them.
     """
-    read: dict[str, Any] = {}
-    files: dict[str, Path] = {}
-    for path in (folder / f"{part}.yaml" for part in PARTS):
-        for section, value in read_yaml(path).items():
-            if section in read:
-                raise ConfigError(f"{path}: {section}: stands in {files[section]} already")
-            read[section], files[section] = value, path
-    read = _laid_over(read, overrides or {})
+    documents = [Document(folder / f"{part}.yaml") for part in PARTS]
+    files, faults, odd = dict[str, Document](), list[str](), list[Problem]()
+    for document in documents:
+        for section in document.values:
+            if section in files:
+                text = f"stands in {files[section].path} too, which is not accepted; accepted: each section once"
+                faults.append(document.told((section,), text))
+            files[section] = document
+    own = cast("dict[str, Any]", read_override(overrides or {}, (), odd))
+    values = _laid_over({key: files[key].values[key] for key in files}, own)
+    sources = Sources(documents[0], files, own)
     for section in NAMED_FILES:
-        if not isinstance(read.get(section), str):
-            raise ConfigError(f"{folder / 'config.yaml'}: {section}: the path of a YAML file is expected")
-        files[section] = folder.parent / read[section]
-        read[section] = read_yaml(files[section])
-    return _checked(read, files, folder / "config.yaml")
+        path = folder.parent / values[section] if isinstance(values.get(section), str) else None
+        if path is None or not path.is_file():
+            odd.append(((section,), f"{values.get(section)!r} is not accepted; accepted: the path of a YAML file"))
+        else:
+            files[section] = Document(path, nulls=section in WITH_NULLS)
+            documents.append(files[section])
+            values[section] = files[section].values
+    faults += [fault for document in documents for fault in document.faults]
+    faults += [sources.told(place, text) for place, text in odd]
+    if faults:
+        raise ConfigError(_lines(faults))
+    # the sections of those files now stand in them, and an override of their paths is none of their values
+    inner = {key: value for key, value in own.items() if key not in NAMED_FILES}
+    return _checked(values, Sources(documents[0], files, inner), further)
+
+
+def refuse_configfiles(paths: Sequence[Path]) -> None:
+    """Check that Snakemake was given no configuration file: its reader runs code that stands in one.
+
+    Raises:
+        ConfigError: there is one.
+    """
+    if paths:
+        accepted = "--config key=value, and the files in configs/"
+        raise ConfigError(f"--configfile: {misfit(', '.join(map(str, paths)), accepted)}")
 
 
 def load_section(path: Path, kind: type[Kind]) -> Kind:
@@ -51,54 +121,43 @@ def load_section(path: Path, kind: type[Kind]) -> Kind:
     Raises:
         ConfigError: the file, a key or a value is not accepted; one line for each of them.
     """
+    document = Document(path)
+    if document.faults:
+        raise ConfigError(_lines(document.faults))
     try:
-        return kind.model_validate(read_yaml(path))
+        section = kind.model_validate(document.values)
+        found = robot_problems(section) if isinstance(section, RobotTable) else ()
     except ValidationError as error:
-        raise ConfigError(_lines((path, place, text) for place, text in problems(error, kind))) from None
+        section, found = None, problems(error, kind, document.values)
+    lines = _lines(document.told(place, text) for place, text in found)
+    if lines or section is None:
+        raise ConfigError(lines)
+    return section
 
 
-def read_yaml(path: Path) -> dict[str, Any]:
-    """Read a YAML mapping; a ConfigError names a file that is missing or holds something else."""
-    try:
-        value = yaml.load(path.read_text(encoding="utf-8"), yaml.CSafeLoader)
-    except FileNotFoundError:
-        raise ConfigError(f"{path}: file is missing") from None
-    except yaml.YAMLError as error:
-        raise ConfigError(f"{path}: not YAML, {' '.join(str(error).split())}") from None
-    if not isinstance(value, dict):
-        raise ConfigError(f"{path}: a mapping is expected, found {type(value).__name__}")
-    return cast("dict[str, Any]", value)
-
-
-def problems(error: ValidationError, kind: type[BaseModel]) -> Iterator[tuple[Place, str]]:
-    """Yield place and text of everything that pydantic found, with what is accepted instead."""
-    for found in error.errors(include_url=False):
-        place, what = tuple(found["loc"]), found["type"]
-        if what == "extra_forbidden":
-            yield place[:-1] or place, not_accepted("key", place[-1], _keys_at(kind, place[:-1]))
-        elif what == "missing":
-            yield place, "key is missing"
-        elif what == "value_error":
-            yield place, str(found.get("ctx", {}).get("error"))
-        else:
-            yield place, f"{found['input']!r} is not accepted; {found['msg'][:1].lower()}{found['msg'][1:]}"
-
-
-def _checked(read: Mapping[str, Any], files: Mapping[str, Path], main: Path) -> Settings:
+def _checked(values: Mapping[str, Any], sources: Sources, further: Check | None) -> Settings:
     """Return the configuration if every value, name and change in it is accepted."""
     try:
-        settings = Settings.model_validate(read)
+        settings = Settings.model_validate(values)
     except ValidationError as error:
-        found = problems(error, Settings)
-        raise ConfigError(_lines((files.get(str(place[0]), main), place, text) for place, text in found)) from None
-    wrong = list(unknown_names(settings))
+        found = problems(error, Settings, {**values, "claims": spelt_out(values.get("claims"))})
+        raise ConfigError(_lines(sources.told(place, text) for place, text in found)) from None
+    wrong = [(("robot", *place), text) for place, text in robot_problems(settings.robot)] + list(
+        unknown_names(settings)
+    )
     if not wrong:  # only then can what they name be looked up
-        for place, section, error in refused_changes(settings):
-            wrong += [((*place, *map(str, inner)), text) for inner, text in problems(error, section)]
-        wrong += inconsistencies(settings)
+        wrong = list(_changes(settings))
+    if not wrong:
+        wrong = [*inconsistencies(settings), *(further(settings) if further else ())]
     if wrong:
-        raise ConfigError(_lines((files[place[0]], place, text) for place, text in dict.fromkeys(wrong)))
+        raise ConfigError(_lines(sources.told(place, text) for place, text in wrong))
     return settings
+
+
+def _changes(settings: Settings) -> Iterator[Problem]:
+    """Yield what methods change of other sections and may not."""
+    for place, section, given, error in refused_changes(settings):
+        yield from (((*place, *inner), text) for inner, text in problems(error, section, given))
 
 
 def _laid_over(values: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[str, Any]:
@@ -113,24 +172,6 @@ def _laid_over(values: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[
     return merged
 
 
-def _keys_at(kind: Any, place: Place) -> list[str]:
-    """Return the keys that the section at a place accepts."""
-    sections = [kind]
-    for key in place:
-        below = [section.model_fields[str(key)].annotation for section in sections if str(key) in section.model_fields]
-        sections = list(_sections(below)) or sections  # a place also holds numbers and the tags of unions
-    return [name for section in sections for name in section.model_fields]
-
-
-def _sections(kinds: Iterable[Any]) -> Iterator[type[BaseModel]]:
-    """Yield the sections that annotations name, at any depth."""
-    for kind in kinds:
-        if isinstance(kind, type) and issubclass(kind, BaseModel):
-            yield kind
-        else:
-            yield from _sections(get_args(kind))
-
-
-def _lines(found: Iterable[tuple[Path, Place, str]]) -> str:
-    """Return one line for each problem: file, keys joined by dots, text."""
-    return "\n".join(f"{path}: {'.'.join(map(str, place)) or 'top level'}: {text}" for path, place, text in found)
+def _lines(found: Iterable[str]) -> str:
+    """Return each line once: a fault behind a YAML alias is met at several places."""
+    return "\n".join(dict.fromkeys(found))

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import JsonValue, model_validator
+from pydantic import AfterValidator, Field, JsonValue
 
 from mobnet.settings import base
 from mobnet.settings.base import Section
 
+Networks = Annotated[tuple[base.NetworkName, ...], AfterValidator(base.distinct)]
 Target = Literal["uncertainty", "external"]
 
 
 class Observer(Section):
     """The momentum observer (7), and what recordings hold of the motors' torque."""
 
-    gain_hz: base.Positive
+    gain_hz: base.Real = Field(ge=0.1, le=5000)
     torque: Literal["mean", "sample"]
 
 
@@ -29,19 +30,12 @@ class Method(Section):
 
     kind: base.Text
     target: Target | None = None
-    limbs: tuple[base.NetworkName, ...] = ()
+    limbs: Networks = ()
     network: base.Change = {}
     learning: base.Change = {}
-    fitted: tuple[base.NetworkName, ...] = ()
+    fitted: Networks = ()
     of: base.SourceName | None = None
     options: dict[str, JsonValue] = {}
-
-    @model_validator(mode="after")
-    def _learns_something(self) -> Method:
-        """Check that a target and limbs come together."""
-        if bool(self.limbs) != (self.target is not None):
-            raise ValueError("`target` and `limbs` are accepted together only")
-        return self
 
 
 class Sweep(Section):
@@ -51,4 +45,4 @@ class Sweep(Section):
     limb: base.NetworkName
     experiment: base.ExperimentName
     section: Literal["network", "learning"]
-    values: base.Some[base.Count]
+    values: base.Rising[base.Count]

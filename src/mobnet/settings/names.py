@@ -8,8 +8,8 @@ from pydantic import BaseModel
 
 from mobnet.core.errors import not_accepted
 from mobnet.settings.base import Named
+from mobnet.settings.reading import Place
 
-Place = tuple[str, ...]
 Use = tuple[Place, str, str]  # place, kind of name, name
 
 
@@ -34,13 +34,13 @@ def uses(value: Any, kind: Any, place: Place = ()) -> Iterator[Use]:
         yield from _union_uses(value, args, place)
     elif isinstance(value, dict) and len(args) == 2:
         for key, item in cast("dict[str, Any]", value).items():
-            yield from uses(key, args[0], place)
+            yield from uses(key, args[0], (*place, key))
             yield from uses(item, args[1], (*place, key))
     elif isinstance(value, tuple) and args:
         items = cast("tuple[Any, ...]", value)
         kinds = [args[0]] * len(items) if args[-1] is Ellipsis else args
         for index, (item, inner) in enumerate(zip(items, kinds, strict=True)):
-            yield from uses(item, inner, (*place, str(index)) if isinstance(item, BaseModel) else place)
+            yield from uses(item, inner, (*place, index))
 
 
 def _union_uses(value: Any, kinds: tuple[Any, ...], place: Place) -> Iterator[Use]:

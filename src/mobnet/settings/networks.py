@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from mobnet.settings import base
 from mobnet.settings.base import Section
 
 CellKind = Literal["GRU", "LSTM", "RNN", "TCN", "MLP", "constant"]
+Units = Annotated[base.Count, Field(le=8192)]
+Steps = Annotated[base.Count, Field(le=10_000)]
 Precision = Literal["auto", "float32", "bfloat16"]
 SIZES: dict[CellKind, tuple[str, ...]] = {  # what a kind of cell needs to be told
     "GRU": ("hidden",),
@@ -30,23 +32,33 @@ class Cell(Section):
     """
 
     cell: CellKind
-    hidden: base.Count | None = None
-    window_steps: base.Count | None = None
-    kernel_steps: base.Count | None = None
-    dilations: base.Some[base.Count] | None = None
-    dropout: base.Share | None = None
-    head: base.Count | None = None
+    hidden: Units | None = None
+    window_steps: Steps | None = None
+    kernel_steps: Annotated[base.Count, Field(ge=2, le=100)] | None = None
+    dilations: base.Rising[Annotated[base.Count, Field(le=1000)]] | None = None
+    dropout: Annotated[base.Share, Field(lt=1)] | None = None
+    head: Units | None = None
     spectral: base.Flag = False
-    input_gain: base.Positive = 1.0
+    input_gain: base.Real = Field(default=1.0, gt=0, le=1000)
 
     @model_validator(mode="after")
     def _has_its_sizes(self) -> Cell:
-        """Check that the sizes are there which this kind of cell needs."""
-        missing = [name for name in SIZES[self.cell] if getattr(self, name) is None]
-        if missing:
-            raise ValueError(f"{missing[0]} is missing; a cell {self.cell} needs {', '.join(SIZES[self.cell])}")
+        """Check that exactly the sizes are there which this kind of cell takes, and that they fit each other."""
+        wanted = SIZES[self.cell]
+        given = [name for name in dict.fromkeys(sum(SIZES.values(), ())) if getattr(self, name) is not None]
+        if set(given) != set(wanted):
+            text = f"sizes {', '.join(given) or 'none'} are not accepted"
+            raise ValueError(f"{text}; accepted: {', '.join(wanted) or 'none'} of a cell {self.cell}")
         if self.spectral and self.cell != "GRU":
-            raise ValueError(f"a cell {self.cell} with `spectral` is not accepted; accepted: GRU")
+            raise ValueError(f"spectral: true is not accepted for a cell {self.cell}; accepted: a cell GRU")
+        if self.input_gain != 1.0 and not self.spectral:
+            raise ValueError(f"input_gain: {self.input_gain} is not accepted without `spectral`; accepted: 1.0")
+        for dilation in self.dilations or ():
+            if (self.window_steps or 0) <= ((self.kernel_steps or 0) - 1) * dilation:
+                text = (
+                    f"dilations: {dilation} is not accepted; accepted: (kernel_steps - 1) times it below window_steps"
+                )
+                raise ValueError(f"{text}, {self.window_steps}")
         return self
 
 
@@ -55,13 +67,13 @@ class NetworkRow(Cell):
 
     data: base.TrainingSetName
     experiment: base.ExperimentName
-    horizon_steps: base.Count
+    horizon_steps: Steps
 
 
 class Limb(Section):
     """Limbs whose torques a network predicts, and whose motion (`Q`) and desired torques (`T`) it sees."""
 
-    joints: base.Some[base.LimbName]
+    joints: base.Distinct[base.LimbName]
     Q: base.LimbNames
     T: base.LimbNames
 
@@ -73,23 +85,23 @@ class Network(NetworkRow, Limb):
 class Learning(Section):
     """Optimisation and calibration of every network, section 4.4; `data_parts` is that of section 6.3."""
 
-    batch_size: base.Count
-    optimizer_betas: tuple[base.Share, base.Share]
-    rate_first: base.Positive
+    batch_size: base.Whole = Field(ge=1, le=4096)
+    optimizer_betas: base.Range[Annotated[base.Share, Field(lt=1)]]
+    rate_first: base.Positive = Field(le=1)
     rate_last_ratio: base.Share
     rate_decay_share: base.Share
-    gradient_norm: base.Positive
-    std_min: base.Positive
-    validation_share: base.Share
+    gradient_norm: base.Positive = Field(le=1e12)
+    std_min: base.Real = Field(ge=1e-12, le=0.1)
+    validation_share: base.Real = Field(ge=0.01, le=0.5)
     sequences: Literal["carried", "windows"]
-    stream_s: base.Positive
+    stream_s: base.Real = Field(ge=0.05, le=600)
     precision: Precision
-    divergence_loss: base.Positive
+    divergence_loss: base.Real = Field(ge=1, le=1e6)
     may_diverge: base.Flag
     calibrate: base.Flag
     calibration_share: base.InnerShare
-    calibration_levels: base.InnerShares
-    data_parts: base.Count = 1
+    calibration_levels: base.Rising[base.InnerShare]
+    data_parts: base.Whole = Field(default=1, ge=1, le=1000)
 
 
 class Training(Section):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import AfterValidator, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from mobnet.settings import base
 from mobnet.settings.base import Section
@@ -15,6 +15,7 @@ INERTIA_TOLERANCE = 1e-3  # share by which rounded figures may miss the triangle
 SIZES = {"box": 3, "ellipsoid": 3, "sphere": 1, "capsule": 2, "cylinder": 2}  # of a shape that stands at a point
 
 Side = Literal["left", "right"]
+Segment = tuple[base.Metres, base.Metres, base.Metres, base.Metres, base.Metres, base.Metres]
 Tensor = tuple[base.Real, base.Real, base.Real, base.Real, base.Real, base.Real]
 Colour = tuple[base.Share, base.Share, base.Share, base.Share]
 
@@ -23,7 +24,7 @@ def _unit(values: tuple[float, ...]) -> tuple[float, ...]:
     """Check that a vector or a quaternion has unit length."""
     length = float(np.linalg.norm(values))
     if abs(length - 1) > UNIT_TOLERANCE:
-        raise ValueError(f"{list(values)} has length {length:.6g}; accepted: length 1")
+        raise ValueError(f"{list(values)} of length {length:.6g} is not accepted; accepted: length 1")
     return values
 
 
@@ -32,7 +33,7 @@ def _possible(inertia: Tensor) -> Tensor:
     xx, yy, zz, xy, xz, yz = inertia
     low, middle, high = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     if low <= 0 or high > (1 + INERTIA_TOLERANCE) * (low + middle):
-        found = f"{list(inertia)} has the principal moments {low:.6g}, {middle:.6g}, {high:.6g}"
+        found = f"{list(inertia)} with the principal moments {low:.6g}, {middle:.6g}, {high:.6g} is not accepted"
         raise ValueError(f"{found}; accepted: all above 0 and none above the sum of the others")
     return inertia
 
@@ -49,11 +50,11 @@ class BodyRow(Section):
     yy zz xy xz yz about the centre of mass, in body axes.
     """
 
-    name: base.Text
+    name: base.PartName
     parent: base.Text
     pos: base.Vector3
     quat: UnitQuaternion
-    mass: base.Positive
+    mass: base.Positive = Field(le=500)
     com: base.Vector3
     inertia: Inertia
 
@@ -69,10 +70,10 @@ class JointRow(Section):
     name: base.Text | None = None
     body: base.BodyName
     axis: UnitVector
-    range: base.Range
-    torque_limit: base.Positive
-    armature: base.NotNegative
-    velocity_limit: base.Positive
+    range: base.Span[base.Radians]
+    torque_limit: base.Real = Field(ge=0.1, le=5000)
+    armature: base.NotNegative = Field(le=10)
+    velocity_limit: base.Real = Field(ge=0.1, le=100)
 
 
 class FootRow(Section):
@@ -91,21 +92,21 @@ class SoleRow(Section):
 
     sensor_pos: base.Vector3
     box_centre: base.Vector3
-    box_half: tuple[base.Positive, base.Positive, base.Positive]
-    height: base.Real
+    box_half: tuple[base.Length, base.Length, base.Length]
+    height: base.Metres
 
 
 class LegRow(Section):
     """Geometry of both legs [m], whose hip axes meet in a point, as do their ankle axes; the hip is the left one."""
 
     hip_pos: base.Vector3
-    link_length: base.Positive
+    link_length: base.Real = Field(ge=0.02, le=2)
 
 
 class PointRow(Section):
     """A named point; the row of one whose name begins with `left_` stands for its mirror image in y too."""
 
-    name: base.Text
+    name: base.PartName
     body: base.BodyName
     pos: base.Vector3 = (0.0, 0.0, 0.0)
 
@@ -117,18 +118,20 @@ class ShapeRow(PointRow):
     """
 
     type: Literal["capsule", "cylinder", "box", "ellipsoid", "sphere"]
-    size: tuple[base.Positive, ...]
-    segment: Tensor | None = None
+    size: base.Some[base.Length]
+    segment: Segment | None = None
     tone: base.ToneName
 
     @model_validator(mode="after")
     def _has_its_size(self) -> ShapeRow:
         """Check that there are as many sizes as the solid takes, and one place."""
         if self.segment is not None and (any(self.pos) or SIZES[self.type] != 2):
-            raise ValueError(f"{self.type} {self.name} with `segment`; accepted: capsule and cylinder without `pos`")
+            raise ValueError(
+                f"{self.type} {self.name} with `segment` is not accepted; accepted: capsule, cylinder, no `pos`"
+            )
         wanted = SIZES[self.type] if self.segment is None else 1
         if len(self.size) != wanted:
-            raise ValueError(f"{self.type} {self.name} with {len(self.size)} sizes; accepted: {wanted}")
+            raise ValueError(f"{self.type} {self.name} with {len(self.size)} sizes is not accepted; accepted: {wanted}")
         return self
 
 
@@ -142,17 +145,17 @@ class ImuRow(Section):
 class PostureRow(Section):
     """How a limb is held while nothing moves it: angles, and torques of position and velocity errors, by joint."""
 
-    angle_rad: tuple[base.Real, ...]
-    stiffness_nm_rad: tuple[base.NotNegative, ...]
-    damping_nms_rad: tuple[base.NotNegative, ...]
+    angle_rad: tuple[base.Radians, ...]
+    stiffness_nm_rad: tuple[Annotated[base.NotNegative, Field(le=50_000)], ...]
+    damping_nms_rad: tuple[Annotated[base.NotNegative, Field(le=5000)], ...]
 
 
 class Totals(Section):
     """Published figures of the whole robot, which the rows must add up to; mass [kg]."""
 
-    mass: base.Positive
+    mass: base.Positive = Field(le=5000)
     bodies: base.Count
     actuated_joints: base.Count
     virtual_joints: base.Index
     dof: base.Count
-    height_m: base.Positive
+    height_m: base.Real = Field(ge=0.1, le=5)

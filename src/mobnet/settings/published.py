@@ -2,13 +2,35 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field
 
-from mobnet.settings.base import Count, LevelName, LimbName, MethodName, Positive, Real, Section, Text
+from mobnet.settings.base import (
+    Count,
+    Flag,
+    LevelName,
+    LimbName,
+    LowerName,
+    MethodName,
+    NotNegative,
+    Positive,
+    RowName,
+    Section,
+    Some,
+    Text,
+    TrainingSetName,
+    Whole,
+    distinct,
+)
 
-Numbers = tuple[Real | None, ...]  # one for each column; None where nothing is printed or readable
+# one for each column; None where nothing is printed or readable
+Numbers = tuple[Annotated[NotNegative, Field(le=1000)] | None, ...]
+QUANTITIES = "recordings|duration|samples|falls|episodes|time standing|steps"  # of the table of training sets
+Quantity = Annotated[str, Field(pattern=f"^({QUANTITIES})$")]
+
+
+PlaceName = Annotated[str, Field(pattern="^[a-z0-9_.]+$", max_length=100)]
 
 
 class Floor(Section):
@@ -25,30 +47,24 @@ class PublishedTable(Section):
     """
 
     printed: Text
-    metric: Text | None = None
-    unit: Text | None = None
-    columns: tuple[Text, ...]
-    robot: bool = False
+    metric: Literal["rmse"] | None = None
+    unit: Literal["N m"] | None = None
+    columns: Annotated[Some[Text], AfterValidator(distinct)]
+    robot: Flag = False
     floor: Floor | None = None
-    labels: dict[LevelName, str] = {}
-    numbers: dict[str, dict[str, Numbers]]
+    labels: dict[LevelName, Text] = {}
+    numbers: dict[PlaceName, dict[RowName, Numbers]]
 
-    @model_validator(mode="after")
-    def _rows_fit(self) -> PublishedTable:
-        """Check that every row has a number for each column."""
-        for place, rows in self.numbers.items():
-            for method, row in rows.items():
-                if len(row) != len(self.columns):
-                    raise ValueError(f"{place}, {method}: {len(row)} numbers for {len(self.columns)} columns")
-        return self
+
+ARCHITECTURE = r"^GRU\[(\d+), (\d+)\]-Linear\[(\d+), (\d+)\]$"  # inputs, state; state, outputs
 
 
 class PublishedNetwork(Section):
     """A row of Table 1."""
 
-    architecture: Text
+    architecture: Annotated[str, Field(pattern=ARCHITECTURE)]
     parameters: Count
-    horizon_steps: Count
+    horizon_steps: Whole = Field(ge=1, le=10_000)
 
 
 class PublishedNetworks(Section):
@@ -62,15 +78,15 @@ class PublishedData(Section):
     """What the paper says of its training sets: set -> quantity -> number, durations in minutes."""
 
     printed: Text
-    sets: dict[str, dict[str, Real]]
+    sets: dict[TrainingSetName, dict[Quantity, Annotated[Positive, Field(le=1e9)]]]
 
 
 class PublishedUncertainty(Section):
     """Standard deviations of the robot's uncertainty torque [N m], V1 to V3 [N], by limb."""
 
     printed: Text
-    unit: Text
-    std: dict[LimbName, tuple[Positive, ...]]
+    unit: Literal["N m"]
+    std: dict[LimbName, tuple[Annotated[Positive, Field(le=1000)], ...]]
     note: Text
 
 
@@ -85,8 +101,8 @@ class PublishedKinds(Section):
 class Contact(Section):
     """Peak force and impulse of a contact."""
 
-    force_n: Positive
-    momentum_ns: Positive
+    force_n: Positive = Field(le=10_000)
+    momentum_ns: Positive = Field(le=1000)
 
 
 class PublishedContacts(Section):
@@ -101,7 +117,7 @@ class Published(Section):
     """All numbers of the paper that ours stand beside."""
 
     table_01: PublishedNetworks
-    tables: Annotated[dict[str, PublishedTable], Field(min_length=1)]
+    tables: Annotated[dict[LowerName, PublishedTable], Field(min_length=1)]
     data: PublishedData
     uncertainty: PublishedUncertainty
     kinds: PublishedKinds

@@ -1,16 +1,18 @@
 """Sizes of the tests and of the trainings."""
 
+from typing import Annotated
+
 from pydantic import Field
 
-from mobnet.settings.base import Count, NotNegative, Positive, Section, Seeds, Share
+from mobnet.settings.base import Count, LowerName, NotNegative, Positive, Section, Seeds, Share, Whole
 from mobnet.settings.data import Recordings
 
 
 class Experiment(Section):
     """How long and how often networks are trained; an epoch is all training samples or `epoch_samples` of them."""
 
-    epochs: Count
-    epoch_samples: Count | None = None
+    epochs: Whole = Field(ge=1, le=1000)
+    epoch_samples: Annotated[Count, Field(le=100_000_000)] | None = None
     seeds: Seeds
 
 
@@ -18,8 +20,8 @@ class Scale(Section):
     """One size of every test and of every training; the last four replace numbers of other sections."""
 
     test: Recordings
-    experiments: dict[str, Experiment] = Field(min_length=1)
-    batch_size: Count | None = None
-    stream_s: Positive | None = None
+    experiments: dict[LowerName, Experiment] = Field(min_length=1)
+    batch_size: Annotated[Count, Field(le=4096)] | None = None
+    stream_s: Annotated[Positive, Field(ge=0.05, le=600)] | None = None
     rate_decay_share: Share | None = None
-    figure_start_s: NotNegative | None = None
+    figure_start_s: Annotated[NotNegative, Field(le=3600)] | None = None

@@ -7,8 +7,18 @@ from pydantic import Field
 
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import JointLayout
-from mobnet.settings.base import Index, LevelName, MethodNames, RobotNetworkName, ScaleName, ScenarioName, Section
-from mobnet.settings.claims import Claim
+from mobnet.settings.base import (
+    Index,
+    LevelName,
+    LowerName,
+    MethodNames,
+    RobotNetworkName,
+    RowName,
+    ScaleName,
+    ScenarioName,
+    Section,
+)
+from mobnet.settings.claims import Claim, ClaimName
 from mobnet.settings.data import (
     Commands,
     Motion,
@@ -27,9 +37,6 @@ from mobnet.settings.published import Published
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.scales import Experiment, Scale
 from mobnet.settings.walking import Walking
-
-LowerName = Annotated[str, Field(pattern="^[a-z0-9_]+$")]
-RowName = Annotated[str, Field(pattern="^[A-Za-z0-9][A-Za-z0-9-]*$")]
 
 
 class Settings(Section):
@@ -54,12 +61,12 @@ class Settings(Section):
     learning: Learning
     methods: Annotated[dict[RowName, Method], Field(min_length=1)]
     sweeps: dict[Annotated[str, Field(pattern="^[a-z_]+$")], Sweep]
-    tests: dict[ScenarioName, dict[LevelName, MethodNames]]
+    tests: dict[ScenarioName, Annotated[dict[LevelName, MethodNames], Field(min_length=1)]]
     evaluation: Evaluation
     scales: Annotated[dict[LowerName, Scale], Field(min_length=1)]
     robot: RobotTable
     published: Published
-    claims: dict[str, Claim]
+    claims: dict[ClaimName, Claim]
 
     @property
     def layout(self) -> JointLayout:
@@ -78,9 +85,20 @@ class Settings(Section):
             swept_name(base, key, value): _swept(self.methods[base], sweep, key, value)
             for key, sweep in self.sweeps.items()
             for base in sweep.of
+            if base in self.methods
             for value in sweep.values
         }
         return {**self.methods, **swept}
+
+    def sweep_of(self, method: str) -> str | None:
+        """Return the sweep that stands for a method; None for a row of `methods`."""
+        names = {
+            swept_name(base, key, value): key
+            for key, sweep in self.sweeps.items()
+            for base in sweep.of
+            for value in sweep.values
+        }
+        return names.get(method)
 
     def method(self, name: str) -> Method:
         """Return a method; a ConfigError names an unknown one."""

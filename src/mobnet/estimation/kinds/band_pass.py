@@ -4,19 +4,23 @@ The band-pass removes whatever changes slowly: errors of the model, but also a s
 estimate of the external torque, only of its changes.
 """
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import scipy  # its parts are imported where they are used first: the workflow imports kinds before it starts
+from pydantic import Field
 
 from mobnet.core.arrays import Array
-from mobnet.core.errors import ConfigError
+from mobnet.core.errors import ConfigError, misfit
 from mobnet.core.estimator import Estimate, Estimator
 from mobnet.core.recording import Sensed
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe
-from mobnet.settings.base import Count, PositiveRange, Section
+from mobnet.settings.base import Positive, Section, Span, Whole
+from mobnet.settings.methods import Method
+from mobnet.settings.reading import Place
 
 State = tuple[Any, Array]  # of the filtered method, and of the filter (sections, 2, n) [N, N m]
 
@@ -24,8 +28,8 @@ State = tuple[Any, Array]  # of the filtered method, and of the filter (sections
 class Options(Section):
     """Cut-off frequencies, and the order of the low-pass that the band-pass is made from, with twice as many poles."""
 
-    band_hz: PositiveRange
-    order: Count
+    band_hz: Span[Positive]
+    order: Whole = Field(ge=1, le=20)
 
 
 class BandPassEstimator:
@@ -64,6 +68,14 @@ class BandPassEstimator:
     def _at_rest(self) -> Array:
         """Return the zero state of the filter, (sections, 2, n) [N, N m]."""
         return np.zeros((len(self._sections), 2, len(self.joints)))
+
+
+def check(method: Method, options: Options, rate_hz: float) -> Iterator[tuple[Place, str]]:
+    """Yield what is not accepted in the row of a method: it filters another one, below half the rate [Hz]."""
+    if method.of is None:
+        yield ("of",), misfit("no `of`", "the method whose output is filtered")
+    if options.band_hz[1] >= rate_hz / 2:
+        yield ("options", "band_hz", 1), misfit(options.band_hz[1], f"below half of data_hz, {rate_hz / 2}")
 
 
 def build(recipe: Recipe) -> BandPassEstimator:

@@ -1,10 +1,15 @@
 """FTS-e2e of section 5.1: networks that are trained on the external torque and predict it without an observer."""
 
-from mobnet.core.errors import ConfigError
+from collections.abc import Iterator
+
+from mobnet.core.errors import ConfigError, misfit
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Sensed
 from mobnet.estimation.recipe import Recipe
 from mobnet.learning.deployed.limbs import LimbNetworks, State
+from mobnet.settings.base import Section
+from mobnet.settings.methods import Method
+from mobnet.settings.reading import Place
 
 
 class DirectEstimator:
@@ -28,6 +33,12 @@ class DirectEstimator:
         """Return tau_e of one contiguous recording, (T, n) [N, N m], from a fresh state."""
         prediction = self._networks.run(sensed)
         return Estimate(prediction.mean, prediction.std)
+
+
+def check(method: Method, options: Section, rate_hz: float) -> Iterator[tuple[Place, str]]:
+    """Yield what is not accepted in the row of a method: it has networks that learn the external torque."""
+    if method.target != "external" or method.fitted or method.of:
+        yield ("target",), misfit(method.target, "external, and neither `fitted` nor `of`")
 
 
 def build(recipe: Recipe) -> DirectEstimator:

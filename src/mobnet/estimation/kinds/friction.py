@@ -9,17 +9,17 @@ v and tau_m are the sensed joint velocity and the motor's torque. Regressors pas
 residual has.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import AfterValidator, ConfigDict, Field
+from pydantic import ConfigDict, Field
 
 from mobnet.core.arrays import Array
-from mobnet.core.errors import DataError, not_accepted, refuse
+from mobnet.core.errors import DataError, not_accepted, misfit, refuse
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import Note, NotNegative, read_note
 from mobnet.core.notes import Positive as AboveZero
@@ -29,19 +29,21 @@ from mobnet.estimation.low_pass import exact_pole, low_pass
 from mobnet.estimation.recipe import Recipe
 from mobnet.estimation.regression import TERMS, Law, Pair, regress, regressors
 from mobnet.learning.deployed.networks import Prediction
-from mobnet.settings.base import Choices, Positive, Section, distinct
-from mobnet.settings.methods import Observer
+from mobnet.settings.base import Distinct, Positive, Rising, Section
+from mobnet.settings.methods import Method, Observer
 from mobnet.settings.networks import Network
+from mobnet.settings.reading import Place
 
+Velocity = Annotated[Positive, Field(ge=0.0001, le=20)]
 Term = Literal["coulomb", "static", "viscous", "load"]
 
 
 class Options(Section):
     """Terms of (23) to fit, of which only joints whose network sees the torque get `load`; sign function; grid."""
 
-    terms: Annotated[tuple[Term, ...], Field(min_length=1), AfterValidator(distinct)]
-    smoothing_rad_s: Positive
-    stribeck_rad_s: Choices
+    terms: Distinct[Term]
+    smoothing_rad_s: Velocity
+    stribeck_rad_s: Rising[Velocity]
 
 
 class JointNote(Note):
@@ -115,6 +117,12 @@ class FrictionModel:
         """Return the friction torque before the filter, (..., nv) [N, N m]."""
         friction = self._friction.torque(sensed.v[..., self._base :], sensed.tau_motor)
         return np.concatenate([np.zeros((*friction.shape[:-1], self._base)), friction], axis=-1)
+
+
+def check(method: Method, options: Options, rate_hz: float) -> Iterator[tuple[Place, str]]:
+    """Yield what is not accepted in the row of a method: a fit needs limbs, and no networks."""
+    if not method.fitted or method.limbs or method.of:
+        yield ("fitted",), misfit(list(method.fitted), "limbs to fit, without `limbs` and `of`")
 
 
 def build(recipe: Recipe) -> ResidualEstimator:

@@ -1,15 +1,20 @@
 """External torque as the residual without what a model of the uncertainty predicts, eq. (15)."""
 
+from collections.abc import Iterator
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.core.errors import misfit
 from mobnet.core.estimator import Estimate
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
 from mobnet.estimation.recipe import Recipe, ResidualObserver
 from mobnet.learning.deployed.networks import Prediction
+from mobnet.settings.base import Section
+from mobnet.settings.methods import Method
+from mobnet.settings.reading import Place
 
 State = tuple[Any, Any]  # of the observer and of the uncertainty model
 
@@ -71,6 +76,12 @@ class ResidualEstimator:
         """Return eq. (15) for the estimated joints, (..., n) [N, N m]."""
         tau = residual[..., self._columns]
         return Estimate(tau) if prediction is None else Estimate(tau - prediction.mean, prediction.std)
+
+
+def check(method: Method, options: Section, rate_hz: float) -> Iterator[tuple[Place, str]]:
+    """Yield what is not accepted in the row of a method: it has networks, if any, that learn the uncertainty."""
+    if method.target not in (None, "uncertainty") or method.fitted or method.of:
+        yield ("target",), misfit(method.target, "uncertainty, and neither `fitted` nor `of`")
 
 
 def build(recipe: Recipe) -> ResidualEstimator:

@@ -1,0 +1,220 @@
+"""What must hold for terrains, commands, motions, pushes, scenarios and training sets."""
+
+from collections.abc import Iterator
+from itertools import pairwise, product
+from math import isclose
+from typing import cast
+
+from mobnet.core.errors import not_accepted, misfit
+from mobnet.settings.data import FixedCommand, Motion, Push, Scenario
+from mobnet.settings.reading import Place
+from mobnet.settings.settings import Settings
+
+PACKED = 0.5  # share of the ground that plates drawn one by one can cover
+RANGES = ("step_x_m", "step_y_m", "turn_deg", "duration_s", "foot_height_m")  # keys of a command
+FIRST_SETS = ("walk", "walk_plain")  # training sets that tables and figures of the paper compare by name
+NARROW = 1e-9
+Problem = tuple[Place, str]
+
+
+def data_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield what does not fit in the sections of data."""
+    for check in (_terrain_problems, _command_problems, _torque_problems, _motion_problems, _push_problems):
+        yield from check(settings)
+    for name, row in settings.scenarios.items():
+        yield from (((("scenarios", name, *place)), text) for place, text in _scenario_problems(settings, name, row))
+    yield from _set_problems(settings)
+
+
+def _terrain_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield edges wider than what they belong to, plates that find no room, and heights that no foot clears."""
+    checks, plates, least = settings.terrain.checks, settings.terrain.plates, min(settings.commands.foot_height_m)
+    if checks and checks.bevel_m >= checks.cell_m / 2:
+        yield (
+            ("terrain", "checks", "bevel_m"),
+            misfit(checks.bevel_m, f"below half of cell_m, {checks.cell_m / 2}"),
+        )
+    if plates:
+        sides = [side for size in plates.sizes_m for side in size]
+        if plates.bevel_m >= min(sides) / 2:
+            text = misfit(plates.bevel_m, f"below half of a plate's side, {min(sides) / 2}")
+            yield ("terrain", "plates", "bevel_m"), text
+        area = sum(length * width for length, width in plates.sizes_m)
+        if max(sides) + plates.gap_m > plates.period_m or area > PACKED * plates.period_m**2:
+            accepted = (
+                f"a plate of {max(sides)} m and its gap within it, and {PACKED:.0%} of its square above {area:g} m^2"
+            )
+            yield ("terrain", "plates", "period_m"), misfit(plates.period_m, accepted)
+    for name, row in (("checks", checks), ("plates", plates)):
+        if row and row.height_m >= least:
+            yield ("terrain", name, "height_m"), misfit(row.height_m, f"below the lowest foot_height_m, {least}")
+
+
+def _command_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield ranges without zero, from which all walks start, and probabilities that are no distribution."""
+    commands = settings.commands
+    for name in RANGES[:3]:
+        low, high = getattr(commands, name)
+        if not low <= 0.0 <= high:
+            yield ("commands", name), misfit([low, high], "a range that contains 0")
+    total = sum(commands.random.kinds.values())
+    if not isclose(total, 1.0, abs_tol=NARROW):
+        yield ("commands", "random", "kinds"), misfit(f"a sum of {total:g}", "probabilities with the sum 1")
+    steps = (settings.recording.episode_s + settings.recording.settle_s) / settings.walking.step_min_s
+    if settings.recording.episode_steps < steps:
+        accepted = f"at least {steps:.0f}, the steps of an episode"
+        yield ("recording", "episode_steps"), misfit(settings.recording.episode_steps, accepted)
+
+
+def _torque_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield random torques that are not those of the robot's joints."""
+    limits = {joint.id: joint.torque_limit for joint in settings.robot.joints}
+    groups, torque = settings.robot.groups, settings.random_torque
+    for limb in ("LA", "RA"):
+        if limb in groups and len(torque.arms_nm) != len(groups[limb]):
+            accepted = f"{len(groups[limb])}, one for each joint of {limb}"
+            yield ("random_torque", "arms_nm"), misfit(f"{len(torque.arms_nm)} numbers", accepted)
+        for index, (joint, value) in enumerate(zip(groups.get(limb, ()), torque.arms_nm, strict=False)):
+            if value > limits[joint]:
+                yield (
+                    ("random_torque", "arms_nm", index),
+                    misfit(value, f"at most {limits[joint]}, limit of {joint}"),
+                )
+    for name, limbs in (("legs_waist_nm", ("LL", "RL", "W")), ("neck_nm", ("N",))):
+        most = min((limits[joint] for limb in limbs for joint in groups.get(limb, ())), default=0.0)
+        if getattr(torque, name) > most:
+            yield (
+                ("random_torque", name),
+                misfit(getattr(torque, name), f"at most {most}, the least limit of a motor"),
+            )
+
+
+def _motion_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield motions that do not fit the robot, or whose numbers stand in the wrong order."""
+    for name, motion in settings.motions.items():
+        for place, text in (*_joint_range_problems(settings, motion), *_shape_problems(motion)):
+            yield ("motions", name, *place), text
+        if not settings.robot.shapes:
+            yield ("motions", name), misfit("a robot without shapes", "shapes, which keep hands and legs apart")
+
+
+def _joint_range_problems(settings: Settings, motion: Motion) -> Iterator[Problem]:
+    """Yield working ranges that are not as many as the joints, leave their limits or miss the posture."""
+    robot = settings.robot
+    limits = {joint.id: joint.range for joint in robot.joints}
+    posture = {
+        joint: angle
+        for limb, row in robot.posture.items()
+        for joint, angle in zip(robot.groups[limb], row.angle_rad, strict=True)
+    }
+    for name, limb in (("waist_rad", "W"), ("neck_rad", "N"), ("arm_rad", "LA")):
+        spans, joints = getattr(motion, name), robot.groups.get(limb, ())
+        if len(spans) != len(joints):
+            yield (name,), misfit(f"{len(spans)} ranges", f"{len(joints)}, one for each joint of {limb}")
+        for index, (joint, (low, high)) in enumerate(zip(joints, spans, strict=False)):
+            least, most = limits[joint]
+            if low < least or high > most or not low <= posture.get(joint, low) <= high:
+                accepted = f"within {least} to {most} of {joint}, and its posture {posture.get(joint)} inside"
+                yield (name, index), misfit([low, high], accepted)
+    for index, (joint, (low, high)) in enumerate(zip(robot.groups.get("RA", ()), motion.arm_rad, strict=False)):
+        least, most = limits[joint]
+        if -high < least or -low > most or not -high <= posture.get(joint, -low) <= -low:
+            accepted = f"ranges whose mirror image lies within {least} to {most} of {joint}, with its posture inside"
+            yield ("arm_rad", index), misfit([low, high], accepted)
+    legs = robot.groups[robot.feet["left"].limb] if "left" in robot.feet else ()
+    for index, pose in enumerate(motion.leg_poses_rad):
+        for k, (joint, angle) in enumerate(zip(legs, pose, strict=False)):
+            if not limits[joint][0] <= angle <= limits[joint][1]:
+                text = misfit(angle, f"{limits[joint][0]} to {limits[joint][1]}, the range of {joint}")
+                yield ("leg_poses_rad", index, k), text
+
+
+def _shape_problems(motion: Motion) -> Iterator[Problem]:
+    """Yield distances and frequencies of a motion that stand in the wrong order, and variants that are the same."""
+    fastest = max(variant.speed for variant in motion.variants) * motion.band_hz[1]
+    if fastest >= motion.knot_hz / 2:
+        yield (
+            ("band_hz", 1),
+            misfit(motion.band_hz[1], f"below half of knot_hz, times the fastest variant: {fastest:g}"),
+        )
+    for low, high in (("clearance_least_m", "clearance_m"), ("clearance_m", "guard_m")):
+        if getattr(motion, low) > getattr(motion, high):
+            yield (low,), misfit(getattr(motion, low), f"at most {high}, {getattr(motion, high)}")
+    for index, variant in enumerate(motion.variants):
+        if variant in motion.variants[:index]:
+            yield ("variants", index), misfit("the same variant twice", "variants that differ")
+
+
+def _push_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield pushes that are neither a force nor a torque, have no times or two kinds of them, or meet each other."""
+    for name, push in settings.pushes.items():
+        for place, text in _push_faults(push):
+            yield ("pushes", name, *place), text
+        longest = push.duration_s[1]
+        for index, (before, after) in enumerate(pairwise(push.at_s or ()), start=1):
+            if after < before + longest:
+                text = misfit(after, f"at least {before + longest:g}, the end of the push before")
+                yield ("pushes", name, "at_s", index), text
+
+
+def _push_faults(push: Push) -> Iterator[Problem]:
+    """Yield keys of a push that do not go together."""
+    wanted = {"point", "force_n", "direction"} if push.joint is None else {"joint", "torque_nm"}
+    given = push.model_fields_set & {"point", "force_n", "direction", "joint", "torque_nm"}
+    if given != wanted:
+        accepted = "`point`, `force_n` and `direction`, or `joint` and `torque_nm`"
+        yield (), misfit(", ".join(sorted(given)) or "neither force nor torque", accepted)
+    if (push.pause_s is None) == (push.at_s is None):
+        yield (), misfit("no time" if push.at_s is None else "`pause_s` with `at_s`", "`pause_s` or `at_s`")
+    if push.during == "always" and "share" in push.model_fields_set:
+        yield ("share",), misfit(list(push.share), "`share` of a push `during` a swing or a support only")
+
+
+def _scenario_problems(settings: Settings, name: str, row: Scenario) -> Iterator[Problem]:
+    """Yield what does not fit in a scenario."""
+    commands = row.commands if isinstance(row.commands, tuple) else (row.commands,)
+    if row.narrowed.model_fields_set and "random" not in commands:
+        yield ("narrowed",), misfit("`narrowed`", "`narrowed` with `commands: random` only")
+    asked = row.commands if isinstance(row.commands, FixedCommand) else row.narrowed
+    place = "commands" if isinstance(row.commands, FixedCommand) else "narrowed"
+    for key, value in asked:
+        low, high = min(getattr(settings.commands, key)), max(getattr(settings.commands, key))
+        numbers = cast("tuple[float, ...]", value if isinstance(value, tuple) else () if value is None else (value,))
+        for number in numbers:
+            if not low <= number <= high:
+                yield (place, key), misfit(number, f"{low} to {high}, the range in section commands")
+    for index, push in enumerate(row.pushes):
+        if set(commands) == {"stand"} and settings.pushes[push].during != "always":
+            yield ("pushes", index), misfit(push, "pushes at any time, where nobody walks")
+    if row.draws is not None:
+        yield from _draw_problems(settings, name, row)
+
+
+def _draw_problems(settings: Settings, name: str, row: Scenario) -> Iterator[Problem]:
+    """Yield where a scenario that uses the random draws of another one differs in what is drawn."""
+    own, other = {"pushes", "random_torque", "draws"}, settings.scenarios[str(row.draws)]
+    if other.draws is not None or row.draws == name:
+        yield ("draws",), not_accepted("scenario", row.draws, [k for k, v in settings.scenarios.items() if not v.draws])
+    for key, value in other:
+        if key not in own and getattr(row, key) != value:
+            yield (
+                (key,),
+                f"what differs from scenario {row.draws} is not accepted; accepted: the same, as it draws alike",
+            )
+
+
+def _set_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield training sets that lack a scale, or that are recorded under one name with another one."""
+    sets = settings.training_sets
+    for name, scale in product(sets, settings.scales):
+        if scale not in sets[name].sizes:
+            yield ("training_sets", name, "sizes"), misfit(f"no scale {scale}", ", ".join(settings.scales))
+    seen = dict[tuple[str, str], str]()
+    for name, row in sets.items():
+        first = seen.setdefault((row.scenario, row.level), name)
+        if first != name:
+            text = misfit(f"{row.scenario} at {row.level}", f"what set {first} does not record already")
+            yield ("training_sets", name, "scenario"), text
+    for name in FIRST_SETS:
+        if name not in sets:
+            yield ("training_sets",), misfit(f"no set {name}", f"{' and '.join(FIRST_SETS)} among the sets")

@@ -1,0 +1,83 @@
+"""What must hold for networks, methods and sweeps."""
+
+from collections.abc import Iterator
+
+from mobnet.core.errors import not_accepted, misfit
+from mobnet.settings.methods import Method
+from mobnet.settings.networks import Learning, Network
+from mobnet.settings.reading import Place
+from mobnet.settings.settings import Settings, swept_name
+
+Problem = tuple[Place, str]
+
+
+def learning_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield what does not fit in networks, methods and sweeps."""
+    learning = settings.learning
+    if learning.calibration_share not in learning.calibration_levels:
+        text = misfit(learning.calibration_share, f"one of calibration_levels, {list(learning.calibration_levels)}")
+        yield ("learning", "calibration_share"), text
+    for name, method in settings.methods.items():
+        for place, text in _method_problems(settings, name, method):
+            yield ("methods", name, *place), text
+    for limb in settings.networks:
+        yield from _window_problems(settings, limb)
+    yield from _name_problems(settings)
+    yield from _sweep_problems(settings)
+
+
+def _method_problems(settings: Settings, name: str, method: Method) -> Iterator[Problem]:
+    """Yield keys of a method that do not go together."""
+    if bool(method.limbs) != (method.target is not None):
+        yield (), misfit("`target` or `limbs` alone", "both together, or none of them")
+    for key in ("network", "learning"):
+        if getattr(method, key) and not method.limbs:
+            yield (key,), misfit(f"`{key}`", f"`{key}` of a method with `limbs`")
+    if method.of is not None and (method.limbs or method.fitted or method.of == name):
+        yield ("of",), misfit(method.of, "another method, without `limbs` and `fitted` of its own")
+    robot = settings.robot
+    seen = dict[str, str]()
+    for index, limb in enumerate((*method.limbs, *method.fitted)):
+        key = "limbs" if index < len(method.limbs) else "fitted"
+        for joint in {joint for group in robot.networks[limb].joints for joint in robot.groups[group]}:
+            first = seen.setdefault(f"{key} {joint}", limb)
+            if first != limb:
+                yield (key, index), misfit(limb, f"networks without joints of {first}")
+                break
+
+
+def _window_problems(settings: Settings, limb: str) -> Iterator[Problem]:
+    """Yield windows that are longer than what a network is trained on at once, by the methods that train it."""
+    rows = {("networks", limb): settings.networks[limb]} | {
+        ("methods", name, "network"): settings.network(name, limb)
+        for name, method in settings.methods.items()
+        if limb in method.limbs
+    }
+    for place, row in rows.items():
+        if row.window_steps is not None and row.window_steps > row.horizon_steps:
+            yield (*place, "window_steps"), misfit(row.window_steps, f"at most horizon_steps, {row.horizon_steps}")
+
+
+def _name_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield names of methods that a disk may take for the same, or that a sweep gives too."""
+    seen = dict[str, str]()
+    for name in settings.methods:
+        first = seen.setdefault(name.casefold(), name)
+        if first != name:
+            yield ("methods", name), misfit(name, f"names that differ from {first} in more than capitals")
+    for key, sweep in settings.sweeps.items():
+        for made in (swept_name(base, key, value) for base in sweep.of for value in sweep.values):
+            if made.casefold() in seen:
+                yield ("methods", seen[made.casefold()]), misfit(made, f"names that sweep {key} does not give")
+
+
+def _sweep_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield sweeps of what is no number, or of methods that do not train the limb."""
+    for key, sweep in settings.sweeps.items():
+        section = Network if sweep.section == "network" else Learning
+        if key not in section.model_fields:
+            yield ("sweeps", key), not_accepted(f"key of section {sweep.section}", key, section.model_fields)
+        for index, base in enumerate(sweep.of):
+            if base not in settings.methods or sweep.limb not in settings.methods[base].limbs:
+                accepted = [name for name, method in settings.methods.items() if sweep.limb in method.limbs]
+                yield ("sweeps", key, "of", index), not_accepted(f"method that trains {sweep.limb}", base, accepted)

@@ -1,0 +1,102 @@
+"""What the configuration will have results of: runs, scores, estimated joints, trainings and pushes."""
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+
+from mobnet.core.errors import not_accepted
+from mobnet.core.joints import JointLayout, right_of, with_image
+from mobnet.settings.checks.robot import joints_above
+from mobnet.settings.evaluation import Mean
+from mobnet.settings.settings import Settings, swept_name
+
+PUSHED, PUSH = "rmse_pushed", "rmse_push_"  # metrics of windows around pushes
+
+
+@dataclass(frozen=True)
+class Results:
+    """Answers of the configuration about results; each `not_...` returns what is wrong, empty where nothing is."""
+
+    settings: Settings
+
+    @property
+    def layout(self) -> JointLayout:
+        """Joints and limbs of the robot."""
+        return self.settings.layout
+
+    @property
+    def legs(self) -> list[str]:
+        """Limbs that stand on feet."""
+        return [foot.limb for foot in self.settings.robot.feet.values()]
+
+    def joints(self, name: str) -> tuple[str, ...]:
+        """Return the joints of a limb, or the joint itself."""
+        return self.layout.groups.get(name, (name,))
+
+    def joints_of(self, column: str | Mean) -> list[str]:
+        """Return the joints behind a column."""
+        names = (column,) if isinstance(column, str) else column.joints
+        return [joint for name in names for joint in self.joints(name)]
+
+    def column_names(self, columns: Sequence[str | Mean]) -> list[str]:
+        """Return the names of a table's columns: a limb has one for each of its joints."""
+        return [
+            name for column in columns for name in (self.joints(column) if isinstance(column, str) else (column.name,))
+        ]
+
+    def not_run(self, scenario: str, level: str, method: str) -> str:
+        """Return what is wrong with a run of a method, or of any where that is empty."""
+        levels = self.settings.tests[scenario]
+        if level not in levels:
+            return not_accepted(f"level of test {scenario}", level, levels)
+        if method and method not in levels[level]:
+            return not_accepted(f"method of test {scenario}, {level}", method, levels[level])
+        return ""
+
+    def not_scored(self, scenario: str, metric: str) -> str:
+        """Return what is wrong with a metric of a test: pushes need a window, and there are only so many."""
+        windows = self.settings.evaluation.windows
+        if metric.startswith(PUSHED[:9]) and scenario not in windows:
+            return not_accepted("test with a window around pushes", scenario, windows)
+        timed = [self.settings.pushes[name].at_s for name in self.settings.scenarios[scenario].pushes]
+        if metric.startswith(PUSH) and None not in timed:
+            count = sum(len(times) for times in timed if times)
+            if int(metric.removeprefix(PUSH)) > count:
+                return not_accepted("metric", metric, [f"{PUSH}{k + 1}" for k in range(count)])
+        return ""
+
+    def predicted(self, method: str) -> set[str]:
+        """Return the joints that a method's networks predict."""
+        row, robot = self.settings.all_methods[method], self.settings.robot
+        return {joint for limb in row.limbs for group in robot.networks[limb].joints for joint in robot.groups[group]}
+
+    def not_estimated(self, method: str, joints: Collection[str]) -> str:
+        """Return what is wrong with a method where these joints are shown: networks predict their limbs alone."""
+        source = self.settings.source_of(method)
+        if not self.settings.all_methods[source].limbs:
+            return ""
+        missing = [joint for joint in joints if joint not in self.predicted(source)]
+        return f"{method} is not accepted; accepted: methods that estimate {missing[0]}" if missing else ""
+
+    def trained(self, limb: str) -> list[str]:
+        """Return the methods that train a network of a limb."""
+        return [name for name, method in self.settings.all_methods.items() if limb in method.limbs]
+
+    def claimed_trainings(self) -> list[str]:
+        """Return the methods whose trainings claims may ask about: those of Figures 17 and 20."""
+        evaluation, sweeps = self.settings.evaluation, self.settings.sweeps
+        keys = (evaluation.figure_20.parameters, evaluation.figure_20.samples)
+        swept = [
+            swept_name(base, key, value) for key in keys for base in sweeps[key].of for value in sweeps[key].values
+        ]
+        return [*evaluation.figure_17.methods, *swept]
+
+    def pushed_joints(self, scenario: str) -> list[str]:
+        """Return the joints that the pushes of a scenario turn: the one that is driven, or all above a point."""
+        robot, found = self.settings.robot, list[str]()
+        bodies = {f"{side}_sole": foot.body for side, foot in robot.feet.items()}
+        for point in robot.points:
+            bodies |= dict(zip(with_image(point.name), (point.body, right_of(point.body)), strict=False))
+        for name in self.settings.scenarios[scenario].pushes:
+            push = self.settings.pushes[name]
+            found += [push.joint] if push.joint else joints_above(robot, bodies.get(push.point or "", ""))
+        return list(dict.fromkeys(found))

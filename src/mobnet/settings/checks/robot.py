@@ -1,0 +1,277 @@
+"""What must hold between the rows of a robot's table: a tree, motors in order, figures that fit each other."""
+
+from collections.abc import Iterator, Mapping
+from itertools import zip_longest
+from math import dist
+
+import numpy as np
+
+from mobnet.core.errors import not_accepted, misfit
+from mobnet.core.joints import N_VIRTUAL, right_of, with_image
+from mobnet.settings.names import unknown, uses
+from mobnet.settings.reading import Place
+from mobnet.settings.robot import WORLD, RobotTable
+
+MASS_TOLERANCE = 1e-6  # relative, of the total
+LENGTH_TOLERANCE_M = 1e-6
+SAME_M, SAME_SHARE = 0.01, 0.1  # by which the right side may differ from the left one's mirror image
+MIRROR = np.array([1.0, -1.0, 1.0])
+MIRROR_INERTIA = np.array([1.0, 1.0, 1.0, -1.0, 1.0, -1.0])
+MIRROR_QUATERNION = np.array([1.0, -1.0, 1.0, -1.0])
+LEG_AXES = ("z", "x", "y", "y", "y", "x")  # yaw, roll, pitch of the hip, knee, pitch and roll of the ankle
+GYRATION_M = (0.001, 1.5)  # of a body: what is outside has its mass or inertia in another unit
+Problem = tuple[Place, str]
+
+
+def robot_problems(table: RobotTable) -> Iterator[Problem]:
+    """Yield the place and the text of everything that does not fit together."""
+    names = [*unknown(uses(table, RobotTable), table.accepted_names), *_repeated(table), *_tree_problems(table)]
+    names += _base_problems(table)
+    yield from names
+    if not names:  # only then can what they name be looked up
+        for check in (
+            _mirror_problems,
+            _height_problems,
+            _order_problems,
+            _limb_problems,
+            _foot_problems,
+            _size_problems,
+            _total_problems,
+        ):
+            yield from check(table)
+
+
+def joints_above(table: RobotTable, body: str) -> list[str]:
+    """Return the ids of the joints that move a body, from the base on."""
+    parents, moved = {row.name: row.parent for row in table.bodies}, {row.body: row.id for row in table.joints}
+    found = list[str]()
+    while body in parents:
+        found += [moved[body]] if body in moved else []
+        body = parents[body]
+    return found[::-1]
+
+
+def _repeated(table: RobotTable) -> Iterator[Problem]:
+    """Yield names that occur twice where each may occur once."""
+    lists: dict[Place, list[str]] = {
+        ("bodies",): [body.name for body in table.bodies],
+        ("joints",): [joint.body for joint in table.joints],
+        ("order",): [*table.order.virtual, *table.order.actuated],
+        ("groups",): [joint for limb in table.groups.values() for joint in limb],
+        ("shapes",): [name for shape in table.shapes for name in with_image(shape.name)],
+        ("points",): [name for point in table.points for name in with_image(point.name)],
+    }
+    for kind, found in (("groups", table.groups), ("networks", table.networks)):
+        lists[kind,] = [*lists.get((kind,), []), *(name.casefold() for name in found)]  # names of files
+    for place, names in lists.items():
+        for name in sorted({name for name in names if names.count(name) > 1}):
+            yield place, f"{name!r} {names.count(name)} times is not accepted; accepted: each name once"
+
+
+def _tree_problems(table: RobotTable) -> Iterator[Problem]:
+    """Yield bodies that do not stand right below the branch that they hang on, and mirror images without a body."""
+    branch = [WORLD]
+    for index, body in enumerate(table.bodies):
+        if body.parent not in branch:
+            yield ("bodies", index, "parent"), not_accepted(f"parent of {body.name}", body.parent, branch)
+        else:
+            branch = branch[: branch.index(body.parent) + 1]
+        branch = [name for name in branch if name != WORLD] + [body.name]
+    names = {body.name for body in table.bodies}
+    rows = [*(("shapes", k, row) for k, row in enumerate(table.shapes))]
+    rows += [*(("points", k, row) for k, row in enumerate(table.points))]
+    for kind, index, row in rows:
+        if len(with_image(row.name)) > 1 and row.body in names and right_of(row.body) not in names:
+            yield (kind, index, "body"), not_accepted("body of the mirror image", right_of(row.body), names)
+
+
+def _order_problems(table: RobotTable) -> Iterator[Problem]:
+    """Yield where joints, the bodies that they move, or the joints of a limb first depart from the order of motors."""
+    moved = {joint.body: joint.id for joint in table.joints}
+    lists = {
+        "joints": [joint.id for joint in table.joints],
+        "bodies": [moved[body.name] for body in table.bodies if body.name in moved],
+    }
+    for kind, found in lists.items():
+        for index, (name, accepted) in enumerate(zip_longest(found, table.order.actuated)):
+            if name != accepted:
+                yield (kind,), f"joint {index}, {name!r}, is not accepted; accepted: {accepted!r}, by `order.actuated`"
+                break
+    order = [*table.order.virtual, *table.order.actuated]
+    for limb, joints in table.groups.items():
+        if sorted(joints, key=order.index) != list(joints):
+            yield ("groups", limb), f"{list(joints)} is not accepted; accepted: joints in the order of `order`"
+    for name in set(order).difference(*table.groups.values()):
+        yield ("groups",), f"no limb with {name} is not accepted; accepted: every joint in a limb"
+
+
+def _limb_problems(table: RobotTable) -> Iterator[Problem]:
+    """Yield postures that do not fit their limb, and networks that see motion or torques of the base."""
+    ranges = {joint.id: joint.range for joint in table.joints}
+    for limb, posture in table.posture.items():
+        joints = table.groups[limb]
+        for name, values in posture:
+            if len(values) != len(joints):
+                text = f"{len(values)} numbers are not accepted; accepted: {len(joints)}, one for each joint"
+                yield ("posture", limb, name), text
+        for index, (joint, angle) in enumerate(zip(joints, posture.angle_rad, strict=False)):
+            low, high = ranges.get(joint, (-np.inf, np.inf))
+            if not low <= angle <= high:
+                text = f"{angle} is not accepted; accepted: {low} to {high}, the range of {joint}"
+                yield ("posture", limb, "angle_rad", index), text
+    moving = [limb for limb, joints in table.groups.items() if not set(joints) & set(table.order.virtual)]
+    for name, network in table.networks.items():
+        for key, limbs in (("Q", network.Q), ("T", network.T)):
+            for index, limb in enumerate(limbs):
+                if limb not in moving:
+                    yield ("networks", name, key, index), not_accepted("limb with motors", limb, moving)
+
+
+def _base_problems(table: RobotTable) -> Iterator[Problem]:
+    """Yield virtual joints, a sensor or a hinge that do not fit the base."""
+    base, wanted = table.bodies[0].name, N_VIRTUAL if table.base == "floating" else 0
+    if len(table.order.virtual) != wanted:
+        text = f"{len(table.order.virtual)} joints are not accepted; accepted: {wanted} of a {table.base} base"
+        yield ("order", "virtual"), text
+    if table.imu is not None and table.imu.body != base:
+        yield ("imu", "body"), not_accepted("body", table.imu.body, [base])
+    for index, joint in enumerate(table.joints):
+        if joint.body == base:
+            yield ("joints", index, "body"), f"the base {base!r} is not accepted; accepted: a body below it"
+
+
+def _foot_problems(table: RobotTable) -> Iterator[Problem]:
+    """Yield feet, soles, legs and hands that do not fit the tree of bodies."""
+    if bool(table.feet) != (table.sole is not None):
+        yield ("feet",), "`feet` without `sole`, or one without the other, is not accepted; accepted: both or none"
+    for side, foot in table.feet.items():
+        if joints_above(table, foot.body) != list(table.groups[foot.limb]):
+            text = f"{foot.body} is not accepted; accepted: the body at the end of limb {foot.limb}"
+            yield ("feet", side, "body"), text
+    sides = [(("feet",), {side: foot.body for side, foot in table.feet.items()}), (("hands",), dict(table.hands))]
+    for place, bodies in sides:
+        if len(bodies) == 2 and right_of(bodies["left"]) != bodies["right"]:
+            yield (*place, "right"), not_accepted("body", bodies["right"], [right_of(bodies["left"])])
+    if table.sole is not None:
+        lowest = table.sole.box_centre[2] - table.sole.box_half[2]
+        if abs(table.sole.height - lowest) > LENGTH_TOLERANCE_M:
+            yield ("sole", "height"), f"{table.sole.height} is not accepted; accepted: {lowest:g}, the box's lower face"
+        if not table.sole.height <= table.sole.sensor_pos[2] <= 0.0:
+            text = f"{table.sole.sensor_pos[2]} is not accepted; accepted: from {table.sole.height} to 0, in the foot"
+            yield ("sole", "sensor_pos", 2), text
+    if table.leg is not None and "left" in table.feet:
+        yield from _leg_problems(table, table.groups[table.feet["left"].limb])
+
+
+def _leg_problems(table: RobotTable, joints: tuple[str, ...]) -> Iterator[Problem]:
+    """Yield the geometry of a leg where it is not that of the bodies."""
+    bodies, moved = {row.name: row for row in table.bodies}, {row.id: row.body for row in table.joints}
+    steps = [bodies[moved[joint]].pos for joint in joints if joint in moved]
+    leg = table.leg
+    if leg is None or not steps:
+        return
+    axes = {row.id: row.axis for row in table.joints}
+    for side in table.feet:
+        for joint, letter in zip(table.groups[table.feet[side].limb], LEG_AXES, strict=False):
+            wanted = [float(letter == each) for each in "xyz"]
+            if dist(axes[joint], wanted) > LENGTH_TOLERANCE_M:
+                index = [row.id for row in table.joints].index(joint)
+                yield ("joints", index, "axis"), misfit(list(axes[joint]), f"{wanted} of a leg that walks")
+    if dist(leg.hip_pos, steps[0]) > LENGTH_TOLERANCE_M:
+        yield (
+            ("leg", "hip_pos"),
+            f"{list(leg.hip_pos)} is not accepted; accepted: {list(steps[0])}, that of {joints[0]}",
+        )
+    for pos in steps[1:]:
+        if (length := dist(pos, (0.0, 0.0, 0.0))) > 0.0 and abs(length - leg.link_length) > LENGTH_TOLERANCE_M:
+            text = (
+                f"{leg.link_length} is not accepted; accepted: {length:g}, the distance between the bodies of the leg"
+            )
+            yield ("leg", "link_length"), text
+            return
+
+
+def _mirror_problems(table: RobotTable) -> Iterator[Problem]:
+    """Yield bodies and joints of the right side that are not about the mirror image, in y, of the left side's."""
+    bodies = {body.name: body for body in table.bodies}
+    joints = {joint.body: joint for joint in table.joints}
+    for index, body in enumerate(table.bodies):
+        left = bodies.get(body.name.replace("R_", "L_", 1))
+        if left is None or left is body or right_of(left.name) != body.name:
+            continue
+        largest = max(left.inertia[:3])
+        wanted = {
+            "pos": (left.pos * MIRROR, SAME_M), "com": (left.com * MIRROR, SAME_M),
+            "mass": (left.mass, SAME_SHARE * left.mass),
+            "inertia": (left.inertia * MIRROR_INERTIA, SAME_SHARE * largest),
+        }  # fmt: skip
+        for name, (accepted, tolerance) in wanted.items():
+            if np.abs(np.subtract(getattr(body, name), accepted)).max() > tolerance:
+                text = misfit(
+                    getattr(body, name), f"about {np.asarray(accepted).tolist()}, as {left.name} mirrored in y"
+                )
+                yield ("bodies", index, name), text
+        if abs(abs(np.dot(body.quat, left.quat * MIRROR_QUATERNION)) - 1.0) > SAME_SHARE:
+            yield ("bodies", index, "quat"), misfit(body.quat, f"that of {left.name} mirrored in y")
+        if body.name in joints and left.name in joints:
+            row, other = joints[body.name], joints[left.name]
+            for name in ("torque_limit", "velocity_limit", "armature"):
+                if abs(getattr(row, name) - getattr(other, name)) > SAME_SHARE * getattr(other, name):
+                    place = ("joints", table.joints.index(row), name)
+                    yield place, misfit(getattr(row, name), f"about {getattr(other, name)}, as {other.id}")
+            if abs(abs(np.dot(row.axis, other.axis * MIRROR)) - 1.0) > SAME_SHARE:
+                yield (
+                    ("joints", table.joints.index(row), "axis"),
+                    misfit(row.axis, f"that of {other.id} mirrored in y"),
+                )
+
+
+def _height_problems(table: RobotTable) -> Iterator[Problem]:
+    """Yield a height of the whole robot that is less than the distance between its highest and lowest joint."""
+    if table.totals is None:
+        return
+    place, turn = {WORLD: np.zeros(3)}, {WORLD: np.eye(3)}
+    for body in table.bodies:
+        w, axis = body.quat[0], np.array(body.quat[1:])
+        cross = np.cross(np.eye(3), axis)
+        rotation = np.eye(3) + 2 * w * cross + 2 * cross @ cross
+        place[body.name] = place[body.parent] + turn[body.parent] @ body.pos
+        turn[body.name] = turn[body.parent] @ rotation
+    heights = [point[2] for name, point in place.items() if name != WORLD]
+    apart = max(heights) - min(heights)
+    if apart > table.totals.height_m:
+        yield ("totals", "height_m"), misfit(table.totals.height_m, f"at least {apart:.3f}, between all joints")
+
+
+def _size_problems(table: RobotTable) -> Iterator[Problem]:
+    """Yield inertias that no body of that mass has, and shapes of no length."""
+    low, high = GYRATION_M
+    for index, body in enumerate(table.bodies):
+        radius = float(np.sqrt(max(body.inertia[:3]) / body.mass))
+        if not low <= radius <= high:
+            text = (
+                f"a radius of gyration of {radius:.3g} m is not accepted; accepted: {low} to {high}, [kg m^2] and [kg]"
+            )
+            yield ("bodies", index, "inertia"), text
+    for index, shape in enumerate(table.shapes):
+        if shape.segment is not None and dist(shape.segment[:3], shape.segment[3:]) < LENGTH_TOLERANCE_M:
+            yield (
+                ("shapes", index, "segment"),
+                f"{list(shape.segment)} is not accepted; accepted: two points that differ",
+            )
+
+
+def _total_problems(table: RobotTable) -> Iterator[Problem]:
+    """Yield totals that the rows do not add up to."""
+    if table.totals is None:
+        return
+    nv, nu = len(table.order.virtual), len(table.order.actuated)
+    counts: Mapping[str, int] = {
+        "bodies": len(table.bodies), "actuated_joints": nu, "virtual_joints": nv, "dof": nv + nu
+    }  # fmt: skip
+    for name, count in counts.items():
+        if getattr(table.totals, name) != count:
+            yield ("totals", name), f"{getattr(table.totals, name)} is not accepted; accepted: {count}, by the rows"
+    mass = sum(body.mass for body in table.bodies)
+    if abs(table.totals.mass - mass) > MASS_TOLERANCE * mass:
+        yield ("totals", "mass"), f"{table.totals.mass} is not accepted; accepted: {mass:.6f}, by the rows"

@@ -1,0 +1,263 @@
+"""What must hold for tables and figures: what they show is run, estimated, trained and pushed."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
+from typing import cast
+
+from pydantic import BaseModel
+
+from mobnet.core.errors import not_accepted, misfit
+from mobnet.settings.checks.claims import claim_problems
+from mobnet.settings.checks.printed import printed_problems
+from mobnet.settings.checks.results import Results
+from mobnet.settings.evaluation import CoverageTest, ErrorTable, Mean
+from mobnet.settings.reading import Place
+from mobnet.settings.settings import Settings
+
+Problem = tuple[Place, str]
+Shown = tuple[Place, str, str, str]  # place, scenario, level, method
+ROOT: Place = ("evaluation",)
+
+
+def shown_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield what does not fit in tables, figures, claims and printed numbers."""
+    results = Results(settings)
+    for place, scenario, level, method in shown_runs(settings):
+        text = results.not_run(scenario, level, method)
+        if text:
+            yield place, text
+    for name, window in settings.evaluation.windows.items():
+        if window and not settings.scenarios[name].pushes:
+            yield (*ROOT, "windows", name), misfit(name, "tests whose scenario has pushes")
+    for name, table in settings.evaluation.tables.items():
+        for place, text in _table_problems(results, table):
+            yield (*ROOT, "tables", name, *place), text
+    for check in (_figure_problems, _leg_problems, _trained_problems, _test_problems, _method_table_problems):
+        yield from check(results)
+    yield from claim_problems(results)
+    yield from printed_problems(settings)
+
+
+def shown_runs(settings: Settings) -> Iterator[Shown]:
+    """Yield every run that a table or a figure shows."""
+    evaluation = settings.evaluation
+    for place, section in sections_below(evaluation, ROOT):
+        if {"scenario", "level", "methods"} <= type(section).model_fields.keys():
+            scenario, level, methods = (getattr(section, name) for name in ("scenario", "level", "methods"))
+            yield from (((*place, "methods", k), scenario, level, method) for k, method in enumerate(methods))
+        elif isinstance(section, CoverageTest):
+            yield (*place, "level"), section.scenario, section.level, ""
+    figure = evaluation.figure_05
+    for level, methods in figure.panels.items():
+        place = (*ROOT, "figure_05", "panels", level)
+        yield from (((*place, k), figure.scenario, level, method) for k, method in enumerate(methods))
+    for scenario, method in product(evaluation.figure_18.panels, evaluation.figure_18.methods):
+        yield (*ROOT, "figure_18", "panels", scenario), scenario, evaluation.figure_18.level, method
+
+
+def sections_below(value: object, place: Place) -> Iterator[tuple[Place, BaseModel]]:
+    """Yield a section and all below it, each with the keys that lead to it."""
+    if isinstance(value, BaseModel):
+        yield place, value
+        for name in type(value).model_fields:
+            yield from sections_below(getattr(value, name), (*place, name))
+    elif isinstance(value, Mapping):
+        for key, item in cast("Mapping[str, object]", value).items():
+            yield from sections_below(item, (*place, key))
+    elif isinstance(value, tuple):
+        for index, item in enumerate(cast("Sequence[object]", value)):
+            yield from sections_below(item, (*place, index))
+
+
+def _column_problems(results: Results, columns: Sequence[str | Mean]) -> Iterator[tuple[Place, str]]:
+    """Yield columns with a name that another one has, and means over forces and torques together."""
+    names = list[str]()
+    for index, column in enumerate(columns):
+        new = list(results.joints(column)) if isinstance(column, str) else [column.name]
+        for name in set(new) & set(names):
+            yield (index,), misfit(name, "columns with names of their own")
+        names += new
+        if isinstance(column, Mean):
+            units = {results.layout.unit(joint) for name in column.joints for joint in results.joints(name)}
+            if len(units) > 1:
+                yield (index, "joints"), misfit(list(column.joints), "joints with one unit, N or N m")
+
+
+def _table_problems(results: Results, table: ErrorTable) -> Iterator[Problem]:
+    """Yield columns, rows and names of a table of errors that do not fit it."""
+    for place, text in _column_problems(results, table.columns):
+        yield ("columns", *place), text
+    columns = results.column_names(table.columns)
+    order = [columns.index(name) for name in table.parts if name in columns]
+    if len(order) < len(table.parts) or order != sorted(order) or 0 in order:
+        yield ("parts",), misfit(list(table.parts), f"columns in their order: {', '.join(columns[1:])}")
+    shown = {method for row in table.rows for method in row.methods}
+    for name in table.names.keys() - shown:
+        yield ("names", name), not_accepted("method", name, shown)
+    asked = {joint for column in table.columns for joint in results.joints_of(column)}
+    own = {metric for column in table.columns if isinstance(column, Mean) for metric in column.metrics}
+    for index, row in enumerate(table.rows):
+        place = ("rows", index)
+        if len(row.labels) != len(table.header):
+            text = misfit(f"{len(row.labels)} labels", f"{len(table.header)}, one for each text of header")
+            yield (*place, "labels"), text
+        for metric in sorted(own | {row.metric}):
+            if text := results.not_scored(row.scenario, metric):
+                yield (*place, "metric" if metric == row.metric else "scenario"), text
+        for k, method in enumerate(row.methods):
+            if text := results.not_estimated(method, asked):
+                yield (*place, "methods", k), text
+
+
+def _figure_problems(results: Results) -> Iterator[Problem]:
+    """Yield what single figures and tables cannot show."""
+    evaluation = results.settings.evaluation
+    for place, text in _column_problems(results, evaluation.error_budget.joints):
+        yield (*ROOT, "error_budget", "joints", *place), text
+    seen = set[tuple[str, ...]]()
+    for index, row in enumerate(evaluation.error_budget.tests):
+        if row.level in {level for level, *_ in seen} or row.label in {label for _, label in seen}:
+            yield (*ROOT, "error_budget", "tests", index), misfit(row.level, "a level and a label in one row only")
+        if (row.scenario, row.methods) != (
+            evaluation.error_budget.tests[0].scenario,
+            evaluation.error_budget.tests[0].methods,
+        ):
+            yield (
+                (*ROOT, "error_budget", "tests", index, "scenario"),
+                misfit(row.scenario, "that of the first row"),
+            )
+        seen.add((row.level, row.label))
+    figure = evaluation.figure_07
+    drawn = (figure.end_s - figure.start_s) * results.settings.rates.data_hz / figure.every
+    if drawn < 10:
+        yield (
+            (*ROOT, "figure_07", "end_s"),
+            misfit(figure.end_s, f"ten drawn samples or more after {figure.start_s}"),
+        )
+    upper = [joint for limb in evaluation.figure_18.limbs for joint in results.joints(limb)]
+    for name, joints, methods in (
+        ("figure_05", (evaluation.figure_05.joint,), {m for row in evaluation.figure_05.panels.values() for m in row}),
+        ("figure_06", (evaluation.figure_06.joint,), evaluation.figure_06.methods),
+        ("figure_07", figure.joints, figure.methods),
+        ("figure_08", results.joints(evaluation.figure_08.limb), evaluation.figure_08.methods),
+        ("figure_09", results.joints(evaluation.figure_09.limb), evaluation.figure_09.methods),
+        ("figure_10", (evaluation.figure_10.joint,), evaluation.figure_10.against.methods),
+        ("figure_18", upper, evaluation.figure_18.methods),
+    ):
+        for method in methods:
+            if text := results.not_estimated(method, joints):
+                yield (*ROOT, name), text
+    for title, test in evaluation.figure_10.tests.items():
+        for k, method in enumerate(test.methods):
+            if method not in evaluation.figure_10.against.methods:
+                place = (*ROOT, "figure_10", "tests", title, "methods", k)
+                yield place, not_accepted("method", method, evaluation.figure_10.against.methods)
+    if len(evaluation.figure_08.methods) != 1:
+        yield (*ROOT, "figure_08", "methods"), misfit(list(evaluation.figure_08.methods), "one method")
+
+
+def _leg_problems(results: Results) -> Iterator[Problem]:
+    """Yield limbs that are no leg where gait cycles are shown, and joints that no push of the test turns."""
+    settings, evaluation = results.settings, results.settings.evaluation
+    for name in ("figure_08", "figure_09", "coverage"):
+        limb = getattr(evaluation, name).limb
+        if limb not in results.legs:
+            yield (*ROOT, name, "limb"), not_accepted("leg", limb, results.legs)
+    limb = evaluation.coverage.limb
+    if limb in results.legs and limb not in settings.robot.networks[limb].T:
+        yield (*ROOT, "coverage", "limb"), misfit(limb, "a leg whose network sees its torques, `T`")
+    legs = [joint for limb in results.legs for joint in results.joints(limb)]
+    for name in ("figure_05", "figure_06", "figure_10"):
+        joint = getattr(evaluation, name).joint
+        if joint not in legs:
+            yield (*ROOT, name, "joint"), not_accepted("joint of a leg", joint, legs)
+    asked: list[tuple[Place, str, str]] = [
+        ((*ROOT, "figure_06", "joint"), evaluation.figure_06.scenario, evaluation.figure_06.joint)
+    ]
+    for title, test in evaluation.figure_10.tests.items():
+        asked.append(((*ROOT, "figure_10", "tests", title, "scenario"), test.scenario, evaluation.figure_10.joint))
+    for name in ("coverage", "calibration"):
+        for k, test in enumerate(getattr(evaluation, name).tests):
+            if test.pushed is not None:
+                asked.append(((*ROOT, name, "tests", k, "pushed"), test.scenario, test.pushed))
+    for place, scenario, joint in asked:
+        pushed = results.pushed_joints(scenario)
+        if joint not in pushed:
+            yield place, not_accepted(f"joint pushed in {scenario}", joint, pushed)
+
+
+def _trained_problems(results: Results) -> Iterator[Problem]:
+    """Yield methods and limbs that are not trained where networks are shown."""
+    settings, evaluation = results.settings, results.settings.evaluation
+    trained = results.trained(evaluation.figure_17.limb)
+    for name, key in (("figure_17", "methods"), ("kinds", "variants")):
+        for k, method in enumerate(getattr(getattr(evaluation, name), key)):
+            if method not in trained:
+                yield (
+                    (*ROOT, name, key, k),
+                    not_accepted(f"method that trains {evaluation.figure_17.limb}", method, trained),
+                )
+    for k, method in enumerate(evaluation.kinds.variants):
+        if method in evaluation.figure_17.methods:
+            yield (*ROOT, "kinds", "variants", k), misfit(method, "methods that Figure 17 does not show")
+    figure = evaluation.figure_20
+    for key, section in (("parameters", "network"), ("samples", "learning")):
+        sweep = settings.sweeps[getattr(figure, key)]
+        if sweep.section != section or sweep.limb != figure.limb:
+            accepted = f"a sweep of section {section} for {figure.limb}"
+            yield (*ROOT, "figure_20", key), misfit(getattr(figure, key), accepted)
+            return
+    sizes, own = settings.sweeps[figure.parameters], settings.networks[figure.limb]
+    if getattr(own, figure.parameters, None) not in sizes.values:
+        text = misfit(list(sizes.values), f"values with {getattr(own, figure.parameters, None)}, that of Table 1")
+        yield ("sweeps", figure.parameters, "values"), text
+    for k, base in enumerate(settings.sweeps[figure.samples].of):
+        if base not in sizes.of:
+            yield (
+                ("sweeps", figure.samples, "of", k),
+                not_accepted(f"method of sweep {figure.parameters}", base, sizes.of),
+            )
+    table = evaluation.table_01.method
+    for limb in settings.published.table_01.rows:
+        if limb not in settings.methods[table].limbs if table in settings.methods else True:
+            yield (*ROOT, "table_01", "method"), misfit(table, f"a method that trains {limb}, a row of Table 1")
+            return
+
+
+def _test_problems(results: Results) -> Iterator[Problem]:
+    """Yield tests of standard deviations that nothing predicts, and bounds for what the paper does not print."""
+    settings, evaluation = results.settings, results.settings.evaluation
+    learned = [name for name, method in settings.all_methods.items() if method.limbs]
+    rows: list[tuple[Place, Sequence[str], Sequence[str]]] = [(("methods",), evaluation.calibration.methods, ())]
+    rows += [
+        (("tests", k, "methods"), test.methods, [joint for limb in test.limbs for joint in results.joints(limb)])
+        for k, test in enumerate(evaluation.calibration.tests)
+    ]
+    for place, methods, joints in rows:
+        predicted = set[str]()
+        for k, method in enumerate(methods):
+            predicted |= results.predicted(method)
+            if method not in learned:
+                yield (*ROOT, "calibration", *place, k), not_accepted("method with networks", method, learned)
+        if not predicted.issuperset(joints):
+            text = misfit("a limb that no method predicts", "limbs of the networks of `methods`")
+            yield (*ROOT, "calibration", "tests", place[1], "limbs"), text
+    for limb in evaluation.uncertainty.ratio:
+        if limb not in settings.published.uncertainty.std:
+            text = not_accepted("limb", limb, settings.published.uncertainty.std)
+            yield (*ROOT, "uncertainty", "ratio", limb), text
+    if evaluation.figure_19.test_dots < len(evaluation.coverage.tests):
+        yield (*ROOT, "figure_19", "test_dots"), misfit(evaluation.figure_19.test_dots, "a dot for each test")
+
+
+def _method_table_problems(results: Results) -> Iterator[Problem]:
+    """Yield columns of the table of methods that its limbs do not have or its methods do not estimate."""
+    for index, row in enumerate(results.settings.evaluation.methods):
+        for limb, columns in row.columns.items():
+            for k, column in enumerate(columns):
+                if column not in (*results.joints(limb), "avg"):
+                    place = (*ROOT, "methods", index, "columns", limb, k)
+                    yield place, not_accepted(f"column of {limb}", column, [*results.joints(limb), "avg"])
+            for k, method in enumerate(row.methods):
+                if text := results.not_estimated(method, results.joints(limb)):
+                    yield (*ROOT, "methods", index, "methods", k), text

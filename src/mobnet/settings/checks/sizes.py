@@ -1,0 +1,122 @@
+"""What must hold for the sizes of every scale: batches are filled, times lie inside recordings, the run has an end."""
+
+from collections.abc import Iterator
+from itertools import chain
+
+from mobnet.core.errors import misfit
+from mobnet.settings.checks.walking import is_whole
+from mobnet.settings.evaluation import Figure05, Figure07, GaitFigure
+from mobnet.settings.reading import Place
+from mobnet.settings.scales import Scale
+from mobnet.settings.settings import Settings
+
+JOBS_MAX = 50_000  # of one scale: Snakemake plans 3 000 of them in 5 s
+PASSES_MAX = 20  # of an epoch through a training set
+CYCLES = 3  # a whole gait cycle follows a start within so many
+Problem = tuple[Place, str]
+
+
+def size_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield what does not fit at some scale, the chosen one or another."""
+    names = set(chain.from_iterable(scale.experiments for scale in settings.scales.values()))
+    for name, scale in settings.scales.items():
+        missing = names - scale.experiments.keys()
+        for experiment in sorted(missing):
+            text = misfit(f"no experiment {experiment}", f"all of {', '.join(sorted(names))}, as at the other scales")
+            yield ("scales", name, "experiments"), text
+        if missing:
+            return
+    for name, scale in settings.scales.items():
+        chosen = settings.model_copy(update={"scale": name})
+        yield from _length_problems(chosen, scale)
+        yield from _time_problems(chosen, scale)
+        yield from _training_problems(chosen)
+        jobs = _job_count(chosen)
+        if jobs > JOBS_MAX:
+            accepted = f"{JOBS_MAX} jobs, by fewer shards or seeds"
+            yield ("scales", name), misfit(f"a run of {jobs} jobs", accepted)
+
+
+def _job_count(settings: Settings) -> int:
+    """Return about how many jobs the chosen scale has: recordings, residuals, trainings and estimates."""
+    shards = settings.sizes.test.shards
+    recorded = sum(row.sizes[settings.scale].shards for row in settings.training_sets.values())
+    recorded += shards * sum(map(len, settings.tests.values()))
+    seeds = {
+        name: [len(settings.experiment(name, limb).seeds) for limb in method.limbs]
+        for name, method in settings.all_methods.items()
+    }
+    runs = [max(seeds[settings.source_of(name)], default=1) for levels in settings.tests.values()
+            for methods in levels.values() for name in methods]  # fmt: skip
+    return 2 * recorded + sum(map(sum, seeds.values())) + shards * sum(runs)
+
+
+def _length_problems(settings: Settings, scale: Scale) -> Iterator[Problem]:
+    """Yield durations of recordings that are no whole number of samples."""
+    rate, name = settings.rates.data_hz, settings.scale
+    sizes: dict[Place, float] = {("scales", name, "test", "shard_s"): scale.test.shard_s}
+    for key, row in settings.training_sets.items():
+        sizes["training_sets", key, "sizes", name, "shard_s"] = row.sizes[name].shard_s
+    for place, value in sizes.items():
+        if not is_whole(value * rate):
+            yield place, misfit(value, f"a whole number of samples at {rate} Hz")
+
+
+def _time_problems(settings: Settings, scale: Scale) -> Iterator[Problem]:
+    """Yield figures and pushes behind the end of a test; a scale with `figure_start_s` is too short for pushes."""
+    length, cycle = scale.test.shard_s, CYCLES * 2 * max(settings.commands.duration_s)
+    if scale.figure_start_s is not None:
+        if scale.figure_start_s + cycle > length:
+            accepted = f"at most {length - cycle:g}, {CYCLES} gait cycles before the end of a test"
+            yield ("scales", settings.scale, "figure_start_s"), misfit(scale.figure_start_s, accepted)
+        return
+    ends = dict[Place, tuple[float, float]]()  # place -> value and time after it that the test must last
+    for name, section in settings.evaluation:
+        if isinstance(section, Figure05 | GaitFigure):
+            ends["evaluation", name, "start_s"] = section.start_s, cycle
+        elif isinstance(section, Figure07):
+            ends["evaluation", name, "end_s"] = section.end_s, 0.0
+    pushed = {push for test in settings.tests for push in settings.scenarios[test].pushes}
+    for push in sorted(pushed):
+        row = settings.pushes[push]
+        for index, start in enumerate(row.at_s or ()):
+            ends["pushes", push, "at_s", index] = start, row.duration_s[1]
+    for place, (value, after) in ends.items():
+        most = min(length, settings.recording.episode_s) - after
+        if value > most:
+            yield place, misfit(value, f"at most {most:g}, for a test lasts {length} s at scale {settings.scale}")
+    if settings.evaluation.coverage.block_s > length:
+        accepted = f"at most {length}, a test at scale {settings.scale}"
+        yield ("evaluation", "coverage", "block_s"), misfit(settings.evaluation.coverage.block_s, accepted)
+
+
+def _training_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield trainings whose data do not fill a batch, a stream or a validation, or are gone through without end."""
+    for name, method in settings.all_methods.items():
+        for limb in method.limbs:
+            yield from _filling_problems(settings, name, limb)
+
+
+def _filling_problems(settings: Settings, name: str, limb: str) -> Iterator[Problem]:
+    """Yield what does not fit in the training of a method's network."""
+    training, rate = settings.training(name, limb), settings.rates.data_hz
+    network, learning, scale = training.network, training.learning, settings.scale
+    size, horizon = settings.training_sets[network.data].sizes[scale], network.horizon_steps
+    contiguous = min(size.shard_s, settings.recording.episode_s) * rate
+    own: Place = ("learning",) if settings.sizes.stream_s is None else ("scales", scale)
+    where = f"of {name}-{limb} at scale {scale}"
+    if not horizon / rate <= learning.stream_s <= size.shard_s:
+        accepted = f"{horizon / rate:g} (horizon_steps) to {size.shard_s:g} (shard_s) {where}"
+        yield (*own, "stream_s"), misfit(learning.stream_s, accepted)
+    if contiguous * learning.validation_share < horizon:
+        accepted = f"at least {horizon / contiguous:.3g}, a horizon {where}"
+        yield ("learning", "validation_share"), misfit(learning.validation_share, accepted)
+    held = size.shards * size.shard_s * rate * (1 - learning.validation_share) / learning.data_parts
+    own = ("learning",) if settings.sizes.batch_size is None else ("scales", scale)
+    if learning.batch_size * horizon > held:
+        accepted = f"at most {held // horizon:.0f}, the horizons in the data {where}"
+        yield (*own, "batch_size"), misfit(learning.batch_size, accepted)
+    most, wanted = PASSES_MAX * size.shards * size.shard_s * rate, training.epoch_samples
+    if wanted is not None and not learning.batch_size * horizon <= wanted <= most:
+        place = "scales", scale, "experiments", network.experiment, "epoch_samples"
+        yield place, misfit(wanted, f"{learning.batch_size * horizon} (a batch) to {most:.0f} {where}")

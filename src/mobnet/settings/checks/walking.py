@@ -1,0 +1,145 @@
+"""What must hold between rates, robot and walking controller."""
+
+from collections.abc import Iterator
+from math import isclose
+
+from mobnet.core.errors import misfit
+from mobnet.settings.reading import Place
+from mobnet.settings.settings import Settings
+
+LEG_JOINTS = 6
+WALKS = "a floating base, two feet with six joints each, first in `order`, leg, hands, imu, posture of all other joints"
+SOLREF_STEPS = 2  # MuJoCo: the time constant of a contact is at least two steps
+Problem = tuple[Place, str]
+
+
+def walking_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield what does not fit between rates, robot and controller."""
+    yield from _rate_problems(settings)
+    yield from _controller_problems(settings)
+    yield from _robot_problems(settings)
+    if settings.robot.sole and settings.robot.leg and "left" in settings.robot.feet:
+        yield from _body_problems(settings)
+
+
+def _robot_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield what walking takes and the robot's table lacks."""
+    robot = settings.robot
+    legs = [robot.groups[robot.feet[side].limb] for side in ("left", "right") if side in robot.feet]
+    above = robot.order.actuated[sum(map(len, legs)) :]
+    held = {joint for limb in robot.posture for joint in robot.groups[limb]}
+    needed = {
+        "base": robot.base == "floating", "feet": len(legs) == 2 and all(len(leg) == LEG_JOINTS for leg in legs),
+        "order": [*robot.order.actuated[: len(sum(legs, ()))]] == [*sum(legs, ())], "leg": robot.leg,
+        "hands": len(robot.hands) == 2, "imu": robot.imu, "posture": held == set(above),
+    }  # fmt: skip
+    for key, there in needed.items():
+        if not there:
+            yield ("robot", key), misfit(f"`{key}` of a robot that cannot walk", WALKS)
+
+
+def is_whole(value: float) -> bool:
+    """Return whether a number is whole, up to rounding, and at least 1."""
+    return round(value) >= 1 and isclose(value, round(value), rel_tol=1e-9)
+
+
+def _rate_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield rates that do not divide each other, durations of no whole number of samples, and filters too fast."""
+    rates, recording, plant = settings.rates, settings.recording, settings.plant
+    if not is_whole(rates.plant_hz / rates.data_hz):
+        yield ("rates", "plant_hz"), misfit(rates.plant_hz, f"a whole multiple of data_hz, {rates.data_hz}")
+    if not is_whole(rates.data_hz / recording.clearance_hz):
+        text = misfit(recording.clearance_hz, f"data_hz, {rates.data_hz}, divided by a whole number")
+        yield ("recording", "clearance_hz"), text
+    for name in ("chunk_s", "episode_s", "settle_s", "dropped_before_fall_s"):
+        value = getattr(recording, name)
+        if value and not is_whole(value * rates.data_hz):
+            yield ("recording", name), misfit(value, f"a whole number of samples at {rates.data_hz} Hz")
+    if plant.contact_time_constant_s < SOLREF_STEPS / rates.plant_hz:
+        text = misfit(
+            plant.contact_time_constant_s, f"at least two steps of the plant, {SOLREF_STEPS / rates.plant_hz}"
+        )
+        yield ("plant", "contact_time_constant_s"), text
+    if settings.observer.gain_hz > rates.data_hz / 2:
+        accepted = f"at most half of data_hz, {rates.data_hz / 2}"
+        yield ("observer", "gain_hz"), misfit(settings.observer.gain_hz, accepted)
+    for name, low, high in (("chunk_s", "chunk_s", "episode_s"), ("dropped_before_fall_s",) * 2 + ("episode_s",)):
+        if getattr(recording, low) >= getattr(recording, high):
+            yield ("recording", name), misfit(getattr(recording, low), f"below {high}, {getattr(recording, high)}")
+
+
+def _controller_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield numbers of the controller that stand in the wrong order."""
+    walking, shortest = settings.walking, min(settings.commands.duration_s)
+    slow = max(settings.commands.duration_s)
+    limits = {
+        "step_min_s": shortest, "double_support_share": walking.swing_xy_share, "swing_apex": walking.swing_level_share,
+        "late_max_s": walking.step_min_s, "early_max_s": walking.step_min_s, "timing_freeze_s": walking.step_min_s,
+        "timing_soonest_s": walking.step_min_s, "foothold_freeze_s": walking.step_min_s, "step_shorter_max_s": slow,
+        "step_longer_max_s": slow, "com_height_min_m": walking.pelvis_height_m,
+        "stumble_sunk_m": walking.pelvis_height_m - settings.recording.fall_height_m,
+        "timing_band_m": walking.timing_ankle_m, "ankle_leak_hz": walking.ankle_integral_hz,
+    }  # fmt: skip
+    for name, most in limits.items():
+        if getattr(walking, name) > most:
+            yield ("walking", name), misfit(getattr(walking, name), f"at most {most:g}")
+    if walking.swing_apex >= walking.swing_xy_share:
+        yield (
+            ("walking", "swing_apex"),
+            misfit(walking.swing_apex, f"below swing_xy_share, {walking.swing_xy_share}"),
+        )
+    low, high = walking.foothold_y_m
+    if not low <= walking.foot_spacing_m <= high:
+        yield (
+            ("walking", "foot_spacing_m"),
+            misfit(walking.foot_spacing_m, f"within foothold_y_m, {low} to {high}"),
+        )
+    for name, reach in (("step_x_m", walking.foothold_x_max_m), ("step_y_m", high - walking.foot_spacing_m)):
+        for index, value in enumerate(getattr(settings.commands, name)):
+            if abs(value) > reach:
+                yield ("commands", name, index), misfit(value, f"{-reach:g} to {reach:g}, where a foot may stand")
+    if settings.recording.fall_height_m >= walking.pelvis_height_m:
+        accepted = f"below walking.pelvis_height_m, {walking.pelvis_height_m}"
+        yield ("recording", "fall_height_m"), misfit(settings.recording.fall_height_m, accepted)
+
+
+def _body_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield numbers of the controller that do not fit legs, soles and motors of the robot."""
+    walking, robot = settings.walking, settings.robot
+    sole, leg = robot.sole, robot.leg
+    assert sole is not None
+    assert leg is not None
+    joints = robot.groups[robot.feet["left"].limb]
+    for name in ("leg_stiffness_nm_rad", "leg_damping_nms_rad"):
+        values = getattr(walking, name)
+        if len(values) != len(joints):
+            yield (
+                ("walking", name),
+                misfit(f"{len(values)} numbers", f"{len(joints)}, one for each joint of a leg"),
+            )
+    middle, half = sole.box_centre, sole.box_half
+    for index, value in enumerate(walking.sole_x_m):
+        if abs(value - middle[0]) > half[0]:
+            text = misfit(value, f"{middle[0] - half[0]:g} to {middle[0] + half[0]:g}, the robot's sole")
+            yield ("walking", "sole_x_m", index), text
+    if walking.sole_y_m > half[1]:
+        yield ("walking", "sole_y_m"), misfit(walking.sole_y_m, f"at most {half[1]}, half the robot's sole")
+    if walking.foothold_y_m[0] < 2 * half[1]:
+        text = misfit(walking.foothold_y_m[0], f"at least {2 * half[1]}, the width of the robot's sole")
+        yield ("walking", "foothold_y_m", 0), text
+    longest = 2 * leg.link_length - sole.height - leg.hip_pos[2]
+    if walking.pelvis_height_m >= longest:
+        yield (
+            ("walking", "pelvis_height_m"),
+            misfit(walking.pelvis_height_m, f"below {longest:g}, of stretched legs"),
+        )
+    weight = sum(body.mass for body in robot.bodies) * settings.plant.gravity_m_s2
+    if walking.touch_force_n >= weight / 2:
+        yield (
+            ("walking", "touch_force_n"),
+            misfit(walking.touch_force_n, f"below {weight / 2:.0f}, half the weight"),
+        )
+    slowest = min(joint.velocity_limit for joint in robot.joints if joint.id in joints)
+    if walking.joint_speed_max_rad_s > slowest:
+        accepted = f"at most {slowest}, the velocity limit of a leg's joint"
+        yield ("walking", "joint_speed_max_rad_s"), misfit(walking.joint_speed_max_rad_s, accepted)
