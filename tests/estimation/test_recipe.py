@@ -12,7 +12,7 @@ from mobnet.estimation.recipe import Recipe
 @pytest.mark.parametrize(
     ("method", "limbs", "fitted", "message"),
     [
-        ("MOB2", [], False, "method: 'MOB2' is not accepted; accepted: FTS-e2e, "),
+        ("MOB2", [], False, "method: 'MOB2' is not accepted; accepted: MOB, FTS-e2e, "),
         ("MOB", ["LL"], False, r"networks of method MOB: \['LL'\] is not accepted; accepted: \[\]"),
         ("FTS-e2e", ["LL"], False, r"networks of method FTS-e2e: \['LL'\] is not accepted; accepted: \['LL', 'RL'\]"),
         ("MOB-fric", [], False, "'MOB-fric' with the fit None; accepted: the file that rule `fit` writes"),

@@ -6,11 +6,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from pydantic import BaseModel
 
 from mobnet.core.columns import recording_columns, recording_width
 from mobnet.plan.jobs import walk_settings
 from mobnet.settings.load import load_settings
-from mobnet.settings.settings import WalkSettings
+from mobnet.settings.settings import Settings, WalkSettings
 from mobnet.simulation.simulator import Simulator
 from mobnet.simulation.start import start_standing
 
@@ -23,6 +24,20 @@ MADE_UP = {  # scenarios of the tests
 }
 
 
+def altered(settings: Settings, **sections: dict[str, Any]) -> Settings:
+    """Return a configuration with changed sections, key by key, also where they do not fit the others."""
+    changed = {name: merged(getattr(settings, name), section) for name, section in sections.items()}
+    return Settings.model_validate({**{name: getattr(settings, name) for name in Settings.model_fields}, **changed})
+
+
+def merged(value: Any, change: Any) -> Any:
+    """Return a value with the keys of a change in place of its own."""
+    if not isinstance(change, dict):
+        return change
+    own = {key: getattr(value, key) for key in value.model_fields_set} if isinstance(value, BaseModel) else value
+    return {**own, **{key: merged(own.get(key, {}), new) for key, new in change.items()}}
+
+
 @pytest.fixture(scope="session")
 def walk_of() -> Callable[..., WalkSettings]:
     """A function (scenario, level, **sections) -> what its walk takes of the configuration, changed by the sections."""
@@ -30,7 +45,7 @@ def walk_of() -> Callable[..., WalkSettings]:
     def make(scenario: str, level: str, **sections: dict[str, Any]) -> WalkSettings:
         scenarios = sections.pop("scenarios", {})
         changed = {name: {**MADE_UP.get(name, {}), **scenarios.get(name, {})} for name in {**MADE_UP, **scenarios}}
-        return walk_settings(load_settings(overrides={**sections, "scenarios": changed}), scenario, level)
+        return walk_settings(altered(load_settings(), **sections, scenarios=changed), scenario, level)
 
     return make
 

@@ -149,7 +149,7 @@ def test_setting_that_cannot_be_walked_is_refused() -> None:
 
 
 def test_robot_that_keeps_falling_leaves_no_file(walk_of: Walk, tmp_path: Path) -> None:
-    settings = walk_of("flat_walk", "ideal", recording={"fall_height_m": 5.0})
+    settings = walk_of("flat_walk", "ideal", recording={"fall_height_m": 2.0})
     with pytest.raises(SimulationError, match="21 falls in 0 s"):
         collect(settings, 1, 1.0, tmp_path / "s1")
     assert not list(tmp_path.iterdir())

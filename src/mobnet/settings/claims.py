@@ -84,9 +84,12 @@ def _spelt_claim(entry: Any) -> Any:
     typed = mapping(entry).get("cells")
     if not isinstance(shared, Mapping) or not isinstance(typed, list):
         return entry
-    cells = [_spelt_cell(cell) for cell in cast("list[Any]", typed)]
-    rest = {key: value for key, value in mapping(entry).items() if key != "at"}
-    return {**rest, "cells": [{**shared, **cell} if mapping(cell) else cell for cell in cells]}
+    cells: list[Any] = [_spelt_cell(cell) for cell in cast("list[Any]", typed)]
+    rest, shared_keys = (
+        {key: value for key, value in mapping(entry).items() if key != "at"},
+        mapping(cast("Any", shared)),
+    )
+    return {**rest, "cells": [{**shared_keys, **cell} if mapping(cell) else cell for cell in cells]}
 
 
 def spelt_out(claims: Any) -> Any:

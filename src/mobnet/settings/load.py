@@ -76,6 +76,8 @@ def load_settings(
     Raises:
         ConfigError: a file, a key or a value is not accepted; one line for each of them.
     """
+    if not folder.is_dir():
+        raise ConfigError(f"{folder / 'config.yaml'}: file is missing; accepted: a folder with {', '.join(PARTS)}.yaml")
     documents = [Document(folder / f"{part}.yaml") for part in PARTS]
     files, faults, odd = dict[str, Document](), list[str](), list[Problem]()
     for document in documents:

@@ -88,7 +88,8 @@ class Document:
             text = self.path.read_text(encoding="utf-8")
             return LIBRARY.compose(text, LIBRARY.CSafeLoader)
         except OSError as error:
-            self.faults.append(f"{self.path}: {error.strerror}; accepted: a YAML file")
+            what = "file is missing" if isinstance(error, FileNotFoundError) else error.strerror
+            self.faults.append(f"{self.path}: {what}; accepted: a YAML file")
         except UnicodeDecodeError as error:
             self.faults.append(f"{self.path}: byte {error.start} is not UTF-8; accepted: a YAML file in UTF-8")
         except (yaml.YAMLError, RecursionError) as error:

@@ -85,7 +85,7 @@ def test_bands_that_cannot_be_are_refused(band_hz: tuple[float, float]) -> None:
     ("change", "message"),
     [
         ({"of": None}, "method 'b' of kind 'band_pass' names no method to filter; accepted: `of`"),
-        ({"options": {}}, "methods.b.options.band_hz: key is missing\nmethods.b.options.order: key is missing"),
+        ({"options": {}}, "methods.b.options.band_hz: key is missing; .*\nmethods.b.options.order: key is missing; "),
     ],
 )
 def test_a_method_without_another_one_or_a_band_is_refused(

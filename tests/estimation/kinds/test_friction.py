@@ -99,7 +99,7 @@ def test_numbers_are_read_by_name(fitted: Path, layout: JointLayout) -> None:
 @pytest.mark.parametrize(
     ("found", "message"),
     [
-        ({"smoothing_rad_s": 0.02, "joints": {"LL9": KNEE}}, "'LL9' is not accepted; accepted: LA1"),
+        ({"smoothing_rad_s": 0.02, "joints": {"LL9": KNEE}}, "'LL9' is not accepted; accepted: LL"),
         ({"smoothing_rad_s": 0.02, "joints": {"LL4": {"coulomb_nm": 1.0}}}, r"joints\.LL4\.static_nm: key is missing"),
         ({"joints": {}}, "smoothing_rad_s: key is missing; accepted: smoothing_rad_s, joints"),
     ],

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from pydantic import ConfigDict, Field
 
 from mobnet.core.arrays import Array
-from mobnet.core.errors import DataError, not_accepted, misfit, refuse
+from mobnet.core.errors import DataError, misfit, not_accepted, refuse
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import Note, NotNegative, read_note
 from mobnet.core.notes import Positive as AboveZero

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import get_args
 
-from mobnet.core.errors import not_accepted, misfit
+from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.checks.results import Results
 from mobnet.settings.claims import Bounds, Cell, Claim, TrainingMetric
 from mobnet.settings.reading import Place

@@ -5,7 +5,7 @@ from itertools import pairwise, product
 from math import isclose
 from typing import cast
 
-from mobnet.core.errors import not_accepted, misfit
+from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.data import FixedCommand, Motion, Push, Scenario
 from mobnet.settings.reading import Place
 from mobnet.settings.settings import Settings

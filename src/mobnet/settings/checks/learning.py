@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from mobnet.core.errors import not_accepted, misfit
+from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.methods import Method
 from mobnet.settings.networks import Learning, Network
 from mobnet.settings.reading import Place

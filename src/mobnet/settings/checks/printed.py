@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator, Mapping, Sequence
 
-from mobnet.core.errors import not_accepted, misfit
+from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.checks.results import Results
 from mobnet.settings.published import ARCHITECTURE, PublishedTable
 from mobnet.settings.reading import Place

@@ -6,7 +6,7 @@ from math import dist
 
 import numpy as np
 
-from mobnet.core.errors import not_accepted, misfit
+from mobnet.core.errors import misfit, not_accepted
 from mobnet.core.joints import N_VIRTUAL, right_of, with_image
 from mobnet.settings.names import unknown, uses
 from mobnet.settings.reading import Place

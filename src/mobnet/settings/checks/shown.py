@@ -6,7 +6,7 @@ from typing import cast
 
 from pydantic import BaseModel
 
-from mobnet.core.errors import not_accepted, misfit
+from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.checks.claims import claim_problems
 from mobnet.settings.checks.printed import printed_problems
 from mobnet.settings.checks.results import Results
