@@ -3,8 +3,8 @@
 import pytest
 
 from mobnet.commands.words import COMMANDS, in_order, parse
-from mobnet.core.errors import CommandError
-from mobnet.plan.places import scale_of
+from mobnet.core.errors import CommandError, ConfigError
+from mobnet.plan.places import check_scale, scale_of
 
 
 @pytest.mark.parametrize(
@@ -47,6 +47,12 @@ def test_targets_of_two_scales_are_refused() -> None:
 )
 def test_a_path_tells_its_scale(target: str, scale: str | None) -> None:
     assert scale_of(target) == scale
+
+
+def test_a_target_of_another_scale_is_not_accepted() -> None:
+    check_scale(["-n", "tables/table_05.tex", "results/default/x"], "default")
+    with pytest.raises(ConfigError, match="is not made at scale=smoke; accepted: --config scale=default"):
+        check_scale(["-n", "tables/table_05.tex"], "smoke")
 
 
 @pytest.mark.parametrize(

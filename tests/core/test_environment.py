@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.core.environment import CACHES, child_environment, quieten
+from mobnet.core.environment import CACHES, child_environment, fault_of_place, quieten
 
 
 def test_caches_lie_inside_the_project_and_each_process_has_one_thread(tmp_path: Path) -> None:
@@ -17,6 +17,12 @@ def test_caches_lie_inside_the_project_and_each_process_has_one_thread(tmp_path:
         assert Path(variables[name]).is_dir()
     assert {value for name, value in variables.items() if name.endswith("_NUM_THREADS")} == {"1"}
     assert "TMPDIR" not in child_environment(tmp_path / ("long" * 20)), "too long for the path of a socket"
+
+
+@pytest.mark.parametrize("sign", ':{}"\\\n')
+def test_a_path_with_a_sign_of_other_tools_is_not_accepted(sign: str) -> None:
+    assert fault_of_place(Path("/work/it's a [copy] ü")) is None
+    assert "is not accepted in the path" in str(fault_of_place(Path(f"/work/a{sign}b")))
 
 
 def test_what_a_user_set_stays(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -145,30 +145,17 @@ def test_another_python_is_refused_with_one_line(
     assert "Traceback" not in original.stdout + foreign.stderr
 
 
-@pytest.mark.parametrize("name", ["a:b", "a{b}", 'a"b', "a\\b"])
-def test_a_path_that_tools_misread_is_refused(
-    make_project: Callable[..., Path], snakemake: Snakemake, name: str
-) -> None:
+def test_a_path_that_tools_misread_is_refused(make_project: Callable[..., Path], snakemake: Snakemake) -> None:
     folder = make_project("named")
-    folder = folder.rename(folder.with_name(name))
+    folder = folder.rename(folder.with_name("a:b"))
     for done in (call(sys.executable, folder / "reproduce", "all", "-n"), snakemake("-n", folder=folder)):
         told = done.stdout + (done.stderr or "")
         assert done.returncode == 1
-        assert "is not accepted in the path of the project" in told.splitlines()[-1]
+        assert "':' is not accepted in the path of the project" in told.splitlines()[-1]
 
 
-@pytest.mark.parametrize(
-    ("target", "scale", "line"),
-    [
-        ("tables/smoke/table_05.tex", "default", "tables/smoke/table_05.tex: is not made at scale=default"),
-        (
-            "tables/table_05.tex",
-            "smoke",
-            "tables/table_05.tex: is not made at scale=smoke; accepted: --config scale=default",
-        ),
-    ],
-)
-def test_a_target_of_another_scale_is_told(snakemake: Snakemake, target: str, scale: str, line: str) -> None:
-    done = snakemake("-n", target, "--config", f"scale={scale}")
+def test_a_target_of_another_scale_is_told(snakemake: Snakemake) -> None:
+    done = snakemake("-n", "tables/smoke/table_05.tex")
     assert done.returncode == 1
-    assert done.stderr.splitlines()[-1].startswith(line)
+    line = "tables/smoke/table_05.tex: is not made at scale=default; accepted: --config scale=smoke"
+    assert done.stderr.splitlines()[-1] == line
