@@ -9,7 +9,9 @@ from pathlib import Path
 import pytest
 
 from mobnet.commands import install
+from mobnet.commands import tools as tooling
 from mobnet.commands.builds import wanted_build
+from mobnet.commands.tell import is_unreachable
 from mobnet.core.errors import CommandError
 
 ROOT = Path(__file__).parents[2]
@@ -29,7 +31,7 @@ def test_every_package_has_a_version_and_hashes(name: str) -> None:
 
 def test_torch_has_the_hashes_of_both_builds_for_every_python() -> None:
     versions, architectures, builds = 3, 2, 2
-    lines = install.pinned_lines(ROOT, "torch").splitlines()
+    lines = tooling.pinned_lines(ROOT, "torch").splitlines()
     assert len(lines) == 1 + versions * architectures * builds
 
 
@@ -37,12 +39,12 @@ def test_torch_has_the_hashes_of_both_builds_for_every_python() -> None:
 @pytest.mark.parametrize("version", ["3.11", "3.12", "3.13"])
 def test_lock_is_complete_for_every_python(version: str, tmp_path: Path) -> None:
     """Nothing is needed beyond the lock, and it has a wheel of everything but one package; needs a registry."""
-    tools = install.Tools.find(ROOT)
+    tools = tooling.Tools.find(ROOT)
     target = "--python-version", version, "--only-binary", ":all:", "--no-binary", "connection-pool"
     locked = install.locked_packages(ROOT, "cuda"), "-c", str(ROOT / "cuda.constraints")
     words = str(tools.uv), "pip", "install", "--dry-run", "--target", str(tmp_path), "--require-hashes", *target
-    output = tools.try_to(*words, "-r", *locked, "--excludes", install.written(ROOT, "excludes.txt", "triton\nuv\n"))
-    if output and install.is_unreachable(output):
+    output = tools.try_to(*words, "-r", *locked, "--excludes", tooling.written(ROOT, "excludes.txt", "triton\nuv\n"))
+    if output and is_unreachable(output):
         pytest.skip("no package registry can be reached")
     assert output is None
 
@@ -67,19 +69,19 @@ def test_pip_configuration_is_handed_to_uv(tmp_path: Path) -> None:
         "global.extra-index-url='file:///x file:///y'\nglobal.cert='/ca.pem'\nE\n"
     )
     pip.chmod(0o755)
-    settings = install.uv_settings([str(pip)])
+    settings = tooling.uv_settings([str(pip)])
     assert settings["UV_FIND_LINKS"] == "/wheels,/more"
     assert settings["UV_INDEX"] == "file:///x file:///y"
     assert settings["SSL_CERT_FILE"] == "/ca.pem"
 
 
 @pytest.fixture
-def tools(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> install.Tools:
+def tools(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> tooling.Tools:
     """Tools in a folder with a lock, whose answers a test chooses."""
     for name in ("environment.lock", "cuda.constraints"):
         (tmp_path / name).write_text((ROOT / name).read_text())
     monkeypatch.setattr(install, "relocate", lambda _: None)
-    return install.Tools(tmp_path, sys.executable, (sys.executable, "-m", "pip"), tmp_path / "uv", {})
+    return tooling.Tools(tmp_path, sys.executable, (sys.executable, "-m", "pip"), tmp_path / "uv", {})
 
 
 def answer(monkeypatch: pytest.MonkeyPatch, **outputs: str) -> list[str]:
@@ -96,7 +98,7 @@ def answer(monkeypatch: pytest.MonkeyPatch, **outputs: str) -> list[str]:
 
 
 def test_cpu_is_looked_for_everywhere_before_cuda_is_taken(
-    tools: install.Tools, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tools: tooling.Tools, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     calls = answer(monkeypatch, **{"--torch-backend=cpu": OFFLINE, "cpu.txt": NOTHING})
     assert install.install(tools, "cpu", is_asked=False) == "cuda"
@@ -111,7 +113,7 @@ def test_cpu_is_looked_for_everywhere_before_cuda_is_taken(
     assert "the CUDA build is taken, 6.0 GB in all" in capsys.readouterr().err
 
 
-def test_cpu_that_is_asked_for_is_not_replaced(tools: install.Tools, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_cpu_that_is_asked_for_is_not_replaced(tools: tooling.Tools, monkeypatch: pytest.MonkeyPatch) -> None:
     answer(monkeypatch, **{"cpu.txt": NOTHING})
     with pytest.raises(CommandError, match=r"cause: torch==2\.13\.0\+cpu has no wheels"):
         install.install(tools, "cpu", is_asked=True)
@@ -130,7 +132,7 @@ def test_cpu_that_is_asked_for_is_not_replaced(tools: install.Tools, monkeypatch
         ("error: Permission denied (os error 13)", "no right to write"),
     ],
 )
-def test_a_failure_is_one_line(tools: install.Tools, monkeypatch: pytest.MonkeyPatch, output: str, line: str) -> None:
+def test_a_failure_is_one_line(tools: tooling.Tools, monkeypatch: pytest.MonkeyPatch, output: str, line: str) -> None:
     answer(monkeypatch, pip=output)
     with pytest.raises(CommandError, match=line) as caught:
         install.install(tools, "cpu", is_asked=False)

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from mobnet.commands import setup
-from mobnet.commands.install import Tools
+from mobnet.commands.tools import Tools
 from mobnet.core.errors import CommandError
 
 SITE = Path(".venv/lib/python3.12/site-packages")

@@ -13,8 +13,9 @@ from pathlib import Path
 
 from mobnet.commands.builds import costs, wanted_build
 from mobnet.commands.disk import remove, sizes_of
-from mobnet.commands.install import Tools, install, make_venv
+from mobnet.commands.install import install, make_venv
 from mobnet.commands.tell import in_gb, say
+from mobnet.commands.tools import LOG, Tools
 
 LOCKS = ("environment.lock", "cuda.constraints")
 STAMP = "installed"
@@ -51,6 +52,7 @@ def make(root: Path, fault: str, build: str | None) -> None:
     say(f"{fault}: .venv is made from environment.lock; this takes {costs(root, chosen)}, once")
     (venv / STAMP).unlink(missing_ok=True)
     remove(venv)
+    remove(root / LOG)
     tools = Tools.find(root)
     make_venv(tools)
     installed = install(tools, chosen, is_asked=build is not None)
