@@ -5,6 +5,7 @@ from difflib import get_close_matches
 from reprlib import Repr
 
 MOST = 20  # faults of a file that are told
+LONGEST = 240  # characters of a value that are shown
 SHOWN = Repr()  # a value takes a part of a line, whatever it is
 SHOWN.maxstring = SHOWN.maxother = 120
 SHOWN.maxlist = SHOWN.maxtuple = SHOWN.maxdict = 12
@@ -42,7 +43,9 @@ def not_accepted(what: str, value: object, accepted: Iterable[object]) -> str:
     """Return the house's one-line message for a value outside a closed set; what it was meant to be comes first."""
     names = sorted(set(map(str, accepted)))
     ordered = dict.fromkeys([*get_close_matches(str(value), names, n=1), *names])
-    return f"{what}: {SHOWN.repr(value)} is not accepted; accepted: {', '.join(ordered) or 'none'}"
+    shown = SHOWN.repr(value)
+    shown = shown if len(shown) <= LONGEST else f"{shown[:LONGEST]}..."
+    return f"{what}: {shown} is not accepted; accepted: {', '.join(ordered) or 'none'}"
 
 
 def misfit(value: object, accepted: object) -> str:

@@ -3,6 +3,7 @@
 import contextlib
 import errno
 import json
+import math
 import os
 import shutil
 import tempfile
@@ -10,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.errors import DataError, not_accepted, refuse
 
 WEIGHTS, METRICS, RUN = "weights.safetensors", "metrics.csv", "run.json"  # files of a trained network
 PARTIAL = ".partial."  # first characters of the name of a file that is being written
@@ -120,11 +121,12 @@ def read_json(path: Path) -> dict[str, Any]:
 def parse_json(text: str, place: str) -> dict[str, Any]:
     """Return the JSON object that a text is; a DataError names its place, as `read_json` does."""
     try:
-        value = json.loads(text, object_pairs_hook=_object, parse_constant=_no_number)
+        value = json.loads(text, object_pairs_hook=_object)
     except (ValueError, RecursionError) as error:
         raise DataError(f"{place}: not JSON, {error}") from None
     if not isinstance(value, dict):
         raise DataError(not_accepted(place, value, ["a JSON object"]))
+    refuse(place, _not_finite(value))
     return value
 
 
@@ -137,6 +139,10 @@ def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return found
 
 
-def _no_number(text: str) -> None:
-    """Refuse NaN and infinity, which Python's reader takes."""
-    raise ValueError(f"{text} is not accepted; accepted: finite numbers")
+def _not_finite(value: object, *place: str) -> Iterator[str]:
+    """Yield the numbers below a JSON value that are not finite: Python's reader takes NaN, and 1e999 for infinity."""
+    if isinstance(value, float) and not math.isfinite(value):
+        yield not_accepted(".".join(place), value, ["finite numbers"])
+    elif isinstance(value, dict | list):
+        for key, inner in value.items() if isinstance(value, dict) else enumerate(value):
+            yield from _not_finite(inner, *place, str(key))

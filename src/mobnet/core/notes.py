@@ -114,7 +114,8 @@ def _fault(found: Mapping[str, Any], kind: type[Note]) -> str:
     """Return what pydantic found as a line: key, value, accepted values."""
     place = ".".join(map(str, found["loc"])) or "top level"
     if found["type"] == "missing":
-        return f"{place}: key is missing" + ("" if "." in place else f"; accepted: {', '.join(kind.model_fields)}")
+        needed = ", ".join(name for name, field in kind.model_fields.items() if field.is_required())
+        return f"{place}: key is missing" + ("" if "." in place else f"; accepted: {needed}")
     if found["type"] == "extra_forbidden":
         return not_accepted(place, found["input"], [f"no such key, but {', '.join(kind.model_fields)}"])
     if found["type"] == "value_error":

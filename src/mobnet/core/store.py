@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.columns import Column
 from mobnet.core.contract import Values, column_faults
-from mobnet.core.errors import DataError, not_accepted, refuse
+from mobnet.core.errors import DataError, not_accepted, refuse, refuse_lines
 from mobnet.core.files import atomic_path, write_json
 from mobnet.core.joints import JointLayout
 from mobnet.core.motion import Motion
@@ -28,6 +28,7 @@ ARRAY, NOTE = ".parquet", ".json"
 # Note 0010 has the measurements behind these numbers.
 GROUP_ROWS = 60_000  # rows stored together, a minute at 1 kHz: writer and reader hold as many besides their result
 BLOCK_ROWS = 256  # rows transposed together: they fit into the processor's cache
+STREAMED = {"buffer_size": 2**16, "pre_buffer": False}  # a foreign file may be a single group of rows
 FLOATS = (pa.float32(), pa.float64())  # types of columns
 CODING = {
     "compression": "lz4",
@@ -178,8 +179,9 @@ def read_pieces(
     whole = sum(end - start for start, end in note["segments"]) == note["rows"]
     values, motion = Values(names, layout, whole), Motion(names, note["segments"], note["rate_hz"])
     try:
-        with pq.ParquetFile(path, page_checksum_verification=True) as file:
-            refuse(path, _disagreements(file, stem, note, names, layout))
+        with pq.ParquetFile(path, page_checksum_verification=True, **STREAMED) as file:
+            faults = [f"{stem}{NOTE}: {fault}" for fault in column_faults(note["columns"], layout)]
+            refuse_lines(faults + [f"{path}: {fault}" for fault in _disagreements(file, stem, note, names)])
             for first, columns in _pieces(file, names):
                 values.look(first, columns)
                 motion.look(first, columns)
@@ -206,29 +208,26 @@ def _pieces(file: pq.ParquetFile, names: Sequence[str]) -> Iterator[tuple[int, N
         raise ValueError(f"{first} of {rows} rows")
 
 
-def _disagreements(
-    file: pq.ParquetFile, stem: Path, note: Mapping[str, Any], names: Sequence[str], layout: JointLayout | None
-) -> Iterator[str]:
-    """Yield where a file's columns are not what its note says, or its note and the reader expect."""
+def _disagreements(file: pq.ParquetFile, stem: Path, note: Mapping[str, Any], names: Sequence[str]) -> Iterator[str]:
+    """Yield where a file's columns are not what its note says, or lack what its reader expects."""
     schema, held = file.schema_arrow, file.schema_arrow.names
-    noted = [column["name"] for column in note["columns"]]
-    shape, noted_shape = (file.metadata.num_rows, len(held)), (note["rows"], len(noted))
+    shape, noted_shape = (file.metadata.num_rows, len(held)), (note["rows"], len(note["columns"]))
     if shape != noted_shape:
         yield f"shape {shape}, but {stem.name}{NOTE} says {noted_shape}"
         return
     for found, column in zip(schema, note["columns"], strict=True):
         if found.name != column["name"]:
             yield f"column {found.name!r}, but {stem.name}{NOTE} says {column['name']!r}"
+            continue
         if found.type not in FLOATS:
             yield not_accepted(f"column {found.name!r}: type", str(found.type), map(str, FLOATS))
         for key in ("unit", "frame"):
-            value = (found.metadata or {}).get(key.encode())
-            if value is not None and value.decode(errors="replace") != column[key]:
-                yield f"column {found.name!r}: {key} {value!r}, but {stem.name}{NOTE} says {column[key]!r}"
+            value = (found.metadata or {}).get(key.encode(), column[key].encode()).decode(errors="replace")
+            if value != column[key]:
+                yield not_accepted(f"column {found.name!r}: {key}", value, [f"{column[key]!r}, as its note says"])
     for name in names:
         if name not in held:
             yield f"column {name!r} is missing; it holds {len(held)} columns: {', '.join(held[:3])}, ..."
-    yield from column_faults(note["columns"], layout)
 
 
 def check_finite(name: str, rows: NDArray[Any], names: Sequence[str], first: int = 0) -> None:

@@ -54,11 +54,11 @@ def load_limb_networks(folders: Mapping[str, Path], layout: JointLayout) -> Limb
     """
     networks = [load_network(folder) for folder in folders.values()]
     for network, (limb, folder) in zip(networks, folders.items(), strict=True):
-        _check(network, limb, folder, layout)
+        check_limb(network, limb, folder, layout)
     return LimbNetworks(networks, layout)
 
 
-def _check(network: Deployed, limb: str, folder: Path, layout: JointLayout) -> None:
+def check_limb(network: Deployed, limb: str, folder: Path, layout: JointLayout) -> None:
     """Raise unless a network is of a limb, with the limb's joints, or, over several limbs, with joints of the robot."""
     known = set(network.joints) <= set(layout.names)
     expected = layout.groups.get(limb, network.joints if known else layout.names)

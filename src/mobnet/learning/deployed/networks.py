@@ -157,10 +157,10 @@ def load_network(folder: Path) -> Deployed:
     Raises:
         DataError: the weights are missing, damaged or not accepted, one line for each fault.
     """
-    return _deployed(*read_weights(folder / WEIGHTS))
+    return deployed(*read_weights(folder / WEIGHTS))
 
 
-def _deployed(tensors: Mapping[str, Array], note: WeightsNote) -> Deployed:
+def deployed(tensors: Mapping[str, Array], note: WeightsNote) -> Deployed:
     """Return the network that a file's tensors and note describe."""
     common = note.limb, tuple(note.joints), tuple(note.inputs), note.std_min
     cell = note.cell

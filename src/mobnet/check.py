@@ -1,0 +1,232 @@
+"""Check files from outside before anything reads them: `./reproduce check FILE...` (docs/robots.md).
+
+Readers of jobs ask for the same contract; here all columns of a file are looked at, in the memory of a minute of it.
+"""
+
+import argparse
+import logging
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from mobnet.core.columns import EPOCHS, EXTERNAL, RESIDUAL, SCORES, STD, named, recording_columns, residual_columns
+from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse
+from mobnet.core.files import METRICS, RUN, read_json, read_text
+from mobnet.core.joints import JointLayout
+from mobnet.core.notes import ArrayNote, read_array_note
+from mobnet.core.recording import Sensed, Truth
+from mobnet.core.store import ARRAY, NOTE, check_rate, read_pieces
+from mobnet.estimation.kinds.friction import FrictionNote, read_friction
+from mobnet.estimation.methods import check_methods
+from mobnet.evaluation.measure.trainings import TrainingNote, read_training, read_training_note
+from mobnet.evaluation.number.rows import read_epochs, read_scores
+from mobnet.evaluation.report.accounts import AccountNote, read_account
+from mobnet.learning.deployed.limbs import LimbNetworks, check_limb
+from mobnet.learning.deployed.networks import deployed
+from mobnet.learning.deployed.weights import read_weights
+from mobnet.settings.load import CONFIGS, load_section, load_settings, read_yaml
+from mobnet.settings.robot import RobotTable
+from mobnet.settings.settings import Settings
+
+ENDINGS = (ARRAY, NOTE, ".csv", ".safetensors", ".yaml")
+KINDS = (
+    "a recording, residual, estimate or motion (.parquet with its .json), weights.safetensors, run.json, metrics.csv, "
+    "scores, a fit, an account of a job, a file of configs, a robot's table, a folder of these"
+)
+NOTES = (ArrayNote, TrainingNote, AccountNote, FrictionNote)
+REPORT_S = 5.0  # between two lines of progress
+log = logging.getLogger(__name__)
+
+
+class UnknownKindError(DataError):
+    """A file is none of those that can be checked."""
+
+    def __init__(self, path: Path, what: str, value: object) -> None:
+        """Say what of a file was looked at, and which kinds are accepted."""
+        super().__init__(f"{path}: {not_accepted(what, value, [KINDS])}")
+
+
+@dataclass(frozen=True)
+class Against:
+    """What files are compared with: a robot's table and a rate [Hz], those of the configuration where none is given."""
+
+    robot: Path | None = None
+    rate: float | None = None
+
+    @cached_property
+    def settings(self) -> Settings:
+        """The configuration."""
+        return load_settings()
+
+    @cached_property
+    def layout(self) -> JointLayout:
+        """The robot's joints."""
+        return load_section(self.robot, RobotTable).layout if self.robot else self.settings.layout
+
+    @cached_property
+    def rate_hz(self) -> float:
+        """Samples per second of recordings [Hz]."""
+        return self.rate or self.settings.rates.data_hz
+
+
+def check(path: Path, against: Against) -> str:
+    """Return what a file is, in a few words.
+
+    Raises:
+        MobnetError: the file is not accepted, one line for each fault.
+    """
+    if path.suffix == ".safetensors":
+        return _network(path, against)
+    if path.suffix == ".yaml":
+        return _configuration(path)
+    if path.suffix == ".csv":
+        return _rows(path)
+    if path.suffix == ARRAY or (path.suffix == NOTE and path.with_suffix(ARRAY).exists()):
+        return _array(path.with_suffix(""), against)
+    if path.suffix == NOTE:
+        return _note(path, against)
+    raise UnknownKindError(path, "file" if path.exists() else "missing file", path.name)
+
+
+def _array(stem: Path, against: Against) -> str:
+    """Check a recording, residual, estimate or motion, whose stem is given."""
+    note = read_array_note(stem.with_suffix(NOTE))
+    names = [column["name"] for column in note["columns"]]
+    found = kind_of(names, against.layout)
+    if found is None:
+        raise UnknownKindError(stem.with_suffix(NOTE), "columns", names)
+    kind, needed = found
+    missing = [name for name in needed if name not in names]
+    refuse(stem.with_suffix(NOTE), [f"columns: {name!r} is missing; accepted: all of a {kind}" for name in missing])
+    if kind != "motion":
+        check_rate(stem, against.rate_hz)
+    told = time.monotonic()
+    for first, columns in read_pieces(stem, note, names, against.layout):
+        if time.monotonic() - told > REPORT_S:
+            told = time.monotonic()
+            log.info("%s: %d of %d rows", stem, first + columns.shape[1], note["rows"])
+    rows, rate, segments = note["rows"], note["rate_hz"], len(note["segments"])
+    return f"{kind}, {rows} rows at {rate:g} Hz, {rows / rate:g} s in {segments} segments, {len(names)} columns"
+
+
+def kind_of(names: Sequence[str], layout: JointLayout) -> tuple[str, list[str]] | None:
+    """Return which kind of array has columns of these names, if any, and the columns that it needs."""
+    held, groups = set(names), recording_columns(layout)
+    signals = {name.partition(".")[0] for name in held}
+    if {"q", "v"} & signals:
+        fields = [*Sensed.__dataclass_fields__, *Truth.__dataclass_fields__]
+        whole = [field for field in fields if field in Sensed.__dataclass_fields__ or
+                 held & {name for field in Truth.__dataclass_fields__ for name, *_ in groups[field]}]  # fmt: skip
+        return "recording", [name for field in whole for name, *_ in groups[field]]
+    if RESIDUAL in signals:
+        return "residual", [name for name, *_ in residual_columns(layout)]
+    if EXTERNAL in signals:
+        joints = [joint for joint in layout.names if held & set(named(EXTERNAL, [joint]) + named(STD, [joint]))]
+        return "estimate", [name for signal in (EXTERNAL, STD) if signal in signals for name in named(signal, joints)]
+    if signals == {"q_ref"}:
+        return "motion", [name for name in named("q_ref", layout.actuated) if name in held]
+    return None
+
+
+def _note(path: Path, against: Against) -> str:
+    """Check a JSON file that stands alone."""
+    keys = read_json(path).keys()
+    kind = max(NOTES, key=lambda note: len(keys & note.model_fields.keys()))
+    if path.name != RUN and not keys & kind.model_fields.keys():
+        raise UnknownKindError(path, "keys", sorted(keys))
+    if kind is TrainingNote or path.name == RUN:
+        return _training(path.parent) if (path.parent / METRICS).exists() else _name(read_training_note(path.parent))
+    if kind is AccountNote:
+        return f"account of {read_account(path).job}"
+    if kind is FrictionNote:
+        return f"fit of {sum(read_friction(path, against.layout.actuated).stribeck > 0)} joints"
+    return _array(path.with_suffix(""), against)
+
+
+def _name(note: TrainingNote) -> str:
+    """Return the words for a training."""
+    return f"training {note.name}, {note.settings.epochs} epochs"
+
+
+def _training(folder: Path) -> str:
+    """Check note and epochs of a training."""
+    read_training(folder)
+    return _name(read_training_note(folder))
+
+
+def _rows(path: Path) -> str:
+    """Check a file of rows: epochs of a training, or scores."""
+    held = set(read_text(path).partition("\n")[0].strip().split(","))
+    if path.name == METRICS or len(held & set(EPOCHS)) > len(held & set(SCORES)):
+        return _training(path.parent) if (path.parent / RUN).exists() else f"{len(read_epochs(path))} epochs"
+    if held & set(SCORES):
+        return f"scores, {len(read_scores(path))} rows"
+    raise UnknownKindError(path, "columns", sorted(held))
+
+
+def _network(path: Path, against: Against) -> str:
+    """Check the weights of a network."""
+    network = deployed(*read_weights(path))
+    check_limb(network, network.limb, path, against.layout)
+    LimbNetworks([network], against.layout)
+    return f"network of {network.limb}, {len(network.input_names)} inputs, {len(network.joints)} joints"
+
+
+def _configuration(path: Path) -> str:
+    """Check a file of the configuration, with the others of its folder, or a robot's table."""
+    if len(read_yaml(path).keys() & RobotTable.model_fields.keys()) > 2:
+        return f"robot {load_section(path, RobotTable).name}"
+    folder = next((folder for folder in path.absolute().parents[:2] if (folder / "config.yaml").is_file()), None)
+    if folder is None:
+        raise UnknownKindError(path, "keys", sorted(map(str, read_yaml(path))))
+    settings = load_settings(folder)
+    check_methods(settings.methods)
+    return f"configuration of scale {settings.scale}, with the other files of {folder}"
+
+
+def files_of(path: Path) -> list[Path]:
+    """Return the files that a word stands for: of a folder, all that may be of a known kind; of an array, its note."""
+    if path.is_dir() and path.suffix not in ENDINGS:
+        inside = (file for file in sorted(path.rglob("*")) if file.suffix in ENDINGS)
+        return [file for file in inside if not (file.suffix == ARRAY and file.with_suffix(NOTE).exists())]
+    ends = [ending for ending in (NOTE, ARRAY) if path.with_name(path.name + ending).exists()]
+    return [path if path.exists() or not ends else path.with_name(path.name + ends[0])]
+
+
+def checked(file: Path, against: Against, asked: bool) -> bool:
+    """Check a file, print a line for it or one for each fault, and return whether it is accepted.
+
+    In a folder, a file of another kind that nobody asked for is left out.
+    """
+    try:
+        log.info("%s: ok: %s", file, check(file, against))
+    except UnknownKindError as error:
+        log.info("%s", error if asked else f"{file}: left out: another kind of file")
+        return not asked
+    except MobnetError as error:
+        log.info("%s", error)
+        return False
+    return True
+
+
+def main(words: list[str]) -> int:
+    """Check some files and return the exit status: 0 if all are accepted."""
+    parser = argparse.ArgumentParser(prog="./reproduce check", description="Check files before they are used.")
+    parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help=f"accepted: {KINDS}")
+    parser.add_argument("--robot", type=Path, help="the robot's table, if it is not that of configs")
+    parser.add_argument("--rate", type=float, metavar="HZ", help=f"samples per second, if not that of {CONFIGS.name}")
+    options = parser.parse_args(words)
+    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+    against = Against(options.robot, options.rate)
+    found = {file: file in options.files for word in options.files for file in files_of(word)}
+    wrong = sum(not checked(file, against, asked) for file, asked in found.items())
+    if len(found) != 1:
+        log.info("%d files, %d of them not accepted", len(found), wrong)
+    return 1 if wrong or not found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
