@@ -16,7 +16,7 @@ from mobnet.core.columns import EPOCHS, EXTERNAL, RESIDUAL, SCORES, STD, named, 
 from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse
 from mobnet.core.files import METRICS, RUN, read_json, read_text
 from mobnet.core.joints import JointLayout
-from mobnet.core.notes import ArrayNote, read_array_note
+from mobnet.core.notes import ArrayNote, read_array_note, read_note
 from mobnet.core.recording import Sensed, Truth
 from mobnet.core.store import ARRAY, NOTE, check_rate, read_pieces
 from mobnet.estimation.kinds.friction import FrictionNote, read_friction
@@ -142,7 +142,8 @@ def _note(path: Path, against: Against) -> str:
     if kind is AccountNote:
         return f"account of {read_account(path).job}"
     if kind is FrictionNote:
-        return f"fit of {sum(read_friction(path, against.layout.actuated).stribeck > 0)} joints"
+        read_friction(path, against.layout.actuated)
+        return f"fit of {len(read_note(path, FrictionNote).joints)} joints"
     return _array(path.with_suffix(""), against)
 
 

@@ -122,11 +122,11 @@ def parse_json(text: str, place: str) -> dict[str, Any]:
     """Return the JSON object that a text is; a DataError names its place, as `read_json` does."""
     try:
         value = json.loads(text, object_pairs_hook=_object)
+        refuse(place, _not_finite(value))
     except (ValueError, RecursionError) as error:
         raise DataError(f"{place}: not JSON, {error}") from None
     if not isinstance(value, dict):
         raise DataError(not_accepted(place, value, ["a JSON object"]))
-    refuse(place, _not_finite(value))
     return value
 
 

@@ -120,7 +120,8 @@ def _fault(found: Mapping[str, Any], kind: type[Note]) -> str:
         return not_accepted(place, found["input"], [f"no such key, but {', '.join(kind.model_fields)}"])
     if found["type"] == "value_error":
         return f"{place}: {found['ctx']['error']}"
-    what = re.sub(r"^\w+ should (be|have) ", "", found["msg"]).replace("valid dictionary", "object")
+    what = re.sub(r"^\w+ should (be|have) ", "", found["msg"])
+    what = re.sub(r"a valid dictionary( or instance of \w+)?", "a JSON object", what)
     return not_accepted(place, found["input"], [what[:1].lower() + what[1:]])
 
 

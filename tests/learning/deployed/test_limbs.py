@@ -14,7 +14,7 @@ from mobnet.core.errors import DataError
 from mobnet.core.files import WEIGHTS
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
-from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
+from mobnet.learning.deployed.limbs import LimbNetworks, check_limb, load_limb_networks
 from mobnet.learning.deployed.networks import load_network
 from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.features import limb_inputs
@@ -68,5 +68,5 @@ def test_a_network_with_joints_that_the_robot_lacks_is_refused(
 def test_an_input_that_the_robot_lacks_is_named(folder: Path, layout: JointLayout) -> None:
     network = load_network(folder)
     network.input_names = ("q.tail", *network.input_names[1:])
-    with pytest.raises(DataError, match=r"'q\.tail' is not a signal of this robot"):
-        LimbNetworks([network], layout)
+    with pytest.raises(DataError, match=r"input: 'q\.tail' is not accepted; accepted: \.\.\., q\.LL1"):
+        check_limb(network, network.limb, folder, layout)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.errors import DataError
+from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
 from mobnet.learning.deployed.networks import Deployed, Prediction, load_network
@@ -59,9 +59,16 @@ def load_limb_networks(folders: Mapping[str, Path], layout: JointLayout) -> Limb
 
 
 def check_limb(network: Deployed, limb: str, folder: Path, layout: JointLayout) -> None:
-    """Raise unless a network is of a limb, with the limb's joints, or, over several limbs, with joints of the robot."""
+    """Raise unless a network is of a limb, with the limb's joints, or, over several limbs, with joints of the robot.
+
+    Its inputs must be signals of the robot.
+    """
     known = set(network.joints) <= set(layout.names)
     expected = layout.groups.get(limb, network.joints if known else layout.names)
+    known_inputs = signal_names(layout)
+    for name in network.input_names:
+        if name not in known_inputs:
+            raise DataError(f"{folder}: {not_accepted('input', name, [*known_inputs[:3], '...'])}")
     if (network.limb, network.joints) != (limb, expected):
         raise DataError(f"{folder}: network of limb {network.limb!r} with joints {', '.join(network.joints)}; "
                         f"accepted: {limb!r} with {', '.join(expected)}")  # fmt: skip
@@ -70,10 +77,6 @@ def check_limb(network: Deployed, limb: str, folder: Path, layout: JointLayout) 
 def _columns(network: Deployed, layout: JointLayout) -> NDArray[np.intp]:
     """Return where a network's inputs stand in `signals`, (n_in,)."""
     where = {name: i for i, name in enumerate(signal_names(layout))}
-    missing = [name for name in network.input_names if name not in where]
-    if missing:
-        raise DataError(f"network of limb {network.limb!r}: input {missing[0]!r} is not a signal of this robot; "
-                        f"accepted: {', '.join(list(where)[:3])}, ...")  # fmt: skip
     return np.array([where[name] for name in network.input_names], dtype=np.intp)
 
 

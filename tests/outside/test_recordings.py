@@ -1,0 +1,334 @@
+"""Recordings, residuals and estimates that break the contract are refused by jobs that read them, and by a check."""
+
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pytest
+from tests.outside.conftest import AGAINST, RATE_HZ, changed_note, changed_table, put, refusal_of, scaled
+
+from mobnet.check import check
+from mobnet.core.errors import DataError
+from mobnet.core.joints import JointLayout
+from mobnet.core.recording import read_sensed
+from mobnet.core.store import read_array, write_array
+from mobnet.estimation.estimate import estimate
+from mobnet.learning.dataset import load_limb_data
+from mobnet.settings.settings import Settings
+
+ROWS = 1200
+Change = Callable[[Any], Any]
+
+
+def key(name: str, value: Any) -> Change:
+    """Return a change of a note that sets a key."""
+    return lambda note: note.update({name: value})
+
+
+def without(name: str) -> Change:
+    """Return a change of a note that deletes a key."""
+    return lambda note: {key: value for key, value in note.items() if key != name}
+
+
+def column(index: int, **changes: Any) -> Change:
+    """Return a change of a note that sets keys of a column."""
+    return lambda note: note["columns"][index].update(changes)
+
+
+NOTES = {
+    "rows are missing": (without("rows"), "rows: key is missing"),
+    "segments are missing": (without("segments"), "segments: key is missing"),
+    "rate is missing": (without("rate_hz"), "rate_hz: key is missing; accepted: rows, segments, rate_hz, columns"),
+    "columns are missing": (without("columns"), "columns: key is missing"),
+    "no rows": (key("rows", 0), "rows: 0 is not accepted; accepted: greater than or equal to 1"),
+    "rows below zero": (key("rows", -1), "rows: -1 is not accepted"),
+    "rows as text": (key("rows", "1200"), "rows: '1200' is not accepted; accepted: a valid integer"),
+    "rows as a fraction": (key("rows", 1200.5), "rows: 1200.5 is not accepted"),
+    "rows as truth": (key("rows", True), "rows: True is not accepted"),
+    "rows of another file": (key("rows", ROWS + 1), r"shape \(1200, 209\), but recording.json says \(1201, 209\)"),
+    "rate zero": (key("rate_hz", 0.0), "rate_hz: 0.0 is not accepted; accepted: greater than 0"),
+    "rate below zero": (key("rate_hz", -1000.0), "rate_hz: -1000.0 is not accepted"),
+    "rate NaN": (key("rate_hz", np.nan), "rate_hz: nan is not accepted; accepted: finite numbers"),
+    "rate infinite": (key("rate_hz", np.inf), "rate_hz: inf is not accepted; accepted: finite numbers"),
+    "rate as text": (key("rate_hz", "1 kHz"), "rate_hz: '1 kHz' is not accepted; accepted: a valid number"),
+    "rate null": (key("rate_hz", None), "rate_hz: None is not accepted"),
+    "rate halved": (key("rate_hz", 500.0), "rate_hz: 500.0 is not accepted; accepted: 1000"),
+    "rate near": (key("rate_hz", 999.0), "rate_hz: 999.0 is not accepted; accepted: 1000"),
+    "no segment": (key("segments", []), "segments: .* is not accepted; accepted: at least 1 item"),
+    "segments overlap": (key("segments", [[0, 700], [600, 1200]]), r"segments.1: \[600, 1200\] is not .* 700"),
+    "segments swapped": (key("segments", [[600, 1200], [0, 600]]), r"segments.1: \[0, 600\] is not accepted"),
+    "segment backwards": (key("segments", [[600, 0]]), r"segments.0: \[600, 0\] is not accepted"),
+    "segment empty": (key("segments", [[5, 5]]), r"segments.0: \[5, 5\] is not accepted; accepted: .* 1200 rows"),
+    "segment behind the end": (key("segments", [[0, 1201]]), r"segments.0: \[0, 1201\] is not accepted"),
+    "segment before the start": (key("segments", [[-1, 1200]]), r"segments.0.0: -1 is not accepted"),
+    "segment of three": (key("segments", [[0, 1, 2]]), r"segments.0: \[0, 1, 2\] is not accepted; .* 2 items"),
+    "segment of one": (key("segments", [[0]]), r"segments.0: \[0\] is not accepted; accepted: at least 2 items"),
+    "segment of fractions": (key("segments", [[0.0, 1200.0]]), r"segments.0.0: 0.0 is not accepted"),
+    "segments as text": (key("segments", "all"), "segments: 'all' is not accepted"),
+    "segments as numbers": (key("segments", [0, 1200]), "segments.0: 0 is not accepted"),
+    "columns as text": (key("columns", "q"), "columns: 'q' is not accepted"),
+    "no columns": (key("columns", []), "columns: .* is not accepted; accepted: at least 1 item"),
+    "columns as names": (key("columns", ["q.LL1"]), "columns.0: 'q.LL1' is not accepted; accepted: a JSON object"),
+    "column without a unit": (lambda n: n["columns"][7].pop("unit") and None, "columns.7.unit: key is missing"),
+    "column without a name": (lambda n: n["columns"][7].pop("name") and None, "columns.7.name: key is missing"),
+    "column twice": (lambda n: n["columns"].append(n["columns"][0]), "columns: 'q.base_x' occurs 2 times"),
+    "degrees": (column(7, unit="deg"), "columns: 'q.LL1': unit 'deg', frame 'joint' is not .*: unit 'rad'"),
+    "degrees a second": (column(49, unit="deg/s"), "columns: 'v.LL4': unit 'deg/s', frame 'joint' is not accepted"),
+    "millimetres": (column(0, unit="mm"), "columns: 'q.base_x': unit 'mm'"),
+    "base frame": (column(40, frame="base"), "columns: 'v.base_x': unit 'm/s', frame 'base' is not accepted"),
+    "omega in world": (column(43, frame="world"), "columns: 'v.omega_x': unit 'rad/s', frame 'world' is not accepted"),
+    "gravity in g": (column(79, unit="g"), "columns: 'acc.x': unit 'g', frame 'base' is not accepted; accepted: .*m/s"),
+    "force as torque": (lambda n: n["columns"][155].update(unit="N m", frame="joint"), "'tau_ext.V1': unit 'N m'"),
+    "column of another name": (column(7, name="q.LL9"), "column.* 'q.LL1'"),
+    "name as a number": (column(7, name=7), "columns.7.name: 7 is not accepted; accepted: a valid string"),
+    "name empty": (column(7, name=""), "columns.7.name: '' is not accepted"),
+    "seed as text": (key("seed", "3"), "seed: '3' is not accepted"),
+    "seed below zero": (key("seed", -1), "seed: -1 is not accepted"),
+    "level as a number": (key("level", 1), "level: 1 is not accepted"),
+    "scenario empty": (key("scenario", ""), "scenario: '' is not accepted"),
+    "terrains too few": (key("terrains", ["flat"]), r"terrains: \['flat'\] is not .*: one for each of 2"),
+    "falls below zero": (key("falls", -1), "falls: -1 is not accepted"),
+    "provenance as text": (key("provenance", "mine"), "provenance: 'mine' is not accepted"),
+    "a list": (lambda note: [note], "accepted: a JSON object"),
+    "a number": (lambda _: 5, "recording.json: 5 is not accepted; accepted: a JSON object"),
+    "empty": (lambda _: {}, "rows: key is missing"),
+    "rate too large": (key("rate_hz", 1e300), "rate_hz: 1e.300 is not accepted"),
+}
+
+
+@pytest.mark.parametrize("name", NOTES)
+def test_a_note_that_breaks_the_contract_is_refused(name: str, copied: Path, refused: Callable[[Path], str]) -> None:
+    change, says = NOTES[name]
+    changed_note(copied / "recording", change)
+    lines = refused(copied / "recording")
+    assert len(re.findall(says, lines)) >= 2, lines
+
+
+JOINTS = [f"LL{i}" for i in range(1, 7)]
+TABLES = {
+    "NaN": (put("q.LL3", 5, np.nan), "column 'q.LL3', row 5: nan is not accepted; accepted: finite numbers"),
+    "infinite": (put("tau_motor.LL3", 1199, np.inf), "column 'tau_motor.LL3', row 1199: inf is not accepted"),
+    "quaternion of norm 2": (
+        scaled([f"q.quat_{a}" for a in "wxyz"], 2.0),
+        "column 'q.quat_w', row 0: 2|q.quat_w'.*norm",
+    ),
+    "quaternion of norm 0.5": (scaled([f"q.quat_{a}" for a in "wxyz"], 0.5), "row 0: norm: 0.5 is not .*accepted: 1"),
+    "one bad quaternion": (put("q.quat_x", 77, 0.9), "'q.quat_w' to 'q.quat_z', row 77: norm"),
+    "positions in degrees": (
+        scaled([f"q.{j}" for j in JOINTS], 57.3),
+        "v of LL1, LL2, LL3 and 3 more: an integral of 0.017",
+    ),
+    "velocities in degrees": (
+        scaled([f"v.{j}" for j in JOINTS], 57.3),
+        "v of LL1, .*: an integral of 57.3 x the change",
+    ),
+    "both in degrees": (scaled([f"{s}.LL4" for s in "qv"], 5730.0), "column 'q.LL4', row 0: .* is not .*3.24 rad"),
+    "one velocity of wrong sign": (scaled(["v.LL4"], -1.0), "v of LL4: an integral of -1 x the change of q"),
+    "omega in degrees": (scaled([f"v.omega_{a}" for a in "xyz"], 57.3), "v.omega of .*: an integral of 57.*q.quat"),
+    "omega of wrong sign": (scaled([f"v.omega_{a}" for a in "xyz"], -1.0), "v.omega of x, y, z: an integral of -1"),
+    "no gravity": (scaled(["acc.z"], 0.0), "acc, turned into world axes: mean: .* is not .*: 1.5 to 30"),
+    "gravity downwards": (scaled(["acc.z"], -1.0), "acc, turned into world axes: mean"),
+    "gravity in g": (scaled([f"acc.{a}" for a in "xyz"], 1 / 9.81), "acc, turned into world axes: mean"),
+    "beyond a joint's range": (put("q.LL4", 9, 3.5), r"column 'q.LL4', row 9: 3.5 is not .*: -3.24 to 3.24"),
+    "faster than the motor": (put("v.LL4", 9, 90.0), "column 'v.LL4', row 9: 90.0 is not .*: -60 to 60"),
+    "torque in mN m": (scaled(["tau_motor.LL3"], 1000.0), "column 'tau_motor.LL3', row .* -2630 to 2630 N m"),
+    "swing of 2": (put("swing.left_foot", 3, 2.0), "column 'swing.left_foot', row 3: 2.0 is not .*: 0 or 1"),
+    "contact of a half": (put("contact.left_foot", 3, 0.5), "'contact.left_foot', row 3: 0.5 is not accepted"),
+    "pushed below zero": (put("pushed", 3, -1.0), "column 'pushed', row 3: -1.0 is not accepted; accepted: 0 or 1"),
+    "turn in degrees": (put("command.turn", 3, 20.0), "column 'command.turn', row 3: 20.0 is not accepted"),
+    "step in millimetres": (put("command.step_x", 3, 200.0), "column 'command.step_x', row 3: 200.0 is not accepted"),
+    "base too fast": (put("v.base_x", 3, 300.0), "column 'v.base_x', row 3: 300.0 is not .*: -20 to 20"),
+    "a column is gone": (
+        lambda t: t.drop_columns(["q.LL3"]),
+        r"shape \(1200, 208\), but recording.json says \(1200, 209\)",
+    ),
+    "a column more": (lambda t: t.append_column("x", [np.zeros(ROWS)]), r"shape \(1200, 210\), but"),
+    "rows are gone": (lambda t: t.slice(0, 900), r"shape \(900, 209\), but recording.json says \(1200, 209\)"),
+    "no rows": (lambda t: t.slice(0, 0), r"shape \(0, 209\), but"),
+    "another name": (
+        lambda t: t.rename_columns(["p", *t.column_names[1:]]),
+        "column 'p', but recording.json says 'q.base_x'",
+    ),
+    "another order": (lambda t: t.select([*t.column_names[1:], t.column_names[0]]), "column 'q.base_y', but"),
+    "integers": (
+        lambda t: t.set_column(0, "q.base_x", [np.zeros(ROWS, int)]),
+        "column 'q.base_x': type: 'int64' is not",
+    ),
+    "text": (lambda t: t.set_column(0, "q.base_x", [["0"] * ROWS]), "column 'q.base_x': type: 'string' is not"),
+    "lists": (lambda t: t.set_column(0, "q.base_x", [[[0.0]] * ROWS]), "column 'q.base_x': type: 'list<.*' is not"),
+    "truth values": (lambda t: t.set_column(0, "q.base_x", [[True] * ROWS]), "column 'q.base_x': type: 'bool' is not"),
+    "dictionary": (
+        lambda t: t.set_column(0, "q.base_x", pa.array(["a"] * ROWS).dictionary_encode()),
+        "type: 'dictionary",
+    ),
+    "null": (lambda t: t.set_column(0, "q.base_x", [[None] + [0.0] * (ROWS - 1)]), "'q.base_x', row 0: nan is not"),
+    "unit of the table": (
+        lambda t: t.cast(t.schema.set(7, t.schema.field(7).with_metadata({"unit": "deg"}))),
+        "column 'q.LL1': unit: 'deg' is not accepted; accepted: 'rad', as its note says",
+    ),
+    "frame of the table": (
+        lambda t: t.cast(t.schema.set(0, t.schema.field(0).with_metadata({"frame": "base"}))),
+        "column 'q.base_x': frame: 'base' is not accepted; accepted: 'world'",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_a_table_that_breaks_the_contract_is_refused(name: str, copied: Path, refused: Callable[[Path], str]) -> None:
+    change, says = TABLES[name]
+    changed_table(copied / "recording", change)
+    lines = refused(copied / "recording")
+    assert len(re.findall(says, lines)) >= 2, lines
+
+
+FILES = {
+    "truncated": (".parquet", lambda data: data[: len(data) // 2], "truncated or damaged"),
+    "without its end": (".parquet", lambda data: data[:-1], "truncated or damaged"),
+    "empty": (".parquet", lambda _: b"", "truncated or damaged"),
+    "not parquet": (".parquet", lambda _: b"PAR1 and nothing else PAR1", "truncated or damaged"),
+    "note empty": (".json", lambda _: b"", "not JSON"),
+    "note cut off": (".json", lambda data: data[:100], "not JSON"),
+    "note not UTF-8": (".json", lambda data: b"\xff" + data, "not text in UTF-8, byte 0"),
+    "note nested without end": (".json", lambda _: b"[" * 100_000, "not JSON"),
+    "note with a key twice": (".json", lambda data: b'{"rows": 1,' + data[1:], "key 'rows' occurs twice"),
+    "note with an endless number": (".json", lambda data: b'{"x": 1e999,' + data[1:], "x: inf is not accepted"),
+    "note with a number of 5000 digits": (".json", lambda data: b'{"x": 1' + b"0" * 5000 + b"," + data[1:], "not JSON"),
+}
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_damaged_file_is_refused(name: str, copied: Path, refused: Callable[[Path], str]) -> None:
+    ending, damage, says = FILES[name]
+    path = (copied / "recording").with_suffix(ending)
+    path.write_bytes(damage(path.read_bytes()))
+    assert refused(copied / "recording").count(says) == 2
+
+
+@pytest.mark.parametrize("ending", [".parquet", ".json"])
+@pytest.mark.parametrize("how", ["missing", "folder", "link to nowhere"])
+def test_a_file_that_is_none_is_refused(ending: str, how: str, copied: Path, refused: Callable[[Path], str]) -> None:
+    path = (copied / "recording").with_suffix(ending)
+    path.unlink()
+    if how == "folder":
+        path.mkdir()
+    elif how == "link to nowhere":
+        path.symlink_to("nowhere")
+    assert refused(copied / "recording").count(path.name) >= 2
+
+
+def test_every_fault_of_a_file_is_told_and_there_are_not_too_many(copied: Path, refused: Callable[[Path], str]) -> None:
+    changed_note(copied / "recording", lambda note: note.update(rows=-1, rate_hz="x", segments=[[0]]))
+    lines = refused(copied / "recording").splitlines()
+    assert [line.partition(": ")[2].partition(": ")[0] for line in lines[:3]] == ["rows", "segments.0", "rate_hz"]
+    changed_note(copied / "residual", lambda note: [column.update(unit="?") for column in note["columns"]] and None)
+    lines = refusal_of(copied / "residual.json").splitlines()
+    assert (len(lines), lines[-1].rpartition(": ")[2]) == (21, "136 further faults")
+
+
+def test_a_robots_log_may_lack_truth_and_have_more_columns_in_any_order(copied: Path, layout: JointLayout) -> None:
+    array, note = read_array(copied / "recording")
+    columns = [tuple(column.values()) for column in note["columns"]]
+    kept = [
+        k for k, (name, *_) in enumerate(columns) if not name.startswith(("tau_ext", "wrench", "contact", "pushed"))
+    ]
+    kept.reverse()
+    log = np.concatenate([array[:, kept], np.full((ROWS, 1), 37.0)], axis=1)
+    write_array(copied / "log", log, [*(columns[k] for k in kept), ("temperature", "deg C", "motor")], {"rate_hz": 1e3})
+    assert len(read_sensed(copied / "log", layout).sensed) == ROWS
+    assert check(copied / "log.json", AGAINST) == "recording, 1200 rows at 1000 Hz, 1.2 s in 1 segments, 156 columns"
+
+
+@pytest.mark.parametrize("kind", ["recording", "residual", "estimate"])
+def test_a_sound_array_is_accepted(kind: str, copied: Path) -> None:
+    assert check(copied / f"{kind}.parquet", AGAINST).startswith(f"{kind}, 1200 rows at 1000 Hz, 1.2 s in 2 segments")
+
+
+@pytest.mark.parametrize(
+    ("kind", "change", "says"),
+    [
+        ("residual", put("r.LL3", 4, np.nan), "column 'r.LL3', row 4: nan"),
+        ("residual", scaled(["tau_ext_lp.V3"], 1e9), "column 'tau_ext_lp.V3', row 0: .* -1e\\+06 to 1e\\+06 N"),
+        ("estimate", put("std.LL3", 4, 0.0), "column 'std.LL3', row 4: 0.0 is not accepted"),
+        ("estimate", put("std.LL3", 4, -1.0), "column 'std.LL3', row 4: -1.0 is not accepted"),
+        ("residual", lambda t: t.drop_columns(["r.LL3"]), r"shape \(1200, 77\)"),
+    ],
+)
+def test_a_residual_or_an_estimate_that_breaks_the_contract_is_refused(
+    kind: str, change: Change, says: str, copied: Path
+) -> None:
+    changed_table(copied / kind, change)
+    with pytest.raises(DataError, match=says):
+        read_array(copied / kind)
+    with pytest.raises(DataError, match=says):
+        check(copied / f"{kind}.json", AGAINST)
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (
+            key("segments", [[0, ROWS]]),
+            r"residual.json: segments: \[\[0, 1200\]\] is not accepted; accepted: \[\[0, 600",
+        ),
+        (key("seed", 8), "residual.json: seed: 8 is not accepted; accepted: 3, as in .*recording.json, its recording"),
+        (key("level", "ideal"), "residual.json: level: 'ideal' is not accepted; accepted: 'all_uncertainty'"),
+        (key("rate_hz", 500.0), "residual.json: rate_hz: 500.0 is not accepted; accepted: 1000.0"),
+    ],
+)
+def test_a_residual_of_another_recording_trains_no_network(
+    change: Change, says: str, copied: Path, settings: Settings
+) -> None:
+    changed_note(copied / "residual", change)
+    limb = settings.network("MOB-Net", "LL")
+    with pytest.raises(DataError, match=says):
+        load_limb_data(settings.layout, limb, "external", [copied / "recording"], [copied / "residual"], RATE_HZ)
+
+
+def test_networks_and_observers_take_recordings_of_the_configured_rate_alone(copied: Path, settings: Settings) -> None:
+    changed_note(copied / "recording", key("rate_hz", 900.0))
+    level, gravity = settings.levels["all_uncertainty"], settings.plant.gravity_m_s2
+    methods = {"MOB": settings.method("MOB")}
+    with pytest.raises(DataError, match=r"rate_hz: 900.0 is not accepted; accepted: 1000, `rates.data_hz`"):
+        estimate(
+            settings.robot,
+            level,
+            gravity,
+            settings.observer,
+            "MOB",
+            methods,
+            {},
+            None,
+            copied / "recording",
+            copied / "out",
+            RATE_HZ,
+        )
+    with pytest.raises(DataError, match=r"rate_hz: 900\.0 is not accepted"):
+        load_limb_data(
+            settings.layout,
+            settings.network("MOB-Net", "LL"),
+            "external",
+            [copied / "recording"],
+            [copied / "residual"],
+            RATE_HZ,
+        )
+
+
+def test_the_writer_keeps_the_contract_too(tmp_path: Path) -> None:
+    columns = [("a", "m", "world")]
+    for rows, meta, segments, says in (
+        (0, {"rate_hz": 1.0}, None, "rows: 0 is not accepted"),
+        (5, {}, None, "rate_hz: key is missing"),
+        (5, {"rate_hz": 1.0}, [(0, 3), (2, 5)], r"segments.1: \[2, 5\] is not accepted"),
+    ):
+        with pytest.raises(DataError, match=says):
+            write_array(tmp_path / "s", np.zeros((rows, 1)), columns, meta, segments)
+    assert not list(tmp_path.iterdir())
+
+
+def test_json_that_names_no_kind_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "x.json").write_text(json.dumps({"a": 1}))
+    assert "accepted: a recording, residual" in refusal_of(tmp_path / "x.json")
