@@ -20,14 +20,15 @@ from mobnet.core.notes import ArrayNote, read_array_note, read_note
 from mobnet.core.recording import Sensed, Truth
 from mobnet.core.store import ARRAY, NOTE, check_rate, read_pieces
 from mobnet.estimation.kinds.friction import FrictionNote, read_friction
-from mobnet.estimation.methods import check_methods
+from mobnet.estimation.methods import method_problems
 from mobnet.evaluation.measure.trainings import TrainingNote, read_training, read_training_note
 from mobnet.evaluation.number.rows import read_epochs, read_scores
 from mobnet.evaluation.report.accounts import AccountNote, read_account
 from mobnet.learning.deployed.limbs import LimbNetworks, check_limb
 from mobnet.learning.deployed.networks import deployed
 from mobnet.learning.deployed.weights import read_weights
-from mobnet.settings.load import CONFIGS, load_section, load_settings, read_yaml
+from mobnet.settings.load import CONFIGS, load_section, load_settings
+from mobnet.settings.reading import read_yaml
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.settings import Settings
 
@@ -108,8 +109,9 @@ def _array(stem: Path, against: Against) -> str:
         if time.monotonic() - told > REPORT_S:
             told = time.monotonic()
             log.info("%s: %d of %d rows", stem, first + columns.shape[1], note["rows"])
-    rows, rate, segments = note["rows"], note["rate_hz"], len(note["segments"])
-    return f"{kind}, {rows} rows at {rate:g} Hz, {rows / rate:g} s in {segments} segments, {len(names)} columns"
+    rows, rate, count = note["rows"], note["rate_hz"], len(note["segments"])
+    parts = f"{count} segment" + "s" * (count > 1)
+    return f"{kind}, {rows} rows at {rate:g} Hz, {rows / rate:g} s in {parts}, {len(names)} columns"
 
 
 def kind_of(names: Sequence[str], layout: JointLayout) -> tuple[str, list[str]] | None:
@@ -178,13 +180,13 @@ def _network(path: Path, against: Against) -> str:
 
 def _configuration(path: Path) -> str:
     """Check a file of the configuration, with the others of its folder, or a robot's table."""
-    if len(read_yaml(path).keys() & RobotTable.model_fields.keys()) > 2:
+    keys = read_yaml(path, nulls=True).keys()
+    if len(keys & RobotTable.model_fields.keys()) > 2:
         return f"robot {load_section(path, RobotTable).name}"
     folder = next((folder for folder in path.absolute().parents[:2] if (folder / "config.yaml").is_file()), None)
     if folder is None:
-        raise UnknownKindError(path, "keys", sorted(map(str, read_yaml(path))))
-    settings = load_settings(folder)
-    check_methods(settings.methods)
+        raise UnknownKindError(path, "keys", sorted(keys))
+    settings = load_settings(folder, further=method_problems)
     return f"configuration of scale {settings.scale}, with the other files of {folder}"
 
 

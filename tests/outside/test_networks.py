@@ -163,7 +163,7 @@ DAMAGES = {
     "hidden as a fraction": (cell(hidden=5.5), "network.hidden: 5.5 is not accepted"),
     "hidden zero": (cell(hidden=0), "network.hidden: 0 is not accepted"),
     "hidden of another": (cell(hidden=8), r"tensor 'cell.weight_ih_l0': shape: \[15, 30\] is not .*: \[24, 30\]"),
-    "hidden null": (cell(hidden=None), "network: .*hidden is missing"),
+    "hidden null": (cell(hidden=None), "network: sizes none are not accepted; accepted: hidden of a cell GRU"),
     "cell of another kind": (cell(cell="LSTM"), r"'cell.weight_ih_l0': shape: \[15, 30\] is not .*: \[20, 30\]"),
 }
 

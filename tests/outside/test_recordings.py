@@ -239,7 +239,7 @@ def test_a_robots_log_may_lack_truth_and_have_more_columns_in_any_order(copied: 
     log = np.concatenate([array[:, kept], np.full((ROWS, 1), 37.0)], axis=1)
     write_array(copied / "log", log, [*(columns[k] for k in kept), ("temperature", "deg C", "motor")], {"rate_hz": 1e3})
     assert len(read_sensed(copied / "log", layout).sensed) == ROWS
-    assert check(copied / "log.json", AGAINST) == "recording, 1200 rows at 1000 Hz, 1.2 s in 1 segments, 156 columns"
+    assert check(copied / "log.json", AGAINST) == "recording, 1200 rows at 1000 Hz, 1.2 s in 1 segment, 156 columns"
 
 
 @pytest.mark.parametrize("kind", ["recording", "residual", "estimate"])

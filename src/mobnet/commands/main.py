@@ -45,6 +45,7 @@ def run(root: Path, words: Words) -> int:
     if words.command == "clean":
         options = words.options
         return clean(root, everything=options.all, is_dry=options.dry_run, is_sure=options.yes)
+    given = Path.cwd()
     os.chdir(root)
     os.environ.update(environment(root))
     set_up(root, getattr(words.options, "build", None))
@@ -52,7 +53,10 @@ def run(root: Path, words: Words) -> int:
         return 0
     python = str(root / ".venv" / "bin" / "python")
     if words.command in MODULES:
-        return subprocess.run([python, "-m", *MODULES[words.command], *words.extra], check=False).returncode
+        module = [*MODULES[words.command], *words.extra]
+        if words.command == "check":  # its words are files of whoever calls, and that folder has no code of ours
+            return subprocess.run([python, "-P", "-m", *module], cwd=given, check=False).returncode
+        return subprocess.run([python, "-m", *module], check=False).returncode
     return run_workflow(python, [*words.extra, *(REPORT if words.command == "report" else ())])
 
 

@@ -107,10 +107,10 @@ def checked(path: Path, value: object, kind: type[Kind]) -> Kind:
     try:
         return kind.model_validate(value)
     except ValidationError as error:
-        raise refusal(path, [_fault(found, kind) for found in error.errors(include_url=False)]) from None
+        raise refusal(path, [fault_of(found, kind) for found in error.errors(include_url=False)]) from None
 
 
-def _fault(found: Mapping[str, Any], kind: type[Note]) -> str:
+def fault_of(found: Mapping[str, Any], kind: type[Note]) -> str:
     """Return what pydantic found as a line: key, value, accepted values."""
     place = ".".join(map(str, found["loc"])) or "top level"
     if found["type"] == "missing":

@@ -215,10 +215,14 @@ def _disagreements(file: pq.ParquetFile, stem: Path, note: Mapping[str, Any], na
     if shape != noted_shape:
         yield f"shape {shape}, but {stem.name}{NOTE} says {noted_shape}"
         return
+    others = [
+        (name, column["name"]) for name, column in zip(held, note["columns"], strict=True) if name != column["name"]
+    ]
+    if others:
+        (name, said), count = others[0], len(others)
+        yield f"column {name!r}, but {stem.name}{NOTE} says {said!r}" + (f", and {count - 1} more" if count > 1 else "")
+        return
     for found, column in zip(schema, note["columns"], strict=True):
-        if found.name != column["name"]:
-            yield f"column {found.name!r}, but {stem.name}{NOTE} says {column['name']!r}"
-            continue
         if found.type not in FLOATS:
             yield not_accepted(f"column {found.name!r}: type", str(found.type), map(str, FLOATS))
         for key in ("unit", "frame"):

@@ -12,7 +12,7 @@ from safetensors import SafetensorError, safe_open
 
 from mobnet.core.errors import DataError, not_accepted, refuse
 from mobnet.core.files import parse_json
-from mobnet.core.notes import Names, Note, Positive, Text, checked
+from mobnet.core.notes import Names, Note, Positive, Text, checked, fault_of
 from mobnet.settings.networks import Cell
 
 NOTE = "note"  # the only entry of the file's metadata: several would be written in an order that changes
@@ -73,8 +73,7 @@ def _faults(tensors: Mapping[str, Array], note: WeightsNote) -> Iterator[str]:
         expected = shapes(note.cell, len(note.inputs), len(note.joints))
     except ValidationError as error:
         for found in error.errors(include_url=False):
-            place = ".".join(("network", *map(str, found["loc"])))
-            yield not_accepted(place, found["input"], [found["msg"].removeprefix("Input should be ")])
+            yield fault_of({**found, "loc": ("network", *found["loc"])}, WeightsNote)
         return
     for name in expected.keys() - tensors.keys() - {STD_SCALE}:
         yield f"tensor {name!r} is missing; accepted: shape {list(expected[name])}"
