@@ -20,7 +20,10 @@ from mobnet.settings.networks import SIZES, Cell, CellKind
 
 INPUTS, JOINTS, STEPS, STD_MIN = 30, 6, 400, 1e-6
 WINDOW: dict[str, Any] = {"window_steps": 10, "kernel_steps": 3, "dilations": (2, 4), "dropout": 0.2, "head": 12}
-CELLS = {kind: Cell(cell=kind, hidden=150 if kind == "GRU" else 16, **WINDOW) for kind in SIZES}
+CELLS = {
+    kind: Cell(cell=kind, **{name: ({"hidden": 150 if kind == "GRU" else 16} | WINDOW)[name] for name in names})
+    for kind, names in SIZES.items()
+}
 KINDS: dict[CellKind, type[Deployed]] = {"GRU": Network, "constant": ConstantNetwork}  # by NumPy; the others by torch
 FACTORS = torch.linspace(0.5, 3.0, JOINTS)
 SCALES = {
@@ -128,7 +131,7 @@ def test_damaged_weights_are_named(damage: bytes | None, tmp_path: Path) -> None
         ("GRU", {}, "cell.bias_hh_l0", r"tensor 'cell.bias_hh_l0' is missing; accepted: shape \[450\]"),
         ("LSTM", {}, "cell.bias_hh_l0", r"tensor 'cell.bias_hh_l0' is missing; accepted: shape \[64\]"),
         ("LSTM", {"hidden": 8}, "", r"'cell.weight_ih_l0': shape: \[64, 30\] is not accepted; accepted: \[32, 30\]"),
-        ("LSTM", {"hidden": None}, "", "network: .* hidden is missing"),
+        ("LSTM", {"hidden": None}, "", "network: sizes none are not accepted; accepted: hidden of a cell LSTM"),
     ],
 )
 def test_weights_that_do_not_fit_their_note_are_refused(
