@@ -102,6 +102,17 @@ def scaled(names: list[str], factor: float) -> Callable[[Any], Any]:
     return change
 
 
+def moved(names: list[str]) -> Callable[[Any], Any]:
+    """Return a change of a table that moves numbers from each column to the one before it, and from the first to the last."""
+
+    def change(table: Any) -> Any:
+        for name, column in zip(names, [table.column(name) for name in (*names[1:], names[0])], strict=True):
+            table = table.set_column(table.schema.get_field_index(name), table.schema.field(name), column)
+        return table
+
+    return change
+
+
 def put(name: str, row: int, value: float) -> Callable[[Any], Any]:
     """Return a change of a table that sets one number."""
 

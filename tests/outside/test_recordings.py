@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 import pytest
-from tests.outside.conftest import AGAINST, RATE_HZ, changed_note, changed_table, put, refusal_of, scaled
+from tests.outside.conftest import AGAINST, RATE_HZ, changed_note, changed_table, moved, put, refusal_of, scaled
 
 from mobnet.check import check
 from mobnet.core.errors import DataError
@@ -130,6 +130,8 @@ TABLES = {
     "one velocity of wrong sign": (scaled(["v.LL4"], -1.0), "v of LL4: an integral of -1 x the change of q"),
     "omega in degrees": (scaled([f"v.omega_{a}" for a in "xyz"], 57.3), "v.omega of .*: an integral of 57.*q.quat"),
     "omega of wrong sign": (scaled([f"v.omega_{a}" for a in "xyz"], -1.0), "v.omega of x, y, z: an integral of -1"),
+    "quaternion x y z w": (moved([f"q.quat_{a}" for a in "wxyz"]), "v.omega of .* the change of q.quat"),
+    "two joints swapped": (moved(["q.LL3", "q.LL4"]), "v of LL3, LL4: an integral"),
     "no gravity": (scaled(["acc.z"], 0.0), "acc, turned into world axes: mean: .* is not .*: 1.5 to 30"),
     "gravity downwards": (scaled(["acc.z"], -1.0), "acc, turned into world axes: mean"),
     "gravity in g": (scaled([f"acc.{a}" for a in "xyz"], 1 / 9.81), "acc, turned into world axes: mean"),
