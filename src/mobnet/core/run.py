@@ -14,8 +14,10 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from typing import TextIO, cast
 
 import psutil
+import yaml
 
 from mobnet.core.code import ROOT
 from mobnet.core.environment import LONGEST_TEMPORARY
@@ -24,6 +26,7 @@ from mobnet.core.files import check_room
 from mobnet.core.lock import begin_run, scratch, sweep
 from mobnet.core.provenance import UNKNOWN, commit
 
+USE_CODE = "__use_yte__"
 WRITTEN = (".snakemake", ".cache")  # below the project, by Snakemake itself and by packages
 STOPPED = "stopped; the same command goes on from here"
 LONGEST_S, PAUSE_S = 3.0, 0.02  # that killed processes may take to end, and between two looks at them
@@ -97,12 +100,25 @@ def start_jobs(root: Path) -> None:
     signal.signal(signal.SIGINT, lambda number, _: stop(root, number, alone=True))
 
 
+def plain_yaml(stream: TextIO, **_: object) -> object:
+    """Read a YAML file as plain values; `__use_yte__` and tags of Python end the run before anything of it runs."""
+    try:
+        values = yaml.load(stream, yaml.CSafeLoader)
+    except yaml.YAMLError as error:
+        sys.exit(f"{stream.name}: {' '.join(str(error).split())}; accepted: plain YAML")
+    if isinstance(values, dict) and USE_CODE in values:
+        sys.exit(f"{stream.name}: key {USE_CODE!r} is not accepted; accepted: plain YAML, without code")
+    return cast("object", values)
+
+
 def main() -> None:
     """Run snakemake; `reproduce` blocked Ctrl-C until here, so that it is never a traceback."""
     prepare(ROOT)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+    import yte
     from snakemake.cli import main as snakemake
 
+    yte.process_yaml = plain_yaml  # the reader of Snakemake's profiles and `--configfile`, which runs code
     snakemake()
 
 

@@ -1,6 +1,7 @@
 """What pydantic refuses, as one text for each fault at the place that was typed, with all that is accepted there."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cache
 from typing import Any, cast
 
 from pydantic import BaseModel, ValidationError
@@ -23,7 +24,7 @@ BOUNDS = {"exclusiveMinimum": "above", "minimum": "from", "exclusiveMaximum": "b
 
 def problems(error: ValidationError, kind: type[BaseModel], given: object) -> Iterator[tuple[Place, str]]:
     """Yield place and text of all that pydantic found in the values given of a section, with what is accepted."""
-    schema, found = kind.model_json_schema(), dict[Place, list[Fault]]()
+    schema, found = _schema_of(kind), dict[Place, list[Fault]]()
     errors = cast("list[Mapping[str, Any]]", error.errors(include_url=False))
     for each in errors:
         loc = tuple(each["loc"])
@@ -36,6 +37,12 @@ def problems(error: ValidationError, kind: type[BaseModel], given: object) -> It
             yield union, f"{_short(_at(given, union))} is not accepted; accepted: {accepted_at(schema, union)}"
             continue
         yield from ((place, _text(place, each, schema, given)) for place, of, each in own if of == branch)
+
+
+@cache
+def _schema_of(kind: type[BaseModel]) -> Schema:
+    """Return the JSON schema of a section."""
+    return kind.model_json_schema()
 
 
 def accepted_at(schema: Schema, place: Place) -> str:

@@ -86,6 +86,8 @@ def load_settings(
                 text = f"stands in {files[section].path} too, which is not accepted; accepted: each section once"
                 faults.append(document.told((section,), text))
             files[section] = document
+    if not all(document.is_readable for document in documents):  # only then are all sections there
+        raise ConfigError(_lines(fault for document in documents for fault in document.faults))
     own = cast("dict[str, Any]", read_override(overrides or {}, (), odd))
     values = _laid_over({key: files[key].values[key] for key in files}, own)
     sources = Sources(documents[0], files, own)
@@ -159,7 +161,8 @@ def _checked(values: Mapping[str, Any], sources: Sources, further: Check | None)
 def _changes(settings: Settings) -> Iterator[Problem]:
     """Yield what methods change of other sections and may not."""
     for place, section, given, error in refused_changes(settings):
-        yield from (((*place, *inner), text) for inner, text in problems(error, section, given))
+        for inner, text in problems(error, section, given):
+            yield place if place[0] == "sweeps" else (*place, *inner), text  # there the key is the sweep's own name
 
 
 def _laid_over(values: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[str, Any]:

@@ -58,5 +58,5 @@ class Level(Section):
 
     friction: Annotated[tuple[FrictionTerm, ...], AfterValidator(distinct)]
     noise: Literal["none", "std", "variance"]
-    nominal_mass_ratio: Real = Field(ge=0.1, le=10)
+    nominal_mass_ratio: Real = Field(ge=0.3, le=3)
     base_state: Literal["true_state", "sensed"]

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, Field
+from pydantic import Field
 
 from mobnet.settings.base import (
     Count,
+    Distinct,
     Flag,
     LevelName,
     LimbName,
@@ -17,11 +18,9 @@ from mobnet.settings.base import (
     Positive,
     RowName,
     Section,
-    Some,
     Text,
     TrainingSetName,
     Whole,
-    distinct,
 )
 
 # one for each column; None where nothing is printed or readable
@@ -30,6 +29,7 @@ QUANTITIES = "recordings|duration|samples|falls|episodes|time standing|steps"  #
 Quantity = Annotated[str, Field(pattern=f"^({QUANTITIES})$")]
 
 
+ColumnName = Annotated[str, Field(pattern="^[A-Za-z0-9+ ]+$", max_length=50)]
 PlaceName = Annotated[str, Field(pattern="^[a-z0-9_.]+$", max_length=100)]
 
 
@@ -49,7 +49,7 @@ class PublishedTable(Section):
     printed: Text
     metric: Literal["rmse"] | None = None
     unit: Literal["N m"] | None = None
-    columns: Annotated[Some[Text], AfterValidator(distinct)]
+    columns: Distinct[ColumnName]
     robot: Flag = False
     floor: Floor | None = None
     labels: dict[LevelName, Text] = {}

@@ -61,6 +61,11 @@ class Document:
         elif not self.faults:
             self._refuse(1, (), "a list, a text or nothing is not accepted; accepted: a mapping of keys to values")
 
+    @property
+    def is_readable(self) -> bool:
+        """Whether the file holds YAML at all."""
+        return self._root is not None
+
     def line(self, place: Place) -> int:
         """Return the line of a place, or of what stands nearest above it."""
         node, line = self._root, 1
@@ -84,6 +89,7 @@ class Document:
 
     def _composed(self) -> Node | None:
         """Return the file's nodes; None if it has none."""
+        text = ""
         try:
             text = self.path.read_text(encoding="utf-8")
             return LIBRARY.compose(text, LIBRARY.CSafeLoader)
@@ -93,10 +99,10 @@ class Document:
         except UnicodeDecodeError as error:
             self.faults.append(f"{self.path}: byte {error.start} is not UTF-8; accepted: a YAML file in UTF-8")
         except (yaml.YAMLError, RecursionError) as error:
-            mark = getattr(error, "problem_mark", None)
-            what = " ".join(str(getattr(error, "problem", None) or error).split())
-            where = f":{mark.line + 1}" if mark else ""
-            self.faults.append(f"{self.path}{where}: not YAML, {what}; accepted: one YAML mapping")
+            mark, place = getattr(error, "problem_mark", None), getattr(error, "position", 0)
+            what = getattr(error, "problem", None) or getattr(error, "reason", None) or error
+            line = mark.line + 1 if mark else text.count("\n", 0, place) + 1
+            self._refuse(line, (), f"not YAML, {' '.join(str(what).split())}; accepted: one YAML mapping")
         return None
 
     def _refuse(self, line: int, place: Place, text: str) -> None:
@@ -153,7 +159,7 @@ class Document:
 
     def _scalar(self, node: Node, place: Place) -> Any:
         """Return the value of a scalar."""
-        value, fault = read_scalar(node.tag, node.value, plain=node.style is None, nulls=self._nulls)
+        value, fault = read_scalar(node.tag, node.value, plain=not node.style, nulls=self._nulls)
         if fault:
             self._refuse(_line(node), place, fault)
         return value

@@ -1,0 +1,248 @@
+"""Values that a type accepts and that mean nothing: ranges, rates, names and lists that do not fit each other."""
+
+import re
+import resource
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mobnet.settings.load import CONFIGS, load_settings
+
+from .mutations import FILES, LONGEST_S, VALUES, Load, dumped, refusal
+
+ROOT = Path(__file__).parents[2]
+PARTS = {section: name for name, values in VALUES.items() for section in values if FILES[name].parent == CONFIGS}
+OWN = ("robot", "published", "claims")  # files of one section
+MEANINGLESS: list[tuple[str, Any, str]] = [
+    # rates, plant and levels
+    ("rates.plant_hz", 2001.0, "a whole multiple of data_hz"),
+    ("rates.plant_hz", 500.0, "a whole multiple"),
+    ("rates.data_hz", 1500.0, "a whole multiple"),
+    ("rates.data_hz", 1.0e9, "a number from 50"),
+    ("observer.gain_hz", 600.0, "at most half of data_hz"),
+    ("plant.gravity_m_s2", -9.81, "a number from 1"),
+    ("plant.gravity_m_s2", 9810.0, "to 30"),
+    ("plant.contact_time_constant_s", 0.0005, "at least two steps"),
+    ("plant.solver_iterations", 8.0, "a whole number"),
+    ("levels.all_uncertainty.friction", ["load"] * 2, "each value o"),
+    ("levels.ideal.nominal_mass_ratio", 900.0, "to 3"),
+    ("plant.noise_std.joint_velocity_rad_s", 2.0, "to 1"),
+    # how walks are recorded
+    ("recording.clearance_hz", 60.0, "data_hz, 1000.0, divided by a whole number"),
+    ("recording.chunk_s", 0.0015, "a whole number of samples"),
+    ("recording.chunk_s", 100.0, "to 10"),
+    ("recording.episode_s", 0.5, "below episode_s"),
+    ("recording.fall_height_m", 0.95, "below walking.pelvis"),
+    ("recording.episode_steps", 100, "the steps of an episode"),
+    ("recording.settle_s", 2000.0, "to 60"),
+    # the walking controller
+    ("walking.foot_spacing_m", 0.5, "within foothold_y_m"),
+    ("walking.pelvis_height_m", 1.2, "of stretched legs"),
+    ("walking.step_min_s", 0.7, "at most 0.6"),
+    ("walking.swing_apex", 0.9, "at most 0.8"),
+    ("walking.sole_x_m", [0.15, -0.09], "the lower one first"),
+    ("walking.sole_x_m.1", 0.25, "the robot's sole"),
+    ("walking.sole_y_m", 0.2, "half the robot's sole"),
+    ("walking.leg_stiffness_nm_rad", [2000.0] * 5, "6, one for"),
+    ("walking.joint_speed_max_rad_s", 40.0, "velocity limit"),
+    ("walking.foothold_y_m.0", 0.1, "width of the robot's"),
+    ("walking.touch_force_n", 900.0, "half the weight"),
+    ("walking.dcm_gain", 2500.0, "to 20"),
+    # terrains and commands
+    ("terrain.checks.bevel_m", 0.2, "below half of cell_m"),
+    ("terrain.plates.gap_m", 1.7, "a plate of 0.9 m"),
+    ("terrain.plates.period_m", 1.0, "its square above"),
+    ("terrain.checks.height_m", 0.05, "lowest foot_height_m"),
+    ("terrain.slope.angle_deg", 60.0, "to 30"),
+    ("commands.step_x_m", [0.05, 0.2], "a range that contains 0"),
+    ("commands.step_x_m.1", 0.6, "where a foot may stand"),
+    ("commands.duration_s", [0.9, 0.6], "numbers that rise"),
+    ("commands.random.kinds.forward", 0.5, "the sum 1"),
+    ("commands.random.hold_steps", [12, 3], "the lower one first"),
+    ("scenarios.forward_walk.commands.step_x_m", 0.3, "-0.15 to 0.2"),
+    ("commands.turn_deg.1", 2000.0, "to 90"),
+    ("scenarios.walk_test.narrowed.duration_s", [1.2], "0.6 to 0.9"),
+    # random torques and motions
+    ("random_torque.arms_nm", [3.0] * 7, "8, one for each joint of LA"),
+    ("random_torque.neck_nm", 20.0, "at most 10.0"),
+    ("random_torque.period_s", [0.5, 0.1], "the lower one first"),
+    ("random_torque.legs_waist_nm", 400.0, "at most 166"),
+    ("motions.random_motion.waist_rad", [[-0.1, 0.1]] * 2, "3, one for each joint of W"),
+    ("motions.random_motion.arm_rad.0", [-3.0, 0.9], "within -2.09 to 1.54"),
+    ("motions.random_motion.gain", 0.0, "above"),
+    ("motions.random_motion.arm_rad.0", [0.5, 0.9], "its posture 0.3 inside"),
+    ("motions.random_motion.band_hz.1", 30.0, "to 20"),
+    ("motions.random_motion.clearance_least_m", 0.1, "at most clear"),
+    ("motions.random_motion.knot_hz", 5000.0, "to 1000"),
+    ("motions.random_motion.leg_poses_rad.0.3", 12.0, "range of LL4"),
+    # pushes and scenarios
+    ("pushes.torso.share", [0.3, 0.7], "`during` a swing or a support only"),
+    ("pushes.left_foot.share", [0.3, 70.0], "to 1"),
+    ("pushes.hip_pitch.at_s", [5.0, 5.05], "the end of the push before"),
+    ("pushes.hip_pitch.at_s.5", 65.0, "at most 59.9"),
+    ("pushes.torso.at_s", [1.0], "`pause_s` or `at_s`"),
+    ("pushes.torso.force_n", [60.0, 10.0], "the lower one first"),
+    ("pushes.left_hand_10.force_n", [-10.0, -10.0], "from 0"),
+    ("pushes.hip_pitch.direction", "any", "`joint` and `torq"),
+    ("scenarios.stand.pushes", ["left_foot"], "where nobody walks"),
+    ("scenarios.hand_load_10.terrain", ["flat"], "the same"),
+    ("scenarios.random_walk.draws", "random_walk_plain", "scenario: "),
+    ("scenarios.forward_walk.narrowed", {"duration_s": [0.7]}, "random` only"),
+    ("scenarios.random_walk.terrain", ["flat", "flat"], "each value once"),
+    # sets, scales and sizes
+    ("training_sets.walk_plain.scenario", "random_walk", "what set walk does not record"),
+    ("training_sets.walk.sizes.smoke.shards", 1_000_000_000, "to 500"),
+    ("scales.default.test.shards", 500, "jobs"),
+    ("scales.default.test.shard_s", 10.0005, "a whole number of samples"),
+    ("scales.default.test.shard_s", 10.0, "at most"),
+    ("scales.smoke.figure_start_s", 9.0, "gait cycles before the end"),
+    ("scales.smoke.batch_size", 4000, "the horizons"),
+    ("scales.smoke.stream_s", 0.01, "from 0.05"),
+    ("scales.smoke.stream_s", 60.0, "shard_s"),
+    ("scales.default.experiments.kinds.epoch_samples", 100, "a batch"),
+    ("scales.paper.experiments.sweep.seeds", [1, 1], "each value once"),
+    ("scales.default.experiments.left_leg.epochs", 18_000, "to 1000"),
+    # networks, learning, methods and sweeps
+    ("networks.LL.hidden", 150.0, "a whole number"),
+    ("networks.LL.window_steps", 50, "hidden of a cell GRU"),
+    ("networks.LL.horizon_steps", 100_000, "to 10000"),
+    ("methods.TCN.network.dilations", [], "a list of 1 or more|dilations"),
+    ("methods.TCN.network.dilations", [2, 4, 80], "below window_steps"),
+    ("methods.TCN.network.window_steps", 500, "at most horizon_steps"),
+    ("methods.TCN.network.kernel_steps", 300, "kernel_steps: 300"),
+    ("methods.GRU-spectral.network.spectral", False, "input_gain"),
+    ("learning.optimizer_betas", [0.999, 0.9], "the lower one first"),
+    ("learning.optimizer_betas", [0.9, 1.0], "below 1"),
+    ("learning.calibration_levels", [0.95, 0.9, 0.68], "numbers that rise"),
+    ("learning.calibration_share", 0.7, "one of"),
+    ("learning.validation_share", 0.9, "to 0.5"),
+    ("learning.rate_first", 5.0, "to 1"),
+    ("methods.MOB-Net.limbs", ["LL", "WB"], "without joints of LL"),
+    ("methods.MOB-Net.target", "external", "uncertainty"),
+    ("methods.FTS-e2e.target", "uncertainty", "external"),
+    ("methods.MOB.network", {"hidden": 3}, "with `limbs`"),
+    ("methods.MOB-fric.options.terms", ["coulomb"] * 2, "each value once"),
+    ("methods.MOB-fric-BPF.of", "MOB-fric-BPF", "method that runs on its own"),
+    ("methods.MOB-fric-BPF.options.band_hz", [2.0, 600.0], "below half of data_hz"),
+    ("methods.mob", {"kind": "residual"}, "capitals"),
+    ("methods.MOB-Net-hidden-44", {"kind": "residual"}, "sweep hidden does not give"),
+    ("methods.a/b", {"kind": "residual"}, "key 'a/b'"),
+    ("levels.all_*", VALUES["plant"]["levels"]["ideal"], "key 'all_"),
+    ("networks.LL.hidden", 151, "values with 151, that of Table 1"),
+    ("sweeps.hidden.limb", "RL", "LL"),
+    ("sweeps.data_parts.section", "network", "sweeps.data_parts: key: 'data_parts'"),
+    # what tables, figures and claims show
+    ("tests.walk_test.all_uncertainty", ["MOB", "MOB"], "each value once"),
+    ("evaluation.figure_07.end_s", 70.0, "at most 60"),
+    ("evaluation.figure_05.start_s", 58.0, "at most"),
+    ("evaluation.figure_07.end_s", 8.01, "ten drawn samples"),
+    ("evaluation.figure_06.joint", "LL4", "joint pushed in hip_pitch_step"),
+    ("evaluation.figure_08.methods", ["MOB-Net", "MOB"], "one method"),
+    ("evaluation.figure_08.limb", "LA", "leg: 'LA'"),
+    ("evaluation.figure_17.limb", "RL", "that trains RL"),
+    ("evaluation.table_01.method", "MOB", "a row of Table 1"),
+    ("evaluation.figure_20.samples", "hidden", "section learning"),
+    ("evaluation.tables.table_05.header", ["Level", "Test"], "2, one for each text of header"),
+    ("evaluation.tables.table_05.columns.1.name", "mean", "as in section evaluation"),
+    ("evaluation.tables.table_06.parts", ["V9"], "columns in their order"),
+    ("evaluation.tables.table_06.columns.6.joints", ["V1", "V4"], "one unit"),
+    ("evaluation.tables.table_11.columns.3.metrics", ["rmse_push_5"], "rmse_push_4"),
+    ("evaluation.coverage.tests.2.pushed", "RL3", "joint pushed in hip_pitch_step"),
+    ("evaluation.coverage.range", [0.99, 0.01], "the lower one"),
+    ("evaluation.calibration.methods", ["MOB"], "method with networks"),
+    ("evaluation.methods.0.columns.LL", ["LL9"], "column of LL"),
+    ("evaluation.figure_18.methods", ["FTS-e2e"], "method of test motion_test"),
+    ("evaluation.statistics.confidence", 0.05, "from 0.5"),
+    ("evaluation.windows.walk_test", {"before_s": 0.0, "after_s": 0.0}, "whose scenario has pushes"),
+    ("claims.mob-exact.cells.0.2", "LL9", "limb or joint: 'LL9'"),
+    ("claims.mob-exact.at.scenario", "forward_wolk", "at.scenario: test"),
+    ("claims.step-mob.at.metric", "rmse_pusht", "metric"),
+    ("claims.gru-validation.at.metric", "validation los", "metric"),
+    ("claims.mob-exact.quantity", "values", "'value', 'ratio'"),
+    ("claims.mob-exact.unit", "N", "'N m'"),
+    ("claims.mob-exact.reproduced", [0.5, 0.1], "low <= high"),
+    ("claims.mob-exact.reproduced", [None, 0.005], "the paper's number"),
+    ("claims.mob-exact.direction", [None, 0.01], "around reproduced"),
+    ("claims.mob-net-cut.direction", [0.5, 2.0], "'cut' can be"),
+    ("claims.swing-best.cells.1", "MOBB", "method: 'MOBB'"),
+    ("claims.walk-mob.at.level", "ideal", "level of test walk_test"),
+    ("claims.gru-validation.cells.1", "MOB", "method of Figure 17 or 20"),
+    ("claims.mob-exact.cells", [{"method": "MOB"}], "all of them"),
+    ("published.tables.table_05.numbers.all_uncertainty.MOB.2", 186.7, "the mean of"),
+    ("published.tables.table_05.columns.2", "LL33", "as in section evaluation"),
+    ("published.tables.figure_06.columns", ["LL4"], "as in section"),
+    ("published.tables.table_08.columns.3", "RA9", "joint: 'RA9'"),
+    ("published.tables.table_05.floor.method", "MOB-fric", "row"),
+    ("published.tables.table_07.numbers.rmse_mm", {"MOB": [1.0] * 7}, "place that is shown"),
+    ("published.data.sets.walk.samples", 3.6e3, "3.6e.06"),
+    ("published.table_01.rows.LL.parameters", 83_713, "83712, those of GRU"),
+    ("published.uncertainty.std.W", [1.0], "3, one for each"),
+    ("published.kinds.order.MLP", 4, "1 to 5, each once"),
+    ("published.data.sets.walk.durations", 60.0, "key 'durations'"),
+    # the robot, beside tests/settings/test_robot.py
+    ("robot.bodies.9.com", [-0.04801, 0.2, 2.0e-05], "mirrored in y"),
+    ("robot.joints.3.range", [180.0, 360.0], "a number from -12.6"),
+    ("robot.joints.0.axis", [0.0, 0.0, -1.0], "of a leg that walks"),
+    ("robot.posture.LA.angle_rad.0", 2.0, "range of LA1"),
+    ("robot.leg.link_length", 0.4, "between the bodies"),
+    ("robot.sole.height", -0.2, "the box's lower face"),
+    ("robot.feet.left.limb", "RL", "at the end of limb"),
+    ("robot.hands.right", "L_Wrist2_Link", "R_Wrist2_Link"),
+    ("robot.totals.height_m", 1.0, "between all joints"),
+    ("robot.groups.W", ["W2", "W1", "W3"], "in the order of"),
+    ("robot.bodies.16.inertia", [60.2, 75.6, 75.6, 0.0, 0.0, 0.0], "radius of gyration"),
+    ("robot.networks.W.Q", ["V"], "limb with motors"),
+    ("robot.joints.3.torque_limit", 289_000.0, "to 5000"),
+    ("robot.shapes.2.segment", [0.0] * 6, "two points that differ"),
+]
+
+
+@pytest.mark.parametrize(("key", "value", "words"), MEANINGLESS, ids=[key for key, *_ in MEANINGLESS])
+def test_what_means_nothing_is_refused_with_its_place(load_with: Load, key: str, value: Any, words: str) -> None:
+    section, *rest = (int(part) if part.isdigit() else part for part in key.split("."))
+    file, place = (section, rest) if section in OWN else (PARTS[section], [section, *rest])
+    assert re.search(words, "\n".join(refusal(load_with, file, dumped(file, tuple(place), value))))
+
+
+@pytest.mark.parametrize(
+    ("words", "line"),
+    [
+        (["scale=smok"], "--config: scale: scale: 'smok' is not accepted; accepted: smoke, "),
+        (["observer={gain_hz: 600}"], "--config: observer.gain_hz: 600.0 is not accepted; accepted: at most half"),
+        (["observer={gain: 10}"], "--config: observer.gain: key: 'gain' is not accepted; accepted: gain_hz"),
+    ],
+)  # fmt: skip
+def test_a_run_refuses_within_seconds_in_one_line(words: list[str], line: str) -> None:
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    run = [sys.executable, "-m", "snakemake", "-n", "--config", *words]
+    done = subprocess.run(run, cwd=ROOT, capture_output=True, text=True, check=False)
+    told = [text for text in done.stderr.splitlines() if "accepted" in text]
+    assert done.returncode == 1
+    assert len(told) == 1
+    assert told[0].startswith(line)
+    assert "Traceback" not in done.stderr
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)  # other tests may slow the clock down
+    assert after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime < LONGEST_S
+
+
+def test_a_configuration_file_for_snakemake_is_refused(tmp_path: Path) -> None:
+    """Snakemake's own reader runs code; `./reproduce` replaces it."""
+    code = "__use_yte__: true\nx: ?open('ran', 'w')\n"
+    path = tmp_path / "more.yaml"
+    for text, message in (
+        ("scale: smoke\n", "--configfile: "),
+        (code, f"{path}: "),
+    ):
+        path.write_text(text)
+        run = [sys.executable, "-m", "mobnet.core.run", "-n", "--configfile", str(path)]
+        done = subprocess.run(run, cwd=ROOT, capture_output=True, text=True, check=False)
+        assert done.returncode == 1
+        assert any(line.startswith(message) and "accepted: " in line for line in done.stderr.splitlines())
+    assert not (ROOT / "ran").exists()
+
+
+def test_settings_of_what_is_accepted_come_back() -> None:
+    assert load_settings(overrides={"observer": {"gain_hz": "50"}}).observer.gain_hz == 50.0
