@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from mobnet.core.errors import not_accepted
 from mobnet.core.joints import JointLayout, right_of, with_image
@@ -18,7 +19,7 @@ class Results:
 
     settings: Settings
 
-    @property
+    @cached_property
     def layout(self) -> JointLayout:
         """Joints and limbs of the robot."""
         return self.settings.layout
