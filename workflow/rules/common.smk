@@ -14,16 +14,25 @@ from mobnet.plan.disk import check_places, check_space
 from mobnet.plan.places import check_scale
 from mobnet.plan.plan import make_plan
 from mobnet.plan.products import shown
+from mobnet.plan.texts import text_problems
 from mobnet.settings.load import load_settings, refuse_configfiles
 
 ROOT = Path(workflow.basedir)
 quieten(ROOT)
 shell.prefix(job_prefix(ROOT))
+
+
+def what_other_packages_know(settings):
+    """Yield what kinds of methods and the paper's text do not accept."""
+    yield from method_problems(settings)
+    yield from text_problems(settings, ROOT / "paper" / "main.tex")
+
+
 sys.executable = shlex.quote(sys.executable)  # snakemake writes it into shell commands as it is
 
 try:
     refuse_configfiles(workflow.overwrite_configfiles)
-    SETTINGS = load_settings(ROOT / "configs", config, method_problems)
+    SETTINGS = load_settings(ROOT / "configs", config, what_other_packages_know)
     PLAN = make_plan(SETTINGS, with_pdf=not missing_packages())
     check_scale(sys.argv[1:], SETTINGS.scale)
     check_places(PLAN)

@@ -73,7 +73,7 @@ class Walking(Section):
     base_time_constant_s: Real = Field(ge=0.01, le=20)
     load_gain: Real = Field(ge=0, le=20)
     load_filter: Real = Field(ge=0.001, le=1)
-    stumble_m: Real = Field(ge=0.005, le=1)
+    stumble_m: Real = Field(ge=0.005, le=0.5)
     stumble_sunk_m: Real = Field(ge=0.002, le=0.5)
     slope_rate_hz: Real = Field(ge=0, le=50)
     slope_max: Real = Field(ge=0, le=1)
