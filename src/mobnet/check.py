@@ -18,7 +18,7 @@ from mobnet.core.files import METRICS, RUN, read_json, read_text
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import ArrayNote, read_array_note, read_note
 from mobnet.core.recording import Sensed, Truth
-from mobnet.core.store import ARRAY, NOTE, check_rate, read_pieces
+from mobnet.core.store import ARRAY, NOTE, check_rate, file_of, read_pieces
 from mobnet.estimation.kinds.friction import FrictionNote, read_friction
 from mobnet.estimation.methods import method_problems
 from mobnet.evaluation.measure.trainings import TrainingNote, read_training, read_training_note
@@ -94,14 +94,15 @@ def check(path: Path, against: Against) -> str:
 
 def _array(stem: Path, against: Against) -> str:
     """Check a recording, residual, estimate or motion, whose stem is given."""
-    note = read_array_note(stem.with_suffix(NOTE))
+    noted = file_of(stem, NOTE)
+    note = read_array_note(noted)
     names = [column["name"] for column in note["columns"]]
     found = kind_of(names, against.layout)
     if found is None:
-        raise UnknownKindError(stem.with_suffix(NOTE), "columns", names)
+        raise UnknownKindError(noted, "columns", names)
     kind, needed = found
     missing = [name for name in needed if name not in names]
-    refuse(stem.with_suffix(NOTE), [f"columns: {name!r} is missing; accepted: all of a {kind}" for name in missing])
+    refuse(noted, [f"columns: {name!r} is missing; accepted: all of a {kind}" for name in missing])
     if kind != "motion":
         check_rate(stem, against.rate_hz)
     told = time.monotonic()

@@ -103,7 +103,7 @@ def scaled(names: list[str], factor: float) -> Callable[[Any], Any]:
 
 
 def moved(names: list[str]) -> Callable[[Any], Any]:
-    """Return a change of a table that moves numbers from each column to the one before it, from the first to the last."""
+    """Return a change of a table that moves numbers from each column to the one before it, the first to the last."""
 
     def change(table: Any) -> Any:
         for name, column in zip(names, [table.column(name) for name in (*names[1:], names[0])], strict=True):

@@ -244,6 +244,13 @@ def test_a_robots_log_may_lack_truth_and_have_more_columns_in_any_order(copied: 
     assert check(copied / "log.json", AGAINST) == "recording, 1200 rows at 1000 Hz, 1.2 s in 1 segment, 156 columns"
 
 
+def test_a_name_may_have_dots(copied: Path, layout: JointLayout) -> None:
+    for ending in (".json", ".parquet"):
+        (copied / f"recording{ending}").rename(copied / f"log.v1.5{ending}")
+    assert len(read_sensed(copied / "log.v1.5", layout).sensed) == ROWS
+    assert check(copied / "log.v1.5.parquet", AGAINST).startswith("recording, 1200 rows")
+
+
 @pytest.mark.parametrize("kind", ["recording", "residual", "estimate"])
 def test_a_sound_array_is_accepted(kind: str, copied: Path) -> None:
     assert check(copied / f"{kind}.parquet", AGAINST).startswith(f"{kind}, 1200 rows at 1000 Hz, 1.2 s in 2 segments")

@@ -74,4 +74,4 @@ def _told(lines: list[str]) -> DataError:
     """Return an error of some lines, of which only the first are told."""
     if len(lines) > MOST:
         lines = [*lines[:MOST], f"{lines[0].partition(': ')[0]}: {len(lines) - MOST} further faults"]
-    return DataError("\n".join(lines))
+    return DataError("\n".join(" ".join(line.split()) for line in lines))  # a name in a file may hold a line break

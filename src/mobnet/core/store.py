@@ -39,6 +39,11 @@ CODING = {
 }
 
 
+def file_of(stem: Path, ending: str) -> Path:
+    """Return one of the two files of an array; a stem may have dots."""
+    return stem.with_name(stem.name + ending)
+
+
 class ArrayWriter:
     """Writes an array row by row; `array_writer` makes one."""
 
@@ -81,7 +86,7 @@ class ArrayWriter:
         described = [dict(zip(("name", "unit", "frame"), column, strict=True)) for column in self._columns]
         spans = [list(span) for span in (segments or [(0, self.rows)])]
         note = {"rows": self.rows, "segments": spans, **meta, "columns": described}
-        check_array_note(self._stem.with_suffix(NOTE), note)
+        check_array_note(file_of(self._stem, NOTE), note)
         self._note = note
 
     def finish(self) -> dict[str, Any]:
@@ -115,13 +120,13 @@ def array_writer(stem: Path, columns: Sequence[Column]) -> Iterator[ArrayWriter]
         DataError: the block ended without `close`.
     """
     described = [pa.field(n, pa.float32(), nullable=False, metadata={"unit": u, "frame": f}) for n, u, f in columns]
-    with atomic_path(stem.with_suffix(ARRAY)) as temporary:
+    with atomic_path(file_of(stem, ARRAY)) as temporary:
         with temporary.open("wb") as raw, pq.ParquetWriter(raw, pa.schema(described), **CODING) as file:
             writer = ArrayWriter(stem, columns, file, raw.fileno())
             yield writer
             note = writer.finish()
-        stem.with_suffix(NOTE).unlink(missing_ok=True)
-    write_json(stem.with_suffix(NOTE), note)
+        file_of(stem, NOTE).unlink(missing_ok=True)
+    write_json(file_of(stem, NOTE), note)
 
 
 def write_array(
@@ -153,7 +158,7 @@ def read_array(
         DataError: a file is missing, damaged or not accepted, lacks a column, or the two do not agree; all faults of a
             kind are told, one line each.
     """
-    note = read_array_note(stem.with_suffix(NOTE))
+    note = read_array_note(file_of(stem, NOTE))
     wanted = [column["name"] for column in note["columns"]] if names is None else list(names)
     array = np.empty((0, 0), dtype=np.float32)
     for first, columns in read_pieces(stem, note, wanted, layout):
@@ -175,7 +180,7 @@ def read_pieces(
     Raises:
         DataError: as `read_array`.
     """
-    path = stem.with_suffix(ARRAY)
+    path = file_of(stem, ARRAY)
     whole = sum(end - start for start, end in note["segments"]) == note["rows"]
     values, motion = Values(names, layout, whole), Motion(names, note["segments"], note["rate_hz"])
     try:
@@ -250,12 +255,12 @@ def spans_and_rate(meta: Mapping[str, Any]) -> tuple[tuple[tuple[int, int], ...]
 
 def check_pair(recording: Path, residual: Path) -> None:
     """Raise a DataError that says in what a residual is not of its recording, one line for each difference."""
-    note, other = (read_array_note(stem.with_suffix(NOTE)) for stem in (residual, recording))
+    note, other = (read_array_note(file_of(stem, NOTE)) for stem in (residual, recording))
     refuse(f"{residual}{NOTE}", note_differences(note, other, f"{recording}{NOTE}, its recording"))
 
 
 def check_rate(stem: Path, rate_hz: float | None) -> None:
     """Raise a DataError unless an array is sampled at a rate [Hz], that of the configuration, if one is given."""
-    found = read_array_note(stem.with_suffix(NOTE))["rate_hz"]
+    found = read_array_note(file_of(stem, NOTE))["rate_hz"]
     if rate_hz is not None and found != rate_hz:
         raise DataError(f"{stem}{NOTE}: {not_accepted('rate_hz', found, [f'{rate_hz:g}, `rates.data_hz`'])}")

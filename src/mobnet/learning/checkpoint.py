@@ -18,7 +18,8 @@ from safetensors.torch import save as to_bytes
 from torch import Tensor, nn
 
 from mobnet.core.columns import EPOCHS, Epoch
-from mobnet.core.files import atomic_path, write_text
+from mobnet.core.errors import DataError
+from mobnet.core.files import atomic_path, parse_json, write_text
 
 CHECKPOINT = "checkpoint.safetensors"
 
@@ -67,9 +68,9 @@ def resume(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.op
         return Progress()
     try:
         with safe_open(path, framework="pt") as file:
-            note = json.loads((file.metadata() or {}).get("note", "{}"))
+            note = parse_json((file.metadata() or {}).get("note", "{}"), str(path))
             tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118, not a dict
-    except SafetensorError as error:
+    except (SafetensorError, OSError, ValueError, DataError) as error:
         log.warning("%s: damaged (%s); starting afresh", path, error)
         return Progress()
     if note.get("fingerprint") != fingerprint:

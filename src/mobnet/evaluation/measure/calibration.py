@@ -18,7 +18,7 @@ from mobnet.core.errors import DataError
 from mobnet.core.files import RUN
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
-from mobnet.core.store import NOTE
+from mobnet.core.store import NOTE, file_of
 from mobnet.evaluation.measure.estimates import read_pair, read_std
 from mobnet.evaluation.measure.metrics import Spans, parts
 from mobnet.evaluation.measure.trainings import read_training_note
@@ -136,7 +136,7 @@ def run_cells(
     std = read_std(run, pair.joints)
     if std is None:
         raise DataError(f"{run.estimate}.json: columns {STD}.<joint> are missing")
-    noted = read_array_note(run.estimate.with_suffix(NOTE)).get("std_scale", {})
+    noted = read_array_note(file_of(run.estimate, NOTE)).get("std_scale", {})
     factors = np.array([noted.get(joint, 1.0) for joint in pair.joints])
     arrays = pair.estimate.astype(np.float64) - pair.truth, std.astype(np.float64)
     error, scaled = (np.concatenate(parts(array, spans or pair.spans)) for array in arrays)

@@ -11,7 +11,7 @@ from mobnet.core.columns import EXTERNAL, EXTERNAL_LP, STD, named
 from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import note_differences, read_array_note
-from mobnet.core.store import NOTE, read_array, spans_and_rate
+from mobnet.core.store import NOTE, file_of, read_array, spans_and_rate
 from mobnet.evaluation.measure.metrics import Spans
 from mobnet.plan.runs import Run
 
@@ -48,7 +48,7 @@ def read_pair(run: Run, layout: JointLayout) -> Pair:
     Raises:
         DataError: a file is missing or damaged, a column is missing, or rows or segments differ.
     """
-    meta, residual_meta = (read_array_note(stem.with_suffix(NOTE)) for stem in (run.estimate, run.residual))
+    meta, residual_meta = (read_array_note(file_of(stem, NOTE)) for stem in (run.estimate, run.residual))
     refuse(f"{run.estimate}{NOTE}", note_differences(meta, residual_meta, f"{run.residual}{NOTE}"))
     held = [column["name"] for column in meta["columns"]]
     joints = tuple(joint for joint in layout.names if f"{EXTERNAL}.{joint}" in held)
@@ -65,6 +65,6 @@ def read_pair(run: Run, layout: JointLayout) -> Pair:
 
 def read_std(run: Run, joints: Sequence[str]) -> NDArray[np.float32] | None:
     """Return the standard deviations that a method predicts (T, n) [N m], V1..V3 [N]; None if it predicts none."""
-    held = {column["name"] for column in read_array_note(run.estimate.with_suffix(NOTE))["columns"]}
+    held = {column["name"] for column in read_array_note(file_of(run.estimate, NOTE))["columns"]}
     names = named(STD, joints)
     return read_array(run.estimate, names)[0] if held.issuperset(names) else None

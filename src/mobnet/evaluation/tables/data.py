@@ -11,7 +11,7 @@ from mobnet.control.parameters import DURATION
 from mobnet.core.columns import COMMAND, DATA, recording_columns
 from mobnet.core.errors import refuse_lines
 from mobnet.core.notes import read_array_note
-from mobnet.core.store import NOTE, read_array
+from mobnet.core.store import NOTE, file_of, read_array
 from mobnet.evaluation.measure.steps import CHOICES, KEYS, UNITS, read_steps
 from mobnet.evaluation.measure.upper_body import upper_body
 from mobnet.evaluation.number.number import Number
@@ -58,7 +58,7 @@ def data(
 
 def extent(stems: Sequence[Path], terrains: Sequence[str]) -> Iterator[Found]:
     """Yield length [min], samples, falls, episodes and the shares of the terrains [-] of recordings."""
-    notes = [read_array_note(stem.with_suffix(NOTE)) for stem in stems]
+    notes = [read_array_note(file_of(stem, NOTE)) for stem in stems]
     needed = ("falls", "terrains")
     refuse_lines(f"{stem}{NOTE}: {key}: key is missing; accepted: what the simulator writes"
                  for stem, note in zip(stems, notes, strict=True) for key in needed if key not in note)  # fmt: skip
