@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 import torch
 
+from mobnet.check import Against, check
 from mobnet.core.errors import DataError, TrainingError
 from mobnet.core.files import METRICS, RUN, WEIGHTS
 from mobnet.learning.checkpoint import CHECKPOINT
@@ -49,6 +50,17 @@ def test_it_writes_weights_metrics_and_a_note(small: Any, tmp_path: Path) -> Non
     assert (note["settings"]["network"]["cell"], note["settings"]["epochs"]) == ("GRU", 5)
     assert note["precision"] == precision_name(precision_of("auto", torch.device(note["device"])))
     assert load_network(out).joints == ("LL1", "LL2", "LL3", "LL4", "LL5", "LL6")
+
+
+@pytest.mark.parametrize(
+    ("method", "changes"),
+    [("MOB-Net", {}), ("MOB-Net", {"divergence_loss": -100.0, "may_diverge": True}), ("GRU-spectral", {}), ("TCN", {})],
+)
+def test_what_a_training_writes_is_accepted(method: str, changes: dict[str, Any], small: Any, tmp_path: Path) -> None:
+    training = small.training(method, "LL", epochs=1, **changes)
+    out = small.train(training, tmp_path)
+    for name in (WEIGHTS, METRICS, RUN):
+        assert check(out / name, Against())
 
 
 @pytest.mark.slow
