@@ -14,6 +14,7 @@ from pathlib import Path
 from mobnet.control.upper_body import UpperBody
 from mobnet.core.errors import ConfigError, DrawingError, MobnetError, not_accepted
 from mobnet.plan.jobs import walk_settings
+from mobnet.settings.checks.sections import accepted_names
 from mobnet.settings.load import CONFIGS, load_settings
 from mobnet.settings.settings import Settings
 from mobnet.simulation.clip import check_ending, save_clip
@@ -120,7 +121,12 @@ def _settings(options: argparse.Namespace) -> Settings:
         raise ConfigError(not_accepted("--level", options.level, settings.levels))
     if options.terrain is None:
         return settings
-    return load_settings(options.config, {"scenarios": {options.scenario: {"terrain": [options.terrain]}}})
+    accepted = accepted_names(settings)["terrain"]
+    if options.terrain not in accepted:
+        raise ConfigError(not_accepted("--terrain", options.terrain, accepted))
+    # not by an override, which is refused where a scenario draws as another one does
+    moved = settings.scenarios[options.scenario].model_copy(update={"terrain": (options.terrain,)})
+    return settings.model_copy(update={"scenarios": {**settings.scenarios, options.scenario: moved}})
 
 
 def _motion(settings: Settings, name: str, seed: int, seconds: float) -> UpperBody:
