@@ -138,7 +138,7 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("tests.walk_test.all_uncertainty", ["MOB", "MOB"], "each value once"),
     ("evaluation.figure_07.end_s", 70.0, "at most 60"),
     ("evaluation.figure_05.start_s", 58.0, "at most"),
-    ("evaluation.figure_07.end_s", 8.01, "ten drawn samples"),
+    ("evaluation.figure_07.end_s", 8.01, "10 drawn samples"),
     ("evaluation.figure_06.joint", "LL4", "joint pushed in hip_pitch_step"),
     ("evaluation.figure_08.methods", ["MOB-Net", "MOB"], "one method"),
     ("evaluation.figure_08.limb", "LA", "leg: 'LA'"),

@@ -76,18 +76,8 @@ def load_settings(
     Raises:
         ConfigError: a file, a key or a value is not accepted; one line for each of them.
     """
-    if not folder.is_dir():
-        raise ConfigError(f"{folder / 'config.yaml'}: file is missing; accepted: a folder with {', '.join(PARTS)}.yaml")
-    documents = [Document(folder / f"{part}.yaml") for part in PARTS]
-    files, faults, odd = dict[str, Document](), list[str](), list[Problem]()
-    for document in documents:
-        for section in document.values:
-            if section in files:
-                text = f"stands in {files[section].path} too, which is not accepted; accepted: each section once"
-                faults.append(document.told((section,), text))
-            files[section] = document
-    if not all(document.is_readable for document in documents):  # only then are all sections there
-        raise ConfigError(_lines(fault for document in documents for fault in document.faults))
+    documents, files, faults = _read(folder)
+    odd: list[Problem] = []
     own = cast("dict[str, Any]", read_override(overrides or {}, (), odd))
     values = _laid_over({key: files[key].values[key] for key in files}, own)
     sources = Sources(documents[0], files, own)
@@ -106,6 +96,23 @@ def load_settings(
     # the sections of those files now stand in them, and an override of their paths is none of their values
     inner = {key: value for key, value in own.items() if key not in NAMED_FILES}
     return _checked(values, Sources(documents[0], files, inner), further)
+
+
+def _read(folder: Path) -> tuple[list[Document], dict[str, Document], list[str]]:
+    """Return the files of a folder, the file of each section, and what stands in two of them."""
+    if not folder.is_dir():
+        raise ConfigError(f"{folder / 'config.yaml'}: file is missing; accepted: a folder with {', '.join(PARTS)}.yaml")
+    documents = [Document(folder / f"{part}.yaml") for part in PARTS]
+    files, faults = dict[str, Document](), list[str]()
+    for document in documents:
+        for section in document.values:
+            if section in files:
+                text = f"stands in {files[section].path} too, which is not accepted; accepted: each section once"
+                faults.append(document.told((section,), text))
+            files[section] = document
+    if not all(document.is_readable for document in documents):  # only then are all sections there
+        raise ConfigError(_lines(fault for document in documents for fault in document.faults))
+    return documents, files, faults
 
 
 def refuse_configfiles(paths: Sequence[Path]) -> None:

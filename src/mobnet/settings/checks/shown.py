@@ -17,6 +17,7 @@ from mobnet.settings.settings import Settings
 Problem = tuple[Place, str]
 Shown = tuple[Place, str, str, str]  # place, scenario, level, method
 ROOT: Place = ("evaluation",)
+LEAST_DRAWN = 10  # samples of a figure
 
 
 def shown_problems(settings: Settings) -> Iterator[Problem]:
@@ -32,7 +33,15 @@ def shown_problems(settings: Settings) -> Iterator[Problem]:
     for name, table in settings.evaluation.tables.items():
         for place, text in _table_problems(results, table):
             yield (*ROOT, "tables", name, *place), text
-    for check in (_figure_problems, _leg_problems, _trained_problems, _test_problems, _method_table_problems):
+    for check in (
+        _budget_problems,
+        _figure_problems,
+        _leg_problems,
+        _trained_problems,
+        _sweep_problems,
+        _test_problems,
+        _method_table_problems,
+    ):
         yield from check(results)
     yield from claim_problems(results)
     yield from printed_problems(settings)
@@ -109,31 +118,28 @@ def _table_problems(results: Results, table: ErrorTable) -> Iterator[Problem]:
                 yield (*place, "methods", k), text
 
 
+def _budget_problems(results: Results) -> Iterator[Problem]:
+    """Yield rows of the error budget that cannot be compared with the first one."""
+    budget, place = results.settings.evaluation.error_budget, (*ROOT, "error_budget")
+    for inner, text in _column_problems(results, budget.joints):
+        yield (*place, "joints", *inner), text
+    first = budget.tests[0]
+    for index, row in enumerate(budget.tests):
+        before = budget.tests[:index]
+        if any(row.level == other.level or row.label == other.label for other in before):
+            yield (*place, "tests", index), misfit(row.level, "a level and a label in one row only")
+        if (row.scenario, row.methods) != (first.scenario, first.methods):
+            yield (*place, "tests", index, "scenario"), misfit(row.scenario, "that of the first row")
+
+
 def _figure_problems(results: Results) -> Iterator[Problem]:
-    """Yield what single figures and tables cannot show."""
+    """Yield what single figures cannot show."""
     evaluation = results.settings.evaluation
-    for place, text in _column_problems(results, evaluation.error_budget.joints):
-        yield (*ROOT, "error_budget", "joints", *place), text
-    seen = set[tuple[str, ...]]()
-    for index, row in enumerate(evaluation.error_budget.tests):
-        if row.level in {level for level, *_ in seen} or row.label in {label for _, label in seen}:
-            yield (*ROOT, "error_budget", "tests", index), misfit(row.level, "a level and a label in one row only")
-        if (row.scenario, row.methods) != (
-            evaluation.error_budget.tests[0].scenario,
-            evaluation.error_budget.tests[0].methods,
-        ):
-            yield (
-                (*ROOT, "error_budget", "tests", index, "scenario"),
-                misfit(row.scenario, "that of the first row"),
-            )
-        seen.add((row.level, row.label))
-    figure = evaluation.figure_07
+    figure, against = evaluation.figure_07, evaluation.figure_10.against.methods
     drawn = (figure.end_s - figure.start_s) * results.settings.rates.data_hz / figure.every
-    if drawn < 10:
-        yield (
-            (*ROOT, "figure_07", "end_s"),
-            misfit(figure.end_s, f"ten drawn samples or more after {figure.start_s}"),
-        )
+    if drawn < LEAST_DRAWN:
+        text = misfit(figure.end_s, f"{LEAST_DRAWN} drawn samples or more after {figure.start_s}")
+        yield (*ROOT, "figure_07", "end_s"), text
     upper = [joint for limb in evaluation.figure_18.limbs for joint in results.joints(limb)]
     for name, joints, methods in (
         ("figure_05", (evaluation.figure_05.joint,), {m for row in evaluation.figure_05.panels.values() for m in row}),
@@ -141,7 +147,7 @@ def _figure_problems(results: Results) -> Iterator[Problem]:
         ("figure_07", figure.joints, figure.methods),
         ("figure_08", results.joints(evaluation.figure_08.limb), evaluation.figure_08.methods),
         ("figure_09", results.joints(evaluation.figure_09.limb), evaluation.figure_09.methods),
-        ("figure_10", (evaluation.figure_10.joint,), evaluation.figure_10.against.methods),
+        ("figure_10", (evaluation.figure_10.joint,), against),
         ("figure_18", upper, evaluation.figure_18.methods),
     ):
         for method in methods:
@@ -149,9 +155,9 @@ def _figure_problems(results: Results) -> Iterator[Problem]:
                 yield (*ROOT, name), text
     for title, test in evaluation.figure_10.tests.items():
         for k, method in enumerate(test.methods):
-            if method not in evaluation.figure_10.against.methods:
+            if method not in against:
                 place = (*ROOT, "figure_10", "tests", title, "methods", k)
-                yield place, not_accepted("method", method, evaluation.figure_10.against.methods)
+                yield place, not_accepted("method", method, against)
     if len(evaluation.figure_08.methods) != 1:
         yield (*ROOT, "figure_08", "methods"), misfit(list(evaluation.figure_08.methods), "one method")
 
@@ -188,7 +194,7 @@ def _leg_problems(results: Results) -> Iterator[Problem]:
 
 def _trained_problems(results: Results) -> Iterator[Problem]:
     """Yield methods and limbs that are not trained where networks are shown."""
-    settings, evaluation = results.settings, results.settings.evaluation
+    evaluation = results.settings.evaluation
     trained = results.trained(evaluation.figure_17.limb)
     for name, key in (("figure_17", "methods"), ("kinds", "variants")):
         for k, method in enumerate(getattr(getattr(evaluation, name), key)):
@@ -200,6 +206,11 @@ def _trained_problems(results: Results) -> Iterator[Problem]:
     for k, method in enumerate(evaluation.kinds.variants):
         if method in evaluation.figure_17.methods:
             yield (*ROOT, "kinds", "variants", k), misfit(method, "methods that Figure 17 does not show")
+
+
+def _sweep_problems(results: Results) -> Iterator[Problem]:
+    """Yield sweeps that Figure 20 cannot show, and networks that Table 1 lacks."""
+    settings, evaluation = results.settings, results.settings.evaluation
     figure = evaluation.figure_20
     for key, section in (("parameters", "network"), ("samples", "learning")):
         sweep = settings.sweeps[getattr(figure, key)]

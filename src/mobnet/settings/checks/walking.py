@@ -20,6 +20,7 @@ def walking_problems(settings: Settings) -> Iterator[Problem]:
     yield from _robot_problems(settings)
     if settings.robot.sole and settings.robot.leg and "left" in settings.robot.feet:
         yield from _body_problems(settings)
+        yield from _leg_problems(settings)
 
 
 def _robot_problems(settings: Settings) -> Iterator[Problem]:
@@ -106,9 +107,8 @@ def _controller_problems(settings: Settings) -> Iterator[Problem]:
 def _body_problems(settings: Settings) -> Iterator[Problem]:
     """Yield numbers of the controller that do not fit legs, soles and motors of the robot."""
     walking, robot = settings.walking, settings.robot
-    sole, leg = robot.sole, robot.leg
+    sole = robot.sole
     assert sole is not None
-    assert leg is not None
     joints = robot.groups[robot.feet["left"].limb]
     for name in ("leg_stiffness_nm_rad", "leg_damping_nms_rad"):
         values = getattr(walking, name)
@@ -127,6 +127,15 @@ def _body_problems(settings: Settings) -> Iterator[Problem]:
     if walking.foothold_y_m[0] < 2 * half[1]:
         text = misfit(walking.foothold_y_m[0], f"at least {2 * half[1]}, the width of the robot's sole")
         yield ("walking", "foothold_y_m", 0), text
+
+
+def _leg_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield numbers of the controller that legs, weight or motors of the robot do not allow."""
+    walking, robot = settings.walking, settings.robot
+    sole, leg = robot.sole, robot.leg
+    assert sole is not None
+    assert leg is not None
+    joints = robot.groups[robot.feet["left"].limb]
     longest = 2 * leg.link_length - sole.height - leg.hip_pos[2]
     if walking.pelvis_height_m >= longest:
         yield (
