@@ -1,7 +1,5 @@
 """The workflow can be planned at every scale, and a bad configuration stops it with one line."""
 
-from pathlib import Path
-
 import pytest
 
 from .conftest import Snakemake
@@ -32,16 +30,15 @@ def test_every_rule_says_what_it_needs_of_the_machine(snakemake: Snakemake) -> N
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ("observer: {gain: 100.0}", "configs/methods.yaml: observer: key: 'gain' is not accepted; accepted: gain_hz"),
-        ("scales: {smoke: {test: {shard_s: -1.0}}}", "configs/scales.yaml: scales.smoke.test.shard_s: -1.0 is not"),
-        ("methods: {MOB-Net: {limbs: [LL, tail]}}", "methods.yaml: methods.MOB-Net.limbs: network: 'tail' is not"),
-        ("methods: {MOB: {kind: magic}}", "'magic' is not accepted; accepted: "),
-        ("robot: configs/robots/none.yaml", "configs/robots/none.yaml: file is missing"),
+        ("observer={gain: 100.0}", "--config: observer.gain: key: 'gain' is not accepted; accepted: gain_hz"),
+        ("scales={smoke: {test: {shard_s: -1.0}}}", "--config: scales.smoke.test.shard_s: -1.0 is not accepted"),
+        ("methods={MOB-Net: {limbs: [LL, tail]}}", "--config: methods.MOB-Net.limbs.1: network: 'tail' is not"),
+        ("methods={MOB: {kind: magic}}", "'magic' is not accepted; accepted: "),
+        ("robot=configs/robots/none.yaml", "--config: robot: 'configs/robots/none.yaml' is not accepted"),
     ],
 )
-def test_bad_configuration_stops_with_one_line(tmp_path: Path, snakemake: Snakemake, given: str, message: str) -> None:
-    (tmp_path / "bad.yaml").write_text(given)
-    done = snakemake("-n", "--configfile", str(tmp_path / "bad.yaml"))
+def test_bad_configuration_stops_with_one_line(snakemake: Snakemake, given: str, message: str) -> None:
+    done = snakemake("-n", "--config", given)
     assert done.returncode != 0
     assert len([line for line in (done.stdout + done.stderr).splitlines() if message in line]) == 1
     assert "Traceback" not in done.stderr
