@@ -164,7 +164,7 @@ NOTHING: frozenset[str] = frozenset()
 UNTOUCHED = frozenset({"table_01", "deviations"})
 DECORATED, DEFINED = "\n@compiled\n", "\n\n\ndef "
 EDITS = {
-    "wording of an error": Edit("src/mobnet/core/store.py", "file is missing", "there is no file", NOTHING),
+    "wording of an error": Edit("src/mobnet/core/store.py", "}: file is missing", "}: there is no file", NOTHING),
     "wording of a log": Edit("src/mobnet/learning/train.py", "done after epoch", "ended after epoch", NOTHING),
     "comment": Edit(f"{SIMULATION}/friction.py", DECORATED, f"\n# a comment{DECORATED}", NOTHING),
     "check of a name": Edit("src/mobnet/settings/names.py", "if name not in", "if name and name not in", NOTHING),
