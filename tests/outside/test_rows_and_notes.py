@@ -182,6 +182,12 @@ def test_sound_scores_are_accepted(scores: Path) -> None:
     assert check(scores, AGAINST) == "scores, 4 rows"
 
 
+def test_a_limb_with_forces_and_torques_has_two_relative_means(scores: Path) -> None:
+    mean = "walk,ideal,MOB,0,1,V,avg,r_rmse,{},%\n"
+    scores.write_text(scores.read_text() + mean.format(4.25) + mean.format(5.22))
+    assert len(read_scores(scores)) == 6
+
+
 FIT = {
     "smoothing_rad_s": 0.02,
     "joints": {
