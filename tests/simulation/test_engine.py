@@ -215,10 +215,11 @@ def test_robot_never_leaves_the_terrain(simulate: Callable, run: Callable) -> No
 @pytest.mark.parametrize("swinging", [0, 1])
 def test_random_torque_never_acts_on_a_support_leg(simulate: Callable, side: float, swinging: int) -> None:
     simulator = simulate("flat_walk", "ideal")
-    walker, s, tau = simulator.walker, empty_state(), np.zeros(33)
+    walker, s, tau, added = simulator.walker, empty_state(), np.zeros(33), np.ones(33)
     torque = simulator.torque._replace(value=np.ones(33), left=np.full(33, 1.0))
     s.side, s.swinging = side, swinging
-    engine._explore(walker, s, torque, np.random.default_rng(0), 0.0005, tau)
+    engine._explore(walker, s, torque, np.random.default_rng(0), 0.0005, tau, added)
+    np.testing.assert_array_equal(added, 1.0 + tau)
     pushed = {"LL": tau[:6], "RL": tau[6:12]}
     swing = {1.0: "RL", -1.0: "LL"}[side]
     for leg, values in pushed.items():
@@ -259,6 +260,8 @@ def test_random_torque_is_part_of_the_desired_torque_but_not_on_support(simulate
             assert carries or moved[f"wrench_{foot}_foot"][0, 2] < half_weight
             expected[6 * k : 6 * k + 6] *= not carries
         np.testing.assert_allclose(moved["tau_des"][0] - quiet["tau_des"][0], expected, atol=2e-4)
+        np.testing.assert_array_equal(moved["tau_random"][0], expected.astype(np.float32))
+        assert not quiet["tau_random"].any()
         phases.add(tuple(moved["swing"][0]))
     assert phases == {(0, 0), (0, 1), (1, 0)}
 

@@ -11,6 +11,7 @@ Column = tuple[str, str, str]  # name, unit, frame
 FEET = ("left_foot", "right_foot")
 COMMAND = (("step_x", "m"), ("step_y", "m"), ("turn", "rad"), ("duration", "s"), ("foot_height", "m"))  # Table 2
 VELOCITY, DESIRED, MOTOR, SWING, CONTACT, PUSHED = "v", "tau_des", "tau_motor", "swing", "contact", "pushed"
+RANDOM = "tau_random"  # what random torque exploration added to the desired torque
 EXTERNAL = "tau_ext"  # of a recording: true; of an estimate: estimated
 RESIDUAL, EXTERNAL_LP = "r", "tau_ext_lp"  # r of (9), and the true external torque behind the observer's low-pass, (15)
 STD = "std"  # standard deviation that an estimate comes with
@@ -46,6 +47,7 @@ def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:
         },
         "contact": [(f"{CONTACT}.{foot}", "-", "ground") for foot in feet],
         "pushed": [(PUSHED, "-", "scenario")],
+        "tau_random": [(f"{RANDOM}.{j}", "N m", "joint") for j in actuated],
     }
 
 

@@ -47,7 +47,7 @@ RULES: Mapping[str, Rule] = {  # pattern of names -> what is accepted; the first
     r"v\.omega_[xyz]": _within(50.0, "rad/s", "base"),
     r"v\..+": _within(100.0, "rad/s", "joint"),
     r"acc\.[xyz]": _within(1e3, "m/s^2", "base"),
-    r"(tau_des|tau_motor)\..+": _within(1e4, "N m", "joint"),
+    r"(tau_des|tau_motor|tau_random)\..+": _within(1e4, "N m", "joint"),
     r"swing\..+": Rule((("-", "plan"),), 0.0, 1.0, flag=True),
     r"contact\..+": Rule((("-", "ground"),), 0.0, 1.0, flag=True),
     r"pushed": Rule((("-", "scenario"),), 0.0, 1.0, flag=True),

@@ -52,7 +52,9 @@ class Sensed:
 
 @dataclass(frozen=True)
 class Truth:
-    """Signals of the plant that a robot does not have; foot wrenches also serve as training labels (section 4.2.3).
+    """Signals that no estimator may see: those that only the plant has, foot wrenches, and the random torque by itself.
+
+    Foot wrenches also serve as training labels (section 4.2.3).
 
     Attributes:
         tau_ext: external torque (T, nv) [N, N m], mean over the control ticks of the sample; J^T F of (2).
@@ -61,6 +63,8 @@ class Truth:
         wrench_right_foot: the same of the right foot (T, 6).
         contact: 1 where the left, right foot touches the ground (T, 2).
         pushed: 1 where a push of the scenario acts (T, 1).
+        tau_random: random torque (T, nu) [N m] that exploration added to the desired torque, in which it is contained;
+            mean over the control ticks of the sample. Zero where there is none.
     """
 
     tau_ext: NDArray[Any]
@@ -68,6 +72,7 @@ class Truth:
     wrench_right_foot: NDArray[Any]
     contact: NDArray[Any]
     pushed: NDArray[Any]
+    tau_random: NDArray[Any]
 
     def __getitem__(self, rows: int | slice) -> Truth:
         """Return one sample (1-D arrays) or a span of samples."""

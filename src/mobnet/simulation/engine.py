@@ -72,18 +72,20 @@ def run(
     """Simulate len(log) samples into log (n, C), columns of `recording_columns`; return how many before a fall."""
     nv, nu = len(plant.qvel), len(plant.ctrl)
     tau, tau_des, tau_motor, tau_ext = np.zeros(nu), np.zeros(nu), np.zeros(nu), np.zeros(nv)
+    tau_random = np.zeros(nu)
     wrenches, touch = np.zeros((2, 6)), np.zeros(2)
     for row in range(len(log)):
         pushed = 0
         tau_des[:] = 0.0
         tau_motor[:] = 0.0
         tau_ext[:] = 0.0
+        tau_random[:] = 0.0
         wrenches[:] = 0.0
         touch[:] = 0.0
         for _ in range(plant.every):
             follow(upper, s.clock, walker.posture, walker.posture_rate)
             walk(walker, s, sensors.q, sensors.v, sensors.wrenches, commands, plant.dt, tau)
-            _explore(walker, s, torque, rng_torque, plant.dt, tau)
+            _explore(walker, s, torque, rng_torque, plant.dt, tau, tau_random)
             _actuate(plant, tau, tau_des, tau_motor)
             push(
                 pushes, s, plant.xfrc_applied, plant.qfrc_applied, plant.site_xpos, plant.xipos, plant.xmat, rng_pushes,
@@ -96,21 +98,24 @@ def run(
             read_sensors(sensors, walker, plant.qpos, plant.qvel, plant.sensordata, rng_noise, plant.dt)
             wrenches += sensors.wrenches
             _wrap(plant, sensors, s)
-        _write(log[row], sensors, s, tau_des, tau_motor, tau_ext, wrenches, touch, pushed, plant.every)
+        _write(log[row], sensors, s, tau_des, tau_motor, tau_ext, tau_random, wrenches, touch, pushed, plant.every)
         if not plant.qpos[2] > plant.fall_height:  # a state that is not finite is a fall too
             return row
     return len(log)
 
 
 @compiled
-def _explore(walker: Walker, s: State, torque: Exploration, rng: np.random.Generator, dt: float, tau: Array) -> None:
-    """Add the random torque to the desired torques tau (nu,) [N m], but not to a leg that carries load."""
+def _explore(
+    walker: Walker, s: State, torque: Exploration, rng: np.random.Generator, dt: float, tau: Array, added: Array
+) -> None:  # fmt: skip
+    """Add the random torque to the desired torques tau and to its sum `added` (nu,) [N m], but not to a loaded leg."""
     advance_random_torque(torque, rng, dt)
     swing = -1 if s.swinging == 0 else (1 if s.side > 0 else 0)
     for j in range(len(tau)):
         if j < walker.upper and (swing < 0 or not walker.first[swing] <= j < walker.first[swing] + 6):
             continue
         tau[j] += torque.value[j]
+        added[j] += torque.value[j]
 
 
 @compiled
@@ -173,7 +178,7 @@ def _wrap(plant: Plant, sensors: Sensors, s: State) -> None:
 @compiled
 def _write(
     row: NDArray[np.float32], sensors: Sensors, s: State, tau_des: Array, tau_motor: Array, tau_ext: Array,
-    wrenches: Array, touch: Array, pushed: int, every: int,
+    tau_random: Array, wrenches: Array, touch: Array, pushed: int, every: int,
 ) -> None:  # fmt: skip
     """Write one sample in the order of `recording_columns`; sums over the sample's steps become means."""
     at = _put(row, 0, sensors.q, 1.0)
@@ -190,6 +195,7 @@ def _write(
     for k in range(2):
         row[at + k] = touch[k] > every * CONTACT_FORCE_N
     row[at + 2] = pushed > 0
+    _put(row, at + 3, tau_random, 1.0 / every)
 
 
 @compiled
