@@ -66,6 +66,13 @@ def test_z_scores_come_from_the_given_rows_alone() -> None:
     assert scale.std[3] == 1.0
 
 
+def test_the_last_recordings_are_held_out(stems: list[tuple[Path, Path]], settings: Settings) -> None:
+    limb, columns = settings.network("MOB-Net", "LL"), tuple(zip(*stems, strict=True))
+    data = load_limb_data(settings.layout, limb, "external", *columns, held_out=1)
+    assert data.held_out == len(read_array(stems[0][0])[0])
+    assert data.digest() != load_limb_data(settings.layout, limb, "external", *columns).digest()
+
+
 def test_a_missing_column_is_named(stems: list[tuple[Path, Path]], load: Callable[..., LimbData]) -> None:
     array, meta = read_array(stems[1][1])
     columns = [tuple(column.values()) for column in meta["columns"]]

@@ -18,6 +18,11 @@ def test_split_is_9_to_1_in_blocks_and_loses_nothing() -> None:
     assert len(validation) == len(SEGMENTS)
 
 
+def test_recordings_that_are_held_out_validate_whole() -> None:
+    first = SEGMENTS[-1][0]
+    assert split(SEGMENTS, 0.1, first) == (list(SEGMENTS[:-1]), [SEGMENTS[-1]])
+
+
 def test_no_training_row_is_seen_twice_in_an_epoch_and_few_are_left_out() -> None:
     training, _ = split(SEGMENTS, 0.1)
     plan = epoch_plan(training, STREAM, HORIZON, LANES, np.random.default_rng(0))

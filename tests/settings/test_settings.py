@@ -7,7 +7,7 @@ import pytest
 from pydantic import ValidationError
 
 from mobnet.core.errors import ConfigError
-from mobnet.plan.runs import FIRST_TRAINING_SEED
+from mobnet.plan.runs import FIRST_DEVELOPMENT_SEED, FIRST_TEST_SEED, FIRST_TRAINING_SEED
 from mobnet.settings import evaluation
 from mobnet.settings.claims import TAKES, Claim
 from mobnet.settings.names import uses
@@ -75,8 +75,17 @@ def test_names_are_looked_at_in_every_section(settings: Settings) -> None:
     }  # fmt: skip
 
 
-def test_seeds_of_tests_and_training_never_meet(settings: Settings) -> None:
-    assert all(scale.test.shards < FIRST_TRAINING_SEED for scale in settings.scales.values())
+def test_seeds_of_tests_development_and_training_never_meet(settings: Settings) -> None:
+    for scale in settings.scales.values():
+        assert FIRST_TEST_SEED + scale.test.shards <= FIRST_DEVELOPMENT_SEED
+        assert FIRST_DEVELOPMENT_SEED + scale.development.shards <= FIRST_TRAINING_SEED
+
+
+def test_methods_are_chosen_on_walks_that_no_test_has(settings: Settings) -> None:
+    row = settings.scenarios[settings.development.scenario]
+    assert settings.development.scenario not in settings.tests
+    assert row.commands == "uniform"
+    assert not row.narrowed.model_fields_set  # uniform over all of Table 2
 
 
 def test_scenarios_that_draw_the_same_differ_in_pushes_or_random_torque_alone(settings: Settings) -> None:

@@ -47,6 +47,12 @@ def random_commands(settings: Commands, rng: np.random.Generator, steps: int) ->
     return rows
 
 
+def uniform_law(settings: Commands) -> Commands:
+    """Return the ranges of Table 2 with a law that draws every component evenly over its range."""
+    law = settings.random.model_copy(update={"kinds": {"omnidirectional": 1.0}, "edge_probability": 0.0})
+    return settings.model_copy(update={"random": law})
+
+
 def _draw_goal(settings: Commands, rng: np.random.Generator) -> Array:
     """Draw one command (5,) to hold."""
     law = settings.random

@@ -39,6 +39,7 @@ class LimbData:
         input_names: names of the inputs, (n_in,).
         joints: names of the limb's joints, (n,).
         rate_hz: samples per second [Hz].
+        held_out: first row of the recordings that validate; without any, the end of every stretch does.
     """
 
     inputs: NDArray[np.float32]
@@ -47,10 +48,12 @@ class LimbData:
     input_names: tuple[str, ...]
     joints: tuple[str, ...]
     rate_hz: float
+    held_out: int | None = None
 
     def digest(self) -> str:
         """Return a hash of every number of the data."""
-        digest = hashlib.sha256(repr((self.segments, self.input_names, self.joints, self.rate_hz)).encode())
+        known = (self.segments, self.input_names, self.joints, self.rate_hz, self.held_out)
+        digest = hashlib.sha256(repr(known).encode())
         for array in (self.inputs, self.targets):
             digest.update(np.ascontiguousarray(array).data)
         return digest.hexdigest()
@@ -63,11 +66,13 @@ def load_limb_data(
     recordings: Sequence[Path],
     residuals: Sequence[Path],
     rate_hz: float | None = None,
+    held_out: int = 0,
 ) -> LimbData:
     """Read recordings and residuals of one limb into RAM, inputs (N, n_in) and target torques (N, n) [N, N m].
 
     The target is the `uncertainty`, r - tau_e of section 4.2.3, or the `external` torque, tau_e, both low-passed alike.
-    Residuals stand in the order of their recordings. Without a rate [Hz], any one is accepted.
+    Residuals stand in the order of their recordings, of which the last `held_out` validate. Without a rate [Hz], any
+    one is accepted.
 
     Raises:
         DataError: a file is damaged, or a residual does not belong to its recording.
@@ -87,7 +92,8 @@ def load_limb_data(
     if len(rates) != 1:
         raise DataError(f"recordings at {sorted(rates)} Hz cannot be mixed; accepted: one or more at a single rate")
     xs, ys = (np.concatenate(column) for column in zip(*parts, strict=True))
-    return LimbData(xs, ys, tuple(segments), inputs.names, joints, rates.pop())
+    first = sum(len(x) for x, _ in parts[:-held_out]) if held_out else None
+    return LimbData(xs, ys, tuple(segments), inputs.names, joints, rates.pop(), first)
 
 
 def joints_of(layout: JointLayout, limb: Limb) -> tuple[str, ...]:

@@ -34,11 +34,15 @@ class Plan:
         return len(self.rows)
 
 
-def split(segments: Sequence[Span], validation_share: float) -> tuple[list[Span], list[Span]]:
+def split(
+    segments: Sequence[Span], validation_share: float, held_out: int | None = None
+) -> tuple[list[Span], list[Span]]:
     """Cut the end of each contiguous segment off for validation: 9:1 in section 4.3, never single samples.
 
-    Return training blocks and validation blocks.
+    With the row `held_out`, all segments from there on validate instead. Return training blocks and validation blocks.
     """
+    if held_out is not None:
+        return [span for span in segments if span[0] < held_out], [span for span in segments if span[0] >= held_out]
     training, validation = [], []
     for start, end in segments:
         cut = end - round((end - start) * validation_share)

@@ -51,7 +51,7 @@ def train(
     """
     torch.set_num_threads(1)  # more are slower beside another training, and give other weights
     job = Job(training, seed, root_seed)
-    data = load_limb_data(layout, training.network, training.target, recordings, residuals, rate_hz)
+    data = load_limb_data(layout, training.network, training.target, recordings, residuals, rate_hz, training.held_out)
     trainer = Trainer(job, data)
     done = trainer.run(state)
     calibration = trainer.calibrate(done)

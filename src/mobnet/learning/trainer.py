@@ -38,7 +38,7 @@ class Trainer:
         self.device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
         self.fingerprint = job.fingerprint(data.digest(), self.device)
         network, learning = job.training.network, job.training.learning
-        blocks, held_out = split(data.segments, learning.validation_share)
+        blocks, held_out = split(data.segments, learning.validation_share, data.held_out)
         stream = job.stream(data.rate_hz)
         self._blocks = some_of(blocks, stream, learning.data_parts, job.shared_generator("data"))
         self.scales = scale_of(data.inputs, self._blocks), scale_of(data.targets, self._blocks)

@@ -10,7 +10,9 @@ from mobnet.settings.data import Recordings
 from mobnet.settings.evaluation import Runs
 from mobnet.settings.settings import Settings, swept_name
 
-FIRST_TRAINING_SEED = 1000  # recordings and motions for tests count from 1
+# Recordings and motions count from these seeds. Tests are sealed: nobody has walked their seeds before the results are
+# made; seeds 1 to 3 were those of an earlier version, on which its methods were chosen.
+FIRST_TEST_SEED, FIRST_DEVELOPMENT_SEED, FIRST_TRAINING_SEED = 101, 501, 1000
 ARRAY = ".parquet"
 COURSE = (RUN, METRICS)  # files of a trained network that say how its training went
 NETWORKS = "networks"
@@ -52,7 +54,7 @@ class Files:
     @property
     def test_seeds(self) -> list[int]:
         """Seeds of the recordings of every test."""
-        return [1 + i for i in range(self.settings.sizes.test.shards)]
+        return [FIRST_TEST_SEED + i for i in range(self.settings.sizes.test.shards)]
 
     def array(self, kind: str, scenario: str, level: str, seed: int | str) -> Path:
         """Return a recording, residual or estimate without its ending; `{seed}` and so on make a pattern."""
@@ -80,6 +82,11 @@ class Files:
         """Return the recordings of a test."""
         return tuple(self.array("recordings", scenario, level, seed) for seed in self.test_seeds)
 
+    def development(self, kind: str) -> tuple[Path, ...]:
+        """Return the recordings or residuals of the walks on which methods are chosen; no table shows them."""
+        walk, count = self.settings.development, self.settings.sizes.development.shards
+        return tuple(self.array(kind, walk.scenario, walk.level, FIRST_DEVELOPMENT_SEED + i) for i in range(count))
+
     def recorded(self) -> Iterator[tuple[str, str, int]]:
         """Yield scenario, level and seed of every recording."""
         for name, row in self.settings.training_sets.items():
@@ -90,7 +97,8 @@ class Files:
     def duration_s(self, scenarios: Iterable[str], seed: int) -> float:
         """Return how long the longest recording of some scenarios with a seed is [s]."""
         if seed < FIRST_TRAINING_SEED:
-            return self.settings.sizes.test.shard_s
+            sizes = self.settings.sizes
+            return (sizes.test if seed < FIRST_DEVELOPMENT_SEED else sizes.development).shard_s
         wanted, sets = list(scenarios), self.settings.training_sets
         return max(self.training_size(name).shard_s for name, row in sets.items() if row.scenario in wanted)
 

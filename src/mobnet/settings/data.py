@@ -11,7 +11,7 @@ from mobnet.settings.base import Section
 
 Phase = Literal["always", "left_swing", "right_swing", "left_support", "right_support"]
 Direction = Literal["any", "horizontal", "down", "backward"]
-CommandSource = Literal["random", "stand"]
+CommandSource = Literal["random", "uniform", "stand"]
 
 
 Height = Annotated[base.Real, Field(ge=0.0005, le=0.2)]
@@ -25,10 +25,12 @@ Cost = Annotated[base.Real, Field(ge=0.001, le=50)]
 
 
 class Checks(Section):
-    """Raised squares, Figure 3 (a)."""
+    """Raised squares, Figure 3 (a); the height of a field is drawn, and which squares are raised."""
 
-    height_m: Height
+    height_m: base.Range[Height]
     cell_m: base.Real = Field(ge=0.1, le=10)
+    cells: base.Whole = Field(ge=1, le=20)
+    raised_share: base.PositiveShare
     bevel_m: base.Length
 
 
@@ -186,12 +188,25 @@ class Recordings(Section):
     shard_s: base.Real = Field(ge=1, le=7200)
 
 
+class TrainingRecordings(Recordings):
+    """Recordings that networks learn from; the last `held_out` ones validate, or else a share of every stretch."""
+
+    held_out: base.Whole = Field(default=0, ge=0, le=500)
+
+
 class TrainingSet(Section):
     """Recordings of a scenario that networks learn from, section 4.3; sizes by scale."""
 
     scenario: base.ScenarioName
     level: base.LevelName
-    sizes: dict[base.ScaleName, Recordings]
+    sizes: dict[base.ScaleName, TrainingRecordings]
+
+
+class Development(Section):
+    """Walks on which methods are chosen, apart from all tests."""
+
+    scenario: base.ScenarioName
+    level: base.LevelName
 
 
 class RecordingSettings(Section):

@@ -114,3 +114,4 @@ class Training(Section):
     learning: Learning
     epochs: base.Count
     epoch_samples: base.Count | None = None
+    held_out: base.Index = 0  # number of the last recordings, which validate

@@ -20,6 +20,7 @@ class Scale(Section):
     """One size of every test and of every training; the last four replace numbers of other sections."""
 
     test: Recordings
+    development: Recordings
     experiments: dict[LowerName, Experiment] = Field(min_length=1)
     batch_size: Annotated[Count, Field(le=4096)] | None = None
     stream_s: Annotated[Positive, Field(ge=0.05, le=600)] | None = None

@@ -21,6 +21,7 @@ from mobnet.settings.base import (
 from mobnet.settings.claims import Claim, ClaimName
 from mobnet.settings.data import (
     Commands,
+    Development,
     Motion,
     Push,
     RandomTorque,
@@ -61,6 +62,7 @@ class Settings(Section):
     learning: Learning
     methods: Annotated[dict[RowName, Method], Field(min_length=1)]
     sweeps: dict[Annotated[str, Field(pattern="^[a-z_]+$")], Sweep]
+    development: Development
     tests: dict[ScenarioName, Annotated[dict[LevelName, MethodNames], Field(min_length=1)]]
     evaluation: Evaluation
     scales: Annotated[dict[LowerName, Scale], Field(min_length=1)]
@@ -137,15 +139,16 @@ class Settings(Section):
         if row.target is None:
             accepted = [name for name, other in self.all_methods.items() if other.target]
             raise ConfigError(not_accepted("method to train", method, accepted))
-        experiment = self.experiment(method, limb)
+        experiment, network = self.experiment(method, limb), self.network(method, limb)
         return Training(
             method=method,
             limb=limb,
             target=row.target,
-            network=self.network(method, limb),
+            network=network,
             learning=self.learned(method),
             epochs=experiment.epochs,
             epoch_samples=experiment.epoch_samples,
+            held_out=self.training_sets[network.data].sizes[self.scale].held_out,
         )
 
 

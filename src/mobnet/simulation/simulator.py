@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.control.commands import fixed_commands, random_commands
+from mobnet.control.commands import fixed_commands, random_commands, uniform_law
 from mobnet.control.parameters import empty_state
 from mobnet.control.random_torque import make_exploration
 from mobnet.control.upper_body import UpperBody, follow
@@ -26,7 +26,7 @@ from mobnet.simulation.terrain import draw_terrain
 from mobnet.simulation.world import World, ground_height, leg_mask, make_world
 
 Rows = NDArray[np.float32]
-STAND = "stand"  # commands of an episode that does not walk
+STAND, UNIFORM = "stand", "uniform"  # commands of an episode that does not walk, and that draws them evenly
 SOLE_POINTS = (5, 3)  # along and across a sole, where the ground under a start is looked for
 STREAMS = ("commands", "noise", "torque", "place", "pushes", "terrain")  # of random numbers, in the order spawned
 
@@ -62,7 +62,6 @@ class Simulator:
         self.rng = {name: np.random.default_rng(stream) for name, stream in zip(STREAMS, seeds, strict=True)}
         self.episode = seed  # the first of the scenario's kinds of episodes depends on the seed
         self.commands: Array = np.zeros((0, 0))
-        self.terrains: dict[str, Setting] = {}
         self.coming: list[str] = []  # terrains until all have been walked once more
         self._enter(scenario.terrain[0])
 
@@ -72,20 +71,18 @@ class Simulator:
         return recording_width(self.robot.layout)
 
     def _enter(self, terrain: str) -> None:
-        """Put the robot on a terrain, which is built once a recording."""
-        if terrain not in self.terrains:
-            settings, plant, rates = self.settings, self.settings.plant, self.settings.rates
-            drawn = draw_terrain(dict(settings.terrain)[terrain], self.rng["terrain"])
-            world = make_world(self.robot, drawn, plant, settings.level, rates.plant_hz)
-            friction = make_friction(plant, leg_mask(self.robot), settings.level.friction)
-            every = round(rates.plant_hz / rates.data_hz)
-            limits = np.maximum(self.robot.torque_limits, plant.motor_limit_min_nm)
-            native, fall_height = bind(world.model, world.data), settings.recording.fall_height_m
-            sensors = make_sensors(plant.noise_std, settings.level, world.model)
-            pushes = make_pushes(settings.pushes, world.model, self.robot)
-            plant = make_plant(world, native, friction, limits, fall_height, every)
-            self.terrains[terrain] = Setting(terrain, world, plant, sensors, pushes)
-        self.setting = self.terrains[terrain]
+        """Put the robot on a terrain that is drawn anew."""
+        settings, plant, rates = self.settings, self.settings.plant, self.settings.rates
+        drawn = draw_terrain(dict(settings.terrain)[terrain], self.rng["terrain"])
+        world = make_world(self.robot, drawn, plant, settings.level, rates.plant_hz)
+        friction = make_friction(plant, leg_mask(self.robot), settings.level.friction)
+        every = round(rates.plant_hz / rates.data_hz)
+        limits = np.maximum(self.robot.torque_limits, plant.motor_limit_min_nm)
+        native, fall_height = bind(world.model, world.data), settings.recording.fall_height_m
+        sensors = make_sensors(plant.noise_std, settings.level, world.model)
+        pushes = make_pushes(settings.pushes, world.model, self.robot)
+        plant = make_plant(world, native, friction, limits, fall_height, every)
+        self.setting = Setting(terrain, world, plant, sensors, pushes)
         _, self.world, self.plant, self.sensors, self.pushes = self.setting
 
     def start(self, motion_s: float = 0.0) -> None:
@@ -119,7 +116,8 @@ class Simulator:
         if isinstance(kind, FixedCommand):
             return fixed_commands(kind, commands.random.in_place_steps)
         ranges = commands.model_copy(update={name: value for name, value in narrowed if value is not None})
-        return random_commands(ranges, self.rng["commands"], self.settings.recording.episode_steps)
+        law = uniform_law(ranges) if kind == UNIFORM else ranges
+        return random_commands(law, self.rng["commands"], self.settings.recording.episode_steps)
 
     def _sole_points(self, yaw: float) -> Array:
         """Return points (n, 2) [m] under both soles of a start that faces yaw [rad]."""

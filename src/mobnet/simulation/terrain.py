@@ -41,14 +41,14 @@ class Terrain(NamedTuple):
 
 
 def draw_terrain(row: Checks | Flat | Plates | Slope, rng: np.random.Generator) -> Terrain:
-    """Draw a terrain of section 4.3: where plates lie and which way a slope goes; the others are always the same.
+    """Draw a terrain of section 4.3: which checks are raised and how high, where plates lie, which way a slope goes.
 
     Raises:
         ConfigError: the plates find no room.
     """
     match row:
         case Checks():
-            return _checks(row)
+            return _checks(row, rng)
         case Plates():
             return _plates(row, rng)
         case Slope():
@@ -62,11 +62,12 @@ def top_of(terrain: Terrain) -> float:
     return max((piece.height for piece in terrain.pieces), default=0.0)
 
 
-def _checks(row: Checks) -> Terrain:
-    """Return every other cell of a checkerboard (Figure 3 a)."""
-    half = np.full(2, row.cell_m / 2)
-    cells = tuple(Piece(half, half - row.bevel_m, row.height_m, sign * half) for sign in (1, -1))
-    return Terrain(2 * row.cell_m, cells)
+def _checks(row: Checks, rng: np.random.Generator) -> Terrain:
+    """Return drawn cells of a square field, all raised by one drawn height (Figure 3 a)."""
+    half, height = np.full(2, row.cell_m / 2), rng.uniform(*row.height_m)
+    raised = np.argwhere(rng.random((row.cells, row.cells)) < row.raised_share)
+    places = (raised - (row.cells - 1) / 2) * row.cell_m
+    return Terrain(row.cells * row.cell_m, tuple(Piece(half, half - row.bevel_m, height, place) for place in places))
 
 
 def _plates(row: Plates, rng: np.random.Generator) -> Terrain:

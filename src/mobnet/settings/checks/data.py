@@ -45,9 +45,11 @@ def _terrain_problems(settings: Settings) -> Iterator[Problem]:
                 f"a plate of {max(sides)} m and its gap within it, and {PACKED:.0%} of its square above {area:g} m^2"
             )
             yield ("terrain", "plates", "period_m"), misfit(plates.period_m, accepted)
-    for name, row in (("checks", checks), ("plates", plates)):
-        if row and row.height_m >= least:
-            yield ("terrain", name, "height_m"), misfit(row.height_m, f"below the lowest foot_height_m, {least}")
+    heights: dict[Place, float] = {} if checks is None else {("checks", "height_m", 1): checks.height_m[1]}
+    heights |= {} if plates is None else {("plates", "height_m"): plates.height_m}
+    for place, height in heights.items():
+        if height >= least:
+            yield ("terrain", *place), misfit(height, f"below the lowest foot_height_m, {least}")
 
 
 def _command_problems(settings: Settings) -> Iterator[Problem]:
@@ -173,8 +175,8 @@ def _push_faults(push: Push) -> Iterator[Problem]:
 def _scenario_problems(settings: Settings, name: str, row: Scenario) -> Iterator[Problem]:
     """Yield what does not fit in a scenario."""
     commands = row.commands if isinstance(row.commands, tuple) else (row.commands,)
-    if row.narrowed.model_fields_set and "random" not in commands:
-        yield ("narrowed",), misfit("`narrowed`", "`narrowed` with `commands: random` only")
+    if row.narrowed.model_fields_set and not {"random", "uniform"} & set(map(str, commands)):
+        yield ("narrowed",), misfit("`narrowed`", "`narrowed` with `commands: random` or `uniform` only")
     asked = row.commands if isinstance(row.commands, FixedCommand) else row.narrowed
     place = "commands" if isinstance(row.commands, FixedCommand) else "narrowed"
     for key, value in asked:
@@ -209,6 +211,11 @@ def _set_problems(settings: Settings) -> Iterator[Problem]:
     for name, scale in product(sets, settings.scales):
         if scale not in sets[name].sizes:
             yield ("training_sets", name, "sizes"), misfit(f"no scale {scale}", ", ".join(settings.scales))
+        else:
+            size = sets[name].sizes[scale]
+            if size.held_out >= size.shards:
+                place = "training_sets", name, "sizes", scale, "held_out"
+                yield place, misfit(size.held_out, f"below {size.shards}, the number of shards")
     seen = dict[tuple[str, str], str]()
     for name, row in sets.items():
         first = seen.setdefault((row.scenario, row.level), name)

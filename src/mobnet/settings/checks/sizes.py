@@ -108,10 +108,11 @@ def _filling_problems(settings: Settings, name: str, limb: str) -> Iterator[Prob
     if not horizon / rate <= learning.stream_s <= size.shard_s:
         accepted = f"{horizon / rate:g} (horizon_steps) to {size.shard_s:g} (shard_s) {where}"
         yield (*own, "stream_s"), misfit(learning.stream_s, accepted)
-    if contiguous * learning.validation_share < horizon:
+    if not size.held_out and contiguous * learning.validation_share < horizon:
         accepted = f"at least {horizon / contiguous:.3g}, a horizon {where}"
         yield ("learning", "validation_share"), misfit(learning.validation_share, accepted)
-    held = size.shards * size.shard_s * rate * (1 - learning.validation_share) / learning.data_parts
+    share = 1 - size.held_out / size.shards if size.held_out else 1 - learning.validation_share
+    held = size.shards * size.shard_s * rate * share / learning.data_parts
     own = ("learning",) if settings.sizes.batch_size is None else ("scales", scale)
     if learning.batch_size * horizon > held:
         accepted = f"at most {held // horizon:.0f}, the horizons in the data {where}"
