@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 from mobnet.core.code import LOCK, ROOT, SHORT
 
-UNKNOWN = "unknown"
+UNKNOWN, CHANGED = "unknown", "-changed"
 
 
 def provenance(settings: Mapping[str, object]) -> dict[str, str]:
@@ -29,7 +29,7 @@ def commit() -> str:
     name = _git("rev-parse", "HEAD")
     if name is None or not _git("ls-files", LOCK.name):
         return UNKNOWN
-    return f"{name}-changed" if _git("status", "--porcelain", "--untracked-files=no") else name
+    return f"{name}{CHANGED}" if _git("status", "--porcelain", "--untracked-files=no") else name
 
 
 def _git(*words: str) -> str | None:

@@ -1,13 +1,20 @@
 """The snapshot holds tables, pictures and their origin, and every difference from it is told in one line."""
 
+from collections.abc import Callable
+from dataclasses import asdict
 from pathlib import Path
 
 import pytest
 
 from mobnet.core.errors import DataError
-from mobnet.core.files import read_json
+from mobnet.core.files import read_json, write_json
+from mobnet.core.logs import Account
+from mobnet.evaluation.report.manifest import manifest
 from mobnet.evaluation.report.snapshot import (
     HEADLINE,
+    MANIFEST,
+    RESULTS,
+    check_run,
     compare_snapshot,
     main,
     read_keyed,
@@ -29,6 +36,7 @@ def stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A working folder with a fresh table and a snapshot of it."""
     monkeypatch.chdir(tmp_path)
     made = {TABLES / "table_05.csv": TABLE, TABLES / "table_05.md": "x", FIGURES / "figure_05.png": "p", COMPUTE: "c"}
+    made[FIGURES / "figure_05.csv"] = "x,y\n1,2\n3,4\n"
     for path, text in made.items():
         path.parent.mkdir(exist_ok=True)
         path.write_text(text)
@@ -38,13 +46,13 @@ def stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 def rewrite(old: str, new: str) -> list[str]:
     """Return the differences after an edit of the fresh table."""
     (TABLES / "table_05.csv").write_text(TABLE.replace(old, new))
-    return compare_snapshot(STORED, TABLES)
+    return compare_snapshot(STORED, TABLES, FIGURES)
 
 
 @pytest.mark.usefixtures("stored")
 def test_snapshot_holds_tables_and_pictures_with_their_origin() -> None:
     names = sorted(path.name for path in STORED.iterdir())
-    assert names == ["compute.md", "figure_05.png", "provenance.json", "table_05.csv", "table_05.md"]
+    assert names == ["compute.md", "figure_05.png", "figures", "provenance.json", "table_05.csv", "table_05.md"]
     assert set(read_json(STORED / "provenance.json")) == {"scale", "commit", "lock", "config"}
 
 
@@ -71,11 +79,58 @@ def test_a_missing_file_is_named_and_nothing_is_copied() -> None:
     assert not Path("out").exists()
     (TABLES / "table_05.csv").unlink()
     told = ["tables/table_05.csv: file is missing; ./reproduce all makes it"]
-    assert compare_snapshot(STORED, TABLES) == told
+    assert compare_snapshot(STORED, TABLES, FIGURES) == told
     with pytest.raises(DataError, match="tables: holds no CSV"):
         write_snapshot(SETTINGS, TABLES, FIGURES, COMPUTE, Path("out"))
     with pytest.raises(DataError, match="tables: holds no CSV"):
-        compare_snapshot(TABLES, STORED)
+        compare_snapshot(TABLES, STORED, FIGURES)
+
+
+@pytest.mark.usefixtures("stored")
+def test_a_changed_figure_is_told_by_its_rows() -> None:
+    drawn = FIGURES / "figure_05.csv"
+    drawn.write_text("x,y\n1,2\n3,5\n6,7\n")
+    assert compare_snapshot(STORED, TABLES, FIGURES) == ["figures/figure_05.csv: 2 of 4 rows differ"]
+    drawn.unlink()
+    assert compare_snapshot(STORED, TABLES, FIGURES) == [
+        "figures/figure_05.csv: file is missing; ./reproduce all makes it"
+    ]
+
+
+def note_of(name: str, made_by: str, start_s: float) -> None:
+    """Write the note of a recording, and the account of the job that made it in 10 s."""
+    write_json(RESULTS / "recordings" / f"{name}.json", {"provenance": {"commit": made_by}})
+    account = Account(f"collect/{name}", start_s, start_s + 10.0, 10.0, 9.0, 100.0, succeeded=True)
+    write_json(RESULTS / "logs" / "collect" / f"{name}.json", asdict(account))
+
+
+@pytest.fixture
+def run_of(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], None]:
+    """A function that checks a run of two recordings at some commit, all made by commit `abc` without a pause."""
+    monkeypatch.chdir(tmp_path)
+    for index, name in enumerate("xy"):
+        note_of(name, "abc", 10.0 * index)
+    manifest(RESULTS.rglob("recordings/*.json"), [], MANIFEST)
+
+    def check(head: str) -> None:
+        monkeypatch.setattr("mobnet.evaluation.report.snapshot.commit", lambda: head)
+        check_run(RESULTS, MANIFEST, 60.0)
+
+    return check
+
+
+def test_a_snapshot_is_one_clean_run_of_one_commit(run_of: Callable[[str], None]) -> None:
+    run_of("abc")
+    with pytest.raises(DataError, match=r"commit abc-changed: is not accepted; accepted: a checkout without changed"):
+        run_of("abc-changed")
+    with pytest.raises(DataError, match=r"recordings/x\.json: commit abc is not accepted; accepted: def"):
+        run_of("def")
+    note_of("y", "abc", 100.0)
+    with pytest.raises(DataError, match=r"no job ran for 90 s; accepted: one run, without a pause above 60 s"):
+        run_of("abc")
+    (RESULTS / "recordings" / "x.json").write_text("{}")
+    with pytest.raises(DataError, match=r"recordings/x\.json: hash .*, the manifest says"):
+        run_of("abc")
 
 
 @pytest.mark.usefixtures("stored")

@@ -92,10 +92,16 @@ def at_once(jobs: Sequence[Account]) -> int:
 
 def elapsed(jobs: Sequence[Account], pause_s: float) -> float:
     """Return the time [s] from the first job's start to the last one's end, without pauses beyond `pause_s` [s]."""
+    whole = max(job.end_s for job in jobs) - min(job.start_s for job in jobs)
+    return whole - sum(pauses(jobs, pause_s))
+
+
+def pauses(jobs: Sequence[Account], pause_s: float) -> list[float]:
+    """Return the times [s] longer than `pause_s` [s] in which no job ran, between the first job and the last."""
     in_order = sorted(jobs, key=lambda job: job.start_s)
-    ends = list(accumulate((job.end_s for job in in_order), max))
-    gaps = [job.start_s - end for job, end in zip(in_order[1:], ends[:-1], strict=True)]
-    return ends[-1] - in_order[0].start_s - sum(gap for gap in gaps if gap > pause_s)
+    ends = accumulate((job.end_s for job in in_order), max)
+    gaps = [job.start_s - end for job, end in zip(in_order[1:], ends, strict=False)]
+    return [gap for gap in gaps if gap > pause_s]
 
 
 def compute_lines(uses: Uses) -> list[Line]:

@@ -4,16 +4,20 @@
 """
 
 import argparse
+import gzip
 import logging
 import shutil
 import sys
 from collections.abc import Iterator, Mapping
+from itertools import zip_longest
 from pathlib import Path
 
 from mobnet.core.errors import DataError, MobnetError
-from mobnet.core.files import atomic_path, read_text, write_json, write_text
-from mobnet.core.provenance import provenance
+from mobnet.core.files import atomic_path, read_json, read_text, write_json, write_text
+from mobnet.core.provenance import CHANGED, UNKNOWN, commit, provenance
 from mobnet.evaluation.number.files import read_texts
+from mobnet.evaluation.report.accounts import read_account
+from mobnet.evaluation.report.compute import pauses
 from mobnet.evaluation.report.manifest import differences, file_hash
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
@@ -21,7 +25,10 @@ from mobnet.settings.settings import Settings
 log = logging.getLogger(__name__)
 
 TABLES, FIGURES, SNAPSHOT = Path("tables"), Path("figures"), Path("docs/results")
-COMPUTE, MANIFEST = Path("results/default/compute.md"), Path("results/MANIFEST.sha256")
+RESULTS, MANIFEST = Path("results/default"), Path("results/MANIFEST.sha256")
+COMPUTE = RESULTS / "compute.md"
+DRAWN = "figures"  # folder of the snapshot with the CSVs of figures, compressed
+NOTED = ("recordings", "motions", "networks")  # folders of results whose notes name the commit that made them
 README, HEADLINE = Path("README.md"), "table_05"
 KEYS = (  # columns that name a row; the others are results
     "scenario", "level", "method", "joint", "metric", "claim",
@@ -30,8 +37,29 @@ KEYS = (  # columns that name a row; the others are results
 Rows = dict[tuple[str, ...], dict[str, str]]
 
 
+def check_run(results: Path, manifest: Path, pause_s: float) -> None:
+    """Check that results are those of one clean, uninterrupted run of the present commit.
+
+    Raises:
+        DataError: one line for each fault: tracked files were changed, another commit made a result, a job came after
+            a pause longer than `pause_s` [s], or a file is not as the run wrote it.
+    """
+    head = commit()
+    head, faults = commit(), differences(manifest)
+    if head == UNKNOWN or head.endswith(CHANGED):
+        faults.append(f"commit {head}: is not accepted; accepted: a checkout without changed files")
+    notes = [note for folder in NOTED for note in sorted((results / folder).rglob("*.json"))]
+    made = {note: read_json(note).get("provenance", {}).get("commit", UNKNOWN) for note in notes}
+    faults += [f"{note}: commit {found} is not accepted; accepted: {head}" for note, found in made.items() if found != head]
+    jobs = [read_account(path) for path in sorted((results / "logs").rglob("*.json"))]
+    accepted = f"accepted: one run, without a pause above {pause_s:g} s"
+    faults += [f"{results}: no job ran for {pause:.0f} s; {accepted}" for pause in pauses(jobs, pause_s)]
+    if faults:
+        raise DataError("\n".join(faults))
+
+
 def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Path, out: Path) -> None:
-    """Copy a scale's tables (CSV, Markdown), figures (PNG) and table of compute, and note where they come from.
+    """Copy a scale's tables (CSV, Markdown), figures (PNG, CSV) and table of compute, and note where they come from.
 
     The table of compute differs from run to run, so only its Markdown is stored, and no CSV to be compared.
 
@@ -48,6 +76,9 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Pat
     for source in found:
         with atomic_path(out / source.name) as temporary:
             shutil.copyfile(source, temporary)
+    for source in sorted(figures.glob("*.csv")):
+        with atomic_path(out / DRAWN / f"{source.name}.gz") as temporary:
+            temporary.write_bytes(gzip.compress(source.read_bytes(), mtime=0))
     write_json(out / "provenance.json", {"scale": settings.scale, **provenance(settings.model_dump(mode="json"))})
     log.info("%s: %d files", out, len(found))
 
@@ -60,12 +91,25 @@ def with_headline(text: str, table: str) -> str:
     return text[: text.index(first)] + first + table.strip() + "\n" + text[text.index(last) :]
 
 
-def compare_snapshot(snapshot: Path, tables: Path) -> list[str]:
-    """Return one line for each cell, row or table in which the present tables differ from a snapshot."""
+def compare_snapshot(snapshot: Path, tables: Path, figures: Path) -> list[str]:
+    """Return one line for each cell, row, table or figure in which present results differ from a snapshot."""
     stored = sorted(snapshot.glob("*.csv"))
     if not stored:
         raise DataError(f"{snapshot}: holds no CSV; ./reproduce snapshot stores them")
-    return [line for path in stored for line in table_differences(path, tables / path.name)]
+    told = [line for path in stored for line in table_differences(path, tables / path.name)]
+    drawn = sorted((snapshot / DRAWN).glob("*.csv.gz"))
+    return told + [line for path in drawn for line in figure_differences(path, figures / path.stem)]
+
+
+def figure_differences(old: Path, new: Path) -> Iterator[str]:
+    """Yield one line where the CSV of a figure differs: how many of its rows do."""
+    if not new.exists():
+        yield f"{new}: file is missing; ./reproduce all makes it"
+        return
+    before, after = gzip.decompress(old.read_bytes()).decode().splitlines(), read_text(new).splitlines()
+    count = sum(was != now for was, now in zip_longest(before, after))
+    if count:
+        yield f"{new}: {count} of {max(len(before), len(after))} rows differ"
 
 
 def table_differences(old: Path, new: Path) -> Iterator[str]:
@@ -106,12 +150,14 @@ def main(words: list[str]) -> int:
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
     try:
         if options.command == "snapshot":
-            write_snapshot(load_settings(), TABLES, FIGURES, COMPUTE, SNAPSHOT)
+            settings = load_settings()
+            check_run(RESULTS, options.manifest, settings.evaluation.compute.pause_s)
+            write_snapshot(settings, TABLES, FIGURES, COMPUTE, SNAPSHOT)
             table = read_text(SNAPSHOT / f"{HEADLINE}.md")
             write_text(README, with_headline(read_text(README), table))
             return 0
         compares = options.command == "compare"
-        found = compare_snapshot(SNAPSHOT, TABLES) if compares else differences(options.manifest)
+        found = compare_snapshot(SNAPSHOT, TABLES, FIGURES) if compares else differences(options.manifest)
     except MobnetError as error:
         log.error("%s", error)
         return 1
