@@ -70,9 +70,7 @@ def test_terrain_repeats_wherever_a_foot_gets(draw: Callable[..., Terrain], name
             np.testing.assert_allclose(heights(after), heights(before), atol=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("name", "top"), [("plates", 0.010), ("slope", 0.8 * np.tan(np.deg2rad(3)))]
-)
+@pytest.mark.parametrize(("name", "top"), [("plates", 0.010), ("slope", 0.8 * np.tan(np.deg2rad(3)))])
 def test_the_top_is_as_high_as_it_should_be(draw: Callable[..., Terrain], name: str, top: float) -> None:
     terrain = draw(name)
     points = np.random.default_rng(0).uniform(-0.5, 0.5, (500, 2)) * terrain.period

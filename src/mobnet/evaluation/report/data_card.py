@@ -17,7 +17,7 @@ from mobnet.core.files import write_text
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed, Truth
 from mobnet.evaluation.tables.layout import markdown_table
-from mobnet.plan.runs import FIRST_TRAINING_SEED
+from mobnet.plan.runs import FIRST_DEVELOPMENT_SEED, FIRST_TEST_SEED, FIRST_TRAINING_SEED
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
@@ -51,11 +51,15 @@ frame = pd.read_parquet(name, columns=["q.LL3", "v.LL3", "tau_des.LL3", "tau_ext
 """
 SPLIT = """
 ## Seeds and splits
-Tests have the seeds 1, 2, and so on, training recordings {first} and up. A recording's random numbers come from the
-configuration's seed ({seed}), its scenario (or the one that its key `draws` names) and its own seed, with separate
-streams for commands, noise, random torque, place, pushes and terrain: tests share no draw with training, and a file
-does not depend on the number of cores. The last {share:.0%} of the samples of every segment, one contiguous block, are
-for validation and the others for training (9:1, section 4.3); single samples of a stream are never shuffled into both.
+Tests have the seeds {test} and up, the walks on which methods are chosen {development} and up, training recordings
+{first} and up. A recording's random numbers come from the configuration's seed ({seed}), its scenario (or the one that
+its key `draws` names) and its own seed, with separate streams for commands, noise, random torque, place, pushes and
+terrain: the three share no draw, and a file does not depend on the number of cores. Tests are sealed: their seeds were
+not walked before the published results were made.
+
+The last {share:.0%} of the samples of every segment, one contiguous block, are for validation and the others for
+training (9:1, section 4.3); single samples of a stream are never shuffled into both. Of the motion of the upper body,
+the last part validates in all its variants, because variants of one part differ in speed and place alone.
 """
 DRAWN = {  # section of the configuration -> what its numbers determine
     "scenarios": "terrains (one for each episode), commands, random torque, pushes and motion of the upper body",
@@ -81,7 +85,10 @@ def card(settings: Settings) -> str:
         rate=settings.rates.data_hz, dropped=settings.recording.dropped_before_fall_s,
         scale=settings.scale, scenario=walk.scenario, level=walk.level, seed=FIRST_TRAINING_SEED,
     )  # fmt: skip
-    split = SPLIT.format(first=FIRST_TRAINING_SEED, seed=settings.seed, share=settings.learning.validation_share)
+    split = SPLIT.format(
+        test=FIRST_TEST_SEED, development=FIRST_DEVELOPMENT_SEED, first=FIRST_TRAINING_SEED, seed=settings.seed,
+        share=settings.learning.validation_share,
+    )  # fmt: skip
     tables = columns(settings.layout, settings.observer.gain_hz)
     parts = [HEAD, files, "\n## Columns\n", *tables, sizes(settings), split]
     return "".join([*parts, "\n## What was drawn from what\n", *drawn(settings)])

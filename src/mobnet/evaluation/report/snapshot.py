@@ -50,7 +50,9 @@ def check_run(results: Path, manifest: Path, pause_s: float) -> None:
         faults.append(f"commit {head}: is not accepted; accepted: a checkout without changed files")
     notes = [note for folder in NOTED for note in sorted((results / folder).rglob("*.json"))]
     made = {note: read_json(note).get("provenance", {}).get("commit", UNKNOWN) for note in notes}
-    faults += [f"{note}: commit {found} is not accepted; accepted: {head}" for note, found in made.items() if found != head]
+    faults += [
+        f"{note}: commit {found} is not accepted; accepted: {head}" for note, found in made.items() if found != head
+    ]
     jobs = [read_account(path) for path in sorted((results / "logs").rglob("*.json"))]
     accepted = f"accepted: one run, without a pause above {pause_s:g} s"
     faults += [f"{results}: no job ran for {pause:.0f} s; {accepted}" for pause in pauses(jobs, pause_s)]
