@@ -11,7 +11,7 @@ from mobnet.plan.disk import check_places, check_space, expected_bytes
 from mobnet.plan.plan import Plan, make_plan
 from mobnet.settings.load import load_settings
 
-ARRAY = "results/smoke/recordings/forward_walk/ideal/s1.parquet"
+ARRAY = "results/smoke/recordings/forward_walk/ideal/s101.parquet"
 
 
 class Usage(NamedTuple):

@@ -92,7 +92,7 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("scenarios.stand.pushes", ["left_foot"], "where nobody walks"),
     ("scenarios.hand_load_10.terrain", ["flat"], "the same"),
     ("scenarios.random_walk.draws", "random_walk_plain", "scenario: "),
-    ("scenarios.forward_walk.narrowed", {"duration_s": [0.7]}, "random` only"),
+    ("scenarios.forward_walk.narrowed", {"duration_s": [0.7]}, "`uniform` only"),
     ("scenarios.random_walk.terrain", ["flat", "flat"], "each value once"),
     # sets, scales and sizes
     ("training_sets.walk_plain.scenario", "random_walk", "what set walk does not record"),

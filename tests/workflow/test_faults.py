@@ -17,7 +17,7 @@ import pytest
 from .conftest import Snakemake
 
 SMOKE = ("--config", "scale=smoke")
-QUICK, SLOW = "tables/smoke/table_01.csv", "results/smoke/recordings/forward_walk/ideal/s1.parquet"
+QUICK, SLOW = "tables/smoke/table_01.csv", "results/smoke/recordings/forward_walk/ideal/s101.parquet"
 ONE_CORE = ("--cores", "1", *SMOKE, "--")
 MOMENTS_S = (0.3, 1.0, 2.0, 4.0, 8.0)  # after the start: before and while the workflow is planned, while jobs run
 SOON_S, LONGEST_S = 15.0, 300.0  # five and thirty on an idle machine

@@ -112,7 +112,7 @@ def test_jobs_of_a_copy_run_its_code(copied: Path) -> None:
     module = copied / "src/mobnet/simulation/record.py"
     text = module.read_text()
     module.write_text(f"{text}\nraise SystemExit('the code of the copy')\n")
-    target = "results/smoke/recordings/forward_walk/ideal/s1.parquet"
+    target = "results/smoke/recordings/forward_walk/ideal/s101.parquet"
     done = call(sys.executable, copied / "reproduce", target, "--cores", "1", folder=copied)
     module.write_text(text)
     assert done.returncode == 1

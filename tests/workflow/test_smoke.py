@@ -213,10 +213,10 @@ def test_damaged_recording_stops_with_one_line_and_nothing_half_written(
     for ending in ("json", "parquet"):
         content = (unbroken / place / f"s1.{ending}").read_bytes()
         (folder / place / f"s1.{ending}").write_bytes(content[: len(content) // 2] if ending == "parquet" else content)
-    target = "results/smoke/residuals/forward_walk/ideal/s1.parquet"
+    target = "results/smoke/residuals/forward_walk/ideal/s101.parquet"
     done = snakemake(*SMOKE, "--rerun-triggers", "mtime", "--", target, folder=folder)
     assert done.returncode != 0
-    assert (done.stdout + done.stderr).count(f"{place}/s1.parquet: truncated or damaged") == 1
+    assert (done.stdout + done.stderr).count(f"{place}/s101.parquet: truncated or damaged") == 1
     assert not (folder / target).exists()
 
 

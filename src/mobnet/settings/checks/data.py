@@ -176,7 +176,7 @@ def _scenario_problems(settings: Settings, name: str, row: Scenario) -> Iterator
     """Yield what does not fit in a scenario."""
     commands = row.commands if isinstance(row.commands, tuple) else (row.commands,)
     if row.narrowed.model_fields_set and not {"random", "uniform"} & set(map(str, commands)):
-        yield ("narrowed",), misfit("`narrowed`", "`narrowed` with `commands: random` or `uniform` only")
+        yield ("narrowed",), misfit("`narrowed`", "`narrowed` with commands `random` or `uniform` only")
     asked = row.commands if isinstance(row.commands, FixedCommand) else row.narrowed
     place = "commands" if isinstance(row.commands, FixedCommand) else "narrowed"
     for key, value in asked:
