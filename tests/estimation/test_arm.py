@@ -45,7 +45,7 @@ def log(arm: RobotDescription) -> Recording:
         rows.append([data.qpos.copy(), data.qvel.copy(), *np.mean(ticks, axis=0)])
     q, v, tau, external = np.array(rows).transpose(1, 0, 2)
     none = np.zeros((SAMPLES, 0))
-    truth = Truth(external, none, none, none, np.zeros((SAMPLES, 1)), np.zeros_like(tau))
+    truth = Truth(external, none, none, none, np.zeros((SAMPLES, 1)), np.zeros_like(tau), np.zeros_like(external))
     return Recording(Sensed(q, v, none, tau, tau, none, none), ((0, SAMPLES),), RATE_HZ, {"level": "ideal"}, truth)
 
 
@@ -115,7 +115,7 @@ def test_a_log_holds_joints_alone_and_is_read_back(log: Recording, arm: RobotDes
     names = [name for group in columns.values() for name, _, _ in group]
     assert names == [
         *(f"{field}.{joint}" for field in ("q", "v", "tau_des", "tau_motor", "tau_ext") for joint in ("J1", "J2")),
-        "pushed", "tau_random.J1", "tau_random.J2",
+        "pushed", "tau_random.J1", "tau_random.J2", "tau_push.J1", "tau_push.J2",
     ]  # fmt: skip
     assert columns["tau_ext"][0] == ("tau_ext.J1", "N m", "joint")
     write_recording(tmp_path / "log", log, arm.layout)

@@ -281,7 +281,8 @@ def write_walk(
     sensed = Sensed(q, zeros((rows, layout.nv)), acc, zeros((rows, layout.nu)),
                     zeros((rows, layout.nu)), np.stack([air, 1 - air], axis=1), zeros((rows, 5)))  # fmt: skip
     wrench, pushed = zeros((rows, 6)), (np.isin(phase, PUSHED_ROWS) & (not calm)).astype(float)[:, None]
-    unseen = Truth(truth, wrench, wrench, zeros((rows, 2)), pushed, zeros((rows, layout.nu)))
+    push = zeros((rows, layout.nv))
+    unseen = Truth(truth, wrench, wrench, zeros((rows, 2)), pushed, zeros((rows, layout.nu)), push)
     recording = Recording(sensed, ((0, rows),), RATE_HZ, {}, unseen)
     write_recording(folder / "recording", recording, layout)
     written = np.concatenate([truth + 5, truth], axis=1)
@@ -338,7 +339,9 @@ def write_steps(stem: Path, layout: JointLayout, seed: int, size: float = 1.0, s
     acc = rng.normal(size=(rows, 3)) + [0.0, 0.0, 9.81]
     sensed = Sensed(q, v, acc, torque, np.clip(torque, -50.0, 50.0), swing.astype(float), command)
     wrench, pushed = np.zeros((rows, 6)), np.zeros((rows, 1))
-    truth = Truth(rng.normal(size=v.shape), wrench, wrench, 1.0 - swing, pushed, np.zeros_like(torque))
+    truth = Truth(
+        rng.normal(size=v.shape), wrench, wrench, 1.0 - swing, pushed, np.zeros_like(torque), np.zeros_like(v)
+    )
     meta = {"falls": seed % 2, "terrains": ["checks", "flat"]}
     spans = ((0, rows // 2), (rows // 2, rows))
     write_recording(stem, Recording(sensed, spans, RATE_HZ, meta, truth), layout)

@@ -32,11 +32,12 @@ def contact_torque(simulator: Simulator) -> np.ndarray:
     return torque
 
 
-def external(simulator: Simulator) -> tuple[np.ndarray, np.ndarray]:
-    """Return the loop's external torque (nv,) and ground's force on each foot (2,) [N] of the step just taken."""
-    tau_ext, touch = np.zeros(NV), np.zeros(2)
-    engine._add_external(simulator.plant, simulator.walker, tau_ext, touch)
-    return tau_ext, touch
+def external(simulator: Simulator) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the loop's torque of contacts and of pushes (nv,) and ground's force on each foot (2,) [N], one step's."""
+    contacts, pushes, touch = np.zeros(NV), np.zeros(NV), np.zeros(2)
+    engine._add_contacts(simulator.plant, simulator.walker, contacts, touch)
+    engine._add_pushes(simulator.plant, pushes)
+    return contacts, pushes, touch
 
 
 def assert_near(found: np.ndarray, expected: np.ndarray, share: float) -> None:
@@ -88,7 +89,9 @@ def test_contacts_and_pushes_are_the_external_torque(pushed_walk: Callable, run:
     for _ in range(60):
         run(simulator, 0.023)
         contact, push = contact_torque(simulator), pushed_torque(simulator)
-        assert_near(external(simulator)[0], contact + push, 1e-9)
+        contacts, pushes, _ = external(simulator)
+        assert_near(contacts, contact, 1e-9)
+        assert_near(pushes, push, 1e-9)
         pushed += np.abs(push).max() > 5
     assert pushed > 40
 
@@ -116,7 +119,7 @@ def test_touch_is_the_normal_force_of_a_foot_s_own_contacts(pushed_walk: Callabl
         for index, contact in enumerate(data.contact):
             mujoco.mj_contactForce(model, data, index, wrench)
             expected[[sole in (contact.geom1, contact.geom2) for sole in soles].index(True)] += wrench[0]
-        touch = external(simulator)[1]
+        touch = external(simulator)[2]
         assert_near(touch, expected, 1e-9)
         seen.add(tuple(touch > engine.CONTACT_FORCE_N))
     assert seen == {(True, False), (False, True), (True, True)}

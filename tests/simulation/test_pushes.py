@@ -28,6 +28,7 @@ def watch(simulator: Simulator, run: Callable, seconds: float) -> list[dict[str,
         seen.append({
             "clock": s.clock, "swinging": s.swinging, "side": s.side, "share": s.t / s.total,
             "state": simulator.pushes.state.copy(), "tau_ext": log["tau_ext"][0].copy(),
+            "tau_push": log["tau_push"][0].copy(),
             "wrench": np.concatenate([log["wrench_left_foot"][0], log["wrench_right_foot"][0]]),
             "contact": log["contact"][0].copy(), "pushed": log["pushed"][0, 0],
         })  # fmt: skip
@@ -100,6 +101,36 @@ def test_random_pushes_pause_as_asked_and_point_anywhere(simulate: Callable, run
     np.testing.assert_allclose((directions**2).mean(axis=0), 1 / 3, atol=0.12)
     sizes = np.array([moment["state"]["size"][0] for moment in starts])
     assert 1.0 <= sizes.min() < 1.1 < 1.9 < sizes.max() <= 2.0
+
+
+def test_sines_are_the_sum_of_their_lines_on_their_joint_alone(simulate: Callable, run: Callable) -> None:
+    """Equation: size times the sum of share sin(2 pi f t + phase), t from the push's start."""
+    lines = {"frequency_hz": [2.0, 11.0], "phase_deg": [0.0, 90.0], "share": [1.0, 0.5]}
+    row = {"joint": "LL4", "at_s": [0.0], "torque_nm": [3.0, 3.0], "duration_s": [1.0, 1.0], "shape": "sines"}
+    other = {**row, "joint": "LL2", "sines": {"frequency_hz": [5.0], "phase_deg": [0.0], "share": [1.0]}}
+    seen = watch(pushed(simulate, knee={**row, "sines": lines}, hip=other), run, 3.2)
+    torque = np.array([moment["tau_push"] for moment in seen])
+    on = np.flatnonzero([moment["pushed"] for moment in seen])
+    inner = on[1:-1]  # whole samples, means over two ticks: 1 and 0.5 ms before the clock that is read
+    middle = np.array([seen[row]["clock"] - seen[row]["state"]["start"][0] for row in inner]) - 0.00075
+    expected = 3.0 * (np.sin(2 * np.pi * 2.0 * middle) + 0.5 * np.cos(2 * np.pi * 11.0 * middle))
+    np.testing.assert_allclose(torque[inner, 6 + 3], expected, atol=1e-3)
+    np.testing.assert_allclose(torque[inner, 6 + 1], 3.0 * np.sin(2 * np.pi * 5.0 * middle), atol=1e-3)
+    assert len(on) == pytest.approx(1000, abs=2)
+    assert not np.delete(torque, [6 + 1, 6 + 3], axis=1).any()
+    assert not np.delete(torque, on, axis=0).any()
+
+
+def test_torque_of_pushes_is_the_external_torque_where_nothing_touches(simulate: Callable, run: Callable) -> None:
+    row = {"point": "left_knee_front", "during": "left_swing", "share": [0.4, 0.4], "at_s": [0.0]}
+    row |= {"force_n": [20.0, 20.0], "duration_s": [0.05, 0.05], "direction": "backward", "shape": "step"}
+    seen = watch(pushed(simulate, knee=row), run, 4.0)
+    on = [moment for moment in seen if moment["pushed"]]
+    assert on
+    for moment in on:
+        np.testing.assert_allclose(moment["tau_push"][6:12], moment["tau_ext"][6:12], atol=1e-4)
+    assert np.abs(on[20]["tau_push"][LL3]) > 2.0
+    assert not any(moment["tau_push"].any() for moment in seen if not moment["pushed"])
 
 
 def test_push_of_the_knee_goes_against_its_front(simulate: Callable, run: Callable) -> None:

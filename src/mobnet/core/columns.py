@@ -12,6 +12,7 @@ FEET = ("left_foot", "right_foot")
 COMMAND = (("step_x", "m"), ("step_y", "m"), ("turn", "rad"), ("duration", "s"), ("foot_height", "m"))  # Table 2
 VELOCITY, DESIRED, MOTOR, SWING, CONTACT, PUSHED = "v", "tau_des", "tau_motor", "swing", "contact", "pushed"
 RANDOM = "tau_random"  # what random torque exploration added to the desired torque
+PUSH_TORQUE = "tau_push"  # what pushes alone add to the external torque
 EXTERNAL = "tau_ext"  # of a recording: true; of an estimate: estimated
 RESIDUAL, EXTERNAL_LP = "r", "tau_ext_lp"  # r of (9), and the true external torque behind the observer's low-pass, (15)
 STD = "std"  # standard deviation that an estimate comes with
@@ -29,6 +30,7 @@ def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:
     wrench = [(f"{kind}_{axis}", unit) for kind, unit in (("force", "N"), ("moment", "N m")) for axis in "xyz"]
     base_v = [(f"v.base_{a}", "m/s", "world") for a in xyz] + [(f"v.omega_{a}", "rad/s", "base") for a in xyz]
     base_q = [(f"q.base_{a}", "m", "world") for a in xyz] + [(f"q.quat_{a}", "-", "world") for a in wxyz]
+    places = [(j, (layout.unit(j), "world" if i < len(xyz) else "joint")) for i, j in enumerate(layout.names)]
     return {
         "q": base_q + [(f"q.{j}", "rad", "joint") for j in actuated],
         "v": base_v + [(f"{VELOCITY}.{j}", "rad/s", "joint") for j in actuated],
@@ -37,10 +39,7 @@ def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:
         "tau_motor": [(f"{MOTOR}.{j}", "N m", "joint") for j in actuated],
         "swing": [(f"{SWING}.{foot}", "-", "plan") for foot in feet],
         "command": [(f"command.{name}", unit, "stance foot") for name, unit in COMMAND if feet],
-        "tau_ext": [
-            (f"{EXTERNAL}.{j}", layout.unit(j), "world" if i < len(xyz) else "joint")
-            for i, j in enumerate(layout.names)
-        ],
+        EXTERNAL: [(f"{EXTERNAL}.{joint}", *place) for joint, place in places],
         **{
             f"wrench_{foot}": [(f"wrench_{foot}.{name}", unit, foot) for name, unit in wrench if foot in feet]
             for foot in FEET
@@ -48,6 +47,7 @@ def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:
         "contact": [(f"{CONTACT}.{foot}", "-", "ground") for foot in feet],
         "pushed": [(PUSHED, "-", "scenario")],
         "tau_random": [(f"{RANDOM}.{j}", "N m", "joint") for j in actuated],
+        PUSH_TORQUE: [(f"{PUSH_TORQUE}.{joint}", *place) for joint, place in places],
     }
 
 

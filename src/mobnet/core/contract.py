@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.columns import COMMAND, EXTERNAL, EXTERNAL_LP, FEET, RESIDUAL, STD
+from mobnet.core.columns import COMMAND, EXTERNAL, EXTERNAL_LP, FEET, PUSH_TORQUE, RESIDUAL, STD
 from mobnet.core.errors import not_accepted
 from mobnet.core.joints import JointLayout
 
@@ -20,7 +20,8 @@ NORM = 0.01  # a quaternion's norm may differ from 1 by this: rounding and noise
 BEYOND_RAD = 0.1  # of a joint's range: its stop gives way, and its zero is known to some degrees
 BEYOND_SPEED, BEYOND_TORQUE = 3.0, 10.0  # of a joint's limits: a hit, a motor stronger than its table says
 QUATERNION = tuple(f"q.quat_{axis}" for axis in "wxyz")
-TORQUES = (RESIDUAL, EXTERNAL_LP, EXTERNAL, STD)  # signals in N for V1..V3 of a floating base, N m for all others
+# signals in N for V1..V3 of a floating base, in N m for all others
+TORQUES = (RESIDUAL, EXTERNAL_LP, EXTERNAL, PUSH_TORQUE, STD)
 
 
 class Rule(NamedTuple):

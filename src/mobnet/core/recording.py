@@ -65,6 +65,8 @@ class Truth:
         pushed: 1 where a push of the scenario acts (T, 1).
         tau_random: random torque (T, nu) [N m] that exploration added to the desired torque, in which it is contained;
             mean over the control ticks of the sample. Zero where there is none.
+        tau_push: what the pushes of the scenario alone add to the external torque (T, nv) [N, N m], mean over the
+            control ticks of the sample. Zero where nothing pushes.
     """
 
     tau_ext: NDArray[Any]
@@ -73,6 +75,7 @@ class Truth:
     contact: NDArray[Any]
     pushed: NDArray[Any]
     tau_random: NDArray[Any]
+    tau_push: NDArray[Any]
 
     def __getitem__(self, rows: int | slice) -> Truth:
         """Return one sample (1-D arrays) or a span of samples."""

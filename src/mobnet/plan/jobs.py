@@ -6,7 +6,10 @@ from pathlib import Path
 from mobnet.core.files import WEIGHTS
 from mobnet.plan.call import Call, Job
 from mobnet.plan.runs import Files, files_in
+from mobnet.settings.base import Section
 from mobnet.settings.data import Terrain
+from mobnet.settings.evaluation import Scoring
+from mobnet.settings.names import uses
 from mobnet.settings.settings import Settings, WalkSettings
 
 KINDS = "mobnet.estimation.kinds"  # modules that a method names as its kind
@@ -104,11 +107,11 @@ class Jobs:
         return Job(Call("mobnet.estimation.estimate:estimate", arguments), inputs, self._kinds(method))
 
     def score(self, scenario: str) -> Job:
-        """Return the errors of every run of a test; recordings are read only where pushes are looked at."""
-        runs, window = self.files.runs_of(scenario), self.settings.evaluation.windows.get(scenario)
-        out = self.files.scores([scenario])[scenario]
-        arguments = {"layout": self.settings.layout, "runs": runs, "window": window, "out": out}
-        read = [[run.residual, run.estimate, *([run.recording] if window else [])] for run in runs]
+        """Return the errors of every run of a test, and what else products ask for."""
+        runs, out = self.files.runs_of(scenario), self.files.scores([scenario])[scenario]
+        asked = scoring(self.settings, scenario)
+        arguments = {"layout": self.settings.layout, "runs": runs, "asked": asked, "out": out}
+        read = [[run.residual, run.estimate, run.recording] for run in runs]
         return Job(Call("mobnet.evaluation.measure.scores:score", arguments), _read(read))
 
     def _kinds(self, method: str) -> tuple[str, ...]:
@@ -129,6 +132,30 @@ class Jobs:
     def _training(self, name: str) -> tuple[tuple[Path, ...], tuple[Path, ...]]:
         """Return recordings and residuals of a training set."""
         return self.files.training("recordings", name), self.files.training("residuals", name)
+
+
+def scoring(settings: Settings, scenario: str) -> Scoring:
+    """Return what is measured on the runs of a test: the sections of the products that show it."""
+    evaluation = settings.evaluation
+    sections = {
+        name: getattr(evaluation, name)
+        for name in ("peaks", "bode", "drift", "phases", "sigma")
+        if scenario in _tests_in(getattr(evaluation, name))
+    }
+    pushes = [settings.pushes[name] for name in settings.scenarios[scenario].pushes]
+    shared = {
+        "window": evaluation.windows.get(scenario),
+        "touch_down_s": evaluation.phases.touch_down_s,
+        "stuck_rad_s": settings.plant.friction_smoothing_rad_s,
+        "cover_share": settings.learning.calibration_share,
+        "lines": {push.joint: push.sines.frequency_hz for push in pushes if push.joint and push.sines},
+    }
+    return Scoring.model_validate({**sections, **shared})
+
+
+def _tests_in(section: Section) -> set[str]:
+    """Return the tests that a section names."""
+    return {name for _, kind, name in uses(section, type(section)) if kind == "test"}
 
 
 def walk_settings(settings: Settings, scenario: str, level: str) -> WalkSettings:

@@ -153,8 +153,19 @@ class Motion(Section):
     variants: Annotated[base.Some[MotionVariant], Field(max_length=100)]
 
 
+class Sines(Section):
+    """Lines of a multisine: frequency, phase at the push's start, and amplitude as a share of the push's size."""
+
+    frequency_hz: Annotated[base.Rising[Annotated[base.Positive, Field(le=500)]], Field(max_length=50)]
+    phase_deg: base.Some[base.Degrees]
+    share: base.Some[base.PositiveShare]
+
+
 class Push(Section):
-    """A force at a point, or a torque on a joint, with the times at which it comes."""
+    """A force at a point, or a torque on a joint, with the times at which it comes.
+
+    A push of shape `sines` is a sum of sines, whose amplitudes are shares of its size.
+    """
 
     point: base.PointName | None = None
     joint: base.MotorName | None = None
@@ -166,7 +177,8 @@ class Push(Section):
     torque_nm: base.Range[base.NewtonMetre] | None = None
     duration_s: base.Range[Duration]
     direction: Direction = "any"
-    shape: Literal["step", "half_sine"]
+    shape: Literal["step", "half_sine", "sines"]
+    sines: Sines | None = None
 
 
 class Scenario(Section):

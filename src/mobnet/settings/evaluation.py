@@ -7,7 +7,14 @@ from pydantic import AfterValidator, Field
 from mobnet.settings import base
 from mobnet.settings.base import Section
 
-Metric = Annotated[str, Field(pattern=r"^(rmse|r_rmse|roughness|rmse_pushed|rmse_push_[1-9][0-9]*)$")]
+PART = "swing|touch_down|stance|stuck|moving"  # parts of a walk
+NUMBER = "[1-9][0-9]*"
+METRIC = "|".join([
+    "rmse", "rmse_raw", "r_rmse", "roughness", "rmse_pushed", f"rmse_push_{NUMBER}", f"(rmse|std|cover)_({PART})",
+    "(peak_ratio|rise_delay)(_observer)?", r"(gain|phase)_[0-9]+(\.[0-9]+)?hz", f"held_(swing|stance)(_{NUMBER})?",
+    "std", "cover", "(std|cover)_(pushed|calm)", f"(rmse|std|cover)_part_{NUMBER}", "excursion", f"acf_{NUMBER}ms",
+])  # fmt: skip
+Metric = Annotated[str, Field(pattern=rf"^({METRIC})$")]  # the modules of evaluation.measure say what each one is
 LimbsOrJoints = base.Distinct[base.LimbOrJointName]
 Texts = Annotated[tuple[base.Text, ...], AfterValidator(base.distinct)]
 
@@ -216,6 +223,77 @@ class Calibration(Section):
     tests: base.Some[CalibrationTest]
 
 
+class LimbRuns(Runs):
+    """Methods on one test at one level, limb by limb."""
+
+    limbs: base.Distinct[base.LimbName]
+
+
+class Peaks(Section):
+    """Peak ratio and delay of the rise under pushes: a push that turns a joint harder counts for it."""
+
+    turned_nm: base.Real = Field(ge=0.01, le=1000)
+    after_s: base.NotNegative = Field(le=10)
+    longest_s: base.Real = Field(ge=0.01, le=10)
+    tests: base.Some[LimbRuns]
+
+
+class Bode(Runs):
+    """Gain and phase: bands of frequency, in each of which every joint of a limb is driven at one line."""
+
+    limb: base.LimbName
+    bands_hz: base.Rising[base.Positive]
+
+
+class Drift(Section):
+    """How long pushes are held: a limb's estimate over the time since a push began, in bins."""
+
+    limb: base.LimbName
+    bin_s: base.Real = Field(ge=0.01, le=10)
+    longest_s: base.Real = Field(ge=0.1, le=60)
+    calm_s: base.NotNegative = Field(le=10)
+    tests: Annotated[dict[base.Text, Runs], Field(min_length=1)]
+
+
+class Phases(Section):
+    """Errors by phase of the gait, a touch-down lasting some time, and of joints that are stuck or move."""
+
+    touch_down_s: base.Real = Field(ge=0.001, le=1)
+    tests: base.Some[LimbRuns]
+
+
+class Sigma(Section):
+    """Standard deviations in parts of a walk, of tests like the training data and of others.
+
+    `parts` is the number of equally large parts by size, `lags_ms` are those of the autocorrelation, which is looked at
+    up to `longest_s`. Tests go by name; every other one is compared with that which `against` names.
+    """
+
+    parts: base.Whole = Field(ge=2, le=100)
+    lags_ms: base.Rising[Annotated[base.Whole, Field(ge=1, le=60_000)]]
+    longest_s: base.Real = Field(ge=0.01, le=60)
+    tests: Annotated[dict[base.Text, LimbRuns], Field(min_length=1)]
+    against: dict[base.Text, base.Text]
+
+
+class Scoring(Section):
+    """What is measured on the runs of one test besides errors: what no product asks for is None.
+
+    `lines` are the injected frequencies [Hz] of each joint, `cover_share` the nominal share of covered errors.
+    """
+
+    window: Window | None = None
+    peaks: Peaks | None = None
+    bode: Bode | None = None
+    drift: Drift | None = None
+    phases: Phases | None = None
+    sigma: Sigma | None = None
+    touch_down_s: float = 0.0
+    stuck_rad_s: float = 0.0
+    cover_share: float = 0.0
+    lines: dict[str, tuple[float, ...]] = {}
+
+
 class DataTable(Section):
     """The table of the training sets: samples from one look at the upper body to the next."""
 
@@ -269,6 +347,11 @@ class Evaluation(Section):
     figure_20: Figure20
     coverage: Coverage
     calibration: Calibration
+    peaks: Peaks
+    bode: Bode
+    drift: Drift
+    phases: Phases
+    sigma: Sigma
     data: DataTable
     commands: CommandsFigure
     steps: Steps

@@ -72,7 +72,7 @@ def run(
     """Simulate len(log) samples into log (n, C), columns of `recording_columns`; return how many before a fall."""
     nv, nu = len(plant.qvel), len(plant.ctrl)
     tau, tau_des, tau_motor, tau_ext = np.zeros(nu), np.zeros(nu), np.zeros(nu), np.zeros(nv)
-    tau_random = np.zeros(nu)
+    tau_random, tau_push = np.zeros(nu), np.zeros(nv)
     wrenches, touch = np.zeros((2, 6)), np.zeros(2)
     for row in range(len(log)):
         pushed = 0
@@ -80,6 +80,7 @@ def run(
         tau_motor[:] = 0.0
         tau_ext[:] = 0.0
         tau_random[:] = 0.0
+        tau_push[:] = 0.0
         wrenches[:] = 0.0
         touch[:] = 0.0
         for _ in range(plant.every):
@@ -89,16 +90,24 @@ def run(
             _actuate(plant, tau, tau_des, tau_motor)
             push(
                 pushes, s, plant.xfrc_applied, plant.qfrc_applied, plant.site_xpos, plant.xipos, plant.xmat, rng_pushes,
-                tau_ext,
+                tau_push,
             )  # fmt: skip
-            pushed += pushes.state.active.sum()
+            active = pushes.state.active.sum()
+            pushed += active
             s.clock += plant.dt
             call_step(plant.native.step, plant.native.model, plant.native.data)
-            _add_external(plant, walker, tau_ext, touch)
+            if active > 0:
+                _add_pushes(plant, tau_push)
+            _add_contacts(plant, walker, tau_ext, touch)
             read_sensors(sensors, walker, plant.qpos, plant.qvel, plant.sensordata, rng_noise, plant.dt)
             wrenches += sensors.wrenches
             _wrap(plant, sensors, s)
-        _write(log[row], sensors, s, tau_des, tau_motor, tau_ext, tau_random, wrenches, touch, pushed, plant.every)
+        for i in range(nv):
+            tau_ext[i] += tau_push[i]
+        _write(
+            log[row], sensors, s, tau_des, tau_motor, tau_ext, tau_random, tau_push, wrenches, touch, pushed,
+            plant.every,
+        )  # fmt: skip
         if not plant.qpos[2] > plant.fall_height:  # a state that is not finite is a fall too
             return row
     return len(log)
@@ -130,16 +139,21 @@ def _actuate(plant: Plant, tau: Array, tau_des: Array, tau_motor: Array) -> None
 
 
 @compiled
-def _add_external(plant: Plant, walker: Walker, tau_ext: Array, touch: Array) -> None:
-    """Add the external torque of the step just taken (nv,): J^T F of the solver's contact rows and pushes on bodies.
+def _add_pushes(plant: Plant, tau_push: Array) -> None:
+    """Add J^T F of the pushes on bodies in the step just taken (nv,) [N, N m]: what MuJoCo mapped of xfrc_applied."""
+    for i in range(len(tau_push)):
+        smooth = plant.qfrc_passive[i] - plant.qfrc_bias[i] + plant.qfrc_applied[i] + plant.qfrc_actuator[i]
+        tau_push[i] += plant.qfrc_smooth[i] - smooth
+
+
+@compiled
+def _add_contacts(plant: Plant, walker: Walker, tau_ext: Array, touch: Array) -> None:
+    """Add J^T F of the solver's contact rows in the step just taken (nv,) [N, N m].
 
     Only the contact rows: the constraint forces as a whole also hold friction loss and limits. Their forces [N] are
     added to touch (2,) of the left, right foot: the edges of a contact's friction pyramid add up to its normal force.
     """
     nv, data = len(tau_ext), plant.native.data
-    for i in range(nv):
-        smooth = plant.qfrc_passive[i] - plant.qfrc_bias[i] + plant.qfrc_applied[i] + plant.qfrc_actuator[i]
-        tau_ext[i] += plant.qfrc_smooth[i] - smooth
     rows = ints_at(data + plant.native.nefc)[0]
     if rows == 0:
         return
@@ -178,7 +192,7 @@ def _wrap(plant: Plant, sensors: Sensors, s: State) -> None:
 @compiled
 def _write(
     row: NDArray[np.float32], sensors: Sensors, s: State, tau_des: Array, tau_motor: Array, tau_ext: Array,
-    tau_random: Array, wrenches: Array, touch: Array, pushed: int, every: int,
+    tau_random: Array, tau_push: Array, wrenches: Array, touch: Array, pushed: int, every: int,
 ) -> None:  # fmt: skip
     """Write one sample in the order of `recording_columns`; sums over the sample's steps become means."""
     at = _put(row, 0, sensors.q, 1.0)
@@ -195,7 +209,8 @@ def _write(
     for k in range(2):
         row[at + k] = touch[k] > every * CONTACT_FORCE_N
     row[at + 2] = pushed > 0
-    _put(row, at + 3, tau_random, 1.0 / every)
+    at = _put(row, at + 3, tau_random, 1.0 / every)
+    _put(row, at, tau_push, 1.0 / every)
 
 
 @compiled

@@ -3,7 +3,7 @@
 The plant feels them like contacts; they are part of the external torque. Those on a sole are felt by its foot's sensor.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import mujoco
@@ -15,12 +15,12 @@ from mobnet.control.parameters import State
 from mobnet.core.arrays import Array
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.robot.description import RobotDescription
-from mobnet.settings.data import Direction, Phase, Push
+from mobnet.settings.data import Direction, Phase, Push, Sines
 
 DIRECTIONS: tuple[Direction, ...] = ("any", "horizontal", "down", "backward")  # the last: against the body's x axis
 ANY, HORIZONTAL, DOWN, BACKWARD = range(4)
-SHAPES = ("step", "half_sine")
-HALF_SINE = 1
+SHAPES = ("step", "half_sine", "sines")
+_, HALF_SINE, SINES = range(3)
 PHASES: tuple[Phase, ...] = ("always", "left_swing", "right_swing", "left_support", "right_support")
 SHARE_WINDOW = 0.05  # [-] of a step: a push whose moment has passed by more waits for the next step
 
@@ -43,6 +43,7 @@ class Pushes(NamedTuple):
     # the `pause` [s] between two, of the `size` [N] or [N m] of the peak and of the `duration` [s]
     law: NDArray[Any]
     times: Array  # earliest times of the episode (n, k) [s], padded with infinity
+    sines: Array  # lines (n, m, 3) of shape `sines`: angular frequency [rad/s], phase [rad], share of the size [-]
     state: NDArray[Any]  # running push of each row (n,), records of STATE
 
 
@@ -54,7 +55,17 @@ def make_pushes(settings: Mapping[str, Push], model: mujoco.MjModel, robot: Robo
     for k, row in enumerate(times):
         padded[k, : len(row)] = row
     laws = np.array([_law(row, model, robot) for row in rows], dtype=LAW)
-    return Pushes(laws, padded, np.zeros(len(rows), dtype=STATE))
+    return Pushes(laws, padded, _sines([row.sines for row in rows]), np.zeros(len(rows), dtype=STATE))
+
+
+def _sines(rows: Sequence[Sines | None]) -> Array:
+    """Return the lines of pushes (n, m, 3), as in `Pushes.sines`; those that a push lacks have a share of zero."""
+    found = np.zeros((len(rows), max((len(row.share) for row in rows if row), default=0), 3))
+    for lines, row in zip(found, rows, strict=True):
+        if row:
+            columns = 2.0 * np.pi * np.array(row.frequency_hz), np.deg2rad(row.phase_deg), row.share
+            lines[: len(row.share)] = np.stack(columns, axis=1)
+    return found
 
 
 def _law(row: Push, model: mujoco.MjModel, robot: RobotDescription) -> tuple[Any, ...]:
@@ -130,7 +141,18 @@ def _advance(pushes: Pushes, k: int, s: State, xmat: Array, rng: np.random.Gener
         return 0.0
     if law.shape == HALF_SINE:
         return p.size * np.sin(np.pi * (s.clock - p.start) / (p.end - p.start))
+    if law.shape == SINES:
+        return p.size * sum_of_sines(pushes.sines[k], s.clock - p.start)
     return p.size
+
+
+@compiled
+def sum_of_sines(sines: Array, time_s: float) -> float:
+    """Return the sum of the lines (m, 3) of a push [-], as in `Pushes.sines`, at a time [s] from its start."""
+    total = 0.0
+    for i in range(len(sines)):
+        total += sines[i, 2] * np.sin(sines[i, 0] * time_s + sines[i, 1])
+    return total
 
 
 @compiled

@@ -7,14 +7,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mobnet.core.columns import Score
+from mobnet.core.columns import Score, torque_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array, write_array
 from mobnet.evaluation.measure.scores import limb_values, score, score_run
 from mobnet.evaluation.number.files import read_rows
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import Window
+from mobnet.settings.evaluation import Scoring, Window
 
 Walk = Callable[..., Run]
 RATE = {"rate_hz": 100.0}
@@ -25,9 +25,14 @@ def values_of(rows: list[Score], metric: str) -> list[float]:
     return [row.value for row in rows if row.metric == metric]
 
 
+def around(before_s: float, after_s: float) -> Scoring:
+    """Return a window around pushes, and nothing else that is asked for."""
+    return Scoring(window=Window(before_s=before_s, after_s=after_s))
+
+
 def test_constant_error_is_scored_as_that_constant_in_every_joint(walk: Walk, layout: JointLayout) -> None:
     """A closed form."""
-    rows = score_run(layout, walk(-3.0))
+    rows = score_run(layout, walk(-3.0), Scoring())
     assert [row.joint for row in rows if row.metric == "rmse"] == [*layout.limb("LL"), "avg"]
     assert values_of(rows, "rmse") == pytest.approx([3.0] * 7, rel=1e-5)
     named = {(row.limb, row.unit, row.scenario, row.method) for row in rows if row.metric == "rmse"}
@@ -36,7 +41,7 @@ def test_constant_error_is_scored_as_that_constant_in_every_joint(walk: Walk, la
 
 def test_a_constant_error_does_not_change_the_roughness(walk: Walk, layout: JointLayout) -> None:
     """Invariant under an offset of the estimate."""
-    one, two = (values_of(score_run(layout, walk(error)), "roughness") for error in (0.5, 4.0))
+    one, two = (values_of(score_run(layout, walk(error), Scoring()), "roughness") for error in (0.5, 4.0))
     assert one == pytest.approx(two, rel=1e-4)
 
 
@@ -47,7 +52,7 @@ def test_average_is_the_mean_of_the_joints_and_base_units_stay_apart(layout: Joi
 
 
 def test_order_of_rows_is_that_of_the_runs(tmp_path: Path, walk: Walk, layout: JointLayout) -> None:
-    score(layout, [walk(1.0), replace(walk(2.0), test_seed=2)], None, tmp_path / "scores.csv")
+    score(layout, [walk(1.0), replace(walk(2.0), test_seed=2)], Scoring(), tmp_path / "scores.csv")
     rows = read_rows(tmp_path / "scores.csv", Score)
     half = len(rows) // 2
     assert [row.test_seed for row in rows] == [1] * half + [2] * half
@@ -66,28 +71,31 @@ def test_files_that_do_not_belong_together_are_refused(tmp_path: Path, walk: Wal
         (replace(run, residual=stem), r"column 'tau_ext_lp\.LL1' is missing"),
     ):
         with pytest.raises(DataError, match=says):
-            score_run(layout, changed)
+            score_run(layout, changed, Scoring())
 
 
 def test_pushes_are_scored_each_and_together(tmp_path: Path, walk: Walk, layout: JointLayout) -> None:
     run, rows = walk(2.0), np.arange(560)
     pushed = np.isin(rows, [*range(100, 110), *range(300, 330)])
     error = np.where(rows < 200, 1.0, 3.0) * pushed
-    write_array(tmp_path / "recording", pushed[:, None].astype(float), [("pushed", "-", "scenario")], RATE)
+    raw = np.column_stack([pushed, np.zeros((len(rows), layout.nv))])  # the truth before the low-pass is zero
+    columns = [("pushed", "-", "scenario"), *torque_columns(layout, ["tau_ext"], layout.names)]
+    write_array(tmp_path / "recording", raw, columns, RATE)
     truth, _ = read_array(run.residual, ["tau_ext_lp.LL3"])
     write_array(tmp_path / "e", truth + error[:, None], [("tau_ext.LL3", "N m", "joint")], RATE)
     run = replace(run, recording=tmp_path / "recording", estimate=tmp_path / "e")
-    scored = score_run(layout, run, Window(before_s=0.0, after_s=0.0))
+    scored = score_run(layout, run, around(0.0, 0.0))
     values = {row.metric: row.value for row in scored if row.joint == "LL3"}
+    assert values["rmse_raw"] == pytest.approx(np.sqrt(np.mean((truth[:, 0] + error) ** 2)), rel=1e-5)
     expected = {"rmse_push_1": 1.0, "rmse_push_2": 3.0, "rmse_pushed": 7.0**0.5, "rmse": (280 / 560) ** 0.5}
     assert {name: values[name] for name in expected} == pytest.approx(expected, rel=1e-5)
-    wide = score_run(layout, run, Window(before_s=0.1, after_s=0.2))
+    wide = score_run(layout, run, around(0.1, 0.2))
     assert values_of(wide, "rmse_push_1")[0] == pytest.approx(0.5, rel=1e-5)
 
 
 def test_without_a_push_or_a_window_there_is_no_row_of_pushes(walk: Walk, layout: JointLayout) -> None:
-    for run, window in ((walk(2.0, calm=True), Window(before_s=0.1, after_s=0.2)), (walk(2.0), None)):
-        assert {row.metric for row in score_run(layout, run, window)} == {"rmse", "roughness", "r_rmse"}
+    for run, asked in ((walk(2.0, calm=True), around(0.1, 0.2)), (walk(2.0), Scoring())):
+        assert {row.metric for row in score_run(layout, run, asked)} == {"rmse", "rmse_raw", "roughness", "r_rmse"}
 
 
 def test_relative_error_is_a_percentage_and_left_out_where_there_is_no_torque(
@@ -97,7 +105,7 @@ def test_relative_error_is_a_percentage_and_left_out_where_there_is_no_torque(
     residual, _ = read_array(walk(3.0).residual, names)
     residual[:, 2] = 0.0
     write_array(tmp_path / "r", residual, [(name, "N m", "joint") for name in names], RATE)
-    scored = score_run(layout, replace(walk(3.0), residual=tmp_path / "r"))
+    scored = score_run(layout, replace(walk(3.0), residual=tmp_path / "r"), Scoring())
     rows = [row for row in scored if row.metric == "r_rmse"]
     assert [row.joint for row in rows] == ["LL1", "LL2", "LL4", "LL5", "LL6", "avg"]
     assert {row.unit for row in rows} == {"%"}

@@ -7,7 +7,8 @@ from pathlib import Path
 from mobnet.core.columns import Epoch, Score
 from mobnet.evaluation.number.files import read_rows, refuse_rows
 
-UNITS = ("N", "N m", "N/s", "N m/s", "%")  # of a score
+UNITS = ("N", "N m", "N/s", "N m/s", "%", "-", "ms", "deg")  # of a score
+SIGNED = ("-", "ms", "deg")  # units of numbers that may be below zero
 Fault = tuple[int, str, object, str]  # number of a row, column, value, accepted
 
 
@@ -38,7 +39,7 @@ def _score_faults(rows: Sequence[Score]) -> Iterator[Fault]:
     seen: dict[tuple[object, ...], int] = {}
     for k, row in enumerate(rows):
         for name, low in (("network_seed", 0), ("test_seed", 0), ("value", 0.0)):
-            if getattr(row, name) < low:
+            if getattr(row, name) < low and not (name == "value" and row.unit in SIGNED):
                 yield k, name, getattr(row, name), "0 or more"
         for name in ("scenario", "level", "method", "limb", "joint", "metric"):
             if not getattr(row, name):

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from typing import get_args
 
 from mobnet.core.errors import misfit, not_accepted
-from mobnet.settings.checks.results import Results
+from mobnet.settings.checks.results import Results, metric_unit
 from mobnet.settings.claims import Bounds, Cell, Claim, TrainingMetric
 from mobnet.settings.reading import Place
 
@@ -14,7 +14,7 @@ POSSIBLE: Mapping[str, Bounds] = {
     "value": (0.0, None), "ratio": (0.0, None), "cut": (None, 1.0), "gap ratio": (0.0, None),
     "least ratio": (0.0, None), "falls": (-1.0, 1.0),
 }  # fmt: skip
-UNITS = {"validation RMSE": "N m", "roughness": "N m/s", "r_rmse": "%"}  # of metrics that are no error of a joint
+UNITS = {"validation RMSE": "N m"}  # of measures of a training that have one
 Problem = tuple[Place, str]
 
 
@@ -68,7 +68,7 @@ def _units(results: Results, cell: Cell) -> set[str]:
     if metrics[0] in get_args(TrainingMetric):
         return {UNITS.get(metrics[0], "-")}
     units = {results.layout.unit(joint) for name in names for joint in results.joints(name)}
-    return {UNITS.get(metric, unit) for metric in metrics for unit in units}
+    return {metric_unit(metric, unit) for metric in metrics for unit in units}
 
 
 def _number_problems(claim: Claim, units: set[str]) -> Iterator[Problem]:

@@ -166,6 +166,10 @@ def _push_faults(push: Push) -> Iterator[Problem]:
     if given != wanted:
         accepted = "`point`, `force_n` and `direction`, or `joint` and `torque_nm`"
         yield (), misfit(", ".join(sorted(given)) or "neither force nor torque", accepted)
+    if (push.shape == "sines") != (push.sines is not None):
+        yield (), misfit("`shape: sines` without `sines`, or the other way round", "both or neither")
+    if push.sines and len({len(numbers) for _, numbers in push.sines}) > 1:
+        yield ("sines",), misfit("lists of different lengths", "a frequency, a phase and a share for each line")
     if (push.pause_s is None) == (push.at_s is None):
         yield (), misfit("no time" if push.at_s is None else "`pause_s` with `at_s`", "`pause_s` or `at_s`")
     if push.during == "always" and "share" in push.model_fields_set:

@@ -1,5 +1,6 @@
 """What the configuration will have results of: runs, scores, estimated joints, trainings and pushes."""
 
+import re
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -8,9 +9,29 @@ from mobnet.core.errors import not_accepted
 from mobnet.core.joints import JointLayout, right_of, with_image
 from mobnet.settings.checks.robot import joints_above
 from mobnet.settings.evaluation import Mean
+from mobnet.settings.names import uses
 from mobnet.settings.settings import Settings, swept_name
 
 PUSHED, PUSH = "rmse_pushed", "rmse_push_"  # metrics of windows around pushes
+ASKED = {  # section -> metrics that are measured on its tests alone
+    "peaks": r"(peak_ratio|rise_delay).*",
+    "bode": r"(gain|phase)_.*",
+    "drift": r"held_.*",
+    "phases": r"rmse_(swing|touch_down|stance|stuck|moving)",
+    "sigma": r"(std|cover|acf|excursion|rmse_part).*",
+}
+UNITS = {  # metrics that are no error of a joint -> unit
+    r"roughness": "N m/s",
+    r"r_rmse": "%",
+    r"(peak_ratio|gain|held|cover|acf).*": "-",
+    r"(rise_delay|excursion).*": "ms",
+    r"phase_.*": "deg",
+}
+
+
+def metric_unit(metric: str, unit: str) -> str:
+    """Return the unit of a metric of joints whose torques have a unit."""
+    return next((own for pattern, own in UNITS.items() if re.fullmatch(pattern, metric)), unit)
 
 
 @dataclass(frozen=True)
@@ -58,12 +79,21 @@ class Results:
         windows = self.settings.evaluation.windows
         if metric.startswith(PUSHED[:9]) and scenario not in windows:
             return not_accepted("test with a window around pushes", scenario, windows)
+        for section, pattern in ASKED.items():
+            tests = self._tests_of(section)
+            if re.fullmatch(pattern, metric) and scenario not in tests:
+                return not_accepted(f"test of section {section}", scenario, tests)
         timed = [self.settings.pushes[name].at_s for name in self.settings.scenarios[scenario].pushes]
         if metric.startswith(PUSH) and None not in timed:
             count = sum(len(times) for times in timed if times)
             if int(metric.removeprefix(PUSH)) > count:
                 return not_accepted("metric", metric, [f"{PUSH}{k + 1}" for k in range(count)])
         return ""
+
+    def _tests_of(self, section: str) -> list[str]:
+        """Return the tests that a section of the evaluation names."""
+        found = getattr(self.settings.evaluation, section)
+        return sorted({name for _, kind, name in uses(found, type(found)) if kind == "test"})
 
     def predicted(self, method: str) -> set[str]:
         """Return the joints that a method's networks predict."""
