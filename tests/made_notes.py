@@ -18,8 +18,8 @@ def training_note(name: str, losses: Sequence[float], **changes: Any) -> dict[st
     note = {
         "name": name, "method": method, "limb": limb, "seed": int(seed[1:]), "target": "uncertainty",
         "settings": settings | changes.pop("settings", {}), "parameters": 83712, "samples": 1800000,
-        "diverged": False, "best": best, "on_windows": {"loss": -1.0, "rmse": 7.0}, "calibration": CALIBRATION,
-        "device": "cpu", "precision": "float32", "fingerprint": "<script>alert(1)</script>",
-        "provenance": {"commit": "c"},
+        "diverged": False, "chosen_by": "validation_loss", "best": best,
+        "on_windows": {"loss": -1.0, "rmse": 7.0}, "calibration": CALIBRATION, "device": "cpu", "precision": "float32",
+        "fingerprint": "<script>alert(1)</script>", "provenance": {"commit": "c"},
     }  # fmt: skip
     return note | changes

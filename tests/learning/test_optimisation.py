@@ -1,15 +1,15 @@
 """An epoch with carried state is what the robot will run."""
 
 import copy
-import math
 
 import numpy as np
 import pytest
 import torch
 
 from mobnet.learning.cells import Gru
+from mobnet.learning.losses import gaussian_loss
 from mobnet.learning.model import LimbNetwork, build_network
-from mobnet.learning.optimisation import LAST_STEP, SEQUENCES, Samples, gaussian_loss, train_epoch, validate
+from mobnet.learning.optimisation import LAST_STEP, SEQUENCES, Samples, train_epoch, validate
 from mobnet.learning.streams import deal, epoch_plan, window_plan
 from mobnet.settings.networks import SIZES, Cell, CellKind
 
@@ -104,19 +104,3 @@ def test_a_clip_of_zero_stops_learning(network: LimbNetwork, samples: Samples) -
     _, norm = train_epoch(network, optimizer, samples, deal([(0, 600)], 4, HORIZON), HORIZON, 0.0)
     assert norm > 0
     assert torch.equal(before, network.head.weight)
-
-
-def test_loss_is_minus_twice_the_log_of_20_without_its_constant() -> None:
-    generator = torch.Generator().manual_seed(0)
-    mean, target = torch.randn(2, 50, 6, generator=generator)
-    std = torch.rand(50, 6, generator=generator) + 0.1
-    likelihood = torch.distributions.Normal(mean, std).log_prob(target)
-    expected = (-2 * likelihood).mean() - math.log(2 * math.pi)
-    torch.testing.assert_close(gaussian_loss(mean, std, target), expected)
-
-
-def test_best_std_is_the_size_of_the_error() -> None:
-    std = torch.linspace(0.1, 3.0, 291)
-    zero = torch.zeros(291)
-    losses = torch.stack([gaussian_loss(zero[:1], s[None], zero[:1] + 0.7) for s in std])
-    assert float(std[losses.argmin()]) == pytest.approx(0.7, abs=0.01)

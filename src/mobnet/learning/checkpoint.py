@@ -10,6 +10,7 @@ import json
 import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
+from operator import attrgetter
 from pathlib import Path
 
 import torch
@@ -28,19 +29,20 @@ log = logging.getLogger(__name__)
 
 @dataclass
 class Progress:
-    """How far a training has come: finished epochs, weights at the smallest validation loss, time of all starts [s].
+    """How far a training has come: finished epochs, weights of the best one, time of all starts [s].
 
-    A training whose loss ran away stopped there: it has `diverged`, and is never resumed.
+    The best epoch is that with the smallest number in the column `chosen_by`. A training whose loss ran away stopped there: it has `diverged`, and is never resumed.
     """
 
     epochs: list[Epoch] = field(default_factory=list)
     best: dict[str, Tensor] = field(default_factory=dict)
     seconds: float = 0.0
     diverged: bool = False
+    chosen_by: str = "validation_loss"
 
     def best_epoch(self) -> Epoch:
-        """Return the epoch with the smallest validation loss, the first of equals."""
-        return min(self.epochs, key=lambda epoch: epoch.validation_loss)
+        """Return the epoch whose weights are kept, the first of equals."""
+        return min(self.epochs, key=attrgetter(self.chosen_by))
 
 
 def copy_weights(network: nn.Module) -> dict[str, Tensor]:

@@ -18,7 +18,8 @@ class LimbNetwork(nn.Module):
 
     The paper gives the variance outputs a softplus and clips the standard deviation (section 4.4); here the softplus is
     the standard deviation itself, so that one clip serves both. `precision` is the number format of the cell's products
-    in training; otherwise, as on the robot, it is float32.
+    in training; otherwise, as on the robot, it is float32. With `std_apart`, training passes no gradient from the
+    standard deviation to anything but its own rows of the linear layer.
     """
 
     def __init__(self, cell: CellModule, joints: int, std_min: float) -> None:
@@ -31,6 +32,7 @@ class LimbNetwork(nn.Module):
         self.std_min = std_min
         self.input_gain = 1.0
         self.precision = torch.float32
+        self.std_apart = False
 
     def forward(self, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor, Tensor]:
         """Run z-scored inputs (h, B, n_in) over a stretch of time from a state (rows, B, columns), eq. (18).
@@ -40,9 +42,27 @@ class LimbNetwork(nn.Module):
         rounded = self.training and self.precision != torch.float32
         with torch.autocast(x.device.type, self.precision, enabled=rounded):
             features, state = self.cell.run(x if self.input_gain == 1.0 else self.input_gain * x, state)
-        mean, raw = self.head(features.float()).chunk(2, dim=-1)  # rounded means would cost likelihood
+        mean, raw = self._output(features.float())  # rounded means would cost likelihood
         std = nn.functional.softplus(raw.contiguous())  # ten times as fast as on a part of each row
         return mean, std.clamp_min(self.std_min), state.float()
+
+    def _output(self, features: Tensor) -> tuple[Tensor, Tensor]:
+        """Return the linear layer's outputs for mean and standard deviation, (h, B, n) each, of features (h, B, n_f)."""
+        if not (self.training and self.std_apart):
+            mean, raw = self.head(features).chunk(2, dim=-1)
+            return mean, raw
+        (mean_weight, std_weight), (mean_bias, std_bias) = self.head.weight.chunk(2), self.head.bias.chunk(2)
+        linear = nn.functional.linear
+        return linear(features, mean_weight, mean_bias), linear(features.detach(), std_weight, std_bias)
+
+    def gradients(self) -> list[list[Tensor]]:
+        """Return the gradients that are clipped together: those of all weights, or first of all but those of std."""
+        found = {name: p.grad for name, p in self.named_parameters() if p.grad is not None}
+        if not self.std_apart:
+            return [list(found.values())]
+        halves = [grad.chunk(2) for name, grad in found.items() if name.startswith("head.")]
+        rest = [grad for name, grad in found.items() if not name.startswith("head.")]
+        return [rest + [mean for mean, _ in halves], [std for _, std in halves]]
 
     def fresh_state(self, lanes: int, device: torch.device | None = None) -> Tensor:
         """Return the zero state (rows, B, columns) of some lanes, such as (1, B, hidden) of a GRU."""

@@ -1,15 +1,16 @@
-"""One epoch of training and of validation by the Gaussian likelihood, eqs. (19) to (22), section 4.4.
+"""One epoch of training and of validation, eqs. (19) to (22), section 4.4; `losses` has what is minimised.
 
 The robot carries the state from sample to sample, and so does training by default. The authors' code trains on
 independent windows instead, whose state starts from zero and whose last step alone is in the loss.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import torch
 from torch import Tensor
 
+from mobnet.learning.losses import Objective, gaussian_loss, likelihood
 from mobnet.learning.model import LimbNetwork
 from mobnet.learning.streams import Plan, epoch_plan, window_plan
 
@@ -45,14 +46,6 @@ class Samples:
             )
 
 
-def gaussian_loss(mean: Tensor, std: Tensor, target: Tensor) -> Tensor:
-    """Return the mean of ln(sigma^2) + (mean - target)^2 / sigma^2 over samples and joints, (), eq. (22).
-
-    Mean, standard deviation and target torque are (..., n), z-scored, unitless.
-    """
-    return (2 * torch.log(std) + ((mean - target) / std).square()).mean()
-
-
 def train_epoch(
     network: LimbNetwork,
     optimizer: torch.optim.Optimizer,
@@ -61,26 +54,36 @@ def train_epoch(
     horizon: int,
     gradient_norm: float,
     scored: slice = EVERY_STEP,
+    objective: Objective = likelihood,
 ) -> tuple[float, float]:
     """Run one epoch of truncated back-propagation through time: state detached every horizon, carried as planned.
 
     The network is trained in place on rows (updates, lanes) of the plan; the gradient is clipped to a norm, and
-    `scored` are the steps of a horizon that are in the loss. Return mean loss (22) and mean norm before the clip,
-    unitless.
+    `scored` are the steps of a horizon that are in the loss, which is an objective of `losses`. Return mean loss (22)
+    and mean norm before the clip, unitless.
     """
     network.train()
     losses, norms = [], []
     state = network.fresh_state(plan.rows.shape[1], samples.inputs.device)
     for x, target, keep in samples.horizons(plan, horizon):
         mean, std, after = network(x, state * keep)
-        loss = gaussian_loss(mean[scored], std[scored], target[scored])
+        minimised, loss = objective(mean[scored], std[scored], target[scored])
         optimizer.zero_grad()
-        loss.backward()
-        norms.append(torch.nn.utils.clip_grad_norm_(network.parameters(), gradient_norm))
+        minimised.backward()
+        norm, *_ = [clip(part, gradient_norm) for part in network.gradients()]
+        norms.append(norm)
         optimizer.step()
         state = after.detach()
         losses.append(loss.detach())
     return torch.stack(losses).mean().item(), torch.stack(norms).mean().item()
+
+
+@torch.no_grad()
+def clip(gradients: Sequence[Tensor], most: float) -> Tensor:
+    """Scale gradients in place to a norm of `most` where it is larger; return the norm before, ()."""
+    norm = torch.nn.utils.get_total_norm(gradients)
+    torch._foreach_mul_(list(gradients), (most / (norm + 1e-6)).clamp(max=1.0))
+    return norm
 
 
 @torch.no_grad()

@@ -38,7 +38,7 @@ def train(
     state: Path,
     rate_hz: float | None = None,
 ) -> None:
-    """Train one limb network of Table 1 by (22) and keep the epoch that validates best.
+    """Train one limb network of Table 1 by (22), or by another of `losses`, and keep the epoch that validates best.
 
     The folder `out` gets `weights.safetensors`, `metrics.csv` and, last, `run.json`; nothing before the training is
     done. The folder `state` gets a checkpoint and `metrics.csv` at each epoch; a killed training goes on from there to
@@ -101,6 +101,7 @@ def run_note(trainer: Trainer, data: LimbData, done: Progress, calibration: Cali
         "parameters": parameter_count(trainer.network),
         "samples": trainer.samples,
         "diverged": done.diverged,
+        "chosen_by": trainer.chosen_by,
         "best": asdict(done.best_epoch()) if done.epochs else None,
         "on_windows": trainer.on_windows(done),
         "calibration": calibration.note(data.joints, training.learning.calibration_levels),

@@ -18,6 +18,7 @@ from mobnet.learning.calibration import Calibration, calibrate, predict
 from mobnet.learning.checkpoint import CHECKPOINT, Progress, write_metrics
 from mobnet.learning.dataset import LimbData, Scale, scale_of
 from mobnet.learning.job import Job
+from mobnet.learning.losses import CHOSEN_BY, objective_of
 from mobnet.learning.model import build_network, seeded
 from mobnet.learning.optimisation import EVERY_STEP, LAST_STEP, SEQUENCES, Samples, train_epoch, validate
 from mobnet.learning.streams import Plan, some_of, split, validation_plan, window_plan
@@ -51,6 +52,7 @@ class Trainer:
         sizes = len(data.input_names), len(data.joints)
         self.network = build_network(network, *sizes, learning.std_min, self._seed("weights")).to(self.device)
         self.network.precision = job.precision(self.device)
+        self.network.std_apart = learning.loss == "squared"
         parameters, betas = self.network.parameters(), learning.optimizer_betas
         self._optimizer = torch.optim.Adam(parameters, lr=job.rate(0), betas=betas)
 
@@ -58,6 +60,11 @@ class Trainer:
     def samples(self) -> int:
         """Number of samples that the weights are learned from."""
         return sum(end - start for start, end in self._blocks)
+
+    @property
+    def chosen_by(self) -> str:
+        """Column of `metrics.csv` that is smallest in the epoch kept."""
+        return CHOSEN_BY[self.job.training.learning.loss]
 
     def _seed(self, *purpose: int | str) -> int:
         """Return torch's seed for a purpose."""
@@ -78,6 +85,7 @@ class Trainer:
         path = state_dir / CHECKPOINT
         first = checkpoint.copy_weights(self.network)
         done = checkpoint.resume(path, self.fingerprint, self.network, self._optimizer)
+        done.chosen_by = self.chosen_by
         while len(done.epochs) < self.job.training.epochs:
             started = time.monotonic()
             try:
@@ -125,8 +133,9 @@ class Trainer:
         plan = plan_of(self._blocks, *self._shape, job.generator("epoch", epoch), job.training.epoch_samples)
         with seeded(self._seed("dropout", epoch)):
             loss, norm = train_epoch(
-                self.network, self._optimizer, self._samples, plan, job.horizon, learning.gradient_norm, scored
-            )
+                self.network, self._optimizer, self._samples, plan, job.horizon, learning.gradient_norm, scored,
+                objective_of(learning),
+            )  # fmt: skip
         self._check("training", epoch, loss, rate)
         validation, rmse = self._validate(self._validation)
         self._check("validation", epoch, validation, rate)

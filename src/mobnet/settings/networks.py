@@ -13,6 +13,7 @@ CellKind = Literal["GRU", "LSTM", "RNN", "TCN", "MLP", "constant"]
 Units = Annotated[base.Count, Field(le=8192)]
 Steps = Annotated[base.Count, Field(le=10_000)]
 Precision = Literal["auto", "float32", "bfloat16"]
+Loss = Literal["likelihood", "beta_likelihood", "squared"]
 SIZES: dict[CellKind, tuple[str, ...]] = {  # what a kind of cell needs to be told
     "GRU": ("hidden",),
     "LSTM": ("hidden",),
@@ -85,6 +86,8 @@ class Network(NetworkRow, Limb):
 class Learning(Section):
     """Optimisation and calibration of every network, section 4.4; `data_parts` is that of section 6.3."""
 
+    loss: Loss
+    loss_beta: base.Share
     batch_size: base.Whole = Field(ge=1, le=4096)
     optimizer_betas: base.Range[Annotated[base.Share, Field(lt=1)]]
     rate_first: base.Positive = Field(le=1)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -87,6 +88,7 @@ class TrainingNote(Note):
     parameters: Count
     samples: Count
     diverged: bool
+    chosen_by: Literal["validation_loss", "validation_rmse"]
     best: NotedEpoch | None
     on_windows: OnWindows
     calibration: NotedCalibration
@@ -111,6 +113,7 @@ class Training:
     samples: int
     diverged: bool
     windows_loss: float
+    chosen_by: str
     epochs: tuple[Epoch, ...]
 
     @property
@@ -121,7 +124,7 @@ class Training:
     @property
     def kept(self) -> Epoch:
         """The epoch that validated best, whose weights are kept."""
-        return min(self.epochs, key=lambda epoch: epoch.validation_loss)
+        return min(self.epochs, key=attrgetter(self.chosen_by))
 
 
 def read_training(folder: Path) -> Training:
@@ -132,7 +135,9 @@ def read_training(folder: Path) -> Training:
     """
     note, epochs = read_training_note(folder), read_epochs(folder / METRICS)
     refuse(folder / METRICS, _disagreements(note, epochs))
-    return Training(note.method, note.seed, note.parameters, note.samples, note.diverged, note.on_windows.loss, epochs)
+    return Training(
+        note.method, note.seed, note.parameters, note.samples, note.diverged, note.on_windows.loss, note.chosen_by, epochs
+    )
 
 
 def read_training_note(folder: Path) -> TrainingNote:
@@ -153,10 +158,10 @@ def _disagreements(note: TrainingNote, epochs: Sequence[Epoch]) -> Iterator[str]
         yield not_accepted("epochs", len(epochs), [f"{count}, as {RUN} says of a training that did not diverge"])
     if len(epochs) > count:
         yield not_accepted("epochs", len(epochs), [f"at most {count}, as {RUN} says"])
-    kept = min(epochs, key=lambda epoch: epoch.validation_loss, default=None)
+    kept = min(epochs, key=attrgetter(note.chosen_by), default=None)
     noted = note.best.epoch if note.best else None
     if noted != (kept.epoch if kept else None):
-        yield not_accepted("epoch of the smallest validation_loss", kept and kept.epoch, [f"{noted}, as {RUN} says"])
+        yield not_accepted(f"epoch of the smallest {note.chosen_by}", kept and kept.epoch, [f"{noted}, as {RUN} says"])
 
 
 def _calibration_faults(noted: NotedCalibration) -> Iterator[str]:
