@@ -15,8 +15,8 @@ from torch.utils.data import DataLoader, TensorDataset
 from mobnet.learning.dataset import joints_of
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.job import PRECISIONS, Job, precision_of
-from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.learning.losses import gaussian_loss
+from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.learning.optimisation import Samples, train_epoch
 from mobnet.learning.streams import epoch_plan
 from mobnet.settings.load import load_settings

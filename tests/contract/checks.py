@@ -33,18 +33,27 @@ def step_equals_estimate(estimator: Estimator, sensed: Sensed) -> None:
         np.testing.assert_allclose(std, whole.std, rtol=RELATIVE)
 
 
-def the_future_does_not_matter(estimator: Estimator, sensed: Sensed) -> None:
-    """An estimate is invariant to samples that come after it, and depends on those before."""
-    cut = len(sensed) // 2
-    changed = {}
+def with_another_end(estimator: Estimator, sensed: Sensed) -> tuple[NDArray[Any], NDArray[Any], int]:
+    """Return the estimates (T, n) of a recording and of one that differs from some sample on, and that sample."""
+    cut, changed = len(sensed) // 2, {}
     for field in fields(Sensed):
         values = np.array(getattr(sensed, field.name))
         values[cut:] = values[:1]
         changed[field.name] = values
     before, after = (estimator.estimate(s).tau_ext for s in (sensed, replace(sensed, **changed)))
-    size = RELATIVE * np.abs(before).max()
-    np.testing.assert_allclose(before[:cut], after[:cut], rtol=0, atol=size)
-    assert np.abs(before[cut:] - after[cut:]).max() > size
+    return before, after, cut
+
+
+def the_future_does_not_matter(estimator: Estimator, sensed: Sensed) -> None:
+    """An estimate is invariant to samples that come after it."""
+    before, after, cut = with_another_end(estimator, sensed)
+    np.testing.assert_allclose(before[:cut], after[:cut], rtol=0, atol=RELATIVE * np.abs(before).max())
+
+
+def the_past_matters(estimator: Estimator, sensed: Sensed) -> None:
+    """An estimate depends on what was sensed up to then: true of all but the zero predictor."""
+    before, after, cut = with_another_end(estimator, sensed)
+    assert np.abs(before[cut:] - after[cut:]).max() > RELATIVE * np.abs(before).max()
 
 
 def it_reads_no_truth(estimator: Estimator, _: Sensed) -> None:
@@ -92,6 +101,7 @@ def recorded_arrays_are_left_alone(estimator: Estimator, sensed: Sensed) -> None
 CHECKS = (
     step_equals_estimate,
     the_future_does_not_matter,
+    the_past_matters,
     it_reads_no_truth,
     shapes_are_those_of_its_joints,
     std_is_positive,

@@ -39,11 +39,10 @@ def build(
 
     def made(method: str, zero: bool = False) -> Estimator:
         folder = tmp_path_factory.mktemp(method)
-        source = settings.source_of(method)
-        row = settings.method(source)
-        networks = {limb: folder / limb for limb in row.limbs}
+        source, learned = settings.source_of(method), settings.network_source_of(method)
+        row, networks = settings.method(source), {limb: folder / limb for limb in settings.method(learned).limbs}
         for limb, place in networks.items():
-            _write_network(place, settings.training(source, limb), settings.layout, zero)
+            _write_network(place, settings.training(learned, limb), settings.layout, zero)
         fitted = folder / "fit.json" if row.fitted else None
         if fitted is not None:
             pair = write_pair(folder, made_up(1, FIT_SECONDS))

@@ -10,7 +10,15 @@ import torch
 from torch import Tensor
 
 from mobnet.learning.cells import Gru
-from mobnet.learning.losses import CHOSEN_BY, Objective, beta_likelihood, gaussian_loss, likelihood, objective_of, squared
+from mobnet.learning.losses import (
+    CHOSEN_BY,
+    Objective,
+    beta_likelihood,
+    gaussian_loss,
+    likelihood,
+    objective_of,
+    squared,
+)
 from mobnet.learning.model import LimbNetwork
 from mobnet.learning.optimisation import Samples, train_epoch
 from mobnet.learning.streams import epoch_plan
@@ -119,8 +127,8 @@ def test_gradients_are_finite_differences_with_what_passes_none_held(loss: Loss,
         for index in [(0, 0), (7, 1), (19, 2)]:
             nudge = torch.zeros_like(mean)
             nudge[index] = STEP
-            expected = [(value(mean + a * nudge, std + b * nudge) - value(mean - a * nudge, std - b * nudge)) / (2 * STEP)
-                        for a, b in ((1, 0), (0, 1))]  # fmt: skip
+            nudged = [(value(mean + a, std + b), value(mean - a, std - b)) for a, b in ((nudge, 0.0), (0.0, nudge))]
+            expected = [(above - below) / (2 * STEP) for above, below in nudged]
             torch.testing.assert_close([grad[index] for grad in found], expected, rtol=1e-6, atol=1e-9)
 
 

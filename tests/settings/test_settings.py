@@ -34,7 +34,13 @@ def test_a_method_changes_its_networks_alone(settings: Settings) -> None:
     assert plain == base.model_copy(update={"data": "walk_plain"})
     assert base.joints == ("LL",)
     assert settings.network("MOB-Net-Single", "WB").joints == settings.robot.networks["WB"].joints
+
+
+def test_a_method_of_another_runs_on_its_fit_and_on_networks_of_its_own_if_it_has_some(settings: Settings) -> None:
     assert [settings.source_of(name) for name in ("MOB-fric", "MOB-fric-BPF")] == ["MOB-fric", "MOB-fric"]
+    assert settings.source_of("MOB-Net-gray") == "MOB-fric-load"
+    names = ("MOB-Net", "MOB-Net-gray", "MOB-fric-BPF")
+    assert [settings.network_source_of(name) for name in names] == ["MOB-Net", "MOB-Net-gray", "MOB-fric"]
 
 
 def test_sizes_lie_over_learning_and_the_methods_changes_over_both(settings: Settings) -> None:

@@ -77,8 +77,8 @@ class Recipe:
             ConfigError: the method is unknown, or networks or fit are not the ones that it names.
         """
         source = self._row(self.method.of or self.name)
-        if set(source.limbs) != set(self.networks):
-            accepted = [sorted(source.limbs)]
+        if set(self.method.limbs or source.limbs) != set(self.networks):
+            accepted = [sorted(self.method.limbs or source.limbs)]
             raise ConfigError(not_accepted(f"networks of method {self.name}", sorted(self.networks), accepted))
         if bool(source.fitted) != (self.fitted is not None):
             accepted = "the file that rule `fit` writes" if source.fitted else "none"

@@ -31,7 +31,8 @@ log = logging.getLogger(__name__)
 class Progress:
     """How far a training has come: finished epochs, weights of the best one, time of all starts [s].
 
-    The best epoch is that with the smallest number in the column `chosen_by`. A training whose loss ran away stopped there: it has `diverged`, and is never resumed.
+    The best epoch has the smallest number in the column `chosen_by`. A training whose loss ran away stopped there: it
+    has `diverged`, and is never resumed.
     """
 
     epochs: list[Epoch] = field(default_factory=list)

@@ -1,9 +1,10 @@
 """Training data of one limb: inputs and target of Table 1 from recordings and their residuals, z-scored."""
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ from mobnet.learning.streams import Span
 from mobnet.settings.methods import Target
 from mobnet.settings.networks import Limb
 
+Known = Callable[[Path, Sequence[str]], NDArray[Any]]  # recording, joints (n,) -> torque (T, n) [N, N m]
 CONSTANT = 1e-9  # an input that moves less than this share of its mean counts as constant
 
 
@@ -67,12 +69,13 @@ def load_limb_data(
     residuals: Sequence[Path],
     rate_hz: float | None = None,
     held_out: int = 0,
+    known: Known | None = None,
 ) -> LimbData:
     """Read recordings and residuals of one limb into RAM, inputs (N, n_in) and target torques (N, n) [N, N m].
 
     The target is the `uncertainty`, r - tau_e of section 4.2.3, or the `external` torque, tau_e, both low-passed alike.
-    Residuals stand in the order of their recordings, of which the last `held_out` validate. Without a rate [Hz], any
-    one is accepted.
+    What is `known` of the target is subtracted from it. Residuals stand in the order of their recordings, of which the
+    last `held_out` validate. Without a rate [Hz], any one is accepted.
 
     Raises:
         DataError: a file is damaged, or a residual does not belong to its recording.
@@ -86,6 +89,8 @@ def load_limb_data(
     for recording, residual in zip(recordings, residuals, strict=True):
         offset = sum(len(x) for x, _ in parts)
         x, y, spans, rate = _load_one(layout, inputs, joints, target, recording, residual)
+        if known is not None:
+            y -= known(recording, joints).astype(np.float32)
         parts.append((x, y))
         segments += [(offset + start, offset + end) for start, end in spans]
         rates.add(rate)

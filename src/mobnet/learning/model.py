@@ -47,7 +47,7 @@ class LimbNetwork(nn.Module):
         return mean, std.clamp_min(self.std_min), state.float()
 
     def _output(self, features: Tensor) -> tuple[Tensor, Tensor]:
-        """Return the linear layer's outputs for mean and standard deviation, (h, B, n) each, of features (h, B, n_f)."""
+        """Return the linear layer's outputs for mean and std, (h, B, n) each, of features (h, B, width)."""
         if not (self.training and self.std_apart):
             mean, raw = self.head(features).chunk(2, dim=-1)
             return mean, raw

@@ -16,7 +16,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.provenance import provenance
 from mobnet.learning.calibration import Calibration
 from mobnet.learning.checkpoint import CHECKPOINT, Progress, write_metrics
-from mobnet.learning.dataset import LimbData, load_limb_data
+from mobnet.learning.dataset import Known, LimbData, load_limb_data
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE
 from mobnet.learning.job import Job, precision_name
 from mobnet.learning.model import parameter_count
@@ -37,13 +37,14 @@ def train(
     out: Path,
     state: Path,
     rate_hz: float | None = None,
+    known: Known | None = None,
 ) -> None:
     """Train one limb network of Table 1 by (22), or by another of `losses`, and keep the epoch that validates best.
 
     The folder `out` gets `weights.safetensors`, `metrics.csv` and, last, `run.json`; nothing before the training is
     done. The folder `state` gets a checkpoint and `metrics.csv` at each epoch; a killed training goes on from there to
     the same weights. The checkpoint is deleted when the training is done. The recordings are at `rate_hz` [Hz] where
-    that is given.
+    that is given. What is `known` of the target is subtracted from it.
 
     Raises:
         DataError: a recording or a residual is damaged or too short.
@@ -51,7 +52,9 @@ def train(
     """
     torch.set_num_threads(1)  # more are slower beside another training, and give other weights
     job = Job(training, seed, root_seed)
-    data = load_limb_data(layout, training.network, training.target, recordings, residuals, rate_hz, training.held_out)
+    data = load_limb_data(
+        layout, training.network, training.target, recordings, residuals, rate_hz, training.held_out, known
+    )
     trainer = Trainer(job, data)
     done = trainer.run(state)
     calibration = trainer.calibrate(done)

@@ -71,8 +71,8 @@ class Jobs:
         return Job(Call("mobnet.estimation.fitting:write_fit", arguments), _read(training), self._kinds(method))
 
     def train(self, method: str, limb: str, seed: int) -> Job:
-        """Return the training of a network."""
-        training = self.settings.training(method, limb)
+        """Return the training of a network; one with `of` learns what is left of the uncertainty by a fit."""
+        training, fitted = self.settings.training(method, limb), self.files.fit(method)
         recordings, residuals = self._training(training.network.data)
         name = f"{method}-{limb}-s{seed}"
         arguments = {
@@ -86,18 +86,21 @@ class Jobs:
             "out": self.files.results / "networks" / name,
             "state": self.files.results / "state" / name,
         }
-        return Job(Call("mobnet.learning.train:train", arguments), _read([recordings, residuals]))
+        if not fitted:
+            return Job(Call("mobnet.learning.train:train", arguments), _read([recordings, residuals]))
+        arguments |= {"observer": self.settings.observer, "fitted": fitted[0]}
+        return Job(Call("mobnet.estimation.train_gray:train_gray", arguments), _read([recordings, residuals, fitted]))
 
     def estimate(self, method: str, network_seed: int, scenario: str, level: str, seed: int) -> Job:
         """Return a method's external torque for a recording."""
-        source = self.settings.source_of(method)
+        source = self.settings.network_source_of(method)
         limbs = self.settings.method(source).limbs
         networks = {limb: self.files.network(source, limb, network_seed) for limb in limbs}
         recording, fitted = self.files.array("recordings", scenario, level, seed), self.files.fit(method)
         arguments = {
             **self._observer(level),
             "method": method,
-            "methods": {name: self.settings.method(name) for name in dict.fromkeys([method, source])},
+            "methods": {name: self.settings.method(name) for name in self._with_source(method)},
             "networks": networks,
             "fitted": next(iter(fitted), None),
             "recording": recording,
@@ -116,8 +119,11 @@ class Jobs:
 
     def _kinds(self, method: str) -> tuple[str, ...]:
         """Return the modules that a method imports by name: its kind and that of the method it runs on."""
-        names = (method, self.settings.source_of(method))
-        return tuple(dict.fromkeys(f"{KINDS}.{self.settings.method(name).kind}" for name in names))
+        return tuple(dict.fromkeys(f"{KINDS}.{self.settings.method(name).kind}" for name in self._with_source(method)))
+
+    def _with_source(self, method: str) -> tuple[str, ...]:
+        """Return a method and, if it runs on another one, that one too."""
+        return tuple(dict.fromkeys([method, self.settings.source_of(method)]))
 
     def _observer(self, level: str) -> dict[str, object]:
         """Return what the observer takes."""

@@ -104,7 +104,7 @@ class Files:
 
     def network_seeds(self, method: str, limb: str | None = None) -> tuple[int, ...]:
         """Return the seeds of a method's networks of a limb, or of that with the most; (0,) if there are none."""
-        limbs = [limb] if limb else self.settings.method(self.settings.source_of(method)).limbs
+        limbs = [limb] if limb else self.settings.method(self.settings.network_source_of(method)).limbs
         return max((self.settings.experiment(method, name).seeds for name in limbs), key=len, default=(0,))
 
     def network(self, method: str, limb: str, seed: int) -> Path:

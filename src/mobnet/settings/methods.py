@@ -24,8 +24,8 @@ class Method(Section):
     """An estimator.
 
     `fitted` names networks of Table 1 whose joints are fitted without a network, on the training set of that network.
-    With `of` it runs on the networks or the fit of another method. `options` are numbers of its kind, which checks
-    them.
+    With `of` it runs on another method: on its output, or, if it has networks of its own, on its fit. `options` are
+    numbers of its kind, which checks them.
     """
 
     kind: base.Text

@@ -109,8 +109,12 @@ class Settings(Section):
         return self.all_methods[name]
 
     def source_of(self, method: str) -> str:
-        """Return the method whose networks or fit a method runs on: the one that `of` names, or itself."""
+        """Return the method whose fit a method runs on: the one that `of` names, or itself."""
         return self.method(method).of or method
+
+    def network_source_of(self, method: str) -> str:
+        """Return the method whose networks a method runs on: itself if it has some, else that of its fit."""
+        return method if self.method(method).limbs else self.source_of(method)
 
     def network(self, method: str, limb: str) -> Network:
         """Return a network of Table 1 with a method's changes laid over it; a ConfigError names an unknown one."""

@@ -10,12 +10,14 @@ from numpy.typing import NDArray
 from mobnet.core.errors import ConfigError
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Recording, Sensed
-from mobnet.estimation.kinds.band_pass import BandPassEstimator
+from mobnet.estimation.filtered import FilteredEstimator
+from mobnet.estimation.kinds.band_pass import sections_of
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe
 from mobnet.settings.methods import Method
 
 RATE_HZ, BAND_HZ, ORDER = 1000.0, (2.0, 15.0), 2
+SECTIONS = sections_of(BAND_HZ, ORDER, RATE_HZ)
 
 
 class Given:
@@ -38,7 +40,7 @@ class Given:
 
 def passed(torque: NDArray[np.float64], sensed: Sensed) -> NDArray[Any]:
     """Return what comes out for the first joint."""
-    return BandPassEstimator(Given(torque), BAND_HZ, ORDER, RATE_HZ).estimate(sensed).tau_ext[:, 0]
+    return FilteredEstimator(Given(torque), SECTIONS).estimate(sensed).tau_ext[:, 0]
 
 
 @pytest.mark.parametrize(
@@ -66,7 +68,7 @@ def test_a_steady_load_fades(made_up: Callable[..., Recording]) -> None:
 def test_it_has_no_std_and_steps_as_it_runs(made_up: Callable[..., Recording]) -> None:
     sensed = made_up(0, 0.2).sensed
     torque = np.random.default_rng(0).normal(0, 10, len(sensed))
-    estimator = BandPassEstimator(Given(torque), BAND_HZ, ORDER, RATE_HZ)
+    estimator = FilteredEstimator(Given(torque), SECTIONS)
     whole, state = estimator.estimate(sensed), estimator.init()
     assert whole.std is None
     assert estimator.joints == Given.joints
@@ -78,7 +80,7 @@ def test_it_has_no_std_and_steps_as_it_runs(made_up: Callable[..., Recording]) -
 @pytest.mark.parametrize("band_hz", [(0.0, 15.0), (15.0, 2.0), (2.0, 500.0)])
 def test_bands_that_cannot_be_are_refused(band_hz: tuple[float, float]) -> None:
     with pytest.raises(ConfigError, match=r"band_hz: .* accepted: 0 < low < high < 500"):
-        BandPassEstimator(Given(np.zeros(1)), band_hz, ORDER, RATE_HZ)
+        sections_of(band_hz, ORDER, RATE_HZ)
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,6 @@ estimate of the external torque, only of its changes.
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import scipy  # its parts are imported where they are used first: the workflow imports kinds before it starts
@@ -14,15 +13,12 @@ from pydantic import Field
 
 from mobnet.core.arrays import Array
 from mobnet.core.errors import ConfigError, misfit
-from mobnet.core.estimator import Estimate, Estimator
-from mobnet.core.recording import Sensed
+from mobnet.estimation.filtered import FilteredEstimator
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe
 from mobnet.settings.base import Positive, Section, Span, Whole
 from mobnet.settings.methods import Method
 from mobnet.settings.reading import Place
-
-State = tuple[Any, Array]  # of the filtered method, and of the filter (sections, 2, n) [N, N m]
 
 
 class Options(Section):
@@ -32,42 +28,18 @@ class Options(Section):
     order: Whole = Field(ge=1, le=20)
 
 
-class BandPassEstimator:
-    """tau_e of another estimator, same joints (n,), behind a causal Butterworth band-pass; no standard deviation."""
+def sections_of(band_hz: tuple[float, float], order: int, rate_hz: float) -> Array:
+    """Return a Butterworth band-pass as second-order sections (order, 6).
 
-    def __init__(self, inner: Estimator, band_hz: tuple[float, float], order: int, rate_hz: float) -> None:
-        """Design the filter: cut-off frequencies [Hz], [2, 15] in section 5.3, and the order of the low-pass behind it.
+    Cut-off frequencies are in [Hz], [2, 15] in section 5.3; the order is that of the low-pass behind it.
 
-        Raises:
-            ConfigError: the band is empty, or does not lie below half the rate.
-        """
-        low, high = band_hz
-        if not 0 < low < high < rate_hz / 2:
-            raise ConfigError(f"band_hz: {[low, high]} is not accepted; accepted: 0 < low < high < {rate_hz / 2}")
-        self.joints = inner.joints
-        self._inner = inner
-        self._sections: Array = np.asarray(
-            scipy.signal.butter(order, (low, high), "bandpass", fs=rate_hz, output="sos")
-        )
-
-    def init(self) -> State:
-        """Return the state before the first sample: a filter at rest."""
-        return self._inner.init(), self._at_rest()
-
-    def step(self, state: State, sample: Sensed) -> tuple[State, Estimate]:
-        """Take one sample (1-D arrays); return the new state and the band's part of tau_e, (n,) [N, N m]."""
-        inner, estimate = self._inner.step(state[0], sample)
-        filtered, after = scipy.signal.sosfilt(self._sections, estimate.tau_ext[None], axis=0, zi=state[1])
-        return (inner, after), Estimate(filtered[0])
-
-    def estimate(self, sensed: Sensed) -> Estimate:
-        """Return the band's part of tau_e of one contiguous recording, (T, n) [N, N m], from a fresh state."""
-        whole = self._inner.estimate(sensed).tau_ext
-        return Estimate(scipy.signal.sosfilt(self._sections, whole, axis=0, zi=self._at_rest())[0])
-
-    def _at_rest(self) -> Array:
-        """Return the zero state of the filter, (sections, 2, n) [N, N m]."""
-        return np.zeros((len(self._sections), 2, len(self.joints)))
+    Raises:
+        ConfigError: the band is empty, or does not lie below half the rate.
+    """
+    low, high = band_hz
+    if not 0 < low < high < rate_hz / 2:
+        raise ConfigError(f"band_hz: {[low, high]} is not accepted; accepted: 0 < low < high < {rate_hz / 2}")
+    return np.asarray(scipy.signal.butter(order, (low, high), "bandpass", fs=rate_hz, output="sos"))
 
 
 def check(method: Method, options: Options, rate_hz: float) -> Iterator[tuple[Place, str]]:
@@ -78,10 +50,10 @@ def check(method: Method, options: Options, rate_hz: float) -> Iterator[tuple[Pl
         yield ("options", "band_hz", 1), misfit(options.band_hz[1], f"below half of data_hz, {rate_hz / 2}")
 
 
-def build(recipe: Recipe) -> BandPassEstimator:
+def build(recipe: Recipe) -> FilteredEstimator:
     """Build the band-pass and the method that `of` names."""
     options = recipe.options(Options)
     if recipe.method.of is None:
         raise ConfigError(f"method {recipe.name!r} of kind 'band_pass' names no method to filter; accepted: `of`")
     inner = build_estimator(replace(recipe, name=recipe.method.of))
-    return BandPassEstimator(inner, options.band_hz, options.order, recipe.rate_hz)
+    return FilteredEstimator(inner, sections_of(options.band_hz, options.order, recipe.rate_hz))

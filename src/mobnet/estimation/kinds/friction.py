@@ -127,12 +127,19 @@ def check(method: Method, options: Options, rate_hz: float) -> Iterator[tuple[Pl
 
 def build(recipe: Recipe) -> ResidualEstimator:
     """Build MOB-fric: the residual minus the fitted friction."""
-    layout = recipe.layout
+    return ResidualEstimator(recipe.observer(), recipe.layout, friction_model(recipe))
+
+
+def friction_model(recipe: Recipe) -> FrictionModel:
+    """Return the fitted friction of a method.
+
+    Raises:
+        DataError: there is no fit, or its file is damaged.
+    """
     if recipe.fitted is None:
         raise DataError(f"method {recipe.name!r} has no fitted friction; accepted: a method that names `fitted` limbs")
-    friction = read_friction(recipe.fitted, layout.actuated)
-    model = FrictionModel(layout, friction, recipe.observing.gain_hz, recipe.rate_hz)
-    return ResidualEstimator(recipe.observer(), layout, model)
+    friction = read_friction(recipe.fitted, recipe.layout.actuated)
+    return FrictionModel(recipe.layout, friction, recipe.observing.gain_hz, recipe.rate_hz)
 
 
 def fit(

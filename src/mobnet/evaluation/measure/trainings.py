@@ -136,7 +136,14 @@ def read_training(folder: Path) -> Training:
     note, epochs = read_training_note(folder), read_epochs(folder / METRICS)
     refuse(folder / METRICS, _disagreements(note, epochs))
     return Training(
-        note.method, note.seed, note.parameters, note.samples, note.diverged, note.on_windows.loss, note.chosen_by, epochs
+        note.method,
+        note.seed,
+        note.parameters,
+        note.samples,
+        note.diverged,
+        note.on_windows.loss,
+        note.chosen_by,
+        epochs,
     )
 
 

@@ -33,8 +33,10 @@ def _method_problems(settings: Settings, name: str, method: Method) -> Iterator[
     for key in ("network", "learning"):
         if getattr(method, key) and not method.limbs:
             yield (key,), misfit(f"`{key}`", f"`{key}` of a method with `limbs`")
-    if method.of is not None and (method.limbs or method.fitted or method.of == name):
-        yield ("of",), misfit(method.of, "another method, without `limbs` and `fitted` of its own")
+    if method.of is not None and (method.fitted or method.of == name):
+        yield ("of",), misfit(method.of, "another method, without `fitted` of its own")
+    if method.of in settings.methods and method.limbs and not settings.methods[method.of].fitted:
+        yield ("of",), misfit(method.of, "a method with `fitted`, for one with `limbs` of its own")
     robot = settings.robot
     seen = dict[str, str]()
     for index, limb in enumerate((*method.limbs, *method.fitted)):

@@ -102,7 +102,7 @@ class Results:
 
     def not_estimated(self, method: str, joints: Collection[str]) -> str:
         """Return what is wrong with a method where these joints are shown: networks predict their limbs alone."""
-        source = self.settings.source_of(method)
+        source = self.settings.network_source_of(method)
         if not self.settings.all_methods[source].limbs:
             return ""
         missing = [joint for joint in joints if joint not in self.predicted(source)]

@@ -46,7 +46,7 @@ def _job_count(settings: Settings) -> int:
         name: [len(settings.experiment(name, limb).seeds) for limb in method.limbs]
         for name, method in settings.all_methods.items()
     }
-    runs = [max(seeds[settings.source_of(name)], default=1) for levels in settings.tests.values()
+    runs = [max(seeds[settings.network_source_of(name)], default=1) for levels in settings.tests.values()
             for methods in levels.values() for name in methods]  # fmt: skip
     return 2 * recorded + sum(map(sum, seeds.values())) + shards * sum(runs)
 

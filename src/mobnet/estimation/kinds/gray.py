@@ -1,0 +1,61 @@
+"""A gray box: networks that learn what a friction model leaves of the uncertainty, tau_e = r - friction - networks."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from mobnet.core.errors import ConfigError, misfit
+from mobnet.core.joints import JointLayout
+from mobnet.core.recording import Sensed
+from mobnet.estimation.kinds.friction import FrictionModel, friction_model
+from mobnet.estimation.kinds.residual import ResidualEstimator
+from mobnet.estimation.recipe import Recipe
+from mobnet.learning.deployed.limbs import LimbNetworks
+from mobnet.learning.deployed.networks import Prediction
+from mobnet.settings.base import Section
+from mobnet.settings.methods import Method
+from mobnet.settings.reading import Place
+
+State = tuple[Any, Any]  # of the friction model and of the networks
+
+
+class FrictionAndNetworks:
+    """The sum of a friction model and of networks as an uncertainty model of (15); `joints` (n,) are the networks'."""
+
+    def __init__(self, layout: JointLayout, friction: FrictionModel, networks: LimbNetworks) -> None:
+        """Take both parts."""
+        self.joints = networks.joints
+        self._friction, self._networks = friction, networks
+        self._columns = layout.columns(networks.joints)
+
+    def init(self) -> State:
+        """Return the state before the first sample."""
+        return self._friction.init(), self._networks.init()
+
+    def step(self, state: State, sample: Sensed) -> tuple[State, Prediction]:
+        """Take one sample (1-D arrays); return the new state and the prediction (n,) [N, N m]."""
+        rubbed, known = self._friction.step(state[0], sample)
+        learned, rest = self._networks.step(state[1], sample)
+        return (rubbed, learned), self._sum(known, rest)
+
+    def run(self, sensed: Sensed) -> Prediction:
+        """Run over one contiguous recording from a fresh state; return the prediction (T, n) [N, N m]."""
+        return self._sum(self._friction.run(sensed), self._networks.run(sensed))
+
+    def _sum(self, known: Prediction, rest: Prediction) -> Prediction:
+        """Return the sum (..., n) [N, N m] with the networks' standard deviation."""
+        return Prediction(known.mean[..., self._columns] + rest.mean, rest.std)
+
+
+def check(method: Method, options: Section, rate_hz: float) -> Iterator[tuple[Place, str]]:
+    """Yield what is not accepted in the row of a method: it has networks, and `of`, whose fit they build upon."""
+    if method.target != "uncertainty" or method.of is None:
+        yield ("target",), misfit(method.target, "uncertainty, with `of`, the method whose friction is known")
+
+
+def build(recipe: Recipe) -> ResidualEstimator:
+    """Build the gray box of the method's limbs on the fit of the method that `of` names."""
+    networks = recipe.limb_networks()
+    if networks is None:
+        raise ConfigError(f"method {recipe.name!r} of kind 'gray' names no limbs; accepted: one or more networks")
+    model = FrictionAndNetworks(recipe.layout, friction_model(recipe), networks)
+    return ResidualEstimator(recipe.observer(), recipe.layout, model)

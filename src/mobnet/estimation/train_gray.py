@@ -1,0 +1,59 @@
+"""Training of a gray box: the target is what a fitted friction model leaves of the uncertainty."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from mobnet.core.arrays import Array
+from mobnet.core.columns import MOTOR, VELOCITY, named
+from mobnet.core.joints import JointLayout
+from mobnet.core.store import read_array, spans_and_rate
+from mobnet.estimation.kinds.friction import Friction, read_friction
+from mobnet.estimation.low_pass import low_pass
+from mobnet.learning.train import train
+from mobnet.settings.methods import Observer
+from mobnet.settings.networks import Training
+
+
+def train_gray(
+    root_seed: int,
+    layout: JointLayout,
+    observer: Observer,
+    training: Training,
+    seed: int,
+    recordings: Sequence[Path],
+    residuals: Sequence[Path],
+    fitted: Path,
+    out: Path,
+    state: Path,
+    rate_hz: float | None = None,
+) -> None:
+    """Train one limb network on r - tau_e - friction, where `fitted` is what rule `fit` wrote; else as `train`.
+
+    Raises:
+        DataError: a recording, a residual or the fit is damaged.
+        TrainingError: the loss diverged, where `learning.may_diverge` does not allow it.
+    """
+    friction = read_friction(fitted, layout.actuated)
+
+    def known(recording: Path, joints: Sequence[str]) -> Array:
+        return filtered_friction(layout, friction, observer.gain_hz, recording, joints)
+
+    train(root_seed, layout, training, seed, recordings, residuals, out, state, rate_hz, known)
+
+
+def filtered_friction(
+    layout: JointLayout, friction: Friction, gain_hz: float, recording: Path, joints: Sequence[str]
+) -> Array:
+    """Return the friction of some joints in a recording behind the low-pass of K_0 [1/s], (T, n) [N, N m].
+
+    Every segment starts anew, as the observer does; joints without a motor have none.
+    """
+    read, meta = read_array(recording, [*named(VELOCITY, layout.actuated), *named(MOTOR, layout.actuated)])
+    velocity, torque = np.split(read, 2, axis=1)
+    spans, rate_hz = spans_and_rate(meta)
+    found, motors = np.zeros((len(read), layout.nv)), slice(len(layout.virtual), None)
+    for span in (slice(*ends) for ends in spans):
+        found[span, motors] = low_pass(friction.torque(velocity[span], torque[span]), gain_hz, rate_hz)
+    return found[:, layout.columns(joints)]

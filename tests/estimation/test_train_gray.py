@@ -1,0 +1,91 @@
+"""A gray box learns what its friction model leaves, and the fit reaches nothing else of the training."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mobnet.core.recording import Recording
+from mobnet.estimation.fitting import write_fit
+from mobnet.estimation.kinds.friction import read_friction
+from mobnet.estimation.methods import build_estimator
+from mobnet.estimation.recipe import Recipe
+from mobnet.estimation.train_gray import filtered_friction, train_gray
+from mobnet.learning.dataset import load_limb_data
+from mobnet.plan.plan import make_plan
+from mobnet.settings.settings import Settings
+
+METHOD, LIMB = "MOB-Net-gray", "LL"
+
+
+@pytest.fixture
+def pair(tmp_path: Path, made_up: Callable[..., Recording], write_pair: Any) -> tuple[Path, Path]:
+    return write_pair(tmp_path, made_up(1, 2.0, segments=2))
+
+
+@pytest.fixture
+def fitted(settings: Settings, tmp_path: Path, pair: tuple[Path, Path]) -> Path:
+    """A fit of the method that the gray box builds upon."""
+    source = settings.source_of(METHOD)
+    row = settings.method(source)
+    limbs = {limb: settings.network(source, limb) for limb in row.fitted}
+    write_fit(settings.layout, settings.observer, row, limbs, dict.fromkeys(limbs, (pair,)), tmp_path / "fit.json")
+    return tmp_path / "fit.json"
+
+
+def test_the_target_lacks_what_the_method_subtracts_that_it_builds_upon(
+    settings: Settings, recipe_of: Callable[..., Recipe], made_up: Callable[..., Recording], pair: Any, fitted: Path
+) -> None:
+    """By MOB - MOB-fric-load, segment by segment; so the gray box's target is the error of MOB-fric-load."""
+    layout, training = settings.layout, settings.training(METHOD, LIMB)
+    friction = read_friction(fitted, layout.actuated)
+
+    def known(recording: Path, joints: Any) -> Any:
+        return filtered_friction(layout, friction, settings.observer.gain_hz, recording, joints)
+
+    given = layout, training.network, training.target, [pair[0]], [pair[1]]
+    whole, left = load_limb_data(*given), load_limb_data(*given, known=known)
+    np.testing.assert_array_equal(whole.inputs, left.inputs)
+    methods = [build_estimator(recipe_of(name, fitted=fit)) for name, fit in (("MOB", None), ("MOB-fric-load", fitted))]
+    recording, where = made_up(1, 2.0, segments=2), layout.columns(left.joints)
+    for span in recording.spans():
+        residual, less = (method.estimate(recording.sensed[span]).tau_ext[:, where] for method in methods)
+        found = whole.targets[span] - left.targets[span]
+        np.testing.assert_allclose(found, residual - less, atol=1e-3)
+        assert np.abs(found).max() > 1.0
+
+
+def test_the_base_has_no_friction(settings: Settings, pair: Any, fitted: Path) -> None:
+    friction = read_friction(fitted, settings.layout.actuated)
+    found = filtered_friction(settings.layout, friction, 100.0, pair[0], ["V1", "LL1"])
+    assert found.shape == (2000, 2)
+    assert not found[:, 0].any()
+    assert found[:, 1].any()
+
+
+def test_it_trains(settings: Settings, pair: Any, fitted: Path, tmp_path: Path) -> None:
+    training = settings.training(METHOD, LIMB)
+    small = {
+        "network": training.network.model_copy(update={"hidden": 8, "horizon_steps": 25}),
+        "learning": training.learning.model_copy(update={"stream_s": 0.5, "batch_size": 4}),
+        "epochs": 1, "epoch_samples": None,
+    }  # fmt: skip
+    given = settings.layout, settings.observer, training.model_copy(update=small), 0, [pair[0]], [pair[1]]
+    train_gray(1, *given, fitted, tmp_path / "out", tmp_path / "state")
+    note = json.loads((tmp_path / "out" / "run.json").read_text())
+    assert (note["method"], note["target"]) == (METHOD, "uncertainty")
+
+
+def test_a_training_reads_the_fit_that_it_builds_upon_and_no_other_does(settings: Settings) -> None:
+    jobs = make_plan(settings, with_pdf=False).jobs
+    gray, plain = jobs.train(METHOD, LIMB, 0), jobs.train("MOB-Net", LIMB, 0)
+    assert [name for name in gray.inputs if "/fits/" in name] == ["results/smoke/fits/MOB-fric-load.json"]
+    assert not [name for name in plain.inputs if "/fits/" in name]
+    assert (gray.call.module, plain.call.module) == ("mobnet.estimation.train_gray", "mobnet.learning.train")
+    estimate = jobs.estimate(METHOD, 0, "walk_test", "all_uncertainty", 1)
+    assert "results/smoke/fits/MOB-fric-load.json" in estimate.inputs
+    assert "results/smoke/networks/MOB-Net-gray-LL-s0/weights.safetensors" in estimate.inputs
+    assert estimate.modules == ("mobnet.estimation.kinds.gray", "mobnet.estimation.kinds.friction")
