@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +16,7 @@ import pytest
 from browser import Browser, with_browser
 
 from mobnet.plan.plan import Plan, make_plan
+from mobnet.plan.runs import FIRST_TRAINING_SEED
 from mobnet.settings.load import load_settings
 
 from .clicks import choose, explain, show, text_of_frame
@@ -86,8 +88,12 @@ def accounts(folder: Path) -> list[Path]:
 def test_every_job_left_a_log_and_an_account(unbroken: Path, plan: Plan) -> None:
     logs = {path.with_suffix(".json") for path in (unbroken / "results" / "smoke" / "logs").rglob("*.log")}
     assert logs == set(accounts(unbroken))
-    collected = [path for path in logs if path.parent.name == "collect"]
-    assert len(collected) == len(list(plan.files.recorded()))
+    collected = Counter(path.parent.name for path in logs)
+    trained = {
+        (scenario, level, seed) for scenario, level, seed in plan.files.recorded() if seed >= FIRST_TRAINING_SEED
+    }
+    assert collected["collect"] == len(trained)
+    assert collected["collect_tests"] == sum(map(len, plan.settings.tests.values()))
 
 
 def test_second_call_does_nothing(unbroken: Path) -> None:
@@ -163,6 +169,7 @@ SIMULATION, EVALUATION = "src/mobnet/simulation", "src/mobnet/evaluation"
 NOTHING: frozenset[str] = frozenset()
 UNTOUCHED = frozenset({"table_01", "deviations"})
 DECORATED, DEFINED = "\n@compiled\n", "\n\n\ndef "
+COLLECTED = frozenset({"collect", "collect_tests"})
 EDITS = {
     "wording of an error": Edit("src/mobnet/core/store.py", "}: file is missing", "}: there is no file", NOTHING),
     "wording of a log": Edit("src/mobnet/learning/train.py", "done after epoch", "ended after epoch", NOTHING),
@@ -172,14 +179,12 @@ EDITS = {
         f"{SIMULATION}/friction.py",
         DECORATED,
         f"\nADDED = 1\n\n{DECORATED}",
-        frozenset({"collect"}),
+        COLLECTED,
         UNTOUCHED | {"motion"},
     ),
     "a figure's setting": Edit("configs/evaluation.yaml", "every: 10\n", "every: 11\n", frozenset({"figure_07"})),
     "a table's code": Edit(f"{EVALUATION}/tables/steps.py", DEFINED, f"\n\nADDED = 1{DEFINED}", frozenset({"steps"})),
-    "version of MuJoCo": Edit(
-        "environment.lock", "\nmujoco==", "\nmujoco==9", frozenset({"motion", "collect"}), UNTOUCHED
-    ),
+    "version of MuJoCo": Edit("environment.lock", "\nmujoco==", "\nmujoco==9", COLLECTED | {"motion"}, UNTOUCHED),
 }
 
 

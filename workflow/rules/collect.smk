@@ -40,6 +40,24 @@ rule collect:
         "../scripts/call.py"
 
 
+use rule collect as collect_tests with:
+    input:
+        lambda w: job("collect_tests", w).inputs,
+    output:
+        tests("recordings"),
+    log:
+        f"{LOGS}/collect_tests/{{scenario}}-{{level}}.log",
+    resources:
+        mem_mb=1200,
+        runtime=30,
+    params:
+        call=lambda w: job("collect_tests", w).call,
+        given=lambda w: job("collect_tests", w).given,
+
+
+ruleorder: collect_tests > collect
+
+
 rule observe:
     input:
         lambda w: job("observe", w).inputs,

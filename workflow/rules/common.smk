@@ -73,6 +73,11 @@ def array(*place):
     return ensure([f"{stem}.parquet", f"{stem}.json"], non_empty=True)
 
 
+def tests(*place):
+    """Return the files of all test recordings of a scenario at a level, or of what is made from each of them."""
+    return [name for seed in PLAN.files.test_seeds for name in array(*place, "{scenario}", "{level}", f"s{seed}")]
+
+
 def flagged(name):
     """Mark an output for Snakemake: a folder, or a file that the report shows with its caption."""
     output, how = ensure(name, non_empty=True) if Path(name).suffix else directory(name), shown(name)

@@ -48,6 +48,18 @@ class Jobs:
         }
         return Job(Call("mobnet.simulation.record:collect", arguments), _read(motion))
 
+    def collect_tests(self, scenario: str, level: str) -> Job:
+        """Return the recordings of a test, all of them."""
+        seeds = self.files.test_seeds
+        motions = [self.files.motion(scenario, seed) for seed in seeds]
+        outs = self.files.tests(scenario, level)
+        arguments = {
+            "settings": walk_settings(self.settings, scenario, level),
+            "duration_s": self.files.duration_s([scenario], seeds[0]),
+            "walks": tuple((*walk[:2], next(iter(walk[2]), None)) for walk in zip(seeds, outs, motions, strict=True)),
+        }
+        return Job(Call("mobnet.simulation.record:collect_tests", arguments), _read(motions))
+
     def observe(self, scenario: str, level: str, seed: int) -> Job:
         """Return the observer's residual of a recording."""
         recording = self.files.array("recordings", scenario, level, seed)
