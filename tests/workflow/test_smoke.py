@@ -216,8 +216,10 @@ def test_damaged_recording_stops_with_one_line_and_nothing_half_written(
     place = Path("results") / "smoke" / "recordings" / "forward_walk" / "ideal"
     (folder / place).mkdir(parents=True)
     for ending in ("json", "parquet"):
-        content = (unbroken / place / f"s1.{ending}").read_bytes()
-        (folder / place / f"s1.{ending}").write_bytes(content[: len(content) // 2] if ending == "parquet" else content)
+        content = (unbroken / place / f"s101.{ending}").read_bytes()
+        (folder / place / f"s101.{ending}").write_bytes(
+            content[: len(content) // 2] if ending == "parquet" else content
+        )
     target = "results/smoke/residuals/forward_walk/ideal/s101.parquet"
     done = snakemake(*SMOKE, "--rerun-triggers", "mtime", "--", target, folder=folder)
     assert done.returncode != 0
