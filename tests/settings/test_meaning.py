@@ -29,7 +29,7 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("plant.solver_iterations", 8.0, "a whole number"),
     ("levels.all_uncertainty.friction", ["load"] * 2, "each value o"),
     ("levels.ideal.nominal_mass_ratio", 900.0, "to 3"),
-    ("plant.noise_std.joint_velocity_rad_s", 2.0, "to 1"),
+    ("plant.noise.joint_velocity_rad_s", 2.0, "to 1"),
     # how walks are recorded
     ("recording.clearance_hz", 60.0, "data_hz, 1000.0, divided by a whole number"),
     ("recording.chunk_s", 0.0015, "a whole number of samples"),

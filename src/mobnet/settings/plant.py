@@ -7,6 +7,7 @@ from pydantic import AfterValidator, Field
 from mobnet.settings.base import NotNegative, Real, Section, Whole, distinct
 
 FrictionTerm = Literal["stribeck", "load", "loss"]
+Reading = Literal["none", "std", "swapped", "variance"]  # of Table 3
 
 
 class Rates(Section):
@@ -29,13 +30,23 @@ class Friction(Section):
     loss_others_nm: NotNegative = Field(le=500)
 
 
-class NoiseStd(Section):
-    """Table 3, read as standard deviations."""
+class Noise(Section):
+    """Table 3, as printed; a level says how its numbers are read."""
 
     joint_position_rad: NotNegative = Field(le=0.1)
     joint_velocity_rad_s: NotNegative = Field(le=1)
     base_acceleration_m_s2: NotNegative = Field(le=10)
     base_angular_velocity_rad_s: NotNegative = Field(le=1)
+
+
+class OwnNoise(Section):
+    """Errors of sensors that Table 3 does not have, at every level with noise; standard deviations."""
+
+    encoder_step_rad: NotNegative = Field(le=0.01)
+    orientation_rad: NotNegative = Field(le=0.1)
+    orientation_offset_rad: NotNegative = Field(le=0.1)
+    foot_force_n: NotNegative = Field(le=100)
+    foot_moment_nm: NotNegative = Field(le=10)
 
 
 class Plant(Section):
@@ -50,13 +61,14 @@ class Plant(Section):
     friction_smoothing_rad_s: Real = Field(ge=0.0001, le=1)
     friction: Friction
     motor_limit_min_nm: NotNegative = Field(le=2000)
-    noise_std: NoiseStd
+    noise: Noise
+    own_noise: OwnNoise
 
 
 class Level(Section):
     """An uncertainty level of section 5.1: which errors the plant has and what the observer's model gets wrong."""
 
     friction: Annotated[tuple[FrictionTerm, ...], AfterValidator(distinct)]
-    noise: Literal["none", "std", "variance"]
+    noise: Reading
     nominal_mass_ratio: Real = Field(ge=0.3, le=3)
     base_state: Literal["true_state", "sensed"]

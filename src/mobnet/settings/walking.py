@@ -71,6 +71,7 @@ class Walking(Section):
     stand_load_min: Real = Field(ge=0.001, le=0.5)
     stand_shift_m: LengthPair
     base_time_constant_s: Real = Field(ge=0.01, le=20)
+    base_still_speed_m_s: Real = Field(ge=0.001, le=1)
     load_gain: Real = Field(ge=0, le=20)
     load_filter: Real = Field(ge=0.001, le=1)
     stumble_m: Real = Field(ge=0.005, le=0.5)

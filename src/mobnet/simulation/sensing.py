@@ -1,4 +1,4 @@
-"""Sensor readings of the plant: noise of Table 3, and the base state that the robot estimates."""
+"""Sensor readings of the plant: noise of Table 3 and of our own, and the base state that the robot estimates."""
 
 import math
 from typing import NamedTuple
@@ -8,13 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.control.base_state import update_base
-from mobnet.control.compiled import compiled
-from mobnet.control.walker import Walker, vertical_force
+from mobnet.control.compiled import compiled, vector3
+from mobnet.control.walker import Walker
 from mobnet.core.arrays import Array
 from mobnet.robot.description import SIDES
-from mobnet.settings.plant import Level, NoiseStd
-
-NOISE = {"none": lambda _: 0.0, "std": float, "variance": math.sqrt}  # how the numbers of Table 3 are read
+from mobnet.settings.plant import Level, Noise, Plant
 
 
 class Sensors(NamedTuple):
@@ -24,37 +22,74 @@ class Sensors(NamedTuple):
     v_std: float  # noise of joint velocities [rad/s]
     acc_std: float  # noise of the base's acceleration [m/s^2]
     omega_std: float  # noise of the base's angular velocity [rad/s]
+    encoder_step: float  # joint positions are multiples of it [rad]; 0 for exact ones
+    turn_std: float  # noise of the base's orientation about each axis [rad]
+    offset_std: float  # its error that stays for an episode [rad]
+    force_std: float  # noise of the feet's forces [N]
+    moment_std: float  # noise of the feet's moments [N m]
     sensed_base: int  # 1 if base position and velocity come from proprioception, 0 if they are the plant's
     gyro: int  # first entry of the gyroscope in sensordata
     acc: int  # first entry of the accelerometer
     force: NDArray[np.int64]  # first entries of the left, right foot's force (2,)
     torque: NDArray[np.int64]  # first entries of their torque (2,)
+    offset: Array  # error of the base's orientation in this episode, a rotation vector in base axes (3,) [rad]
     q: Array  # generalized position (nq,), as `Sensed.q`
     v: Array  # generalized velocity (nv,), as `Sensed.v`
     acc_base_in_base: Array  # specific force (3,) [m/s^2]
     wrenches: Array  # ground's wrench on the feet about their sensors, foot axes (2, 6) [N, N m]
-    loads: Array  # vertical force on the feet (2,) [N]
 
 
-def make_sensors(noise: NoiseStd, level: Level, model: mujoco.MjModel) -> Sensors:
-    """Build the sensors of a plant at an uncertainty level (section 5.1) from the numbers of Table 3."""
-    std = NOISE[level.noise]
+def make_sensors(plant: Plant, level: Level, model: mujoco.MjModel) -> Sensors:
+    """Build the sensors of a plant at an uncertainty level (section 5.1)."""
+    q_std, v_std, acc_std, omega_std = read_table_03(plant.noise, level)
+    own, noisy = plant.own_noise, level.noise != "none"
     return Sensors(
-        q_std=std(noise.joint_position_rad),
-        v_std=std(noise.joint_velocity_rad_s),
-        acc_std=std(noise.base_acceleration_m_s2),
-        omega_std=std(noise.base_angular_velocity_rad_s),
+        q_std=q_std,
+        v_std=v_std,
+        acc_std=acc_std,
+        omega_std=omega_std,
+        encoder_step=noisy * own.encoder_step_rad,
+        turn_std=noisy * own.orientation_rad,
+        offset_std=noisy * own.orientation_offset_rad,
+        force_std=noisy * own.foot_force_n,
+        moment_std=noisy * own.foot_moment_nm,
         sensed_base=int(level.base_state == "sensed"),
         gyro=int(model.sensor("imu_gyro").adr[0]),
         acc=int(model.sensor("imu_acc").adr[0]),
         force=np.array([model.sensor(f"{side}_foot_force").adr[0] for side in SIDES], dtype=np.int64),
         torque=np.array([model.sensor(f"{side}_foot_torque").adr[0] for side in SIDES], dtype=np.int64),
+        offset=np.zeros(3),
         q=np.zeros(model.nq),
         v=np.zeros(model.nv),
         acc_base_in_base=np.zeros(3),
         wrenches=np.zeros((len(SIDES), 6)),
-        loads=np.zeros(len(SIDES)),
     )
+
+
+def read_table_03(noise: Noise, level: Level) -> tuple[float, ...]:
+    """Return standard deviations of joint position [rad], joint velocity [rad/s], acceleration [m/s^2], gyro [rad/s].
+
+    The level says how the numbers of Table 3 are read: as standard deviations (`std`), so with those of acceleration
+    and angular velocity exchanged (`swapped`), or as variances (`variance`), as the table calls them.
+    """
+    q, v, acc, omega = (
+        noise.joint_position_rad, noise.joint_velocity_rad_s, noise.base_acceleration_m_s2,
+        noise.base_angular_velocity_rad_s,
+    )  # fmt: skip
+    readings = {
+        "none": (0.0, 0.0, 0.0, 0.0),
+        "std": (q, v, acc, omega),
+        "swapped": (q, v, omega, acc),
+        "variance": (math.sqrt(q), math.sqrt(v), math.sqrt(acc), math.sqrt(omega)),
+    }
+    return readings[level.noise]
+
+
+def reset_sensors(sensors: Sensors, q: Array, v: Array, rng: np.random.Generator) -> None:
+    """Begin an episode at a known q (nq,), v (nv,) without load on the feet; the orientation's error is drawn."""
+    sensors.q[:], sensors.v[:] = q, v
+    sensors.wrenches[:] = 0.0
+    sensors.offset[:] = sensors.offset_std * rng.standard_normal(3)
 
 
 @compiled
@@ -62,24 +97,44 @@ def read_sensors(
     sensors: Sensors, walker: Walker, qpos: Array, qvel: Array, sensordata: Array, rng: np.random.Generator, dt: float
 ) -> None:
     """Fill the readings from the plant after a step of dt [s]: qpos (nq,), qvel (nv,), sensordata of that step."""
-    for k in range(2):
-        for i in range(3):  # MuJoCo gives the wrench of the foot on the sole
-            sensors.wrenches[k, i] = -sensordata[sensors.force[k] + i]
-            sensors.wrenches[k, 3 + i] = -sensordata[sensors.torque[k] + i]
-        sensors.loads[k] = vertical_force(walker, k)
+    _read_feet(sensors, sensordata, rng)
     for i in range(3):
         sensors.acc_base_in_base[i] = sensordata[sensors.acc + i] + sensors.acc_std * rng.standard_normal()
     if sensors.sensed_base == 1:
-        update_base(walker, sensors.loads, sensors.acc_base_in_base, dt, sensors.q, sensors.v)
+        update_base(walker, sensors.acc_base_in_base, dt, sensors.q, sensors.v)
     else:
         for i in range(3):
             sensors.q[i] = qpos[i]
             sensors.v[i] = qvel[i]
-    for i in range(3, 7):
-        sensors.q[i] = qpos[i]
+    _read_orientation(sensors, qpos, rng)
     for i in range(3, 6):
         sensors.v[i] = qvel[i] + sensors.omega_std * rng.standard_normal()
     for i in range(7, len(qpos)):
-        sensors.q[i] = qpos[i] + sensors.q_std * rng.standard_normal()
+        q = qpos[i] + sensors.q_std * rng.standard_normal()
+        step = sensors.encoder_step
+        sensors.q[i] = q if step == 0.0 else step * np.rint(q / step)
     for i in range(6, len(qvel)):
         sensors.v[i] = qvel[i] + sensors.v_std * rng.standard_normal()
+
+
+@compiled
+def _read_feet(sensors: Sensors, sensordata: Array, rng: np.random.Generator) -> None:
+    """Fill the wrenches of the ground on the feet; MuJoCo gives those of the feet on the soles."""
+    for k in range(2):
+        for i in range(3):
+            sensors.wrenches[k, i] = -sensordata[sensors.force[k] + i] + sensors.force_std * rng.standard_normal()
+            sensors.wrenches[k, 3 + i] = -sensordata[sensors.torque[k] + i] + sensors.moment_std * rng.standard_normal()
+
+
+@compiled
+def _read_orientation(sensors: Sensors, qpos: Array, rng: np.random.Generator) -> None:
+    """Fill the base's orientation: the true one, turned in base axes by the episode's error and by noise."""
+    half, w, x, y, z = vector3(), qpos[3], qpos[4], qpos[5], qpos[6]
+    for i in range(3):
+        half[i] = 0.5 * (sensors.offset[i] + sensors.turn_std * rng.standard_normal())
+    # The product of the quaternion w x y z with 1 + half, which turns by the small rotation vector 2 half.
+    norm = np.sqrt(1.0 + half[0] ** 2 + half[1] ** 2 + half[2] ** 2)
+    sensors.q[3] = (w - x * half[0] - y * half[1] - z * half[2]) / norm
+    sensors.q[4] = (x + w * half[0] + y * half[2] - z * half[1]) / norm
+    sensors.q[5] = (y + w * half[1] + z * half[0] - x * half[2]) / norm
+    sensors.q[6] = (z + w * half[2] + x * half[1] - y * half[0]) / norm

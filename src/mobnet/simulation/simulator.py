@@ -20,7 +20,7 @@ from mobnet.simulation.engine import Plant, make_plant, run
 from mobnet.simulation.friction import make_friction
 from mobnet.simulation.native import bind
 from mobnet.simulation.pushes import Pushes, make_pushes, reset_pushes
-from mobnet.simulation.sensing import Sensors, make_sensors
+from mobnet.simulation.sensing import Sensors, make_sensors, reset_sensors
 from mobnet.simulation.start import raise_start, start_standing, start_walking, turn
 from mobnet.simulation.terrain import draw_terrain
 from mobnet.simulation.world import World, ground_height, leg_mask, make_world
@@ -79,7 +79,7 @@ class Simulator:
         every = round(rates.plant_hz / rates.data_hz)
         limits = np.maximum(self.robot.torque_limits, plant.motor_limit_min_nm)
         native, fall_height = bind(world.model, world.data), settings.recording.fall_height_m
-        sensors = make_sensors(plant.noise_std, settings.level, world.model)
+        sensors = make_sensors(plant, settings.level, world.model)
         pushes = make_pushes(settings.pushes, world.model, self.robot)
         plant = make_plant(world, native, friction, limits, fall_height, every)
         self.setting = Setting(terrain, world, plant, sensors, pushes)
@@ -134,8 +134,7 @@ class Simulator:
         data.qacc_warmstart[:] = 0.0
         plant.xfrc_applied[:] = 0.0
         plant.qpos[:], plant.qvel[:], plant.sensordata[:] = q, v, 0.0
-        self.sensors.q[:], self.sensors.v[:] = q, v
-        self.sensors.wrenches[:] = 0.0
+        reset_sensors(self.sensors, q, v, self.rng["noise"])
 
     def run(self, rows: Rows) -> int:
         """Simulate len(rows) samples into rows (n, C); return how many came before a fall."""

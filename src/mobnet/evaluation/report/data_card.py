@@ -69,7 +69,8 @@ DRAWN = {  # section of the configuration -> what its numbers determine
     "random_torque": "random torque exploration (section 4.3), drawn for each joint, never on a leg that carries load",
     "motions": "motion of waist, neck and arms",
     "levels": "uncertainty levels (section 5.1)",
-    "plant.noise_std": "standard deviations of the sensors' white noise (Table 3)",
+    "plant.noise": "the sensors' white noise (Table 3), as printed; `noise` of a level says how it is read",
+    "plant.own_noise": "errors of sensors that Table 3 does not have, at every level with noise",
 }
 
 
