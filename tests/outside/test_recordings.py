@@ -12,15 +12,16 @@ import pytest
 from tests.outside.conftest import AGAINST, RATE_HZ, changed_note, changed_table, moved, put, refusal_of, scaled
 
 from mobnet.check import check
+from mobnet.core.columns import recording_columns, recording_width
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import read_sensed
+from mobnet.core.recording import Truth, read_sensed
 from mobnet.core.store import read_array, write_array
 from mobnet.estimation.estimate import estimate
 from mobnet.learning.dataset import load_limb_data
 from mobnet.settings.settings import Settings
 
-ROWS = 1200
+ROWS, WIDTH = 1200, recording_width(AGAINST.layout)
 Change = Callable[[Any], Any]
 
 
@@ -49,7 +50,10 @@ NOTES = {
     "rows as text": (key("rows", "1200"), "rows: '1200' is not accepted; accepted: a valid integer"),
     "rows as a fraction": (key("rows", 1200.5), "rows: 1200.5 is not accepted"),
     "rows as truth": (key("rows", True), "rows: True is not accepted"),
-    "rows of another file": (key("rows", ROWS + 1), r"shape \(1200, 242\), but recording.json says \(1201, 242\)"),
+    "rows of another file": (
+        key("rows", ROWS + 1),
+        rf"shape \(1200, {WIDTH}\), but recording.json says \(1201, {WIDTH}\)",
+    ),
     "rate zero": (key("rate_hz", 0.0), "rate_hz: 0.0 is not accepted; accepted: greater than 0"),
     "rate below zero": (key("rate_hz", -1000.0), "rate_hz: -1000.0 is not accepted"),
     "rate NaN": (key("rate_hz", np.nan), "rate_hz: nan is not accepted; accepted: finite numbers"),
@@ -146,11 +150,11 @@ TABLES = {
     "base too fast": (put("v.base_x", 3, 300.0), "column 'v.base_x', row 3: 300.0 is not .*: -20 to 20"),
     "a column is gone": (
         lambda t: t.drop_columns(["q.LL3"]),
-        r"shape \(1200, 241\), but recording.json says \(1200, 242\)",
+        rf"shape \(1200, {WIDTH - 1}\), but recording.json says \(1200, {WIDTH}\)",
     ),
-    "a column more": (lambda t: t.append_column("x", [np.zeros(ROWS)]), r"shape \(1200, 243\), but"),
-    "rows are gone": (lambda t: t.slice(0, 900), r"shape \(900, 242\), but recording.json says \(1200, 242\)"),
-    "no rows": (lambda t: t.slice(0, 0), r"shape \(0, 242\), but"),
+    "a column more": (lambda t: t.append_column("x", [np.zeros(ROWS)]), rf"shape \(1200, {WIDTH + 1}\), but"),
+    "rows are gone": (lambda t: t.slice(0, 900), rf"shape \(900, {WIDTH}\), but recording.json says \(1200, {WIDTH}\)"),
+    "no rows": (lambda t: t.slice(0, 0), rf"shape \(0, {WIDTH}\), but"),
     "another name": (
         lambda t: t.rename_columns(["p", *t.column_names[1:]]),
         "column 'p', but recording.json says 'q.base_x'",
@@ -234,11 +238,8 @@ def test_every_fault_of_a_file_is_told_and_there_are_not_too_many(copied: Path, 
 def test_a_robots_log_may_lack_truth_and_have_more_columns_in_any_order(copied: Path, layout: JointLayout) -> None:
     array, note = read_array(copied / "recording")
     columns = [tuple(column.values()) for column in note["columns"]]
-    kept = [
-        k
-        for k, (name, *_) in enumerate(columns)
-        if not name.startswith(("tau_ext", "wrench", "contact", "pushed", "tau_random"))
-    ]
+    unseen = {name for field in Truth.__dataclass_fields__ for name, *_ in recording_columns(layout)[field]}
+    kept = [k for k, (name, *_) in enumerate(columns) if name not in unseen]
     kept.reverse()
     log = np.concatenate([array[:, kept], np.full((ROWS, 1), 37.0)], axis=1)
     write_array(copied / "log", log, [*(columns[k] for k in kept), ("temperature", "deg C", "motor")], {"rate_hz": 1e3})
