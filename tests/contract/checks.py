@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.estimator import Estimator
+from mobnet.core.estimator import Estimator, Stretch, estimate_all
 from mobnet.core.recording import Sensed
 
 RELATIVE = 1e-5
@@ -48,6 +48,17 @@ def the_future_does_not_matter(estimator: Estimator, sensed: Sensed) -> None:
     """An estimate is invariant to samples that come after it."""
     before, after, cut = with_another_end(estimator, sensed)
     np.testing.assert_allclose(before[:cut], after[:cut], rtol=0, atol=RELATIVE * np.abs(before).max())
+
+
+def side_by_side_is_one_after_the_other(estimator: Estimator, sensed: Sensed) -> None:
+    """Recordings of different lengths together give what each gives alone."""
+    stretches = [Stretch(sensed), Stretch(sensed[len(sensed) // 3 :]), Stretch(sensed[:20])]
+    for stretch, result in zip(stretches, estimate_all(estimator, stretches), strict=True):
+        alone = estimator.estimate(stretch.sensed)
+        np.testing.assert_allclose(result.tau_ext, alone.tau_ext, rtol=0, atol=RELATIVE * np.abs(alone.tau_ext).max())
+        assert (alone.std is None) == (result.std is None)
+        if alone.std is not None and result.std is not None:
+            np.testing.assert_allclose(result.std, alone.std, rtol=RELATIVE)
 
 
 def the_past_matters(estimator: Estimator, sensed: Sensed) -> None:
@@ -100,6 +111,7 @@ def recorded_arrays_are_left_alone(estimator: Estimator, sensed: Sensed) -> None
 
 CHECKS = (
     step_equals_estimate,
+    side_by_side_is_one_after_the_other,
     the_future_does_not_matter,
     the_past_matters,
     it_reads_no_truth,

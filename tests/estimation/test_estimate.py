@@ -2,18 +2,23 @@
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pytest
 from safetensors.numpy import save_file
 
+from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.files import WEIGHTS
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
-from mobnet.core.store import read_array
-from mobnet.estimation.estimate import estimate, run_segments, std_scales, table_of
+from mobnet.core.store import read_array, write_array
+from mobnet.estimation import estimate as estimate_module
+from mobnet.estimation.estimate import Observed, estimate, rate_of, read_observed, run_segments, std_scales, table_of
 from mobnet.estimation.methods import build_estimator
+from mobnet.estimation.observe import observe
 from mobnet.estimation.recipe import Recipe
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE, Z_SCORES
 from mobnet.settings.settings import Settings
@@ -31,7 +36,9 @@ def test_each_segment_starts_from_a_fresh_state(
     recording = made_up(0, 0.4, segments=2)
     stem, _ = write_pair(tmp_path, recording)
     given = settings.robot, settings.levels["all_uncertainty"], settings.plant.gravity_m_s2, settings.observer
-    estimate(*given, "MOB", settings.methods, {}, None, stem, tmp_path / "out")
+    observe(*given, stem, tmp_path / "residual")
+    stems = [[stem], [tmp_path / "residual"], [tmp_path / "out"]]
+    estimate(*given, "MOB", settings.methods, {}, None, *stems)
     array, meta = read_array(tmp_path / "out")
     estimator = build_estimator(recipe_of("MOB"))
     for span in recording.spans():
@@ -53,7 +60,64 @@ def test_std_columns_follow_if_there_are_any(layout: JointLayout) -> None:
 
 
 def test_a_method_without_a_std_gets_none(recipe_of: Callable[..., Recipe], made_up: Callable[..., Recording]) -> None:
-    assert run_segments(build_estimator(recipe_of("MOB", "ideal")), made_up(0, 0.1)).std is None
+    (result,) = run_segments(build_estimator(recipe_of("MOB", "ideal")), [Observed(made_up(0, 0.1))])
+    assert result.std is None
+
+
+def test_an_observer_that_ran_already_is_not_run_again(
+    recipe_of: Callable[..., Recipe], made_up: Callable[..., Recording]
+) -> None:
+    recording = made_up(0, 0.1)
+    given = np.random.default_rng(0).normal(size=recording.sensed.v.shape).astype(np.float32)
+    (result,) = run_segments(build_estimator(recipe_of("MOB")), [Observed(recording, given)])
+    np.testing.assert_array_equal(result.tau_ext, given)
+
+
+def test_recordings_side_by_side_and_in_batches_are_those_alone(
+    settings: Settings, recipe_of: Callable[..., Recipe], tmp_path: Path, made_up: Callable[..., Recording],
+    write_pair: Write, monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    """Of different lengths, with falls, more of them than are held in memory at once."""
+    recordings = [made_up(k, seconds, segments=k) for k, seconds in ((1, 0.3), (2, 0.5), (3, 0.2))]
+    pairs = [write_pair(tmp_path, recording) for recording in recordings]
+    given = settings.robot, settings.levels["all_uncertainty"], settings.plant.gravity_m_s2, settings.observer
+    outs = [tmp_path / f"out{k}" for k in range(3)]
+    monkeypatch.setattr(estimate_module, "TOGETHER", 2)
+    estimate(*given, "MOB", settings.methods, {}, None, *map(list, zip(*pairs, strict=True)), outs)
+    for recording, (_, residual), out in zip(recordings, pairs, outs, strict=True):
+        array, meta = read_array(out)
+        assert meta["segments"] == [list(span) for span in recording.segments]
+        np.testing.assert_array_equal(array, read_array(residual)[0][:, : settings.layout.nv])
+
+
+def test_of_a_residual_only_r_is_read(
+    settings: Settings, tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write
+) -> None:
+    """The file has the true torque too, which no estimator may see."""
+    pair = write_pair(tmp_path, made_up(1, 0.2))
+    array, meta = read_array(pair[1])
+    read = read_observed(settings.layout, *pair)
+    assert read.residual is not None
+    np.testing.assert_array_equal(read.residual, array[:, : settings.layout.nv])
+    columns = [(c["name"], c["unit"], c["frame"]) for c in meta["columns"]]
+    array[:, settings.layout.nv :] = 1e5
+    write_array(pair[1], array, columns, {"rate_hz": meta["rate_hz"]})
+    again = read_observed(settings.layout, *pair)
+    np.testing.assert_array_equal(again.residual, read.residual)
+
+
+def test_a_residual_of_another_recording_is_refused(
+    settings: Settings, tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write
+) -> None:
+    recording, residual = (write_pair(tmp_path, made_up(k, 0.2 * k))[k - 1] for k in (1, 2))
+    with pytest.raises(DataError, match="is not accepted"):
+        read_observed(settings.layout, recording, residual)
+
+
+def test_recordings_of_several_rates_are_not_run_together(made_up: Callable[..., Recording]) -> None:
+    read = [Observed(replace(made_up(1, 0.1), rate_hz=rate)) for rate in (500.0, 1000.0)]
+    with pytest.raises(DataError, match=r"recordings at \[500.0, 1000.0\] Hz cannot be run together"):
+        rate_of(read)
 
 
 def test_factors_are_told_joint_by_joint_and_are_one_where_none_are_stored(tmp_path: Path) -> None:

@@ -85,7 +85,7 @@ def test_a_training_reads_the_fit_that_it_builds_upon_and_no_other_does(settings
     assert [name for name in gray.inputs if "/fits/" in name] == ["results/smoke/fits/MOB-fric-load.json"]
     assert not [name for name in plain.inputs if "/fits/" in name]
     assert (gray.call.module, plain.call.module) == ("mobnet.estimation.train_gray", "mobnet.learning.train")
-    estimate = jobs.estimate(METHOD, 0, "walk_test", "all_uncertainty", 1)
+    estimate = jobs.estimate(METHOD, 0, "walk_test", "all_uncertainty")
     assert "results/smoke/fits/MOB-fric-load.json" in estimate.inputs
     assert "results/smoke/networks/MOB-Net-gray-LL-s0/weights.safetensors" in estimate.inputs
     assert estimate.modules == ("mobnet.estimation.kinds.gray", "mobnet.estimation.kinds.friction")

@@ -314,8 +314,9 @@ def test_networks_and_observers_take_recordings_of_the_configured_rate_alone(cop
             methods,
             {},
             None,
-            copied / "recording",
-            copied / "out",
+            [copied / "recording"],
+            [copied / "residual"],
+            [copied / "out"],
             RATE_HZ,
         )
     with pytest.raises(DataError, match=r"rate_hz: 900\.0 is not accepted"):

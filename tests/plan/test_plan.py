@@ -112,11 +112,21 @@ def test_a_walk_gets_the_terrains_and_pushes_that_it_names(plan: Plan) -> None:
 
 
 def test_an_estimate_reads_weights_fit_and_recording(plan: Plan) -> None:
-    place = ("walk_test", "all_uncertainty", 1)
+    place = ("walk_test", "all_uncertainty")
     learned, fitted = (plan.jobs.estimate(method, 0, *place) for method in ("FTS-e2e", "MOB-fric-BPF"))
-    assert [Path(name).name for name in learned.inputs] == ["s1.parquet", "weights.safetensors", "weights.safetensors"]
-    assert fitted.inputs[1] == "results/smoke/fits/MOB-fric.json"
+    array, weights = f"s{plan.files.test_seeds[0]}.parquet", "weights.safetensors"
+    assert [Path(name).name for name in learned.inputs] == [array, array, weights, weights]
+    assert fitted.inputs[2] == "results/smoke/fits/MOB-fric.json"
     assert fitted.modules == ("mobnet.estimation.kinds.band_pass", "mobnet.estimation.kinds.friction")
+
+
+def test_all_recordings_of_a_test_are_estimated_by_one_job_and_each_has_its_file(plans: dict[str, Plan]) -> None:
+    plan = plans["default"]
+    arguments: Any = plan.jobs.estimate("MOB-Net", 1, "forward_walk", "all_uncertainty").call.arguments
+    runs = [run for run in plan.files.runs("forward_walk", "all_uncertainty", ["MOB-Net"]) if run.network_seed == 1]
+    assert len(runs) == plan.settings.sizes.test.shards
+    assert list(arguments["outs"]) == [run.estimate for run in runs]
+    assert list(arguments["residuals"]) == [run.residual for run in runs]
 
 
 def test_recordings_are_scored_only_around_pushes(plan: Plan) -> None:

@@ -49,9 +49,12 @@ rule estimate:
     input:
         lambda w: job("estimate", w).inputs,
     output:
-        array("estimates", "{method}", "n{network_seed}", *RECORDING),
+        [
+            array("estimates", "{method}", "n{network_seed}", "{scenario}", "{level}", f"s{seed}")
+            for seed in PLAN.files.test_seeds
+        ],
     log:
-        f"{LOGS}/estimate/{{method}}-n{{network_seed}}-{{scenario}}-{{level}}-s{{seed}}.log",
+        f"{LOGS}/estimate/{{method}}-n{{network_seed}}-{{scenario}}-{{level}}.log",
     threads: 1
     resources:
         mem_mb=2800,

@@ -1,7 +1,8 @@
 """The interface of estimators of the external torque, for whole recordings and for a closed loop."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 from numpy.typing import NDArray
 
@@ -19,6 +20,19 @@ class Estimate:
 
     tau_ext: NDArray[Any]
     std: NDArray[Any] | None = None
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A contiguous stretch of a recording for an estimator to run over.
+
+    Attributes:
+        sensed: what the robot sensed, T samples.
+        residual: r of (9) where an observer has run over it already (T, nv) [N, N m].
+    """
+
+    sensed: Sensed
+    residual: NDArray[Any] | None = None
 
 
 class Estimator(Protocol):
@@ -43,3 +57,19 @@ class Estimator(Protocol):
     def estimate(self, sensed: Sensed) -> Estimate:
         """Return the estimate of one contiguous recording, arrays (T, n) [N, N m], from a fresh state."""
         ...
+
+
+@runtime_checkable
+class Together(Estimator, Protocol):
+    """An estimator that runs over several stretches side by side in less time than one after the other."""
+
+    def estimate_all(self, stretches: Sequence[Stretch]) -> list[Estimate]:
+        """Return the estimates of stretches, arrays (T_i, n) [N, N m], each from a fresh state."""
+        ...
+
+
+def estimate_all(estimator: Estimator, stretches: Sequence[Stretch]) -> list[Estimate]:
+    """Return the estimates of stretches, arrays (T_i, n) [N, N m], side by side if the estimator can do that."""
+    if isinstance(estimator, Together):
+        return estimator.estimate_all(stretches)
+    return [estimator.estimate(stretch.sensed) for stretch in stretches]

@@ -1,18 +1,19 @@
-"""The rule `estimate`: it runs a method on a recording and writes the external torque."""
+"""The rule `estimate`: it runs a method on recordings, several side by side, and writes the external torque of each."""
 
 import logging
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.columns import EXTERNAL, STD, Column, torque_columns
-from mobnet.core.estimator import Estimate, Estimator
+from mobnet.core.columns import EXTERNAL, RESIDUAL, STD, Column, named, torque_columns
+from mobnet.core.errors import DataError
+from mobnet.core.estimator import Estimate, Estimator, Stretch, estimate_all
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import SensedRecording, read_sensed
-from mobnet.core.store import check_rate, write_array
+from mobnet.core.store import check_pair, check_rate, read_array, write_array
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.observe import CARRIED
 from mobnet.estimation.recipe import Recipe
@@ -22,7 +23,15 @@ from mobnet.settings.methods import Method, Observer
 from mobnet.settings.plant import Level
 from mobnet.settings.robot import RobotTable
 
+TOGETHER = 16  # recordings held in memory and run side by side: 1.3 GB of a minute each
 log = logging.getLogger(__name__)
+
+
+class Observed(NamedTuple):
+    """The sensed part of a recording, and r of (9) where an observer has run over it, (T, nv) [N, N m]."""
+
+    recording: SensedRecording
+    residual: NDArray[np.float32] | None = None
 
 
 def estimate(
@@ -34,37 +43,87 @@ def estimate(
     methods: Mapping[str, Method],
     networks: Mapping[str, Path],
     fitted: Path | None,
-    recording: Path,
-    out: Path,
+    recordings: Sequence[Path],
+    residuals: Sequence[Path],
+    outs: Sequence[Path],
     rate_hz: float | None = None,
 ) -> None:
-    """Write a method's external torque for a recording made at an uncertainty level, as Table 5 scores it.
+    """Write a method's external torque for recordings made at an uncertainty level, as Table 5 scores it.
 
     Columns are `tau_ext.<joint>` [N, N m] of the method's joints and, where the method gives it, `std.<joint>`;
     segments are the recording's, and each is run from a fresh state. `methods` holds the method and, if it runs on
-    another one, that one too; `networks` the folder of each limb's network, and `fitted` is what rule `fit` wrote. The
-    recording and `out` are paths without a suffix. Networks run at the rate [Hz] of their training alone; without it,
-    any is accepted.
+    another one, that one too; `networks` the folder of each limb's network, and `fitted` is what rule `fit` wrote.
+    Recordings, their residuals and `outs` are paths without a suffix, in the same order. Networks run at the rate [Hz]
+    of their training alone; without it, any single one is accepted.
 
     Raises:
         ConfigError: the method's kind is unknown, or networks do not match the method's limbs.
-        DataError: the recording, a network or the fit is damaged.
+        DataError: a recording, a residual, a network or the fit is damaged, or the rates differ.
     """
     layout = describe(robot).layout
-    check_rate(recording, rate_hz)
-    read = read_sensed(recording, layout)
-    recipe = Recipe(method, methods, robot, level, gravity_m_s2, observer, read.rate_hz, networks, fitted)
-    estimator = build_estimator(recipe)
-    array, columns = table_of(run_segments(estimator, read), estimator.joints, layout)
-    meta = {
-        "rate_hz": read.rate_hz,
-        **{key: read.meta[key] for key in CARRIED if key in read.meta},
+    note = {
         "method": method,
         "networks": {limb: folder.name for limb, folder in networks.items()},
         "std_scale": std_scales(networks),
     }
-    write_array(out, array, columns, meta, read.segments)
-    log.info("%s: %s of %d samples, %d joints", out, method, len(array), len(estimator.joints))
+    for start in range(0, len(recordings), TOGETHER):
+        some = slice(start, start + TOGETHER)
+        pairs = zip(recordings[some], residuals[some], strict=True)
+        read = [read_observed(layout, recording, residual, rate_hz) for recording, residual in pairs]
+        recipe = Recipe(method, methods, robot, level, gravity_m_s2, observer, rate_of(read), networks, fitted)
+        estimator = build_estimator(recipe)
+        for one, result, out in zip(read, run_segments(estimator, read), outs[some], strict=True):
+            write_estimate(out, one.recording, result, estimator.joints, layout, note)
+
+
+def read_observed(layout: JointLayout, recording: Path, residual: Path, rate_hz: float | None = None) -> Observed:
+    """Read what was sensed in a recording, and of its residual the columns of r alone, not those of the truth."""
+    check_rate(recording, rate_hz)
+    check_pair(recording, residual)
+    return Observed(read_sensed(recording, layout), read_array(residual, named(RESIDUAL, layout.names))[0])
+
+
+def rate_of(read: Sequence[Observed]) -> float:
+    """Return the rate of recordings [Hz]; raise DataError where they have several."""
+    rates = sorted({one.recording.rate_hz for one in read})
+    if len(rates) != 1:
+        raise DataError(f"recordings at {rates} Hz cannot be run together; accepted: one or more at a single rate")
+    return rates[0]
+
+
+def run_segments(estimator: Estimator, read: Sequence[Observed]) -> list[Estimate]:
+    """Return the estimates (T_i, n) [N, N m] of recordings, each segment from a fresh state; zero outside of segments.
+
+    All segments of all recordings run side by side where the estimator can do that.
+    """
+    spans = [(k, span) for k, one in enumerate(read) for span in one.recording.spans()]
+    stretches = [
+        Stretch(one.recording.sensed[span], None if one.residual is None else one.residual[span])
+        for one, span in ((read[k], span) for k, span in spans)
+    ]
+    shapes = [(len(one.recording.sensed), len(estimator.joints)) for one in read]
+    found = [(np.zeros(shape), np.zeros(shape)) for shape in shapes]
+    has_std = False
+    for (k, span), part in zip(spans, estimate_all(estimator, stretches), strict=True):
+        found[k][0][span] = part.tau_ext
+        if part.std is not None:
+            found[k][1][span], has_std = part.std, True
+    return [Estimate(tau, std if has_std else None) for tau, std in found]
+
+
+def write_estimate(
+    out: Path,
+    recording: SensedRecording,
+    result: Estimate,
+    joints: Sequence[str],
+    layout: JointLayout,
+    note: Mapping[str, object],
+) -> None:
+    """Write the estimate of a recording, (T, n) [N, N m], with a note of the method beside what the recording says."""
+    array, columns = table_of(result, joints, layout)
+    carried = {key: recording.meta[key] for key in CARRIED if key in recording.meta}
+    write_array(out, array, columns, {"rate_hz": recording.rate_hz, **carried, **note}, recording.segments)
+    log.info("%s: %d samples, %d joints", out, len(array), len(joints))
 
 
 def std_scales(networks: Mapping[str, Path]) -> dict[str, float]:
@@ -74,18 +133,6 @@ def std_scales(networks: Mapping[str, Path]) -> dict[str, float]:
         for network in map(load_network, networks.values())
         for joint, factor in zip(network.joints, network.std_scale.tolist(), strict=True)
     }
-
-
-def run_segments(estimator: Estimator, recording: SensedRecording) -> Estimate:
-    """Return the estimate (T, n) [N, N m] of all segments, each from a fresh state; zero outside of segments."""
-    shape = (len(recording.sensed), len(estimator.joints))
-    tau, std, has_std = np.zeros(shape), np.zeros(shape), False
-    for span in recording.spans():
-        part = estimator.estimate(recording.sensed[span])
-        tau[span] = part.tau_ext
-        if part.std is not None:
-            std[span], has_std = part.std, True
-    return Estimate(tau, std if has_std else None)
 
 
 def table_of(result: Estimate, joints: Sequence[str], layout: JointLayout) -> tuple[NDArray[Any], list[Column]]:

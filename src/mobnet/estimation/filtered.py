@@ -1,12 +1,13 @@
 """Another estimator behind a linear filter: what the band-pass of section 5.3 and the Kalman filter share."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import scipy  # its parts are imported where they are used first: the workflow imports kinds before it starts
 
 from mobnet.core.arrays import Array
-from mobnet.core.estimator import Estimate, Estimator
+from mobnet.core.estimator import Estimate, Estimator, Stretch, estimate_all
 from mobnet.core.recording import Sensed
 
 State = tuple[Any, Array]  # of the filtered method, and of the filter (sections, 2, n) [N, N m]
@@ -32,8 +33,16 @@ class FilteredEstimator:
 
     def estimate(self, sensed: Sensed) -> Estimate:
         """Return the filtered tau_e of one contiguous recording, (T, n) [N, N m], from a fresh state."""
-        whole = self._inner.estimate(sensed).tau_ext
-        return Estimate(scipy.signal.sosfilt(self._sections, whole, axis=0, zi=self._at_rest())[0])
+        (result,) = self.estimate_all([Stretch(sensed)])
+        return result
+
+    def estimate_all(self, stretches: Sequence[Stretch]) -> list[Estimate]:
+        """Return the filtered tau_e of stretches, (T_i, n) [N, N m], each from a fresh state."""
+        inner = estimate_all(self._inner, stretches)
+        return [
+            Estimate(scipy.signal.sosfilt(self._sections, whole.tau_ext, axis=0, zi=self._at_rest())[0])
+            for whole in inner
+        ]
 
     def _at_rest(self) -> Array:
         """Return the zero state of the filter, (sections, 2, n) [N, N m]."""

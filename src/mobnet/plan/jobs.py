@@ -103,22 +103,25 @@ class Jobs:
         arguments |= {"observer": self.settings.observer, "fitted": fitted[0]}
         return Job(Call("mobnet.estimation.train_gray:train_gray", arguments), _read([recordings, residuals, fitted]))
 
-    def estimate(self, method: str, network_seed: int, scenario: str, level: str, seed: int) -> Job:
-        """Return a method's external torque for a recording."""
+    def estimate(self, method: str, network_seed: int, scenario: str, level: str) -> Job:
+        """Return a method's external torque for all recordings of a test, which run side by side."""
         source = self.settings.network_source_of(method)
         limbs = self.settings.method(source).limbs
         networks = {limb: self.files.network(source, limb, network_seed) for limb in limbs}
-        recording, fitted = self.files.array("recordings", scenario, level, seed), self.files.fit(method)
+        kinds = "recordings", "residuals", f"estimates/{method}/n{network_seed}"
+        recordings, residuals, outs = (self.files.tests(scenario, level, kind) for kind in kinds)
+        fitted = self.files.fit(method)
         arguments = {
             **self._observer(level),
             "method": method,
             "methods": {name: self.settings.method(name) for name in self._with_source(method)},
             "networks": networks,
             "fitted": next(iter(fitted), None),
-            "recording": recording,
-            "out": self.files.array(f"estimates/{method}/n{network_seed}", scenario, level, seed),
+            "recordings": recordings,
+            "residuals": residuals,
+            "outs": outs,
         }
-        inputs = _read([recording, fitted, [folder / WEIGHTS for folder in networks.values()]])
+        inputs = _read([recordings, residuals, fitted, [folder / WEIGHTS for folder in networks.values()]])
         return Job(Call("mobnet.estimation.estimate:estimate", arguments), inputs, self._kinds(method))
 
     def score(self, scenario: str) -> Job:

@@ -78,9 +78,9 @@ class Files:
         row = self.settings.training_sets[name]
         return tuple(self.array(kind, row.scenario, row.level, seed) for seed in self.training_seeds(name))
 
-    def tests(self, scenario: str, level: str) -> tuple[Path, ...]:
-        """Return the recordings of a test."""
-        return tuple(self.array("recordings", scenario, level, seed) for seed in self.test_seeds)
+    def tests(self, scenario: str, level: str, kind: str = "recordings") -> tuple[Path, ...]:
+        """Return the recordings of a test, or their residuals or estimates."""
+        return tuple(self.array(kind, scenario, level, seed) for seed in self.test_seeds)
 
     def development(self, kind: str) -> tuple[Path, ...]:
         """Return the recordings or residuals of the walks on which methods are chosen; no table shows them."""

@@ -1,6 +1,6 @@
 """Eq. (15): what a model of the uncertainty leaves of the residual."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import pytest
@@ -26,8 +26,8 @@ class Constant:
     def step(self, state: None, sample: Sensed) -> tuple[None, Prediction]:
         return None, Prediction(OFFSET)
 
-    def run(self, sensed: Sensed) -> Prediction:
-        return Prediction(np.tile(OFFSET, (len(sensed), 1)))
+    def run_all(self, recordings: Sequence[Sensed]) -> list[Prediction]:
+        return [Prediction(np.tile(OFFSET, (len(sensed), 1))) for sensed in recordings]
 
 
 @pytest.fixture

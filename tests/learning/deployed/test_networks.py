@@ -10,8 +10,9 @@ import torch
 from safetensors.torch import save_file
 
 from mobnet.core.errors import DataError
-from mobnet.learning.deployed import module_network
-from mobnet.learning.deployed.module_network import CHUNK, ModuleNetwork
+from mobnet.learning.deployed import lanes
+from mobnet.learning.deployed.lanes import CHUNK
+from mobnet.learning.deployed.module_network import ModuleNetwork
 from mobnet.learning.deployed.networks import WEIGHTS, ConstantNetwork, Deployed, Network, load_network
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE
 from mobnet.learning.model import LimbNetwork, build_network
@@ -64,12 +65,22 @@ def test_step_agrees_with_run(kind: CellKind, x: np.ndarray, tmp_path: Path, mon
     network = deployed(tmp_path, model_of(CELLS[kind]), CELLS[kind])
     assert isinstance(network, KINDS.get(kind, ModuleNetwork))
     whole, state = network.run(x), network.init()
-    monkeypatch.setattr(module_network, "CHUNK", 7)
+    monkeypatch.setattr(lanes, "CHUNK", 7)
     np.testing.assert_allclose(network.run(x).mean, whole.mean, rtol=1e-5, atol=1e-5)
     for k in range(STEPS):
         state, result = network.step(state, x[k])
         np.testing.assert_allclose(result.mean, whole.mean[k], rtol=1e-5, atol=1e-5)
         np.testing.assert_allclose(result.std, whole.std[k], rtol=1e-5)
+
+
+@pytest.mark.parametrize("kind", CELLS)
+def test_recordings_side_by_side_are_those_alone(kind: CellKind, x: np.ndarray, tmp_path: Path) -> None:
+    network = deployed(tmp_path, model_of(CELLS[kind]), CELLS[kind])
+    given = [x, x[100:], x[:37]]
+    for one, together in zip(given, network.run_all(given), strict=True):
+        alone = network.run(one)
+        np.testing.assert_allclose(together.mean, alone.mean, rtol=1e-5, atol=1e-5)
+        np.testing.assert_allclose(together.std, alone.std, rtol=1e-5)
 
 
 @pytest.mark.parametrize("kind", [*CELLS, "spectral"])

@@ -1,9 +1,9 @@
 """FTS-e2e of section 5.1: networks that are trained on the external torque and predict it without an observer."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from mobnet.core.errors import ConfigError, misfit
-from mobnet.core.estimator import Estimate
+from mobnet.core.estimator import Estimate, Stretch
 from mobnet.core.recording import Sensed
 from mobnet.estimation.recipe import Recipe
 from mobnet.learning.deployed.limbs import LimbNetworks, State
@@ -31,8 +31,13 @@ class DirectEstimator:
 
     def estimate(self, sensed: Sensed) -> Estimate:
         """Return tau_e of one contiguous recording, (T, n) [N, N m], from a fresh state."""
-        prediction = self._networks.run(sensed)
-        return Estimate(prediction.mean, prediction.std)
+        (result,) = self.estimate_all([Stretch(sensed)])
+        return result
+
+    def estimate_all(self, stretches: Sequence[Stretch]) -> list[Estimate]:
+        """Return tau_e of stretches side by side, (T_i, n) [N, N m], each from a fresh state."""
+        predictions = self._networks.run_all([stretch.sensed for stretch in stretches])
+        return [Estimate(prediction.mean, prediction.std) for prediction in predictions]
 
 
 def check(method: Method, options: Section, rate_hz: float) -> Iterator[tuple[Place, str]]:

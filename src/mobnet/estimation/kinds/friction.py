@@ -113,6 +113,10 @@ class FrictionModel:
         """Run over one contiguous recording; return the filtered friction (T, nv) [N, N m]."""
         return _prediction(low_pass(self._torque(sensed), self._gain_hz, self._rate_hz))
 
+    def run_all(self, recordings: Sequence[Sensed]) -> list[Prediction]:
+        """Run over contiguous recordings, each from a fresh state; return the filtered friction (T_i, nv) [N, N m]."""
+        return [self.run(sensed) for sensed in recordings]
+
     def _torque(self, sensed: Sensed) -> Array:
         """Return the friction torque before the filter, (..., nv) [N, N m]."""
         friction = self._friction.torque(sensed.v[..., self._base :], sensed.tau_motor)

@@ -1,6 +1,6 @@
 """A gray box: networks that learn what a friction model leaves of the uncertainty, tau_e = r - friction - networks."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from mobnet.core.errors import ConfigError, misfit
@@ -37,9 +37,10 @@ class FrictionAndNetworks:
         learned, rest = self._networks.step(state[1], sample)
         return (rubbed, learned), self._sum(known, rest)
 
-    def run(self, sensed: Sensed) -> Prediction:
-        """Run over one contiguous recording from a fresh state; return the prediction (T, n) [N, N m]."""
-        return self._sum(self._friction.run(sensed), self._networks.run(sensed))
+    def run_all(self, recordings: Sequence[Sensed]) -> list[Prediction]:
+        """Run over contiguous recordings, each from a fresh state; return the predictions (T_i, n) [N, N m]."""
+        known, rest = self._friction.run_all(recordings), self._networks.run_all(recordings)
+        return [self._sum(*pair) for pair in zip(known, rest, strict=True)]
 
     def _sum(self, known: Prediction, rest: Prediction) -> Prediction:
         """Return the sum (..., n) [N, N m] with the networks' standard deviation."""

@@ -1,13 +1,13 @@
 """External torque as the residual without what a model of the uncertainty predicts, eq. (15)."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.errors import misfit
-from mobnet.core.estimator import Estimate
+from mobnet.core.estimator import Estimate, Stretch
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
 from mobnet.estimation.recipe import Recipe, ResidualObserver
@@ -35,8 +35,8 @@ class UncertaintyModel(Protocol):
         """Take one sample (1-D arrays); return the new state and the prediction (n,) [N, N m]."""
         ...
 
-    def run(self, sensed: Sensed) -> Prediction:
-        """Run over one contiguous recording from a fresh state; return the prediction (T, n) [N, N m]."""
+    def run_all(self, recordings: Sequence[Sensed]) -> list[Prediction]:
+        """Run over contiguous recordings, each from a fresh state; return the predictions (T_i, n) [N, N m]."""
         ...
 
 
@@ -69,8 +69,16 @@ class ResidualEstimator:
 
     def estimate(self, sensed: Sensed) -> Estimate:
         """Return tau_e of one contiguous recording, (T, n) [N, N m], from a fresh state."""
-        residual = self._observer.residual(sensed)
-        return self._estimate(residual, self._uncertainty.run(sensed) if self._uncertainty else None)
+        (result,) = self.estimate_all([Stretch(sensed)])
+        return result
+
+    def estimate_all(self, stretches: Sequence[Stretch]) -> list[Estimate]:
+        """Return tau_e of stretches, (T_i, n) [N, N m], each from a fresh state; the networks run side by side."""
+        residuals = [s.residual if s.residual is not None else self._observer.residual(s.sensed) for s in stretches]
+        if self._uncertainty is None:
+            return [self._estimate(residual) for residual in residuals]
+        predictions = self._uncertainty.run_all([stretch.sensed for stretch in stretches])
+        return [self._estimate(*pair) for pair in zip(residuals, predictions, strict=True)]
 
     def _estimate(self, residual: NDArray[np.float64], prediction: Prediction | None = None) -> Estimate:
         """Return eq. (15) for the estimated joints, (..., n) [N, N m]."""

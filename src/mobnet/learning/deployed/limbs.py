@@ -40,10 +40,17 @@ class LimbNetworks:
 
     def run(self, sensed: Sensed) -> Prediction:
         """Run over one contiguous recording from fresh states; return the prediction (T, n) [N, N m]."""
-        x = signals(sensed)
-        return _joined(
-            [network.run(x[:, columns]) for network, columns in zip(self.networks, self._columns, strict=True)]
-        )
+        (prediction,) = self.run_all([sensed])
+        return prediction
+
+    def run_all(self, recordings: Sequence[Sensed]) -> list[Prediction]:
+        """Run over contiguous recordings side by side, each from fresh states; return (T_i, n) [N, N m] of each."""
+        seen = [signals(sensed) for sensed in recordings]
+        limbs = [
+            network.run_all([x[:, columns] for x in seen])
+            for network, columns in zip(self.networks, self._columns, strict=True)
+        ]
+        return [_joined(predictions) for predictions in zip(*limbs, strict=True)]
 
 
 def load_limb_networks(folders: Mapping[str, Path], layout: JointLayout) -> LimbNetworks:

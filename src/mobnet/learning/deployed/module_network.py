@@ -1,17 +1,16 @@
 """Trained networks of any cell of section 6.1 as they run on a robot, by the torch module that was trained."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import torch
 from torch import Tensor
 
+from mobnet.learning.deployed.lanes import side_by_side
 from mobnet.learning.deployed.networks import Array, Deployed, Prediction
 from mobnet.learning.model import build_network
 from mobnet.settings.networks import Cell
-
-CHUNK = 2000  # samples of a recording run at once, so that memory does not grow with its length
 
 
 class ModuleNetwork(Deployed):
@@ -31,20 +30,16 @@ class ModuleNetwork(Deployed):
 
     def step(self, state: Tensor, x: Array) -> tuple[Tensor, Prediction]:
         """Advance by one sample of inputs (n_in,); return the new state and the prediction (n,) [N, N m]."""
-        mean, std, state = self._advance(state, x[None])
-        return state, self._physical(mean[0], std[0])
+        state, output = self._advance(state, x[None, None])
+        return state, self._physical(*np.split(output[0, 0], 2))
 
-    def run(self, x: Array) -> Prediction:
-        """Run over a contiguous recording of inputs (T, n_in) from a fresh state; return (T, n) [N, N m]."""
-        state, means, stds = self.init(), [], []
-        for start in range(0, len(x), CHUNK):
-            mean, std, state = self._advance(state, x[start : start + CHUNK])
-            means.append(mean)
-            stds.append(std)
-        return self._physical(np.concatenate(means), np.concatenate(stds))
+    def run_all(self, lanes: Sequence[Array]) -> list[Prediction]:
+        """Run over contiguous recordings of inputs (T_i, n_in), each from a fresh state; return (T_i, n) [N, N m]."""
+        outputs = side_by_side(lanes, self._module.fresh_state(len(lanes)), self._advance)
+        return [self._physical(*np.split(output, 2, axis=-1)) for output in outputs]
 
     @torch.no_grad()
-    def _advance(self, state: Tensor, x: Array) -> tuple[Array, Array, Tensor]:
-        """Return z-scored mean and standard deviation (T, n) of physical inputs (T, n_in), and the state after."""
-        mean, std, state = self._module(torch.from_numpy(self._z_score(x))[:, None], state)
-        return mean[:, 0].numpy(), std[:, 0].numpy(), state
+    def _advance(self, state: Tensor, x: Array) -> tuple[Tensor, Array]:
+        """Return the state after physical inputs (h, B, n_in), and z-scored mean and std side by side (h, B, 2 n)."""
+        mean, std, state = self._module(torch.from_numpy(self._z_score(x)), state)
+        return state, torch.cat([mean, std], dim=-1).numpy()

@@ -5,7 +5,7 @@ Small matrix-vector products at batch 1 cost less in NumPy than a call into torc
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -64,8 +64,13 @@ class Deployed(ABC):
         """Advance by one sample of inputs (n_in,); return the new state and the prediction (n,) [N, N m]."""
 
     @abstractmethod
+    def run_all(self, lanes: Sequence[Array]) -> list[Prediction]:
+        """Run over contiguous recordings of inputs (T_i, n_in), each from a fresh state; return (T_i, n) [N, N m]."""
+
     def run(self, x: Array) -> Prediction:
         """Run over a contiguous recording of inputs (T, n_in) from a fresh state; return (T, n) [N, N m]."""
+        (prediction,) = self.run_all([x])
+        return prediction
 
     def _z_score(self, x: Array) -> Array:
         """Return z-scored inputs."""
@@ -97,9 +102,9 @@ class ConstantNetwork(Deployed):
         """Return no state and the prediction (n,) [N, N m], whatever the inputs (n_in,)."""
         return None, self._predict(self._output)
 
-    def run(self, x: Array) -> Prediction:
-        """Return the prediction (T, n) [N, N m] for as many samples as the inputs (T, n_in) have."""
-        return self._predict(np.tile(self._output, (len(x), 1)))
+    def run_all(self, lanes: Sequence[Array]) -> list[Prediction]:
+        """Return the predictions (T_i, n) [N, N m] for as many samples as the inputs (T_i, n_in) have."""
+        return [self._predict(np.tile(self._output, (len(x), 1))) for x in lanes]
 
 
 class Network(Deployed):
@@ -111,6 +116,7 @@ class Network(Deployed):
         w_in, w_state, b_in, b_state, self._w_out, self._b_out = (
             np.asarray(tensors[name], dtype=np.float32) for name in GRU_TENSORS
         )
+        self._as_trained = w_in, w_state, b_in, b_state
         self.hidden = w_state.shape[1]
         # sigmoid(x) = (1 + tanh(x / 2)) / 2: the halves go into the weights of the reset and update gates
         half = np.repeat(np.array([0.5, 0.5, 1.0], dtype=np.float32), self.hidden)
@@ -126,14 +132,19 @@ class Network(Deployed):
         state = self._advance(state, self._w_in @ self._z_score(x) + self._b_in)
         return state, self._predict(self._w_out @ state + self._b_out)
 
-    def run(self, x: Array) -> Prediction:
-        """Run over a contiguous recording of inputs (T, n_in) from a fresh state; return (T, n) [N, N m]."""
-        gates = self._z_score(x) @ self._w_in.T + self._b_in
-        states = np.empty((len(x), self.hidden), dtype=np.float32)
-        state = self.init()
-        for k, gate in enumerate(gates):
-            state = states[k] = self._advance(state, gate)
-        return self._predict(states @ self._w_out.T + self._b_out)
+    def run_all(self, lanes: Sequence[Array]) -> list[Prediction]:
+        """Run over contiguous recordings of inputs (T_i, n_in), each from a fresh state; return (T_i, n) [N, N m]."""
+        from mobnet.learning.deployed.lanes import (  # compiled loops, which a robot does without
+            gru_states,
+            side_by_side,
+        )
+
+        def advance(state: Array, x: Array) -> tuple[Array, Array]:
+            state, states = gru_states(self._as_trained, state, self._z_score(x))
+            return state, states @ self._w_out.T + self._b_out
+
+        fresh = np.zeros((1, len(lanes), self.hidden), dtype=np.float32)
+        return [self._predict(output) for output in side_by_side(lanes, fresh, advance)]
 
     def _advance(self, state: Array, gates_in: NDArray[Any]) -> Array:
         """Return the GRU's next state from the input's share of the gates (3 hidden,): reset, update, new."""

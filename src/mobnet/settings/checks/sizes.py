@@ -48,7 +48,7 @@ def _job_count(settings: Settings) -> int:
     }
     runs = [max(seeds[settings.network_source_of(name)], default=1) for levels in settings.tests.values()
             for methods in levels.values() for name in methods]  # fmt: skip
-    return 2 * recorded + sum(map(sum, seeds.values())) + shards * sum(runs)
+    return 2 * recorded + sum(map(sum, seeds.values())) + sum(runs)
 
 
 def _length_problems(settings: Settings, scale: Scale) -> Iterator[Problem]:
