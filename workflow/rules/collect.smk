@@ -75,3 +75,18 @@ rule observe:
         given=lambda w: job("observe", w).given,
     script:
         "../scripts/call.py"
+
+
+use rule observe as observe_tests with:
+    input:
+        lambda w: job("observe_tests", w).inputs,
+    output:
+        tests("residuals"),
+    log:
+        f"{LOGS}/observe_tests/{{scenario}}-{{level}}.log",
+    params:
+        call=lambda w: job("observe_tests", w).call,
+        given=lambda w: job("observe_tests", w).given,
+
+
+ruleorder: observe_tests > observe

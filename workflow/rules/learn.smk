@@ -49,10 +49,7 @@ rule estimate:
     input:
         lambda w: job("estimate", w).inputs,
     output:
-        [
-            array("estimates", "{method}", "n{network_seed}", "{scenario}", "{level}", f"s{seed}")
-            for seed in PLAN.files.test_seeds
-        ],
+        tests("estimates", "{method}", "n{network_seed}"),
     log:
         f"{LOGS}/estimate/{{method}}-n{{network_seed}}-{{scenario}}-{{level}}.log",
     threads: 1

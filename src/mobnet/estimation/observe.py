@@ -1,6 +1,7 @@
 """The rule `observe`: from a recording to the observer's residual and the torque it should have followed."""
 
 import logging
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -53,6 +54,23 @@ def observe(
         "nominal_mass_ratio": level.nominal_mass_ratio,
     }
     write_array(out, array, residual_columns(description.layout), meta, read.segments)
+
+
+def observe_tests(
+    robot: RobotTable,
+    level: Level,
+    gravity_m_s2: float,
+    observer: Observer,
+    pairs: Sequence[tuple[Path, Path]],
+    rate_hz: float | None = None,
+) -> None:
+    """Observe the recordings of a test one after another; pairs are a recording and where its residual is written.
+
+    Raises:
+        DataError: a recording is damaged.
+    """
+    for recording, out in pairs:
+        observe(robot, level, gravity_m_s2, observer, recording, out, rate_hz)
 
 
 def observer_of(

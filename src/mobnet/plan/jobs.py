@@ -67,6 +67,12 @@ class Jobs:
         arguments = {**self._observer(level), "recording": recording, "out": out}
         return Job(Call("mobnet.estimation.observe:observe", arguments), _read(recording))
 
+    def observe_tests(self, scenario: str, level: str) -> Job:
+        """Return the observer's residuals of all recordings of a test."""
+        recordings, outs = (self.files.tests(scenario, level, kind) for kind in ("recordings", "residuals"))
+        arguments = {**self._observer(level), "pairs": tuple(zip(recordings, outs, strict=True))}
+        return Job(Call("mobnet.estimation.observe:observe_tests", arguments), _read(recordings))
+
     def fit(self, method: str) -> Job:
         """Return the fit of a method without networks to the training sets of its limbs."""
         row = self.settings.method(method)

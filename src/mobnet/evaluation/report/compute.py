@@ -17,7 +17,7 @@ from mobnet.settings.evaluation import Compute
 
 STAGES = {  # stage -> its rules; those of no stage make tables and figures
     "collect": ("motion", "collect", "collect_tests"),
-    "observe": ("observe",),
+    "observe": ("observe", "observe_tests"),
     "train": ("fit", "train"),
     "estimate": ("estimate",),
     "score": ("score",),
