@@ -96,6 +96,12 @@ def _calibration(files: Files) -> Needs:
     }
 
 
+def _noise(files: Files) -> Needs:
+    """Return the scores of the readings of Table 3, and the paper's tables that they stand beside."""
+    settings, printed = files.settings.evaluation.noise, files.settings.published.tables
+    return {"scores": _scores(files, settings), "printed": {name: printed[name] for name in settings.paper}}
+
+
 def _figure_05(files: Files) -> Needs:
     """Return the first runs at each level of Figure 5."""
     figure = files.settings.evaluation.figure_05
@@ -124,6 +130,7 @@ NEEDS: Mapping[str, Callable[[Files], Needs]] = {  # products that need somethin
     "uncertainty": _uncertainty,
     "kinds": _kinds,
     "calibration": _calibration,
+    "noise": _noise,
     "figure_05": _figure_05,
     "figure_10": _figure_10,
     "figure_19": _coverage,

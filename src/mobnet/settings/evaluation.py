@@ -80,7 +80,7 @@ class ErrorTable(Section):
 
 
 class BudgetRow(Section):
-    """The observer with some sources of error on."""
+    """One method, the observer, at one level; `label` is what a table calls it."""
 
     label: base.Text
     scenario: base.TestName
@@ -93,6 +93,14 @@ class ErrorBudget(Section):
 
     joints: Columns
     tests: Annotated[tuple[BudgetRow, ...], Field(min_length=2)]
+
+
+class NoiseTable(Section):
+    """Readings of Table 3 side by side; the paper's numbers stand at a place in each of some tables."""
+
+    joints: LimbsOrJoints
+    paper: Annotated[dict[base.LowerName, base.Text], Field(min_length=1)]
+    tests: base.Some[BudgetRow]
 
 
 class Table01(Section):
@@ -333,6 +341,7 @@ class Evaluation(Section):
     table_01: Table01
     tables: dict[base.LowerName, ErrorTable]
     error_budget: ErrorBudget
+    noise: NoiseTable
     figure_05: Figure05
     figure_06: Figure06
     figure_07: Figure07
