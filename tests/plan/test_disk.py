@@ -45,7 +45,7 @@ def test_a_folder_in_place_of_a_file_and_a_file_in_place_of_a_folder_are_named(p
 
 
 def test_an_array_takes_its_rows_by_its_columns(plan: Plan) -> None:
-    """Ten seconds at 1 kHz of some 200 columns of four bytes."""
+    """Ten seconds at 1 kHz of some 280 columns of four bytes."""
     assert 5_000_000 < expected_bytes(plan, Path(ARRAY)) < 10_000_000
     assert expected_bytes(plan, Path("tables/smoke/table_05.csv")) < 1_000_000
 
