@@ -30,7 +30,7 @@ def test_motor_torque_arrives_unchanged_and_unclipped(plant: mujoco.MjModel) -> 
 
 def test_joints_have_rotors_alone_and_the_weight_is_the_table_s(plant: mujoco.MjModel, robot: RobotDescription) -> None:
     np.testing.assert_array_equal(plant.dof_armature[6:], robot.armature)
-    for figure in (plant.jnt_limited, plant.dof_damping, plant.dof_frictionloss, plant.jnt_stiffness):
+    for figure in (plant.dof_damping, plant.dof_frictionloss, plant.jnt_stiffness):
         assert not figure.any()
     assert plant.body_mass.sum() == pytest.approx(robot.mass, rel=1e-12)
     assert all(plant.body(sole_name(side)).mass == 0 for side in SIDES)

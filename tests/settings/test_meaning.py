@@ -25,7 +25,7 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("observer.gain_hz", 600.0, "at most half of data_hz"),
     ("plant.gravity_m_s2", -9.81, "a number from 1"),
     ("plant.gravity_m_s2", 9810.0, "to 30"),
-    ("plant.contact_time_constant_s", 0.0005, "at least two steps"),
+    ("plant.loss_time_constant_s", 0.0005, "at least two steps"),
     ("plant.solver_iterations", 8.0, "a whole number"),
     ("levels.all_uncertainty.friction", ["load"] * 2, "each value o"),
     ("levels.ideal.nominal_mass_ratio", 900.0, "to 3"),

@@ -270,12 +270,40 @@ def test_random_torque_is_part_of_the_desired_torque_but_not_on_support(simulate
 
 
 @pytest.mark.sim
-def test_motor_torque_is_the_desired_one_within_the_limits(simulate: Callable, run: Callable) -> None:
-    log = run(simulator := simulate("random_walk", "all_uncertainty"), 2.0)
-    limits = simulator.plant.limits.astype(np.float32)
-    assert (np.abs(log["tau_motor"]) <= limits * (1 + 1e-6)).all()
-    inside = (np.abs(log["tau_des"]) < 0.5 * limits).all(axis=0)
-    np.testing.assert_array_equal(log["tau_des"][:, inside], log["tau_motor"][:, inside])
+def test_no_drive_is_asked_for_more_than_it_gives(simulate: Callable, run: Callable) -> None:
+    """Random torque that is far beyond the limits is clipped before it is sent and logged."""
+    simulator = simulate("random_walk", "all_uncertainty")
+    simulator.torque.amplitude[:] = 1000.0
+    log = run(simulator, 1.0)
+    limits = simulator.plant.limits * (1 + 1e-6)
+    assert (np.abs(log["tau_des"]) <= limits).all()
+    assert (np.abs(log["tau_des"]) > 0.99 * limits).any(axis=0)[12:].all()  # legs are reached in swing only
+    np.testing.assert_array_equal(log["tau_des"], log["tau_motor"])
+
+
+def test_joint_limits_are_no_external_torque(simulate: Callable, run: Callable) -> None:
+    """A robot in the air whose elbow is driven against the end of its range has no external torque."""
+    simulator = simulate("flat_place", "ideal", standing=True)
+    simulator.plant.qpos[2] += 3.0
+    joint = simulator.world.model.joint("LA5")
+    simulator.plant.qpos[joint.qposadr[0]] = joint.range[0] - 0.01
+    simulator.plant.ctrl[:] = 0.0
+    mujoco.mj_step(simulator.world.model, simulator.world.data)
+    data = simulator.world.data
+    limits = data.efc_type == mujoco.mjtConstraint.mjCNSTR_LIMIT_JOINT
+    assert data.efc_force[limits].sum() > 1.0
+    assert not external(simulator)[0].any()
+
+
+@pytest.mark.sim
+@pytest.mark.parametrize("scenario", ["forward_walk", "random_walk"])
+def test_walking_touches_no_joint_limit(simulate: Callable, run: Callable, scenario: str) -> None:
+    simulator = simulate(scenario, "all_uncertainty")
+    log = run(simulator, 8.0)
+    low, high = np.array([joint.range for joint in simulator.robot.joints]).T
+    joints = log["q"][: log.done, 7:]
+    assert (joints > low + 0.05).all()
+    assert (joints < high - 0.05).all()
 
 
 def test_run_stops_at_a_fall(

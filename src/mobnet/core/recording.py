@@ -26,7 +26,7 @@ class Sensed:
         q: generalized position (T, nq): base position [m] in world, base quaternion w x y z, joints [rad].
         v: generalized velocity (T, nv): base linear [m/s] in world, base angular [rad/s] in base, joints [rad/s].
         acc_base_in_base: specific force of the IMU (T, 3) [m/s^2], gravity included, base axes.
-        tau_des: desired torque before the motor limits (T, nu) [N m], mean over the control ticks of the sample.
+        tau_des: desired torque that the drives get, within the motor limits (T, nu) [N m], mean over the control ticks.
         tau_motor: torque the motors gave, after their limits (T, nu) [N m], mean over the control ticks.
         swing: 1 where the walking plan has the left, right foot in the air (T, 2).
         command: step x, step y [m], turn [rad], duration [s] and foot height [m] of the step being made (T, 5),

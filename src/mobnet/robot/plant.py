@@ -22,7 +22,7 @@ IMU_SENSORS = {"gyro": mujoco.mjtSensor.mjSENS_GYRO, "acc": mujoco.mjtSensor.mjS
 
 
 def robot_spec(robot: RobotDescription) -> mujoco.MjSpec:
-    """Return the robot as a MuJoCo specification, without terrain, limits, damping and friction.
+    """Return the robot as a MuJoCo specification, without terrain, motor limits, damping and friction.
 
     `qvel` is then the generalized velocity of `JointLayout`: base linear [m/s] in world axes, base angular [rad/s] in
     base axes, joints [rad/s] in the order of `layout.actuated`; with a fixed base, the joints alone. Motors and joints
@@ -32,6 +32,7 @@ def robot_spec(robot: RobotDescription) -> mujoco.MjSpec:
     """
     spec = mujoco.MjSpec()
     spec.modelname = robot.name
+    spec.compiler.degree = False  # joint ranges are in radians
     bodies = _add_bodies(spec, robot)
     for shape in robot.shapes:
         _add_shape(bodies[shape.body], shape, robot.tones[shape.tone])
@@ -61,7 +62,12 @@ def _add_bodies(spec: mujoco.MjSpec, robot: RobotDescription) -> Mapping[str, mu
         joint = robot.joint_of(body.name)
         if joint is not None:
             bodies[body.name].add_joint(
-                name=joint.id, type=mujoco.mjtJoint.mjJNT_HINGE, axis=joint.axis, armature=joint.armature
+                name=joint.id,
+                type=mujoco.mjtJoint.mjJNT_HINGE,
+                axis=joint.axis,
+                armature=joint.armature,
+                limited=mujoco.mjtLimited.mjLIMITED_TRUE,
+                range=joint.range,
             )
     if robot.floating:
         bodies[robot.base].add_freejoint(name="base", align=mujoco.mjtAlignFree.mjALIGNFREE_FALSE)

@@ -53,13 +53,16 @@ class Plant(Section):
     """Contact, solver, friction, motors and noise of the simulated robot."""
 
     contact_friction: Real = Field(ge=0.05, le=5)
-    contact_time_constant_s: Real = Field(ge=0.0001, le=0.5)
-    contact_damping_ratio: Real = Field(ge=0.05, le=10)
+    sole_stiffness_n_m: Real = Field(ge=1e3, le=1e7)
+    sole_damping_ns_m: Real = Field(ge=1, le=1e5)
+    contact_grip: Real = Field(ge=1, le=1e4)
     solver_iterations: Whole = Field(ge=1, le=1000)
     solver_tolerance: NotNegative = Field(le=0.001)
     gravity_m_s2: Real = Field(ge=1, le=30)
     friction_smoothing_rad_s: Real = Field(ge=0.0001, le=1)
     friction: Friction
+    loss_time_constant_s: Real = Field(ge=0.0001, le=0.5)
+    loss_impedance: Real = Field(ge=0.5, le=0.999)
     motor_limit_min_nm: NotNegative = Field(le=2000)
     noise: Noise
     own_noise: OwnNoise

@@ -22,6 +22,7 @@ from mobnet.simulation.sensing import Sensors, read_sensors
 from mobnet.simulation.world import World
 
 FIRST_CONTACT_ROW = int(mujoco.mjtConstraint.mjCNSTR_CONTACT_FRICTIONLESS)  # after equalities, friction loss and limits
+CONTACT_ROWS = 3  # of a contact: its normal and two directions of friction, in the order of MuJoCo's elliptic cone
 CONTACT_FORCE_N = 1.0  # a foot that the ground pushes harder touches it
 
 
@@ -129,13 +130,16 @@ def _explore(
 
 @compiled
 def _actuate(plant: Plant, tau: Array, tau_des: Array, tau_motor: Array) -> None:
-    """Give the clipped torques to the motors and their friction to the joints; add both torques to their sums."""
+    """Clip the desired torques tau (nu,) and send them to the motors, and friction to the joints; add to both sums.
+
+    The limits are applied before the torque is sent: no drive is ever asked for more than it can give.
+    """
     for j in range(len(tau)):
-        motor = clip(tau[j], -plant.limits[j], plant.limits[j])
-        plant.ctrl[j] = motor
-        plant.qfrc_applied[6 + j] = friction_torque(plant.friction, j, plant.qvel[6 + j], motor)
+        tau[j] = clip(tau[j], -plant.limits[j], plant.limits[j])
+        plant.ctrl[j] = tau[j]
+        plant.qfrc_applied[6 + j] = friction_torque(plant.friction, j, plant.qvel[6 + j], tau[j])
         tau_des[j] += tau[j]
-        tau_motor[j] += motor
+        tau_motor[j] += plant.ctrl[j]
 
 
 @compiled
@@ -150,8 +154,8 @@ def _add_pushes(plant: Plant, tau_push: Array) -> None:
 def _add_contacts(plant: Plant, walker: Walker, tau_ext: Array, touch: Array) -> None:
     """Add J^T F of the solver's contact rows in the step just taken (nv,) [N, N m].
 
-    Only the contact rows: the constraint forces as a whole also hold friction loss and limits. Their forces [N] are
-    added to touch (2,) of the left, right foot: the edges of a contact's friction pyramid add up to its normal force.
+    Only the contact rows: the constraint forces as a whole also hold friction loss and joint limits. Of a contact's
+    three rows the first is its normal; normal forces [N] are added to touch (2,) of the left, right foot.
     """
     nv, data = len(tau_ext), plant.native.data
     rows = ints_at(data + plant.native.nefc)[0]
@@ -166,6 +170,8 @@ def _add_contacts(plant: Plant, walker: Walker, tau_ext: Array, touch: Array) ->
         if forces[r] != 0.0:
             for i in range(nv):
                 tau_ext[i] += jacobian[r * nv + i] * forces[r]
+            if (rows - r) % CONTACT_ROWS != 0:
+                continue
             for k in range(2):
                 first = r * nv + 6 + walker.first[k]
                 for i in range(first, first + LEG_JOINTS):

@@ -6,12 +6,14 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.robot.description import RobotDescription
-from mobnet.robot.plant import robot_spec
+from mobnet.robot.description import SIDES, RobotDescription
+from mobnet.robot.plant import robot_spec, sole_name
 from mobnet.settings.plant import Level, Plant
 from mobnet.simulation.terrain import TERRAIN_GROUP, Terrain, add_terrain, top_of
 
 DOWN = np.array([0.0, 0.0, -1.0])
+SOLE_CORNERS = 4  # contacts of a sole that stands flat
+IMPEDANCE = 0.01  # d of every contact: so small that a contact is a spring and a damper without a mass of its own
 RAY_M = 1.0  # rays begin this high over the highest point
 
 
@@ -35,9 +37,9 @@ def make_world(robot: RobotDescription, terrain: Terrain, plant: Plant, level: L
     add_terrain(spec, terrain)
     _set_options(spec, plant, rate_hz)
     model = spec.compile()
+    _set_soles(model, plant)
     if "loss" in level.friction:
-        loss = np.where(leg_mask(robot), plant.friction.loss_legs_nm, plant.friction.loss_others_nm)
-        model.dof_frictionloss[-robot.layout.nu :] = loss
+        _set_friction_loss(model, robot, plant)
     return World(model, mujoco.MjData(model), terrain)
 
 
@@ -68,7 +70,31 @@ def _set_options(spec: mujoco.MjSpec, plant: Plant, rate_hz: float) -> None:
     option.iterations = plant.solver_iterations
     option.tolerance = plant.solver_tolerance
     option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
-    option.cone = mujoco.mjtCone.mjCONE_PYRAMIDAL
+    option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    option.impratio = plant.contact_grip
     for geom in spec.geoms:
         geom.friction[0] = plant.contact_friction
-        geom.solref = [plant.contact_time_constant_s, plant.contact_damping_ratio]
+
+
+def _set_soles(model: mujoco.MjModel, plant: Plant) -> None:
+    """Make every contact a spring and a damper, a quarter of a sole's, for a sole that stands on its four corners.
+
+    MuJoCo's constraint force is (a_ref - a) / R with a_ref = -B v - K d r, R = (1 - d) A / d, B = b / d, K = k / d^2
+    for solref (-k, -b), a constant impedance d, and A the inverse mass that it takes for the body of the sole. At rest
+    that is the stiffness k / ((1 - d) A) and the damping b / ((1 - d) A); with a small d the term in a, which acts as a
+    mass d / ((1 - d) A), vanishes.
+    """
+    inverse_mass = np.mean([model.body(sole_name(side)).invweight0[0] for side in SIDES])
+    corner = (1.0 - IMPEDANCE) * inverse_mass / SOLE_CORNERS
+    model.geom_solref[:] = [-plant.sole_stiffness_n_m * corner, -plant.sole_damping_ns_m * corner]
+    model.geom_solimp[:, :2] = IMPEDANCE
+
+
+def _set_friction_loss(model: mujoco.MjModel, robot: RobotDescription, plant: Plant) -> None:
+    """Give the joints the friction loss of Table 4, as stiff as the step allows: a joint below it hardly creeps."""
+    joints = slice(-robot.layout.nu, None)
+    model.dof_frictionloss[joints] = np.where(
+        leg_mask(robot), plant.friction.loss_legs_nm, plant.friction.loss_others_nm
+    )
+    model.dof_solref[joints] = [plant.loss_time_constant_s, 1.0]
+    model.dof_solimp[joints, :2] = plant.loss_impedance

@@ -56,11 +56,9 @@ def _rate_problems(settings: Settings) -> Iterator[Problem]:
         value = getattr(recording, name)
         if value and not is_whole(value * rates.data_hz):
             yield ("recording", name), misfit(value, f"a whole number of samples at {rates.data_hz} Hz")
-    if plant.contact_time_constant_s < SOLREF_STEPS / rates.plant_hz:
-        text = misfit(
-            plant.contact_time_constant_s, f"at least two steps of the plant, {SOLREF_STEPS / rates.plant_hz}"
-        )
-        yield ("plant", "contact_time_constant_s"), text
+    if plant.loss_time_constant_s < SOLREF_STEPS / rates.plant_hz:
+        text = misfit(plant.loss_time_constant_s, f"at least two steps of the plant, {SOLREF_STEPS / rates.plant_hz}")
+        yield ("plant", "loss_time_constant_s"), text
     if settings.observer.gain_hz > rates.data_hz / 2:
         accepted = f"at most half of data_hz, {rates.data_hz / 2}"
         yield ("observer", "gain_hz"), misfit(settings.observer.gain_hz, accepted)
