@@ -25,19 +25,19 @@ from mobnet.settings.settings import Settings
 SECONDS, FIT_SECONDS = 0.15, 0.3
 INPUT_STD, TARGET_STD = 2.0, 10.0
 Build = Callable[..., Estimator]
+Learned = Callable[..., tuple[dict[str, Path], Path | None]]
 
 
 @pytest.fixture(scope="session")
-def build(
+def learned(
     settings: Settings,
-    recipe_of: Callable[..., Recipe],
     made_up: Callable[..., Recording],
     write_pair: Callable[[Path, Recording], tuple[Path, Path]],
     tmp_path_factory: pytest.TempPathFactory,
-) -> Build:
-    """Return a function of (method, zero) that builds it with random or zero networks, or a fit to a few samples."""
+) -> Learned:
+    """Return a function of (method, zero) that writes random or zero networks, or a fit to a few samples."""
 
-    def made(method: str, zero: bool = False) -> Estimator:
+    def made(method: str, zero: bool = False) -> tuple[dict[str, Path], Path | None]:
         folder = tmp_path_factory.mktemp(method)
         source, learned = settings.source_of(method), settings.network_source_of(method)
         row, networks = settings.method(source), {limb: folder / limb for limb in settings.method(learned).limbs}
@@ -48,6 +48,17 @@ def build(
             pair = write_pair(folder, made_up(1, FIT_SECONDS))
             limbs = {limb: settings.network(source, limb) for limb in row.fitted}
             write_fit(settings.layout, settings.observer, row, limbs, dict.fromkeys(limbs, (pair,)), fitted)
+        return networks, fitted
+
+    return made
+
+
+@pytest.fixture(scope="session")
+def build(recipe_of: Callable[..., Recipe], learned: Learned) -> Build:
+    """Return a function of (method, zero) that builds it with what `learned` writes."""
+
+    def made(method: str, zero: bool = False) -> Estimator:
+        networks, fitted = learned(method, zero)
         return build_estimator(recipe_of(method, networks=networks, fitted=fitted))
 
     return made

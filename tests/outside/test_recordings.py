@@ -143,8 +143,6 @@ TABLES = {
     "faster than the motor": (put("v.LL4", 9, 90.0), "column 'v.LL4', row 9: 90.0 is not .*: -60 to 60"),
     "torque in mN m": (scaled(["tau_motor.LL3"], 1000.0), "column 'tau_motor.LL3', row .* -2630 to 2630 N m"),
     "swing of 2": (put("swing.left_foot", 3, 2.0), "column 'swing.left_foot', row 3: 2.0 is not .*: 0 or 1"),
-    "contact of a half": (put("contact.left_foot", 3, 0.5), "'contact.left_foot', row 3: 0.5 is not accepted"),
-    "pushed below zero": (put("pushed", 3, -1.0), "column 'pushed', row 3: -1.0 is not accepted; accepted: 0 or 1"),
     "turn in degrees": (put("command.turn", 3, 20.0), "column 'command.turn', row 3: 20.0 is not accepted"),
     "step in millimetres": (put("command.step_x", 3, 200.0), "column 'command.step_x', row 3: 200.0 is not accepted"),
     "base too fast": (put("v.base_x", 3, 300.0), "column 'v.base_x', row 3: 300.0 is not .*: -20 to 20"),
@@ -189,6 +187,24 @@ def test_a_table_that_breaks_the_contract_is_refused(name: str, copied: Path, re
     changed_table(copied / "recording", change)
     lines = refused(copied / "recording")
     assert len(re.findall(says, lines)) >= 2, lines
+
+
+UNREAD = {  # by rule `observe`, which takes of the truth the external torque alone
+    "contact of a half": (put("contact.left_foot", 3, 0.5), "'contact.left_foot', row 3: 0.5 is not accepted"),
+    "pushed below zero": (put("pushed", 3, -1.0), "column 'pushed', row 3: -1.0 is not accepted; accepted: 0 or 1"),
+    "no force": (
+        put("wrench_left_foot.force_z", 3, np.nan),
+        "column 'wrench_left_foot.force_z', row 3: nan is not accepted",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", UNREAD)
+def test_what_no_observer_reads_is_refused_by_a_check(name: str, copied: Path) -> None:
+    change, says = UNREAD[name]
+    changed_table(copied / "recording", change)
+    assert re.search(says, refusal_of(copied / "recording.json"))
+    assert len(read_sensed(copied / "recording", AGAINST.layout).sensed) == ROWS
 
 
 FILES = {

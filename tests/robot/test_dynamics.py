@@ -8,6 +8,8 @@ import pinocchio as pin
 import pytest
 
 from mobnet.robot import dynamics
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.frames import from_pinocchio, rotation, to_pinocchio
 from mobnet.robot.nominal import NominalModel
 
@@ -124,3 +126,16 @@ def test_yaw_of_the_world_turns_the_linear_part_only(nominal: NominalModel, rand
         here, there = term(nominal, q, v), term(nominal, turned_q, turned_v)
         np.testing.assert_allclose(there[:3], turn @ here[:3], atol=1e-9)
         np.testing.assert_allclose(there[3:], here[3:], atol=1e-9)
+
+
+@pytest.mark.parametrize("floats", [np.float32, np.float64])
+def test_columns_of_a_log_in_any_memory_order_give_the_same(
+    nominal: NominalModel, robot: RobotDescription, floats: type
+) -> None:
+    """Pandas gives Fortran order, which Pinocchio's bindings refuse row by row."""
+    rng = np.random.default_rng(3)
+    q, v = rng.normal(size=(20, robot.layout.nq)).astype(floats), rng.normal(size=(20, robot.layout.nv)).astype(floats)
+    expected = momentum_and_beta(nominal, q, v)
+    for given in ((np.asfortranarray(q), np.asfortranarray(v)), (np.repeat(q, 2, axis=0)[::2], v[::-1][::-1])):
+        for found, value in zip(momentum_and_beta(nominal, *given), expected, strict=True):
+            np.testing.assert_array_equal(found, value)

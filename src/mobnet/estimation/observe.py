@@ -3,13 +3,14 @@
 import logging
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.columns import residual_columns
-from mobnet.core.recording import Recording, read_recording
-from mobnet.core.store import check_rate, write_array
+from mobnet.core.columns import EXTERNAL, named, residual_columns
+from mobnet.core.recording import SensedRecording, read_sensed
+from mobnet.core.store import check_rate, read_array, write_array
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observer import MomentumObserver, TorqueKind
 from mobnet.robot.description import RobotDescription, describe
@@ -34,7 +35,8 @@ def observe(
     """Write r of (9) and the low-passed external torque of (15) for a recording, 2 x (T, nv) [N] and [N m].
 
     Columns are `r.<joint>` and then `tau_ext_lp.<joint>`; segments are the recording's, and the observer starts anew
-    with each. The target of the networks (section 4.2.3) is their difference. The recording, made at the uncertainty
+    with each. The target of the networks (section 4.2.3) is their difference. Of the truth, only the external torque is
+    read, and r does not depend on it. The recording, made at the uncertainty
     level, and `out` are paths without a suffix. The observer runs at the recording's rate, which is `rate_hz` [Hz]
     where that is given.
 
@@ -43,10 +45,11 @@ def observe(
     """
     description = describe(robot)
     check_rate(recording, rate_hz)
-    read = read_recording(recording, description.layout)
+    read = read_sensed(recording, description.layout)
+    external, _ = read_array(recording, named(EXTERNAL, description.layout.names), description.layout)
     momentum = observer_of(description, level, gravity_m_s2, observer.gain_hz, read.rate_hz, observer.torque)
     log.info("%s: %d samples in %d segments", recording, len(read.sensed), len(read.segments))
-    array = np.concatenate(residual_and_truth(momentum, read), axis=1)
+    array = np.concatenate(residual_and_truth(momentum, read, external), axis=1)
     meta = {
         "rate_hz": read.rate_hz,
         **{key: read.meta[key] for key in CARRIED if key in read.meta},
@@ -86,11 +89,11 @@ def observer_of(
 
 
 def residual_and_truth(
-    observer: MomentumObserver, recording: Recording
+    observer: MomentumObserver, recording: SensedRecording, external: NDArray[Any]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return r of (9) and the low-passed external torque, (T, nv) each [N] and [N m], every segment on its own."""
+    """Return r of (9) and the external torque (T, nv) low-passed, (T, nv) each [N] and [N m], segment by segment."""
     residual, truth = np.zeros(recording.sensed.v.shape), np.zeros(recording.sensed.v.shape)
     for span in recording.spans():
         residual[span] = observer.residual(recording.sensed[span])
-        truth[span] = low_pass(recording.truth.tau_ext[span], observer.gain_hz, recording.rate_hz)
+        truth[span] = low_pass(external[span], observer.gain_hz, recording.rate_hz)
     return residual, truth
