@@ -12,6 +12,7 @@ from mobnet.core.columns import COMMAND, DATA, recording_columns
 from mobnet.core.errors import refuse_lines
 from mobnet.core.notes import read_array_note
 from mobnet.core.store import NOTE, file_of, read_array
+from mobnet.evaluation.measure.random_torque import torque_left
 from mobnet.evaluation.measure.steps import CHOICES, KEYS, UNITS, read_steps
 from mobnet.evaluation.measure.upper_body import upper_body
 from mobnet.evaluation.number.number import Number
@@ -46,6 +47,7 @@ def data(
             *extent(stems, [name for name, row in terrain if row is not None]),
             *commanded(commands, walking.foot_spacing_m, stems, nominal),
             *upper_body(settings.every, stems, nominal),
+            *torque_left(stems, nominal.robot.layout, settings.limbs, settings.lags_s),
         ]
         for quantity, part, value, unit in found:
             printed = _published(commands, published.sets.get(name, {}), quantity, part)

@@ -1,0 +1,68 @@
+"""The share of a random torque that is left: that of a desired torque whose answer to a step is known."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mobnet.core.joints import JointLayout
+from mobnet.core.recording import Recording, read_recording, write_recording
+from mobnet.evaluation.measure.random_torque import STEPS_MIN, steps_of, torque_left
+
+TIME_S, LAGS_S = 0.05, (0.02, 0.1)
+ROWS, RATE_HZ = 6000, 100.0
+
+
+@pytest.fixture
+def explored(tmp_path: Path, layout: JointLayout, data_sets: dict[str, list[Path]], rng: np.random.Generator) -> Path:
+    """A walk whose desired torque answers a step of the random torque of LL3 by a decay to a quarter of it, and W1 not.
+
+    The other joints have no random torque. Torques of the gait are noise here.
+    """
+    walk = read_recording(data_sets["walk"][0], layout)
+    rows = len(walk.sensed)
+    random, answer = np.zeros((rows, layout.nu)), np.zeros((rows, layout.nu))
+    for k, share in ((layout.actuated.index("LL3"), 0.25), (layout.actuated.index("W1"), 1.0)):
+        left = 0.0
+        for row in range(rows):
+            if row and row % 15 == 0:
+                random[row:, k] = rng.uniform(-50, 50)
+                left += (1 - share) * (random[row, k] - random[row - 1, k])
+            answer[row, k] = share * random[row, k] + left
+            left *= np.exp(-1 / (RATE_HZ * TIME_S))
+    torque = rng.normal(size=random.shape) + answer
+    changed = replace(walk.sensed, tau_des=torque), replace(walk.truth, tau_random=random)
+    whole = Recording(changed[0], walk.segments, walk.rate_hz, walk.meta, changed[1])
+    write_recording(tmp_path / "explored", whole, layout)
+    return tmp_path / "explored"
+
+
+def test_what_is_left_is_the_answer_to_a_step(explored: Path, layout: JointLayout) -> None:
+    """The closed form is share + (1 - share) exp(-lag / time constant)."""
+    found = {(what, part): value for what, part, value, _ in torque_left([explored] * 2, layout, ["LL", "W"], LAGS_S)}
+    for lag in LAGS_S:
+        expected = 0.25 + 0.75 * np.exp(-lag / TIME_S)
+        name = f"random torque left after {1000 * lag:g} ms"
+        assert found[name, "LL3"] == pytest.approx(expected, abs=0.03)
+        assert found[name, "limb LL"] == found[name, "LL3"]
+        assert found[name, "W1"] == pytest.approx(1.0, abs=0.02)
+    assert {part for _, part in found} == {"LL3", "limb LL", "W1", "limb W"}
+
+
+def test_a_walk_without_random_torque_has_no_share(data_sets: dict[str, list[Path]], layout: JointLayout) -> None:
+    assert not list(torque_left(data_sets["walk"], layout, ["LL", "W"], LAGS_S))
+
+
+def test_steps_stand_alone_in_one_segment_with_the_leg_in_the_air() -> None:
+    random = np.zeros(100)
+    for start, value in ((10, 1.0), (30, 2.0), (33, 3.0), (60, -1.0), (88, 2.0)):
+        random[start:] = value
+    random[59] = 1.0  # the mean of a sample in which the torque steps
+    air, whole = np.ones(100, dtype=bool), ((0, 100),)
+    assert steps_of(random, air, whole, 10).tolist() == [10, 33, 59, 88]
+    assert steps_of(random, air, ((0, 12), (12, 100)), 10).tolist() == [33, 59, 88]
+    air[65] = False
+    assert steps_of(random, air, whole, 10).tolist() == [10, 33, 88]
+    assert steps_of(random, air, whole, 12).tolist() == [10, 33]
+    assert STEPS_MIN > 4
