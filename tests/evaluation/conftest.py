@@ -18,7 +18,7 @@ from mobnet.core.store import write_array
 from mobnet.evaluation.measure.results import listed
 from mobnet.plan.call import call_of
 from mobnet.plan.runs import Run
-from mobnet.settings.claims import Claim
+from mobnet.settings.claims import Cell, Claim
 from mobnet.settings.evaluation import CalibrationTest, ErrorRow, Evaluation
 from mobnet.settings.settings import Settings
 
@@ -43,7 +43,6 @@ def evaluation(settings: Settings) -> Evaluation:
     whole, methods = settings.evaluation, {"methods": ("MOB", "MOB-Net")}
     collisions = {title: test.model_copy(update=methods) for title, test in whole.figure_10.tests.items()}
     changes: dict[str, dict[str, Any]] = {
-        "statistics": {"bootstrap_draws": 200},
         "figure_06": methods,
         "figure_07": {"joints": ("W2", "V3"), "start_s": 0.5, "end_s": 1.0, "every": 5},
         "figure_10": {"tests": collisions, "against": whole.figure_10.against.model_copy(update=methods)},
@@ -127,13 +126,15 @@ def make_table(tmp_path: Path, settings: Settings, evaluation: Evaluation) -> Ca
     """Write a table as its rule does: make_table(name, folder=tmp_path, **needs and other settings) -> its CSV."""
 
     def make(name: str, folder: Path = tmp_path, **changes: Any) -> Path:
-        module = "errors" if name in evaluation.tables else name
+        module = "tables.errors:errors" if name in evaluation.tables else f"tables.{name}:{name}"
+        module = "report.claims:claims" if name == "claims" else module
         printed = settings.published.tables.get(name) or getattr(settings.published, name, None)
         section = evaluation.tables.get(name) or getattr(evaluation, name, None)
         own = {"name": name, "settings": section, "published": printed, "layout": settings.layout, "table_dir": folder}
+        own |= {"figure_dir": folder / "figures", "tables": {}}
         shared = {"statistics": evaluation.statistics, "figure_17": evaluation.figure_17}
         known = {**dict(settings), **shared, **own, **changes}
-        call_of(f"mobnet.evaluation.tables.{module}:{module}", known).run()
+        call_of(f"mobnet.evaluation.{module}", known).run()
         return folder / f"{name}.csv"
 
     return make
@@ -195,11 +196,16 @@ def write_training(tmp_path: Path) -> Callable[..., Path]:
     return write
 
 
+def cells_of(claims: list[Claim]) -> list[Cell]:
+    """Return all cells of claims and of their causes."""
+    return [cell for claim in claims for made in (claim, *claim.numbers.values()) for cell in made.cells]
+
+
 def claimed_scores(layout: JointLayout, claims: list[Claim], means: dict[str, float], pushes: bool) -> list[Score]:
     """Return the scores that claims name, and the plain error: 0.01 where all is ideal, else a method's mean [N m]."""
-    networks = {"MOB": 1, "MOB-fric": 1, "MOB-Net-Single": 2}
+    networks = {"MOB": 1, "MOB-fric": 1, "MOB-fric-load": 1, "MOB-Net-Single": 2}
     rows = {}
-    for cell in (cell for claim in claims for cell in claim.cells if cell.joint):
+    for cell in (cell for cell in cells_of(claims) if cell.joint):
         metrics = {"rmse", *listed(cell.metric or "rmse")}
         kept = [name for name in sorted(metrics) if pushes or "push" not in name]
         mean = 0.01 if cell.level == "ideal" else means[str(cell.method)]
@@ -210,7 +216,7 @@ def claimed_scores(layout: JointLayout, claims: list[Claim], means: dict[str, fl
             zip(limbs, joints, strict=True), kept, seeds, (1, 2)
         ):
             run = (str(cell.scenario), str(cell.level), str(cell.method), network, test, limb, joint, name)
-            rows[run] = Score(*run, mean * (1 + 0.1 * (test - 1.5)), "N m")
+            rows[run] = Score(*run, mean * (1 + 0.01 * (test - 1.5)), "N m")
     return list(rows.values())
 
 
@@ -223,7 +229,7 @@ def write_results(tmp_path: Path, layout: JointLayout, write_training: Callable[
 
     def write(claims: list[Claim], means: dict[str, float], pushes: bool = True) -> tuple[list[Path], list[Path]]:
         write_rows(tmp_path / "claimed.csv", claimed_scores(layout, claims, means, pushes))
-        named = [str(cell.method) for claim in claims for cell in claim.cells if not cell.joint]
+        named = [str(cell.method) for cell in cells_of(claims) if not cell.joint and not cell.table]
         losses = {method: -4.0 + 0.1 * k for k, method in enumerate(dict.fromkeys(named))}
         folders = [
             write_training(method, seed, loss + 0.05 * seed) for method, loss in losses.items() for seed in (0, 1)

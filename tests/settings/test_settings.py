@@ -18,7 +18,7 @@ SECTIONS = Path(evaluation.__file__).parent
 # with properties that follow from the values and are never called by a job, or without sections
 RESOLVED = {"settings.py", "robot.py", "results.py", "reading.py", "load.py"}
 CLAIM = {"printed": "Table 5", "says": "It errs.", "quantity": "ratio", "unit": "-", "published": None}
-BOUNDS = {"reproduced": [None, 2.0], "direction": [1.0, None]}
+BOUNDS = {"rule": "sign", "bar": [1.0, 2.0], "side": [1.0, None]}
 
 
 def test_a_sweep_stands_for_one_method_for_each_value(settings: Settings) -> None:
@@ -123,12 +123,12 @@ def test_sections_hold_values_and_checks_and_compute_nothing() -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"quantity": "sum"}, r"quantity\n.*'above', 'falls'"),
+        ({"quantity": "sum"}, r"quantity\n.*'above', 'least ratio'"),
         ({"cells": ["MOB"]}, "1 cells are not accepted; accepted: 2 of 'ratio'"),
         ({"cells": ["MOB"] * 3}, "3 cells are not accepted; accepted: 2 of 'ratio'"),
         ({"cells": [["ideal", "MOB"], "MOB"]}, r"cells.0\n.*valid dictionary"),
         ({"cells": [{"colour": "red"}, "MOB"]}, "colour"),
-        ({"reproduced": [2.0, 1.0]}, "low <= high"),
+        ({"bar": [2.0, 1.0]}, "low <= high"),
         ({"claim": "x"}, "claim"),
         ({"quantity": "below", "cells": ["MOB"]}, "1 cells are not accepted; accepted: 2, 3, ... of 'below'"),
         ({"quantity": "least ratio", "cells": ["A", "B", "C"]}, "3 cells are not accepted; accepted: 2, 4, ... of"),

@@ -107,17 +107,21 @@ class Epoch:
 
 SCORES, EPOCHS = (tuple(field.name for field in fields(kind)) for kind in (Score, Epoch))
 
-# Tables. `value`, `low`, `high`: a number and its interval; `runs`, `seed_count` and `run_count`: how many runs it is
-# made of; `published`: the paper's number. An empty field: there is no such number.
+# Tables. `value`, `low`, `high`: a number and its interval; SPREAD: how many networks and walks it is made of, and its
+# standard deviations over them; `runs`: how many runs; `published`: the paper's number. An empty field: there is none.
+SPREAD = ("networks", "walks", "std_networks", "std_walks")
 RUN = ("scenario", "level", "method")
-ERRORS = (*RUN, "joint", "seed_count", "metric", "value", "low", "high", "unit", "published")
-METHODS = (*RUN, "limb", "joint", "metric", "runs", "value", "low", "high", "unit")
-KINDS = ("method", "quantity", "value", "low", "high", "unit", "published")
+ERRORS = (*RUN, "joint", "metric", "value", "low", "high", *SPREAD, "unit", "published")
+METHODS = (*RUN, "limb", "joint", "metric", "value", "low", "high", *SPREAD, "unit")
+KINDS = ("method", "quantity", "value", "low", "high", *SPREAD, "unit", "published")
 CLAIMS = (
-    "claim", "printed", "says", "published", "value", "low", "high", "seed_count", "unit", "differs", "rule", "verdict",
-    "cause",
+    "claim", "statement", "score", "printed", "says", "published", "value", "low", "high", *SPREAD, "unit",
+    "from", "to", "side_from", "side_to", "verdict", "cause",
 )  # fmt: skip
-VERDICTS = ("reproduced", "direction only", "not reproduced", "not measured")  # values of `verdict` of a claim
+CLAIMED = ("score", "verdict", "statements", "claims")
+VERDICTS = ("not reproduced", "inconclusive", "direction", "reproduced", "not measured")  # of a claim, also in order of
+# how they are shown: what counts against us first
+OBSERVER, LEARNED, SIGN_ONLY = SCORED = ("observer", "learned", "sign only")  # values of `score` of a claim
 TABLE_01 = (
     "limb", "inputs", "input_count", "target", "architecture", "parameters", "horizon_steps", "data",
     "architecture_published", "parameters_published", "horizon_published",
@@ -130,19 +134,20 @@ COVERAGE = (
     "scenario", "level", "measure", "joint", "block_count", "with_rte", "without_rte", "ratio", "low", "high",
 )  # fmt: skip
 CALIBRATION = (
-    "test", "level", "pushed", "method", "limb", "measure", "share", "run_count",
-    "before", "before_low", "before_high", "after", "low", "high", "unit",
+    "test", "level", "pushed", "method", "limb", "measure", "share", "before", "before_low", "before_high",
+    "after", "low", "high", *SPREAD, "unit",
 )  # fmt: skip
 COMPUTE = ("stage", "quantity", "value", "unit")
 
 # Figures.
 COMMANDS = (*BIN, "share", "unit")
-PUSH_ERRORS = ("scenario", "method", "push", "runs", "rmse_nm", "low", "high", "published")
+PUSH_ERRORS = ("scenario", "method", "push", "rmse_nm", "low", "high", *SPREAD, "published")
 LOSSES = ("measure", "method", "runs", "epoch", "mean", "low", "high")
-LIMB_ERRORS = ("scenario", "method", "limb", "joint", "runs", "rmse_nm", "low", "high")
+LIMB_ERRORS = ("scenario", "method", "limb", "joint", "rmse_nm", "low", "high", *SPREAD)
 DOTS = ("kind", "set", "joint", "velocity_rad_s", "torque_nm")
 SIZES = (
     "panel", "base", "method", "parameters", "samples", "runs",
     "loss", "loss_low", "loss_high", "rmse_nm", "rmse_low_nm", "rmse_high_nm",
 )  # fmt: skip
 RELIABILITY = ("panel", "method", "limb", "nominal", "before", "after")
+FOREST = ("score", "claim", "verdict", "axis", "value", "low", "high", "from", "to")

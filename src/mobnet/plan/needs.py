@@ -74,7 +74,9 @@ def _kinds(files: Files) -> Needs:
 
 def _claims(files: Files) -> Needs:
     """Return the scores of every test, and the trainings of the kinds and sizes of the left leg's networks."""
-    kinds = _folders(files, files.settings.evaluation.figure_17)
+    evaluation = files.settings.evaluation
+    methods = (*evaluation.figure_17.methods, *evaluation.kinds.variants)
+    kinds = files.network_folders(methods, evaluation.figure_17.limb)
     sizes = [folder for size in files.swept_sizes() for folder in size.folders]
     return {"scores": files.scores(files.settings.tests), "folders": tuple(dict.fromkeys([*kinds, *sizes]))}
 

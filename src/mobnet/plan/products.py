@@ -16,6 +16,7 @@ from mobnet.settings.settings import Settings
 EVALUATION = "mobnet.evaluation"
 TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their rules: the code hash reads Python only
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "png", "csv")  # endings of a table's and of a figure's files
+CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`
 BARS = ("figure_06", "figure_10")  # figures whose bars have a CSV of their own
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
 TIMED = ("runs.html", "main.pdf", "compute.html")  # they show what jobs took, as the table of compute does
@@ -103,7 +104,16 @@ class Products:
             function = f"{EVALUATION}.tables.errors:errors" if is_entry else f"{EVALUATION}.{floor}.{name}:{name}"
             asked = [parameter for some in parameters(function) for parameter in some]
             needs = needs_of(self.files, name, self._own(name).get("settings"), asked)
-            yield self._product(name, function, needs, outputs)
+            yield self._product(name, function, {**needs, **self._tables_of(name)}, outputs)
+
+    def _tables_of(self, name: str) -> Mapping[str, object]:
+        """Return the tables from which another table or figure is made."""
+        folder = self.folders.tables
+        if name == "claims_summary":
+            return {"claims_csv": folder / "claims.csv"}
+        made = [number for claim in self.settings.claims.values() for number in (claim, *claim.numbers.values())]
+        used = dict.fromkeys(cell.table for number in made for cell in number.cells if cell.table)
+        return {"tables": {table: folder / f"{table}.csv" for table in used}} if name == "claims" else {}
 
     def _texts(self) -> Iterator[Product]:
         """Yield the numbers and tables that the paper's text takes, and the pages of trainings."""
@@ -199,4 +209,4 @@ def shown(file: str) -> Shown | None:
 def _made_in(floor: str) -> list[str]:
     """Return the sections of the configuration that have a module of their name in a folder of `evaluation`."""
     modules = {path.stem for path in start_of(f"{EVALUATION}.{floor}").parent.glob("*.py")}
-    return [name for name in ("claims", *Evaluation.model_fields) if name in modules]
+    return [name for name in (*Evaluation.model_fields, *CLAIMED) if name in modules]

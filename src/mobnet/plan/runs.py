@@ -23,6 +23,8 @@ class Run:
     """One run of a method on a test: a network seed, 0 for a method without networks, on a recording.
 
     The recording, the observer's residual of it and the method's estimate are named without the ending of their files.
+    `repeated` are limbs whose network has run on the recording under an earlier seed: they have fewer networks than
+    others, and these numbers must not count again.
     """
 
     scenario: str
@@ -33,6 +35,7 @@ class Run:
     recording: Path
     residual: Path
     estimate: Path
+    repeated: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -112,6 +115,17 @@ class Files:
         seeds = self.network_seeds(method, limb)
         return self.results / NETWORKS / f"{method}-{limb}-s{seeds[seed % len(seeds)]}"
 
+    def repeated(self, method: str, seed: int) -> tuple[str, ...]:
+        """Return the limbs, groups of joints, whose network served an earlier seed of a method already."""
+        source, seeds = self.settings.source_of(method), self.network_seeds(method)
+        earlier, networks = seeds[: seeds.index(seed)], self.settings.robot.networks
+        return tuple(
+            group
+            for limb in self.settings.method(source).limbs
+            if self.network(source, limb, seed) in [self.network(source, limb, other) for other in earlier]
+            for group in networks[limb].joints
+        )
+
     def network_folders(self, methods: Iterable[str], limb: str) -> tuple[Path, ...]:
         """Return the folders of methods' trained networks of a limb."""
         return tuple(self.network(name, limb, seed) for name in methods for seed in self.network_seeds(name, limb))
@@ -135,7 +149,8 @@ class Files:
         """Return one run of a method."""
         recording, residual = (self.array(kind, scenario, level, test_seed) for kind in ("recordings", "residuals"))
         estimate = self.array(f"estimates/{method}/n{network_seed}", scenario, level, test_seed)
-        return Run(scenario, level, method, network_seed, test_seed, recording, residual, estimate)
+        repeated = self.repeated(method, network_seed)
+        return Run(scenario, level, method, network_seed, test_seed, recording, residual, estimate, repeated)
 
     def runs(self, scenario: str, level: str, methods: Iterable[str]) -> tuple[Run, ...]:
         """Return the runs of methods on a test: every network on every recording."""

@@ -1,4 +1,4 @@
-"""Claims of the paper and the bounds within which ours count as reproduced."""
+"""Claims of the paper, by which rule they have bounds, and what numbers and causes are made of."""
 
 from __future__ import annotations
 
@@ -9,8 +9,10 @@ from pydantic import AfterValidator, Field, model_validator
 
 from mobnet.settings.base import (
     Item,
+    JointName,
     LevelName,
     LimbOrJointName,
+    LowerName,
     MethodName,
     Real,
     Section,
@@ -23,19 +25,24 @@ from mobnet.settings.evaluation import Metric
 from mobnet.settings.reading import Place, mapping
 
 SHORT_CELL = ("level", "method", "joint")
-Quantity = Literal["value", "ratio", "cut", "difference", "gap ratio", "below", "above", "falls", "least ratio"]
+Quantity = Literal[
+    "value", "ratio", "cut", "square cut", "difference", "gap ratio", "below", "above", "least ratio", "trend", "share"
+]
 TAKES: Mapping[Quantity, tuple[int, int]] = {  # how many cells: at least, and in steps of; a step of 0 is exactly
-    "value": (1, 0), "ratio": (2, 0), "cut": (2, 0), "difference": (2, 0), "gap ratio": (4, 0),
-    "below": (2, 1), "above": (2, 1), "falls": (2, 1), "least ratio": (2, 2),
+    "value": (1, 0), "ratio": (2, 0), "cut": (2, 0), "square cut": (2, 0), "difference": (2, 0), "gap ratio": (4, 0),
+    "below": (2, 1), "above": (2, 1), "least ratio": (2, 2), "trend": (3, 1), "share": (1, 0),
 }  # fmt: skip
+Rule = Literal["about", "larger", "similar", "little", "sign"]
 TrainingMetric = Literal[
     "validation loss",
     "validation RMSE",
     "validation loss on windows",
     "training loss at the end",
     "validation loss at the end",
+    "diverged",
 ]
 ClaimName = Annotated[str, Field(pattern="^[a-z0-9][a-z0-9-]*$", max_length=50)]
+NumberName = Annotated[str, Field(pattern="^[a-z][a-z_]*$", max_length=30)]
 
 
 def _ordered(bounds: tuple[float | None, float | None]) -> tuple[float | None, float | None]:
@@ -52,13 +59,20 @@ Several = Annotated[Some[Item], AfterValidator(distinct)]
 
 
 class Cell(Section):
-    """A result that a claim's number is made of; several joints or metrics are averaged."""
+    """A result that a number is made of; several joints or metrics are averaged.
+
+    It is a number of the scores, or of the trainings, which have a method and a metric of their own, or a field of a
+    table: its `column` in the row that has the texts of `where`.
+    """
 
     scenario: TestName | None = None
     level: LevelName | None = None
     method: MethodName | None = None
     joint: LimbOrJointName | Several[LimbOrJointName] | None = None
     metric: TrainingMetric | Metric | Several[Metric] | None = None
+    table: LowerName | None = None
+    where: dict[LowerName, str] = {}
+    column: LowerName | None = None
 
     @model_validator(mode="before")
     @classmethod
@@ -78,8 +92,8 @@ def _spelt_cell(cell: Any) -> Any:
     return cast("Any", cell)
 
 
-def _spelt_claim(entry: Any) -> Any:
-    """Return a claim with its short cells as mappings, and what they share, `at`, in each."""
+def _spelt_number(entry: Any) -> Any:
+    """Return what a number is made of with short cells as mappings, and what they share, `at`, in each."""
     shared: Any = mapping(entry).get("at", {})
     typed = mapping(entry).get("cells")
     if not isinstance(shared, Mapping) or not isinstance(typed, list):
@@ -92,44 +106,50 @@ def _spelt_claim(entry: Any) -> Any:
     return {**rest, "cells": [{**shared_keys, **cell} if mapping(cell) else cell for cell in cells]}
 
 
+def _spelt_claim(entry: Any) -> Any:
+    """Return a claim with its cells and those of its cause spelt out."""
+    spelt = _spelt_number(entry)
+    numbers = mapping(mapping(spelt).get("numbers"))
+    if not numbers:
+        return spelt
+    return {**mapping(spelt), "numbers": {name: _spelt_number(own) for name, own in numbers.items()}}
+
+
 def spelt_out(claims: Any) -> Any:
     """Return claims, as they were typed, with all their cells as mappings."""
     return {name: _spelt_claim(entry) for name, entry in mapping(claims).items()} or claims
 
 
 def place_of(place: Place, claims: Mapping[str, Any]) -> Place:
-    """Return where something of a claim's cell was typed: in the cell, in what cells share, or by its order."""
-    if len(place) < 5 or place[2] != "cells":
+    """Return where something of a cell was typed: in the cell, in what cells share, or by its order."""
+    if "cells" not in place[2:-2]:
         return place
-    _, name, _, index, key, *rest = place
-    cell, shared = claims[str(name)]["cells"][index], mapping(claims[str(name)].get("at"))
+    before = place[: place.index("cells", 2)]
+    entry: Any = claims
+    for key in before[1:]:
+        entry = entry[key]
+    index, key, *rest = place[len(before) + 1 :]
+    cell, shared = entry["cells"][index], mapping(entry.get("at"))
     if isinstance(cell, list) and key in SHORT_CELL:
-        return (*place[:4], SHORT_CELL.index(key))
+        return (*before, "cells", index, SHORT_CELL.index(str(key)))
     typed = _spelt_cell(cell)
-    return ("claims", name, "at", key, *rest) if key in shared and key not in typed else place
+    return (*before, "at", key, *rest) if key in shared and key not in typed else place
 
 
-class Claim(Section):
-    """What the paper says, where it is printed, and what must hold here."""
+class MadeNumber(Section):
+    """A number that is made of cells, such as one in the text of a cause."""
 
-    printed: Text
-    says: Text
     quantity: Quantity
     cells: Some[Cell]
-    unit: Literal["N m", "N", "-"]
-    published: Bound | None
-    reproduced: Bounds
-    direction: Bounds
-    cause: str = ""
 
     @model_validator(mode="before")
     @classmethod
     def _fill_in(cls, entry: Any) -> Any:
         """Spell out short cells, and put what the cells share, `at`, into each."""
-        return _spelt_claim(entry)
+        return _spelt_number(entry)
 
     @model_validator(mode="after")
-    def _takes_its_cells(self) -> Claim:
+    def _takes_its_cells(self) -> MadeNumber:
         """Check that there are as many cells as the quantity takes."""
         least, step = TAKES[self.quantity]
         more = len(self.cells) - least
@@ -137,3 +157,23 @@ class Claim(Section):
             accepted = f"{least}, {least + step}, ..." if step else str(least)
             raise ValueError(f"{len(self.cells)} cells are not accepted; accepted: {accepted} of {self.quantity!r}")
         return self
+
+
+class Claim(MadeNumber):
+    """What the paper says, where it is printed, and what must hold here.
+
+    Claims of one `statement`, which has the name of its first claim, count once. `by_joint` makes a claim of each
+    joint: its cells have this joint, and the paper prints this number.
+    """
+
+    statement: ClaimName | None = None
+    printed: Text
+    says: Text
+    unit: Literal["N m", "N", "%", "-"]
+    published: Bound | None
+    by_joint: dict[JointName, Bound] = {}
+    rule: Rule
+    bar: Bounds | None = None
+    side: Bounds | None = None
+    cause: str = ""
+    numbers: dict[NumberName, MadeNumber] = {}

@@ -23,7 +23,6 @@ class Statistics(Section):
     """Intervals over networks and test recordings."""
 
     confidence: base.Real = Field(ge=0.5, lt=1)
-    bootstrap_draws: base.Whole = Field(ge=100, le=100_000)
 
 
 class Window(Section):

@@ -38,7 +38,7 @@ def draw(settings: Settings, evaluation: Evaluation, tmp_path: Path) -> Draw:
 
     def write(figure: Callable[..., None], section: Figure06 | Figure10, runs: object, scores: dict[str, Path]) -> None:
         printed, statistics = settings.published.tables[figure.__name__], evaluation.statistics
-        figure(section, printed, settings.layout, statistics, settings.seed, runs, scores, tmp_path)
+        figure(section, printed, settings.layout, statistics, runs, scores, tmp_path)
 
     return write
 

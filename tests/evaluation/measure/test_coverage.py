@@ -43,7 +43,7 @@ def test_distance_to_the_nearest_sample_has_its_closed_form_in_units_of_the_comm
         refer(np.array([[1.0, 6.0]] * 2), [0, 1], mean, std),
     ]
     block = (np.array([[5.0, 2.0], [1.0, 2.0], [3.0, 2.0]]) - mean) / std  # 2, 0 and 1 away from the first set
-    rows = list(nearest(TEST, [block, block], references, evaluation.statistics, 0))
+    rows = list(nearest(TEST, [block, block], references, evaluation.statistics))
     assert [row.measure for row in rows] == list(NEAREST)
     assert rows[0].with_rte == pytest.approx(1.0)
     assert rows[0].without_rte == pytest.approx(np.sqrt(2.0))
@@ -85,7 +85,7 @@ def test_equivalent_sets_come_out_even_and_tests_without_pushes_are_left_out(
     coverage = evaluation.coverage.model_copy(update={"tests": (TEST, pushed)})
     training = {"with RTE": data_sets["walk"], "without RTE": data_sets["walk"]}
     ports, tests = settings.robot.networks["LL"], [data_sets["test"], []]
-    rows = covered(coverage, layout, ports, evaluation.statistics, 0, training, tests)
+    rows = covered(coverage, layout, ports, evaluation.statistics, training, tests)
     assert {row.scenario for row in rows} == {"training", "walk_test"}
     assert all(row.with_rte == row.without_rte for row in rows)
     assert all(row.ratio.value == 1.0 for row in rows if row.measure in NEAREST or row.measure == AREA)

@@ -22,9 +22,7 @@ def measure(settings: Settings, evaluation: Evaluation) -> Callable[..., PushErr
     figure, printed = evaluation.figure_10, settings.published.tables["figure_10"]
 
     def errors_of(title: str, rows: list[Score]) -> PushErrors:
-        return collision_errors(
-            settings.layout, figure, figure.tests[title], printed, rows, evaluation.statistics, settings.seed
-        )
+        return collision_errors(settings.layout, figure, figure.tests[title], printed, rows, evaluation.statistics)
 
     return errors_of
 

@@ -46,11 +46,21 @@ def test_a_number_is_the_mean_over_joints_and_metrics(
     results: Results, joint: str, metric: str | None, first_test: float
 ) -> None:
     cell = WALK.model_copy(update={"joint": joint, "metric": metric})
-    np.testing.assert_allclose(results.grid(cell), [[first_test, 2 * first_test]])
+    grids = results.grids(cell)
+    assert grids is not None
+    np.testing.assert_allclose(np.mean([grid.values for grid in grids], axis=0), [[first_test, 2 * first_test]])
+    assert {grid.method for grid in grids} == {"MOB"}
 
 
 def test_a_training_is_a_network_on_one_test(results: Results) -> None:
-    np.testing.assert_allclose(results.grid(Cell(method="GRU", metric="validation loss")), [[-4.0], [-5.0]])
+    (grid,) = results.grids(Cell(method="GRU", metric="validation loss")) or []
+    np.testing.assert_allclose(grid.values, [[-4.0], [-5.0]])
+
+
+def test_all_trainings_count_among_those_that_may_diverge(results: Results) -> None:
+    """The share of divergence is the one measure of trainings that diverged."""
+    (grid,) = results.grids(Cell(method="MLP", metric="diverged")) or []
+    np.testing.assert_allclose(grid.values, [[1.0]])
 
 
 @pytest.mark.parametrize(
@@ -58,7 +68,7 @@ def test_a_training_is_a_network_on_one_test(results: Results) -> None:
     [WALK.model_copy(update={"joint": "W1", "metric": "rmse_push_9"}), Cell(method="MLP", metric="validation loss")],
 )
 def test_a_push_that_never_came_and_trainings_that_all_diverged_have_no_number(results: Results, cell: Cell) -> None:
-    assert results.grid(cell) is None
+    assert results.grids(cell) is None
 
 
 @pytest.mark.parametrize(
@@ -76,4 +86,4 @@ def test_a_run_that_should_be_there_is_named(
     results: Results, changes: dict[str, object], error: type[Exception], says: str
 ) -> None:
     with pytest.raises(error, match=says):
-        results.grid(WALK.model_copy(update=changes))
+        results.grids(WALK.model_copy(update=changes))

@@ -11,7 +11,7 @@ from mobnet.core.errors import DataError
 from mobnet.evaluation.number.files import read_numbers, read_rows, write_csv
 from mobnet.evaluation.number.number import Number
 
-ROW = ("walk", "ideal", "MOB", "LL1", 1, "rmse", 0.25, None, None, "N m", None)
+ROW = ("walk", "ideal", "MOB", "LL1", "rmse", 0.25, None, None, "1", "1", None, None, "N m", None)
 
 
 def test_rows_survive_a_round_trip(tmp_path: Path, make_scores: Callable[..., list[Score]]) -> None:
@@ -25,7 +25,7 @@ def test_rows_survive_a_round_trip(tmp_path: Path, make_scores: Callable[..., li
 def test_none_is_an_empty_field_and_comes_back_as_none(tmp_path: Path) -> None:
     """Writing and reading are a round trip."""
     write_csv(tmp_path / "a.csv", ERRORS, [ROW])
-    assert (tmp_path / "a.csv").read_text().splitlines()[1] == "walk,ideal,MOB,LL1,1,rmse,0.25,,,N m,"
+    assert (tmp_path / "a.csv").read_text().splitlines()[1] == "walk,ideal,MOB,LL1,rmse,0.25,,,1,1,,,N m,"
     ((of, number),) = read_numbers(tmp_path / "a.csv")
     assert (of["joint"], number) == ("LL1", Number(0.25, unit="N m"))
 
@@ -40,7 +40,7 @@ def test_the_sign_of_zero_does_not_reach_a_file(tmp_path: Path) -> None:
     [
         (lambda text: text.replace("value", "wert"), "column 'value' is missing"),
         (lambda text: text.replace("0.25", "abc"), "'abc' is not accepted"),
-        (lambda text: text.replace("ideal,MOB,LL1,1,rmse,0.25,,,N m,", "ideal"), "cut off"),
+        (lambda text: text.replace("ideal,MOB,LL1,rmse,0.25,,,1,1,,,N m,", "ideal"), "cut off"),
     ],
 )
 def test_damage_is_named(tmp_path: Path, damage: Callable[[str], str], says: str) -> None:

@@ -16,7 +16,7 @@ Scores = Callable[..., list[Score]]
 
 
 def test_grid_has_networks_as_rows_and_tests_as_columns(make_scores: Scores) -> None:
-    grid = run_grid(make_scores(2, 3), WANTED)
+    grid = run_grid(make_scores(2, 3), WANTED).values
     assert grid.shape == (2, 3)
     assert np.all(np.diff(grid, axis=0) > 0)
     assert np.all(np.diff(grid, axis=1) > 0)
@@ -25,7 +25,7 @@ def test_grid_has_networks_as_rows_and_tests_as_columns(make_scores: Scores) -> 
 def test_order_of_rows_does_not_matter(make_scores: Scores, rng: np.random.Generator) -> None:
     scores = make_scores()
     shuffled = [scores[i] for i in rng.permutation(len(scores))]
-    np.testing.assert_array_equal(run_grid(shuffled, WANTED), run_grid(scores, WANTED))
+    np.testing.assert_array_equal(run_grid(shuffled, WANTED).values, run_grid(scores, WANTED).values)
 
 
 def test_a_missing_run_is_refused(make_scores: Scores) -> None:
@@ -48,6 +48,6 @@ def test_an_unknown_method_is_named(make_scores: Scores) -> None:
 
 def test_a_number_is_the_mean_over_runs_in_the_unit_of_its_metric(make_scores: Scores, settings: Settings) -> None:
     statistics, scores = settings.evaluation.statistics, make_scores()
-    number = number_of(scores, [WANTED], statistics, 0, published=1.31)
+    number = number_of(scores, [WANTED], statistics, published=1.31)
     assert (number.value, number.runs, number.unit, number.published) == (pytest.approx(1.5), 6, "N m", 1.31)
-    assert number_of(scores, [replace(WANTED, metric="roughness")], statistics, 0).unit == "N m/s"
+    assert number_of(scores, [replace(WANTED, metric="roughness")], statistics).unit == "N m/s"

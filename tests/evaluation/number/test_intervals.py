@@ -1,29 +1,31 @@
-"""Intervals: around the mean, empty for one run, as wide as theory says, the same every time."""
+"""Intervals: simulated numbers are covered as often as is printed, and ends are those of closed forms."""
 
-from collections.abc import Callable, Sequence
-from functools import partial
+import itertools
+from collections.abc import Sequence
+from math import sqrt
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+from scipy.stats import t as student
 
-from mobnet.core.errors import DataError
-from mobnet.evaluation.number.intervals import summarise
+from mobnet.evaluation.number.intervals import MEAN, RATIO, Formula, RunGrid, summarise
 from mobnet.evaluation.number.number import Number
+from mobnet.evaluation.number.quantities import BELOW, CUT, GAP_RATIO
+from mobnet.evaluation.number.single import share, trend
 from mobnet.settings.evaluation import Statistics
 
-Summarise = Callable[..., Number]
-
-
-@pytest.fixture
-def of() -> Summarise:
-    """Summarise grids of runs with few draws."""
-    return partial(summarise, statistics=Statistics(confidence=0.95, bootstrap_draws=200), seed=0)
-
-
-@pytest.fixture
-def ratio(of: Summarise) -> Summarise:
-    """Summarise the ratio of two grids."""
-    return partial(of, combine=lambda means: means[0] / means[1])
+STATISTICS = Statistics(confidence=0.95)
+DRAWS, LEAST = 200, 0.90
+SPREADS = {
+    "equal": (0.1, 0.1, 0.05),
+    "networks": (0.2, 0.05, 0.05),
+    "walks": (0.05, 0.2, 0.05),
+    "rest": (0.02, 0.02, 0.1),
+}
+SKEW = 0.8  # standard deviation of the logarithm of the effects of skewed walks
+PAIRED = 0.7  # correlation of the effects of a walk on two methods
+Array = NDArray[np.float64]
 
 
 def ends(number: Number) -> Sequence[float]:
@@ -33,69 +35,186 @@ def ends(number: Number) -> Sequence[float]:
     return [float(each or 0.0) for each in found]
 
 
+def effects_of_walks(rng: np.random.Generator, methods: int, walks: int, skewed: bool) -> Array:
+    """Return effects of mean 0 and variance 1 of walks on methods, correlated between methods, (methods, walks)."""
+    shared, own = rng.normal(size=(1, walks)), rng.normal(size=(methods, walks))
+    normal = sqrt(PAIRED) * shared + sqrt(1 - PAIRED) * own
+    if not skewed:
+        return normal
+    mean, variance = np.exp(SKEW**2 / 2), np.exp(SKEW**2) * (np.exp(SKEW**2) - 1)
+    return (np.exp(SKEW * normal) - mean) / sqrt(variance)
+
+
+def draw(
+    rng: np.random.Generator, shape: tuple[int, int], means: Sequence[float], spread: str, skewed: bool
+) -> list[RunGrid]:
+    """Return runs of methods whose means are given, each with networks of its own; one network has no effect."""
+    networks, walks = shape
+    of_network, of_walk, rest = SPREADS[spread]
+    common = effects_of_walks(rng, len(means), walks, skewed)
+    grids = []
+    for k, mean in enumerate(means):
+        own = of_network * (networks > 1) * rng.normal(size=(networks, 1))
+        errors = 1.0 + own + of_walk * common[k] + rest * rng.normal(size=shape)
+        grids.append(RunGrid(mean * errors, f"method {k}"))
+    return grids
+
+
+def simulate(
+    formula: Formula, means: Sequence[float], shape: tuple[int, int], spread: str, skewed: bool, draws: int = DRAWS
+) -> tuple[float, float]:
+    """Return the share of intervals that hold the true number, and their median width over that of an oracle.
+
+    The oracle knows the standard deviation of the number and takes 1.96 of it to each side.
+    """
+    rng = np.random.default_rng([*shape, len(means), skewed, len(spread)])
+    true = float(formula.shown(formula.parts(np.array(means))).min())
+    found = np.array(
+        [ends(summarise(draw(rng, shape, means, spread, skewed), STATISTICS, formula)) for _ in range(draws)]
+    )
+    low, value, high = found.T
+    width = float(np.median(high - low) / (2 * 1.96 * value.std()))
+    return float(np.mean((low <= true) & (true <= high))), width
+
+
+FORMULAS = {
+    "mean": (MEAN, (2.0,)),
+    "ratio": (RATIO, (3.0, 2.0)),
+    "cut": (CUT, (1.5, 19.0)),
+    "difference": (BELOW, (1.5, 2.0)),
+    "least of three": (BELOW, (1.5, 2.0, 2.05, 3.0)),
+    "ratio of gaps": (GAP_RATIO, (3.0, 1.5, 6.0, 2.0)),
+}
+
+
+CASES = [(name, (3, 15)) for name in FORMULAS]
+CASES += [(name, shape) for name in ("mean", "ratio") for shape in [(3, 3), (1, 15), (5, 5), (2, 15)]]
+WIDEST = {
+    1: 1.6,
+    2: 9.5,
+    3: 3.5,
+    5: 2.2,
+}  # networks -> width over that of the oracle; t of Student's law makes most of it
+
+
+@pytest.mark.parametrize(("name", "shape"), CASES)
+def test_simulated_intervals_hold_the_number_and_are_not_absurdly_wide(name: str, shape: tuple[int, int]) -> None:
+    """Networks, walks or both differ, and the effects of walks are normal or skewed to the right."""
+    formula, means = FORMULAS[name]
+    for spread, skewed in itertools.product(list(SPREADS)[:3], (False, True)):
+        covered, width = simulate(formula, means, shape, spread, skewed)
+        assert covered >= LEAST, (spread, skewed)
+        assert width <= WIDEST[shape[0]], (spread, skewed)
+
+
+@pytest.mark.parametrize("true", [0.1, 0.3, 0.5, 0.9])
+def test_shares_and_trends_of_single_runs_are_covered(true: float, rng: np.random.Generator) -> None:
+    drawn = [RunGrid((rng.random((5, 1)) < true).astype(float)) for _ in range(DRAWS)]
+    held = [low <= true <= high for low, _, high in (ends(share([grid], STATISTICS)) for grid in drawn)]
+    assert np.mean(held) >= LEAST
+    lines = [[RunGrid(np.array([[true * k + 0.5 * rng.normal()]])) for k in range(7)] for _ in range(DRAWS)]
+    assert np.mean([low <= true <= high for low, _, high in (ends(trend(own, STATISTICS)) for own in lines)]) >= LEAST
+
+
 @pytest.mark.parametrize("shape", [(1, 2), (3, 1), (2, 3), (5, 5)])
-def test_interval_contains_the_mean_and_stays_within_the_runs(
-    shape: tuple[int, int], of: Summarise, rng: np.random.Generator
+def test_interval_contains_the_mean_and_is_the_same_every_time(
+    shape: tuple[int, int], rng: np.random.Generator
 ) -> None:
-    runs = rng.normal(size=shape)
-    number = of([runs])
+    runs = RunGrid(rng.normal(size=shape))
+    number = summarise([runs], STATISTICS)
     low, value, high = ends(number)
-    assert value == pytest.approx(runs.mean())
-    assert runs.min() - 1e-12 <= low <= value <= high <= runs.max() + 1e-12
-    assert number.runs == runs.size
-    assert number == of([runs])  # the same every time
+    assert value == pytest.approx(runs.mean)
+    assert low <= value <= high
+    assert (number.networks, number.walks, number.runs) == (shape[:1], shape[1:], runs.values.size)
+    assert number == summarise([runs], STATISTICS)
 
 
-def test_a_single_run_has_no_interval(of: Summarise) -> None:
-    assert of([np.array([[2.5]])]) == Number(2.5, None, None, 1)
+def test_a_single_run_has_no_interval() -> None:
+    number = summarise([RunGrid(np.array([[2.5]]))], STATISTICS, unit="N m")
+    assert number == Number(2.5, unit="N m", networks=(1,), walks=(1,))
+    assert number.spread == ("1", "1", None, None)
 
 
-def test_interval_scales_and_shifts_with_the_runs(of: Summarise, rng: np.random.Generator) -> None:
-    runs = rng.normal(size=(3, 4))
-    assert ends(of([5.0 * runs + 2.0])) == pytest.approx(5 * np.array(ends(of([runs]))) + 2)
+def test_interval_over_walks_alone_is_students(rng: np.random.Generator) -> None:
+    """The reference is the closed form of a mean of normal numbers, which may be below zero."""
+    runs = rng.normal(size=(1, 15))
+    low, value, high = ends(summarise([RunGrid(runs)], STATISTICS))
+    reach = float(student.ppf(0.975, 14)) * runs.std(ddof=1) / sqrt(15)
+    assert (low, high) == pytest.approx((value - reach, value + reach))
 
 
-def test_interval_has_the_width_of_the_normal_law(rng: np.random.Generator) -> None:
-    """The reference is the normal law's closed form."""
-    runs = rng.normal(size=(1, 400))
-    low, _, high = ends(summarise([runs], Statistics(confidence=0.95, bootstrap_draws=4000), 0))
-    assert high - low == pytest.approx(2 * 1.96 * runs.std() / 20, rel=0.06)
+def test_positive_runs_have_their_interval_on_a_log_scale(rng: np.random.Generator) -> None:
+    low, value, high = ends(summarise([RunGrid(rng.uniform(0.1, 9.0, (2, 2)))], STATISTICS))
+    assert low > 0.0
+    assert low * high == pytest.approx(value**2)
 
 
-def test_networks_that_differ_widen_it_however_many_tests_there_are(of: Summarise) -> None:
-    assert ends(of([np.repeat([[1.0], [3.0]], 100, axis=1)])) == pytest.approx([1.0, 2.0, 3.0])
+def test_interval_scales_with_the_runs(rng: np.random.Generator) -> None:
+    runs = rng.uniform(1.0, 2.0, size=(3, 4))
+    once, five = (summarise([RunGrid(factor * runs)], STATISTICS) for factor in (1.0, 5.0))
+    assert ends(five) == pytest.approx([5.0 * end for end in ends(once)])
+    assert five.std_networks == pytest.approx(5.0 * (once.std_networks or 0.0))
 
 
-def test_ratio_of_a_grid_and_its_multiple_is_exact_since_draws_are_shared(
-    ratio: Summarise, rng: np.random.Generator
-) -> None:
-    runs = rng.uniform(1.0, 2.0, size=(3, 3))
-    assert ends(ratio([2 * runs, runs])) == pytest.approx([2.0, 2.0, 2.0])
+def test_standard_deviations_are_those_of_the_means_of_rows_and_columns(rng: np.random.Generator) -> None:
+    runs = rng.uniform(1.0, 2.0, size=(3, 4))
+    number = summarise([RunGrid(runs)], STATISTICS)
+    assert number.std_networks == pytest.approx(runs.mean(axis=1).std(ddof=1))
+    assert number.std_walks == pytest.approx(runs.mean(axis=0).std(ddof=1))
+    assert summarise([RunGrid(runs[:1])], STATISTICS).std_networks is None
 
 
-def test_a_method_without_networks_stands_for_all(ratio: Summarise, rng: np.random.Generator) -> None:
-    alone, many = rng.uniform(1.0, 2.0, (1, 3)), rng.uniform(1.0, 2.0, (2, 3))
-    one, other = (ratio([grid, many]) for grid in (alone, np.tile(alone, (2, 1))))
-    assert (*ends(one), one.runs) == pytest.approx((*ends(other), 6))
+def test_networks_that_differ_widen_it_however_many_walks_there_are() -> None:
+    low, _, high = ends(summarise([RunGrid(np.repeat([[-1.0], [1.0]], 100, axis=1))], STATISTICS))
+    assert high == -low == pytest.approx(12.706, rel=1e-4)  # Student's law with one degree of freedom
 
 
-@pytest.mark.parametrize("networks", [(2, 3), (1, 2), (3, 3)])
-def test_networks_of_unlike_number_are_drawn_apart_and_tests_together(
-    networks: tuple[int, int], ratio: Summarise
-) -> None:
-    """Runs that differ from test to test alone give an exact ratio, however many networks each method has."""
-    tests = np.array([1.0, 2.0, 4.0])
-    grids = [np.tile(tests * factor, (count, 1)) for count, factor in zip(networks, (3.0, 1.0), strict=True)]
-    assert ends(ratio(grids)) == pytest.approx([3.0, 3.0, 3.0])
+@pytest.mark.parametrize("networks", [(3, 3), (1, 3), (2, 3), (1, 2)])
+def test_walks_are_paired_however_many_networks_each_method_has(networks: tuple[int, int]) -> None:
+    """Runs that differ from walk to walk alone give an exact ratio."""
+    walks = np.array([1.0, 2.0, 4.0])
+    grids = [
+        RunGrid(np.tile(walks * factor, (count, 1)), f"method {count}, {factor}")
+        for count, factor in zip(networks, (3.0, 1.0), strict=True)
+    ]
+    assert ends(summarise(grids, STATISTICS, RATIO)) == pytest.approx([3.0, 3.0, 3.0])
 
 
-def test_unlike_networks_widen_a_ratio_that_like_ones_leave_exact(ratio: Summarise) -> None:
-    runs = np.array([[1.0], [2.0], [3.0]])
-    assert ends(ratio([runs, runs])) == pytest.approx([1.0, 1.0, 1.0])
-    low, _, high = ends(ratio([runs, runs[:2]]))
-    assert low < 4 / 3 < high
+def test_networks_are_paired_within_a_method_and_not_between_methods() -> None:
+    """The same networks on two tests have an exact ratio, networks of another method with the same errors have not."""
+    runs = np.array([[1.0, 1.0], [2.0, 2.0], [3.0, 3.0]])
+    own, other = RunGrid(runs, "MOB-Net"), RunGrid(runs, "FTS-e2e")
+    assert ends(summarise([own, own], STATISTICS, RATIO)) == pytest.approx([1.0, 1.0, 1.0])
+    low, value, high = ends(summarise([own, other], STATISTICS, RATIO))
+    assert value == pytest.approx(1.0)
+    assert low < value < high
 
 
-def test_runs_on_other_tests_do_not_fit(of: Summarise) -> None:
-    with pytest.raises(DataError, match=r"\(2, 3\), \(2, 4\)"):
-        of([np.ones((2, 3)), np.ones((2, 4))])
+def test_a_limb_with_one_network_is_no_second_one() -> None:
+    """A limb with three networks and one with a single network: the single one adds nothing to what is drawn."""
+    three, one = np.array([[1.0, 1.2], [2.0, 2.4], [3.0, 3.6]]), np.array([[2.0, 2.4]])
+    both, alone = (
+        summarise([RunGrid(grid, "MOB-Net") for grid in grids], STATISTICS) for grids in ([three, one], [three])
+    )
+    assert both.networks == (3, 1)
+    assert both.std_networks == pytest.approx((alone.std_networks or 0.0) / 2.0)
+
+
+def test_the_least_part_has_the_lowest_of_all_ends() -> None:
+    grids = [RunGrid(np.array([[mean - 0.1, mean, mean + 0.3]]), str(mean)) for mean in (1.0, 3.0, 3.1)]
+    first, second = (summarise([grids[0], other], STATISTICS, BELOW) for other in grids[1:])
+    both = summarise(grids, STATISTICS, BELOW)
+    assert (both.value, both.low) == (first.value, pytest.approx(first.low))
+    assert (first.high or 0.0) <= (both.high or 0.0) <= (second.high or 0.0) + 0.1
+
+
+def test_a_gap_that_may_be_closed_reaches_zero() -> None:
+    walks = np.array([[-0.1, 0.0, 0.2]])
+    first, second, third, fourth = (RunGrid(mean + walks * k, str(k)) for k, mean in enumerate((1.0, 1.01, 5.0, 3.0)))
+    low, value, high = ends(summarise([first, second, third, fourth], STATISTICS, GAP_RATIO))
+    assert low == 0.0 < value < high
+
+
+def test_a_ratio_to_zero_is_no_number() -> None:
+    number = summarise([RunGrid(np.ones((1, 3))), RunGrid(np.zeros((1, 3)))], STATISTICS, RATIO)
+    assert (number.value, number.low, number.walks) == (None, None, (3,))

@@ -1,22 +1,40 @@
-"""Quantities: known numbers, equality where cells are equal, the same number draw by draw."""
+"""Quantities: known numbers of known cells, whose means are taken first, and what leaves them as they are."""
 
 import numpy as np
 import pytest
 
-from mobnet.evaluation.number.quantities import QUANTITIES
+from mobnet.evaluation.number.intervals import RunGrid
+from mobnet.evaluation.number.quantities import QUANTITIES, Cell
 from mobnet.settings.claims import TAKES
+from mobnet.settings.evaluation import Statistics
 
+STATISTICS = Statistics(confidence=0.95)
 EXAMPLES = {
     "value": ([3.0], 3.0),
     "ratio": ([3.0, 2.0], 1.5),
     "cut": ([1.0, 4.0], 0.75),
+    "square cut": ([1.0, 4.0], 0.9375),
     "difference": ([1.0, 4.0], -3.0),
     "below": ([-5.0, -4.0, -4.75, 2.0], 0.25),
     "above": ([5.0, 1.0, 3.0], 2.0),
-    "falls": ([4.0, 3.0, 1.0, 2.0], 4 / 6),
     "least ratio": ([6.0, 9.0, 4.0, 3.0], 1.5),
     "gap ratio": ([1.0, 2.0, 7.0, 3.0], 0.25),
+    "trend": ([4.0, 3.0, 1.0, 0.0], -1.4),
+    "share": ([0.75], 0.75),
 }
+
+
+def cells_of(means: list[float], spread: float = 0.0) -> list[Cell]:
+    """Return cells of one grid with four runs around each mean."""
+    offsets = spread * np.array([[-1.0, 1.0], [1.0, -1.0]])
+    return [[RunGrid(mean + offsets, "MOB-Net")] for mean in means]
+
+
+def number(name: str, cells: list[Cell]) -> float:
+    """Return the number that a quantity makes of cells."""
+    value = QUANTITIES[name](cells, STATISTICS, "-").value
+    assert value is not None
+    return value
 
 
 def test_every_quantity_has_an_example_and_takes_cells() -> None:
@@ -24,38 +42,29 @@ def test_every_quantity_has_an_example_and_takes_cells() -> None:
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
-def test_number_of_an_example_whether_alone_or_among_draws(name: str) -> None:
-    means, number = EXAMPLES[name]
-    quantity, (least, step) = QUANTITIES[name], TAKES[name]
+def test_number_of_an_example(name: str) -> None:
+    means, expected = EXAMPLES[name]
+    least, step = TAKES[name]
     assert len(means) in range(least, 9, step or 9)
-    assert quantity.made(np.array(means)) == pytest.approx(number)
-    np.testing.assert_allclose(quantity.made(np.tile(np.array(means)[:, None], 5)), np.full(5, number))
+    assert number(name, cells_of(means, 0.01 * (name != "share"))) == pytest.approx(expected, rel=1e-3)
 
 
-@pytest.mark.parametrize("name", [name for name, quantity in QUANTITIES.items() if quantity.equality is not None])
-def test_equal_cells_give_equality(name: str) -> None:
-    """Identity: cells that are alike give what counts as equality."""
-    quantity = QUANTITIES[name]
-    means = np.full(TAKES[name][0], 2.0)
-    if name == "gap ratio":
-        means[::2] += 1.0
-    assert quantity.made(means) == pytest.approx(quantity.equality)
+def test_a_cell_is_the_mean_over_its_joints_whatever_networks_they_have() -> None:
+    one, three = RunGrid(np.full((1, 2), 2.0), "MOB-Net"), RunGrid(np.full((3, 2), 4.0), "MOB-Net")
+    assert number("value", [[one, three]]) == pytest.approx(3.0)
+    assert number("ratio", [[one, three], [one]]) == pytest.approx(1.5)
+    assert number("square cut", [[one], [one, three]]) == pytest.approx(1 - 4.0 / 10.0)
 
 
-def test_falls_is_one_for_a_falling_row_and_minus_one_for_a_rising_one() -> None:
-    """The order of the cells decides, not their size."""
-    row = np.arange(7.0)
-    assert QUANTITIES["falls"].made(-row) == 1.0
-    assert QUANTITIES["falls"].made(row) == -1.0
-
-
-@pytest.mark.parametrize("name", ["ratio", "cut", "least ratio", "gap ratio", "falls"])
+@pytest.mark.parametrize("name", ["ratio", "cut", "square cut", "least ratio", "gap ratio"])
 def test_numbers_without_a_unit_are_invariant_under_a_change_of_it(name: str, rng: np.random.Generator) -> None:
     means = rng.uniform(1.0, 9.0, max(TAKES[name][0], 4) if TAKES[name][1] else TAKES[name][0])
-    assert QUANTITIES[name].made(1000.0 * means) == pytest.approx(QUANTITIES[name].made(means))
+    once, often = (number(name, cells_of([factor * mean for mean in means])) for factor in (1.0, 1000.0))
+    assert once == pytest.approx(often)
 
 
-@pytest.mark.parametrize("name", ["difference", "below", "above"])
+@pytest.mark.parametrize("name", ["difference", "below", "above", "trend"])
 def test_differences_are_invariant_under_an_offset_that_all_share(name: str, rng: np.random.Generator) -> None:
     means = rng.uniform(1.0, 9.0, TAKES[name][0])
-    assert QUANTITIES[name].made(means + 5.0) == pytest.approx(QUANTITIES[name].made(means))
+    once, raised = (number(name, cells_of([mean + offset for mean in means])) for offset in (0.0, 5.0))
+    assert once == pytest.approx(raised)

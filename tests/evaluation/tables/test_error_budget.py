@@ -10,7 +10,7 @@ from csv_files import check_golden, read_table
 
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.tables.error_budget import share_gone
+from mobnet.evaluation.tables.error_budget import share_left
 from mobnet.settings.evaluation import Evaluation, Mean
 
 FACTORS = {"all_uncertainty": 1.0, "exact_model": 0.8, "no_friction": 0.5, "no_load_friction": 1.0, "no_noise": 1.1}
@@ -77,7 +77,7 @@ def test_a_source_that_was_never_switched_off_is_named(made: Made, tmp_path: Pat
     assert not (tmp_path / "out").exists()
 
 
-def test_an_error_that_grows_is_a_negative_share(rng: np.random.Generator) -> None:
+def test_what_is_left_of_squares_may_be_more_than_all(rng: np.random.Generator) -> None:
     squares = rng.uniform(1.0, 2.0, (3, 5))
-    np.testing.assert_allclose(share_gone(np.concatenate([squares, 1.5 * squares])), -50.0)
-    np.testing.assert_allclose(share_gone(np.concatenate([squares, 0.0 * squares])), 100.0)
+    np.testing.assert_allclose(share_left(np.concatenate([squares, 1.5 * squares])), np.full((1, 5), 1.5))
+    np.testing.assert_allclose(share_left(np.concatenate([squares, 0.0 * squares])), np.zeros((1, 5)))

@@ -16,7 +16,7 @@ from mobnet.settings.published import PublishedTable
 
 
 def figure_06(
-    settings: Figure06, published: PublishedTable, layout: JointLayout, statistics: Statistics, seed: int,
+    settings: Figure06, published: PublishedTable, layout: JointLayout, statistics: Statistics,
     runs: Sequence[Run], scores: Mapping[str, Path], figure_dir: Path,
 ) -> None:  # fmt: skip
     """Write Figure 6, a step of torque on a swinging hip [N m]: curves around the first, errors in all windows.
@@ -28,7 +28,7 @@ def figure_06(
     for method in settings.methods:
         wanted = wanted_of(layout, settings, method, joint, PUSHED)
         printed = published_value(published, settings.level, method, joint)
-        errors[method] = {ALL: number_of(rows, [wanted], statistics, seed, published=printed)}
+        errors[method] = {ALL: number_of(rows, [wanted], statistics, published=printed)}
     panels = read_pushes(layout, settings, runs, f"step {{}} on {joint}")[:1]
     group = PushGroup(settings.scenario, panels, errors, "error around the steps")
     save_pushes([group], joint, figure_dir / "figure_06")

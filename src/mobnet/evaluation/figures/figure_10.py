@@ -15,7 +15,7 @@ ROBOT = "paper (robot)"  # name of numbers that the paper measured on its robot
 
 
 def figure_10(
-    settings: Figure10, published: PublishedTable, layout: JointLayout, statistics: Statistics, seed: int,
+    settings: Figure10, published: PublishedTable, layout: JointLayout, statistics: Statistics,
     runs: Mapping[str, Sequence[Run]], scores: Mapping[str, Path], figure_dir: Path,
 ) -> None:  # fmt: skip
     """Write Figure 10, pushes on the knee of a leg in the air and on the ground [N m]: curves and errors of each.
@@ -25,7 +25,7 @@ def figure_10(
     rows = [row for path in scores.values() for row in read_scores(path)]
     groups = []
     for title, test in settings.tests.items():
-        errors = collision_errors(layout, settings, test, published, rows, statistics, seed)
+        errors = collision_errors(layout, settings, test, published, rows, statistics)
         panels = read_pushes(layout, settings, runs[title], f"{title} {{}}")
         groups.append(PushGroup(test.scenario, panels, errors, f"{title}: error by push", ROBOT))
     save_pushes(groups, settings.joint, figure_dir / "figure_10")

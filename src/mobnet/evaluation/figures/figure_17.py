@@ -11,7 +11,7 @@ from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from mobnet.evaluation.figures.style import save_figure
 from mobnet.evaluation.measure.trainings import Training, read_trainings, sound
 from mobnet.evaluation.number.files import write_csv
-from mobnet.evaluation.number.intervals import extremes
+from mobnet.evaluation.number.single import extremes
 
 MEASURES = {"train_loss": "training loss", "validation_loss": "validation loss"}
 

@@ -20,7 +20,7 @@ Errors = dict[tuple[str, str], Number]  # limb or UPPER_BODY, joint or AVERAGE -
 
 
 def figure_18(
-    settings: Figure18, layout: JointLayout, statistics: Statistics, seed: int, scores: Mapping[str, Path],
+    settings: Figure18, layout: JointLayout, statistics: Statistics, scores: Mapping[str, Path],
     figure_dir: Path,
 ) -> None:  # fmt: skip
     """Write Figure 18, mean RMSE [N m] over the joints of the upper body and of its limbs, as PDF, PNG and CSV."""
@@ -29,10 +29,10 @@ def figure_18(
         own, errors = read_scores(scores[scenario]), {}
         for method in settings.methods:
             wanted = wanted_of(settings, layout, scenario, method)
-            errors[method] = {place: number_of(own, of, statistics, seed) for place, of in wanted.items()}
+            errors[method] = {place: number_of(own, of, statistics) for place, of in wanted.items()}
         panels.append(panel_of(title, errors))
         rows += [
-            (scenario, method, *place, error.runs, *error.with_ends)
+            (scenario, method, *place, *error.with_ends, *error.spread)
             for method, found in errors.items() for place, error in found.items()
         ]  # fmt: skip
     write_csv(figure_dir / "figure_18.csv", LIMB_ERRORS, rows)

@@ -11,8 +11,8 @@ from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from mobnet.evaluation.figures.style import save_figure
 from mobnet.evaluation.measure.trainings import Training, read_trainings, sound
 from mobnet.evaluation.number.files import write_csv
-from mobnet.evaluation.number.intervals import extremes
 from mobnet.evaluation.number.number import Number
+from mobnet.evaluation.number.single import extremes
 from mobnet.plan.runs import SweptSize
 
 TITLES = {"parameters": "size of the network", "samples": "size of the training data"}

@@ -125,7 +125,8 @@ def run_cells(
 ) -> Iterator[tuple[tuple[str, str], Array]]:
     """Yield limb and unit, and the measures (2, k + 2) of a run, limb by limb, for nominal shares (k,).
 
-    Of the rows, the stretches `spans` count, or all if it is None; if there are no stretches, nothing is yielded.
+    A limb whose network has run under an earlier seed is left out. Of the rows, the stretches `spans` count, or all if
+    it is None; if there are no stretches, nothing is yielded.
 
     Raises:
         DataError: a file or column is missing, such as those of standard deviations, or files do not belong together.
@@ -141,7 +142,8 @@ def run_cells(
     arrays = pair.estimate.astype(np.float64) - pair.truth, std.astype(np.float64)
     error, scaled = (np.concatenate(parts(array, spans or pair.spans)) for array in arrays)
     fits = [fit_of(error, one, shares) for one in (scaled / factors, scaled)]
-    for key, columns in limb_columns(layout, pair.joints).items():
+    own = {key: columns for key, columns in limb_columns(layout, pair.joints).items() if key[0] not in run.repeated}
+    for key, columns in own.items():
         yield key, np.array([numbers_of(fit, columns) for fit in fits])
 
 

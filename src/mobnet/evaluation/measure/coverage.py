@@ -18,7 +18,7 @@ from mobnet.core.columns import DESIRED, FEET, VELOCITY
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.samples import Blocks, Reference, equal_sets, read_blocks, refer, scale_of
 from mobnet.evaluation.measure.windows import foot_of, pushed_of
-from mobnet.evaluation.number.intervals import summarise
+from mobnet.evaluation.number.intervals import RATIO, RunGrid, summarise
 from mobnet.evaluation.number.number import Number
 from mobnet.learning.features import limb_inputs
 from mobnet.settings.evaluation import Coverage, CoverageTest, Statistics
@@ -54,7 +54,7 @@ class Covered:
 
 
 def covered(
-    settings: Coverage, layout: JointLayout, ports: Limb, statistics: Statistics, seed: int,
+    settings: Coverage, layout: JointLayout, ports: Limb, statistics: Statistics,
     training: Mapping[str, Sequence[Path]], tests: Sequence[Sequence[Path]],
 ) -> list[Covered]:  # fmt: skip
     """Return all measures of the training sets, WITH and WITHOUT, and of every test against them.
@@ -77,7 +77,7 @@ def covered(
             log.warning("%s: no push is found in its %d recordings", test.scenario, len(stems))
             continue
         rows += outside(test, blocks, references, inputs.names, joints)
-        rows += nearest(test, [(block - mean) / std for block in blocks], references, statistics, seed)
+        rows += nearest(test, [(block - mean) / std for block in blocks], references, statistics)
     return rows
 
 
@@ -119,7 +119,7 @@ def outside(
 
 
 def nearest(
-    test: CoverageTest, blocks: Blocks, references: Sequence[Reference], statistics: Statistics, seed: int
+    test: CoverageTest, blocks: Blocks, references: Sequence[Reference], statistics: Statistics
 ) -> Iterator[Covered]:
     """Yield quantiles of the distance to the nearest training sample, means over blocks, and their ratio.
 
@@ -128,6 +128,6 @@ def nearest(
     distances = [[ref.tree.query(block)[0] for block in blocks] for ref in references]
     for measure, share in NEAREST.items():
         have, lack = (np.array([[np.quantile(block, share) for block in found]]) for found in distances)
-        ratio = summarise([have, lack], statistics, seed, lambda means: means[0] / means[1])
+        ratio = summarise([RunGrid(have), RunGrid(lack)], statistics, RATIO)
         means = float(have.mean()), float(lack.mean())
         yield Covered(test.scenario, test.level, measure, ALL, len(blocks), *means, ratio)

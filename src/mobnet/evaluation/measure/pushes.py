@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mobnet.core.columns import PUSHED, SWING, Score
 from mobnet.core.joints import JointLayout
@@ -11,6 +10,7 @@ from mobnet.evaluation.measure.curves import Panel, read_curves
 from mobnet.evaluation.measure.metrics import PUSH
 from mobnet.evaluation.measure.windows import foot_of, push_windows
 from mobnet.evaluation.number.grid import Wanted, number_of
+from mobnet.evaluation.number.intervals import Formula
 from mobnet.evaluation.number.number import Number, published_value
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import Figure06, Figure10, PushedRuns, Runs, Statistics
@@ -18,6 +18,7 @@ from mobnet.settings.published import PublishedTable
 
 ALL, AVERAGE, INCREASE = "all windows", "avg", "increase"  # of the windows together, the mean of each push's, and that
 # mean less the error where nothing pushes
+INCREASED = Formula(lambda means: means[:-1].mean(axis=0, keepdims=True) - means[-1:])  # mean of all but the last
 PushErrors = dict[str, dict[str, Number]]  # method -> number of a push, ALL, AVERAGE or INCREASE -> error [N m]
 
 
@@ -31,7 +32,7 @@ def wanted_of(
 
 def collision_errors(
     layout: JointLayout, settings: Figure10, test: PushedRuns, published: PublishedTable, scores: Sequence[Score],
-    statistics: Statistics, seed: int,
+    statistics: Statistics,
 ) -> PushErrors:  # fmt: skip
     """Return the errors of a test [N m], method by method: of each push, their average, and its increase.
 
@@ -45,9 +46,9 @@ def collision_errors(
         calm = wanted_of(layout, settings.against, method, joint)
         printed = published_value(published, test.scenario, method, AVERAGE)
         errors[method] = {
-            **{str(k): number_of(scores, [wanted], statistics, seed) for k, wanted in enumerate(own, start=1)},
-            AVERAGE: number_of(scores, own, statistics, seed, published=printed),
-            INCREASE: number_of(scores, [*own, calm], statistics, seed, increase),
+            **{str(k): number_of(scores, [wanted], statistics) for k, wanted in enumerate(own, start=1)},
+            AVERAGE: number_of(scores, own, statistics, published=printed),
+            INCREASE: number_of(scores, [*own, calm], statistics, INCREASED),
         }
     return errors
 
@@ -56,11 +57,6 @@ def push_metrics(scores: Sequence[Score], scenario: str) -> list[str]:
     """Return the names of the errors of single pushes that a scenario was scored for, in order."""
     found = {row.metric for row in scores if row.scenario == scenario}
     return [PUSH.format(k) for k in range(1, len(found) + 1) if PUSH.format(k) in found]
-
-
-def increase(means: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the mean of all errors but the last, less the last, (n, ...) -> (...) [N m]."""
-    return means[:-1].mean(axis=0) - means[-1]
 
 
 def read_pushes(layout: JointLayout, settings: Figure06 | Figure10, runs: Sequence[Run], title: str) -> list[Panel]:

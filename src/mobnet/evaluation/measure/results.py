@@ -1,47 +1,60 @@
-"""All results: the runs behind any number, of the scores or of the trainings."""
+"""All results: the runs behind any number of the scores and of the trainings, and the fields of tables."""
 
+import logging
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mobnet.core.columns import Score
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.averages import column_of, members
 from mobnet.evaluation.measure.trainings import MEASURES, Training, read_trainings, sound
+from mobnet.evaluation.number.files import read_texts
 from mobnet.evaluation.number.grid import Wanted, run_grid
+from mobnet.evaluation.number.intervals import RunGrid
+from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.rows import read_scores
 from mobnet.settings.claims import Cell
 
+log = logging.getLogger(__name__)
+
 METRIC = "rmse"  # of a cell that names none
+DIVERGED = "diverged"  # metric of all trainings, 1 of those that diverged; all others are of those that did not
+ENDS = {"before": ("before_low", "before_high")}  # column of a table -> those of its interval, where they are not `low`
+WITH_ENDS = ("value", "ratio", "after", *ENDS)  # columns that have an interval
 
 
 @dataclass(frozen=True)
 class Results:
-    """Scores by what they are of, metrics scored by scenario, level and method, and trainings by method."""
+    """Scores by what they are of, metrics scored by scenario, level and method, trainings by method, rows of tables."""
 
     layout: JointLayout
     scores: Mapping[Wanted, Sequence[Score]]
     metrics: Mapping[tuple[str, ...], set[str]]
     trainings: Mapping[str, Sequence[Training]]
+    tables: Mapping[str, Sequence[Mapping[str, str]]] = field(default_factory=dict)
 
-    def grid(self, cell: Cell) -> NDArray[np.float64] | None:
-        """Return the runs of a number (networks, tests) [unit of its metric]; a training is a network on one test.
+    def grids(self, cell: Cell) -> list[RunGrid] | None:
+        """Return the runs of numbers whose mean is meant [unit of the metric]; a training is a network on one walk.
 
-        The cell names a method and a metric of `MEASURES`; or scenario, level, method, joint and metric of the scores,
-        where several joints, those of a limb and several metrics are averaged. None is returned where the runs are
-        there, but not what is asked of them: too short a test has no push, and trainings may diverge.
+        The cell names a field of a table; a method and a metric of `MEASURES`; or scenario, level, method, joint and
+        metric of the scores, where several joints, those of a limb and several metrics have a grid each. None is
+        returned where the runs are there, but not what is asked of them: too short a test has no push, and trainings
+        may diverge.
 
         Raises:
             ConfigError: joints are unknown or of unlike units, or something is missing.
             DataError: there is no such run.
         """
         metrics = listed(cell.metric or METRIC)
-        if metrics[0] in MEASURES:
+        if cell.table:
+            found = self.entry(cell).value
+            return None if found is None else [RunGrid(np.array([[found]]))]
+        if metrics[0] in (*MEASURES, DIVERGED):
             return self._measured(str(cell.method), metrics[0])
         scenario, level, method, names = cell.scenario, cell.level, cell.method, cell.joint
         if scenario is None or level is None or method is None or names is None:
@@ -54,24 +67,48 @@ class Results:
         joints = [joint for name in listed(names) for joint in members(self.layout, name)]
         places = column_of(self.layout, ", ".join(joints), joints, metrics).joints
         wanted = [Wanted(scenario, limb, level, method, joint, name) for limb, joint in places for name in metrics]
-        return np.mean([run_grid(self.scores.get(each, ()), each) for each in wanted], axis=0)
+        return [run_grid(self.scores.get(each, ()), each) for each in wanted]
 
-    def _measured(self, method: str, metric: str) -> NDArray[np.float64] | None:
+    def _measured(self, method: str, metric: str) -> list[RunGrid] | None:
         """Return a measure of the trainings of a method that did not diverge, (networks, 1); None where all did."""
         if method not in self.trainings:
             raise DataError(not_accepted("trainings", method, self.trainings))
+        if metric == DIVERGED:
+            return [RunGrid(np.array([[float(training.diverged)] for training in self.trainings[method]]), method)]
         good = sound(self.trainings[method])
-        return np.array([[MEASURES[metric][0](training)] for training in good]) if good else None
+        return [RunGrid(np.array([[MEASURES[metric][0](training)] for training in good]), method)] if good else None
+
+    def entry(self, cell: Cell) -> Number:
+        """Return the number in a field of a table [its unit], with its interval; no number where the row has none.
+
+        Raises:
+            DataError: the table or a column is missing.
+        """
+        rows, column = self.tables[str(cell.table)], str(cell.column)
+        held = rows[0].keys() if rows else {column, *cell.where}
+        for name in (column, *cell.where):
+            if name not in held:
+                raise DataError(not_accepted(f"column of {cell.table}", name, held))
+        found = [row for row in rows if all(row[key] == text for key, text in cell.where.items())]
+        if len(found) != 1:
+            log.warning("%s: %d rows with %s; accepted: one", cell.table, len(found), dict(cell.where))
+            return Number(None)
+        ends = ENDS.get(column, ("low", "high")) if column in WITH_ENDS else ("", "")
+        value, low, high = (float(text) if (text := found[0].get(name)) else None for name in (column, *ends))
+        return Number(value, low, high)
 
 
-def read_results(layout: JointLayout, scores: Iterable[Path], folders: Iterable[Path]) -> Results:
-    """Read all results: files of scores, and folders of trained networks of one limb."""
+def read_results(
+    layout: JointLayout, scores: Iterable[Path], folders: Iterable[Path], tables: Mapping[str, Path] | None = None
+) -> Results:
+    """Read all results: files of scores, folders of trained networks of one limb, and tables."""
     found: dict[Wanted, list[Score]] = defaultdict(list)
     metrics: dict[tuple[str, ...], set[str]] = defaultdict(set)
     for row in (row for path in scores for row in read_scores(path)):
         found[Wanted(row.scenario, row.limb, row.level, row.method, row.joint, row.metric)].append(row)
         metrics[row.scenario, row.level, row.method].add(row.metric)
-    return Results(layout, found, metrics, read_trainings(folders))
+    rows = {name: read_texts(path) for name, path in (tables or {}).items()}
+    return Results(layout, found, metrics, read_trainings(folders), rows)
 
 
 def listed(names: str | Sequence[str]) -> list[str]:

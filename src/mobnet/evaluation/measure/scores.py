@@ -48,16 +48,19 @@ def score(layout: JointLayout, runs: Sequence[Run], asked: Scoring, out: Path) -
 def score_run(layout: JointLayout, run: Run, asked: Scoring, scene: Scene | None = None) -> list[Score]:
     """Return the rows of one run: each joint, then the average of each limb, for each metric.
 
-    A metric has no row of a joint for which it is not defined, and none of a push that the run is too short for.
+    A metric has no row of a joint for which it is not defined, and none of a push that the run is too short for. A limb
+    whose network has run under an earlier seed has no row: it counts once.
     """
     pair = read_pair(run, layout)
     names = run.scenario, run.level, run.method, run.network_seed, run.test_seed
     rows: list[Score] = []
     for metric, numbers, pattern, average_only in measured(pair, scene or Scene(run.recording, layout), asked):
         values = {joint: value for joint, value in zip(pair.joints, numbers.tolist(), strict=True) if not isnan(value)}
-        for limb, joint, value, unit in limb_values(layout, values):
-            if joint == AVERAGE or not average_only:
-                rows.append(Score(*names, limb, joint, metric, value, pattern.format(unit)))
+        rows += [
+            Score(*names, limb, joint, metric, value, pattern.format(unit))
+            for limb, joint, value, unit in limb_values(layout, values)
+            if limb not in run.repeated and (joint == AVERAGE or not average_only)
+        ]
     return rows
 
 

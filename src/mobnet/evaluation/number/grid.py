@@ -4,11 +4,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mobnet.core.columns import Score
 from mobnet.core.errors import DataError
-from mobnet.evaluation.number.intervals import Combine, mean, summarise
+from mobnet.evaluation.number.intervals import MEAN, Formula, RunGrid, summarise
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.evaluation import Statistics
 
@@ -40,8 +39,8 @@ class Wanted:
         return ", ".join(f"{name} {value!r}" for name, value in vars(self).items())
 
 
-def run_grid(scores: Sequence[Score], wanted: Wanted) -> NDArray[np.float64]:
-    """Return the runs of a number, (networks, tests) [N m] (or the metric's unit), seeds ascending.
+def run_grid(scores: Sequence[Score], wanted: Wanted) -> RunGrid:
+    """Return the runs of a number, (networks, walks) [N m] (or the metric's unit), seeds ascending.
 
     Raises:
         DataError: no run, two rows of the same run, or a network that misses a test.
@@ -54,17 +53,17 @@ def run_grid(scores: Sequence[Score], wanted: Wanted) -> NDArray[np.float64]:
         raise DataError(
             f"scores: {len(rows)} rows for {wanted}; expected one for each of networks {networks} on tests {tests}"
         )
-    return np.array([[values[network, test] for test in tests] for network in networks])
+    return RunGrid(np.array([[values[network, test] for test in tests] for network in networks]), wanted.method)
 
 
 def number_of(
     scores: Sequence[Score],
     wanted: Sequence[Wanted],
     statistics: Statistics,
-    seed: int,
-    combine: Combine = mean,
+    formula: Formula = MEAN,
     published: float | None = None,
 ) -> Number:
-    """Return the number that `combine` makes of mean errors, with its interval, in the first one's unit, e.g. [N m]."""
-    number = summarise([run_grid(scores, each) for each in wanted], statistics, seed, combine)
-    return replace(number, unit=wanted[0].rows(scores)[0].unit, published=published)
+    """Return the number that a formula makes of mean errors, with its interval, in the first one's unit, e.g. [N m]."""
+    unit = wanted[0].rows(scores)[0].unit
+    number = summarise([run_grid(scores, each) for each in wanted], statistics, formula, unit)
+    return replace(number, published=published)

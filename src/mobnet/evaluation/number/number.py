@@ -13,7 +13,10 @@ class Number:
         value: the number [unit]; None where there is none.
         low: lower end of its interval, or the lowest run [unit]; None with a single run.
         high: upper end of its interval, or the highest run [unit]; None with a single run.
-        runs: how many runs it is made of.
+        networks: how many networks it is made of, method by method; 1 also of a method without networks.
+        walks: how many walks it is made of, test by test where they differ; 1 of a training.
+        std_networks: its standard deviation if each method had one network [unit]; None with no second one.
+        std_walks: its standard deviation if there were one walk [unit]; None with no second one.
         unit: unit of all of them.
         published: the paper's number [unit]; None where it prints none.
     """
@@ -21,9 +24,23 @@ class Number:
     value: float | None
     low: float | None = None
     high: float | None = None
-    runs: int = 0
     unit: str = "-"
     published: float | None = None
+    networks: tuple[int, ...] = ()
+    walks: tuple[int, ...] = ()
+    std_networks: float | None = None
+    std_walks: float | None = None
+
+    @property
+    def runs(self) -> int:
+        """How many runs it is made of: of the method with the most networks, where there are several."""
+        return max(self.networks, default=0) * max(self.walks, default=0)
+
+    @property
+    def spread(self) -> tuple[str, str, float | None, float | None]:
+        """The columns `SPREAD` of a file: counts, a plus between those of several, and standard deviations [unit]."""
+        networks, walks = ("+".join(map(str, each)) for each in (self.networks, self.walks))
+        return networks, walks, self.std_networks, self.std_walks
 
     @property
     def with_ends(self) -> tuple[float | None, float | None, float | None]:

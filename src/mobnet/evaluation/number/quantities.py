@@ -1,49 +1,56 @@
 """What a claim is about: a number made of the means over runs of some cells."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mobnet.evaluation.number.intervals import Combine, first
+from mobnet.evaluation.number.intervals import MEAN, RATIO, Array, Formula, RunGrid, summarise
+from mobnet.evaluation.number.number import Number
+from mobnet.evaluation.number.single import share, trend
+from mobnet.settings.evaluation import Statistics
 
-Means = NDArray[np.float64]
+Cell = Sequence[RunGrid]  # runs of some joints or metrics, of which the mean is meant
+Quantity = Callable[[Sequence[Cell], Statistics, str], Number]  # cells, statistics, unit -> number
+CUT = Formula(RATIO.parts, lambda ratio: 1.0 - ratio, positive=True)
+BELOW = Formula(lambda means: means[1:] - means[:1])
+ABOVE = Formula(lambda means: means[:1] - means[1:])
+LEAST_RATIO = Formula(lambda means: np.divide(*np.split(means, 2)), positive=True)
+GAP_RATIO = Formula(lambda means: (means[:1] - means[1:2]) / (means[2:3] - means[3:4]), np.abs)
+
+FORMULAS: Mapping[str, Formula] = {
+    "value": MEAN,
+    "ratio": RATIO,
+    "cut": CUT,
+    "difference": ABOVE,
+    "below": BELOW,
+    "above": ABOVE,
+    "least ratio": LEAST_RATIO,
+    "gap ratio": GAP_RATIO,
+}
 
 
-@dataclass(frozen=True)
-class Quantity:
-    """A number made of K means, (K, ...) -> (...).
+def summarised(
+    formula: Formula, cells: Sequence[Cell], statistics: Statistics, unit: str, power: float = 1.0
+) -> Number:
+    """Return the number that a formula makes of the means of K cells, or of their powers, with its interval [unit]."""
+    ends = np.cumsum([len(cell) for cell in cells])[:-1]
 
-    Attributes:
-        made: makes the number of the means [their unit, or - for ratios].
-        equality: the number where no cell stands out from the others; None where none are compared.
-    """
+    def parts(means: Array) -> Array:
+        return formula.parts(np.stack([(own**power).mean(axis=0) for own in np.split(means, ends)]))
 
-    made: Combine
-    equality: float | None = None
-
-
-def least_ratio(means: Means) -> Means:
-    """Return the smallest of the ratios (...) [-] of the first half of means (K, ...) to the second."""
-    half = len(means) // 2
-    return (means[:half] / means[half:]).min(axis=0)
+    return summarise([grid for cell in cells for grid in cell], statistics, replace(formula, parts=parts), unit)
 
 
-def falls(means: Means) -> Means:
-    """Return how steadily means (K, ...) fall (...) [-]: share of pairs with the later one lower less higher."""
-    earlier, later = np.triu_indices(len(means), 1)
-    return np.sign(means[earlier] - means[later]).mean(axis=0)
+def alone(measure: Callable[[Sequence[RunGrid], Statistics, str], Number]) -> Quantity:
+    """Return a quantity of cells that each have the runs of one number."""
+    return lambda cells, statistics, unit: measure([grid for (grid,) in cells], statistics, unit)
 
 
 QUANTITIES: Mapping[str, Quantity] = {
-    "value": Quantity(first),
-    "ratio": Quantity(lambda means: means[0] / means[1], 1.0),
-    "cut": Quantity(lambda means: 1.0 - means[0] / means[1], 0.0),
-    "difference": Quantity(lambda means: means[0] - means[1], 0.0),
-    "below": Quantity(lambda means: means[1:].min(axis=0) - means[0], 0.0),
-    "above": Quantity(lambda means: means[0] - means[1:].max(axis=0), 0.0),
-    "falls": Quantity(falls, 0.0),
-    "least ratio": Quantity(least_ratio, 1.0),
-    "gap ratio": Quantity(lambda means: abs(means[0] - means[1]) / abs(means[2] - means[3]), 1.0),
+    **{name: partial(summarised, formula) for name, formula in FORMULAS.items()},
+    "square cut": partial(summarised, CUT, power=2.0),
+    "trend": alone(trend),
+    "share": alone(share),
 }

@@ -14,7 +14,7 @@ from mobnet.settings.networks import Learning
 
 def calibration(
     settings: Calibration, learning: Learning, coverage: Coverage, layout: JointLayout, statistics: Statistics,
-    seed: int, folders: Sequence[Path], runs: Sequence[Sequence[Run]], table_dir: Path, figure_dir: Path,
+    folders: Sequence[Path], runs: Sequence[Sequence[Run]], table_dir: Path, figure_dir: Path,
 ) -> None:  # fmt: skip
     """Write calibration.csv, .tex and .md, and the reliability diagram as calibration.pdf, .png and .csv.
 
@@ -23,5 +23,5 @@ def calibration(
     levels, points = learning.calibration_levels, nominal_points(settings.points)
     grids = in_tests(layout, coverage, settings.tests, runs, [*levels, *points])
     held = held_out(layout, folders, levels)
-    trust_table(settings, learning, statistics, seed, [*held, *grids], table_dir)
+    trust_table(settings, learning, statistics, [*held, *grids], table_dir)
     reliability(panels_of(grids, settings.methods, len(levels), points), figure_dir)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from mobnet.core.columns import CALIBRATION
 from mobnet.evaluation.measure.calibration import STAGES, Grid
-from mobnet.evaluation.number.intervals import summarise
+from mobnet.evaluation.number.intervals import RunGrid, summarise
 from mobnet.evaluation.number.number import Number, interval_text
 from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
 from mobnet.settings.evaluation import Calibration, Statistics
@@ -17,13 +17,13 @@ Trust = Mapping[tuple[str, float | None], tuple[Number, Number]]  # measure, nom
 
 
 def trust_table(
-    settings: Calibration, learning: Learning, statistics: Statistics, seed: int, grids: Sequence[Grid], table_dir: Path
+    settings: Calibration, learning: Learning, statistics: Statistics, grids: Sequence[Grid], table_dir: Path
 ) -> None:
     """Write calibration.csv, .tex and .md of held-out data and tests; texts hold the methods of `settings` only."""
-    trusts = [(grid, trust_of(grid, learning.calibration_levels, statistics, seed)) for grid in grids]
+    trusts = [(grid, trust_of(grid, learning.calibration_levels, statistics)) for grid in grids]
     records = [
-        (grid.test, grid.level, grid.pushed, grid.method, grid.limb, *measure, after.runs,
-         *before.with_ends, *after.with_ends, grid.unit)
+        (grid.test, grid.level, grid.pushed, grid.method, grid.limb, *measure,
+         *before.with_ends, *after.with_ends, *after.spread, grid.unit)
         for grid, trust in trusts for measure, (before, after) in trust.items()
     ]  # fmt: skip
     blocks: dict[str, list[list[str]]] = {}
@@ -37,13 +37,13 @@ def trust_table(
     write_table(table_dir / "calibration", Table(CALIBRATION, records, header, lines, left=3, align=align))
 
 
-def trust_of(grid: Grid, levels: Sequence[float], statistics: Statistics, seed: int) -> Trust:
+def trust_of(grid: Grid, levels: Sequence[float], statistics: Statistics) -> Trust:
     """Return the measures of a limb's runs with their intervals: coverage of nominal shares, then NLL and CRPS."""
     measures = [*((COVERAGE, level, k) for k, level in enumerate(levels)), (NLL, None, -2), (CRPS, None, -1)]
     found = {}
     for measure, share, place in measures:
         stages = [grid.values[:, :, stage, place] for stage in range(len(STAGES))]
-        before, after = (summarise([values], statistics, seed) for values in stages)
+        before, after = (summarise([RunGrid(values)], statistics) for values in stages)
         found[measure, share] = before, after
     return found
 

@@ -13,14 +13,14 @@ from mobnet.settings.networks import Limb
 
 
 def coverage(
-    settings: Coverage, layout: JointLayout, ports: Limb, statistics: Statistics, seed: int,
+    settings: Coverage, layout: JointLayout, ports: Limb, statistics: Statistics,
     training: Mapping[str, Sequence[Path]], tests: Sequence[Sequence[Path]], table_dir: Path,
 ) -> None:  # fmt: skip
     """Write coverage.csv and, joints together only, coverage.tex and .md.
 
     `training` has the recordings `with RTE` and `without RTE`, `tests` those of each test.
     """
-    rows = covered(settings, layout, ports, statistics, seed, training, tests)
+    rows = covered(settings, layout, ports, statistics, training, tests)
     records = [
         (row.scenario, row.level, row.measure, row.joint, row.block_count, row.with_rte, row.without_rte,
          *row.ratio.with_ends)

@@ -1,17 +1,17 @@
 """What an observer's error is made of: its error with every source on, and how much goes with one of them off."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mobnet.core.columns import ERRORS, Score
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.averages import Column, columns_of
 from mobnet.evaluation.measure.metrics import PERCENT
 from mobnet.evaluation.number.grid import Wanted, run_grid
-from mobnet.evaluation.number.intervals import mean, summarise
+from mobnet.evaluation.number.intervals import Array, Formula, RunGrid, summarise
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.rows import read_scores
 from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
@@ -24,7 +24,7 @@ Cells = Mapping[tuple[str, str, str, str], Number]  # scenario, level, method, M
 
 
 def error_budget(
-    settings: ErrorBudget, statistics: Statistics, seed: int, layout: JointLayout, scores: Mapping[str, Path],
+    settings: ErrorBudget, statistics: Statistics, layout: JointLayout, scores: Mapping[str, Path],
     table_dir: Path,
 ) -> None:  # fmt: skip
     """Write error_budget.csv, .tex and .md: RMSE [N m] of joints with one source of error off, and the share [%] gone.
@@ -33,9 +33,9 @@ def error_budget(
     """
     rows = [row for path in scores.values() for row in read_scores(path)]
     parts = columns_of(layout, settings.joints)
-    budgets = {part: cells_of(part, settings.tests, rows, statistics, seed) for part in parts}
+    budgets = {part: cells_of(part, settings.tests, rows, statistics) for part in parts}
     records = [
-        (*run, part.name, ours.runs, metric, *ours.with_ends, ours.unit, None)
+        (*run, part.name, metric, *ours.with_ends, *ours.spread, ours.unit, None)
         for part, cells in budgets.items()
         for (*run, metric), ours in cells.items()
     ]
@@ -45,28 +45,27 @@ def error_budget(
     write_table(table_dir / "error_budget", Table(ERRORS, records, header, lines, left=2))
 
 
-def cells_of(
-    part: Column, tests: Sequence[BudgetRow], scores: Sequence[Score], statistics: Statistics, seed: int
-) -> Cells:
+def cells_of(part: Column, tests: Sequence[BudgetRow], scores: Sequence[Score], statistics: Statistics) -> Cells:
     """Return, test by test, the RMSE [N m] of a joint or a mean and the share [%] of the square that a source makes."""
-    full: list[NDArray[np.float64]] = []
+    full: list[RunGrid] = []
+    gone = Formula(share_left, lambda left: PERCENT * (1.0 - left), positive=True)
     cells = {}
     for test in tests:
         run = test.scenario, test.level, test.methods[0]
         wanted = [Wanted(run[0], limb, *run[1:], joint, METRIC) for limb, joint in part.joints]
         grids = [run_grid(scores, each) for each in wanted]
-        cells[*run, METRIC] = summarise(grids, statistics, seed, mean, part.unit)
+        cells[*run, METRIC] = summarise(grids, statistics, unit=part.unit)
         if full:
-            squares = [grid**2 for grid in (*full, *grids)]
-            cells[*run, GONE] = summarise(squares, statistics, seed, share_gone, "%")
+            squares = [replace(grid, values=grid.values**2) for grid in (*full, *grids)]
+            cells[*run, GONE] = summarise(squares, statistics, gone, "%")
         full = full or grids
     return cells
 
 
-def share_gone(means: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return how much less [%] the last half of squares (2 n, ...) is in sum than the first half, (...)."""
+def share_left(means: Array) -> Array:
+    """Return the sum of the last half of squares (2 n, ...) over that of the first half, (1, ...) [-]."""
     before, after = np.split(means, 2)
-    return PERCENT * (1.0 - after.sum(axis=0) / before.sum(axis=0))
+    return after.sum(axis=0, keepdims=True) / before.sum(axis=0, keepdims=True)
 
 
 def budget_lines(budgets: Mapping[Column, Cells], confidence: float) -> list[Line]:

@@ -54,7 +54,7 @@ class Look:
 
 
 def errors(
-    settings: ErrorTable, name: str, statistics: Statistics, seed: int, layout: JointLayout,
+    settings: ErrorTable, name: str, statistics: Statistics, layout: JointLayout,
     published: PublishedTable | None, scores: Mapping[str, Path], table_dir: Path,
 ) -> None:  # fmt: skip
     """Write a table of errors by test, method and joint [N m], as CSV, TeX and Markdown.
@@ -72,7 +72,7 @@ def errors(
             printed = published_row(published, test.paper, method) if published and test.paper else {}
             own = [score for score in read[test.scenario] if (score.scenario, score.level, score.method) == run]
             numbers = {
-                column: cell_of(column, run, test.metric, own, statistics, seed, printed.get(column.name))
+                column: cell_of(column, run, test.metric, own, statistics, printed.get(column.name))
                 for column in columns
             }
             rows.append(TableRow(test.labels, run, test.metric, numbers))
@@ -83,7 +83,7 @@ def errors(
 def write_error_table(stem: Path, rows: Sequence[TableRow], look: Look) -> None:
     """Write a table of errors; in TeX one that is wider than a page becomes some, one below the other."""
     records = [
-        (*row.run, column.name, ours.runs, "+".join(column.metrics or (row.metric,)), *ours.with_ends, ours.unit,
+        (*row.run, column.name, "+".join(column.metrics or (row.metric,)), *ours.with_ends, *ours.spread, ours.unit,
          ours.published)
         for row in rows for column, ours in row.numbers.items()
     ]  # fmt: skip
@@ -99,7 +99,7 @@ def write_error_table(stem: Path, rows: Sequence[TableRow], look: Look) -> None:
 
 
 def cell_of(
-    column: Column, run: tuple[str, str, str], metric: str, scores: Sequence[Score], statistics: Statistics, seed: int,
+    column: Column, run: tuple[str, str, str], metric: str, scores: Sequence[Score], statistics: Statistics,
     published: float | None,
 ) -> Number:  # fmt: skip
     """Return the number of a column [N m] over the runs of a method in a test; none where a run has too few pushes."""
@@ -107,7 +107,7 @@ def cell_of(
     if held and not held.issuperset(metrics):
         return Number(None, unit=column.unit, published=published)
     wanted = [Wanted(run[0], limb, *run[1:], joint, name) for limb, joint in column.joints for name in metrics]
-    return number_of(scores, wanted, statistics, seed, published=published)
+    return number_of(scores, wanted, statistics, published=published)
 
 
 def header_of(row: TableRow, look: Look) -> list[str]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from mobnet.core.columns import KINDS
 from mobnet.evaluation.measure.trainings import MEASURES, Training, read_trainings, sound
-from mobnet.evaluation.number.intervals import summarise
+from mobnet.evaluation.number.intervals import RunGrid, summarise
 from mobnet.evaluation.number.number import Number, number_text
 from mobnet.evaluation.tables.layout import GAP, RULE, Line, Table, with_intervals, write_table
 from mobnet.settings.evaluation import Figure17, Kinds, Statistics
@@ -25,7 +25,7 @@ Traits = Mapping[str, Number]  # `order`, `parameters`, `runs`, `diverged` or a 
 
 
 def kinds(
-    settings: Kinds, figure_17: Figure17, statistics: Statistics, seed: int, published: PublishedKinds,
+    settings: Kinds, figure_17: Figure17, statistics: Statistics, published: PublishedKinds,
     folders: Sequence[Path], table_dir: Path,
 ) -> None:  # fmt: skip
     """Write kinds.csv, .tex and .md: mean over runs of loss (22) [-] and RMSE [N m], best kind first.
@@ -33,7 +33,7 @@ def kinds(
     Our own variants stand below the kinds of Figure 17, which are the paper's.
     """
     found, papers, variants = read_trainings(folders), figure_17.methods, settings.variants
-    measured = {method: measures_of(found[method], statistics, seed) for method in (*papers, *variants)}
+    measured = {method: measures_of(found[method], statistics) for method in (*papers, *variants)}
     shown = sorted(papers, key=lambda method: _order(measured[method][ORDERED_BY]))
     ranks = {name: k for k, name in enumerate([name for name in shown if name in published.order], start=1)}
     traits = {
@@ -41,7 +41,7 @@ def kinds(
         for method in (*shown, *variants)
     }
     records = [
-        (method, quantity, *number.with_ends, number.unit, number.published)
+        (method, quantity, *number.with_ends, *number.spread, number.unit, number.published)
         for method, own in traits.items() for quantity, number in own.items()
     ]  # fmt: skip
     lines = kind_lines(traits, variants, statistics.confidence)
@@ -49,13 +49,13 @@ def kinds(
     write_table(table_dir / "kinds", Table(KINDS, records, HEADER, lines, LEFT, align))
 
 
-def measures_of(trainings: Sequence[Training], statistics: Statistics, seed: int) -> Traits:
+def measures_of(trainings: Sequence[Training], statistics: Statistics) -> Traits:
     """Return the measures of the trainings that did not diverge [-, N m], without a number if all did."""
     good = sound(trainings)
-    grids = {name: np.array([[measure(run)] for run in good]) for name, (measure, _) in MEASURES.items()}
+    grids = {name: RunGrid(np.array([[measure(run)] for run in good])) for name, (measure, _) in MEASURES.items()}
     if not good:
         return {name: Number(None, unit=unit) for name, (_, unit) in MEASURES.items()}
-    return {name: summarise([grid], statistics, seed, unit=MEASURES[name][1]) for name, grid in grids.items()}
+    return {name: summarise([grid], statistics, unit=MEASURES[name][1]) for name, grid in grids.items()}
 
 
 def _order(loss: Number) -> float:

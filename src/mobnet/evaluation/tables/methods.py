@@ -13,7 +13,7 @@ from mobnet.settings.evaluation import MethodsRow, Statistics
 
 
 def methods(
-    settings: Sequence[MethodsRow], statistics: Statistics, seed: int, scores: Mapping[str, Path], table_dir: Path
+    settings: Sequence[MethodsRow], statistics: Statistics, scores: Mapping[str, Path], table_dir: Path
 ) -> None:
     """Write methods.csv, .tex and .md: RMSE [N m] of every method, a column a joint or a limb's average."""
     errors: dict[Wanted, Number] = {}
@@ -22,9 +22,9 @@ def methods(
         for method in test.methods:
             places = [(limb, joint) for limb, joints in test.columns.items() for joint in joints]
             for wanted in (Wanted(test.scenario, limb, test.level, method, joint) for limb, joint in places):
-                errors[wanted] = number_of(rows, [wanted], statistics, seed)
+                errors[wanted] = number_of(rows, [wanted], statistics)
     records = [
-        (of.scenario, of.level, of.method, of.limb, of.joint, of.metric, ours.runs, *ours.with_ends, ours.unit)
+        (of.scenario, of.level, of.method, of.limb, of.joint, of.metric, *ours.with_ends, *ours.spread, ours.unit)
         for of, ours in errors.items()
     ]
     places = list(dict.fromkeys((of.limb, of.joint) for of in errors))

@@ -1,32 +1,38 @@
-"""What must hold for claims: cells are whole, run and scored, units are those of the cells, bounds fit the numbers."""
+"""What must hold for claims: cells are whole, run and scored, units are those of the cells, bounds and causes fit."""
 
+import re
 from collections.abc import Iterator, Mapping
+from string import Formatter
 from typing import get_args
 
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.checks.results import Results, metric_unit
-from mobnet.settings.claims import Bounds, Cell, Claim, TrainingMetric
+from mobnet.settings.claims import Bounds, Cell, Claim, MadeNumber, TrainingMetric
 from mobnet.settings.reading import Place
 
-RATIOS = ("ratio", "cut", "gap ratio", "least ratio", "falls")  # quantities without a unit
-DIFFER = ("ratio", "cut", "difference", "below", "above", "falls")  # quantities whose cells are all different
+NO_UNIT = ("ratio", "cut", "square cut", "gap ratio", "least ratio", "share")  # quantities without a unit
+DIFFER = ("ratio", "cut", "square cut", "difference", "below", "above", "trend")  # their cells are all different
 POSSIBLE: Mapping[str, Bounds] = {
-    "value": (0.0, None), "ratio": (0.0, None), "cut": (None, 1.0), "gap ratio": (0.0, None),
-    "least ratio": (0.0, None), "falls": (-1.0, 1.0),
+    "value": (0.0, None), "ratio": (0.0, None), "cut": (None, 1.0), "square cut": (None, 1.0), "gap ratio": (0.0, None),
+    "least ratio": (0.0, None), "share": (0.0, 1.0),
 }  # fmt: skip
-UNITS = {"validation RMSE": "N m"}  # of measures of a training that have one
+NUMBERED = ("about", "larger", "little")  # rules that need the paper's number
+TYPED = re.compile(r"(?<![A-Za-z0-9-])\.?\d")  # a number; LL3 and FTS-e2e are names
 Problem = tuple[Place, str]
 
 
 def claim_problems(results: Results) -> Iterator[Problem]:
-    """Yield claims about what is not measured, and bounds that do not fit."""
+    """Yield claims about what is not measured, and bounds and causes that do not fit."""
     for name, claim in results.settings.claims.items():
-        units = set[str]()
-        for index, cell in enumerate(claim.cells):
-            for key, text in _cell_problems(results, cell):
-                yield ("claims", name, "cells", index, *key), text
-            units |= _units(results, cell)
-        for place, text in _number_problems(claim, units):
+        for place, text in _made_problems(results, claim):
+            yield ("claims", name, *place), text
+        for key, number in claim.numbers.items():
+            for place, text in _made_problems(results, number):
+                yield ("claims", name, "numbers", key, *place), text
+        for check in (_unit_problems, _statement_problems, _joint_problems):
+            for place, text in check(results, claim):
+                yield ("claims", name, *place), text
+        for place, text in (*_bound_problems(claim), *_cause_problems(claim)):
             yield ("claims", name, *place), text
 
 
@@ -35,64 +41,136 @@ def metrics_of(cell: Cell) -> tuple[str, ...]:
     return (cell.metric,) if isinstance(cell.metric, str) else cell.metric or ("rmse",)
 
 
+def _joints_of(cell: Cell) -> tuple[str, ...]:
+    """Return the joints and limbs that a cell names."""
+    return (cell.joint,) if isinstance(cell.joint, str) else cell.joint or ()
+
+
+def _is_training(cell: Cell) -> bool:
+    """Return whether a cell is about trainings."""
+    return metrics_of(cell)[0] in get_args(TrainingMetric)
+
+
+def _made_problems(results: Results, made: MadeNumber) -> Iterator[Problem]:
+    """Yield faults of the cells of a number, also against each other."""
+    for index, cell in enumerate(made.cells):
+        yield from ((("cells", index, *key), text) for key, text in _cell_problems(results, cell))
+    units = set[str]().union(*(_units(results, cell) for cell in made.cells))
+    if len(units) > 1:
+        yield ("cells",), misfit(f"cells in {' and '.join(sorted(units))}", "cells in one unit")
+    if made.quantity in DIFFER and len(set(map(repr, made.cells))) < len(made.cells):
+        yield ("cells",), misfit("the same cell twice", f"cells that differ, of {made.quantity!r}")
+    if (made.quantity == "share") != (metrics_of(made.cells[0]) == ("diverged",)):
+        yield ("quantity",), misfit(made.quantity, "'share' for the metric 'diverged', and only for it")
+
+
 def _cell_problems(results: Results, cell: Cell) -> Iterator[Problem]:
     """Yield keys of a cell that are missing, too many, or about runs that do not exist."""
-    metrics = metrics_of(cell)
-    is_training = metrics[0] in get_args(TrainingMetric)
-    wanted = {"method"} if is_training else {"scenario", "level", "method", "joint"}
-    given = {key for key, value in cell if value is not None and key != "metric"}
+    wanted = {"method"} if _is_training(cell) else {"scenario", "level", "method", "joint"}
+    wanted = {"table", "where", "column"} if cell.table else wanted
+    given = {key for key, value in cell if value and key != "metric"}
     if given != wanted:
         yield (
             (),
             misfit(f"a cell with {', '.join(sorted(given)) or 'nothing'}", f"{', '.join(sorted(wanted))}, all of them"),
         )
-    elif is_training:
+    elif cell.table:
+        accepted = results.claimed_tables()
+        if cell.table not in accepted:
+            yield ("table",), not_accepted("table", cell.table, accepted)
+    elif _is_training(cell):
         accepted = results.claimed_trainings()
         if cell.method not in accepted:
             yield ("method",), not_accepted("method of Figure 17 or 20", cell.method, accepted)
     else:
-        scenario, method = str(cell.scenario), str(cell.method)
-        joints = (cell.joint,) if isinstance(cell.joint, str) else cell.joint or ()
-        if text := results.not_run(scenario, str(cell.level), method):
-            yield ("level" if text.startswith("level") else "method",), text
-        elif text := results.not_estimated(method, [one for name in joints for one in results.joints(name)]):
-            yield ("method",), text
-        for metric in metrics:
-            if text := results.not_scored(scenario, metric):
-                yield ("metric",), text
+        yield from _score_problems(results, cell)
+
+
+def _score_problems(results: Results, cell: Cell) -> Iterator[Problem]:
+    """Yield what is wrong with a cell of the scores: a run, joints or metrics that are not there."""
+    scenario, method = str(cell.scenario), str(cell.method)
+    if text := results.not_run(scenario, str(cell.level), method):
+        yield ("level" if text.startswith("level") else "method",), text
+    elif text := results.not_estimated(method, [one for name in _joints_of(cell) for one in results.joints(name)]):
+        yield ("method",), text
+    for metric in metrics_of(cell):
+        if text := results.not_scored(scenario, metric):
+            yield ("metric",), text
 
 
 def _units(results: Results, cell: Cell) -> set[str]:
-    """Return the units of a cell's numbers."""
-    metrics, names = metrics_of(cell), (cell.joint,) if isinstance(cell.joint, str) else cell.joint or ()
-    if metrics[0] in get_args(TrainingMetric):
-        return {UNITS.get(metrics[0], "-")}
-    units = {results.layout.unit(joint) for name in names for joint in results.joints(name)}
-    return {metric_unit(metric, unit) for metric in metrics for unit in units}
+    """Return the units of a cell's numbers; none of a table's."""
+    if cell.table:
+        return set()
+    if _is_training(cell):
+        return {"N m" if metrics_of(cell) == ("validation RMSE",) else "-"}
+    units = {results.layout.unit(joint) for name in _joints_of(cell) for joint in results.joints(name)}
+    return {metric_unit(metric, unit) for metric in metrics_of(cell) for unit in units}
 
 
-def _number_problems(claim: Claim, units: set[str]) -> Iterator[Problem]:
-    """Yield a unit that is not that of the cells, and numbers that do not lie inside each other."""
-    if len(units) > 1:
-        yield ("cells",), misfit(f"cells in {' and '.join(sorted(units))}", "cells in one unit")
-    unit = "-" if claim.quantity in RATIOS else next(iter(units), claim.unit)
+def _unit_problems(results: Results, claim: Claim) -> Iterator[Problem]:
+    """Yield a unit that is not that of the cells."""
+    units = set[str]().union(*(_units(results, cell) for cell in claim.cells))
+    unit = "-" if claim.quantity in NO_UNIT else next(iter(units), claim.unit)
     if claim.unit != unit:
         yield ("unit",), misfit(repr(claim.unit), repr(unit))
+
+
+def _statement_problems(results: Results, claim: Claim) -> Iterator[Problem]:
+    """Yield a statement that is not named after a claim that begins it."""
+    first = results.settings.claims.get(claim.statement or "")
+    if claim.statement and (first is None or first.statement):
+        accepted = [name for name, other in results.settings.claims.items() if not other.statement]
+        yield ("statement",), not_accepted("claim that begins a statement", claim.statement, accepted)
+
+
+def _joint_problems(results: Results, claim: Claim) -> Iterator[Problem]:
+    """Yield joints of a claim that its cells do not have, and numbers of joints where there is none of all."""
+    for index, cell in enumerate(claim.cells if claim.by_joint else ()):
+        held = [joint for name in _joints_of(cell) for joint in results.joints(name)]
+        for joint in claim.by_joint:
+            if joint not in held:
+                yield ("by_joint", joint), not_accepted(f"joint of cell {index + 1}", joint, held)
+    if claim.by_joint and claim.published is None:
+        yield ("published",), misfit(claim.published, "the paper's number, where it prints those of joints")
+
+
+def _bound_problems(claim: Claim) -> Iterator[Problem]:
+    """Yield bounds that no number can meet, that leave out the paper's number, or that do not lie in each other."""
     possible = POSSIBLE.get(claim.quantity, (None, None))
-    for key in ("reproduced", "direction"):
-        for index, end in enumerate(getattr(claim, key)):
+    for key in ("bar", "side"):
+        for index, end in enumerate(getattr(claim, key) or ()):
             if end is not None and not _inside((end, end), possible):
                 low, high = ("any" if bound is None else bound for bound in possible)
                 yield (key, index), misfit(end, f"{low} to {high}, the numbers that {claim.quantity!r} can be")
-    if claim.quantity in DIFFER and len(set(map(repr, claim.cells))) < len(claim.cells):
-        yield ("cells",), misfit("the same cell twice", f"cells that differ, of {claim.quantity!r}")
-    if claim.published is not None and not _inside((claim.published, claim.published), claim.reproduced):
-        yield (
-            ("reproduced",),
-            misfit(list(claim.reproduced), f"a range with the paper's number, {claim.published}"),
-        )
-    if not _inside(claim.reproduced, claim.direction):
-        yield ("direction",), misfit(list(claim.direction), f"a range around reproduced, {list(claim.reproduced)}")
+    printed = claim.published
+    for key in ("bar", "side"):
+        bounds = getattr(claim, key)
+        if printed is not None and bounds and not _inside((printed, printed), bounds):
+            yield (key,), misfit(list(bounds), f"a range with the paper's number, {printed}")
+    if claim.bar and claim.side and claim.rule == "sign" and not _inside(claim.bar, claim.side):
+        yield ("side",), misfit(list(claim.side), f"a range around bar, {list(claim.bar)}")
+    if printed is None and claim.rule in NUMBERED:
+        yield ("rule",), misfit(claim.rule, "'sign' or 'similar' where the paper prints no number")
+    if claim.rule == "sign" and (claim.bar is None or printed is not None):
+        yield ("rule",), misfit(claim.rule, "'sign' with a bar and without a number of the paper")
+
+
+def _cause_problems(claim: Claim) -> Iterator[Problem]:
+    """Yield numbers that are typed in a cause, and names in its braces that are not those of its numbers."""
+    try:
+        parts = [*Formatter().parse(claim.cause)]
+        for _, name, form, _ in parts:
+            format(0.5, form or "") if name is not None else None
+    except ValueError as error:
+        yield ("cause",), misfit(claim.cause, f"a text in which names of numbers stand in braces ({error})")
+        return
+    named = {name for _, name, _, _ in parts if name is not None}
+    if named != claim.numbers.keys():
+        yield ("cause",), not_accepted("names in braces", sorted(named), [f"those of numbers, {sorted(claim.numbers)}"])
+    typed = [text for text, *_ in parts if TYPED.search(text)]
+    if typed:
+        yield ("cause",), misfit(typed[0].strip(), "a text without numbers: each is one of numbers, in braces")
 
 
 def _inside(inner: Bounds, outer: Bounds) -> bool:

@@ -12,6 +12,7 @@ from mobnet.settings.evaluation import Mean
 from mobnet.settings.names import uses
 from mobnet.settings.settings import Settings, swept_name
 
+TABLES = ("calibration", "coverage", "error_budget", "kinds", "methods", "latency")  # that are no entry of `tables`
 PUSHED, PUSH = "rmse_pushed", "rmse_push_"  # metrics of windows around pushes
 ASKED = {  # section -> metrics that are measured on its tests alone
     "peaks": r"(peak_ratio|rise_delay).*",
@@ -113,13 +114,17 @@ class Results:
         return [name for name, method in self.settings.all_methods.items() if limb in method.limbs]
 
     def claimed_trainings(self) -> list[str]:
-        """Return the methods whose trainings claims may ask about: those of Figures 17 and 20."""
+        """Return the methods whose trainings claims may ask about: those of Figures 17 and 20, and their variants."""
         evaluation, sweeps = self.settings.evaluation, self.settings.sweeps
         keys = (evaluation.figure_20.parameters, evaluation.figure_20.samples)
         swept = [
             swept_name(base, key, value) for key in keys for base in sweeps[key].of for value in sweeps[key].values
         ]
-        return [*evaluation.figure_17.methods, *swept]
+        return [*evaluation.figure_17.methods, *evaluation.kinds.variants, *swept]
+
+    def claimed_tables(self) -> list[str]:
+        """Return the tables whose fields claims may name."""
+        return [*self.settings.evaluation.tables, *TABLES]
 
     def pushed_joints(self, scenario: str) -> list[str]:
         """Return the joints that the pushes of a scenario turn: the one that is driven, or all above a point."""

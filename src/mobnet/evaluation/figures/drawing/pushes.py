@@ -50,7 +50,7 @@ class PushGroup:
 def save_pushes(groups: Sequence[PushGroup], joint: str, stem: Path) -> None:
     """Write curves and errors [N m] as CSV, and the figure."""
     rows = [
-        (group.scenario, method, push, error.runs, *error.with_ends, error.published)
+        (group.scenario, method, push, *error.with_ends, *error.spread, error.published)
         for group in groups for method, own in group.errors.items() for push, error in own.items()
     ]  # fmt: skip
     across, note_deg = (1, 0) if len(groups) == 1 else (2, 90)

@@ -1,0 +1,37 @@
+"""Intervals where each of several numbers has a single run, where runs only succeed or fail, and without a law."""
+
+from collections.abc import Sequence
+from typing import Any, cast
+
+import numpy as np
+from scipy.stats import binomtest, linregress  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
+
+from mobnet.evaluation.number.intervals import Array, RunGrid, quantile_of
+from mobnet.evaluation.number.number import Number
+from mobnet.settings.evaluation import Statistics
+
+
+def trend(grids: Sequence[RunGrid], statistics: Statistics, unit: str = "-") -> Number:
+    """Return the slope of the means of K grids over their order [unit], with the interval of a least-squares line.
+
+    It needs a single run of each: how the means scatter around the line stands for all that varies.
+    """
+    line = cast("Any", linregress(np.arange(len(grids)), [grid.mean for grid in grids]))
+    value, reach = float(line.slope), quantile_of(len(grids) - 2, statistics.confidence) * float(line.stderr)
+    networks = tuple(len(grid.values) for grid in grids)
+    return Number(value, value - reach, value + reach, unit=unit, networks=networks, walks=(1,))
+
+
+def share(grids: Sequence[RunGrid], statistics: Statistics, unit: str = "-") -> Number:
+    """Return the share of the runs of a grid that are 1 and not 0 [-], with Wilson's interval (1927)."""
+    (grid,) = grids
+    networks, walks = grid.values.shape
+    found = cast("Any", binomtest(round(float(grid.values.sum())), networks * walks))
+    ends = found.proportion_ci(statistics.confidence, method="wilson")
+    return Number(grid.mean, float(ends.low), float(ends.high), unit=unit, networks=(networks,), walks=(walks,))
+
+
+def extremes(values: Array) -> list[Number]:
+    """Return n numbers, each the mean of some runs with the lowest and the highest one, of values (runs, n)."""
+    ends = np.stack([values.mean(axis=0), values.min(axis=0), values.max(axis=0)], axis=1)
+    return [Number(mean, low, high, networks=(len(values),), walks=(1,)) for mean, low, high in ends.tolist()]

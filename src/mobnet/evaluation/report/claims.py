@@ -1,0 +1,34 @@
+"""Table and figure of the claims: made together, because they are judged together."""
+
+import logging
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from mobnet.core.joints import JointLayout
+from mobnet.evaluation.figures.claims import forest
+from mobnet.evaluation.measure.claims import judge, rows_of
+from mobnet.evaluation.measure.results import read_results
+from mobnet.evaluation.tables.claims import claim_table
+from mobnet.settings.claims import Claim
+from mobnet.settings.evaluation import Statistics
+from mobnet.settings.methods import Method
+
+log = logging.getLogger(__name__)
+
+
+def claims(
+    claims: Mapping[str, Claim], statistics: Statistics, methods: Mapping[str, Method], layout: JointLayout,
+    scores: Mapping[str, Path], folders: Sequence[Path], tables: Mapping[str, Path], table_dir: Path, figure_dir: Path,
+) -> None:  # fmt: skip
+    """Judge every claim; write claims.csv, .tex and .md and the figure. A claim that fails is a result, not an error.
+
+    Raises:
+        ConfigError: a cell of a claim is not well formed.
+        DataError: a run that a claim needs is missing.
+    """
+    results = read_results(layout, scores.values(), folders, tables)
+    judged = [judge(row, results, statistics, methods) for row in rows_of(claims)]
+    claim_table(judged, statistics.confidence, table_dir)
+    forest(judged, statistics.confidence, figure_dir)
+    for each in judged:
+        log.info("%s: %s, %s %s", each.row.name, each.verdict, *each.ours.texts())
