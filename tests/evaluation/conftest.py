@@ -203,7 +203,7 @@ def cells_of(claims: list[Claim]) -> list[Cell]:
 
 def claimed_scores(layout: JointLayout, claims: list[Claim], means: dict[str, float], pushes: bool) -> list[Score]:
     """Return the scores that claims name, and the plain error: 0.01 where all is ideal, else a method's mean [N m]."""
-    networks = {"MOB": 1, "MOB-fric": 1, "MOB-fric-load": 1, "MOB-Net-Single": 2}
+    networks = {"MOB": 1, "MOB-fric": 1, "MOB-fric-load": 1, "MOB-Net-Single": 2, "zero": 1}
     rows = {}
     for cell in (cell for cell in cells_of(claims) if cell.joint):
         metrics = {"rmse", *listed(cell.metric or "rmse")}

@@ -118,7 +118,7 @@ CLAIMS = (
     "claim", "statement", "score", "printed", "says", "published", "value", "low", "high", *SPREAD, "unit",
     "from", "to", "side_from", "side_to", "verdict", "cause",
 )  # fmt: skip
-CLAIMED = ("score", "verdict", "statements", "claims")
+CLAIMED = ("score", "outcome", "statements", "claims")  # `outcome`: a verdict, or all of them
 VERDICTS = ("not reproduced", "inconclusive", "direction", "reproduced", "not measured")  # of a claim, also in order of
 # how they are shown: what counts against us first
 OBSERVER, LEARNED, SIGN_ONLY = SCORED = ("observer", "learned", "sign only")  # values of `score` of a claim

@@ -123,6 +123,7 @@ class Products:
             "train": self.files.training_size("walk"),
             "table_csvs": csvs,
             "claims_csv": tables / "claims.csv",
+            "summary_csv": tables / "claims_summary.csv",
         }
         yield self._report_product("numbers", numbers, [tables / "numbers.tex"])
         yield self._report_product("deviations", {"markdown": Path("docs/deviations.md")}, [tables / "deviations.tex"])

@@ -117,7 +117,7 @@ class Files:
 
     def repeated(self, method: str, seed: int) -> tuple[str, ...]:
         """Return the limbs, groups of joints, whose network served an earlier seed of a method already."""
-        source, seeds = self.settings.source_of(method), self.network_seeds(method)
+        source, seeds = self.settings.network_source_of(method), self.network_seeds(method)
         earlier, networks = seeds[: seeds.index(seed)], self.settings.robot.networks
         return tuple(
             group

@@ -11,6 +11,7 @@ import pytest
 from made_notes import training_note
 
 from mobnet.core.columns import VERDICTS
+from mobnet.evaluation.tables.claims_summary import claims_summary
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
@@ -46,6 +47,13 @@ def claims_csv(tmp_path: Path, settings: Settings) -> Path:
         writer = csv.DictWriter(file, next(csv.reader(golden)), extrasaction="ignore")
         writer.writeheader()
         for (name, claim), verdict in zip(settings.claims.items(), cycle(VERDICTS), strict=False):
-            made = {"value": 1.0, "low": 0.9, "high": 1.1, "seed_count": 6, "differs": "yes", "rule": "> 0"}
-            writer.writerow({**vars(claim), **made, "claim": name, "verdict": verdict})
+            made = {"value": 1.0, "low": 0.9, "high": 1.1, "networks": 3, "walks": 2, "score": "learned"}
+            writer.writerow({**vars(claim), **made, "claim": name, "statement": name, "verdict": verdict})
     return tmp_path / "claims.csv"
+
+
+@pytest.fixture
+def summary_csv(tmp_path: Path, claims_csv: Path) -> Path:
+    """How many of those claims have each verdict."""
+    claims_summary(claims_csv, tmp_path)
+    return tmp_path / "claims_summary.csv"

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from mobnet.core.columns import VERDICTS
 from mobnet.evaluation.report.numbers import numbers, size_texts
 from mobnet.settings.data import Recordings
 from mobnet.settings.settings import Settings
@@ -17,21 +18,22 @@ ASKED = {  # command of the paper's text -> name of its number
     "ours": "ours@forward_walk@{}@{}@{}@rmse",
     "published": "published@forward_walk@{}@{}@{}@rmse",
     "foundspan": "span@{}",
+    "scored": "scored@{}@{}",
     **{name: f"{name}@{{}}" for name in ("claimed", "found", "verdict", "cause", "size")},
 }
 
 
-def defined(table: Path, claims_csv: Path, settings: Settings) -> dict[str, str]:
+def defined(table: Path, claims_csv: Path, summary_csv: Path, settings: Settings) -> dict[str, str]:
     """Return name -> text of the numbers of a table and of claims."""
     out = claims_csv.with_name("numbers.tex")
-    numbers(settings.scale, settings.rates, settings.sizes, TRAIN, [table], claims_csv, out)
+    numbers(settings.scale, settings.rates, settings.sizes, TRAIN, [table], claims_csv, summary_csv, out)
     return dict(re.findall(r"\\csname ([^\\]+)\\endcsname\{(.*)\}\n", out.read_text()))
 
 
 @pytest.fixture
-def texts(claims_csv: Path, settings: Settings) -> dict[str, str]:
+def texts(claims_csv: Path, summary_csv: Path, settings: Settings) -> dict[str, str]:
     """Name -> text of the numbers of the golden Table 5 and of made-up claims."""
-    return defined(TABLE_05, claims_csv, settings)
+    return defined(TABLE_05, claims_csv, summary_csv, settings)
 
 
 def test_every_cell_and_claim_has_its_number(texts: dict[str, str], claims_csv: Path) -> None:
@@ -44,18 +46,20 @@ def test_every_cell_and_claim_has_its_number(texts: dict[str, str], claims_csv: 
         assert f"cause@{claim['claim']}" in texts
 
 
-def test_a_mean_over_metrics_has_a_short_name_and_a_missing_number_a_dash(claims_csv: Path, settings: Settings) -> None:
+def test_a_mean_over_metrics_has_a_short_name_and_a_missing_number_a_dash(
+    claims_csv: Path, summary_csv: Path, settings: Settings
+) -> None:
     table = claims_csv.with_name("knee.csv")
     header = TABLE_05.read_text().splitlines()[0]
-    table.write_text(f"{header}\nknee,all,MOB,avg,0,rmse_push_1+rmse_push_2,,,,N m,3.5\n")
-    texts = defined(table, claims_csv, settings)
+    table.write_text(f"{header}\nknee,all,MOB,avg,rmse_push_1+rmse_push_2,,,,1,1,,,N m,3.5\n")
+    texts = defined(table, claims_csv, summary_csv, settings)
     assert (texts["ours@knee@all@MOB@avg@mean"], texts["published@knee@all@MOB@avg@mean"]) == ("-", "3.50")
 
 
 def test_verdicts_add_up(texts: dict[str, str], settings: Settings) -> None:
-    counts = [int(texts[f"size@{name}"]) for name in ("reproduced", "direction only", "not reproduced", "not measured")]
+    counts = [int(texts[f"scored@all@{name}"]) for name in VERDICTS]
     assert min(counts) > 0
-    assert sum(counts) == int(texts["size@claims"]) == len(settings.claims)
+    assert sum(counts) == int(texts["scored@all@all"]) == len(settings.claims)
 
 
 def test_every_number_the_paper_asks_for_exists(texts: dict[str, str]) -> None:

@@ -13,12 +13,12 @@ Made = Callable[..., dict[tuple[str, str], tuple[float, float]]]
 
 @pytest.fixture
 def made(make_table: Callable[..., Path], tmp_path: Path) -> Made:
-    """Write the summary of claims (statement, score, verdict): made(*claims) -> score, verdict -> statements, claims."""
+    """Write the summary of claims (statement, score, verdict): made(*claims) -> counts."""
 
     def write(*claims: tuple[str, str, str]) -> dict[tuple[str, str], tuple[float, float]]:
         write_csv(tmp_path / "all.csv", ["statement", "score", "verdict"], claims)
         rows = read_table(make_table("claims_summary", claims_csv=tmp_path / "all.csv"))
-        return {(row.score, row.verdict): (row.statements, row.claims) for row in rows}
+        return {(row.score, row.outcome): (row.statements, row.claims) for row in rows}
 
     return write
 

@@ -3,9 +3,9 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from mobnet.core.columns import VERDICTS
+from mobnet.core.columns import CLAIMED
 from mobnet.core.files import write_text
-from mobnet.evaluation.number.files import read_numbers
+from mobnet.evaluation.number.files import read_numbers, read_texts
 from mobnet.evaluation.number.number import Number, number_text
 from mobnet.evaluation.tables.layout import tex_escape
 from mobnet.settings.data import Recordings
@@ -23,6 +23,7 @@ LOOKUP = r"""% Written by mobnet.evaluation.report.numbers; do not edit.
 \newcommand{\foundspan}[1]{\lookup{span@#1}}
 \newcommand{\verdict}[1]{\lookup{verdict@#1}}
 \newcommand{\cause}[1]{\lookup{cause@#1}}
+\newcommand{\scored}[2]{\lookup{scored@#1@#2}}
 \newcommand{\size}[1]{\lookup{size@#1}}
 """
 MINUTE_S = 60.0
@@ -30,25 +31,31 @@ MILLION = 1e6
 
 
 def numbers(
-    scale: str, rates: Rates, sizes: Scale, train: Recordings, table_csvs: Sequence[Path], claims_csv: Path, out: Path
+    scale: str,
+    rates: Rates,
+    sizes: Scale,
+    train: Recordings,
+    table_csvs: Sequence[Path],
+    claims_csv: Path,
+    summary_csv: Path,
+    out: Path,
 ) -> None:
     r"""Write the macros that the paper's text uses, a TeX file to \input before it.
 
     \ourcell{scenario}{level}{method}{joint}{metric} and \publishedcell give a cell of any table (metric: `mean` if it
     is the mean of some), \ours{level}{method}{joint} and \published a cell of Table 5. \claimed{claim} gives the
     paper's number of a claim, \found and \foundspan ours and its interval, \verdict and \cause the judgement.
-    \size{name} gives sizes of the scale and how many claims have each verdict. `train` has the recordings of random
-    walking that networks learn from.
+    \scored{score}{verdict} gives how many statements of a score have a verdict, \size{name} gives sizes of the scale.
+    `train` has the recordings of random walking that networks learn from.
     """
     values = {f"size@{name}": text for name, text in size_texts(scale, rates, sizes, train).items()}
     for path in table_csvs:
         for of, number in read_numbers(path):
             values |= cell_texts(of, number)
-    verdicts = read_numbers(claims_csv)
-    for of, number in verdicts:
+    for of, number in read_numbers(claims_csv):
         values |= claim_texts(of, number)
-    values |= {f"size@{kind}": str(sum(of["verdict"] == kind for of, _ in verdicts)) for kind in VERDICTS}
-    values["size@claims"] = str(len(verdicts))
+    for row in read_texts(summary_csv, CLAIMED):
+        values[f"scored@{row['score']}@{row['outcome']}"] = row["statements"]
     write_text(out, LOOKUP + "".join(map(tex_definition, values.items())))
 
 

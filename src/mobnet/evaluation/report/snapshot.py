@@ -29,10 +29,11 @@ RESULTS, MANIFEST = Path("results/default"), Path("results/MANIFEST.sha256")
 COMPUTE = RESULTS / "compute.md"
 DRAWN = "figures"  # folder of the snapshot with the CSVs of figures, compressed
 NOTED = ("recordings", "motions", "networks")  # folders of results whose notes name the commit that made them
-README, HEADLINE = Path("README.md"), "table_05"
+README, HEADLINES = Path("README.md"), ("table_05", "claims_summary")  # tables that the README shows
 KEYS = (  # columns that name a row; the others are results
     "scenario", "level", "method", "joint", "metric", "claim",
     "set", "quantity", "part", "command", "bin_from", "measure", "limb", "test", "pushed", "share", "unit",
+    "score", "outcome",
 )  # fmt: skip
 Rows = dict[tuple[str, ...], dict[str, str]]
 
@@ -85,9 +86,9 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Pat
     log.info("%s: %d files", out, len(found))
 
 
-def with_headline(text: str, table: str) -> str:
+def with_headline(text: str, name: str, table: str) -> str:
     """Return a page with the headline table between its marks, which it must have."""
-    first, last = f"<!-- {HEADLINE} -->\n", f"<!-- /{HEADLINE} -->"
+    first, last = f"<!-- {name} -->\n", f"<!-- /{name} -->"
     if first not in text or last not in text:
         raise DataError(f"{README}: the marks {first.strip()!r} and {last!r} are missing")
     return text[: text.index(first)] + first + table.strip() + "\n" + text[text.index(last) :]
@@ -155,8 +156,10 @@ def main(words: list[str]) -> int:
             settings = load_settings()
             check_run(RESULTS, options.manifest, settings.evaluation.compute.pause_s)
             write_snapshot(settings, TABLES, FIGURES, COMPUTE, SNAPSHOT)
-            table = read_text(SNAPSHOT / f"{HEADLINE}.md")
-            write_text(README, with_headline(read_text(README), table))
+            page = read_text(README)
+            for name in HEADLINES:
+                page = with_headline(page, name, read_text(SNAPSHOT / f"{name}.md"))
+            write_text(README, page)
             return 0
         compares = options.command == "compare"
         found = compare_snapshot(SNAPSHOT, TABLES, FIGURES) if compares else differences(options.manifest)
