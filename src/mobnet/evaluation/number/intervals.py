@@ -6,8 +6,8 @@ apart because networks of different methods have nothing in common, and that of 
 methods together because they share the walks. The sum has the rest twice and so is rather too large than too small.
 
 An interval reaches sqrt(sum t^2 s^2 / n) to each side, where each variance s^2 over n has a quantile t of its own of
-Student's law with n - 1 degrees of freedom. With normal effects it covers what it prints at least (Banerjee 1960, Sankhya 22).
-Errors, which are positive, and their ratios have it on a log scale.
+Student's law with n - 1 degrees of freedom. With normal effects it covers what it prints or more (Banerjee 1960,
+Sankhya 22). Errors, which are positive, and their ratios have it on a log scale.
 """
 
 import functools
