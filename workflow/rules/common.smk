@@ -55,7 +55,7 @@ onstart:
 wildcard_constraints:
     scenario="|".join(SETTINGS.scenarios),
     level="|".join(SETTINGS.levels),
-    method="|".join(SETTINGS.all_methods),
+    method="|".join([*SETTINGS.all_methods, *SETTINGS.tried]),
     limb="|".join(SETTINGS.networks),
     motion="|".join(SETTINGS.motions),
     seed=r"\d+",

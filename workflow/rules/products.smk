@@ -1,4 +1,5 @@
-# Scores of all runs of a test; then every table, figure and text of the plan, each by a rule of its own name.
+# Scores of all runs of a test; then every table, figure and text of the plan, each by a rule of its own name, and the
+# trials, which `all` does not ask for.
 
 
 rule score:
@@ -19,7 +20,7 @@ rule score:
         "../scripts/call.py"
 
 
-for product in PLAN.products:
+for product in (*PLAN.products, *PLAN.trials):
 
     rule:
         name:

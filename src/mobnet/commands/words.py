@@ -15,6 +15,8 @@ COMMANDS = {
     "test": "run pytest, lint, format, types and the smoke run included; further words go to pytest",
     "verify": "check every result file against results/MANIFEST.sha256, or --manifest FILE",
     "check": "check recordings, weights and configurations from outside: ./reproduce check FILE...",
+    "tuning": "train what configs/trials.yaml has methods try, and write docs/trials/tuning.md; no part of all",
+    "lengths": "train networks for longer and longer, and write docs/trials/lengths.md; no part of all",
     "report": "make everything, then report.html: every table and figure with its caption, in one file",
     "compare": "print what differs between docs/results and the fresh tables",
     "snapshot": "store the fresh tables and figures as docs/results",
@@ -27,6 +29,7 @@ EXAMPLES = """
   ./reproduce all --config scale=smoke   the same line in minutes
   ./reproduce tables/table_05.tex        make one file and what it needs; tables/smoke/table_05.tex at that scale"""
 OWN = {"clean", "setup"}  # commands with options of their own
+TARGETS = {"all": "all", "report": "all", "tuning": "tuning", "lengths": "lengths"}  # command -> rule of the workflow
 HELP = {"-h", "--help"}
 CONFIG = {"-C", "--config"}
 
@@ -55,7 +58,7 @@ def parse(words: Sequence[str]) -> Words:
         return Words(first, options.parse_args(words[1:]), [])
     if HELP & set(words[1:]):
         options.parse_args(["--help"])
-    extra = ["all", *in_order(words[1:])] if first in ("all", "report") else list(words[1:])
+    extra = [TARGETS[first], *in_order(words[1:])] if first in TARGETS else list(words[1:])
     return Words(first, argparse.Namespace(), extra)
 
 

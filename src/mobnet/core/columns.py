@@ -105,7 +105,29 @@ class Epoch:
     gradient_norm: float
 
 
-SCORES, EPOCHS = (tuple(field.name for field in fields(kind)) for kind in (Score, Epoch))
+@dataclass(frozen=True)
+class TrialError:
+    """The error of a variant of a method on the development walks: a row of a table of trials.
+
+    `tried` says what is changed, `steps` how many time steps its network has learned from, `state` whether that
+    diverged. `joint` is a joint of the limb, or `avg`; `rmse_nm` is the mean over so many walks [N m], `std_nm` their
+    standard deviation. `best` marks the variant of its method with the smallest mean error.
+    """
+
+    method: str
+    tried: str
+    network_seed: int
+    steps: int | None
+    state: str
+    validation_loss: float | None
+    joint: str
+    rmse_nm: float
+    std_nm: float | None
+    walks: int
+    best: int
+
+
+SCORES, EPOCHS, TRIALS = (tuple(field.name for field in fields(kind)) for kind in (Score, Epoch, TrialError))
 
 # Tables. `value`, `low`, `high`: a number and its interval; SPREAD: how many networks and walks it is made of, and its
 # standard deviations over them; `runs`: how many runs; `published`: the paper's number. An empty field: there is none.

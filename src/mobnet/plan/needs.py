@@ -137,4 +137,5 @@ NEEDS: Mapping[str, Callable[[Files], Needs]] = {  # products that need somethin
     "figure_10": _figure_10,
     "figure_19": _coverage,
     "figure_20": lambda files: {"sizes_of_networks": files.swept_sizes()},
+    "learning_curve": lambda files: {"kept": Path(files.settings.evaluation.learning_curve.data)},
 }

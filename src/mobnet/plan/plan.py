@@ -7,12 +7,16 @@ from mobnet.plan.jobs import Jobs
 from mobnet.plan.places import MAIN
 from mobnet.plan.products import Folders, Product, Products
 from mobnet.plan.runs import Files
+from mobnet.plan.trials import trial_products
 from mobnet.settings.settings import Settings
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What the workflow makes at the chosen scale: products, each after those that it needs, and all that is stored."""
+    """What the workflow makes at the chosen scale: products, each after those that it needs, and all that is stored.
+
+    The trials are products that are made on their own.
+    """
 
     settings: Settings
     folders: Folders
@@ -20,6 +24,7 @@ class Plan:
     jobs: Jobs
     products: tuple[Product, ...]
     stored: tuple[str, ...]
+    trials: tuple[Product, ...]
 
 
 def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
@@ -30,4 +35,5 @@ def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
     folders = Folders(results, Path("tables") / part, Path("figures") / part, paper, manifest / "MANIFEST.sha256")
     files = Files(settings, results)
     products = Products(settings, files, folders, with_pdf)
-    return Plan(settings, folders, files, Jobs(settings, files), tuple(products.all()), tuple(products.stored))
+    made, trials = tuple(products.all()), tuple(trial_products(settings, files))
+    return Plan(settings, folders, files, Jobs(settings, files), made, tuple(products.stored), trials)

@@ -69,8 +69,9 @@ class Products:
 
     @property
     def figure_names(self) -> list[str]:
-        """Names of all figures."""
-        return _made_in("figures")
+        """Names of all figures; one that shows data of the project is left out where these are not there yet."""
+        kept = {"learning_curve": Path(self.settings.evaluation.learning_curve.data)}
+        return [name for name in _made_in("figures") if name not in kept or kept[name].is_file()]
 
     def all(self) -> list[Product]:
         """Return every product, each after those that it needs."""

@@ -1,6 +1,6 @@
 """The runs of an estimator, and the files of recordings, residuals, estimates and networks at one scale."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
 from typing import cast
@@ -8,6 +8,7 @@ from typing import cast
 from mobnet.core.files import METRICS, RUN
 from mobnet.settings.data import Recordings
 from mobnet.settings.evaluation import Runs
+from mobnet.settings.methods import Method
 from mobnet.settings.settings import Settings, swept_name
 
 # Recordings and motions count from these seeds. Tests are sealed: nobody has walked their seeds before the results are
@@ -36,6 +37,22 @@ class Run:
     residual: Path
     estimate: Path
     repeated: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Tried:
+    """A variant of the `base` method with its networks or its fit: what is changed, key -> value.
+
+    `methods` has the variant and the method that it runs on, if there is one; `networks` are the folders by limb.
+    """
+
+    base: str
+    name: str
+    changes: Mapping[str, object]
+    methods: Mapping[str, Method]
+    networks: Mapping[str, Path]
+    fitted: Path | None
+    network_seed: int
 
 
 @dataclass(frozen=True)

@@ -191,6 +191,13 @@ class MethodsRow(Runs):
     columns: Annotated[dict[base.LimbName, base.Distinct[base.Text]], Field(min_length=1)]
 
 
+class LearningCurve(Section):
+    """Error over the length of the training: a table of trials that is kept, and the joint shown, or `avg`."""
+
+    data: base.Text
+    joint: base.Text
+
+
 class CoverageTest(Section):
     """A test that the training data are compared with; `pushed`: only samples around pushes that turn this joint."""
 
@@ -359,6 +366,7 @@ class Evaluation(Section):
     methods: base.Some[MethodsRow]
     figure_19: Figure19
     figure_20: Figure20
+    learning_curve: LearningCurve
     coverage: Coverage
     calibration: Calibration
     peaks: Peaks

@@ -37,6 +37,7 @@ from mobnet.settings.plant import Level, Plant, Rates
 from mobnet.settings.published import Published
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.scales import Experiment, Scale
+from mobnet.settings.trials import Trials, of_lengths, tuned
 from mobnet.settings.walking import Walking
 
 
@@ -63,6 +64,7 @@ class Settings(Section):
     methods: Annotated[dict[RowName, Method], Field(min_length=1)]
     sweeps: dict[Annotated[str, Field(pattern="^[a-z_]+$")], Sweep]
     development: Development
+    trials: Trials
     tests: dict[ScenarioName, Annotated[dict[LevelName, MethodNames], Field(min_length=1)]]
     evaluation: Evaluation
     scales: Annotated[dict[LowerName, Scale], Field(min_length=1)]
@@ -102,11 +104,19 @@ class Settings(Section):
         }
         return names.get(method)
 
+    @cached_property
+    def tried(self) -> dict[str, Method]:
+        """The methods of the trials, which no table shows."""
+        trials = [*tuned(self.trials, self.methods), *of_lengths(self.trials, self.methods)]
+        return {trial.name: trial.method for trial in trials}
+
     def method(self, name: str) -> Method:
-        """Return a method; a ConfigError names an unknown one."""
-        if name not in self.all_methods:
+        """Return a method, one of the trials too; a ConfigError names an unknown one."""
+        if name in self.all_methods:
+            return self.all_methods[name]
+        if name not in self.tried:
             raise ConfigError(not_accepted("method", name, self.all_methods))
-        return self.all_methods[name]
+        return self.tried[name]
 
     def source_of(self, method: str) -> str:
         """Return the method whose fit a method runs on: the one that `of` names, or itself."""

@@ -37,9 +37,13 @@ class NotedNetwork(Note):
 
 
 class NotedSettings(Note):
-    """Settings of a training; `epochs` is how many there are if it does not diverge."""
+    """Settings of a training; `epochs` is how many there are if it does not diverge.
+
+    An epoch has all samples of the training, or `epoch_samples`.
+    """
 
     epochs: Count
+    epoch_samples: Count | None = None
     network: NotedNetwork
 
 
@@ -102,9 +106,10 @@ class TrainingNote(Note):
 class Training:
     """One trained network, with its parameters (column `Network Size` of Table 1).
 
-    The samples are those learned from, without those held out. A training that diverged was stopped as its loss grew;
-    its epochs end there. The validation loss (22) on windows is that of the epoch kept where the network runs through a
-    window from a zero state for every sample; all other losses are of a state that is carried on.
+    The samples are those learned from, without those held out; an epoch has `epoch_samples` of them. A training that
+    diverged was stopped as its loss grew; its epochs end there. The validation loss (22) on windows is that of the
+    epoch kept where the network runs through a window from a zero state for every sample; all other losses are of a
+    state that is carried on.
     """
 
     method: str
@@ -114,7 +119,13 @@ class Training:
     diverged: bool
     windows_loss: float
     chosen_by: str
+    epoch_samples: int
     epochs: tuple[Epoch, ...]
+
+    @property
+    def steps(self) -> int:
+        """Number of time steps that the network has seen in training."""
+        return len(self.epochs) * self.epoch_samples
 
     @property
     def last(self) -> Epoch:
@@ -136,15 +147,9 @@ def read_training(folder: Path) -> Training:
     note, epochs = read_training_note(folder), read_epochs(folder / METRICS)
     refuse(folder / METRICS, _disagreements(note, epochs))
     return Training(
-        note.method,
-        note.seed,
-        note.parameters,
-        note.samples,
-        note.diverged,
-        note.on_windows.loss,
-        note.chosen_by,
-        epochs,
-    )
+        note.method, note.seed, note.parameters, note.samples, note.diverged, note.on_windows.loss, note.chosen_by,
+        note.settings.epoch_samples or note.samples, epochs,
+    )  # fmt: skip
 
 
 def read_training_note(folder: Path) -> TrainingNote:

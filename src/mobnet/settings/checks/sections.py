@@ -52,15 +52,22 @@ def _changed_uses(settings: Settings) -> Iterator[Use]:
 
 def refused_changes(settings: Settings) -> Iterator[Refused]:
     """Yield every change by a method that is not accepted: place, section, what is given of it, and the error."""
-    for name, method in settings.all_methods.items():
+    for name, method in {**settings.all_methods, **settings.tried}.items():
         checks = [("network", Network, method.network, partial(settings.network, name, limb)) for limb in method.limbs]
         checks += [("learning", Learning, method.learning, partial(settings.learned, name))]
         for part, section, given, made in checks:
             try:
                 made()
             except ValidationError as error:
-                swept = settings.sweep_of(name)
-                yield ("sweeps", swept) if swept else ("methods", name, part), section, given, error
+                yield _place_of(settings, name, part), section, given, error
+
+
+def _place_of(settings: Settings, method: str, part: str) -> Place:
+    """Return the place of what makes a change: a method, a sweep or the trials."""
+    swept = settings.sweep_of(method)
+    if method in settings.tried:
+        return ("trials",)
+    return ("sweeps", swept) if swept else ("methods", method, part)
 
 
 def inconsistencies(settings: Settings) -> Iterator[Problem]:

@@ -1,0 +1,60 @@
+"""The trials: products that are no part of `all`, and are kept beside the documents once they are made."""
+
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from mobnet.core.files import WEIGHTS
+from mobnet.plan.call import Call, Job
+from mobnet.plan.jobs import KINDS
+from mobnet.plan.places import MAIN
+from mobnet.plan.products import TABLE, Product
+from mobnet.plan.runs import Files, Tried, files_in
+from mobnet.settings.settings import Settings
+from mobnet.settings.trials import Trial, of_lengths, tuned
+
+KEPT = Path("docs/trials")  # at the main scale: these tables are data of the project, for they take hours
+
+
+def trial_products(settings: Settings, files: Files) -> Iterator[Product]:
+    """Yield the tables of what was tried: `tuning` and `lengths`."""
+    folder = KEPT if settings.scale == MAIN else files.results / "trials"
+    for name, found in (("tuning", tuned), ("lengths", of_lengths)):
+        yield _product(settings, files, folder / name, list(found(settings.trials, settings.methods)))
+
+
+def _product(settings: Settings, files: Files, out: Path, trials: Iterable[Trial]) -> Product:
+    """Return the table of some trials, which runs all their networks on the development walks."""
+    tried = tuple(one for trial in trials for one in _tried(settings, files, trial))
+    recordings, residuals = files.development("recordings"), files.development("residuals")
+    arguments = {
+        "robot": settings.robot,
+        "level": settings.levels[settings.development.level],
+        "gravity_m_s2": settings.plant.gravity_m_s2,
+        "observer": settings.observer,
+        "joints": settings.layout.limb(settings.trials.limb),
+        "tried": tried,
+        "recordings": recordings,
+        "residuals": residuals,
+        "rate_hz": settings.rates.data_hz,
+        "out": out,
+    }
+    weights = [folder / WEIGHTS for one in tried for folder in one.networks.values()]
+    inputs = dict.fromkeys(map(str, files_in([recordings, residuals, list(tried), weights])))
+    kinds = dict.fromkeys(f"{KINDS}.{row.kind}" for one in tried for row in one.methods.values())
+    call = Call("mobnet.evaluation.tables.trials:trials", arguments)
+    return Product(out.name, Job(call, tuple(inputs), tuple(kinds)), tuple(f"{out}.{ending}" for ending in TABLE))
+
+
+def _tried(settings: Settings, files: Files, trial: Trial) -> Iterator[Tried]:
+    """Yield a trial with each of its networks, or without any."""
+    source = settings.source_of(trial.name)
+    for seed in files.network_seeds(trial.name):
+        yield Tried(
+            trial.base,
+            trial.name,
+            dict(trial.changes),
+            {name: settings.method(name) for name in dict.fromkeys([trial.name, source])},
+            {limb: files.network(trial.name, limb, seed) for limb in trial.method.limbs},
+            next(iter(files.fit(trial.name)), None),
+            seed,
+        )
