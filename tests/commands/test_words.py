@@ -28,6 +28,11 @@ def test_targets_come_first_and_name_the_scale(words: list[str], handed: list[st
     assert parse(words)[::2] == ("all", handed)
 
 
+@pytest.mark.parametrize("command", ["tuning", "lengths"])
+def test_trials_are_targets_of_their_own(command: str) -> None:
+    assert parse([command, "--config", "scale=smoke"])[::2] == (command, [command, "--config", "scale=smoke"])
+
+
 def test_targets_of_two_scales_are_refused() -> None:
     with pytest.raises(CommandError, match="targets of the scales default, smoke: one scale"):
         in_order(["tables/table_05.tex", "tables/smoke/table_05.tex"])

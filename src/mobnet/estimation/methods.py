@@ -35,8 +35,8 @@ def build_estimator(recipe: Recipe) -> Estimator:
 
 def method_problems(settings: Settings) -> Iterator[tuple[Place, str]]:
     """Yield the place and the text of every kind, option or key of a method that its kind does not accept."""
-    for name, method in settings.methods.items():
-        place: Place = ("methods", name)
+    for name, method in {**settings.methods, **settings.tried}.items():
+        place: Place = ("trials",) if name in settings.tried else ("methods", name)
         if method.kind not in kind_names():
             yield (*place, "kind"), not_accepted("kind", method.kind, kind_names())
             continue

@@ -6,18 +6,18 @@ from collections.abc import Iterator, Mapping
 from itertools import product
 from typing import NamedTuple
 
-from pydantic import JsonValue
-
 from mobnet.settings import base
 from mobnet.settings.base import Section
 from mobnet.settings.methods import Method
+
+Value = bool | int | float | str
 
 
 class Grid(Section):
     """Keys of a method's `learning` and `options`, each with values; all combinations are tried."""
 
-    learning: dict[str, base.Distinct[JsonValue]] = {}
-    options: dict[str, base.Distinct[JsonValue]] = {}
+    learning: dict[str, base.Distinct[Value]] = {}
+    options: dict[str, base.Distinct[Value]] = {}
 
 
 class Tuning(Section):
@@ -43,37 +43,42 @@ class Trials(Section):
 
 
 class Trial(NamedTuple):
-    """A variant of the `base` method: what is changed, key -> value, and the method after that."""
+    """A variant of the `base` method: its name, what is changed, key -> value, and the method after that."""
 
     base: str
-    changes: Mapping[str, JsonValue]
+    name: str
+    changes: Mapping[str, Value]
     method: Method
 
-    @property
-    def name(self) -> str:
-        """Name of the variant, such as MOB-Net-squared-0.005."""
-        return "-".join([self.base, *map(str, self.changes.values())]).replace("_", "-")
+
+def trial_name(base: str, changes: Mapping[str, Value]) -> str:
+    """Return the name of a variant, such as MOB-Net-squared-0-005: a folder's name, without a point."""
+    return "-".join([base, *map(str, changes.values())]).replace("_", "-").replace(".", "-")
 
 
 def tuned(trials: Trials, methods: Mapping[str, Method]) -> Iterator[Trial]:
     """Yield every combination of what is tried for each method; a training that diverges is a result."""
-    for name, grid in trials.tuning.grids.items():
+    grids = {name: grid for name, grid in trials.tuning.grids.items() if name in methods}
+    for name, grid in grids.items():
         keys = [*grid.learning, *grid.options]
         for values in product(*grid.learning.values(), *grid.options.values()):
             changes = dict(zip(keys, values, strict=True))
             learning = {key: changes[key] for key in grid.learning}
             options = {key: changes[key] for key in grid.options}
-            yield Trial(name, changes, _changed(methods[name], trials, trials.tuning.experiment, learning, options))
+            method = _changed(methods[name], trials, trials.tuning.experiment, learning, options)
+            yield Trial(name, trial_name(name, changes), changes, method)
 
 
 def of_lengths(trials: Trials, methods: Mapping[str, Method]) -> Iterator[Trial]:
     """Yield every method at every length."""
-    for name, experiment in product(trials.lengths.methods, trials.lengths.experiments):
-        yield Trial(name, {"experiment": experiment}, _changed(methods[name], trials, experiment, {}, {}))
+    known = [name for name in trials.lengths.methods if name in methods]
+    for name, experiment in product(known, trials.lengths.experiments):
+        changes = {"experiment": experiment}
+        yield Trial(name, trial_name(name, changes), changes, _changed(methods[name], trials, experiment, {}, {}))
 
 
 def _changed(
-    method: Method, trials: Trials, experiment: str, learning: base.Change, options: Mapping[str, JsonValue]
+    method: Method, trials: Trials, experiment: str, learning: Mapping[str, Value], options: Mapping[str, Value]
 ) -> Method:
     """Return a method after changes, with networks, if it has any, of the limb and the experiment of the trials."""
     changes: dict[str, object] = {"options": {**method.options, **options}}

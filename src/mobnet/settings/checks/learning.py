@@ -22,6 +22,10 @@ def learning_problems(settings: Settings) -> Iterator[Problem]:
             yield ("methods", name, *place), text
     for limb in settings.networks:
         yield from _window_problems(settings, limb)
+    for name, grid in settings.trials.tuning.grids.items():
+        if grid.learning and name in settings.methods and not settings.methods[name].limbs:
+            accepted = "`options` of a method without networks"
+            yield ("trials", "tuning", "grids", name, "learning"), misfit("`learning`", accepted)
     yield from _name_problems(settings)
     yield from _sweep_problems(settings)
 

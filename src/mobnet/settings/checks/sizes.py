@@ -10,7 +10,7 @@ from mobnet.settings.reading import Place
 from mobnet.settings.scales import Scale
 from mobnet.settings.settings import Settings
 
-JOBS_MAX = 50_000  # of one scale: Snakemake plans 3 000 of them in 5 s
+RESULTS_MAX = 50_000  # of one scale: its files are twice as many, and each has a place in Snakemake's plan
 PASSES_MAX = 20  # of an epoch through a training set
 CYCLES = 3  # a whole gait cycle follows a start within so many
 Problem = tuple[Place, str]
@@ -31,14 +31,14 @@ def size_problems(settings: Settings) -> Iterator[Problem]:
         yield from _length_problems(chosen, scale)
         yield from _time_problems(chosen, scale)
         yield from _training_problems(chosen)
-        jobs = _job_count(chosen)
-        if jobs > JOBS_MAX:
-            accepted = f"{JOBS_MAX} jobs, by fewer shards or seeds"
-            yield ("scales", name), misfit(f"a run of {jobs} jobs", accepted)
+        results = _result_count(chosen)
+        if results > RESULTS_MAX:
+            accepted = f"{RESULTS_MAX} of them, by fewer shards or seeds"
+            yield ("scales", name), misfit(f"{results} recordings, residuals, networks and estimates", accepted)
 
 
-def _job_count(settings: Settings) -> int:
-    """Return about how many jobs the chosen scale has: recordings, residuals, trainings and estimates."""
+def _result_count(settings: Settings) -> int:
+    """Return how many recordings, residuals, networks and estimates the chosen scale has."""
     shards = settings.sizes.test.shards
     recorded = sum(row.sizes[settings.scale].shards for row in settings.training_sets.values())
     recorded += shards * sum(map(len, settings.tests.values()))
@@ -48,7 +48,7 @@ def _job_count(settings: Settings) -> int:
     }
     runs = [max(seeds[settings.network_source_of(name)], default=1) for levels in settings.tests.values()
             for methods in levels.values() for name in methods]  # fmt: skip
-    return 2 * recorded + sum(map(sum, seeds.values())) + sum(runs)
+    return 2 * recorded + sum(map(sum, seeds.values())) + shards * sum(runs)
 
 
 def _length_problems(settings: Settings, scale: Scale) -> Iterator[Problem]:

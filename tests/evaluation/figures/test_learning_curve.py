@@ -1,0 +1,32 @@
+"""The learning curve shows the table of trials that is kept."""
+
+from dataclasses import astuple
+from pathlib import Path
+
+from csv_files import read_table
+
+from mobnet.core.columns import TRIALS, TrialError
+from mobnet.evaluation.figures.learning_curve import curve_of, learning_curve
+from mobnet.evaluation.number.files import write_csv
+from mobnet.evaluation.number.number import Number
+from mobnet.settings.evaluation import LearningCurve
+
+
+def row(steps: int, error: float, seed: int = 0, state: str = "", joint: str = "avg") -> TrialError:
+    return TrialError("LSTM", f"experiment {steps}", seed, steps, state, -3.0, joint, error, 0.1, 6, 0)
+
+
+def test_it_shows_the_mean_over_joints_of_trainings_that_did_not_diverge(tmp_path: Path) -> None:
+    rows = [row(10, 2.0), row(3, 4.0), row(3, 9.0, joint="LL1"), row(39, 99.0, state="diverged")]
+    write_csv(tmp_path / "lengths.csv", TRIALS, [astuple(one) for one in rows])
+    settings = LearningCurve(data=str(tmp_path / "lengths.csv"), joint="avg")
+    learning_curve(settings, tmp_path / "lengths.csv", tmp_path)
+    shown = read_table(tmp_path / "learning_curve.csv")
+    assert [(one.steps, one.rmse_nm) for one in shown] == [(10, 2.0), (3, 4.0)]
+    assert (tmp_path / "learning_curve.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_place_is_the_mean_of_its_networks() -> None:
+    line = curve_of("LSTM", [row(3_000_000, 2.0), row(3_000_000, 4.0, seed=1), row(1_000_000, 5.0)])
+    assert line.x == [1.0, 3.0]
+    assert line.numbers == [Number(5.0, 5.0, 5.0, 1), Number(3.0, 2.0, 4.0, 2)]

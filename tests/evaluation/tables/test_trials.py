@@ -1,0 +1,71 @@
+"""The table of trials: errors on walks of development, the best variant of each method marked."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from csv_files import read_table
+
+from mobnet.core.recording import Recording
+from mobnet.core.store import read_array
+from mobnet.evaluation.tables.trials import trials
+from mobnet.plan.runs import Tried
+from mobnet.settings.settings import Settings
+from mobnet.settings.trials import tuned
+
+JOINTS = ("LL1", "LL4")
+
+
+@pytest.fixture
+def made(
+    settings: Settings, tmp_path: Path, made_up: Callable[..., Recording], write_pair: Any
+) -> tuple[Path, list[tuple[Path, Path]]]:
+    """The table of the zero predictor and of the observer, and the walks that they ran on."""
+    pairs = [write_pair(tmp_path, made_up(seed, 0.3)) for seed in (1, 2)]
+    tried = [Tried(name, name, {}, {name: settings.method(name)}, {}, None, 0) for name in ("zero", "MOB")]
+    for change in (1.0, 2.0):
+        row = settings.method("MOB-Kalman").model_copy(
+            update={"of": "MOB", "options": {"momentum_nms": 1.0, "walk_nm": 1e5 * change}}
+        )
+        name = f"K-{change}"
+        tried.append(
+            Tried("K", name, {"walk_nm": 1e5 * change}, {name: row, "MOB": settings.method("MOB")}, {}, None, 0)
+        )
+    level = settings.levels["all_uncertainty"]
+    known = settings.robot, level, settings.plant.gravity_m_s2, settings.observer
+    trials(*known, JOINTS, tried, *map(list, zip(*pairs, strict=True)), 1000.0, tmp_path / "out")
+    return tmp_path / "out", pairs
+
+
+def test_errors_are_means_over_the_walks(made: tuple[Path, list[tuple[Path, Path]]]) -> None:
+    """Those of zero are the size of the truth, those of the observer its distance from the truth."""
+    out, pairs = made
+    rows = {(row.method, row.tried, row.joint): row for row in read_table(out.with_suffix(".csv"))}
+    for joint in JOINTS:
+        truths = [read_array(residual, [f"tau_ext_lp.{joint}"])[0].astype(float) for _, residual in pairs]
+        observed = [read_array(residual, [f"r.{joint}"])[0].astype(float) for _, residual in pairs]
+        zero = [np.sqrt(np.mean(truth**2)) for truth in truths]
+        mob = [np.sqrt(np.mean((r - truth) ** 2)) for r, truth in zip(observed, truths, strict=True)]
+        assert rows["zero", None, joint].rmse_nm == pytest.approx(np.mean(zero), rel=1e-4)
+        assert rows["MOB", None, joint].rmse_nm == pytest.approx(np.mean(mob), rel=1e-4)
+        assert rows["MOB", None, joint].std_nm == pytest.approx(np.std(mob, ddof=1), rel=1e-3)
+        assert rows["MOB", None, joint].walks == 2
+
+
+def test_one_variant_of_each_method_is_the_best(made: tuple[Path, Any]) -> None:
+    rows = [row for row in read_table(made[0].with_suffix(".csv")) if row.joint == "avg"]
+    assert {row.method: sum(other.best for other in rows if other.method == row.method) for row in rows} == {
+        "zero": 1, "MOB": 1, "K": 1,
+    }  # fmt: skip
+    best, other = sorted((row for row in rows if row.method == "K"), key=lambda row: -row.best)
+    assert best.rmse_nm <= other.rmse_nm
+    lines = made[0].with_suffix(".md").read_text().splitlines()
+    assert lines[0].startswith("| Method | Tried | Steps [million] | Val. loss | LL1 | LL4 | avg |")
+    assert sum("| best |" in line for line in lines) == 3
+
+
+def test_the_grid_of_the_configuration_is_what_a_trial_says(settings: Settings) -> None:
+    names = [trial.name for trial in tuned(settings.trials, settings.methods)]
+    assert len(names) == len(set(names))

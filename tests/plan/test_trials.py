@@ -1,0 +1,88 @@
+"""Trials: the same effort for every method, made on their own, on development walks alone."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mobnet.plan.plan import Plan, make_plan
+from mobnet.plan.products import Product
+from mobnet.settings.load import load_settings
+from mobnet.settings.trials import of_lengths, trial_name, tuned
+
+
+@pytest.fixture(scope="module")
+def plan() -> Plan:
+    return make_plan(load_settings(overrides={"scale": "default"}), with_pdf=False)
+
+
+@pytest.fixture
+def products(plan: Plan) -> dict[str, Product]:
+    return {product.name: product for product in plan.trials}
+
+
+def test_every_method_is_tried_as_often_as_every_other(plan: Plan) -> None:
+    trials = list(tuned(plan.settings.trials, plan.settings.methods))
+    counts = {base: sum(trial.base == base for trial in trials) for base in plan.settings.trials.tuning.grids}
+    assert len(set(counts.values())) == 1, counts
+    lengths = list(of_lengths(plan.settings.trials, plan.settings.methods))
+    wanted = plan.settings.trials.lengths
+    assert len(lengths) == len(wanted.methods) * len(wanted.experiments)
+
+
+def test_names_are_distinct_and_can_be_folders(plan: Plan) -> None:
+    settings = plan.settings
+    trials = [*tuned(settings.trials, settings.methods), *of_lengths(settings.trials, settings.methods)]
+    assert len(settings.tried) == len(trials)
+    assert not set(settings.tried) & set(settings.all_methods)
+    assert not [name for name in settings.tried if Path(f"{name}-LL-s0").suffix]
+    assert trial_name("A", {"loss": "beta_likelihood", "rate_first": 0.005}) == "A-beta-likelihood-0-005"
+
+
+def test_a_trial_changes_what_it_says_and_its_length(plan: Plan) -> None:
+    settings = plan.settings
+    training = settings.training("FTS-e2e-squared-0-01", "LL")
+    assert (training.learning.loss, training.learning.rate_first) == ("squared", 0.01)
+    assert training.target == "external"
+    assert training.learning.may_diverge
+    lengths = [settings.training(f"MOB-Net-steps-{steps}m", "LL") for steps in (3, 10, 39, 150)]
+    assert [one.epochs * (one.epoch_samples or 0) for one in lengths] == [3e6, 10e6, 39e6, 150e6]
+    assert settings.method("MOB-Kalman-300-0").options["walk_nm"] == 300.0
+
+
+def test_trials_read_development_walks_and_no_test(products: dict[str, Product]) -> None:
+    for product in products.values():
+        recorded = [Path(name) for name in product.job.inputs if "/recordings/" in name or "/residuals/" in name]
+        assert {path.parts[-3] for path in recorded} == {"development"}
+        assert all(501 <= int(path.stem.removeprefix("s")) < 1000 for path in recorded)
+
+
+def test_no_product_of_a_run_needs_a_trial_and_none_is_stored(plan: Plan) -> None:
+    made = {name for product in plan.trials for name in product.outputs}
+    tried = [name for name in plan.stored if any(f"/{trial}-LL-s" in name for trial in plan.settings.tried)]
+    assert not tried
+    assert not made & {name for product in plan.products for name in (*product.job.inputs, *product.outputs)}
+
+
+def test_tables_of_trials_are_data_of_the_project_at_the_main_scale_alone(products: dict[str, Product]) -> None:
+    assert products["tuning"].outputs == tuple(f"docs/trials/tuning.{ending}" for ending in ("csv", "tex", "md"))
+    smoke = make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False)
+    assert {Path(name).parent for product in smoke.trials for name in product.outputs} == {Path("results/smoke/trials")}
+
+
+def test_a_gray_box_is_tried_on_its_fit_and_a_filter_without_networks(products: dict[str, Product]) -> None:
+    tried: Any = products["tuning"].job.call.arguments["tried"]
+    gray = next(one for one in tried if one.base == "MOB-Net-gray")
+    kalman = next(one for one in tried if one.base == "MOB-Kalman")
+    assert [path.name for path in (gray.fitted, kalman.fitted)] == ["MOB-fric-load.json"] * 2
+    assert (list(gray.networks), kalman.networks) == (["LL"], {})
+    assert {"mobnet.estimation.kinds.kalman", "mobnet.estimation.kinds.gray"} <= set(products["tuning"].job.modules)
+
+
+def test_the_learning_curve_is_drawn_where_its_data_are(plan: Plan, monkeypatch: Any, tmp_path: Path) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert "learning_curve" not in {product.name for product in make_plan(plan.settings, with_pdf=False).products}
+    (tmp_path / "docs/trials").mkdir(parents=True)
+    (tmp_path / "docs/trials/lengths.csv").touch()
+    products = {product.name: product for product in make_plan(plan.settings, with_pdf=False).products}
+    assert products["learning_curve"].job.inputs == ("docs/trials/lengths.csv",)
