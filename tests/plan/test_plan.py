@@ -97,6 +97,14 @@ def test_a_limb_with_fewer_seeds_serves_them_in_turn(plans: dict[str, Plan]) -> 
     assert {run.network_seed for run in files.runs("walk_test", "all_uncertainty", ["MOB"])} == {0}
 
 
+def test_a_network_that_serves_several_seeds_counts_with_the_first_of_them(plans: dict[str, Plan]) -> None:
+    runs = plans["default"].files.runs("walk_test", "all_uncertainty", ["MOB", "MOB-Net", "MOB-Net-Single"])
+    repeated = {(run.method, run.network_seed): run.repeated for run in runs}
+    assert repeated["MOB", 0] == repeated["MOB-Net", 0] == ()
+    assert repeated["MOB-Net", 1] == repeated["MOB-Net", 2] == ("RL", "N")
+    assert repeated["MOB-Net-Single", 1] == ()
+
+
 def test_the_manifest_lists_every_result(plan: Plan) -> None:
     """All but the manifest itself and the folder of runs for wandb."""
     (manifest,) = [product for product in plan.products if product.name == "manifest"]

@@ -159,6 +159,7 @@ CALIBRATION = (
     "test", "level", "pushed", "method", "limb", "measure", "share", "before", "before_low", "before_high",
     "after", "low", "high", *SPREAD, "unit",
 )  # fmt: skip
+LATENCY = ("quantity", "value", "low", "high", "unit")
 COMPUTE = ("stage", "quantity", "value", "unit")
 
 # Figures.

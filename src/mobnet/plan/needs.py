@@ -81,6 +81,13 @@ def _claims(files: Files) -> Needs:
     return {"scores": files.scores(files.settings.tests), "folders": tuple(dict.fromkeys([*kinds, *sizes]))}
 
 
+def _latency(files: Files) -> Needs:
+    """Return the first trained network of each limb of the method whose time is looked at."""
+    method = files.settings.evaluation.latency.method
+    first = files.network_seeds(method)[0]
+    return {"networks": {limb: files.network(method, limb, first) for limb in files.settings.method(method).limbs}}
+
+
 def _table_01(files: Files) -> Needs:
     """Return the networks of the method of Table 1, with its changes, and what they learn."""
     method = files.settings.evaluation.table_01.method
@@ -127,6 +134,7 @@ USUAL: Mapping[str, Callable[[Files, Any], object]] = {  # parameter -> what it 
 NEEDS: Mapping[str, Callable[[Files], Needs]] = {  # products that need something else
     "table_01": _table_01,
     "claims": _claims,
+    "latency": _latency,
     "steps": _steps,
     "coverage": _coverage,
     "uncertainty": _uncertainty,

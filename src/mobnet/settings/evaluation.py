@@ -339,6 +339,15 @@ class Uncertainty(Section):
     ratio: dict[base.NetworkName, base.Span[Annotated[base.Real, Field(ge=0.01, le=100)]]]
 
 
+class Latency(Section):
+    """The table of latency: stretches of ticks of a method's networks, and the tick of the robot."""
+
+    method: base.MethodName
+    tick_ms: base.Positive = Field(le=1000)
+    stretches: base.Whole = Field(ge=2, le=1000)
+    ticks: base.Whole = Field(ge=10, le=100_000)
+
+
 class Compute(Section):
     """The table of compute: a longer time without any job lies between two runs."""
 
@@ -378,4 +387,5 @@ class Evaluation(Section):
     commands: CommandsFigure
     steps: Steps
     uncertainty: Uncertainty
+    latency: Latency
     compute: Compute

@@ -59,6 +59,12 @@ def test_order_of_rows_is_that_of_the_runs(tmp_path: Path, walk: Walk, layout: J
     assert [row.joint for row in rows[:half]] == [row.joint for row in rows[half:]]
 
 
+def test_a_limb_whose_network_has_run_under_an_earlier_seed_counts_once(walk: Walk, layout: JointLayout) -> None:
+    first, again = walk(1.0), replace(walk(1.0), network_seed=1, repeated=("LL",))
+    assert {row.limb for row in score_run(layout, first, Scoring())} == {"LL"}
+    assert not score_run(layout, again, Scoring())
+
+
 def test_files_that_do_not_belong_together_are_refused(tmp_path: Path, walk: Walk, layout: JointLayout) -> None:
     run, stem = walk(1.0), tmp_path / "std"
     write_array(stem, np.ones((560, 1)), [("std.LL1", "N m", "joint")], RATE)

@@ -9,13 +9,14 @@ import pytest
 import yaml
 from csv_files import GOLDEN, check_golden, read_table
 
-from mobnet.core.columns import COVERAGE, VERDICTS
+from mobnet.core.columns import COVERAGE, LATENCY, VERDICTS
 from mobnet.evaluation.measure.claims import rows_of
 from mobnet.evaluation.measure.results import listed
 from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.intervals import RunGrid
 from mobnet.evaluation.number.number import published_row
 from mobnet.evaluation.number.quantities import QUANTITIES
+from mobnet.evaluation.tables.latency import MET
 from mobnet.settings.claims import Cell, Claim
 from mobnet.settings.evaluation import Statistics
 from mobnet.settings.published import Published
@@ -72,7 +73,7 @@ def judge(
         some = {name: settings.claims[name].model_copy(update=changes) for name in names or settings.claims}
         (scores,), folders = write_results(list(some.values()), MEANS, pushes)
         tables = {"coverage": write_coverage(tmp_path / "coverage.csv"), "latency": tmp_path / "latency.csv"}
-        write_csv(tables["latency"], ["quantity", "value", "low", "high"], [("met", 1.0, 0.7, 1.0)])
+        write_csv(tables["latency"], LATENCY, [(MET, 1.0, 0.7, 1.0, "-")])
         table = make_table("claims", claims=some, scores={"all": scores}, folders=folders, tables=tables)
         return {row.claim: row for row in read_table(table)}
 

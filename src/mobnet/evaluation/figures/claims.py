@@ -7,7 +7,7 @@ share of the farthest end of its interval.
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import accumulate, groupby
+from itertools import accumulate, groupby, pairwise
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +29,7 @@ LOOKS: Mapping[str, tuple[str, str]] = dict(
     zip(VERDICTS, MARKS, strict=True)
 )  # verdict -> colour, of Okabe and Ito's palette, and marker
 ROW_INCH, HEAD_INCH, POINTS = 0.108, 0.28, 4.8  # height of a row and of a panel's head and axis, size of letters
-COLUMNS, LABEL_SHARE = 2, 0.58  # of the page, and the share of a column that labels take
+COLUMNS, LABEL_SHARE = 2, 0.62  # of the page, and the share of a column that labels take
 JOINT_SHARE = 0.45  # height of a joint's row over that of a claim's
 
 
@@ -82,8 +82,11 @@ def beyond_bound(judged: Judged) -> Place:
     held = [each for each in found if each is not None]
     scale = max(map(abs, held), default=0.0) or 1.0
     value, low, high = (None if each is None else each / scale for each in found)
-    turned = low is not None and high is not None and low > high
-    return Place(judged, BEYOND_BOUND, (value, *in_order(low, high, turned)), (0.0, None))
+    if (
+        value is not None and low is not None and high is not None
+    ):  # within a two-sided range the middle lies farthest in
+        low, high = min(low, high), max(low, high, value)
+    return Place(judged, BEYOND_BOUND, (value, low, high), (0.0, None))
 
 
 def margin(number: float, bounds: Bounds) -> float:
@@ -155,6 +158,11 @@ def draw_panel(axis: Axes, panel: Panel) -> None:
         axis.barh(row, high - low, left=low, height=height, color="0.88", linewidth=0)
         draw_place(axis, row, place)
     axis.axvline(EQUAL[name], color="0.4", linewidth=0.4, zorder=1.5)
+    for (row, before), (_, place) in pairwise(zip(rows, panel, strict=True)):
+        if before.judged.row.statement != place.judged.row.statement:
+            edge = row + height_of([before]) / 2.0
+            axis.plot([-LABEL_SHARE / (1.0 - LABEL_SHARE) + 0.05, 1.0], [edge, edge], color="0.75", linewidth=0.3,
+                      transform=axis.get_yaxis_transform(), clip_on=False, zorder=1.0)  # fmt: skip
     if name == OVER_PAPER:
         axis.set_xscale("log", base=2)
         axis.set_xticks([0.125, 0.25, 0.5, 1, 2, 4, 8], ["1/8", "1/4", "1/2", "1", "2", "4", "8"])

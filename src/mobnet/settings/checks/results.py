@@ -12,7 +12,7 @@ from mobnet.settings.evaluation import Mean
 from mobnet.settings.names import uses
 from mobnet.settings.settings import Settings, swept_name
 
-TABLES = ("calibration", "coverage", "error_budget", "kinds", "methods", "latency")  # that are no entry of `tables`
+TABLES = ("calibration", "coverage", "error_budget", "kinds", "latency", "methods")  # that are no entry of `tables`
 PUSHED, PUSH = "rmse_pushed", "rmse_push_"  # metrics of windows around pushes
 ASKED = {  # section -> metrics that are measured on its tests alone
     "peaks": r"(peak_ratio|rise_delay).*",
