@@ -1,7 +1,7 @@
 """Small made-up runs: scores with a known mean, and files of a walk whose steps and errors are known."""
 
 import itertools
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -26,8 +26,11 @@ RATE_HZ = 100.0
 STEP_ROWS = 70  # rows in the air and rows on the ground of the made-up walk
 PUSHED_ROWS = range(20, 30)  # of every swing of the made-up walk
 JOINTS = [f"LL{i}" for i in range(1, 7)]
-LEVELS = {"ideal": ["MOB"], "sensor_noise": ["MOB"], "all_uncertainty": ["MOB", "MOB-Net", "FTS-e2e"]}
-MEANS = {"ideal": 0.01, "sensor_noise": 1.2, "MOB": 19.0, "MOB-Net": 1.5, "FTS-e2e": 2.0}  # avg [N m]
+FURTHER = ["zero", "MOB-fric-load", "MOB-Kalman", "MOB-Net-gray"]  # baselines, below the paper's methods
+LEVELS = {"ideal": ["MOB"], "sensor_noise": ["MOB"], "all_uncertainty": ["MOB", "MOB-Net", "FTS-e2e", *FURTHER]}
+MEANS = {"ideal": 0.01, "sensor_noise": 1.2, "MOB": 19.0, "MOB-Net": 1.5, "FTS-e2e": 2.0, "zero": 40.0,
+         "MOB-fric-load": 2.5, "MOB-Kalman": 3.0, "MOB-Net-gray": 1.4}  # avg [N m]  # fmt: skip
+ALONE = ("MOB", "MOB-fric", "zero", "MOB-fric-load", "MOB-Kalman")  # methods without networks
 OFF = {"all_uncertainty": 1.0, "exact_model": 0.8, "no_friction": 0.5, "no_load_friction": 1.0, "no_noise": 1.1}
 
 
@@ -64,13 +67,14 @@ def made_up_scores(networks: int = 2, tests: int = 3) -> list[Score]:
     rows = []
     for level, method in ((level, method) for level, methods in LEVELS.items() for method in methods):
         mean = MEANS.get(level, MEANS[method])
-        seeds = range(networks if method != "MOB" else 1)
+        seeds = range(1 if method in ALONE else networks)
         for network, test in itertools.product(seeds, range(1, tests + 1)):
             off = 1 + 0.1 * (test - (tests + 1) / 2) + 0.04 * (network - (len(seeds) - 1) / 2)
             for i, joint in enumerate([*JOINTS, "avg"]):
                 factor = 1.0 if joint == "avg" else (i + 1) / 3.5
                 run = ("forward_walk", level, method, network, test, "LL", joint)
                 rows.append(Score(*run, "rmse", mean * factor * off, "N m"))
+                rows.append(Score(*run, "rmse_raw", (mean + 5.0) * factor * off, "N m"))
                 rows.append(Score(*run, "roughness", 50.0 * mean**0.1 * off, "N m/s"))
     return rows
 
@@ -79,12 +83,13 @@ def limb_scores(layout: JointLayout, scenario: str, means: dict[str, float], net
     """Return scores of LL, W and RA on two tests: `means` of every joint and average [N m], up to a factor per run."""
     rows = []
     for method, mean in means.items():
-        for network, test in itertools.product(range(1 if method == "MOB" else networks), (1, 2)):
-            value = mean * (1 + 0.1 * (test - 1.5) + 0.04 * (network - (networks - 1) / 2) * (method != "MOB"))
+        seeds = range(1 if method in ALONE else networks)
+        for network, test in itertools.product(seeds, (1, 2)):
+            value = mean * (1 + 0.1 * (test - 1.5) + 0.04 * (network - (len(seeds) - 1) / 2))
             for limb in ("LL", "W", "RA"):
                 for joint in (*layout.limb(limb), "avg"):
                     run = (scenario, "all_uncertainty", method, network, test, limb, joint)
-                    rows.append(Score(*run, "rmse", value, "N m"))
+                    rows += [Score(*run, "rmse", value, "N m"), Score(*run, "rmse_raw", value + 1.0, "N m")]
     return rows
 
 
@@ -106,8 +111,8 @@ def table_scores(layout: JointLayout, rows: list[ErrorRow], metrics: tuple[str, 
     """
     sizes = {"MOB": 4.0, "MOB-fric": 3.0, "MOB-Net": 1.0}
     scores: list[Score] = []
-    for row, method in ((each, name) for each in rows for name in each.methods):
-        networks = 1 if method in ("MOB", "MOB-fric") else 2
+    for row, method in ((each, name) for each in rows for name in (*each.methods, *each.further)):
+        networks = 1 if method in ALONE else 2
         for network, test in itertools.product(range(networks), (1, 2, 3)):
             off = 1 + 0.1 * (test - 2) + 0.04 * (network - (networks - 1) / 2)
             for limb, joints in layout.groups.items():
@@ -151,6 +156,38 @@ def write_table_scores(tmp_path: Path, layout: JointLayout, evaluation: Evaluati
             found[scenario] = tmp_path / f"{name}_{scenario}.csv"
             own = [row for row in rows if row.scenario == scenario]
             write_rows(found[scenario], table_scores(layout, own, metrics))
+        return found
+
+    return write
+
+
+def measured_scores(layout: JointLayout, tests: Iterable[Any], metrics: Mapping[str, tuple[float, str]]) -> list[Score]:
+    """Return scores of the methods of tests, limb by limb: each metric's value, a tenth more of each later method.
+
+    There are two walks; MOB has one network, others have two.
+    """
+    rows: list[Score] = []
+    for test in tests:
+        for k, method in enumerate(test.methods):
+            for network, walk in itertools.product(range(1 if method == "MOB" else 2), (1, 2)):
+                off = (1 + 0.1 * k) * (1 + 0.1 * (walk - 1.5) + 0.04 * (network - 0.5) * (method != "MOB"))
+                for limb, (metric, (value, unit)) in itertools.product(test.limbs, metrics.items()):
+                    for joint in (*layout.limb(limb), "avg"):
+                        run = (test.scenario, test.level, method, network, walk, limb, joint, metric)
+                        rows.append(Score(*run, value * off, unit))
+    return rows
+
+
+@pytest.fixture
+def write_measured(tmp_path: Path, layout: JointLayout) -> Callable[..., dict[str, Path]]:
+    """Write scores of some tests: write_measured(tests, {metric: (value, unit)}) -> scenario -> CSV."""
+
+    def write(tests: Iterable[Any], metrics: Mapping[str, tuple[float, str]]) -> dict[str, Path]:
+        rows, found = measured_scores(layout, tests, metrics), {}
+        for scenario in dict.fromkeys(row.scenario for row in rows):
+            found[scenario] = tmp_path / f"measured_{scenario}.csv"
+            own = dict.fromkeys(row for row in rows if row.scenario == scenario)
+            write_rows(found[scenario], list(own))
         return found
 
     return write

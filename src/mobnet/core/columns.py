@@ -134,7 +134,7 @@ SCORES, EPOCHS, TRIALS = (tuple(field.name for field in fields(kind)) for kind i
 SPREAD = ("networks", "walks", "std_networks", "std_walks")
 RUN = ("scenario", "level", "method")
 ERRORS = (*RUN, "joint", "metric", "value", "low", "high", *SPREAD, "unit", "published")
-METHODS = (*RUN, "limb", "joint", "metric", "value", "low", "high", *SPREAD, "unit")
+METHODS = (*RUN, "limb", "joint", "metric", "value", "low", "high", *SPREAD, "unit")  # of any test, limb by limb
 KINDS = ("method", "quantity", "value", "low", "high", *SPREAD, "unit", "published")
 CLAIMS = (
     "claim", "statement", "score", "printed", "says", "published", "value", "low", "high", *SPREAD, "unit",
@@ -172,5 +172,8 @@ SIZES = (
     "panel", "base", "method", "parameters", "samples", "runs",
     "loss", "loss_low", "loss_high", "rmse_nm", "rmse_low_nm", "rmse_high_nm",
 )  # fmt: skip
+RESPONSE = ("method", "joint", "frequency_hz", "quantity", "value", "low", "high", *SPREAD, "unit")
+DRIFT = ("panel", *RUN, "phase", "time_s", "share", "low", "high", *SPREAD)
+SIGMA = ("panel", "test", "method", "limb", "x", "value", "low", "high", *SPREAD)
 RELIABILITY = ("panel", "method", "limb", "nominal", "before", "after")
 FOREST = ("score", "claim", "verdict", "axis", "value", "low", "high", "from", "to")

@@ -10,7 +10,8 @@ from mobnet.settings.base import Section
 PART = "swing|touch_down|stance|stuck|moving"  # parts of a walk
 NUMBER = "[1-9][0-9]*"
 METRIC = "|".join([
-    "rmse", "rmse_raw", "r_rmse", "roughness", "rmse_pushed", f"rmse_push_{NUMBER}", f"(rmse|std|cover)_({PART})",
+    "rmse(_raw)?", "r_rmse", "roughness", "rmse_pushed(_raw)?", f"rmse_push_{NUMBER}(_raw)?",
+    f"(rmse|std|cover)_({PART})",
     "(peak_ratio|rise_delay)(_observer)?", r"(gain|phase)_[0-9]+(\.[0-9]+)?hz", f"held_(swing|stance)(_{NUMBER})?",
     "std", "cover", "(std|cover)_(pushed|calm)", f"(rmse|std|cover)_part_{NUMBER}", "excursion", f"acf_{NUMBER}ms",
 ])  # fmt: skip
@@ -58,9 +59,13 @@ Columns = base.Some[base.LimbOrJointName | Mean]
 
 
 class ErrorRow(Runs):
-    """Rows of a table of errors, one for each method; `labels` are the texts of the leading columns."""
+    """Rows of a table of errors, one for each method; `labels` are the texts of the leading columns.
+
+    Methods that the paper does not have follow as `further`, in shorter rows.
+    """
 
     labels: tuple[base.Text, ...]
+    further: Annotated[tuple[base.MethodName, ...], AfterValidator(base.distinct)] = ()
     metric: Metric = "rmse"
     paper: base.Text | None = None
 
@@ -188,6 +193,7 @@ class Figure20(Section):
 class MethodsRow(Runs):
     """Methods side by side on one test; limb -> its columns, joints or `avg`."""
 
+    metric: Metric = "rmse"
     columns: Annotated[dict[base.LimbName, base.Distinct[base.Text]], Field(min_length=1)]
 
 
@@ -244,9 +250,9 @@ class LimbRuns(Runs):
 
 
 class Peaks(Section):
-    """Peak ratio and delay of the rise under pushes: a push that turns a joint harder counts for it."""
+    """Peak ratio and delay of the rise under pushes, at joints that take a share of the largest torque, or more."""
 
-    turned_nm: base.Real = Field(ge=0.01, le=1000)
+    turned_share: base.PositiveShare
     after_s: base.NotNegative = Field(le=10)
     longest_s: base.Real = Field(ge=0.01, le=10)
     tests: base.Some[LimbRuns]

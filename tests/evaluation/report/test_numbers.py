@@ -38,7 +38,7 @@ def texts(claims_csv: Path, summary_csv: Path, settings: Settings) -> dict[str, 
 
 def test_every_cell_and_claim_has_its_number(texts: dict[str, str], claims_csv: Path) -> None:
     for cell in csv.DictReader(TABLE_05.read_text().splitlines()):
-        where = f"forward_walk@{cell['level']}@{cell['method']}@{cell['joint']}@rmse"
+        where = f"forward_walk@{cell['level']}@{cell['method']}@{cell['joint']}@{cell['metric']}"
         assert texts[f"ours@{where}"] == f"{float(cell['value']):.2f}"
     for claim in csv.DictReader(claims_csv.read_text().splitlines()):
         told = [texts[f"{name}@{claim['claim']}"] for name in ("verdict", "found", "span")]

@@ -35,12 +35,16 @@ def table_05(tmp_path: Path, make_table: Make) -> Callable[[list[Score]], Path]:
 def test_cells_are_means_over_runs_beside_the_printed_numbers_in_the_papers_order(
     table_05: Make, make_scores: Scores, settings: Settings
 ) -> None:
-    cells = read_table(table_05(make_scores()))
+    every = read_table(table_05(make_scores()))
+    cells, raw = ([cell for cell in every if cell.metric == metric] for metric in ("rmse", "rmse_raw"))
+    further = ["zero", "MOB-fric-load", "MOB-Kalman", "MOB-Net-gray"]
     assert [(cell.level, cell.method) for cell in cells[::7]] == [
         ("ideal", "MOB"), ("sensor_noise", "MOB"),
-        ("all_uncertainty", "MOB"), ("all_uncertainty", "MOB-Net"), ("all_uncertainty", "FTS-e2e"),
+        *(("all_uncertainty", method) for method in ("MOB", "MOB-Net", "FTS-e2e", *further)),
     ]  # fmt: skip
-    assert [cell.joint for cell in cells] == [*(f"LL{i}" for i in range(1, 7)), "avg"] * 5
+    assert [cell.joint for cell in cells] == [*(f"LL{i}" for i in range(1, 7)), "avg"] * 9
+    assert [cell.value for cell in raw if cell.joint == "avg"][3] == pytest.approx(6.5)
+    assert {cell.published for cell in raw} == {None}
     net = next(cell for cell in cells if (cell.method, cell.joint) == ("MOB-Net", "avg"))
     assert (net.value, net.networks, net.walks) == (pytest.approx(1.5), 2, 3)
     assert net.low < net.value < net.high
@@ -51,7 +55,7 @@ def test_cells_are_means_over_runs_beside_the_printed_numbers_in_the_papers_orde
 
 def test_increase_over_sensor_noise_stands_at_the_average_as_printed(table_05: Make, make_scores: Scores) -> None:
     text = table_05(make_scores()).with_suffix(".md").read_text()
-    for printed in ("19.30 (+18.08)", "1.31 (+0.09)", "1.51 (+0.29)", "19.00 (+17.80)"):
+    for printed in ("19.30 (+18.08)", "1.31 (+0.09)", "1.51 (+0.29)", "19.00 (+17.80)", "2.50 (+1.30)"):
         assert printed in text
     assert "1.22 (" not in text
 
@@ -80,8 +84,9 @@ def test_table_05_is_the_golden_one(make_table: Make) -> None:
 def test_tables_of_errors_are_the_golden_ones(
     name: str, make_table: Make, write_table_scores: Callable[..., dict[str, Path]]
 ) -> None:
-    pushes = ["rmse_pushed", *(f"rmse_push_{k}" for k in range(1, 5))]
-    check_golden(make_table(name, scores=write_table_scores(name, "rmse", "r_rmse", *pushes)))
+    errors = ["rmse", "rmse_pushed", *(f"rmse_push_{k}" for k in range(1, 5))]
+    raw = [f"{metric}_raw" for metric in errors]
+    check_golden(make_table(name, scores=write_table_scores(name, *errors, *raw, "r_rmse")))
 
 
 def test_table_06_averages_joints_and_scores_hand_loads_while_they_act(
@@ -128,7 +133,7 @@ def test_tables_of_the_repository_label_every_row_and_find_its_printed_numbers(s
     for name, table in settings.evaluation.tables.items():
         for row in table.rows:
             assert len(row.labels) == len(table.header), name
-            for method in row.methods:
+            for method in row.methods:  # `further` ones are not the paper's
                 assert published_row(settings.published.tables[name], row.paper or "", method), (name, method)
 
 
@@ -165,6 +170,16 @@ def test_ours_stands_above_the_interval_and_the_papers_number() -> None:
     assert ours == ["a", "x", "MOB", "ours", "2.00", "3.00", "4.00"]
     assert interval == ["", "", "", "95%", *["[1.00, 9.00]"] * 3]
     assert paper == ["", "", "", "paper", *["0.50"] * 3]
+
+
+def test_errors_against_the_raw_truth_stand_above_the_papers_and_further_methods_have_no_interval() -> None:
+    full = row(("a", "x"))
+    raw = {column: replace(number, value=7.0) for column, number in full.numbers.items()}
+    lines = table_lines([replace(full, raw=raw), replace(full, raw=raw, short=True)], LOOK)
+    assert [line[3] for line in lines if not isinstance(line, str)] == [
+        "ours", "95%", "raw truth", "paper", "ours", "raw truth", "paper",
+    ]  # fmt: skip
+    assert lines[2] == ["", "", "", "raw truth", "7.00", "7.00", "7.00"]
 
 
 def test_numbers_of_a_robot_are_told_from_simulated_ones(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from mobnet.evaluation.number.files import read_rows
 from mobnet.settings.evaluation import MethodsRow
 
 Make = Callable[..., Path]
-MEANS = {"MOB": 9.0, "MOB-Net": 2.0, "FTS-e2e": 3.0}
+MEANS = {"zero": 10.0, "MOB": 9.0, "MOB-Net": 2.0}
 
 
 ROWS = (
@@ -30,29 +30,53 @@ def table(make_table: Make, write_limb_scores: Make) -> Path:
     )
 
 
+def cells(line: str) -> list[str]:
+    """Return the cells of a line of Markdown."""
+    return [cell.strip() for cell in line.split("|")[1:-1]]
+
+
 def test_errors_are_those_asked_for_test_by_test(table: Path) -> None:
     check_golden(table)
-    errors = read_table(table)
+    errors = [error for error in read_table(table) if error.metric == "rmse"]
     assert [(error.method, error.limb, error.joint) for error in errors] == [
         *((method, "LL", joint) for method in MEANS for joint in ("LL3", "avg")),
         *((method, limb, "avg") for method in ("MOB", "MOB-Net") for limb in ("W", "RA")),
     ]
     for error in errors:
         assert error.value == pytest.approx(MEANS[error.method])
-        assert (error.networks, error.walks) == (1 if error.method == "MOB" else 2, 2)
+        assert (error.networks, error.walks) == (2 if error.method == "MOB-Net" else 1, 2)
         assert error.unit == "N m"
 
 
+def test_the_raw_truth_stands_beside_and_skill_is_what_is_gained_over_nothing(table: Path) -> None:
+    """1 - RMSE / RMSE of `zero`, where the test has it; `zero` itself has none."""
+    rows = {(row.scenario, row.method, row.joint, row.metric): row for row in read_table(table)}
+    assert rows["walk_test", "MOB", "avg", "rmse_raw"].value == pytest.approx(10.0)
+    assert rows["walk_test", "MOB", "LL3", "skill"].value == pytest.approx(0.1)
+    assert rows["walk_test", "MOB-Net", "avg", "skill"].value == pytest.approx(0.8)
+    assert rows["walk_test", "MOB-Net", "avg", "skill"].unit == "-"
+    assert {key[1] for key in rows if key[3] == "skill"} == {"MOB", "MOB-Net"}
+    assert not [key for key in rows if key[0] == "motion_test" and key[3] == "skill"]
+
+
+def test_where_the_truth_is_zero_there_is_no_skill(make_table: Make, write_limb_scores: Make) -> None:
+    scores = {"walk_test": write_limb_scores("walk_test", {"zero": 0.0, "MOB": 9.0})}
+    test = ROWS[0].model_copy(update={"methods": ("zero", "MOB")})
+    table = make_table("methods", settings=[test], scores=scores)
+    assert "skill" not in {row.metric for row in read_table(table)}
+    assert cells(table.with_suffix(".md").read_text().splitlines()[-1]) == ["", "", "skill", "-", "-"]
+
+
 def test_tests_stand_below_one_another_with_dashes_where_a_column_is_not_theirs(table: Path) -> None:
-    lines = table.with_suffix(".md").read_text().splitlines()
-    assert lines[0] == "| Test | Method | LL3 | LL avg | W avg | RA avg |"
-    assert lines[2] == "| walk test, all uncertainty | MOB | 9.00 | 9.00 | - | - |"
-    assert lines[3].endswith("|  |  |")
-    assert lines[8] == "| motion test, all uncertainty | MOB | - | - | 9.00 | 9.00 |"
-    methods_of_lines = [line.split("|")[2].strip() for line in lines[2:]]
-    assert methods_of_lines[::2] == ["MOB", "MOB-Net", "FTS-e2e", "MOB", "MOB-Net"]
-    assert set(methods_of_lines[1::2]) == {"95%"}
-    assert table.with_suffix(".tex").read_text().count(r"\midrule") == 2
+    lines = [cells(line) for line in table.with_suffix(".md").read_text().splitlines()]
+    assert lines[0] == ["Test", "Method", "", "LL3", "LL avg", "W avg", "RA avg"]
+    assert lines[2] == ["walk test, all uncertainty", "zero", "RMSE", "10.00", "10.00", "-", "-"]
+    assert [line[2] for line in lines[2:9]] == ["RMSE", "95%", "raw truth", "RMSE", "95%", "raw truth", "skill"]
+    assert lines[13] == ["motion test, all uncertainty", "MOB", "RMSE", "-", "-", "9.00", "9.00"]
+    assert [line[1] for line in lines[2:] if line[1]] == ["zero", "MOB", "MOB-Net", "MOB", "MOB-Net"]
+    tex = table.with_suffix(".tex").read_text()
+    assert tex.count(r"\midrule") == 2
+    assert tex.startswith(r"\begin{longtable}{lllrrrr}" + "\n" + r"\methodscaption")
 
 
 def test_a_scenario_at_two_levels_is_two_tests(make_table: Make, write_limb_scores: Make) -> None:
@@ -62,5 +86,7 @@ def test_a_scenario_at_two_levels_is_two_tests(make_table: Make, write_limb_scor
     change = {"columns": {"LL": ("avg",)}, "methods": ("MOB",)}
     tests = [ROWS[0].model_copy(update={**change, "level": level}) for level in ("all_uncertainty", "ideal")]
     table = make_table("methods", settings=tests, scores={"walk_test": path})
-    lines = table.with_suffix(".md").read_text().splitlines()
-    assert lines[2::2] == ["| walk test, all uncertainty | MOB | 9.00 |", "| walk test, ideal | MOB | 1.00 |"]
+    lines = [cells(line) for line in table.with_suffix(".md").read_text().splitlines()]
+    assert [line for line in lines[2:] if line[2] == "RMSE"] == [
+        ["walk test, all uncertainty", "MOB", "RMSE", "9.00"], ["walk test, ideal", "MOB", "RMSE", "1.00"],
+    ]  # fmt: skip

@@ -68,10 +68,13 @@ PALETTE = (
     Look("black", (0, (1, 1)), "----", "X"),
 )
 METHODS = ("MOB-Net", "MOB", "MOB-Net-Single", "FTS-e2e", "MOB-fric-BPF", "MOB-fric")
+# method -> that whose look it shares, because no figure has both
+BASELINES = {"MOB-fric-load": "MOB-fric-BPF", "MOB-Kalman": "MOB-fric", "MOB-Net-gray": "MOB-Net-Single"}
 KINDS = ("GRU", "LSTM", "RNN", "TCN", "MLP", "MLP-500")  # of networks; never in a figure with the methods above
 LOOKS: Mapping[str, Look] = {
     **dict(zip(METHODS, PALETTE, strict=False)),
     **dict(zip(KINDS, PALETTE, strict=False)),
+    **{name: PALETTE[METHODS.index(other)] for name, other in BASELINES.items()},
     "MOB-Net-Single-2X": Look("#F0E442", (0, (3, 2)), "oooo", "*"),
     "truth": Look("black", (0, (1, 1)), width=1.1, order=3.0),  # on top of all
     "target": Look("0.72", width=2.0, order=1.0),  # wide, below all

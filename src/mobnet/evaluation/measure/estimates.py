@@ -1,7 +1,9 @@
 """An estimate and the truth that it is compared with, read from the files of a run."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -29,6 +31,12 @@ class Pair:
     truth: NDArray[Any]
     spans: Spans
     rate_hz: float
+
+    def only(self, joints: Sequence[str]) -> Pair:
+        """Return what it holds of some joints; of those that are not estimated it holds nothing."""
+        kept = tuple(joint for joint in self.joints if joint in joints)
+        columns = self.places(kept)
+        return replace(self, joints=kept, estimate=self.estimate[:, columns], truth=self.truth[:, columns])
 
     def places(self, joints: Sequence[str]) -> list[int]:
         """Return the columns of joints in the arrays (n,).

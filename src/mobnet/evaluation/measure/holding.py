@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from mobnet.evaluation.measure.estimates import Pair
 from mobnet.evaluation.measure.measured import Measured, Measures
 from mobnet.evaluation.measure.metrics import Spans
-from mobnet.evaluation.measure.scene import STANCE, SWINGING, TOUCH_DOWN, Scene, shown_pushes
+from mobnet.evaluation.measure.scene import STANCE, SWINGING, Scene, shown_pushes
 from mobnet.evaluation.measure.windows import flagged_spans
 from mobnet.settings.evaluation import Drift
 
@@ -14,31 +14,28 @@ HELD = "held_{}"  # phase: over the whole push
 HELD_BIN = "held_{}_{}"  # phase and number of a bin of time, from 1 on
 
 
-def holding(pair: Pair, scene: Scene, settings: Drift, touch_down_s: float) -> Measures:
-    """Yield the share [-] of long pushes that an estimate of a limb shows, by phase and by time since the push began.
+def holding(pair: Pair, scene: Scene, settings: Drift) -> Measures:
+    """Yield the share [-] of long pushes that an estimate of a leg shows, by phase and by time since the push began.
 
     With the push p behind the observer's low-pass and the error e of the estimate less its mean in this phase while
-    nothing pushes, the share is 1 + sum(e p) / sum(p p) over the limb's joints and the samples: what least squares find
-    of p in p + e. It is 1 for an estimate that holds the push and 0 for one that shows nothing of it. In the swing, p
-    is all external torque; on the ground, the contact forces answer it.
+    nothing pushes, the share is 1 + sum(e p) / sum(p p) over the leg's joints and the samples: what least squares find
+    of p in p + e. It is 1 for an estimate that holds the push and 0 for one that shows nothing of it. All that is not
+    swing is stance. In the swing, p is all external torque; on the ground, the contact forces answer it.
     """
-    joints = scene.layout.limb(settings.limb)
-    places, rate_hz = pair.places(joints), pair.rate_hz
-    shown = shown_pushes(pair, scene)
-    push, error = shown.behind[:, places], (shown.estimate - shown.behind)[:, places]
+    shown, rate_hz = shown_pushes(pair, scene), pair.rate_hz
+    error = shown.estimate - shown.behind
     since = rows_since(scene.pushed, pair.spans)
     calm = calm_rows(scene.pushed, pair.spans, round(settings.calm_s * rate_hz))
-    phases = scene.phases(touch_down_s)
-    column, here = scene.layout.columns(joints)[0], np.isin(pair.joints, joints)
     bins, width = round(settings.longest_s / settings.bin_s), round(settings.bin_s * rate_hz)
-    swing = phases[SWINGING][:, column]
-    for name, phase in ((SWINGING, swing), (STANCE, phases[STANCE][:, column] | phases[TOUCH_DOWN][:, column])):
+    swing = scene.phases[SWINGING][:, scene.layout.columns(pair.joints)[0]]
+    for name, phase in ((SWINGING, swing), (STANCE, ~swing)):
         rest = error - error[phase & calm].mean(axis=0) if np.any(phase & calm) else error
         inside = phase & (since >= 0) & (since < bins * width)
         parts = {HELD.format(name): inside}
         parts |= {HELD_BIN.format(name, k + 1): inside & (since // width == k) for k in range(bins)}
         for metric, rows in parts.items():
-            yield Measured(metric, np.where(here, share_shown(push[rows], rest[rows]), np.nan), "-", True)
+            share = share_shown(shown.behind[rows], rest[rows])
+            yield Measured(metric, np.full(len(pair.joints), share), "-", True)
 
 
 def share_shown(push: NDArray[np.float64], error: NDArray[np.float64]) -> float:

@@ -53,4 +53,4 @@ METRICS: Mapping[str, tuple[Measure, str]] = {  # name -> (estimate, truth, span
     "r_rmse": (lambda estimate, truth, spans, rate_hz: relative_rmse(estimate, truth, spans), "%"),
 }
 PUSHED, PUSH = "rmse_pushed", "rmse_push_{}"  # `rmse` of all windows around pushes, and of the window of each
-RAW = "rmse_raw"  # `rmse` against the external torque itself, before the low-pass
+RAW = "_raw"  # ending of an error against the external torque itself, before the low-pass

@@ -24,12 +24,13 @@ def push_measures(pair: Pair, scene: Scene, settings: Peaks) -> Measures:
 
     For each push, the largest change of what the estimate shows of it, over the largest torque of the push; and the
     time that it needs to half of this torque, less the time that the push needs. A joint counts in a push that turns it
-    hard enough; one whose estimate never gets there has the delay of the window's end, which is a lower bound.
+    with a share of the largest torque of all joints; one whose estimate never gets there has the delay of the window's
+    end, which is a lower bound.
     """
     shown, motors = shown_pushes(pair, scene), np.isin(pair.joints, scene.layout.actuated)
     windows = list(push_rows(scene.pushed, pair.spans, settings, pair.rate_hz))
     for suffix, signal in (("", shown.estimate), (OBSERVER, shown.behind)):
-        found = [rises(shown.push[rows], signal[rows], settings.turned_nm, motors) for rows in windows]
+        found = [rises(shown.push[rows], signal[rows], settings.turned_share, motors) for rows in windows]
         for metric, k, scale, unit in ((PEAK, 0, 1.0, "-"), (DELAY, 1, MS / pair.rate_hz, "ms")):
             yield Measured(metric + suffix, medians([each[k] for each in found], len(pair.joints)) * scale, unit)
 
@@ -44,15 +45,15 @@ def push_rows(pushed: NDArray[np.bool_], spans: Spans, settings: Peaks, rate_hz:
 
 
 def rises(
-    push: NDArray[np.float64], shown: NDArray[np.float64], turned_nm: float, counted: NDArray[np.bool_]
+    push: NDArray[np.float64], shown: NDArray[np.float64], turned_share: float, counted: NDArray[np.bool_]
 ) -> tuple[Array, Array]:
     """Return peak ratio [-] and delay [rows] of what is shown of a push, (n,) each, nan of joints that do not count.
 
     Push and shown (T, n) [N m] begin one row before the push; what is shown then is its zero.
     """
-    top = np.abs(push).argmax(axis=0)
-    peak = push[top, np.arange(push.shape[1])]
-    turned = counted & (np.abs(peak) >= turned_nm)
+    peak = push[np.abs(push).argmax(axis=0), np.arange(push.shape[1])]
+    size = np.where(counted, np.abs(peak), 0.0)
+    turned = (size > 0.0) & (size >= turned_share * size.max(initial=0.0))
     scaled = np.divide(shown - shown[0], peak, out=np.zeros(shown.shape), where=turned)
     true = np.divide(push, peak, out=np.zeros(push.shape), where=turned)
     delay = first_above(scaled, HALF) - first_above(true, HALF)

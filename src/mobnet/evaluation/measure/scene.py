@@ -1,6 +1,6 @@
 """What a recording tells of a walk beside the estimates of it: the raw truth, pushes, phases of the gait, speeds."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -22,10 +22,11 @@ FLAG = 0.5  # a stored flag above this is 1
 
 @dataclass(frozen=True)
 class Scene:
-    """A recording; each property reads its columns once."""
+    """A recording; each property reads its columns once. Touch-downs last some time [s]."""
 
     stem: Path
     layout: JointLayout
+    touch_down_s: float = 0.0
 
     @cached_property
     def external(self) -> NDArray[np.float32]:
@@ -48,19 +49,26 @@ class Scene:
         measured = np.abs(self._read(named(VELOCITY, self.layout.actuated)))
         return np.pad(measured, ((0, 0), (self.layout.nv - self.layout.nu, 0)), constant_values=np.nan)
 
-    def phases(self, touch_down_s: float) -> dict[str, NDArray[np.bool_]]:
-        """Return phase -> whether each joint's own leg is in it (T, nv); a joint of no leg is in none.
-
-        Touch-down lasts some time [s].
-        """
+    @cached_property
+    def phases(self) -> dict[str, NDArray[np.bool_]]:
+        """Phase -> whether each joint's own leg is in it (T, nv); a joint of no leg is in none."""
         note = read_array_note(file_of(self.stem, NOTE))
-        rows, spans = round(touch_down_s * note["rate_hz"]), note["segments"]
+        rows, spans = round(self.touch_down_s * note["rate_hz"]), note["segments"]
         found = {name: np.zeros((note["rows"], self.layout.nv), dtype=bool) for name in (SWINGING, TOUCH_DOWN, STANCE)}
         for side, limb in self.layout.legs.items():
             foot = next(name for name in FEET if name.startswith(side))
             swing, contact = (self._read([f"{signal}.{foot}"])[:, 0] > FLAG for signal in (SWING, CONTACT))
             for name, held in gait_phases(swing, contact, spans, rows).items():
                 found[name][:, self.layout.columns(self.layout.limb(limb))] = held[:, None]
+        return found
+
+    def behind(self, gain_hz: float, joints: Sequence[str]) -> NDArray[np.float64]:
+        """Return pushes on joints behind the observer's low-pass, (T, n) [N m], V1..V3 [N]; the gain is K_0 [1/s]."""
+        note = read_array_note(file_of(self.stem, NOTE))
+        push = self.pushes[:, self.layout.columns(joints)]
+        found = np.zeros(push.shape)
+        for start, end in note["segments"]:
+            found[start:end] = low_pass(push[start:end], gain_hz, note["rate_hz"])
         return found
 
     def _read(self, names: list[str]) -> NDArray[np.float32]:
@@ -100,9 +108,7 @@ class Shown:
 
 def shown_pushes(pair: Pair, scene: Scene) -> Shown:
     """Return the pushes of a run's recording, and what its estimate shows of them."""
-    push = scene.pushes[:, scene.layout.columns(pair.joints)]
     gain_hz = read_array_note(file_of(pair.run.residual, NOTE))["gain_hz"]
-    behind = np.zeros(push.shape)
-    for start, end in pair.spans:
-        behind[start:end] = low_pass(push[start:end], gain_hz, pair.rate_hz)
-    return Shown(push, behind, behind + (pair.estimate.astype(np.float64) - pair.truth))
+    behind = scene.behind(gain_hz, pair.joints)
+    error = pair.estimate.astype(np.float64) - pair.truth
+    return Shown(scene.pushes[:, scene.layout.columns(pair.joints)], behind, behind + error)

@@ -1,7 +1,7 @@
 """Errors and other measures of estimates, a row for each joint, run and metric."""
 
 import logging
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import astuple
 from itertools import groupby
 from math import isnan
@@ -14,20 +14,20 @@ from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.estimates import Pair, read_pair, read_std
 from mobnet.evaluation.measure.holding import holding
 from mobnet.evaluation.measure.measured import Measured, Measures
-from mobnet.evaluation.measure.metrics import METRICS, PUSH, PUSHED, RAW, Spans, rmse
+from mobnet.evaluation.measure.metrics import METRICS, PUSH, PUSHED, RAW, rmse
 from mobnet.evaluation.measure.peaks import push_measures
 from mobnet.evaluation.measure.response import responses
 from mobnet.evaluation.measure.scene import Scene
 from mobnet.evaluation.measure.spread import spreads
-from mobnet.evaluation.measure.strata import masks_of, push_masks, stratified
+from mobnet.evaluation.measure.strata import parts_of, push_parts, stratified
 from mobnet.evaluation.measure.windows import push_windows
 from mobnet.evaluation.number.files import write_csv
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import Runs, Scoring
+from mobnet.settings.evaluation import LimbRuns, Runs, Scoring, Window
 
 log = logging.getLogger(__name__)
 
-AVERAGE = "avg"
+AVERAGE, ERROR = "avg", "rmse"
 
 
 def score(layout: JointLayout, runs: Sequence[Run], asked: Scoring, out: Path) -> None:
@@ -39,7 +39,7 @@ def score(layout: JointLayout, runs: Sequence[Run], asked: Scoring, out: Path) -
     """
     rows: list[Score] = []
     for recording, own in groupby(sorted(runs, key=lambda run: str(run.recording)), lambda run: run.recording):
-        scene = Scene(recording, layout)
+        scene = Scene(recording, layout, asked.touch_down_s)
         rows += [row for run in own for row in score_run(layout, run, asked, scene)]
     write_csv(out, SCORES, [astuple(row) for row in rows])
     log.info("%s: %d runs, %d rows", out, len(runs), len(rows))
@@ -54,57 +54,59 @@ def score_run(layout: JointLayout, run: Run, asked: Scoring, scene: Scene | None
     pair = read_pair(run, layout)
     names = run.scenario, run.level, run.method, run.network_seed, run.test_seed
     rows: list[Score] = []
-    for metric, numbers, pattern, average_only in measured(pair, scene or Scene(run.recording, layout), asked):
-        values = {joint: value for joint, value in zip(pair.joints, numbers.tolist(), strict=True) if not isnan(value)}
-        rows += [
-            Score(*names, limb, joint, metric, value, pattern.format(unit))
-            for limb, joint, value, unit in limb_values(layout, values)
-            if limb not in run.repeated and (joint == AVERAGE or not average_only)
-        ]
+    for part, measures in measured(pair, scene or Scene(run.recording, layout, asked.touch_down_s), asked):
+        for metric, numbers, pattern, average_only in measures:
+            values = dict(zip(part.joints, numbers.tolist(), strict=True))
+            rows += [
+                Score(*names, limb, joint, metric, value, pattern.format(unit))
+                for limb, joint, value, unit in limb_values(layout, {k: v for k, v in values.items() if not isnan(v)})
+                if limb not in run.repeated and (joint == AVERAGE or not average_only)
+            ]
     return rows
 
 
-def measured(pair: Pair, scene: Scene, asked: Scoring) -> Measures:
-    """Yield the measures (n,) of a run, then those of its pushes, and those that are asked for."""
+def measured(pair: Pair, scene: Scene, asked: Scoring) -> Iterator[tuple[Pair, Measures]]:
+    """Yield the measures of a run, and those that are asked for of it, each with the joints that it has."""
+    yield pair, errors(pair, scene, asked.window)
+    if asked.peaks and (part := shown(pair, scene.layout, asked.peaks.tests)):
+        yield part, push_measures(part, scene, asked.peaks)
+    if asked.bode and (part := shown(pair, scene.layout, [asked.bode], [asked.bode.limb])):
+        yield part, responses(part, scene, asked.lines, asked.bode.bands_hz)
+    if asked.drift and (part := shown(pair, scene.layout, asked.drift.tests.values(), [asked.drift.limb])):
+        yield part, holding(part, scene, asked.drift)
+    if asked.phases and (part := shown(pair, scene.layout, asked.phases.tests)):
+        yield part, stratified(part, parts_of(part, scene, asked.stuck_rad_s))
+    if asked.sigma and (part := shown(pair, scene.layout, asked.sigma.tests.values())):
+        masks = {**parts_of(part, scene, asked.stuck_rad_s), **push_parts(part, scene)}
+        yield part, spreads(part, read_std(part.run, part.joints), masks, asked.cover_share, asked.sigma)
+
+
+def errors(pair: Pair, scene: Scene, window: Window | None) -> Measures:
+    """Yield the errors of a whole run, then those around its pushes, together and one by one.
+
+    Those against the raw truth have an ending of their own.
+    """
     for metric, (measure, pattern) in METRICS.items():
         yield Measured(metric, measure(pair.estimate, pair.truth, pair.spans, pair.rate_hz), pattern)
     raw = scene.external[:, scene.layout.columns(pair.joints)]
-    yield Measured(RAW, rmse(pair.estimate, raw, pair.spans))
-    if asked.window:
-        yield from _around_pushes(pair, push_windows(scene.stem, len(raw), asked.window.before_s, asked.window.after_s))
-    if asked.peaks and _shown(asked.peaks.tests, pair.run):
-        yield from push_measures(pair, scene, asked.peaks)
-    if asked.bode and _shown([asked.bode], pair.run):
-        yield from responses(pair, scene, asked.lines, asked.bode.bands_hz)
-    if asked.drift and _shown(asked.drift.tests.values(), pair.run):
-        yield from holding(pair, scene, asked.drift, asked.touch_down_s)
-    yield from _in_parts(pair, scene, asked)
-
-
-def _around_pushes(pair: Pair, windows: Spans) -> Measures:
-    """Yield the error in the windows around all pushes together, and of each push alone; nothing without a push."""
-    pushes = {PUSHED: windows, **{PUSH.format(k): (window,) for k, window in enumerate(windows, start=1)}}
+    yield Measured(ERROR + RAW, rmse(pair.estimate, raw, pair.spans))
+    windows = push_windows(scene.stem, len(raw), window.before_s, window.after_s) if window else ()
+    pushes = {PUSHED: windows, **{PUSH.format(k): (one,) for k, one in enumerate(windows, start=1)}}
     for metric, spans in pushes.items() if windows else ():
-        yield Measured(metric, rmse(pair.estimate, pair.truth, spans))
+        for ending, truth in (("", pair.truth), (RAW, raw)):
+            yield Measured(metric + ending, rmse(pair.estimate, truth, spans))
 
 
-def _in_parts(pair: Pair, scene: Scene, asked: Scoring) -> Measures:
-    """Yield errors and standard deviations in parts of a walk."""
-    with_errors = asked.phases and _shown(asked.phases.tests, pair.run)
-    sigma = asked.sigma if asked.sigma and _shown(asked.sigma.tests.values(), pair.run) else None
-    if not with_errors and not sigma:
-        return
-    masks = masks_of(pair, scene, asked.touch_down_s, asked.stuck_rad_s)
-    if with_errors:
-        yield from stratified(pair, masks)
-    std = read_std(pair.run, pair.joints) if sigma else None
-    if sigma and std is not None:
-        yield from spreads(pair, std, {**masks, **push_masks(pair, scene)}, asked.cover_share, sigma)
-
-
-def _shown(tests: Iterable[Runs], run: Run) -> bool:
-    """Return whether one of a product's tests shows a run."""
-    return any((t.scenario, t.level) == (run.scenario, run.level) and run.method in t.methods for t in tests)
+def shown(
+    pair: Pair, layout: JointLayout, tests: Iterable[Runs | LimbRuns], limbs: Sequence[str] = ()
+) -> Pair | None:  # fmt: skip
+    """Return the joints of a run that a product shows, of some limbs or those of its test; None if it shows none."""
+    run = pair.run
+    for test in tests:
+        if (test.scenario, test.level) == (run.scenario, run.level) and run.method in test.methods:
+            named = test.limbs if isinstance(test, LimbRuns) else limbs
+            return pair.only([joint for limb in named for joint in layout.limb(limb)])
+    return None
 
 
 def limb_values(layout: JointLayout, values: Mapping[str, float]) -> list[tuple[str, str, float, str]]:

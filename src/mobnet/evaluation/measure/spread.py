@@ -19,26 +19,29 @@ FALLEN = np.exp(-1.0)  # correlation below which an excursion has ended
 MS = 1000.0
 
 
-def spreads(pair: Pair, std: NDArray[np.float32], masks: Masks, share: float, settings: Sigma) -> Measures:
+def spreads(pair: Pair, std: NDArray[np.float32] | None, masks: Masks, share: float, settings: Sigma) -> Measures:
     """Yield what an estimate's standard deviations (T, n) [N m], V1..V3 [N], are worth, joint by joint.
 
     For all samples and each part of a walk: their mean, `std_<part>`, and the share of errors within the central
     interval of a nominal share, `cover_<part>`. For each of some equally large parts of the samples by their own size
     also the error, `rmse_part_<k>`. Over time: the autocorrelation of the standardised error, and how long it takes to
-    fall.
+    fall. Of an estimate without standard deviations there is nothing to tell.
     """
+    if std is None:
+        return
     error = pair.estimate.astype(np.float64) - pair.truth
     ratio, inside = error / std, np.zeros(error.shape, dtype=bool)
     for start, end in pair.spans:
         inside[start:end] = True
     covered = (np.abs(ratio) <= half_width(share)).astype(np.float64)
+    sigma = std.astype(np.float64)
     for name, mask in {"": inside, **{f"_{name}": held for name, held in masks.items()}}.items():
-        yield Measured(STD + name, masked_mean(std.astype(np.float64), mask))
+        yield Measured(STD + name, masked_mean(sigma, mask))
         yield Measured(COVER + name, masked_mean(covered, mask), "-")
     rank = ranks(std, inside, settings.parts)
     for k in range(settings.parts):
         mask = rank == k
-        yield Measured(f"{STD}_part_{k + 1}", masked_mean(std.astype(np.float64), mask), average_only=True)
+        yield Measured(f"{STD}_part_{k + 1}", masked_mean(sigma, mask), average_only=True)
         yield Measured(f"rmse_part_{k + 1}", np.sqrt(masked_mean(error**2, mask)), average_only=True)
         yield Measured(f"{COVER}_part_{k + 1}", masked_mean(covered, mask), "-", True)
     memory = autocorrelation(ratio, pair.spans, round(settings.longest_s * pair.rate_hz))

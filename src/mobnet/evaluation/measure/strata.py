@@ -15,14 +15,14 @@ PUSHED, CALM = "pushed", "calm"
 Masks = Mapping[str, NDArray[np.bool_]]  # part of a walk -> whether each joint is in it (T, n)
 
 
-def masks_of(pair: Pair, scene: Scene, touch_down_s: float, stuck_rad_s: float) -> dict[str, NDArray[np.bool_]]:
+def parts_of(pair: Pair, scene: Scene, stuck_rad_s: float) -> dict[str, NDArray[np.bool_]]:
     """Return the parts of a walk, (T, n) each: phases of the own leg, and joints slower than a speed [rad/s] or not.
 
     Rows outside of the spans of the estimate are in none.
     """
     places = scene.layout.columns(pair.joints)
     speed = scene.speed[:, places]
-    found = {name: held[:, places] for name, held in scene.phases(touch_down_s).items()}
+    found = {name: held[:, places] for name, held in scene.phases.items()}
     found |= {STUCK: speed < stuck_rad_s, MOVING: speed >= stuck_rad_s}
     inside = np.zeros(len(speed), dtype=bool)
     for start, end in pair.spans:
@@ -30,7 +30,7 @@ def masks_of(pair: Pair, scene: Scene, touch_down_s: float, stuck_rad_s: float) 
     return {name: held & inside[:, None] for name, held in found.items()}
 
 
-def push_masks(pair: Pair, scene: Scene) -> dict[str, NDArray[np.bool_]]:
+def push_parts(pair: Pair, scene: Scene) -> dict[str, NDArray[np.bool_]]:
     """Return where a push acts and where none does, (T, n) each; nothing where the scenario has no pushes."""
     if not scene.pushed.any():
         return {}
@@ -41,7 +41,7 @@ def push_masks(pair: Pair, scene: Scene) -> dict[str, NDArray[np.bool_]]:
 def masked_mean(values: NDArray[np.float64], mask: NDArray[np.bool_]) -> Array:
     """Return the mean of each column (n,) of values (T, n) over the rows of its mask (T, n); nan where it has none."""
     count = mask.sum(axis=0)
-    total = np.where(mask, values, 0.0).sum(axis=0)
+    total = np.einsum("tn,tn->n", values, mask)
     return np.where(count > 0, total / np.maximum(count, 1), np.nan)
 
 

@@ -48,8 +48,8 @@ def _score_faults(rows: Sequence[Score]) -> Iterator[Fault]:
             yield k, "unit", row.unit, ", ".join(UNITS)
         *key, _, unit = astuple(row)
         first = seen.setdefault((*key, unit), k)
-        # a limb with forces and torques has two relative means, both in %
-        if first != k and (row.joint, unit) != ("avg", "%"):
+        # a limb with forces and torques has two means of what has no unit of a joint, such as %
+        if first != k and not (row.joint == "avg" and unit in ("%", *SIGNED)):
             yield k, "row", ", ".join(map(str, key)), f"once; it stands in line {first + 2} already"
 
 

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from mobnet.core.columns import CLAIMED
 from mobnet.core.files import write_text
+from mobnet.evaluation.measure.metrics import RAW
 from mobnet.evaluation.number.files import read_numbers, read_texts
 from mobnet.evaluation.number.number import Number, number_text
 from mobnet.evaluation.tables.layout import tex_escape
@@ -61,7 +62,9 @@ def numbers(
 
 def cell_texts(of: Mapping[str, str], number: Number) -> dict[str, str]:
     """Return the names and TeX texts of a cell, ours and the paper's; `of`: columns `ERRORS` of its row."""
-    metric = "mean" if "+" in of["metric"] else of["metric"]
+    metric = of["metric"]
+    if "+" in metric:
+        metric = f"mean{RAW}" if metric.endswith(RAW) else "mean"
     where = "@".join((of["scenario"], of["level"], of["method"], of["joint"], metric))
     return {f"ours@{where}": number.text(), f"published@{where}": number_text(number.published)}
 

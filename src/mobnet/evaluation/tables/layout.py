@@ -5,13 +5,18 @@ In TeX only booktabs is needed, and longtable for a table of several pages.
 
 import logging
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 
 from mobnet.core.files import write_text
+from mobnet.core.joints import JointLayout
+from mobnet.evaluation.measure.lookup import AVERAGE, Lookup
 from mobnet.evaluation.number.files import Field, write_csv
+from mobnet.evaluation.number.grid import Wanted
 from mobnet.evaluation.number.number import Number
+from mobnet.settings.evaluation import Runs
 
 log = logging.getLogger(__name__)
 
@@ -88,6 +93,18 @@ def with_intervals(
         blank = [""] * (len(labels) - 1)
         lines.append([*blank, f"{confidence:.0%}", *(number.interval(digits) for number in numbers)])
     return lines
+
+
+def measured_rows(
+    lookup: Lookup, layout: JointLayout, test: Runs, limbs: Sequence[str], metrics: Sequence[str]
+) -> Iterator[Sequence[Field]]:
+    """Yield the rows of CSV, columns METHODS, of some metrics of a test: joints of limbs, then their average."""
+    for method, limb in product(test.methods, limbs):
+        for joint, metric in product((*layout.limb(limb), AVERAGE), metrics):
+            found = lookup.number([Wanted(test.scenario, limb, test.level, method, joint, metric)])
+            if found.value is not None:
+                of = test.scenario, test.level, method, limb, joint, metric
+                yield (*of, *found.with_ends, *found.spread, found.unit)
 
 
 def tex_escape(text: str) -> str:

@@ -13,7 +13,7 @@ from mobnet.settings.names import uses
 from mobnet.settings.settings import Settings, swept_name
 
 TABLES = ("calibration", "coverage", "error_budget", "kinds", "latency", "methods")  # that are no entry of `tables`
-PUSHED, PUSH = "rmse_pushed", "rmse_push_"  # metrics of windows around pushes
+PUSHED, PUSH, RAW = "rmse_pushed", "rmse_push_", "_raw"  # metrics of windows around pushes, against the raw truth
 ASKED = {  # section -> metrics that are measured on its tests alone
     "peaks": r"(peak_ratio|rise_delay).*",
     "bode": r"(gain|phase)_.*",
@@ -87,7 +87,7 @@ class Results:
         timed = [self.settings.pushes[name].at_s for name in self.settings.scenarios[scenario].pushes]
         if metric.startswith(PUSH) and None not in timed:
             count = sum(len(times) for times in timed if times)
-            if int(metric.removeprefix(PUSH)) > count:
+            if int(metric.removeprefix(PUSH).removesuffix(RAW)) > count:
                 return not_accepted("metric", metric, [f"{PUSH}{k + 1}" for k in range(count)])
         return ""
 

@@ -10,7 +10,7 @@ from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.checks.claims import claim_problems
 from mobnet.settings.checks.printed import printed_problems
 from mobnet.settings.checks.results import Results
-from mobnet.settings.evaluation import CoverageTest, ErrorTable, Mean
+from mobnet.settings.evaluation import CoverageTest, ErrorRow, ErrorTable, Mean
 from mobnet.settings.reading import Place
 from mobnet.settings.settings import Settings
 
@@ -54,6 +54,8 @@ def shown_runs(settings: Settings) -> Iterator[Shown]:
         if {"scenario", "level", "methods"} <= type(section).model_fields.keys():
             scenario, level, methods = (getattr(section, name) for name in ("scenario", "level", "methods"))
             yield from (((*place, "methods", k), scenario, level, method) for k, method in enumerate(methods))
+            further = section.further if isinstance(section, ErrorRow) else ()
+            yield from (((*place, "further", k), scenario, level, method) for k, method in enumerate(further))
         elif isinstance(section, CoverageTest):
             yield (*place, "level"), section.scenario, section.level, ""
     figure = evaluation.figure_05
@@ -100,7 +102,7 @@ def _table_problems(results: Results, table: ErrorTable) -> Iterator[Problem]:
     order = [columns.index(name) for name in table.parts if name in columns]
     if len(order) < len(table.parts) or order != sorted(order) or 0 in order:
         yield ("parts",), misfit(list(table.parts), f"columns in their order: {', '.join(columns[1:])}")
-    shown = {method for row in table.rows for method in row.methods}
+    shown = {method for row in table.rows for method in (*row.methods, *row.further)}
     for name in table.names.keys() - shown:
         yield ("names", name), not_accepted("method", name, shown)
     asked = {joint for column in table.columns for joint in results.joints_of(column)}
@@ -113,9 +115,12 @@ def _table_problems(results: Results, table: ErrorTable) -> Iterator[Problem]:
         for metric in sorted(own | {row.metric}):
             if text := results.not_scored(row.scenario, metric):
                 yield (*place, "metric" if metric == row.metric else "scenario"), text
-        for k, method in enumerate(row.methods):
-            if text := results.not_estimated(method, asked):
-                yield (*place, "methods", k), text
+        for key, methods in (("methods", row.methods), ("further", row.further)):
+            for k, method in enumerate(methods):
+                if text := results.not_estimated(method, asked):
+                    yield (*place, key, k), text
+                if key == "further" and method in row.methods:
+                    yield (*place, key, k), misfit(method, "methods that are not among `methods`")
 
 
 def _budget_problems(results: Results) -> Iterator[Problem]:

@@ -1,0 +1,57 @@
+"""Gain and phase are drawn at the lines of each joint, beside the observer's low-pass."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from csv_files import check_golden, read_table
+
+from mobnet.core.joints import JointLayout
+from mobnet.evaluation.figures.bode import REFERENCE, Answer, bode, draw_bode
+from mobnet.evaluation.number.number import Number
+from mobnet.settings.evaluation import Evaluation, LimbRuns
+from mobnet.settings.settings import Settings
+
+METRICS = {"gain_0.5hz": (0.9, "-"), "phase_0.5hz": (-5.0, "deg"), "gain_2hz": (0.5, "-"), "phase_2hz": (-40.0, "deg")}
+
+
+def test_numbers_stand_at_the_frequency_that_is_injected_on_their_joint(
+    tmp_path: Path, settings: Settings, evaluation: Evaluation, layout: JointLayout,
+    write_measured: Callable[..., dict[str, Path]],
+) -> None:  # fmt: skip
+    section = evaluation.bode.model_copy(update={"methods": ("MOB", "MOB-Net")})
+    test = LimbRuns(scenario=section.scenario, level=section.level, methods=section.methods, limbs=(section.limb,))
+    bode(section, settings.pushes, layout, settings.observer, settings.rates, evaluation.statistics,
+         write_measured([test], METRICS), tmp_path)  # fmt: skip
+    rows = read_table(tmp_path / "bode.csv")
+    lines = {push.joint: push.sines.frequency_hz for push in settings.pushes.values() if push.sines}
+    assert {row.joint for row in rows} == set(lines)
+    for row in rows:
+        slow = (0.9, 0.99) if row.quantity == "gain" else (-5.0, -5.5)  # of MOB and of MOB-Net, a tenth more
+        place = section.bands_hz.index(0.5 if row.value in map(pytest.approx, slow) else 2.0)
+        assert row.frequency_hz == pytest.approx(lines[row.joint][place])
+    assert {path.suffix for path in tmp_path.glob("bode.*")} == {".csv", ".pdf", ".png"}
+    check_golden(tmp_path / "bode.csv")
+
+
+def test_every_joint_has_a_panel_of_gain_above_one_of_phase_with_the_reference() -> None:
+    numbers = {0.5: Number(0.9, 0.8, 1.0), 2.0: Number(0.5)}
+    joints = ["LL1", "LL2", "LL3", "LL4"]
+    answers = [Answer("MOB", joint, quantity, numbers) for joint in joints for quantity in ("gain", "phase")]
+    frequencies = np.array([0.5, 5.0])
+    figure = draw_bode(answers, joints, (frequencies, {"gain": np.ones(2), "phase": np.zeros(2)}))
+    shown = [axis for axis in figure.axes if axis.get_visible()]
+    assert len(shown) == 8
+    assert [axis.get_title("left") for axis in shown if axis.get_title("left")] == [
+        "(a) LL1", "(b) LL2", "(c) LL3", "(d) LL4",
+    ]  # fmt: skip
+    for axis in shown:
+        assert REFERENCE in [line.get_label() for line in axis.lines]
+        assert axis.get_xscale() == "log"
+
+
+def test_without_a_push_the_reference_is_drawn_alone() -> None:
+    response = np.ones(2), {"gain": np.ones(2), "phase": np.zeros(2)}
+    figure = draw_bode([Answer("MOB", "LL1", "gain", {})], ["LL1"], response)
+    assert [len(axis.lines) for axis in figure.axes if axis.get_visible()] == [1, 1]
