@@ -28,7 +28,8 @@ def results(tmp_path: Path, layout: JointLayout, write_training: Callable[..., P
     write_rows(tmp_path / "walk.csv", rows)
     folders = [write_training("GRU", seed, -4.0 - seed) for seed in (0, 1)]
     folders.append(write_training("MLP", epochs=1, diverged=True))
-    return read_results(layout, [tmp_path / "walk.csv"], folders)
+    asked = WALK.model_copy(update={"metric": ("rmse", "rmse_push_1")})
+    return read_results(layout, [tmp_path / "walk.csv"], folders, [asked])
 
 
 @pytest.mark.parametrize(

@@ -99,14 +99,17 @@ class Results:
 
 
 def read_results(
-    layout: JointLayout, scores: Iterable[Path], folders: Iterable[Path], tables: Mapping[str, Path] | None = None
-) -> Results:
-    """Read all results: files of scores, folders of trained networks of one limb, and tables."""
+    layout: JointLayout, scores: Iterable[Path], folders: Iterable[Path], cells: Sequence[Cell],
+    tables: Mapping[str, Path] | None = None,
+) -> Results:  # fmt: skip
+    """Read the results that cells name: of scores, of folders of one limb's trained networks, and of tables."""
+    asked = {(cell.scenario, cell.level, cell.method, name) for cell in cells for name in listed(cell.metric or METRIC)}
     found: dict[Wanted, list[Score]] = defaultdict(list)
     metrics: dict[tuple[str, ...], set[str]] = defaultdict(set)
     for row in (row for path in scores for row in read_scores(path)):
-        found[Wanted(row.scenario, row.limb, row.level, row.method, row.joint, row.metric)].append(row)
         metrics[row.scenario, row.level, row.method].add(row.metric)
+        if (row.scenario, row.level, row.method, row.metric) in asked:
+            found[Wanted(row.scenario, row.limb, row.level, row.method, row.joint, row.metric)].append(row)
     rows = {name: read_texts(path) for name, path in (tables or {}).items()}
     return Results(layout, found, metrics, read_trainings(folders), rows)
 

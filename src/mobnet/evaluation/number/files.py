@@ -42,12 +42,21 @@ def read_rows(path: Path, kind: type[Row]) -> list[Row]:
             due; one line for each.
     """
     hints, faults = get_type_hints(kind), list[str]()
-    rows = [
-        {name: _parse(row[name], hint, f"{path}:{line}: {name}", faults) for name, hint in hints.items()}
-        for line, row in enumerate(read_texts(path, list(hints)), start=2)
-    ]
+    rows = read_texts(path, list(hints))
+    columns = [_parsed(path, name, hint, [row[name] for row in rows], faults) for name, hint in hints.items()]
     refuse_lines(faults)
-    return [kind(**row) for row in rows]
+    return [kind(*row) for row in zip(*columns, strict=True)]
+
+
+def _parsed(path: Path, name: str, hint: Any, texts: Sequence[str], faults: list[str]) -> Sequence[Any]:
+    """Return the fields of a column as the type that it has; what is none is added to the faults."""
+    if hint is str:
+        return texts
+    if hint is int and all(map(WHOLE.fullmatch, texts)):
+        return [int(text) for text in texts]
+    if hint is float and all(map(REAL.fullmatch, texts)) and not any(map(math.isinf, map(float, texts))):
+        return [float(text) for text in texts]
+    return [_parse(text, hint, f"{path}:{line}: {name}", faults) for line, text in enumerate(texts, start=2)]
 
 
 def refuse_rows(path: Path, faults: Iterable[tuple[int, str, object, str]]) -> None:

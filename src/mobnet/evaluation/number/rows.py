@@ -1,7 +1,8 @@
 """Files of rows that jobs hand on: errors of runs, and epochs of trainings."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import astuple
+from dataclasses import fields
+from operator import attrgetter
 from pathlib import Path
 
 from mobnet.core.columns import Epoch, Score
@@ -9,6 +10,7 @@ from mobnet.evaluation.number.files import read_rows, refuse_rows
 
 UNITS = ("N", "N m", "N/s", "N m/s", "%", "-", "ms", "deg")  # of a score
 SIGNED = ("-", "ms", "deg")  # units of numbers that may be below zero
+KEY = attrgetter(*(field.name for field in fields(Score) if field.name != "value"))  # what names a score, unit last
 Fault = tuple[int, str, object, str]  # number of a row, column, value, accepted
 
 
@@ -46,11 +48,11 @@ def _score_faults(rows: Sequence[Score]) -> Iterator[Fault]:
                 yield k, name, "", "a name"
         if row.unit not in UNITS:
             yield k, "unit", row.unit, ", ".join(UNITS)
-        *key, _, unit = astuple(row)
-        first = seen.setdefault((*key, unit), k)
+        key = KEY(row)
+        first = seen.setdefault(key, k)
         # a limb with forces and torques has two means of what has no unit of a joint, such as %
-        if first != k and not (row.joint == "avg" and unit in ("%", *SIGNED)):
-            yield k, "row", ", ".join(map(str, key)), f"once; it stands in line {first + 2} already"
+        if first != k and not (row.joint == "avg" and row.unit in ("%", *SIGNED)):
+            yield k, "row", ", ".join(map(str, key[:-1])), f"once; it stands in line {first + 2} already"
 
 
 def _epoch_faults(rows: Sequence[Epoch]) -> Iterator[Fault]:

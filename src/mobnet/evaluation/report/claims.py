@@ -26,8 +26,10 @@ def claims(
         ConfigError: a cell of a claim is not well formed.
         DataError: a run that a claim needs is missing.
     """
-    results = read_results(layout, scores.values(), folders, tables)
-    judged = [judge(row, results, statistics, methods) for row in rows_of(claims)]
+    rows = list(rows_of(claims))
+    cells = [cell for row in rows for made in (row.claim, *row.claim.numbers.values()) for cell in made.cells]
+    results = read_results(layout, scores.values(), folders, cells, tables)
+    judged = [judge(row, results, statistics, methods) for row in rows]
     claim_table(judged, statistics.confidence, table_dir)
     forest(judged, statistics.confidence, figure_dir)
     for each in judged:
