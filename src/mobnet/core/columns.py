@@ -167,7 +167,7 @@ COMMANDS = (*BIN, "share", "unit")
 PUSH_ERRORS = ("scenario", "method", "push", "rmse_nm", "low", "high", *SPREAD, "published")
 LOSSES = ("measure", "method", "runs", "epoch", "mean", "low", "high")
 LIMB_ERRORS = ("scenario", "method", "limb", "joint", "rmse_nm", "low", "high", *SPREAD)
-DOTS = ("kind", "set", "joint", "velocity_rad_s", "torque_nm")
+DOTS = ("kind", "set", "joint", "velocity_rad_s", "torque_nm", "phase")
 SIZES = (
     "panel", "base", "method", "parameters", "samples", "runs",
     "loss", "loss_low", "loss_high", "rmse_nm", "rmse_low_nm", "rmse_high_nm",

@@ -222,6 +222,9 @@ class Coverage(Section):
     range: base.Span[base.Share]
     cells: base.Whole = Field(ge=2, le=1000)
     cell_range: base.Span[base.Share]
+    phases: base.Whole = Field(ge=2, le=1000)
+    state_cells: base.Whole = Field(ge=2, le=1000)
+    cell_samples: base.Whole = Field(ge=2, le=10_000)
     push_nm: base.Real = Field(ge=0.01, le=1000)
     push_after_s: base.NotNegative = Field(le=10)
     tests: base.Some[CoverageTest]

@@ -6,7 +6,21 @@ import numpy as np
 import pytest
 
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.measure.coverage import ALL, AREA, NEAREST, OUTSIDE, covered, nearest, outside, visited
+from mobnet.evaluation.measure.coverage import (
+    ALL,
+    AREA,
+    BEYOND,
+    NEAREST,
+    OUTSIDE,
+    WIDTH,
+    beyond,
+    conditional,
+    covered,
+    nearest,
+    outside,
+    visited,
+    widths,
+)
 from mobnet.evaluation.measure.samples import equal_sets, read_blocks, refer, scale_of
 from mobnet.learning.features import limb_inputs
 from mobnet.settings.evaluation import CoverageTest, Evaluation
@@ -72,10 +86,11 @@ def test_sets_are_made_equally_long_and_a_constant_input_keeps_its_scale() -> No
 def test_blocks_hold_the_inputs_of_table_1(
     settings: Settings, evaluation: Evaluation, layout: JointLayout, data_sets: Sets
 ) -> None:
-    """Of 20 s in two segments: blocks of 5 s, every second sample."""
+    """Of 20 s in two segments: blocks of 5 s, every second sample; the phase of the gait comes last."""
     inputs = limb_inputs(layout, settings.robot.networks["LL"])
     blocks = read_blocks(data_sets["walk"][:1], layout, inputs, evaluation.coverage)
-    assert [block.shape for block in blocks] == [(250, 30)] * 4
+    assert [block.shape for block in blocks] == [(250, 31)] * 4
+    assert (np.nanmin(blocks[1][:, -1]), np.nanmax(blocks[1][:, -1])) == pytest.approx((0.0, 1.0), abs=0.02)
 
 
 def test_equivalent_sets_come_out_even_and_tests_without_pushes_are_left_out(
@@ -89,3 +104,25 @@ def test_equivalent_sets_come_out_even_and_tests_without_pushes_are_left_out(
     assert {row.scenario for row in rows} == {"training", "walk_test"}
     assert all(row.with_rte == row.without_rte for row in rows)
     assert all(row.ratio.value == 1.0 for row in rows if row.measure in NEAREST or row.measure == AREA)
+
+
+def test_torques_at_their_phase_are_outside_where_pooled_ones_are_inside(
+    rng: np.random.Generator, evaluation: Evaluation
+) -> None:
+    """In training the torque follows the phase, with and without exploration; the test has it half a gait later."""
+    phase, names = rng.uniform(0, 1, (4000, 1)), ("q.LL1", "v.LL1", "tau_des.LL1", "phase")
+    state = rng.uniform(-1, 1, (4000, 2))
+    wide = np.concatenate([state, 10 * phase + rng.normal(0, 2, phase.shape), phase], axis=1)
+    narrow = np.concatenate([state, 10 * phase + rng.normal(0, 1, phase.shape), phase], axis=1)
+    ranges = conditional([wide, narrow], names, ["LL1"], evaluation.coverage.model_copy(update={"phases": 20}))
+    width = {(row.measure, row.joint): row for row in widths(ranges)}
+    assert width[WIDTH["phase"], "LL1"].ratio.value == pytest.approx(2.0, rel=0.1)
+    assert width[WIDTH["phase"], ALL].with_rte == width[WIDTH["phase"], "LL1"].with_rte
+    assert width[WIDTH["position and velocity"], "LL1"].with_rte > 10.0
+    late = np.column_stack([narrow[:, :3], (narrow[:, 3] + 0.5) % 1.0])
+    found = {(row.measure, row.joint): row for row in beyond(TEST, [late], ranges, names)}
+    assert found[BEYOND["phase"], "LL1"].without_rte > 0.95
+    assert 0.5 < found[BEYOND["phase"], "LL1"].with_rte < found[BEYOND["phase"], "LL1"].without_rte
+    assert found[BEYOND["position and velocity"], ALL].without_rte < 0.05
+    unknown = np.column_stack([narrow[:, :3], np.full(len(narrow), np.nan)])
+    assert {row.measure for row in beyond(TEST, [unknown], ranges, names)} == {BEYOND["position and velocity"]}

@@ -10,9 +10,11 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from mobnet.core.arrays import Array
+from mobnet.core.columns import FEET
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import read_sensed
-from mobnet.evaluation.measure.windows import FLAG, Pushed, blocks_of, evenly
+from mobnet.evaluation.measure.conditional import gait_phase
+from mobnet.evaluation.measure.windows import FLAG, Pushed, blocks_of, evenly, foot_of
 from mobnet.learning.features import LimbInputs
 from mobnet.settings.evaluation import Coverage
 
@@ -32,18 +34,22 @@ def read_blocks(
     stems: Sequence[Path], layout: JointLayout, inputs: LimbInputs, settings: Coverage, foot: int | None = None,
     pushed: Pushed | None = None,
 ) -> list[NDArray[np.float32]]:  # fmt: skip
-    """Return every k-th sample of a network's inputs, block by block (n, n_in), units of `LimbInputs`.
+    """Return every k-th sample of a network's inputs and, last, the gait's phase [-], block by block (n, n_in + 1).
 
-    Only samples with a foot, 0 left, 1 right, in the air count where one is given, and only those around pushes, a
-    block each, where pushes are.
+    Units are those of `LimbInputs`; the phase is that of the limb. Only samples with a foot, 0 left, 1 right, in the
+    air count where one is given, and only those around pushes, a block each, where pushes are.
     """
     blocks = []
+    own = FEET.index(foot_of(layout, layout.limb(settings.limb)[0]))
     for stem in stems:
         recording = read_sensed(stem, layout)
+        phase = gait_phase(recording.sensed.swing[:, own] > FLAG, recording.segments)
         spans = pushed.spans(stem) if pushed else recording.segments
         for start, end in blocks_of(spans, round(settings.block_s * recording.rate_hz)):
-            sensed = recording.sensed[start : end : settings.every]
-            blocks.append(inputs(sensed)[slice(None) if foot is None else sensed.swing[:, foot] > FLAG])
+            rows = slice(start, end, settings.every)
+            sensed = recording.sensed[rows]
+            block = np.column_stack([inputs(sensed), phase[rows].astype(np.float32)])
+            blocks.append(block[slice(None) if foot is None else sensed.swing[:, foot] > FLAG])
     return blocks
 
 

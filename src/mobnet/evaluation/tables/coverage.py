@@ -5,7 +5,7 @@ from pathlib import Path
 
 from mobnet.core.columns import COVERAGE
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.measure.coverage import ALL, NEAREST, Covered, covered
+from mobnet.evaluation.measure.coverage import ALL, NEAREST, WIDTH, Covered, covered
 from mobnet.evaluation.number.number import number_text
 from mobnet.evaluation.tables.layout import Line, Table, in_blocks, write_table
 from mobnet.settings.evaluation import Coverage, Statistics
@@ -34,9 +34,10 @@ def coverage(
 def coverage_lines(rows: Sequence[Covered]) -> list[Line]:
     """Return the rows of text, a rule between tests; shares in %."""
     blocks: dict[tuple[str, str], list[list[str]]] = {}
+    numbers = (*NEAREST, *WIDTH.values())
     for row in rows:
         values = row.with_rte, row.without_rte
-        texts = [number_text(value) if row.measure in NEAREST else f"{value:.1%}" for value in values]
+        texts = [number_text(value) if row.measure in numbers else f"{value:.1%}" for value in values]
         labels = row.scenario.replace("_", " "), row.level.replace("_", " ")
         blocks.setdefault(labels, []).append([row.measure, *texts, row.ratio.text(), row.ratio.interval()])
     return in_blocks(blocks.items())
