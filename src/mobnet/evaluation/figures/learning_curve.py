@@ -9,7 +9,7 @@ from mobnet.core.columns import TRIALS, TrialError
 from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from mobnet.evaluation.figures.style import save_figure
 from mobnet.evaluation.number.files import read_rows, write_csv
-from mobnet.evaluation.number.intervals import extremes
+from mobnet.evaluation.number.single import extremes
 from mobnet.settings.evaluation import LearningCurve
 
 MILLION = 1e6
