@@ -8,6 +8,7 @@ from pydantic import BaseModel
 
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.checks.claims import claim_problems
+from mobnet.settings.checks.measured import measured_problems
 from mobnet.settings.checks.printed import printed_problems
 from mobnet.settings.checks.results import Results
 from mobnet.settings.evaluation import CoverageTest, ErrorRow, ErrorTable, Mean
@@ -43,6 +44,7 @@ def shown_problems(settings: Settings) -> Iterator[Problem]:
         _method_table_problems,
     ):
         yield from check(results)
+    yield from measured_problems(results)
     yield from claim_problems(results)
     yield from printed_problems(settings)
 

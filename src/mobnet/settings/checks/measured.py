@@ -1,0 +1,95 @@
+"""What must hold for the products beside errors: pushes, lines for every band, lags within what is looked at."""
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from mobnet.core.errors import misfit, not_accepted
+from mobnet.settings.checks.results import Results
+from mobnet.settings.evaluation import LimbRuns
+from mobnet.settings.reading import Place
+
+Problem = tuple[Place, str]
+ROOT: Place = ("evaluation",)
+MS = 1000.0
+
+
+def measured_problems(results: Results) -> Iterator[Problem]:
+    """Yield what does not fit in the sections of peaks, bode, drift, phases, sigma and of the table of methods."""
+    evaluation = results.settings.evaluation
+    for name in ("bode", "drift"):
+        limb = getattr(evaluation, name).limb
+        if limb not in results.legs:
+            yield (*ROOT, name, "limb"), not_accepted("leg", limb, results.legs)
+    for name, tests in (
+        ("peaks", dict(enumerate(evaluation.peaks.tests))),
+        ("phases", dict(enumerate(evaluation.phases.tests))),
+        ("sigma", evaluation.sigma.tests),
+    ):
+        yield from _limb_problems(results, (*ROOT, name, "tests"), tests)
+    yield from _push_problems(results)
+    yield from _line_problems(results)
+    yield from _sigma_problems(results)
+    for k, row in enumerate(evaluation.methods):
+        if text := results.not_scored(row.scenario, row.metric):
+            yield (*ROOT, "methods", k, "metric"), text
+
+
+def _limb_problems(
+    results: Results, place: Place, tests: Mapping[str, LimbRuns] | Mapping[int, LimbRuns]
+) -> Iterator[Problem]:
+    """Yield methods that do not estimate the limbs at which they are shown."""
+    for key, test in tests.items():
+        joints = [joint for limb in test.limbs for joint in results.joints(limb)]
+        for k, method in enumerate(test.methods):
+            if text := results.not_estimated(method, joints):
+                yield (*place, key, "methods", k), text
+
+
+def _push_problems(results: Results) -> Iterator[Problem]:
+    """Yield tests of pushes without any, and bins that are longer than the time that is looked at."""
+    settings, evaluation = results.settings, results.settings.evaluation
+    pushed = [name for name in settings.tests if settings.scenarios[name].pushes]
+    shown: list[tuple[Place, str]] = [
+        *((("peaks", "tests", k, "scenario"), test.scenario) for k, test in enumerate(evaluation.peaks.tests)),
+        *((("drift", "tests", title, "scenario"), test.scenario) for title, test in evaluation.drift.tests.items()),
+    ]
+    for place, scenario in shown:
+        if scenario not in pushed:
+            yield (*ROOT, *place), not_accepted("test with pushes", scenario, pushed)
+    if evaluation.drift.bin_s > evaluation.drift.longest_s:
+        yield (
+            (*ROOT, "drift", "bin_s"),
+            misfit(evaluation.drift.bin_s, f"at most longest_s, {evaluation.drift.longest_s}"),
+        )
+
+
+def _line_problems(results: Results) -> Iterator[Problem]:
+    """Yield joints that are driven at another number of lines than there are bands, or not at all."""
+    settings, bode = results.settings, results.settings.evaluation.bode
+    pushes = [settings.pushes[name] for name in settings.scenarios[bode.scenario].pushes]
+    lines = {push.joint: push.sines.frequency_hz for push in pushes if push.joint and push.sines}
+    if not set(lines) & set(results.joints(bode.limb)):
+        yield (*ROOT, "bode", "scenario"), misfit(bode.scenario, f"a test with sines on joints of {bode.limb}")
+    for joint, frequencies in lines.items():
+        if len(frequencies) != len(bode.bands_hz):
+            text = misfit(f"{len(bode.bands_hz)} bands", f"{len(frequencies)}, one for each line on {joint}")
+            yield (*ROOT, "bode", "bands_hz"), text
+        elif frequencies[-1] >= settings.rates.data_hz / 2:
+            yield (*ROOT, "bode", "scenario"), misfit(frequencies[-1], "lines below half of data_hz")
+
+
+def _sigma_problems(results: Results) -> Iterator[Problem]:
+    """Yield lags that are not looked at, names of tests that there are not, and methods without standard deviations."""
+    settings, sigma = results.settings, results.settings.evaluation.sigma
+    if sigma.lags_ms[-1] > sigma.longest_s * MS:
+        yield (*ROOT, "sigma", "lags_ms"), misfit(sigma.lags_ms[-1], f"at most longest_s, {sigma.longest_s * MS:g} ms")
+    names: Sequence[str] = list(sigma.tests)
+    for title, base in sigma.against.items():
+        for name in (title, base):
+            if name not in names:
+                yield (*ROOT, "sigma", "against", title), not_accepted("test of sigma", name, names)
+    learned = [name for name, method in settings.all_methods.items() if method.limbs]
+    for title, test in sigma.tests.items():
+        for k, method in enumerate(test.methods):
+            if method not in learned:
+                place = (*ROOT, "sigma", "tests", title, "methods", k)
+                yield place, not_accepted("method with networks", method, learned)
