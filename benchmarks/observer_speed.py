@@ -27,7 +27,7 @@ def main() -> list[dict[str, float | str]]:
     robot, rate, observing = describe(settings.robot), settings.rates.data_hz, settings.observer
     level, gravity = settings.levels[LEVEL], settings.plant.gravity_m_s2
     observer = observer_of(robot, level, gravity, observing.gain_hz, rate, observing.torque)
-    sensed = _motion(robot.layout, rate)
+    sensed = motion(robot.layout, rate)
     turns = [_turn(observer, sensed) for _ in range(ROUNDS + 1)][1:]
     ours, loop = (statistics.median(column) / SAMPLES * 1e6 for column in zip(*turns, strict=True))
     ratios = [theirs / mine for mine, theirs in turns]
@@ -56,7 +56,7 @@ def _turn(observer: MomentumObserver, sensed: Sensed) -> tuple[float, float]:
     return between - started, ended - between
 
 
-def _motion(layout: JointLayout, rate_hz: float) -> Sensed:
+def motion(layout: JointLayout, rate_hz: float) -> Sensed:
     """Return smooth motion of all joints about an upright base, (SAMPLES, ...)."""
     rng = np.random.default_rng(0)
     phase = np.arange(SAMPLES)[:, None] / rate_hz * rng.uniform(1.0, 10.0, layout.nv)

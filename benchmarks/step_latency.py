@@ -24,6 +24,7 @@ from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.robot.description import describe
 from mobnet.settings.load import load_settings
 from mobnet.settings.networks import Training
+from mobnet.settings.settings import Settings
 
 TICKS, WARM_UP = 3000, 200
 TICK_S = 1e-3  # the robot's, section 4.1
@@ -36,8 +37,7 @@ def main() -> list[Row]:
     torch.set_num_threads(1)
     settings = load_settings(overrides={"scale": "default"})
     layout, level = settings.layout, settings.levels["all_uncertainty"]
-    trainings = {limb: settings.training("MOB-Net", limb) for limb in settings.method("MOB-Net").limbs}
-    six = {limb: training for limb, training in trainings.items() if training.network.cell == "GRU"}
+    six = six_trainings(settings)
     models = {limb: _model(training, layout) for limb, training in six.items()}
     networks = LimbNetworks([_network(six[limb], layout, model) for limb, model in models.items()], layout)
     known = describe(settings.robot), level, settings.plant.gravity_m_s2
@@ -49,6 +49,19 @@ def main() -> list[Row]:
         _row("six networks, one tick, against torch eager", ours, eager),
         _row("MOB-Net with observer, one tick, against torch eager networks alone", whole, eager),
     ]
+
+
+def six_trainings(settings: Settings) -> dict[str, Training]:
+    """Return the trainings of the six networks of Table 1, by limb."""
+    trainings = {limb: settings.training("MOB-Net", limb) for limb in settings.method("MOB-Net").limbs}
+    return {limb: training for limb, training in trainings.items() if training.network.cell == "GRU"}
+
+
+def six_networks(settings: Settings) -> LimbNetworks:
+    """Return those networks with their first weights, as they run on a robot."""
+    layout = settings.layout
+    networks = [_network(one, layout, _model(one, layout)) for one in six_trainings(settings).values()]
+    return LimbNetworks(networks, layout)
 
 
 def _row(name: str, ours: NDArray[Any], reference: NDArray[Any]) -> Row:
