@@ -172,14 +172,14 @@ def test_chunks_of_a_walk_are_what_one_long_run_gives(walk_of: Walk) -> None:
 def test_pushed_robot_falls_and_walks_again(simulate: Callable) -> None:
     """A shove of 2 kN for a whole episode; the next one is left alone."""
     simulator = simulate("flat_walk", "ideal")
-    data, start = simulator.world.data, simulator.start
+    start = simulator.start
     body = simulator.world.model.body(simulator.robot.base).id
     starts = []
 
     def push_first(motion_s: float) -> None:
         starts.append(motion_s)
         start(motion_s)
-        data.xfrc_applied[body, 1] = 2000.0 if len(starts) == 1 else 0.0
+        simulator.world.data.xfrc_applied[body, 1] = 2000.0 if len(starts) == 1 else 0.0
 
     simulator.start, kept = push_first, []
     course = record(simulator, 1000, RECORDING.model_copy(update={"settle_s": 0.5}), 1000.0, kept.append)
@@ -218,7 +218,9 @@ def test_file_says_what_it_holds(collected: Callable[..., Recording]) -> None:
 
 
 def test_file_names_the_terrain_of_each_segment(walk_of: Walk, collected: Callable[..., Recording]) -> None:
-    settings = walk_of("random_walk", "all_uncertainty", recording={"episode_s": 0.2, "settle_s": 0.1})
+    anywhere = {"random_walk": {"terrain": ["checks", "flat"]}}
+    short = {"episode_s": 0.2, "settle_s": 0.1}
+    settings = walk_of("random_walk", "all_uncertainty", recording=short, scenarios=anywhere)
     recording = collected(settings, "", 2, 1.5)
     terrains = recording.meta["terrains"]
     assert [end - start for start, end in recording.segments] == [200] * 7 + [100]

@@ -30,7 +30,7 @@ EXACT = dict.fromkeys(OwnNoise.model_fields, 0.0)
 
 
 @pytest.mark.parametrize(("level", "order", "power"), [
-    ("std_noise", [0, 1, 2, 3], 1.0), ("swapped_noise", [0, 1, 3, 2], 1.0), ("printed_noise", [0, 1, 2, 3], 0.5),
+    ("sensor_noise", [0, 1, 2, 3], 1.0), ("swapped_noise", [0, 1, 3, 2], 1.0), ("printed_noise", [0, 1, 2, 3], 0.5),
 ])  # fmt: skip
 def test_measured_noise_is_that_of_table_3(simulate: Callable, level: str, order: list[int], power: float) -> None:
     """Its numbers are standard deviations, so with two exchanged, or, to the letter, variances."""

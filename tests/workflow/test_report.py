@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from browser import Browser, with_browser
 
+from mobnet.settings.load import load_settings
 from mobnet.evaluation.report.pages import pages, table_page
 from mobnet.evaluation.tables.layout import markdown_table
 from mobnet.plan.products import TEMPLATES
@@ -38,8 +39,10 @@ def in_report(made: dict[str, str]) -> dict[str, list[str]]:
 
 
 def test_everything_shown_has_a_caption_and_every_caption_is_shown(outputs: Outputs) -> None:
+    kept = Path(load_settings().evaluation.learning_curve.data)
+    waiting = set[str]() if kept.exists() else {"learning_curve"}  # of trials that `./reproduce lengths` makes
     for kind, names in in_report(outputs("smoke")).items():
-        captions = sorted(path.stem for path in (CAPTIONS / kind).iterdir())
+        captions = sorted(path.stem for path in (CAPTIONS / kind).iterdir() if path.stem not in waiting)
         assert captions == names or (kind, names) == ("paper", [])  # without TeX there is none
 
 

@@ -29,4 +29,6 @@ def test_it_shows_the_mean_over_joints_of_trainings_that_did_not_diverge(tmp_pat
 def test_a_place_is_the_mean_of_its_networks() -> None:
     line = curve_of("LSTM", [row(3_000_000, 2.0), row(3_000_000, 4.0, seed=1), row(1_000_000, 5.0)])
     assert line.x == [1.0, 3.0]
-    assert line.numbers == [Number(5.0, 5.0, 5.0, 1), Number(3.0, 2.0, 4.0, 2)]
+    assert line.numbers == [
+        Number(5.0, 5.0, 5.0, networks=(1,), walks=(1,)), Number(3.0, 2.0, 4.0, networks=(2,), walks=(1,)),
+    ]  # fmt: skip
