@@ -12,10 +12,10 @@ from pathlib import Path
 import pytest
 from browser import Browser, with_browser
 
-from mobnet.settings.load import load_settings
 from mobnet.evaluation.report.pages import pages, table_page
 from mobnet.evaluation.tables.layout import markdown_table
 from mobnet.plan.products import TEMPLATES
+from mobnet.settings.load import load_settings
 
 from .clicks import MENU, ROWS, choose, explain, show, text_of_frame
 from .conftest import ROOT, Snakemake
