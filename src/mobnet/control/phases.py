@@ -7,6 +7,7 @@ equations (W21) to (W29) are derived in docs/notes/0019-walking-controller.md.
 import numpy as np
 
 from mobnet.control.compiled import compiled
+from mobnet.control.footsteps import decay
 from mobnet.control.geometry import clip, smoothstep, wrap
 from mobnet.control.parameters import DURATION, State, WalkingParameters
 from mobnet.control.walker import Walker, foot_yaw, vertical_force
@@ -89,9 +90,37 @@ def correct_load(walker: Walker, s: State) -> None:
 
 
 @compiled
-def move_pelvis(par: WalkingParameters, s: State, dt: float) -> None:
+def reached_height(walker: Walker, s: State, stance: int) -> float:
+    """Return the greatest height of the pelvis [m] at which legs on the ground and the landing one still bend, (W51).
+
+    A leg reaches `leg_reach_m` from hip to ankle. That of the swing foot must do so when the step ends; the hip is then
+    where the pendulum (W2) over the present ZMP brings it.
+    """
+    pose, par = walker.pose, walker.par
+    most = par.pelvis_height_m + s.sole_height
+    least = most - par.pelvis_sink_max_m
+    left = max(s.total - s.t, 0.0)
+    grown = 1.0 / decay(s.omega, left)
+    for k in range(2):
+        hip, ankle = pose.position[walker.tree.body_of_joint[walker.first[k]]], pose.position[walker.feet[k]]
+        away2, height = 0.0, ankle[2]
+        if s.swinging == 1 and k != stance:
+            height = s.ground
+            for i in range(2):
+                start, speed = pose.com[i] - s.zmp[i], s.velocity[i] / s.omega
+                moved = 0.5 * ((start + speed) * grown + (start - speed) / grown) - start
+                away2 += (hip[i] + moved - s.target[i]) ** 2
+        else:
+            away2 = (hip[0] - ankle[0]) ** 2 + (hip[1] - ankle[1]) ** 2
+        most = min(most, height - walker.leg.hip[2] + np.sqrt(max(par.leg_reach_m**2 - away2, 0.0)))
+    return max(most, least)
+
+
+@compiled
+def move_pelvis(walker: Walker, s: State, stance: int, dt: float) -> None:
     """Move the wanted height [m], (W27), and yaw [rad], (W28), of the pelvis over the soles and between the feet."""
-    error = s.sole_height + par.pelvis_height_m - s.height
+    par = walker.par
+    error = reached_height(walker, s, stance) - s.height
     bound = par.pelvis_height_speed_m_s
     s.height_rate = clip(par.pelvis_height_rate_hz * error, -bound, bound)
     s.height += dt * s.height_rate

@@ -52,7 +52,7 @@ def walk(walker: Walker, s: State, q: Array, v: Array, wrenches: Array, commands
         s.zmp_old[1] = s.old_ankle[1] + np.sin(s.old_yaw) * par.zmp_offset_x_m
         lift_off(walker, s, stance, double_support)
         reference(s, double_support)
-    move_pelvis(par, s, dt)
+    move_pelvis(walker, s, stance, dt)
     ground_force(par, s, pose, ankle, walker.gravity, walker.work)
     if s.swinging:
         adapt_foothold(par, s, ankle, dt, walker.work)
@@ -60,7 +60,8 @@ def walk(walker: Walker, s: State, q: Array, v: Array, wrenches: Array, commands
         feel_slope(par, s, pose.rotation[walker.feet[stance]], dt)
         # (W30): the ground under the target, on a plane through the stance foot.
         rise = s.slope[0] * (s.target[0] - ankle[0]) + s.slope[1] * (s.target[1] - ankle[1])
-        swing_foot(par, s, double_support, ankle[2] + rise)
+        s.ground = ankle[2] + rise
+        swing_foot(par, s, double_support, s.ground)
     correct_load(walker, s)
     _torques(walker, s, stance, q, v, dt, tau)
 

@@ -16,7 +16,7 @@ from mobnet.core.arrays import Array
 
 LEFT_SIDE, RIGHT_SIDE = SIDES
 LEG_JOINTS = 6
-ANKLE_PITCH, ANKLE_ROLL = 4, 5  # joints of a leg
+KNEE, ANKLE_PITCH, ANKLE_ROLL = 3, 4, 5  # joints of a leg
 
 
 @compiled
@@ -86,6 +86,8 @@ def stance_torque(walker: Walker, s: State, k: int, q: Array, v: Array, point: A
         if j < ANKLE_PITCH:
             pull = par.leg_stiffness_nm_rad[j] * error + par.leg_damping_nms_rad[j] * rate
             tau[joint] += (par.unloaded_stiffness + (1.0 - par.unloaded_stiffness) * load) * pull - push
+            if j == KNEE:  # (W50): friction grows with the square of the torque, and at last takes more than is added
+                tau[joint] = clip(tau[joint], -par.knee_torque_max_nm, par.knee_torque_max_nm)
         else:
             tau[joint] += par.ankle_damping_nms * rate - push
             tau[joint] += _ankle_correction(walker, s, k, j - ANKLE_PITCH, push, dt)

@@ -28,6 +28,8 @@ class Walking(Section):
     sole_y_m: Real = Field(ge=0.005, le=0.3)
     double_support_shift_m: LengthPair
     pelvis_height_m: Real = Field(ge=0.2, le=2)
+    leg_reach_m: Real = Field(ge=0.2, le=2)
+    pelvis_sink_max_m: Real = Field(ge=0, le=1)
     pelvis_height_rate_hz: Real = Field(ge=0.5, le=100)
     pelvis_height_speed_m_s: Real = Field(ge=0.01, le=5)
     foothold_band_m: LengthPair
@@ -81,3 +83,4 @@ class Walking(Section):
     leg_stiffness_nm_rad: Some[Stiffness]
     leg_damping_nms_rad: Some[Damping]
     unloaded_stiffness: Real = Field(ge=0, le=1)
+    knee_torque_max_nm: Real = Field(ge=10, le=2000)
