@@ -14,7 +14,7 @@ from pathlib import Path
 from mobnet.core.files import atomic_path
 
 NAMES = ("collect_speed", "observer_speed", "train_speed", "step_latency", "estimate_speed")
-LONG = ("collect_growth", "collect_hour")  # minutes each
+LONG = ("collect_growth", "collect_hour", "torque_amplitude", "walk_quality")  # minutes each
 OUT = Path("results") / "bench.csv"
 BEFORE = ("benchmark", "name", "ours", "reference", "unit", "ratio", "ratio_min")  # columns that come first
 BOUNDS = {"bar": "ratio", "at_least": "at least", "at_most": "at most"}  # columns next, and how a table says it

@@ -145,6 +145,17 @@ def test_leg_that_lacks_load_pushes_by_a_share_more(walker: Walker, crouched: tu
     assert (felt - before)[knee] < -1.0  # a positive angle bends the knee: this stretches the leg
 
 
+@pytest.mark.parametrize("force", [4000.0, -4000.0])
+def test_a_stance_knee_asks_for_no_more_than_its_bound(
+    walker: Walker, crouched: tuple, stepping: State, force: float
+) -> None:
+    """(W50): beyond the maximum of its friction law a knee that drives would get less of a greater torque."""
+    stepping.force, stepping.load = [0.0, 0.0, force], [1.0, 0.0]
+    tau = stand(walker, crouched, stepping, 0)
+    assert abs(tau[walker.first[0] + 3]) == walker.par.knee_torque_max_nm
+    assert np.abs(tau[:3]).max() > walker.par.knee_torque_max_nm  # no other joint is bounded
+
+
 @pytest.mark.parametrize("yaw", [0.0, 1.1, -2.6])
 def test_only_a_foot_off_the_slope_is_guarded(walker: Walker, crouched: tuple, stepping: State, yaw: float) -> None:
     stepping.load, stepping.force, stepping.slope = [1.0, 0.0], [0.0, 0.0, 0.0], [0.03, -0.02]

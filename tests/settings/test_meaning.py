@@ -41,6 +41,7 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     # the walking controller
     ("walking.foot_spacing_m", 0.5, "within foothold_y_m"),
     ("walking.pelvis_height_m", 1.2, "of stretched legs"),
+    ("walking.leg_reach_m", 0.7, "of stretched legs"),
     ("walking.step_min_s", 0.7, "at most 0.6"),
     ("walking.swing_apex", 0.9, "at most 0.8"),
     ("walking.sole_x_m", [0.15, -0.09], "the lower one first"),

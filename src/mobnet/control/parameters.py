@@ -40,7 +40,7 @@ STATE = np.dtype(
         ("zmp_nominal", "f8", 2), ("zmp", "f8", 2), ("force", "f8", 3),
         # The swing foot: pose at lift-off, target of the ankle, and where the foot should be now; all in the world.
         ("lift", "f8", 3), ("lift_yaw", "f8"), ("lift_roll", "f8"), ("lift_pitch", "f8"), ("target", "f8", 2),
-        ("target_velocity", "f8", 2), ("ground", "f8"), ("foot", "f8", 3), ("foot_velocity", "f8", 3), ("foot_rotation", "f8", (3, 3)),
+        ("target_velocity", "f8", 2), ("foot", "f8", 3), ("foot_velocity", "f8", 3), ("foot_rotation", "f8", (3, 3)),
         ("foot_yaw_rate", "f8"),
         # References of the legs' joints, left and right [rad, rad/s]; jacobian is scratch.
         ("q_reference", "f8", (2, 6)), ("v_reference", "f8", (2, 6)), ("jacobian", "f8", (6, 6)),

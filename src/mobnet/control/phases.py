@@ -94,7 +94,7 @@ def reached_height(walker: Walker, s: State, stance: int) -> float:
     """Return the greatest height of the pelvis [m] at which legs on the ground and the landing one still bend, (W51).
 
     A leg reaches `leg_reach_m` from hip to ankle. That of the swing foot must do so when the step ends; the hip is then
-    where the pendulum (W2) over the present ZMP brings it.
+    where the pendulum (W2) over the nominal ZMP brings it.
     """
     pose, par = walker.pose, walker.par
     most = par.pelvis_height_m + s.sole_height
@@ -105,9 +105,10 @@ def reached_height(walker: Walker, s: State, stance: int) -> float:
         hip, ankle = pose.position[walker.tree.body_of_joint[walker.first[k]]], pose.position[walker.feet[k]]
         away2, height = 0.0, ankle[2]
         if s.swinging == 1 and k != stance:
-            height = s.ground
+            height = pose.position[walker.feet[stance], 2]
             for i in range(2):
-                start, speed = pose.com[i] - s.zmp[i], s.velocity[i] / s.omega
+                height += s.slope[i] * (s.target[i] - pose.position[walker.feet[stance], i])  # (W30)
+                start, speed = pose.com[i] - s.zmp_nominal[i], s.velocity[i] / s.omega
                 moved = 0.5 * ((start + speed) * grown + (start - speed) / grown) - start
                 away2 += (hip[i] + moved - s.target[i]) ** 2
         else:

@@ -60,8 +60,7 @@ def walk(walker: Walker, s: State, q: Array, v: Array, wrenches: Array, commands
         feel_slope(par, s, pose.rotation[walker.feet[stance]], dt)
         # (W30): the ground under the target, on a plane through the stance foot.
         rise = s.slope[0] * (s.target[0] - ankle[0]) + s.slope[1] * (s.target[1] - ankle[1])
-        s.ground = ankle[2] + rise
-        swing_foot(par, s, double_support, s.ground)
+        swing_foot(par, s, double_support, ankle[2] + rise)
     correct_load(walker, s)
     _torques(walker, s, stance, q, v, dt, tau)
 

@@ -86,7 +86,7 @@ def stance_torque(walker: Walker, s: State, k: int, q: Array, v: Array, point: A
         if j < ANKLE_PITCH:
             pull = par.leg_stiffness_nm_rad[j] * error + par.leg_damping_nms_rad[j] * rate
             tau[joint] += (par.unloaded_stiffness + (1.0 - par.unloaded_stiffness) * load) * pull - push
-            if j == KNEE:  # (W50): friction grows with the square of the torque, and at last takes more than is added
+            if j == KNEE:  # (W50): beyond the maximum of its friction law, more torque of a motor moves less
                 tau[joint] = clip(tau[joint], -par.knee_torque_max_nm, par.knee_torque_max_nm)
         else:
             tau[joint] += par.ankle_damping_nms * rate - push

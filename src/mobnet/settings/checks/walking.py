@@ -140,6 +140,9 @@ def _leg_problems(settings: Settings) -> Iterator[Problem]:
             ("walking", "pelvis_height_m"),
             misfit(walking.pelvis_height_m, f"below {longest:g}, of stretched legs"),
         )
+    if walking.leg_reach_m >= 2 * leg.link_length:
+        accepted = f"below {2 * leg.link_length:g}, of stretched legs"
+        yield ("walking", "leg_reach_m"), misfit(walking.leg_reach_m, accepted)
     weight = sum(body.mass for body in robot.bodies) * settings.plant.gravity_m_s2
     if walking.touch_force_n >= weight / 2:
         yield (
