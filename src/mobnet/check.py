@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from mobnet.agreement import check_agreement
 from mobnet.core.columns import EPOCHS, EXTERNAL, RESIDUAL, SCORES, STD, named, recording_columns, residual_columns
 from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse
 from mobnet.core.files import METRICS, RUN, read_json, read_text
@@ -27,6 +28,8 @@ from mobnet.evaluation.report.accounts import AccountNote, read_account
 from mobnet.learning.deployed.limbs import LimbNetworks, check_limb
 from mobnet.learning.deployed.networks import deployed
 from mobnet.learning.deployed.weights import read_weights
+from mobnet.plan.places import scale_of
+from mobnet.plan.runs import Files
 from mobnet.settings.load import CONFIGS, load_section, load_settings
 from mobnet.settings.reading import read_yaml
 from mobnet.settings.robot import RobotTable
@@ -72,13 +75,29 @@ class Against:
         """Samples per second of recordings [Hz]."""
         return self.rate or self.settings.rates.data_hz
 
+    def check_place(self, path: Path) -> None:
+        """Check that a file of results agrees with its place and the configuration of its scale."""
+        whole, results = path.absolute(), CONFIGS.parent / "results"
+        scale = scale_of(str(whole.relative_to(CONFIGS.parent))) if whole.is_relative_to(results) else None
+        if scale in self.settings.scales:
+            files = Files(load_settings(overrides={"scale": scale}), results / scale)
+            pair = [file_of(whole.with_suffix(""), ending) for ending in (ARRAY, NOTE)]
+            check_agreement(pair if whole in pair else [whole], files)
+
 
 def check(path: Path, against: Against) -> str:
     """Return what a file is, in a few words.
 
     Raises:
-        MobnetError: the file is not accepted, one line for each fault.
+        MobnetError: the file is not accepted, or is not the one that belongs to its place; one line for each fault.
     """
+    kind = _kind(path, against)
+    against.check_place(path)
+    return kind
+
+
+def _kind(path: Path, against: Against) -> str:
+    """Return what a file is by itself, in a few words."""
     if path.suffix == ".safetensors":
         return _network(path, against)
     if path.suffix == ".yaml":

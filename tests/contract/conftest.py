@@ -78,6 +78,13 @@ def _write_network(folder: Path, training: Training, layout: JointLayout, zero: 
     for name, count, std in (("input", len(names), INPUT_STD), ("target", len(joints), TARGET_STD)):
         tensors |= {f"{name}.mean": torch.zeros(count), f"{name}.std": torch.full((count,), std)}
     cell = network.model_dump(mode="json", exclude_defaults=True)
-    note = {"limb": training.limb, "joints": joints, "inputs": names, "std_min": std_min, "network": cell}
+    note = {
+        "name": "MOB-Net-LL-s0",
+        "limb": training.limb,
+        "joints": joints,
+        "inputs": names,
+        "std_min": std_min,
+        "network": cell,
+    }
     folder.mkdir()
     save_file(tensors, folder / WEIGHTS, {NOTE: json.dumps(note)})

@@ -3,6 +3,7 @@
 Rules `observe` and `estimate` run on files, as in the workflow, in which all but what is sensed is missing or wrong.
 """
 
+import json
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -14,7 +15,7 @@ import pytest
 from mobnet.core.columns import EXTERNAL_LP, FEET, SWING, named, recording_columns
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording, Truth, write_recording
-from mobnet.core.store import read_array
+from mobnet.core.store import footer_hash, read_array
 from mobnet.estimation.estimate import estimate
 from mobnet.estimation.methods import kind_names
 from mobnet.estimation.observe import observe
@@ -36,6 +37,8 @@ def replaced(stem: Path, names: list[str], value: float | None = None) -> None:
         new = 1.0 - old if value is None else np.full(len(old), value)
         table = table.set_column(place, table.schema.field(name), [new.astype(np.float32)])
     pq.write_table(table, path)
+    note = json.loads(path.with_suffix(".json").read_text())
+    path.with_suffix(".json").write_text(json.dumps(note | {"footer": footer_hash(path)}))
 
 
 def observed(settings: Settings, folder: Path) -> None:

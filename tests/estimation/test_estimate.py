@@ -127,7 +127,13 @@ def test_factors_are_told_joint_by_joint_and_are_one_where_none_are_stored(tmp_p
     tensors |= {name: np.ones(2 if name.startswith("target") else 1, np.float32) for name in Z_SCORES}
     for limb, more in (("LA", {}), ("RA", {STD_SCALE: np.array([0.5, 2.0], np.float32)})):
         (tmp_path / limb).mkdir()
-        note = {"limb": limb, "joints": [f"{limb}1", f"{limb}2"], "inputs": ["q.W1"], "std_min": 1e-6}
+        note = {
+            "name": "MOB-Net-LL-s0",
+            "limb": limb,
+            "joints": [f"{limb}1", f"{limb}2"],
+            "inputs": ["q.W1"],
+            "std_min": 1e-6,
+        }
         note["network"] = {"cell": "GRU", "hidden": 1}
         save_file(tensors | more, tmp_path / limb / WEIGHTS, {NOTE: json.dumps(note)})
     told = std_scales({limb: tmp_path / limb for limb in ("LA", "RA")})

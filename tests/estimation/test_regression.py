@@ -1,6 +1,6 @@
 """Friction that was put into a residual comes out of the regression."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,11 +14,11 @@ from mobnet.core.joints import N_VIRTUAL, JointLayout
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.low_pass import low_pass
-from mobnet.estimation.regression import Law, regress
+from mobnet.estimation.regression import TERMS, Law, regress
 
 GAIN_HZ, RATE_HZ, SMOOTHING = 100.0, 1000.0, 0.02
 TRUE = {"coulomb_nm": 12.0, "static_nm": 9.0, "viscous_nms": 3.0, "load_per_nm": 0.002, "stribeck_rad_s": 0.3}
-LAW = Law(("coulomb", "static", "viscous", "load"), SMOOTHING, (0.1, 0.3, 1.0), GAIN_HZ)
+LAW = Law(SMOOTHING, (0.1, 0.3, 1.0), GAIN_HZ)
 LEG = tuple(f"LL{i}" for i in range(1, 7))
 Array = NDArray[np.float64]
 Pair = tuple[Path, Path]
@@ -33,9 +33,9 @@ def friction(recording: Recording, numbers: Mapping[str, float]) -> Array:
     return -np.tanh(v / SMOOTHING) * (dry + numbers["load_per_nm"] * tau**2) - numbers["viscous_nms"] * v
 
 
-def fit(*pairs: Pair, law: Law = LAW, joints: tuple[str, ...] = LEG) -> dict[str, dict[str, float]]:
-    """Return the regressed friction; joints of the left leg have load."""
-    return regress(law, joints, LEG, pairs)
+def fit(*pairs: Pair, terms: Collection[str] = TERMS, joints: Sequence[str] = LEG) -> dict[str, dict[str, float]]:
+    """Return the regressed friction."""
+    return regress(LAW, {joint: list(terms) for joint in joints}, pairs)
 
 
 @pytest.fixture
@@ -103,7 +103,7 @@ def test_a_joint_at_rest_has_no_friction(write: Write, made_up: Callable[..., Re
 
 
 def test_only_named_terms_are_fitted(pair: Pair) -> None:
-    for row in fit(pair, law=replace(LAW, terms=("coulomb", "viscous"))).values():
+    for row in fit(pair, terms=("coulomb", "viscous")).values():
         assert row["load_per_nm"] == 0.0
         assert row["static_nm"] == row["coulomb_nm"] > 0.0
 

@@ -381,7 +381,7 @@ def write_steps(stem: Path, layout: JointLayout, seed: int, size: float = 1.0, s
         command[rows // 2 :], swing[rows // 2 :] = 0.0, False
     torque = 40.0 * size * rng.normal(size=(rows, layout.nu))
     acc = rng.normal(size=(rows, 3)) + [0.0, 0.0, 9.81]
-    sensed = Sensed(q, v, acc, torque, np.clip(torque, -50.0, 50.0), swing.astype(float), command)
+    sensed = Sensed(q, v, acc, torque, np.clip(torque, -25.0, 25.0), swing.astype(float), command)
     wrench, pushed = np.zeros((rows, 6)), np.zeros((rows, 1))
     truth = Truth(
         rng.normal(size=v.shape), wrench, wrench, 1.0 - swing, pushed, np.zeros_like(torque), np.zeros_like(v)

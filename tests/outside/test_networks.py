@@ -55,7 +55,14 @@ def made(settings: Settings, layout: JointLayout) -> Callable[[CellKind], tuple[
         tensors["std.scale"] = np.ones(6, np.float32)
         network = {"cell": kind, **CELLS[kind], "data": "walk", "horizon_steps": 150}
         joints = list(layout.limb("LL"))
-        return tensors, {"limb": "LL", "joints": joints, "inputs": list(inputs), "std_min": 1e-6, "network": network}
+        return tensors, {
+            "name": "GRU-LL-s0",
+            "limb": "LL",
+            "joints": joints,
+            "inputs": list(inputs),
+            "std_min": 1e-6,
+            "network": network,
+        }
 
     return make
 
@@ -128,7 +135,7 @@ DAMAGES = {
     "factor infinite": (entry("std.scale", np.inf), r"tensor 'std.scale', entry \[0\]: inf is not accepted"),
     "limb is gone": (
         lambda t, n: n.pop("limb") is None,
-        "limb: key is missing; accepted: limb, joints, inputs, std_min",
+        "limb: key is missing; accepted: name, limb, joints, inputs, std_min",
     ),
     "limb as a number": (noted(limb=3), "limb: 3 is not accepted; accepted: a valid string"),
     "limb of another": (noted(limb="RL"), "'RL' with joints|network of limb 'RL' with joints LL1"),
@@ -158,7 +165,7 @@ DAMAGES = {
     "std_min as text": (noted(std_min="small"), "std_min: 'small' is not accepted; accepted: a valid number"),
     "network is gone": (lambda t, n: n.pop("network") is None, "network: key is missing"),
     "network as text": (noted(network="GRU"), "network: 'GRU' is not accepted"),
-    "a key more": (noted(colour="red"), "colour: 'red' is not accepted; accepted: no such key, but limb"),
+    "a key more": (noted(colour="red"), "colour: 'red' is not accepted; accepted: no such key, but name, limb"),
     "cell unknown": (cell(cell="QRNN"), "network.cell: 'QRNN' is not accepted; accepted: 'GRU', 'LSTM'"),
     "hidden as a fraction": (cell(hidden=5.5), "network.hidden: 5.5 is not accepted"),
     "hidden zero": (cell(hidden=0), "network.hidden: 0 is not accepted"),

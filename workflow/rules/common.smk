@@ -4,6 +4,7 @@ import shlex
 import sys
 from pathlib import Path
 
+from mobnet.agreement import check_agreement
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
 from mobnet.core.lock import job_prefix
@@ -47,7 +48,10 @@ LOGS = PLAN.folders.results / "logs"
 onstart:
     try:
         start_jobs(ROOT)
-        check_space(PLAN, [str(path) for job in workflow.dag.needrun_jobs() for path in job.output])
+        made = {str(path) for job in workflow.dag.needrun_jobs() for path in job.output}
+        check_space(PLAN, made)
+        read = {str(path) for job in workflow.dag.needrun_jobs() for path in job.input}
+        check_agreement(map(Path, sorted(read - made)), PLAN.files)
     except MobnetError as error:
         sys.exit(str(error))
 

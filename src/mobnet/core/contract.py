@@ -18,7 +18,7 @@ from mobnet.core.joints import JointLayout
 FINITE = float(np.finfo(np.float32).max)
 NORM = 0.01  # a quaternion's norm may differ from 1 by this: rounding and noise do, and another unit does not
 BEYOND_RAD = 0.1  # of a joint's range: its stop gives way, and its zero is known to some degrees
-BEYOND_SPEED, BEYOND_TORQUE = 3.0, 10.0  # of a joint's limits: a hit, a motor stronger than its table says
+BEYOND_SPEED, BEYOND_TORQUE = 3.0, 3.0  # of a joint's limits: a hit, a motor stronger than its table says
 QUATERNION = tuple(f"q.quat_{axis}" for axis in "wxyz")
 # signals in N for V1..V3 of a floating base, in N m for all others
 TORQUES = (RESIDUAL, EXTERNAL_LP, EXTERNAL, PUSH_TORQUE, STD)
@@ -38,10 +38,17 @@ def _within(size: float, *place: str) -> Rule:
     return Rule(((place[0], place[1]),), -size, size)
 
 
+def _command(name: str, unit: str) -> Rule:
+    """Return the rule of a number of a step's command."""
+    return _within(LARGEST[name], unit, "stance foot")._replace(low=-LARGEST[name] if name in SIGNED else 0.0)
+
+
 FORCE, TORQUE = ("N", "world"), ("N m", "joint")
 LARGEST = {"step_x": 2.0, "step_y": 2.0, "turn": np.pi, "duration": 60.0, "foot_height": 1.0}  # of a step's command
+SIGNED = ("step_x", "step_y", "turn")  # the other numbers of a command are not below zero
 RULES: Mapping[str, Rule] = {  # pattern of names -> what is accepted; the first that fits counts
-    r"q\.base_[xyz]": _within(1e4, "m", "world"),
+    r"q\.base_[xy]": _within(1e4, "m", "world"),
+    r"q\.base_z": _within(100.0, "m", "world"),
     r"q\.quat_[wxyz]": _within(1.0 + NORM, "-", "world"),
     r"(q|q_ref)\..+": _within(4 * np.pi, "rad", "joint"),
     r"v\.base_[xyz]": _within(20.0, "m/s", "world"),
@@ -52,7 +59,7 @@ RULES: Mapping[str, Rule] = {  # pattern of names -> what is accepted; the first
     r"swing\..+": Rule((("-", "plan"),), 0.0, 1.0, flag=True),
     r"contact\..+": Rule((("-", "ground"),), 0.0, 1.0, flag=True),
     r"pushed": Rule((("-", "scenario"),), 0.0, 1.0, flag=True),
-    **{rf"command\.{name}": _within(LARGEST[name], unit, "stance foot") for name, unit in COMMAND},
+    **{rf"command\.{name}": _command(name, unit) for name, unit in COMMAND},
     **{rf"wrench_{foot}\.force_[xyz]": _within(1e5, "N", foot) for foot in FEET},
     **{rf"wrench_{foot}\.moment_[xyz]": _within(1e4, "N m", foot) for foot in FEET},
     rf"{STD}\..+": Rule((FORCE, TORQUE), 0.0, 1e6),
@@ -78,8 +85,11 @@ def rule_of(name: str, layout: JointLayout | None = None) -> Rule:
 
 
 def column_faults(columns: Sequence[Mapping[str, Any]], layout: JointLayout | None = None) -> Iterator[str]:
-    """Yield columns (name, unit, frame) whose unit or frame is another than this project's."""
+    """Yield columns (name, unit, frame) whose unit or frame is another than this project's, or of an unknown joint."""
     for column in columns:
+        signal, _, joint = column["name"].partition(".")
+        if layout is not None and signal in TORQUES and joint not in layout.names:
+            yield not_accepted("columns", column["name"], [f"{signal}.{name}" for name in layout.names])
         places = rule_of(column["name"], layout).places
         if places and (column["unit"], column["frame"]) not in places:
             found = f"columns: {column['name']!r}: unit {column['unit']!r}, frame {column['frame']!r}"

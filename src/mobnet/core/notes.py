@@ -71,6 +71,7 @@ class ArrayNote(Note):
     method: Text = "-"
     networks: dict[str, Text] = {}
     std_scale: dict[str, Positive] = {}
+    footer: Text = "-"
 
 
 def read_array_note(path: Path) -> dict[str, Any]:

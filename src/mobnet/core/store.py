@@ -2,10 +2,11 @@
 
 An array is two files: `NAME.parquet`, float32, one row for each sample, with unit and frame of each column, and
 `NAME.json` with its columns, row count, segments and provenance. The JSON file is written last, so an array that has
-one is complete.
+one is complete. It also has a hash of the other file's footer, by which the array of another recording is noticed.
 """
 
 import contextlib
+import hashlib
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -29,6 +30,7 @@ ARRAY, NOTE = ".parquet", ".json"
 GROUP_ROWS = 60_000  # rows stored together, a minute at 1 kHz: writer and reader hold as many besides their result
 BLOCK_ROWS = 256  # rows transposed together: they fit into the processor's cache
 STREAMED = {"buffer_size": 2**16, "pre_buffer": False}  # a foreign file may be a single group of rows
+MAGIC, SHORT = b"PAR1", 16  # first and last bytes of a Parquet file; digits of a hash
 FLOATS = (pa.float32(), pa.float64())  # types of columns
 CODING = {
     "compression": "lz4",
@@ -125,6 +127,7 @@ def array_writer(stem: Path, columns: Sequence[Column]) -> Iterator[ArrayWriter]
             writer = ArrayWriter(stem, columns, file, raw.fileno())
             yield writer
             note = writer.finish()
+        note["footer"] = footer_hash(temporary)
         file_of(stem, NOTE).unlink(missing_ok=True)
     write_json(file_of(stem, NOTE), note)
 
@@ -196,6 +199,7 @@ def read_pieces(
     except (pa.ArrowException, OSError, ValueError, MemoryError) as error:
         raise DataError(f"{path}: truncated or damaged ({' '.join(str(error).split())})") from None
     refuse(path, [*values.faults(), *motion.faults()])
+    _check_footer(stem, note)
 
 
 def _pieces(file: pq.ParquetFile, names: Sequence[str]) -> Iterator[tuple[int, NDArray[np.float32]]]:
@@ -211,6 +215,30 @@ def _pieces(file: pq.ParquetFile, names: Sequence[str]) -> Iterator[tuple[int, N
         first += batch.num_rows
     if first != rows:
         raise ValueError(f"{first} of {rows} rows")
+
+
+def footer_hash(path: Path) -> str:
+    """Return a short hash of a Parquet file's footer, in which sizes and places of all columns stand.
+
+    Raises:
+        DataError: the file does not begin and end as Parquet does.
+    """
+    with path.open("rb") as file:
+        size = os.fstat(file.fileno()).st_size
+        head, tail = file.read(len(MAGIC)), os.pread(file.fileno(), 2 * len(MAGIC), max(size - 2 * len(MAGIC), 0))
+        if head != MAGIC or tail[-len(MAGIC) :] != MAGIC:
+            raise DataError(f"{path}: {not_accepted('first and last bytes', (head, tail[-len(MAGIC) :]), [MAGIC])}")
+        length = int.from_bytes(tail[: len(MAGIC)], "little") + len(tail)
+        return hashlib.sha256(os.pread(file.fileno(), length, max(size - length, 0))).hexdigest()[:SHORT]
+
+
+def _check_footer(stem: Path, note: Mapping[str, Any]) -> None:
+    """Raise a DataError if an array is not the one that its note was written for, where the note says which."""
+    path = file_of(stem, ARRAY)
+    found = footer_hash(path)
+    if note.get("footer", found) != found:
+        accepted = [f"{note['footer']}, as {stem.name}{NOTE} says: the array that was written with it"]
+        raise DataError(f"{path}: {not_accepted('hash of the footer', found, accepted)}")
 
 
 def _disagreements(file: pq.ParquetFile, stem: Path, note: Mapping[str, Any], names: Sequence[str]) -> Iterator[str]:

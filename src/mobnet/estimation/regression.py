@@ -5,7 +5,7 @@ velocity of a grid; then each joint takes the velocity of the grid with the smal
 """
 
 import logging
-from collections.abc import Collection, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -30,29 +30,24 @@ class Law:
     """What is regressed.
 
     Attributes:
-        terms: terms of `TERMS` that friction is made of.
         smoothing: width of the sign function [rad/s].
         stribeck: Stribeck velocities of which each joint takes one (k,) [rad/s].
         gain_hz: K_0 of (7) [1/s], of the low-pass that the regressors pass.
     """
 
-    terms: Collection[str]
     smoothing: float
     stribeck: Sequence[float]
     gain_hz: float
 
 
-def regress(
-    law: Law, joints: Sequence[str], loaded: Collection[str], pairs: Sequence[Pair]
-) -> dict[str, dict[str, float]]:
-    """Regress the friction of actuated joints (n,), of which those that are `loaded` may have the term `load`.
+def regress(law: Law, joints: Mapping[str, Sequence[str]], pairs: Sequence[Pair]) -> dict[str, dict[str, float]]:
+    """Regress the friction of actuated joints: joint -> terms of `TERMS` that it is made of.
 
     Return joint -> factors of (23), units in the keys, and the root mean squares of the target and of the error [N m].
     """
     found = {}
-    for joint, products in _sums(law, joints, pairs).items():
-        terms = [term for term in TERMS if term in law.terms and (term != "load" or joint in loaded)]
-        found[joint] = _solve(products, terms, law.stribeck)
+    for joint, products in _sums(law, list(joints), pairs).items():
+        found[joint] = _solve(products, [term for term in TERMS if term in joints[joint]], law.stribeck)
         log.info("%s: %.2f of %.2f N m left", joint, found[joint]["left_rms_nm"], found[joint]["target_rms_nm"])
     return found
 

@@ -76,6 +76,7 @@ def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress, 
     if training.learning.calibrate:
         tensors[STD_SCALE] = torch.from_numpy(calibration.scale.astype(np.float32))
     note = {
+        "name": trainer.job.name,
         "limb": training.limb,
         "joints": data.joints,
         "inputs": data.input_names,

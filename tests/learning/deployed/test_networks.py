@@ -49,7 +49,7 @@ def deployed(folder: Path, model: LimbNetwork, cell: Cell, without: str = "", **
     tensors = {name: tensor for name, tensor in (model.deployable() | SCALES | more).items() if name != without}
     network = {"data": "walk", **cell.model_dump(mode="json")}  # a training notes more than the cell
     names = {"joints": list("abcdef"), "inputs": [f"x{i}" for i in range(INPUTS)]}
-    note = {"limb": "LL", **names, "std_min": STD_MIN, "network": network}
+    note = {"name": "GRU-LL-s0", "limb": "LL", **names, "std_min": STD_MIN, "network": network}
     save_file(tensors, folder / WEIGHTS, {NOTE: json.dumps(note)})
     return load_network(folder)
 

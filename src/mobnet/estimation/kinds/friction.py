@@ -9,7 +9,7 @@ v and tau_m are the sensed joint velocity and the motor's torque. Regressors pas
 residual has.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -31,11 +31,14 @@ from mobnet.estimation.regression import TERMS, Law, Pair, regress, regressors
 from mobnet.learning.deployed.networks import Prediction
 from mobnet.settings.base import Distinct, Positive, Rising, Section
 from mobnet.settings.methods import Method, Observer
-from mobnet.settings.networks import Network
+from mobnet.settings.networks import Limb, Network
 from mobnet.settings.reading import Place
 
 Velocity = Annotated[Positive, Field(ge=0.0001, le=20)]
 Term = Literal["coulomb", "static", "viscous", "load"]
+
+
+LARGEST = 1e9  # of a fitted number
 
 
 class Options(Section):
@@ -47,17 +50,24 @@ class Options(Section):
 
 
 class JointNote(Note):
-    """The fitted numbers of a joint, and the root mean square of the target and of what is left of it [N m]."""
+    """The fitted numbers of a joint, and the root mean square of the target and of what is left of it [N m].
+
+    Bounds are wide: what the training data hardly move can be large, where the Stribeck term has all but faded.
+    """
 
     model_config = ConfigDict(extra="forbid")
 
-    coulomb_nm: NotNegative
-    static_nm: NotNegative
-    viscous_nms: NotNegative
-    load_per_nm: NotNegative
-    stribeck_rad_s: AboveZero
+    coulomb_nm: Annotated[NotNegative, Field(le=LARGEST)]
+    static_nm: Annotated[NotNegative, Field(le=LARGEST)]
+    viscous_nms: Annotated[NotNegative, Field(le=LARGEST)]
+    load_per_nm: Annotated[NotNegative, Field(le=LARGEST)]
+    stribeck_rad_s: Annotated[AboveZero, Field(le=20)]
     target_rms_nm: NotNegative = 0.0
     left_rms_nm: NotNegative = 0.0
+
+    def terms(self) -> dict[str, float]:
+        """Return term -> its factor."""
+        return {term: getattr(self, key) for term, key in TERMS.items()}
 
 
 class FrictionNote(Note):
@@ -158,14 +168,23 @@ def fit(
     Return `smoothing_rad_s`, and `joints`: name -> factors of (23), units in the keys, and the root mean square of the
     target and of what is left of it [N m].
     """
-    law = Law(options.terms, options.smoothing_rad_s, options.stribeck_rad_s, observer.gain_hz)
+    law = Law(options.smoothing_rad_s, options.stribeck_rad_s, observer.gain_hz)
     found: dict[str, Mapping[str, float]] = {}
     for limb, pairs in training.items():
-        learned, seen = ([joint for group in groups for joint in layout.limb(group)]
-                         for groups in (networks[limb].joints, networks[limb].T))  # fmt: skip
-        found |= regress(law, [joint for joint in learned if joint in layout.actuated], seen, pairs)
+        found |= regress(law, fitted_joints(layout, options, [networks[limb]]), pairs)
     ordered = {joint: found[joint] for joint in layout.actuated if joint in found}
     return {"smoothing_rad_s": options.smoothing_rad_s, "joints": ordered}
+
+
+def fitted_joints(layout: JointLayout, options: Options, limbs: Iterable[Limb]) -> dict[str, list[Term]]:
+    """Return joint -> terms of (23) that are fitted, of the actuated joints of some networks; see `Options`."""
+    found: dict[str, list[Term]] = {}
+    for limb in limbs:
+        learned, seen = ([j for group in groups for j in layout.limb(group)] for groups in (limb.joints, limb.T))
+        for joint in learned:
+            if joint in layout.actuated:
+                found[joint] = [term for term in options.terms if term != "load" or joint in seen]
+    return found
 
 
 def read_friction(path: Path, joints: Sequence[str]) -> Friction:
@@ -177,10 +196,8 @@ def read_friction(path: Path, joints: Sequence[str]) -> Friction:
     found = read_note(path, FrictionNote)
     rows = found.joints
     refuse(path, [not_accepted("joint", name, joints) for name in rows if name not in joints])
-    terms = {
-        term: np.array([getattr(rows[joint], key) if joint in rows else 0.0 for joint in joints], dtype=np.float64)
-        for term, key in TERMS.items()
-    }
+    fitted = [rows[joint].terms() if joint in rows else dict.fromkeys(TERMS, 0.0) for joint in joints]
+    terms = {term: np.array([factors[term] for factors in fitted], dtype=np.float64) for term in TERMS}
     stribeck = np.array([rows[joint].stribeck_rad_s if joint in rows else 1.0 for joint in joints], dtype=np.float64)
     return Friction(terms, stribeck, found.smoothing_rad_s)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from math import isclose
 from operator import attrgetter
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -25,7 +26,7 @@ MEASURES: Mapping[str, tuple[Callable[[Training], float], str]] = {  # name -> (
     "validation loss at the end": (lambda training: training.last.validation_loss, "-"),
 }
 
-
+DIGITS = 1e-6  # relative difference of a number that was written twice
 Row = list[float]
 Share = Annotated[float, Field(ge=0, le=1)]
 
@@ -97,7 +98,7 @@ class TrainingNote(Note):
     on_windows: OnWindows
     calibration: NotedCalibration
     device: Text
-    precision: Text
+    precision: Literal["float32", "bfloat16"]
     fingerprint: Text
     provenance: dict[str, Any]
 
@@ -174,6 +175,9 @@ def _disagreements(note: TrainingNote, epochs: Sequence[Epoch]) -> Iterator[str]
     noted = note.best.epoch if note.best else None
     if noted != (kept.epoch if kept else None):
         yield not_accepted(f"epoch of the smallest {note.chosen_by}", kept and kept.epoch, [f"{noted}, as {RUN} says"])
+    elif note.best and kept and not isclose(note.best.validation_loss, kept.validation_loss, rel_tol=DIGITS):
+        accepted = [f"{note.best.validation_loss:.6g}, as {RUN} says"]
+        yield not_accepted(f"validation_loss of epoch {noted}", kept.validation_loss, accepted)
 
 
 def _calibration_faults(noted: NotedCalibration) -> Iterator[str]:

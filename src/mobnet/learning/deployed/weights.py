@@ -29,10 +29,11 @@ Shape = tuple[int, ...]
 
 
 class WeightsNote(Note):
-    """What the file says of its network: limb, names of joints (n,) and inputs (n_in,), and the configuration's row."""
+    """What the file says: names of the training, its limb, joints (n,) and inputs (n_in,), the configuration's row."""
 
     model_config = ConfigDict(extra="forbid")
 
+    name: Text
     limb: Text
     joints: Names
     inputs: Names

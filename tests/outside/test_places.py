@@ -1,0 +1,246 @@
+"""A file of results that is not the one of its place is refused before a run, and by a check."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from made_notes import training_note
+from safetensors.numpy import save_file
+
+from mobnet.agreement import check_agreement
+from mobnet.core.columns import Score, torque_columns
+from mobnet.core.errors import DataError
+from mobnet.core.store import file_of, read_array, write_array
+from mobnet.estimation.kinds.friction import Options, fitted_joints
+from mobnet.evaluation.measure.scores import limb_values
+from mobnet.evaluation.number.files import write_csv
+from mobnet.learning.deployed.weights import NOTE, shapes
+from mobnet.learning.features import limb_inputs
+from mobnet.plan.runs import Files
+from mobnet.settings.load import load_settings
+
+SCENARIO, LEVEL = "walk_test", "all_uncertainty"
+Change = Callable[[dict[str, Any]], Any]
+
+
+@pytest.fixture(scope="module")
+def planned() -> Files:
+    """The files of the smoke scale below a folder that each test replaces."""
+    return Files(load_settings(overrides={"scale": "smoke"}), Path("results/smoke"))
+
+
+@pytest.fixture
+def files(planned: Files, tmp_path: Path) -> Files:
+    """The files of the smoke scale below a folder of its own."""
+    return Files(planned.settings, tmp_path)
+
+
+def refused(path: Path, files: Files) -> str:
+    """Return the line with which a file is refused."""
+    with pytest.raises(DataError) as found:
+        check_agreement([path], files)
+    assert str(found.value).startswith(f"{path}: ")
+    return str(found.value)
+
+
+def put(key: str, value: Any) -> Change:
+    """Return a change of a note that sets the value of a key."""
+    return lambda note: note.update({key: value})
+
+
+def note_of(files: Files, kind: str, **more: Any) -> tuple[Path, dict[str, Any]]:
+    """Return the place of the note of a walk's array, and a sound note."""
+    seed = files.test_seeds[0]
+    column = {"name": "tau_ext.LL1", "unit": "N m", "frame": "joint"}
+    note = {"rows": 9, "segments": [[0, 9]], "rate_hz": 1000.0, "scenario": SCENARIO, "level": LEVEL, "seed": seed}
+    return files.array(kind, SCENARIO, LEVEL, seed).with_suffix(".json"), {**note, "columns": [column], **more}
+
+
+def written(path: Path, note: object) -> Path:
+    """Write a note."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(note))
+    return path
+
+
+ARRAYS: dict[str, tuple[str, Change, str]] = {
+    "scenario": ("recordings", put("scenario", "forward_walk"), "scenario: 'forward_walk' is not"),
+    "no scenario": ("recordings", lambda note: note.pop("scenario"), "scenario: 'nothing' is not"),
+    "level": ("recordings", put("level", "ideal"), "level: 'ideal' is not"),
+    "seed": ("residuals", put("seed", 7), "seed: 7 is not accepted; accepted: 101"),
+    "rate": ("residuals", put("rate_hz", 500.0), "rate_hz: 500.0 is not"),
+    "terrain": ("recordings", put("terrains", ["gravel"]), "terrains: 'gravel' is not"),
+    "gain": ("residuals", put("gain_hz", 50.0), "gain_hz: 50.0 is not"),
+    "mass": ("residuals", put("nominal_mass_ratio", 1.0), "nominal_mass_ratio: 1.0 is not"),
+    "method": ("estimates/MOB-Net/n0", put("method", "FTS-e2e"), "method: 'FTS-e2e' is not accepted; accepted: 'MOB-N"),
+    "network": ("estimates/MOB-Net/n0", put("networks", {"LL": "MOB-Net-RL-s0"}), "networks: {'LL': 'MOB-Net-RL-s0'}"),
+}
+
+
+@pytest.mark.parametrize("name", ARRAYS)
+def test_the_note_of_another_array_is_refused(name: str, files: Files) -> None:
+    kind, change, says = ARRAYS[name]
+    limbs = files.settings.method("MOB-Net").limbs
+    more: dict[str, Any] = {
+        "recordings": {"terrains": ["checks"]},
+        "residuals": {"gain_hz": files.settings.observer.gain_hz, "nominal_mass_ratio": 0.9},
+    }.get(kind, {"method": "MOB-Net", "networks": {limb: f"MOB-Net-{limb}-s0" for limb in limbs}})
+    path, note = note_of(files, kind, **more)
+    check_agreement([written(path, note)], files)
+    change(note)
+    assert says in refused(written(path, note), files)
+
+
+def test_a_standard_deviation_without_its_factor_is_refused(files: Files) -> None:
+    limbs = files.settings.method("MOB-Net").limbs
+    networks = {limb: f"MOB-Net-{limb}-s0" for limb in limbs}
+    column = {"name": "std.LL3", "unit": "N m", "frame": "joint"}
+    more = {"method": "MOB-Net", "networks": networks, "columns": [column], "std_scale": {"LL1": 1.1}}
+    path, note = note_of(files, "estimates/MOB-Net/n0", **more)
+    assert "std_scale: 'LL3' is missing" in refused(written(path, note), files)
+
+
+def weights(files: Files, method: str, limb: str, change: Change = lambda note: None) -> Path:
+    """Write weights of a method's network of zeros and ones."""
+    training, layout = files.settings.training(method, limb), files.settings.layout
+    inputs = limb_inputs(layout, training.network).names
+    joints = [joint for group in training.network.joints for joint in layout.limb(group)]
+    row = training.network.model_dump(mode="json", exclude_defaults=True)
+    name = f"{method}-{limb}-s0"
+    note = {"name": name, "limb": limb, "joints": joints, "inputs": list(inputs), "std_min": 1e-6, "network": row}
+    change(note)
+    tensors = {k: np.ones(shape, np.float32) for k, shape in shapes(training.network, len(inputs), len(joints)).items()}
+    path = files.network(method, limb, 0) / "weights.safetensors"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    save_file(tensors, path, {NOTE: json.dumps(note)})
+    return path
+
+
+WEIGHTS: dict[str, tuple[str, Change, str]] = {
+    "of another training": ("MOB-Net", put("name", "FTS-e2e-LL-s0"), "name: 'FTS-e2e-LL-s0' is not"),
+    "other data": ("MOB-Net", lambda note: note["network"].update(data="walk_plain"), "network.data: 'walk_plain'"),
+    "inputs in another order": ("MOB-Net", lambda note: note["inputs"].reverse(), "inputs: ["),
+    "no gain of its inputs": ("GRU-spectral", lambda note: note["network"].pop("input_gain"), "network.input_gain: 'n"),
+}
+
+
+@pytest.mark.parametrize("name", WEIGHTS)
+def test_weights_of_another_network_are_refused(name: str, files: Files) -> None:
+    method, change, says = WEIGHTS[name]
+    check_agreement([weights(files, method, "LL")], files)
+    assert says in refused(weights(files, method, "LL", change), files)
+
+
+RUNS: dict[str, tuple[Change, str]] = {
+    "name": (put("name", "GRU-RL-s0"), "name: 'GRU-RL-s0' is not accepted; accepted: 'GRU-LL-s0'"),
+    "method": (put("method", "LSTM"), "method: 'LSTM' is not"),
+    "limb": (put("limb", "RL"), "limb: 'RL' is not"),
+    "seed": (put("seed", 1), "seed: 1 is not"),
+    "target": (put("target", "external"), "target: 'external' is not"),
+}
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_the_note_of_another_training_is_refused(name: str, files: Files) -> None:
+    change, says = RUNS[name]
+    row = files.settings.training("GRU", "LL").network.model_dump(mode="json", exclude_defaults=True)
+    note = training_note("GRU-LL-s0", [-1.0, -2.0], settings={"network": row})
+    path = files.network("GRU", "LL", 0) / "run.json"
+    check_agreement([written(path, note)], files)
+    change(note)
+    assert says in refused(written(path, note), files)
+
+
+def fit_of(files: Files) -> dict[str, Any]:
+    """Return a sound fit of MOB-fric."""
+    row = files.settings.method("MOB-fric")
+    options = Options.model_validate(row.options)
+    joints = fitted_joints(files.settings.layout, options, [files.settings.network("MOB-fric", x) for x in row.fitted])
+    numbers = {"coulomb_nm": 1.0, "static_nm": 1.0, "viscous_nms": 1.0, "load_per_nm": 0.0, "stribeck_rad_s": 0.1}
+    return {"smoothing_rad_s": options.smoothing_rad_s, "joints": {joint: dict(numbers) for joint in joints}}
+
+
+FITS: dict[str, tuple[Change, str]] = {
+    "smoothing": (put("smoothing_rad_s", 0.2), "smoothing_rad_s: 0.2 is not accepted; accepted: 0.02"),
+    "a joint is gone": (lambda note: note["joints"].pop("LL4"), "joints: 'LL4' is missing"),
+    "load": (lambda note: note["joints"]["LL4"].update(load_per_nm=0.1), "joints.LL4: load: 0.1 is not accepted; acc"),
+    "huge": (lambda note: note["joints"]["LL4"].update(viscous_nms=1e15), "viscous_nms: 1000000000000000.0 is not"),
+}
+
+
+@pytest.mark.parametrize("name", FITS)
+def test_a_fit_that_the_method_does_not_make_is_refused(name: str, files: Files) -> None:
+    change, says = FITS[name]
+    note, path = fit_of(files), files.results / "fits" / "MOB-fric.json"
+    check_agreement([written(path, note)], files)
+    change(note)
+    assert says in refused(written(path, note), files)
+
+
+def scores_of(files: Files) -> list[Score]:
+    """Return the errors of every run of a test, on two joints of V and all of the left leg."""
+    layout = files.settings.layout
+    values = {joint: 1.0 + k for k, joint in enumerate((*layout.limb("V"), *layout.limb("LL")))}
+    return [
+        Score(SCENARIO, run.level, run.method, run.network_seed, run.test_seed, limb, joint, "rmse", value, unit)
+        for run in files.runs_of(SCENARIO)
+        for limb, joint, value, unit in limb_values(layout, values)
+    ]
+
+
+SCORES: dict[str, tuple[int, dict[str, Any], str]] = {
+    "scenario": (0, {"scenario": "knee_swing"}, "line 2: scenario: 'knee_swing' is not"),
+    "level": (0, {"level": "none"}, "line 2: level: 'none' is not"),
+    "method": (0, {"method": "MOBB"}, "line 2: method: 'MOBB' is not"),
+    "test seed": (0, {"test_seed": 7}, "line 2: test_seed: 7 is not accepted; accepted: 101"),
+    "network seed": (0, {"network_seed": 9}, "line 2: network_seed: 9 is not"),
+    "limb": (0, {"limb": "XX"}, "line 2: limb: 'XX' is not"),
+    "joint": (0, {"joint": "RA1"}, "line 2: joint: 'RA1' is not"),
+    "metric": (0, {"metric": "rmse_push_0"}, "line 2: metric: 'rmse_push_0' is not"),
+    "unit": (0, {"unit": "N m"}, "line 2: unit: 'N m' is not"),
+    "average": (6, {"value": 99.0}, "metric rmse: avg: 99.0 is not accepted; accepted: 2, the mean"),
+}
+
+
+@pytest.mark.parametrize("name", SCORES)
+def test_rows_that_are_not_of_the_test_are_refused(name: str, files: Files) -> None:
+    line, change, says = SCORES[name]
+    path, rows = files.scores([SCENARIO])[SCENARIO], [tuple(vars(row).values()) for row in scores_of(files)]
+    names = list(vars(scores_of(files)[0]))
+    write_csv(path, names, rows)
+    check_agreement([path], files)
+    rows[line] = tuple((dict(zip(names, rows[line], strict=True)) | change).values())
+    write_csv(path, names, rows)
+    assert says in refused(path, files)
+
+
+def test_a_run_or_a_joint_without_an_error_is_refused(files: Files) -> None:
+    path, rows = files.scores([SCENARIO])[SCENARIO], [tuple(vars(row).values()) for row in scores_of(files)]
+    names = list(vars(scores_of(files)[0]))
+    method = rows[0][2]
+    write_csv(path, names, [row for row in rows if row[2] != method])
+    assert f"rows: {{'level': '{LEVEL}', 'method': {method!r}" in refused(path, files)
+    write_csv(path, names, [row for row in rows if row[6] != "LL3"])
+    assert "limb LL, metric rmse: 'LL3' is missing" in refused(path, files)
+
+
+def test_the_array_of_another_recording_is_refused(files: Files, tmp_path: Path) -> None:
+    rng = np.random.default_rng(1)
+    columns = torque_columns(files.settings.layout, ["tau_ext"], ["LL1", "LL2"])
+    for name in ("one", "other"):
+        write_array(tmp_path / name, rng.normal(size=(500, 2)), columns, {"rate_hz": 1000.0})
+        read_array(tmp_path / name)
+    file_of(tmp_path / "one", ".parquet").write_bytes(file_of(tmp_path / "other", ".parquet").read_bytes())
+    with pytest.raises(DataError, match=r"one.parquet: hash of the footer: .* as one.json says"):
+        read_array(tmp_path / "one")
+
+
+def test_a_file_elsewhere_or_of_no_plan_is_left_alone(files: Files, tmp_path: Path) -> None:
+    path, note = note_of(files, "recordings")
+    note["scenario"] = "of a lab"
+    other = written(tmp_path.parent / "lab" / "s1.json", note)
+    unknown = written(path.parents[2] / "lab" / LEVEL / "s1.json", note)
+    check_agreement([other, unknown, tmp_path / "recordings" / "missing.json"], files)
