@@ -8,6 +8,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodFormatter
 
 from mobnet.core.columns import SIGMA
 from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, Look, entitle, legend, looks, save_figure
@@ -99,6 +100,12 @@ def draw_sigma(courses: Sequence[Course], share: float) -> Figure:
         axes[ERROR].plot(sizes, sizes, **GUIDE)
         axes[ERROR].set(xscale="log", yscale="log")
         axes[CORRELATION].set_xscale("log")
+        axes[COVERAGE].xaxis.set_major_locator(MaxNLocator(integer=True))
+        scales = {axes[ERROR].xaxis: (1, 2, 5), axes[ERROR].yaxis: (1, 2, 5), axes[CORRELATION].xaxis: (1,)}
+        for scale, steps in scales.items():
+            scale.set_major_locator(LogLocator(subs=steps))
+            scale.set_major_formatter(StrMethodFormatter("{x:g}"))
+            scale.set_minor_formatter(NullFormatter())
         axes[CORRELATION].axhline(0.0, **GUIDE)
         legend(figure, list(axes.values()))
     return figure
