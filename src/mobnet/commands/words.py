@@ -95,12 +95,14 @@ def in_order(words: Sequence[str]) -> list[str]:
     """Return words for snakemake: targets before `--config`, which takes all after it, and the scale that they name.
 
     Raises:
-        CommandError: targets belong to several scales.
+        CommandError: targets belong to several scales, or what replaces a key of the configuration does not name one.
     """
     targets: list[str] = []
     others: list[str] = []
     taking = False
     for word in words:
+        if taking and "=" in word and not word.startswith("-") and not word.partition("=")[0].isidentifier():
+            raise CommandError(f"--config: {word!r} is not accepted; accepted: KEY=VALUE, a key of configs")
         swallowed = taking and not word.startswith("-") and "=" not in word
         (targets if swallowed else others).append(word)
         taking = word in CONFIG or (taking and not word.startswith("-"))
