@@ -84,6 +84,8 @@ def write_coverage(path: Path) -> Path:
     """Write a table of coverage with two rows."""
     rows = [("knee_swing", "all_uncertainty", name, "all", 5, 2.0, 3.0, 0.67, 0.6, 0.7)
             for name in ("nearest, median", "nearest, 95 %")]  # fmt: skip
+    rows += [("training", None, f"torque range given {condition} [N m]", joint, 0, 2.0, 1.0, 2.0, None, None)
+             for condition in ("phase", "position and velocity") for joint in ("LL1", "LL2", "all")]  # fmt: skip
     write_csv(path, COVERAGE, rows)
     return path
 
@@ -111,6 +113,7 @@ def test_every_claim_is_judged_by_its_interval_and_is_a_row_of_every_file(
     assert judged["step-mob"].verdict == "reproduced"
     assert judged["mlp-500"].verdict == "inconclusive"  # two trainings decide nothing
     assert judged["rte-coverage"].verdict == "reproduced"
+    assert (judged["rte-widens"].walks, judged["rte-widens"].verdict) == (2, "reproduced")
     assert judged["noise-floor-LL1"].statement == "noise-floor"
 
 

@@ -89,8 +89,9 @@ def judge(row: Row, results: Results, statistics: Statistics, methods: Mapping[s
 
 def made_number(made: MadeNumber, results: Results, statistics: Statistics, unit: str = "-") -> Number:
     """Return what cells make, with its interval [unit]; no number where a cell has none."""
-    if made.quantity == "value" and made.cells[0].table:
-        return replace(results.entry(made.cells[0]), unit=unit)
+    first = made.cells[0]
+    if made.quantity == "value" and first.table and results.is_one(first):
+        return replace(results.entry(first), unit=unit)
     cells = [results.grids(cell) for cell in made.cells]
     held = [cell for cell in cells if cell is not None]
     if len(held) < len(cells):

@@ -25,6 +25,7 @@ log = logging.getLogger(__name__)
 METRIC = "rmse"  # of a cell that names none
 DIVERGED = "diverged"  # metric of all trainings, 1 of those that diverged; all others are of those that did not
 ENDS = {"before": ("before_low", "before_high")}  # column of a table -> those of its interval, where they are not `low`
+ALL = "all"  # joints together, in a table
 WITH_ENDS = ("value", "ratio", "after", *ENDS)  # columns that have an interval
 
 
@@ -52,8 +53,7 @@ class Results:
         """
         metrics = listed(cell.metric or METRIC)
         if cell.table:
-            found = self.entry(cell).value
-            return None if found is None else [RunGrid(np.array([[found]]))]
+            return self._fields(cell)
         if metrics[0] in (*MEASURES, DIVERGED):
             return self._measured(str(cell.method), metrics[0])
         scenario, level, method, names = cell.scenario, cell.level, cell.method, cell.joint
@@ -84,18 +84,37 @@ class Results:
         Raises:
             DataError: the table or a column is missing.
         """
-        rows, column = self.tables[str(cell.table)], str(cell.column)
-        held = rows[0].keys() if rows else {column, *cell.where}
-        for name in (column, *cell.where):
-            if name not in held:
-                raise DataError(not_accepted(f"column of {cell.table}", name, held))
-        found = [row for row in rows if all(row[key] == text for key, text in cell.where.items())]
-        if len(found) != 1:
-            log.warning("%s: %d rows with %s; accepted: one", cell.table, len(found), dict(cell.where))
-            return Number(None)
+        (row,), column = self._rows(cell), str(cell.column)
         ends = ENDS.get(column, ("low", "high")) if column in WITH_ENDS else ("", "")
-        value, low, high = (float(text) if (text := found[0].get(name)) else None for name in (column, *ends))
+        value, low, high = (float(text) if (text := row.get(name)) else None for name in (column, *ends))
         return Number(value, low, high)
+
+    def is_one(self, cell: Cell) -> bool:
+        """Return whether one row of a table has what a cell asks for."""
+        return len(self._rows(cell)) == 1
+
+    def _fields(self, cell: Cell) -> list[RunGrid] | None:
+        """Return the numbers in a column of a table; those of several rows, such as joints, are runs (1, n) [unit]."""
+        held = [float(text) for row in self._rows(cell) if (text := row[str(cell.column)])]
+        if not held:
+            log.warning("%s: no row with %s has a number", cell.table, dict(cell.where))
+        return [RunGrid(np.array([held]))] if held else None
+
+    def _rows(self, cell: Cell) -> list[Mapping[str, str]]:
+        """Return the rows of a table in which columns have the texts that a cell asks for.
+
+        Where it asks for no joint, those of single joints are meant.
+        """
+        rows, asked = self.tables[str(cell.table)], {str(cell.column), *cell.where}
+        held = rows[0].keys() if rows else asked
+        for name in sorted(asked - held):
+            raise DataError(not_accepted(f"column of {cell.table}", name, held))
+        unasked = () if "joint" in cell.where else (ALL,)
+        return [
+            row
+            for row in rows
+            if all(row[key] == text for key, text in cell.where.items()) and row.get("joint") not in unasked
+        ]
 
 
 def read_results(
