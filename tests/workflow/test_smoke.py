@@ -29,9 +29,13 @@ KILLS = 5
 LONGEST_S = 20.0
 MADE = ("results", "tables", "figures", "paper", ".snakemake")
 LOST = (
-    "results/smoke/recordings/walk_test", "results/smoke/networks/MOB-Net-LL-s0", "results/smoke/networks/FTS-e2e-LL-s0",
-    "results/smoke/scores", "tables/smoke", "figures/smoke",
-)  # fmt: skip
+    "results/smoke/recordings/walk_test",
+    "results/smoke/networks/MOB-Net-LL-s0",
+    "results/smoke/networks/FTS-e2e-LL-s0",
+    "results/smoke/scores",
+    "tables/smoke",
+    "figures/smoke",
+)
 
 pytestmark = [pytest.mark.slow, pytest.mark.sim]
 
