@@ -13,11 +13,10 @@ Sankhya 22). Errors, which are positive, and their ratios have it on a log scale
 import functools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
+import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are imported where they are used first
 from numpy.typing import NDArray
-from scipy.stats import t as student  # pyright: ignore[reportMissingTypeStubs]
 
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.evaluation import Statistics
@@ -148,8 +147,7 @@ def reach_of(effects: Sequence[Effects], confidence: float) -> Array:
 @functools.cache
 def quantile_of(degrees: int, confidence: float) -> float:
     """Return between which quantile of Student's law and its negative the share `confidence` lies [-]."""
-    law: Any = student(degrees)
-    return float(law.ppf((1.0 + confidence) / 2.0))
+    return float(scipy.special.stdtrit(degrees, (1.0 + confidence) / 2.0))
 
 
 def shown_range(formula: Formula, parts: Array, reach: Array, on_logs: bool) -> Array:

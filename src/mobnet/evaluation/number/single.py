@@ -1,10 +1,9 @@
 """Intervals where each of several numbers has a single run, where runs only succeed or fail, and without a law."""
 
 from collections.abc import Sequence
-from typing import Any, cast
 
 import numpy as np
-from scipy.stats import binomtest, linregress  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
+import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are imported where they are used first
 
 from mobnet.evaluation.number.intervals import Array, RunGrid, quantile_of
 from mobnet.evaluation.number.number import Number
@@ -16,7 +15,7 @@ def trend(grids: Sequence[RunGrid], statistics: Statistics, unit: str = "-") -> 
 
     It needs a single run of each: how the means scatter around the line stands for all that varies.
     """
-    line = cast("Any", linregress(np.arange(len(grids)), [grid.mean for grid in grids]))
+    line = scipy.stats.linregress(np.arange(len(grids)), [grid.mean for grid in grids])
     value, reach = float(line.slope), quantile_of(len(grids) - 2, statistics.confidence) * float(line.stderr)
     networks = tuple(len(grid.values) for grid in grids)
     return Number(value, value - reach, value + reach, unit=unit, networks=networks, walks=(1,))
@@ -26,7 +25,7 @@ def share(grids: Sequence[RunGrid], statistics: Statistics, unit: str = "-") -> 
     """Return the share of the runs of a grid that are 1 and not 0 [-], with Wilson's interval (1927)."""
     (grid,) = grids
     networks, walks = grid.values.shape
-    found = cast("Any", binomtest(round(float(grid.values.sum())), networks * walks))
+    found = scipy.stats.binomtest(round(float(grid.values.sum())), networks * walks)
     ends = found.proportion_ci(statistics.confidence, method="wilson")
     return Number(grid.mean, float(ends.low), float(ends.high), unit=unit, networks=(networks,), walks=(walks,))
 
