@@ -65,16 +65,26 @@ def left_behind(folder: Path) -> list[Path]:
     return [path for place in places for path in folder.glob(place)]
 
 
+def as_in_a_terminal() -> None:
+    """Let Ctrl-C reach a new process; a shell lets its background processes, and all that these start, ignore it."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 @pytest.mark.parametrize("moment_s", MOMENTS_S)
 def test_ctrl_c_ends_at_once_with_one_line(project: Path, moment_s: float) -> None:
     words = [sys.executable, str(project / "reproduce"), "all", *SMOKE]
     with (project / "out.log").open("w+") as out:
-        run = subprocess.Popen(words, cwd=project, stdout=out, stderr=out, start_new_session=True)
-        time.sleep(moment_s)
-        out.seek(0)
-        before = out.read()
-        os.killpg(run.pid, signal.SIGINT)  # as a terminal does
-        assert run.wait(SOON_S) == 128 + signal.SIGINT
+        run = subprocess.Popen(
+            words, cwd=project, stdout=out, stderr=out, start_new_session=True, preexec_fn=as_in_a_terminal
+        )
+        try:
+            time.sleep(moment_s)
+            out.seek(0)
+            before = out.read()
+            os.killpg(run.pid, signal.SIGINT)  # as a terminal does
+            assert run.wait(SOON_S) == 128 + signal.SIGINT
+        finally:
+            run.kill()
         out.seek(0)
         after = out.read().removeprefix(before)
     assert after.count(STOPPED) == 1
