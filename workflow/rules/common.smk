@@ -51,7 +51,8 @@ onstart:
         made = {str(path) for job in workflow.dag.needrun_jobs() for path in job.output}
         check_space(PLAN, made)
         read = {str(path) for job in workflow.dag.needrun_jobs() for path in job.input}
-        check_agreement(map(Path, sorted(read - made)), PLAN.files)
+        # rows of scores are many: a check looks at all of them, a job at those that it shows
+        check_agreement((Path(name) for name in sorted(read - made) if not name.endswith(".csv")), PLAN.files)
     except MobnetError as error:
         sys.exit(str(error))
 
