@@ -39,6 +39,11 @@ def test_a_replaced_value_has_the_name_of_a_key(word: str) -> None:
         in_order(["all", "--config", "scale=smoke", word])
 
 
+def test_config_without_a_value_is_refused() -> None:
+    with pytest.raises(CommandError, match="--config: seed is not accepted; accepted: KEY=VALUE"):
+        in_order(["--config", "seed"])
+
+
 def test_targets_of_two_scales_are_refused() -> None:
     with pytest.raises(CommandError, match="targets of the scales default, smoke: one scale"):
         in_order(["tables/table_05.tex", "tables/smoke/table_05.tex"])

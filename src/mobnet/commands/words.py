@@ -106,6 +106,8 @@ def in_order(words: Sequence[str]) -> list[str]:
         swallowed = taking and not word.startswith("-") and "=" not in word
         (targets if swallowed else others).append(word)
         taking = word in CONFIG or (taking and not word.startswith("-"))
+    if others and others[-1] in CONFIG:
+        raise CommandError(f"{others[-1]}: {' '.join(targets) or 'nothing'} is not accepted; accepted: KEY=VALUE")
     ordered = [*targets, *others]
     return ordered if any(word.startswith("scale=") for word in words) else with_scale(ordered)
 

@@ -102,9 +102,9 @@ def read_text(path: Path) -> str:
     try:
         return path.read_text(encoding="utf-8")
     except FileNotFoundError:
-        raise DataError(f"{path}: file is missing") from None
+        raise DataError(f"{path}: file is missing; accepted: a text file") from None
     except UnicodeDecodeError as error:
-        raise DataError(f"{path}: not text in UTF-8, byte {error.start}") from None
+        raise DataError(f"{path}: not text in UTF-8, byte {error.start}; accepted: text in UTF-8") from None
     except OSError as error:
         raise DataError(f"{path}: cannot be read: {error.strerror}") from None
 
@@ -124,7 +124,7 @@ def parse_json(text: str, place: str) -> dict[str, Any]:
         value = json.loads(text, object_pairs_hook=_object)
         refuse(place, _not_finite(value))
     except (ValueError, RecursionError) as error:
-        raise DataError(f"{place}: not JSON, {error}") from None
+        raise DataError(f"{place}: not JSON, {error}; accepted: a JSON object") from None
     if not isinstance(value, dict):
         raise DataError(not_accepted(place, value, ["a JSON object"]))
     return value

@@ -116,7 +116,7 @@ def fault_of(found: Mapping[str, Any], kind: type[Note]) -> str:
     place = ".".join(map(str, found["loc"])) or "top level"
     if found["type"] == "missing":
         needed = ", ".join(name for name, field in kind.model_fields.items() if field.is_required())
-        return f"{place}: key is missing" + ("" if "." in place else f"; accepted: {needed}")
+        return f"{place}: key is missing; accepted: {found['loc'][-1] if '.' in place else needed}"
     if found["type"] == "extra_forbidden":
         return not_accepted(place, found["input"], [f"no such key, but {', '.join(kind.model_fields)}"])
     if found["type"] == "value_error":

@@ -195,9 +195,10 @@ def read_pieces(
                 motion.look(first, columns)
                 yield first, columns
     except FileNotFoundError:
-        raise DataError(f"{path}: file is missing") from None
+        raise DataError(f"{path}: file is missing; accepted: a Parquet file") from None
     except (pa.ArrowException, OSError, ValueError, MemoryError) as error:
-        raise DataError(f"{path}: truncated or damaged ({' '.join(str(error).split())})") from None
+        text = f"truncated or damaged ({' '.join(str(error).split())}); accepted: a whole Parquet file"
+        raise DataError(f"{path}: {text}") from None
     refuse(path, [*values.faults(), *motion.faults()])
     _check_footer(stem, note)
 
@@ -246,7 +247,9 @@ def _disagreements(file: pq.ParquetFile, stem: Path, note: Mapping[str, Any], na
     schema, held = file.schema_arrow, file.schema_arrow.names
     shape, noted_shape = (file.metadata.num_rows, len(held)), (note["rows"], len(note["columns"]))
     if shape != noted_shape:
-        yield f"shape {shape}, but {stem.name}{NOTE} says {noted_shape}"
+        apart = sorted(set(held) ^ {column["name"] for column in note["columns"]})
+        named = f" (columns of one alone: {', '.join(apart[:3])})" if apart else ""
+        yield f"shape {shape}{named} is not accepted; accepted: {noted_shape}, as {stem.name}{NOTE} says"
         return
     others = [
         (name, column["name"]) for name, column in zip(held, note["columns"], strict=True) if name != column["name"]
@@ -264,7 +267,7 @@ def _disagreements(file: pq.ParquetFile, stem: Path, note: Mapping[str, Any], na
                 yield not_accepted(f"column {found.name!r}: {key}", value, [f"{column[key]!r}, as its note says"])
     for name in names:
         if name not in held:
-            yield f"column {name!r} is missing; it holds {len(held)} columns: {', '.join(held[:3])}, ..."
+            yield f"column {name!r} is missing; accepted: it, beside {len(held)} others: {', '.join(held[:3])}, ..."
 
 
 def check_finite(name: str, rows: NDArray[Any], names: Sequence[str], first: int = 0) -> None:

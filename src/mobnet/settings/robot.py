@@ -43,7 +43,7 @@ class RobotTable(Section):
     `bodies` stand depth-first, parents first, and `joints` in the order of the motors; `groups` are limb -> joints.
     """
 
-    name: Text
+    name: Annotated[Text, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9 _.-]*$")]
     base: Literal["fixed", "floating"]
     totals: Totals | None = None
     imu: ImuRow | None = None

@@ -29,7 +29,7 @@ class Walking(Section):
     double_support_shift_m: LengthPair
     pelvis_height_m: Real = Field(ge=0.2, le=2)
     leg_reach_m: Real = Field(ge=0.2, le=2)
-    pelvis_sink_max_m: Real = Field(ge=0, le=1)
+    pelvis_sink_max_m: Real = Field(ge=0, le=0.3)
     pelvis_height_rate_hz: Real = Field(ge=0.5, le=100)
     pelvis_height_speed_m_s: Real = Field(ge=0.01, le=5)
     foothold_band_m: LengthPair

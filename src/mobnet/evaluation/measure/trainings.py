@@ -53,6 +53,7 @@ class NotedEpoch(Note):
 
     epoch: Count
     validation_loss: float
+    validation_rmse: NotNegative | None = None
 
 
 class OnWindows(Note):
@@ -175,9 +176,10 @@ def _disagreements(note: TrainingNote, epochs: Sequence[Epoch]) -> Iterator[str]
     noted = note.best.epoch if note.best else None
     if noted != (kept.epoch if kept else None):
         yield not_accepted(f"epoch of the smallest {note.chosen_by}", kept and kept.epoch, [f"{noted}, as {RUN} says"])
-    elif note.best and kept and not isclose(note.best.validation_loss, kept.validation_loss, rel_tol=DIGITS):
-        accepted = [f"{note.best.validation_loss:.6g}, as {RUN} says"]
-        yield not_accepted(f"validation_loss of epoch {noted}", kept.validation_loss, accepted)
+    for name in ("validation_loss", "validation_rmse") if note.best and kept and noted == kept.epoch else ():
+        said, found = getattr(note.best, name), getattr(kept, name)
+        if said is not None and not isclose(said, found, rel_tol=DIGITS):
+            yield not_accepted(f"{name} of epoch {noted}", found, [f"{said:.6g}, as {RUN} says"])
 
 
 def _calibration_faults(noted: NotedCalibration) -> Iterator[str]:

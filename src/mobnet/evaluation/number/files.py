@@ -90,7 +90,9 @@ def read_texts(path: Path, needed: Sequence[str] = ()) -> list[dict[str, str]]:
         held, *lines = [*csv.reader(io.StringIO(read_text(path)), strict=True)] or [[]]
     except csv.Error as error:
         raise DataError(f"{path}: not CSV, {error}") from None
-    faults = [f"column {name!r} is missing; it holds {', '.join(held)}" for name in needed if name not in held]
+    faults = [
+        f"column {name!r} is missing; accepted: it, beside {', '.join(held)}" for name in needed if name not in held
+    ]
     faults += [f"column {name!r} occurs {n} times; accepted: once" for name, n in Counter(held).items() if n > 1]
     refuse(path, faults)
     refuse_lines(

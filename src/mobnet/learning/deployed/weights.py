@@ -58,9 +58,10 @@ def read_weights(path: Path) -> tuple[dict[str, Array], WeightsNote]:
             told = file.metadata() or {}
             tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118, not a dict
     except FileNotFoundError:
-        raise DataError(f"{path}: file is missing") from None
+        raise DataError(f"{path}: file is missing; accepted: a file of safetensors") from None
     except (SafetensorError, OSError, TypeError, ValueError, KeyError, AttributeError) as error:
-        raise DataError(f"{path}: not the weights of a limb network ({' '.join(str(error).split())})") from None
+        text = f"not the weights of a limb network ({' '.join(str(error).split())}); accepted: a file of safetensors"
+        raise DataError(f"{path}: {text}") from None
     if set(told) != {NOTE}:
         raise DataError(not_accepted(f"{path}: metadata", sorted(told), [f"just {NOTE!r}, as a training writes it"]))
     note = checked(path, parse_json(told[NOTE], f"{path}: {NOTE}"), WeightsNote)

@@ -78,6 +78,9 @@ def _cell_problems(results: Results, cell: Cell) -> Iterator[Problem]:
         accepted = results.claimed_tables()
         if cell.table not in accepted:
             yield ("table",), not_accepted("table", cell.table, accepted)
+            return
+        for name in sorted({str(cell.column), *cell.where}.difference(accepted[cell.table])):
+            yield ("column" if name == cell.column else "where",), not_accepted("column", name, accepted[cell.table])
     elif _is_training(cell):
         accepted = results.claimed_trainings()
         if cell.method not in accepted:
@@ -144,6 +147,10 @@ def _bound_problems(claim: Claim) -> Iterator[Problem]:
                 low, high = ("any" if bound is None else bound for bound in possible)
                 yield (key, index), misfit(end, f"{low} to {high}, the numbers that {claim.quantity!r} can be")
     printed = claim.published
+    numbers = {("published",): printed} | {("by_joint", joint): value for joint, value in claim.by_joint.items()}
+    for place, value in numbers.items():
+        if value is not None and not _inside((value, value), possible):
+            yield place, misfit(value, f"0 or more, a number that {claim.quantity!r} can be")
     for key in ("bar", "side"):
         bounds = getattr(claim, key)
         if printed is not None and bounds and not _inside((printed, printed), bounds):

@@ -22,12 +22,30 @@ def learning_problems(settings: Settings) -> Iterator[Problem]:
             yield ("methods", name, *place), text
     for limb in settings.networks:
         yield from _window_problems(settings, limb)
-    for name, grid in settings.trials.tuning.grids.items():
-        if grid.learning and name in settings.methods and not settings.methods[name].limbs:
-            accepted = "`options` of a method without networks"
-            yield ("trials", "tuning", "grids", name, "learning"), misfit("`learning`", accepted)
+    yield from _trial_problems(settings)
     yield from _name_problems(settings)
     yield from _sweep_problems(settings)
+
+
+def _trial_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield trials of methods that do not learn, unequal numbers of trials, and development walks that are tests."""
+    grids, place = settings.trials.tuning.grids, ("trials", "tuning", "grids")
+    most = max((len(list(grid.changes())) for grid in grids.values()), default=0)
+    for name, grid in grids.items():
+        if grid.learning and name in settings.methods and not settings.methods[name].limbs:
+            accepted = "`options` of a method without networks"
+            yield (*place, name, "learning"), misfit("`learning`", accepted)
+        if (count := len(list(grid.changes()))) != most:
+            yield (*place, name), misfit(f"{count} combinations", f"{most}, as many as other methods have")
+    learned = [name for name, method in settings.methods.items() if method.limbs]
+    for index, name in enumerate(settings.trials.lengths.methods):
+        if name in settings.methods and name not in learned:
+            yield ("trials", "lengths", "methods", index), not_accepted("method with networks", name, learned)
+    walked = settings.development.scenario
+    taken = {*settings.tests, *(row.scenario for row in settings.training_sets.values())}
+    if walked in taken:
+        accepted = [name for name in settings.scenarios if name not in taken]
+        yield ("development", "scenario"), not_accepted("scenario apart from tests and training", walked, accepted)
 
 
 def _method_problems(settings: Settings, name: str, method: Method) -> Iterator[Problem]:
@@ -42,6 +60,10 @@ def _method_problems(settings: Settings, name: str, method: Method) -> Iterator[
     if method.of in settings.methods and method.limbs and not settings.methods[method.of].fitted:
         yield ("of",), misfit(method.of, "a method with `fitted`, for one with `limbs` of its own")
     robot = settings.robot
+    for index, limb in enumerate(method.fitted):
+        joints = {joint for group in robot.networks[limb].joints for joint in robot.groups[group]}
+        if not joints & set(robot.order.actuated):
+            yield ("fitted", index), misfit(limb, "a network of joints that have motors and friction")
     seen = dict[str, str]()
     for index, limb in enumerate((*method.limbs, *method.fitted)):
         key = "limbs" if index < len(method.limbs) else "fitted"

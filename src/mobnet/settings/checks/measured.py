@@ -26,6 +26,7 @@ def measured_problems(results: Results) -> Iterator[Problem]:
     ):
         yield from _limb_problems(results, (*ROOT, name, "tests"), tests)
     yield from _push_problems(results)
+    yield from _learned_problems(results)
     yield from _line_problems(results)
     yield from _sigma_problems(results)
     for k, row in enumerate(evaluation.methods):
@@ -55,10 +56,36 @@ def _push_problems(results: Results) -> Iterator[Problem]:
     for place, scenario in shown:
         if scenario not in pushed:
             yield (*ROOT, *place), not_accepted("test with pushes", scenario, pushed)
+    for test in evaluation.drift.tests.values():
+        longest = max(
+            (settings.pushes[name].duration_s[1] for name in settings.scenarios[test.scenario].pushes), default=0.0
+        )
+        if evaluation.drift.longest_s > longest:
+            text = misfit(evaluation.drift.longest_s, f"at most {longest:g}, the longest push of {test.scenario}")
+            yield (*ROOT, "drift", "longest_s"), text
     if evaluation.drift.bin_s > evaluation.drift.longest_s:
         yield (
             (*ROOT, "drift", "bin_s"),
             misfit(evaluation.drift.bin_s, f"at most longest_s, {evaluation.drift.longest_s}"),
+        )
+
+
+def _learned_problems(results: Results) -> Iterator[Problem]:
+    """Yield methods without networks where networks are timed or drawn, and a joint that the trials do not have."""
+    settings, evaluation = results.settings, results.settings.evaluation
+    learned = [name for name, method in settings.all_methods.items() if method.limbs]
+    shown: list[tuple[Place, str]] = [(("latency", "method"), evaluation.latency.method)]
+    shown += [(("figure_08", "methods", k), name) for k, name in enumerate(evaluation.figure_08.methods)]
+    for place, method in shown:
+        if method not in learned:
+            yield (*ROOT, *place), not_accepted("method with networks", method, learned)
+    joints = [
+        joint for group in settings.robot.networks[settings.trials.limb].joints for joint in results.joints(group)
+    ]
+    if evaluation.learning_curve.joint not in (*joints, "avg"):
+        yield (
+            (*ROOT, "learning_curve", "joint"),
+            not_accepted("joint", evaluation.learning_curve.joint, [*joints, "avg"]),
         )
 
 
@@ -73,6 +100,10 @@ def _line_problems(results: Results) -> Iterator[Problem]:
         if len(frequencies) != len(bode.bands_hz):
             text = misfit(f"{len(bode.bands_hz)} bands", f"{len(frequencies)}, one for each line on {joint}")
             yield (*ROOT, "bode", "bands_hz"), text
+        elif any(set(frequencies) & set(other) for name, other in lines.items() if name != joint):
+            name = next(name for name in settings.pushes if settings.pushes[name].joint == joint)
+            text = misfit(list(frequencies), f"lines of its own for each joint of {bode.scenario}")
+            yield ("pushes", name, "sines", "frequency_hz"), text
         elif frequencies[-1] >= settings.rates.data_hz / 2:
             yield (*ROOT, "bode", "scenario"), misfit(frequencies[-1], "lines below half of data_hz")
 

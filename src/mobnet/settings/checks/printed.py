@@ -11,6 +11,7 @@ from mobnet.settings.settings import Settings
 
 AVERAGE_TOLERANCE = 0.01  # averages are printed with two digits
 MINUTE_S = 60.0
+DETECTED, TRIED = "detected", 10  # place of Table 9, and how often each kind of collision was tried (section 5.3)
 TOGETHER = ("avg", "all")  # columns about those before
 SIMILAR = 1.1  # ratio of the sizes of networks "of about the same size"
 JOINT = re.compile(r"[A-Z]+(\d|$)")
@@ -31,6 +32,12 @@ def printed_problems(settings: Settings) -> Iterator[Problem]:
             accepted = printed.numbers if printed else {}
             if row.paper is not None and row.paper not in accepted:
                 yield ("evaluation", "tables", name, "rows", k, "paper"), not_accepted("paper", row.paper, accepted)
+    for name, place in settings.evaluation.noise.paper.items():
+        printed = settings.published.tables.get(name)
+        if printed is None or place not in printed.numbers:
+            accepted = printed.numbers if printed else settings.published.tables
+            text = not_accepted("place of a row" if printed else "table", place if printed else name, accepted)
+            yield ("evaluation", "noise", "paper", name), text
     for name in ("figure_06", "figure_10"):
         if name not in settings.published.tables:
             yield ("published", "tables"), misfit(f"no {name}", f"{name}, whose numbers a figure shows")
@@ -95,6 +102,8 @@ def _row_problems(settings: Settings, table: PublishedTable) -> Iterator[Problem
             base = VARIANTS.fullmatch(method)
             if base is None or base[1] not in settings.all_methods:
                 yield ("numbers", place, method), not_accepted("method", method, settings.methods)
+            if place == DETECTED:
+                yield from _detected_problems(("numbers", place, method), row)
             if len(row) != len(table.columns):
                 text = misfit(f"{len(row)} numbers", f"{len(table.columns)}, one for each column")
                 yield ("numbers", place, method), text
@@ -122,9 +131,19 @@ def _wrong_averages(columns: Sequence[str], row: Sequence[float | None]) -> Iter
         since = []
 
 
+def _detected_problems(place: Place, row: Sequence[float | None]) -> Iterator[Problem]:
+    """Yield collisions that were detected more often than there were: the last number is the total."""
+    for k, value in enumerate(row[:-1]):
+        if value is not None and value > TRIED:
+            yield (*place, k), misfit(value, f"at most {TRIED}, collisions of each kind")
+
+
 def _said_problems(settings: Settings) -> Iterator[Problem]:
     """Yield numbers of samples that do not fit the duration."""
     for name, said in settings.published.data.sets.items():
+        if not 0.0 <= said.get("time standing", 0.0) <= 1.0:
+            place = ("published", "data", "sets", name, "time standing")
+            yield place, misfit(said["time standing"], "0 to 1, a share")
         if "duration" in said and "samples" in said:
             count = said["duration"] * MINUTE_S * settings.rates.data_hz
             if said["samples"] != count:

@@ -5,6 +5,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from mobnet.core.columns import CALIBRATION, COVERAGE, ERRORS, KINDS, LATENCY, METHODS
 from mobnet.core.errors import not_accepted
 from mobnet.core.joints import JointLayout, right_of, with_image
 from mobnet.settings.checks.robot import joints_above
@@ -12,7 +13,10 @@ from mobnet.settings.evaluation import Mean
 from mobnet.settings.names import uses
 from mobnet.settings.settings import Settings, swept_name
 
-TABLES = ("calibration", "coverage", "error_budget", "kinds", "latency", "methods")  # that are no entry of `tables`
+TABLES = {  # that are no entry of `tables` -> their columns
+    "calibration": CALIBRATION, "coverage": COVERAGE, "error_budget": ERRORS, "kinds": KINDS, "latency": LATENCY,
+    "methods": METHODS,
+}  # fmt: skip
 PUSHED, PUSH, RAW = "rmse_pushed", "rmse_push_", "_raw"  # metrics of windows around pushes, against the raw truth
 ASKED = {  # section -> metrics that are measured on its tests alone
     "peaks": r"(peak_ratio|rise_delay).*",
@@ -21,8 +25,8 @@ ASKED = {  # section -> metrics that are measured on its tests alone
     "phases": r"rmse_(swing|touch_down|stance|stuck|moving)",
     "sigma": r"(std|cover|acf|excursion|rmse_part).*",
 }
-UNITS = {  # metrics that are no error of a joint -> unit
-    r"roughness": "N m/s",
+UNITS = {  # metrics that are no error of a joint -> unit, made of that of the joint
+    r"roughness": "{}/s",
     r"r_rmse": "%",
     r"(peak_ratio|gain|held|cover|acf).*": "-",
     r"(rise_delay|excursion).*": "ms",
@@ -32,7 +36,7 @@ UNITS = {  # metrics that are no error of a joint -> unit
 
 def metric_unit(metric: str, unit: str) -> str:
     """Return the unit of a metric of joints whose torques have a unit."""
-    return next((own for pattern, own in UNITS.items() if re.fullmatch(pattern, metric)), unit)
+    return next((own for pattern, own in UNITS.items() if re.fullmatch(pattern, metric)), "{}").format(unit)
 
 
 @dataclass(frozen=True)
@@ -122,9 +126,9 @@ class Results:
         ]
         return [*evaluation.figure_17.methods, *evaluation.kinds.variants, *swept]
 
-    def claimed_tables(self) -> list[str]:
-        """Return the tables whose fields claims may name."""
-        return [*self.settings.evaluation.tables, *TABLES]
+    def claimed_tables(self) -> dict[str, tuple[str, ...]]:
+        """Return the tables whose fields claims may name -> their columns."""
+        return {**dict.fromkeys(self.settings.evaluation.tables, ERRORS), **TABLES}
 
     def pushed_joints(self, scenario: str) -> list[str]:
         """Return the joints that the pushes of a scenario turn: the one that is driven, or all above a point."""

@@ -55,7 +55,7 @@ def _repeated(table: RobotTable) -> Iterator[Problem]:
     """Yield names that occur twice where each may occur once."""
     lists: dict[Place, list[str]] = {
         ("bodies",): [body.name for body in table.bodies],
-        ("joints",): [joint.body for joint in table.joints],
+        ("joints",): [name for joint in table.joints for name in {joint.body, f"id {joint.id}"}],
         ("order",): [*table.order.virtual, *table.order.actuated],
         ("groups",): [joint for limb in table.groups.values() for joint in limb],
         ("shapes",): [name for shape in table.shapes for name in with_image(shape.name)],
@@ -149,6 +149,11 @@ def _foot_problems(table: RobotTable) -> Iterator[Problem]:
             text = f"{foot.body} is not accepted; accepted: the body at the end of limb {foot.limb}"
             yield ("feet", side, "body"), text
     sides = [(("feet",), {side: foot.body for side, foot in table.feet.items()}), (("hands",), dict(table.hands))]
+    limbs = {joint: limb for limb, joints in table.groups.items() for joint in joints}
+    for side, body in table.hands.items():
+        found = {limbs[joint] for joint in joints_above(table, body)[-1:] if joint in limbs}
+        if found and not any(limb.casefold().startswith(side[0]) for limb in found):
+            yield ("hands", side), misfit(body, f"a body at the end of a limb of the {side} side")
     for place, bodies in sides:
         if len(bodies) == 2 and right_of(bodies["left"]) != bodies["right"]:
             yield (*place, "right"), not_accepted("body", bodies["right"], [right_of(bodies["left"])])

@@ -91,6 +91,9 @@ def _column_problems(results: Results, columns: Sequence[str | Mean]) -> Iterato
             yield (index,), misfit(name, "columns with names of their own")
         names += new
         if isinstance(column, Mean):
+            held = results.joints_of(column)
+            if len(set(held)) < len(held):
+                yield (index, "joints"), misfit(list(column.joints), "each joint once")
             units = {results.layout.unit(joint) for name in column.joints for joint in results.joints(name)}
             if len(units) > 1:
                 yield (index, "joints"), misfit(list(column.joints), "joints with one unit, N or N m")

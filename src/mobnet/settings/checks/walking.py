@@ -120,6 +120,10 @@ def _body_problems(settings: Settings) -> Iterator[Problem]:
         if abs(value - middle[0]) > half[0]:
             text = misfit(value, f"{middle[0] - half[0]:g} to {middle[0] + half[0]:g}, the robot's sole")
             yield ("walking", "sole_x_m", index), text
+    for index, value in enumerate(walking.stand_shift_m):
+        if abs(value) > half[index]:
+            text = misfit(value, f"{-half[index]:g} to {half[index]:g}, half the robot's sole")
+            yield ("walking", "stand_shift_m", index), text
     if walking.sole_y_m > half[1]:
         yield ("walking", "sole_y_m"), misfit(walking.sole_y_m, f"at most {half[1]}, half the robot's sole")
     if walking.foothold_y_m[0] < 2 * half[1]:

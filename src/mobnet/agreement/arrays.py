@@ -1,0 +1,83 @@
+"""Notes of recordings, residuals and estimates against their places, the configuration, and the recording."""
+
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mobnet.agreement.said import differences
+from mobnet.core.columns import EXTERNAL, RESIDUAL, STD, named
+from mobnet.core.errors import not_accepted
+from mobnet.core.files import WEIGHTS
+from mobnet.core.notes import note_differences, read_array_note
+from mobnet.core.store import ARRAY, NOTE, file_of
+from mobnet.learning.deployed.weights import STD_SCALE, read_weights
+from mobnet.plan.runs import Files
+
+NAMES = re.compile(r"s(\d+)\.(parquet|json)")
+POSITIONS = "q"
+SIGNALS = {"recordings": POSITIONS, "residuals": RESIDUAL, "estimates": EXTERNAL}  # that only such an array has
+
+
+def array_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[str]:
+    """Yield in what the note of a recording, residual or estimate is not that of its place."""
+    kind, *owner, scenario, level, name = place
+    found, settings = NAMES.fullmatch(name), files.settings
+    if not found or path.suffix == ARRAY or scenario not in settings.scenarios or level not in settings.levels:
+        return
+    note = read_array_note(path)
+    signals = {column["name"].partition(".")[0] for column in note["columns"]}
+    if SIGNALS[kind] not in signals or (kind != "recordings" and POSITIONS in signals):
+        yield not_accepted("columns", sorted(signals), [f"those of {kind}"])
+        return
+    said = {"scenario": scenario, "level": level, "seed": int(found[1]), "rate_hz": settings.rates.data_hz}
+    if kind == "residuals":
+        ratio = settings.levels[level].nominal_mass_ratio
+        said |= {"gain_hz": settings.observer.gain_hz, "nominal_mass_ratio": ratio}
+    if owner and owner[0] in settings.all_methods:
+        yield from _owner_faults(note, owner[0], int(owner[1].removeprefix("n")), files)
+    yield from differences(note, said)
+    if kind == "recordings":
+        yield from _recording_faults(note, scenario, level, int(found[1]), files)
+    recording = files.array("recordings", scenario, level, found[1])
+    if kind != "recordings" and file_of(recording, NOTE).exists():
+        other = read_array_note(file_of(recording, NOTE))
+        yield from note_differences(note, other, f"{recording}{NOTE}, its recording")
+
+
+def _recording_faults(note: Mapping[str, Any], scenario: str, level: str, seed: int, files: Files) -> Iterator[str]:
+    """Yield terrains that the scenario does not have, and samples that are missing where no robot fell."""
+    for terrain in note.get("terrains", ()):
+        if terrain not in files.settings.scenarios[scenario].terrain:
+            yield not_accepted("terrains", terrain, files.settings.scenarios[scenario].terrain)
+    if (scenario, level, seed) in set(files.recorded()) and note.get("falls", 1) == 0:
+        rows = round(files.duration_s([scenario], seed) * files.settings.rates.data_hz)
+        held = sum(end - start for start, end in note["segments"])
+        if not rows == note["rows"] == held:
+            text = f"{note['rows']} rows, {held} in segments"
+            yield not_accepted("rows", text, [f"{rows}, all of them in segments, as no robot fell"])
+
+
+def _owner_faults(note: Mapping[str, Any], method: str, seed: int, files: Files) -> Iterator[str]:
+    """Yield in what the note of an estimate is not that of a method and a network seed."""
+    source = files.settings.network_source_of(method)
+    folders = {limb: files.network(source, limb, seed) for limb in files.settings.method(source).limbs}
+    yield from differences(note, {"method": method, "networks": {limb: path.name for limb, path in folders.items()}})
+    layout, robot = files.settings.layout, files.settings.robot
+    predicted = [joint for limb in folders for group in robot.networks[limb].joints for joint in layout.limb(group)]
+    joints = predicted or list(layout.names)
+    expected = {*named(EXTERNAL, joints), *(named(STD, joints) if folders else ())}
+    held = {column["name"] for column in note["columns"]}
+    for name in sorted(expected ^ held):
+        word = "is missing" if name in expected else "is too much"
+        yield f"columns: {name!r} {word}; accepted: those of {method}, {', '.join(sorted(expected)[:3])}, ..."
+    scales = note.get("std_scale", {})
+    if all((folder / WEIGHTS).exists() for folder in folders.values()):
+        known: dict[str, float] = {}
+        for tensors, noted in (read_weights(folder / WEIGHTS) for folder in folders.values()):
+            factors = tensors.get(STD_SCALE, np.ones(len(noted.joints), dtype=np.float32))
+            known |= dict(zip(noted.joints, factors.tolist(), strict=True))
+        if scales != known:
+            yield not_accepted("std_scale", scales, [f"{known}, of its networks"])

@@ -1,0 +1,84 @@
+"""Motions of the upper body against their places, the configuration and the robot."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from pydantic import ConfigDict
+
+from mobnet.agreement.said import differences
+from mobnet.core.columns import named
+from mobnet.core.errors import not_accepted
+from mobnet.core.files import read_json
+from mobnet.core.notes import Index, Note, NotNegative, Text, checked
+from mobnet.core.store import NOTE, read_array
+from mobnet.plan.runs import Files
+from mobnet.settings.data import Motion
+
+TARGET = "q_ref"
+AT_ONCE = 1.5  # times a joint's velocity limit, between two knots
+SAME_RAD = 1e-3
+
+
+class MotionNote(Note):
+    """What the note of a motion says besides that of every array."""
+
+    model_config = ConfigDict(extra="allow")
+
+    motion: Text
+    seed: Index
+    part: Index
+    variant: Index
+    clearance_m: NotNegative
+    hand_speed_mean_m_s: NotNegative
+    hand_speed_max_m_s: NotNegative
+
+
+def motion_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[str]:
+    """Yield in what a motion is not the one of its place, or none that the robot can make."""
+    found, rows = re.fullmatch(r"s(\d+)\.json", place[-1]), files.settings.motions
+    if not found or len(place) != 3 or place[1] not in rows:
+        return
+    row, note = rows[place[1]], read_json(path)
+    checked(path, note, MotionNote)
+    yield from differences(note, {"motion": place[1], "seed": int(found[1]), "rate_hz": row.knot_hz})
+    if note["variant"] >= len(row.variants):
+        yield not_accepted("variant", note["variant"], [f"0 to {len(row.variants) - 1}"])
+    if note["clearance_m"] < row.clearance_least_m:
+        yield not_accepted("clearance_m", note["clearance_m"], [f"{row.clearance_least_m} or more"])
+    if note["hand_speed_mean_m_s"] > note["hand_speed_max_m_s"]:
+        accepted = [f"at most hand_speed_max_m_s, {note['hand_speed_max_m_s']}"]
+        yield not_accepted("hand_speed_mean_m_s", note["hand_speed_mean_m_s"], accepted)
+    yield from _knot_faults(path, row, place[1], int(found[1]), files)
+
+
+def _knot_faults(path: Path, motion: Motion, name: str, seed: int, files: Files) -> Iterator[str]:
+    """Yield columns, ranges, speeds, a beginning and a length that are not those of a motion."""
+    settings, layout = files.settings, files.settings.layout
+    legs = {joint for foot in settings.robot.feet.values() for joint in layout.limb(foot.limb)}
+    joints = [joint for joint in layout.actuated if joint not in legs]
+    array, note = read_array(path.with_suffix(""), None, layout)
+    held = [column["name"] for column in note["columns"]]
+    if held != named(TARGET, joints):
+        yield not_accepted("columns", held, [f"{TARGET} of {', '.join(joints)}"])
+        return
+    limits = [layout.limits[joint] for joint in joints]
+    posture = dict(zip([j for limb in settings.robot.posture for j in layout.limb(limb)],
+                       [a for row in settings.robot.posture.values() for a in row.angle_rad], strict=True))  # fmt: skip
+    speeds = np.abs(np.diff(array, axis=0)).max(axis=0, initial=0.0) * motion.knot_hz
+    for k, (joint, limit) in enumerate(zip(joints, limits, strict=True)):
+        low, high = float(array[:, k].min()), float(array[:, k].max())
+        if low < limit.low or high > limit.high:
+            yield not_accepted(f"{TARGET}.{joint}", [low, high], [f"{limit.low} to {limit.high}, the joint's range"])
+        if speeds[k] > AT_ONCE * limit.speed:
+            accepted = [f"at most {AT_ONCE * limit.speed:g} rad/s from knot to knot"]
+            yield not_accepted(f"{TARGET}.{joint}: speed", float(speeds[k]), accepted)
+        if abs(array[0, k] - posture[joint]) > SAME_RAD:
+            yield not_accepted(f"{TARGET}.{joint}, row 0", float(array[0, k]), [f"{posture[joint]}, the posture"])
+    moved = [scenario for scenario, row in settings.scenarios.items() if row.motion == name]
+    planned = {seed for scenario, _, seed in files.recorded() if scenario in moved}
+    if seed in planned:
+        rows = round(files.duration_s(moved, seed) * motion.knot_hz) + 1
+        if note["rows"] != rows:
+            yield not_accepted(f"{path.with_suffix('').name}{NOTE}: rows", note["rows"], [f"{rows}, of its duration"])
