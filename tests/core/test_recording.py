@@ -74,7 +74,9 @@ def test_missing_column_is_named(recording_stem: Path, layout: JointLayout) -> N
     keep = [i for i, column in enumerate(meta["columns"]) if column["name"] != "tau_des.LL3"]
     columns = [tuple(meta["columns"][i].values()) for i in keep]
     write_array(recording_stem, array[:, keep], columns, META)
-    with pytest.raises(DataError, match=r"s1\.parquet: column 'tau_des\.LL3' is missing; accepted: it, beside \d+ others: q"):
+    with pytest.raises(
+        DataError, match=r"s1\.parquet: column 'tau_des\.LL3' is missing; accepted: it, beside \d+ others: q"
+    ):
         read_recording(recording_stem, layout)
 
 

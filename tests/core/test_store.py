@@ -54,7 +54,7 @@ def foreign(path: Path, array: np.ndarray, names: str = "ab") -> None:
 def test_truncated_array_and_a_file_that_is_none_are_named(array_stem: Path, kept: int | None) -> None:
     path = array_stem.with_suffix(".parquet")
     path.write_bytes(b"not an array" if kept is None else path.read_bytes()[:kept])
-    with pytest.raises(DataError, match=r"s1\.parquet: truncated or damaged \(.+\)$"):
+    with pytest.raises(DataError, match=r"s1\.parquet: truncated or damaged \(.+\); accepted: a whole Parquet file$"):
         read_array(array_stem)
 
 
@@ -71,7 +71,7 @@ def test_any_damaged_sample_is_noticed(tmp_path: Path) -> None:
 
 def test_array_that_disagrees_with_its_description_is_named(array_stem: Path) -> None:
     foreign(array_stem.with_suffix(".parquet"), np.zeros((9, 2)))
-    with pytest.raises(DataError, match=r"shape \(9, 2\), but s1\.json says \(10, 2\)"):
+    with pytest.raises(DataError, match=r"shape \(9, 2\) is not accepted; accepted: \(10, 2\), as s1\.json says"):
         read_array(array_stem)
     foreign(array_stem.with_suffix(".parquet"), np.zeros((10, 2)), "ac")
     with pytest.raises(DataError, match=r"s1\.parquet: column 'c', but s1\.json says 'b'"):

@@ -11,7 +11,7 @@ from made_notes import training_note
 from safetensors.numpy import save_file
 
 from mobnet.agreement import check_agreement
-from mobnet.core.columns import Score, torque_columns
+from mobnet.core.columns import Score, recording_columns, torque_columns
 from mobnet.core.errors import DataError
 from mobnet.core.store import file_of, read_array, write_array
 from mobnet.estimation.kinds.friction import Options, fitted_joints
@@ -53,10 +53,14 @@ def put(key: str, value: Any) -> Change:
 
 def note_of(files: Files, kind: str, **more: Any) -> tuple[Path, dict[str, Any]]:
     """Return the place of the note of a walk's array, and a sound note."""
-    seed = files.test_seeds[0]
-    column = {"name": "tau_ext.LL1", "unit": "N m", "frame": "joint"}
-    note = {"rows": 9, "segments": [[0, 9]], "rate_hz": 1000.0, "scenario": SCENARIO, "level": LEVEL, "seed": seed}
-    return files.array(kind, SCENARIO, LEVEL, seed).with_suffix(".json"), {**note, "columns": [column], **more}
+    seed, layout = files.test_seeds[0], files.settings.layout
+    names = {"recordings": ["q.LL1"], "residuals": ["r.LL1"]}.get(kind)
+    if names is None:
+        names = [f"{signal}.{joint}" for signal in ("tau_ext", "std") for joint in layout.names]
+    columns = [{"name": name, "unit": "-", "frame": "-"} for name in names]
+    note = {"rows": 10000, "segments": [[0, 10000]], "rate_hz": 1000.0, "scenario": SCENARIO, "level": LEVEL}
+    note |= {"seed": seed, "falls": 0, "columns": columns, **more}
+    return files.array(kind, SCENARIO, LEVEL, seed).with_suffix(".json"), note
 
 
 def written(path: Path, note: object) -> Path:
@@ -74,6 +78,14 @@ ARRAYS: dict[str, tuple[str, Change, str]] = {
     "rate": ("residuals", put("rate_hz", 500.0), "rate_hz: 500.0 is not"),
     "terrain": ("recordings", put("terrains", ["gravel"]), "terrains: 'gravel' is not"),
     "gain": ("residuals", put("gain_hz", 50.0), "gain_hz: 50.0 is not"),
+    "rows": (
+        "recordings",
+        put("rows", 12000),
+        "rows: '12000 rows, 10000 in segments' is not",
+    ),
+    "segments": ("recordings", put("segments", [[0, 100]]), "rows: '10000 rows, 100 in segments' is not"),
+    "kind": ("recordings", put("columns", [{"name": "r.LL1", "unit": "-", "frame": "-"}]), "columns: ['r'] is not"),
+    "columns": ("estimates/MOB-Net/n0", lambda note: note["columns"].pop(), "columns: 'std.RA8' is missing"),
     "mass": ("residuals", put("nominal_mass_ratio", 1.0), "nominal_mass_ratio: 1.0 is not"),
     "method": ("estimates/MOB-Net/n0", put("method", "FTS-e2e"), "method: 'FTS-e2e' is not accepted; accepted: 'MOB-N"),
     "network": ("estimates/MOB-Net/n0", put("networks", {"LL": "MOB-Net-RL-s0"}), "networks: {'LL': 'MOB-Net-RL-s0'}"),
@@ -94,13 +106,26 @@ def test_the_note_of_another_array_is_refused(name: str, files: Files) -> None:
     assert says in refused(written(path, note), files)
 
 
-def test_a_standard_deviation_without_its_factor_is_refused(files: Files) -> None:
+def test_a_residual_of_other_rows_than_its_recording_is_refused(files: Files) -> None:
+    written(*note_of(files, "recordings"))
+    path, note = note_of(files, "residuals", gain_hz=files.settings.observer.gain_hz, nominal_mass_ratio=0.9)
+    check_agreement([written(path, note)], files)
+    assert "rows: 9000 is not accepted; accepted: 10000" in refused(
+        written(path, note | {"rows": 9000, "segments": [[0, 9000]]}), files
+    )
+
+
+def test_factors_that_are_not_those_of_the_networks_are_refused(files: Files) -> None:
     limbs = files.settings.method("MOB-Net").limbs
-    networks = {limb: f"MOB-Net-{limb}-s0" for limb in limbs}
-    column = {"name": "std.LL3", "unit": "N m", "frame": "joint"}
-    more = {"method": "MOB-Net", "networks": networks, "columns": [column], "std_scale": {"LL1": 1.1}}
-    path, note = note_of(files, "estimates/MOB-Net/n0", **more)
-    assert "std_scale: 'LL3' is missing" in refused(written(path, note), files)
+    names = {limb: files.network("MOB-Net", limb, 0).name for limb in limbs}
+    path, note = note_of(files, "estimates/MOB-Net/n0", method="MOB-Net", networks=names)
+    for limb in limbs:
+        weights(files, "MOB-Net", limb)
+    scales = {joint: 1.0 for limb in limbs for group in files.settings.robot.networks[limb].joints
+              for joint in files.settings.layout.limb(group)}  # fmt: skip
+    check_agreement([written(path, note | {"std_scale": scales})], files)
+    for wrong in ({}, scales | {"LL1": 55.0}, scales | {"XX1": 1.0}):
+        assert "std_scale: " in refused(written(path, note | {"std_scale": wrong}), files)
 
 
 def weights(files: Files, method: str, limb: str, change: Change = lambda note: None) -> Path:
@@ -135,6 +160,10 @@ def test_weights_of_another_network_are_refused(name: str, files: Files) -> None
 
 
 RUNS: dict[str, tuple[Change, str]] = {
+    "parameters": (put("parameters", 1), "parameters: 1 is not accepted; accepted: 83712"),
+    "loss": (lambda note: note["settings"].update(loss="mse"), "settings.loss: 'mse' is not"),
+    "a setting more": (lambda note: note["settings"].update(momentum=0.9), "settings.momentum: 0.9 is not"),
+    "joints": (lambda note: note["calibration"].update(joints=["LL9"] * 6), "calibration.joints: "),
     "name": (put("name", "GRU-RL-s0"), "name: 'GRU-RL-s0' is not accepted; accepted: 'GRU-LL-s0'"),
     "method": (put("method", "LSTM"), "method: 'LSTM' is not"),
     "limb": (put("limb", "RL"), "limb: 'RL' is not"),
@@ -147,7 +176,15 @@ RUNS: dict[str, tuple[Change, str]] = {
 def test_the_note_of_another_training_is_refused(name: str, files: Files) -> None:
     change, says = RUNS[name]
     row = files.settings.training("GRU", "LL").network.model_dump(mode="json", exclude_defaults=True)
-    note = training_note("GRU-LL-s0", [-1.0, -2.0], settings={"network": row})
+    training = files.settings.training("GRU", "LL")
+    learning = training.learning.model_dump(mode="json", exclude_defaults=True)
+    sizes = {"epochs": training.epochs, "epoch_samples": training.epoch_samples}
+    joints = {"joints": [f"LL{k}" for k in range(1, 7)], "scale": [1.0] * 6, "likelihood_scale": [1.0] * 6}
+    fit = {"coverage": [[0.5] * 6], "nll": [1.0] * 6, "crps": [0.2] * 6}
+    note = training_note(
+        "GRU-LL-s0", [-1.0, -2.0], settings={"network": row, **learning, **sizes}, parameters=83712,
+        calibration={"shares": [0.5], **joints, "before": fit, "after": fit},
+    )  # fmt: skip
     path = files.network("GRU", "LL", 0) / "run.json"
     check_agreement([written(path, note)], files)
     change(note)
@@ -167,6 +204,8 @@ FITS: dict[str, tuple[Change, str]] = {
     "smoothing": (put("smoothing_rad_s", 0.2), "smoothing_rad_s: 0.2 is not accepted; accepted: 0.02"),
     "a joint is gone": (lambda note: note["joints"].pop("LL4"), "joints: 'LL4' is missing"),
     "load": (lambda note: note["joints"]["LL4"].update(load_per_nm=0.1), "joints.LL4: load: 0.1 is not accepted; acc"),
+    "worse than nothing": (lambda n: n["joints"]["LL4"].update(left_rms_nm=9.0), "left_rms_nm: 9.0 is not"),
+    "velocity": (lambda n: n["joints"]["LL4"].update(stribeck_rad_s=0.33), "stribeck_rad_s: 0.33 is not"),
     "huge": (lambda note: note["joints"]["LL4"].update(viscous_nms=1e15), "viscous_nms: 1000000000000000.0 is not"),
 }
 
@@ -201,6 +240,8 @@ SCORES: dict[str, tuple[int, dict[str, Any], str]] = {
     "joint": (0, {"joint": "RA1"}, "line 2: joint: 'RA1' is not"),
     "metric": (0, {"metric": "rmse_push_0"}, "line 2: metric: 'rmse_push_0' is not"),
     "unit": (0, {"unit": "N m"}, "line 2: unit: 'N m' is not"),
+    "unit of a share": (0, {"metric": "r_rmse"}, "line 2: unit: 'N' is not accepted; accepted: %"),
+    "share": (0, {"metric": "cover", "unit": "-", "value": 1.5}, "line 2: value of cover: 1.5 is not"),
     "average": (6, {"value": 99.0}, "metric rmse: avg: 99.0 is not accepted; accepted: 2, the mean"),
 }
 
@@ -225,6 +266,66 @@ def test_a_run_or_a_joint_without_an_error_is_refused(files: Files) -> None:
     assert f"rows: {{'level': '{LEVEL}', 'method': {method!r}" in refused(path, files)
     write_csv(path, names, [row for row in rows if row[6] != "LL3"])
     assert "limb LL, metric rmse: 'LL3' is missing" in refused(path, files)
+
+
+def ground(files: Files, change: Callable[[dict[str, Any]], Any] = lambda signals: None) -> Path:
+    """Write the columns of a walk in which the left foot carries the robot and then the right one."""
+    layout, weight = files.settings.layout, 940.0
+    left = np.repeat([1.0, 0.0], 5000)
+    signals = {
+        "q.base_x": np.linspace(0, 1, 10000), "v.base_x": np.full(10000, 0.1), "tau_ext.V3": np.full(10000, weight),
+        "tau_push.LL3": np.zeros(10000), "pushed": np.zeros(10000), "tau_random.LL3": np.zeros(10000),
+        "command.step_x": np.full(10000, 0.1),
+    }  # fmt: skip
+    for foot, carries in (("left_foot", left), ("right_foot", 1.0 - left)):
+        signals |= {
+            f"wrench_{foot}.force_z": weight * carries,
+            f"contact.{foot}": carries,
+            f"swing.{foot}": 1.0 - carries,
+        }
+    change(signals)
+    known = {name: column for group in recording_columns(layout).values() for name, *column in group}
+    columns = [(name, *known[name]) for name in signals]
+    path, note = note_of(files, "recordings")
+    meta = {key: note[key] for key in ("rate_hz", "scenario", "level", "seed", "falls")}
+    write_array(path.with_suffix(""), np.stack(list(signals.values()), axis=1), columns, meta)
+    return path.with_suffix(".parquet")
+
+
+def times(factor: float, *names: str) -> Callable[[dict[str, Any]], None]:
+    """Return a change of signals that multiplies some of them."""
+    return lambda signals: signals.update({name: factor * signals[name] for name in names})
+
+
+def flipped(flag: str) -> Callable[[dict[str, Any]], None]:
+    """Return a change of signals that turns the flags of the feet round."""
+    return lambda signals: signals.update({n: 1.0 - signals[n] for n in (f"{flag}.left_foot", f"{flag}.right_foot")})
+
+
+NUMBERS: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
+    "forces in kN": (times(1e-3, "wrench_left_foot.force_z", "wrench_right_foot.force_z"), "force_z of left_foot and"),
+    "the ground pulls": (times(-1.0, "tau_ext.V3"), "columns tau_ext.V3: mean: -940.0 is not"),
+    "contact": (flipped("contact"), "column contact.left_foot: "),
+    "swing": (flipped("swing"), "column swing.left_foot: "),
+    "backwards": (times(-1.0, "q.base_x"), "column q.base_x: 'against v' is not"),
+    "a push": (lambda s: s["tau_push.LL3"].__iadd__(30.0), "column tau_push.LL3: largest number: 30.0 is not"),
+    "a random torque": (
+        lambda s: s["tau_random.LL3"].__iadd__(3.0),
+        "column tau_random.LL3: largest number: 3.0",
+    ),
+    "a command": (times(9.0, "command.step_x"), "column command.step_x, row 0: 0.89999"),
+}
+
+
+@pytest.mark.parametrize("name", NUMBERS)
+def test_numbers_that_no_walk_of_the_scenario_has_are_refused(name: str, files: Files) -> None:
+    change, says = NUMBERS[name]
+    check_agreement([ground(files)], files, numbers=True)
+    path = ground(files, change)
+    check_agreement([path], files)  # a run looks at notes alone
+    with pytest.raises(DataError) as found:
+        check_agreement([path], files, numbers=True)
+    assert says in str(found.value)
 
 
 def test_the_array_of_another_recording_is_refused(files: Files, tmp_path: Path) -> None:

@@ -107,7 +107,10 @@ def test_a_sound_training_is_accepted(training: Path) -> None:
 
 
 METRICS = {
-    "a column is gone": (("gradient_norm", "norm"), "metrics.csv: column 'gradient_norm' is missing; accepted: it, beside epoch"),
+    "a column is gone": (
+        ("gradient_norm", "norm"),
+        "metrics.csv: column 'gradient_norm' is missing; accepted: it, ",
+    ),
     "a column twice": (("gradient_norm", "epoch"), "metrics.csv: column 'epoch' occurs 2 times"),
     "NaN": (("-2.0,3.0", "nan,3.0"), "metrics.csv:3: validation_loss: 'nan' is not .*: a finite number"),
     "infinite": (("-2.0,3.0", "inf,3.0"), "metrics.csv:3: validation_loss: 'inf' is not accepted"),

@@ -19,12 +19,6 @@ class Grid(Section):
     learning: dict[str, base.Distinct[Value]] = {}
     options: dict[str, base.Distinct[Value]] = {}
 
-    def changes(self) -> Iterator[dict[str, Value]]:
-        """Yield every combination, key -> value."""
-        keys = [*self.learning, *self.options]
-        for values in product(*self.learning.values(), *self.options.values()):
-            yield dict(zip(keys, values, strict=True))
-
 
 class Tuning(Section):
     """What is tried for each method, all of them in trainings of one length."""
@@ -57,6 +51,13 @@ class Trial(NamedTuple):
     method: Method
 
 
+def combinations(grid: Grid) -> Iterator[dict[str, Value]]:
+    """Yield every combination of a grid, key -> value."""
+    keys = [*grid.learning, *grid.options]
+    for values in product(*grid.learning.values(), *grid.options.values()):
+        yield dict(zip(keys, values, strict=True))
+
+
 def trial_name(base: str, changes: Mapping[str, Value]) -> str:
     """Return the name of a variant, such as MOB-Net-squared-0-005: a folder's name, without a point."""
     return "-".join([base, *map(str, changes.values())]).replace("_", "-").replace(".", "-")
@@ -66,7 +67,7 @@ def tuned(trials: Trials, methods: Mapping[str, Method]) -> Iterator[Trial]:
     """Yield every combination of what is tried for each method; a training that diverges is a result."""
     grids = {name: grid for name, grid in trials.tuning.grids.items() if name in methods}
     for name, grid in grids.items():
-        for changes in grid.changes():
+        for changes in combinations(grid):
             learning = {key: changes[key] for key in grid.learning}
             options = {key: changes[key] for key in grid.options}
             method = _changed(methods[name], trials, trials.tuning.experiment, learning, options)

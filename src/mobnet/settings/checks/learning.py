@@ -7,6 +7,7 @@ from mobnet.settings.methods import Method
 from mobnet.settings.networks import Learning, Network
 from mobnet.settings.reading import Place
 from mobnet.settings.settings import Settings, swept_name
+from mobnet.settings.trials import combinations
 
 Problem = tuple[Place, str]
 
@@ -30,12 +31,12 @@ def learning_problems(settings: Settings) -> Iterator[Problem]:
 def _trial_problems(settings: Settings) -> Iterator[Problem]:
     """Yield trials of methods that do not learn, unequal numbers of trials, and development walks that are tests."""
     grids, place = settings.trials.tuning.grids, ("trials", "tuning", "grids")
-    most = max((len(list(grid.changes())) for grid in grids.values()), default=0)
+    most = max((len([*combinations(grid)]) for grid in grids.values()), default=0)
     for name, grid in grids.items():
         if grid.learning and name in settings.methods and not settings.methods[name].limbs:
             accepted = "`options` of a method without networks"
             yield (*place, name, "learning"), misfit("`learning`", accepted)
-        if (count := len(list(grid.changes()))) != most:
+        if (count := len([*combinations(grid)])) != most:
             yield (*place, name), misfit(f"{count} combinations", f"{most}, as many as other methods have")
     learned = [name for name, method in settings.methods.items() if method.limbs]
     for index, name in enumerate(settings.trials.lengths.methods):
