@@ -328,6 +328,58 @@ def test_numbers_that_no_walk_of_the_scenario_has_are_refused(name: str, files: 
     assert says in str(found.value)
 
 
+Array = np.ndarray
+Twist = Callable[[Array, dict[str, Any]], Any]
+MOTION = "random_motion"
+
+
+def motion(files: Files, change: Twist = lambda array, note: None, names: slice = slice(None)) -> Path:
+    """Write a motion that stays in the posture."""
+    settings, layout = files.settings, files.settings.layout
+    posture = {joint: angle for limb, row in settings.robot.posture.items()
+               for joint, angle in zip(layout.limb(limb), row.angle_rad, strict=True)}  # fmt: skip
+    joints = [joint for joint in layout.actuated if joint in posture]
+    array = np.tile([posture[joint] for joint in joints], (501, 1))
+    note = {"motion": MOTION, "seed": 101, "rate_hz": 50.0, "part": 101, "variant": 0, "clearance_m": 0.07}
+    note |= {"hand_speed_mean_m_s": 0.3, "hand_speed_max_m_s": 0.9}
+    change(array, note)
+    stem = files.results / "motions" / MOTION / "s101"
+    columns = [(f"q_ref.{joint}", "rad", "joint") for joint in joints]
+    write_array(stem, array[:, names], columns[names], note)
+    return stem.with_suffix(".json")
+
+
+MOTIONS: dict[str, tuple[Twist, str]] = {
+    "motion": (lambda _, note: note.update(motion="other"), "motion: 'other' is not accepted; accepted: 'random_mo"),
+    "seed": (lambda _, note: note.update(seed=1001), "seed: 1001 is not accepted; accepted: 101"),
+    "rate": (lambda _, note: note.update(rate_hz=100.0), "rate_hz: 100.0 is not accepted; accepted: 50"),
+    "part": (lambda _, note: note.update(part="first"), "part: 'first' is not accepted"),
+    "variant": (lambda _, note: note.update(variant=7), "variant: 7 is not accepted; accepted: 0 to 3"),
+    "clearance": (lambda _, note: note.update(clearance_m=0.001), "clearance_m: 0.001 is not accepted; accepted: 0.0"),
+    "speeds": (lambda _, note: note.update(hand_speed_mean_m_s=9.0), "hand_speed_mean_m_s: 9.0 is not"),
+    "range": (lambda array, _: array.__setitem__((slice(9, None), 0), 5.0), "q_ref.W1"),
+    "a jump": (lambda array, _: array.__setitem__((9, 4), array[9, 4] + 0.9), "speed: 4"),
+    "beginning": (lambda array, _: array.__setitem__((slice(None), 4), array[0, 4] + 0.1), "row 0: "),
+}
+
+
+@pytest.mark.parametrize("name", MOTIONS)
+def test_a_motion_that_is_not_the_one_of_its_place_is_refused(name: str, files: Files) -> None:
+    change, says = MOTIONS[name]
+    check_agreement([motion(files)], files)
+    assert says in refused(motion(files, change), files)
+
+
+def test_a_motion_that_is_too_short_or_lacks_a_joint_is_refused(files: Files) -> None:
+    assert "columns: " in refused(motion(files, names=slice(0, 20)), files)
+    path = motion(files)
+    array, note = read_array(path.with_suffix(""))
+    meta = {key: note[key] for key in note if key not in ("rows", "segments", "columns", "footer")}
+    columns = [tuple(column.values()) for column in note["columns"]]
+    write_array(path.with_suffix(""), array[:100], columns, meta)
+    assert "rows: 100 is not accepted; accepted: 501" in refused(path, files)
+
+
 def test_the_array_of_another_recording_is_refused(files: Files, tmp_path: Path) -> None:
     rng = np.random.default_rng(1)
     columns = torque_columns(files.settings.layout, ["tau_ext"], ["LL1", "LL2"])

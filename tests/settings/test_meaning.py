@@ -54,6 +54,14 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("walking.dcm_gain", 2500.0, "to 20"),
     ("walking.pelvis_sink_max_m", 1.0, "to 0.3"),
     ("walking.stand_shift_m", [0.8, 0.4], "half the robot's sole"),
+    # the robot, printed numbers and claims
+    ("robot.name", "../tocabi", "robot.*name"),
+    ("robot.joints.0.id", "LL2", "'id LL2' 2 times"),
+    ("robot.hands.left", "R_Wrist2_Link", "limb of the left side"),
+    ("published.tables.table_09.numbers.detected.MOB.0", 14, "at most 10, collisions"),
+    ("published.data.sets.motion.time standing", 1.5, "0 to 1, a share"),
+    ("claims.mob-exact.published", -0.01, "0 or more"),
+    ("claims.real-time.at.column", "worth", "column: 'worth' is not"),
     # what is developed, tried and shown
     ("methods.MOB-fric.fitted", ["V"], "joints that have motors"),
     ("development.scenario", "walk_test", "scenario apart from tests"),
