@@ -303,7 +303,10 @@ def flipped(flag: str) -> Callable[[dict[str, Any]], None]:
 
 
 NUMBERS: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
-    "forces in kN": (times(1e-3, "wrench_left_foot.force_z", "wrench_right_foot.force_z"), "force_z of left_foot and"),
+    "forces in kN": (
+        times(1e-3, "wrench_left_foot.force_z", "wrench_right_foot.force_z"),
+        "of both feet: mean: 0.94 is",
+    ),
     "the ground pulls": (times(-1.0, "tau_ext.V3"), "columns tau_ext.V3: mean: -940.0 is not"),
     "contact": (flipped("contact"), "column contact.left_foot: "),
     "swing": (flipped("swing"), "column swing.left_foot: "),

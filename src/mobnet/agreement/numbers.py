@@ -5,6 +5,7 @@ pushes nothing; a residual stands beside the external torque of its recording.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -40,7 +41,8 @@ def number_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[
     if scenario not in files.settings.scenarios or files.settings.robot.base != "floating":
         return
     if kind == "recordings":
-        yield from _ground_faults(_read(stem, _ground_names()), files)
+        signals = _read(stem, _ground_names())
+        yield from (*_weight_faults(signals, files), *_flag_faults(signals), *_direction_faults(signals))
         yield from _scenario_faults(stem, scenario, files)
     else:
         yield from _residual_faults(stem, files.array("recordings", scenario, level, found[1]), files)
@@ -61,32 +63,38 @@ def _ground_names() -> list[str]:
     return [f"{EXTERNAL}.{UP}", *force, *flags, *(f"{signal}.{axis}" for signal in "qv" for axis in AXES)]
 
 
-def _ground_faults(signals: Signals, files: Files) -> Iterator[str]:
-    """Yield forces that do not carry the robot, flags that are the wrong way round, and a base that goes backwards."""
+def _weight_faults(signals: Signals, files: Files) -> Iterator[str]:
+    """Yield forces of the ground that do not carry the robot, where it stands on its feet most of the time."""
     feet = [foot for foot in FEET if {f"wrench_{foot}.force_z", f"contact.{foot}"} <= signals.keys()]
-    touching = np.mean([signals[f"contact.{foot}"].mean() for foot in feet]) if feet else 0.0
+    if not feet or np.mean([signals[f"contact.{foot}"].mean() for foot in feet]) < CARRIED:
+        return
     weight = sum(body.mass for body in files.settings.robot.bodies) * files.settings.plant.gravity_m_s2
-    carried = {f"wrench_*.force_z of {' and '.join(feet)}": [signals[f"wrench_{foot}.force_z"] for foot in feet]}
-    carried[f"{EXTERNAL}.{UP}"] = [signals[f"{EXTERNAL}.{UP}"]] if f"{EXTERNAL}.{UP}" in signals else []
-    for name, forces in carried.items():
-        mean = float(sum(force.mean() for force in forces))
-        if forces and touching >= CARRIED and not WEIGHT[0] * weight <= mean <= WEIGHT[1] * weight:
+    means = {"wrench_*.force_z of both feet": float(sum(signals[f"wrench_{foot}.force_z"].mean() for foot in feet))}
+    means |= {name: float(signals[name].mean()) for name in (f"{EXTERNAL}.{UP}",) if name in signals}
+    for name, mean in means.items():
+        if not WEIGHT[0] * weight <= mean <= WEIGHT[1] * weight:
             accepted = [f"about {weight:.0f} N, the robot's weight, upwards"]
             yield not_accepted(f"columns {name}: mean", round(mean, 3), accepted)
-    for foot in feet:
-        for flag, on in (("contact", 1.0), ("swing", 0.0)):
-            state, force = signals.get(f"{flag}.{foot}"), signals[f"wrench_{foot}.force_z"]
-            if state is None or not LEAST < state.mean() < 1.0 - LEAST:
-                continue
-            loaded, free = float(force[state == on].mean()), float(force[state != on].mean())
-            if loaded <= free:
-                text = f"a mean force of {loaded:.1f} N where it is {on:g} and of {free:.1f} N elsewhere"
-                yield not_accepted(f"column {flag}.{foot}", text, ["more force where the foot stands"])
+
+
+def _flag_faults(signals: Signals) -> Iterator[str]:
+    """Yield flags of feet that are the wrong way round: a foot that touches, and one that does not swing, carries."""
+    for foot, (flag, on) in product(FEET, (("contact", 1.0), ("swing", 0.0))):
+        state, force = signals.get(f"{flag}.{foot}"), signals.get(f"wrench_{foot}.force_z")
+        if state is None or force is None or not LEAST < state.mean() < 1.0 - LEAST:
+            continue
+        loaded, free = float(force[state == on].mean()), float(force[state != on].mean())
+        if loaded <= free:
+            text = f"a mean force of {loaded:.1f} N where it is {on:g} and of {free:.1f} N elsewhere"
+            yield not_accepted(f"column {flag}.{foot}", text, ["more force where the foot stands"])
+
+
+def _direction_faults(signals: Signals) -> Iterator[str]:
+    """Yield a base that goes against its velocity."""
     for axis in AXES:
         if {f"q.{axis}", f"v.{axis}"} <= signals.keys():
             moved = np.clip(np.diff(signals[f"q.{axis}"]), -JUMP_M, JUMP_M)
-            both = moved @ signals[f"v.{axis}"][1:]
-            if both < 0.0:
+            if moved @ signals[f"v.{axis}"][1:] < 0.0:
                 yield not_accepted(f"column q.{axis}", "against v", [f"the direction of v.{axis}"])
 
 
