@@ -1,5 +1,6 @@
 """What must hold for the products beside errors: pushes, lines for every band, lags within what is looked at."""
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from mobnet.core.errors import misfit, not_accepted
@@ -82,6 +83,9 @@ def _learned_problems(results: Results) -> Iterator[Problem]:
     joints = [
         joint for group in settings.robot.networks[settings.trials.limb].joints for joint in results.joints(group)
     ]
+    data = evaluation.learning_curve.data
+    if not re.fullmatch(r"docs/trials/[a-z0-9_]+\.csv", data):
+        yield (*ROOT, "learning_curve", "data"), not_accepted("file", data, ["a .csv file of docs/trials"])
     if evaluation.learning_curve.joint not in (*joints, "avg"):
         yield (
             (*ROOT, "learning_curve", "joint"),
