@@ -57,9 +57,19 @@ def test_a_training_that_diverges_says_what_to_try(
 ) -> None:
     if how == "nan":
         data.targets[20] = np.nan
-    with pytest.raises(TrainingError, match=r"MOB-Net-LL-s0: epoch 1: training loss .* at rate 0.005 .*rate_first"):
+    with pytest.raises(
+        TrainingError, match=r"MOB-Net-LL-s0: epoch 1: median training loss .* at rate 0.005 .*rate_first"
+    ):
         trainer(**({"divergence_loss": -100.0} if how == "bound" else {})).run(tmp_path)
     assert not (tmp_path / CHECKPOINT).exists()
+
+
+def test_a_few_updates_with_a_huge_loss_are_no_divergence(
+    trainer: Callable[..., Trainer], data: LimbData, tmp_path: Path
+) -> None:
+    data.targets[20] = 1e6
+    epoch = trainer(epochs=1).run(tmp_path).epochs[0]
+    assert epoch.train_loss > 50.0  # configs/networks.yaml: divergence_loss
 
 
 def test_a_training_that_may_diverge_says_so_and_keeps_its_first_weights(

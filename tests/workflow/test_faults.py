@@ -136,7 +136,7 @@ def test_a_full_disk_is_one_line_with_what_is_needed_and_free(
 
 
 def test_a_disk_that_fills_while_a_job_writes_is_told_by_the_job(project: Path, snakemake: Snakemake) -> None:
-    with small_disk(project / "results", "8m"):
+    with small_disk(project / "results", "16m"):
         words = [sys.executable, "-m", "snakemake", *ONE_CORE, SLOW]
         environment = {**os.environ, "PYTHONPATH": str(project / "src")}
         run = subprocess.Popen(words, cwd=project, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
@@ -144,7 +144,7 @@ def test_a_disk_that_fills_while_a_job_writes_is_told_by_the_job(project: Path, 
         while not list((project / "results").rglob(".partial.*")) and time.monotonic() < end:
             time.sleep(0.05)
         fill = project / "results" / "fill"
-        fill.write_bytes(bytes(7 * 2**20))
+        fill.write_bytes(bytes(shutil.disk_usage(fill.parent).free))
         output = run.communicate()[0].decode()
         assert run.returncode != 0
         assert f"{SLOW}: cannot be written: No space left on device; needed: more than" in output

@@ -55,12 +55,12 @@ def train_epoch(
     gradient_norm: float,
     scored: slice = EVERY_STEP,
     objective: Objective = likelihood,
-) -> tuple[float, float]:
+) -> tuple[Tensor, Tensor]:
     """Run one epoch of truncated back-propagation through time: state detached every horizon, carried as planned.
 
     The network is trained in place on rows (updates, lanes) of the plan; the gradient is clipped to a norm, and
-    `scored` are the steps of a horizon that are in the loss, which is an objective of `losses`. Return mean loss (22)
-    and mean norm before the clip, unitless.
+    `scored` are the steps of a horizon that are in the loss, which is an objective of `losses`. Return loss (22) and
+    norm before the clip of each update, (updates,) unitless.
     """
     network.train()
     losses, norms = [], []
@@ -75,7 +75,7 @@ def train_epoch(
         optimizer.step()
         state = after.detach()
         losses.append(loss.detach())
-    return torch.stack(losses).mean().item(), torch.stack(norms).mean().item()
+    return torch.stack(losses), torch.stack(norms)
 
 
 @torch.no_grad()

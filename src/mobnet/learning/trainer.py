@@ -132,22 +132,23 @@ class Trainer:
         plan_of, scored = SEQUENCES[learning.sequences]
         plan = plan_of(self._blocks, *self._shape, job.generator("epoch", epoch), job.training.epoch_samples)
         with seeded(self._seed("dropout", epoch)):
-            loss, norm = train_epoch(
+            losses, norms = train_epoch(
                 self.network, self._optimizer, self._samples, plan, job.horizon, learning.gradient_norm, scored,
                 objective_of(learning),
             )  # fmt: skip
-        self._check("training", epoch, loss, rate)
+        # The median: a few updates of a training that goes well can have losses of thousands.
+        self._check("median training", epoch, losses.median().item(), rate, learning.divergence_loss)
         validation, rmse = self._validate(self._validation)
         self._check("validation", epoch, validation, rate)
-        return Epoch(epoch + 1, loss, validation, rmse, rate, norm)
+        return Epoch(epoch + 1, losses.mean().item(), validation, rmse, rate, norms.mean().item())
 
-    def _check(self, kind: str, epoch: int, loss: float, rate: float) -> None:
-        """Raise if a loss (22) is not finite, or the training diverged."""
-        bound = self.job.training.learning.divergence_loss
-        if not math.isfinite(loss) or (kind == "training" and loss > bound):
+    def _check(self, kind: str, epoch: int, loss: float, rate: float, bound: float = math.inf) -> None:
+        """Raise if a loss (22) is not finite or above a bound."""
+        if not math.isfinite(loss) or loss > bound:
+            accepted = f"at most {bound:g}" if math.isfinite(bound) else "finite numbers"
             raise TrainingError(
-                f"{self.job.name}: epoch {epoch + 1}: {kind} loss {loss:g} at rate {rate:g} (accepted: finite, at most "
-                f"{bound:g}); try a smaller learning.rate_first or learning.gradient_norm, and look for outliers"
+                f"{self.job.name}: epoch {epoch + 1}: {kind} loss {loss:g} at rate {rate:g} (accepted: {accepted}); "
+                "try a smaller learning.rate_first or learning.gradient_norm, and look for outliers"
             )
 
     def _report(self, done: Progress) -> None:
