@@ -16,7 +16,6 @@ from mobnet.core.joints import NQ_BASE, JointLayout
 from mobnet.core.recording import Sensed
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observe import observer_of
-from mobnet.learning.dataset import joints_of
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.networks import Network
 from mobnet.learning.features import limb_inputs, signals
@@ -120,13 +119,13 @@ def _eager(trainings: Mapping[str, Training], layout: JointLayout, models: Mappi
 def _model(training: Training, layout: JointLayout) -> LimbNetwork:
     """Return a limb's network with its first weights."""
     network = training.network
-    sizes = len(limb_inputs(layout, network).names), len(joints_of(layout, network))
+    sizes = len(limb_inputs(layout, network).names), len(layout.limbs(network.joints))
     return build_network(network, *sizes, training.learning.std_min, seed=0)
 
 
 def _network(training: Training, layout: JointLayout, model: LimbNetwork) -> Network:
     """Return the same network as it runs on a robot."""
-    names, joints = limb_inputs(layout, training.network).names, joints_of(layout, training.network)
+    names, joints = limb_inputs(layout, training.network).names, layout.limbs(training.network.joints)
     tensors = {name: tensor.numpy() for name, tensor in model.state_dict().items()}
     for kind, count in (("input", len(names)), ("target", len(joints))):
         tensors |= {f"{kind}.mean": np.zeros(count, np.float32), f"{kind}.std": np.ones(count, np.float32)}

@@ -12,7 +12,6 @@ import torch
 from torch import Tensor, nn
 from torch.utils.data import DataLoader, TensorDataset
 
-from mobnet.learning.dataset import joints_of
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.job import PRECISIONS, Job, precision_of
 from mobnet.learning.losses import gaussian_loss
@@ -34,7 +33,7 @@ def main() -> list[dict[str, float | str]]:
     settings = load_settings(overrides={"scale": "default"})
     job = Job(settings.training("MOB-Net", "LL"), 0, settings.seed)
     leg, learning = job.training.network, job.training.learning
-    sizes = len(limb_inputs(settings.layout, leg).names), len(joints_of(settings.layout, leg))
+    sizes = len(limb_inputs(settings.layout, leg).names), len(settings.layout.limbs(leg.joints))
     generator = torch.Generator().manual_seed(0)
     data = [torch.randn(UPDATES * learning.batch_size * job.horizon, n, generator=generator) for n in sizes]
 

@@ -15,7 +15,6 @@ from mobnet.core.recording import Recording, Sensed
 from mobnet.estimation.fitting import write_fit
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe
-from mobnet.learning.dataset import joints_of
 from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network
@@ -72,7 +71,7 @@ def sensed(made_up: Callable[..., Recording]) -> Sensed:
 def _write_network(folder: Path, training: Training, layout: JointLayout, zero: bool) -> None:
     """Write an untrained network; a zero one predicts no uncertainty."""
     network, std_min = training.network, training.learning.std_min
-    joints, names = joints_of(layout, network), limb_inputs(layout, network).names
+    joints, names = layout.limbs(network.joints), limb_inputs(layout, network).names
     module = build_network(network, len(names), len(joints), std_min, seed=len(training.limb))
     tensors = {name: tensor * (not zero) for name, tensor in module.deployable().items()}
     for name, count, std in (("input", len(names), INPUT_STD), ("target", len(joints), TARGET_STD)):

@@ -24,3 +24,7 @@ def test_unknown_limb_and_joint_are_named(layout: JointLayout) -> None:
         layout.limb("tail")
     with pytest.raises(ConfigError, match=r"joint: 'LL7' is not accepted"):
         layout.columns(["LL1", "LL7"])
+
+
+def test_the_joints_above_the_legs_are_those_of_the_other_limbs(layout: JointLayout) -> None:
+    assert layout.above_legs == layout.limbs(["W", "LA", "N", "RA"])

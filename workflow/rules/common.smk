@@ -4,7 +4,6 @@ import shlex
 import sys
 from pathlib import Path
 
-from mobnet.agreement import check_agreement
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
 from mobnet.core.lock import job_prefix
@@ -46,6 +45,10 @@ LOGS = PLAN.folders.results / "logs"
 
 
 onstart:
+    from mobnet.agreement import (
+        check_agreement,
+    )  # here, as it takes a second that a call without jobs need not wait
+
     try:
         start_jobs(ROOT)
         made = {str(path) for job in workflow.dag.needrun_jobs() for path in job.output}

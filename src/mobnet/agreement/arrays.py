@@ -1,11 +1,10 @@
 """Notes of recordings, residuals and estimates against their places, the configuration, and the recording."""
 
+import functools
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from mobnet.agreement.said import differences
 from mobnet.core.columns import EXTERNAL, RESIDUAL, STD, named
@@ -13,7 +12,7 @@ from mobnet.core.errors import not_accepted
 from mobnet.core.files import WEIGHTS
 from mobnet.core.notes import note_differences, read_array_note
 from mobnet.core.store import ARRAY, NOTE, file_of
-from mobnet.learning.deployed.weights import STD_SCALE, read_weights
+from mobnet.learning.deployed.weights import std_scales
 from mobnet.plan.runs import Files
 
 NAMES = re.compile(r"s(\d+)\.(parquet|json)")
@@ -52,7 +51,7 @@ def _recording_faults(note: Mapping[str, Any], scenario: str, level: str, seed: 
     for terrain in note.get("terrains", ()):
         if terrain not in files.settings.scenarios[scenario].terrain:
             yield not_accepted("terrains", terrain, files.settings.scenarios[scenario].terrain)
-    if (scenario, level, seed) in set(files.recorded()) and note.get("falls", 1) == 0:
+    if (scenario, level, seed) in files.recorded() and note.get("falls", 1) == 0:
         rows = round(files.duration_s([scenario], seed) * files.settings.rates.data_hz)
         held = sum(end - start for start, end in note["segments"])
         if not rows == note["rows"] == held:
@@ -65,19 +64,20 @@ def _owner_faults(note: Mapping[str, Any], method: str, seed: int, files: Files)
     source = files.settings.network_source_of(method)
     folders = {limb: files.network(source, limb, seed) for limb in files.settings.method(source).limbs}
     yield from differences(note, {"method": method, "networks": {limb: path.name for limb, path in folders.items()}})
-    layout, robot = files.settings.layout, files.settings.robot
-    predicted = [joint for limb in folders for group in robot.networks[limb].joints for joint in layout.limb(group)]
-    joints = predicted or list(layout.names)
+    layout, networks = files.settings.layout, files.settings.robot.networks
+    joints = layout.limbs(group for limb in folders for group in networks[limb].joints) or layout.names
     expected = {*named(EXTERNAL, joints), *(named(STD, joints) if folders else ())}
     held = {column["name"] for column in note["columns"]}
     for name in sorted(expected ^ held):
         word = "is missing" if name in expected else "is too much"
         yield f"columns: {name!r} {word}; accepted: those of {method}, {', '.join(sorted(expected)[:3])}, ..."
+    weights = tuple(folder / WEIGHTS for folder in folders.values())
     scales = note.get("std_scale", {})
-    if all((folder / WEIGHTS).exists() for folder in folders.values()):
-        known: dict[str, float] = {}
-        for tensors, noted in (read_weights(folder / WEIGHTS) for folder in folders.values()):
-            factors = tensors.get(STD_SCALE, np.ones(len(noted.joints), dtype=np.float32))
-            known |= dict(zip(noted.joints, factors.tolist(), strict=True))
-        if scales != known:
-            yield not_accepted("std_scale", scales, [f"{known}, of its networks"])
+    if all(path.exists() for path in weights) and scales != (known := _std_scales(weights)):
+        yield not_accepted("std_scale", scales, [f"{known}, of its networks"])
+
+
+@functools.cache
+def _std_scales(weights: tuple[Path, ...]) -> dict[str, float]:
+    """Return what `std_scales` does of networks that many estimates share."""
+    return std_scales(weights)

@@ -1,12 +1,12 @@
 """Motions of the upper body against their places, the configuration and the robot."""
 
-import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 from pydantic import ConfigDict
 
+from mobnet.agreement.arrays import NAMES
 from mobnet.agreement.said import differences
 from mobnet.core.columns import named
 from mobnet.core.errors import not_accepted
@@ -37,8 +37,8 @@ class MotionNote(Note):
 
 def motion_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[str]:
     """Yield in what a motion is not the one of its place, or none that the robot can make."""
-    found, rows = re.fullmatch(r"s(\d+)\.json", place[-1]), files.settings.motions
-    if not found or len(place) != 3 or place[1] not in rows:
+    found, rows = NAMES.fullmatch(place[-1]), files.settings.motions
+    if not found or path.suffix != NOTE or len(place) != 3 or place[1] not in rows:
         return
     row, note = rows[place[1]], read_json(path)
     checked(path, note, MotionNote)
@@ -56,18 +56,15 @@ def motion_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[
 def _knot_faults(path: Path, motion: Motion, name: str, seed: int, files: Files) -> Iterator[str]:
     """Yield columns, ranges, speeds, a beginning and a length that are not those of a motion."""
     settings, layout = files.settings, files.settings.layout
-    legs = {joint for foot in settings.robot.feet.values() for joint in layout.limb(foot.limb)}
-    joints = [joint for joint in layout.actuated if joint not in legs]
     array, note = read_array(path.with_suffix(""), None, layout)
     held = [column["name"] for column in note["columns"]]
-    if held != named(TARGET, joints):
-        yield not_accepted("columns", held, [f"{TARGET} of {', '.join(joints)}"])
+    if held != named(TARGET, layout.above_legs):
+        yield not_accepted("columns", held, [f"{TARGET} of {', '.join(layout.above_legs)}"])
         return
-    limits = [layout.limits[joint] for joint in joints]
-    posture = dict(zip([j for limb in settings.robot.posture for j in layout.limb(limb)],
-                       [a for row in settings.robot.posture.values() for a in row.angle_rad], strict=True))  # fmt: skip
+    posture = settings.robot.posture_rad
     speeds = np.abs(np.diff(array, axis=0)).max(axis=0, initial=0.0) * motion.knot_hz
-    for k, (joint, limit) in enumerate(zip(joints, limits, strict=True)):
+    for k, joint in enumerate(layout.above_legs):
+        limit = layout.limits[joint]
         low, high = float(array[:, k].min()), float(array[:, k].max())
         if low < limit.low or high > limit.high:
             yield not_accepted(f"{TARGET}.{joint}", [low, high], [f"{limit.low} to {limit.high}, the joint's range"])
@@ -77,8 +74,7 @@ def _knot_faults(path: Path, motion: Motion, name: str, seed: int, files: Files)
         if abs(array[0, k] - posture[joint]) > SAME_RAD:
             yield not_accepted(f"{TARGET}.{joint}, row 0", float(array[0, k]), [f"{posture[joint]}, the posture"])
     moved = [scenario for scenario, row in settings.scenarios.items() if row.motion == name]
-    planned = {seed for scenario, _, seed in files.recorded() if scenario in moved}
-    if seed in planned:
+    if any(scenario in moved and seed == other for scenario, _, other in files.recorded()):
         rows = round(files.duration_s(moved, seed) * motion.knot_hz) + 1
         if note["rows"] != rows:
             yield not_accepted(f"{path.with_suffix('').name}{NOTE}: rows", note["rows"], [f"{rows}, of its duration"])

@@ -22,18 +22,16 @@ SAME = 1e-5  # relative difference of a factor in two files
 
 def network_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[str]:
     """Yield in what the weights, the note or the epochs of a network are not those of its folder."""
-    for method in (*files.settings.all_methods, *files.settings.tried):
-        for limb in files.settings.method(method).limbs:
-            for seed in files.network_seeds(method, limb):
-                if files.network(method, limb, seed).name == place[1]:
-                    yield from _faults(path, files.settings.training(method, limb), seed, files)
+    if place[1] in files.trained:
+        method, limb, seed = files.trained[place[1]]
+        yield from _faults(path, files.settings.training(method, limb), seed, files)
 
 
 def _faults(path: Path, training: Training, seed: int, files: Files) -> Iterator[str]:
     """Yield in what a file of a network is not that of a training and a seed."""
     name, folder = path.parent.name, path.parent
     inputs = limb_inputs(files.settings.layout, training.network).names
-    joints = [joint for group in training.network.joints for joint in files.settings.layout.limb(group)]
+    joints = list(files.settings.layout.limbs(training.network.joints))
     if path.name == WEIGHTS:
         note = read_weights(path)[1]
         yield from differences(vars(note), {"name": name, "limb": training.limb, "inputs": list(inputs)})

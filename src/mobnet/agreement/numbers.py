@@ -28,6 +28,10 @@ JUMP_M = 0.05  # in a sample: a simulator may shift the base's place
 SAME = 1e-3  # relative to the largest number of a column
 LEAST = 0.01  # share of the samples of a state that is compared
 UP = "V3"
+KEYS = {  # column of a step's command -> key of the configuration
+    "step_x": "step_x_m", "step_y": "step_y_m", "turn": "turn_deg", "duration": "duration_s",
+    "foot_height": "foot_height_m",
+}  # fmt: skip
 Signals = Mapping[str, NDArray[Any]]
 
 
@@ -118,8 +122,7 @@ def _scenario_faults(stem: Path, scenario: str, files: Files) -> Iterator[str]:
 
 def _command_faults(name: str, found: NDArray[Any] | None, scenario: str, files: Files) -> Iterator[str]:
     """Yield commands that are neither zero nor within the range of a scenario."""
-    key = {"step_x": "step_x_m", "step_y": "step_y_m", "turn": "turn_deg", "duration": "duration_s",
-           "foot_height": "foot_height_m"}[name]  # fmt: skip
+    key = KEYS[name]
     asked = files.settings.scenarios[scenario].commands
     values = getattr(asked if isinstance(asked, FixedCommand) else files.settings.commands, key)
     scale = np.pi / 180.0 if key.endswith("_deg") else 1.0

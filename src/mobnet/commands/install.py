@@ -12,7 +12,7 @@ UNWANTED = "triton"  # comes with torch's CUDA build, crashes beside Mesa's soft
 
 
 def make_venv(tools: Tools) -> None:
-    """Make an empty `.venv` that can be moved."""
+    """Make an empty `.venv` that still works after the project's folder was moved or copied."""
     venv = str(tools.root / ".venv")
     tools.run("making .venv", str(tools.uv), "venv", "--quiet", "--relocatable", "--python", tools.base, venv)
 
@@ -32,9 +32,7 @@ def install(tools: Tools, build: str, *, is_asked: bool) -> str:
         outputs = attempt(tools, build)
     if outputs:
         raise failed("installing packages", next((o for o in outputs if not is_unreachable(o)), outputs[0]))
-    tools.try_to(
-        str(tools.uv), "pip", "uninstall", "--quiet", "--python", str(tools.python), UNWANTED
-    )  # pip takes it in
+    tools.try_to(str(tools.uv), "pip", "uninstall", "--quiet", "--python", str(tools.python), UNWANTED)
     relocate(tools.root / ".venv")
     return build
 

@@ -92,7 +92,9 @@ def parser_of(command: str) -> argparse.ArgumentParser:
 
 
 def in_order(words: Sequence[str]) -> list[str]:
-    """Return words for snakemake: targets before `--config`, which takes all after it, and the scale that they name.
+    """Return words in the order that Snakemake needs, with `--config scale=` where targets name their scale.
+
+    Targets come before `--config`, which would take those behind it for values.
 
     Raises:
         CommandError: targets belong to several scales, or what replaces a key of the configuration does not name one.

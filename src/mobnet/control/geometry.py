@@ -86,7 +86,7 @@ def triple(axis: Array, arm: Array, force: Array) -> float:
 
 @compiled
 def rotate(rotation: Array, vector: Array, out: Array) -> None:
-    """Write rotation (3, 3) times vector (3,) into out."""
+    """Write the product of a rotation matrix (3, 3) and a vector (3,) into out (3,), which must not be the vector."""
     for i in range(3):
         out[i] = rotation[i, 0] * vector[0] + rotation[i, 1] * vector[1] + rotation[i, 2] * vector[2]
 

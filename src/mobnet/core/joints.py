@@ -1,6 +1,6 @@
 """Joint names, limb groups and where they stand in the generalized velocity (Figure 4, section 4.1)."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -62,11 +62,21 @@ class JointLayout:
         """Number of generalized positions, the orientation of a floating base being a quaternion."""
         return (NQ_BASE if self.virtual else 0) + self.nu
 
+    @property
+    def above_legs(self) -> tuple[str, ...]:
+        """Names of the actuated joints that belong to no leg, in motor order."""
+        legs = {joint for limb in self.legs.values() for joint in self.groups[limb]}
+        return tuple(joint for joint in self.actuated if joint not in legs)
+
     def limb(self, name: str) -> tuple[str, ...]:
         """Return the joint names of a limb; a ConfigError names an unknown one."""
         if name not in self.groups:
             raise ConfigError(not_accepted("limb", name, self.groups))
         return self.groups[name]
+
+    def limbs(self, names: Iterable[str]) -> tuple[str, ...]:
+        """Return the joint names of several limbs, limb by limb."""
+        return tuple(joint for name in names for joint in self.limb(name))
 
     def columns(self, names: Sequence[str]) -> NDArray[np.intp]:
         """Return the columns of joints in a generalized velocity or torque, (len(names),).

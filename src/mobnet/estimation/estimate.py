@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 from mobnet.core.columns import EXTERNAL, RESIDUAL, STD, Column, named, torque_columns
 from mobnet.core.errors import DataError
 from mobnet.core.estimator import Estimate, Estimator, Stretch, estimate_all
+from mobnet.core.files import WEIGHTS
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import check_pair, check_rate, read_array, write_array
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.observe import CARRIED
 from mobnet.estimation.recipe import Recipe
-from mobnet.learning.deployed.networks import load_network
+from mobnet.learning.deployed.weights import std_scales
 from mobnet.robot.description import describe
 from mobnet.settings.methods import Method, Observer
 from mobnet.settings.plant import Level
@@ -64,7 +65,7 @@ def estimate(
     note = {
         "method": method,
         "networks": {limb: folder.name for limb, folder in networks.items()},
-        "std_scale": std_scales(networks),
+        "std_scale": std_scales(folder / WEIGHTS for folder in networks.values()),
     }
     for start in range(0, len(recordings), TOGETHER):
         some = slice(start, start + TOGETHER)
@@ -124,15 +125,6 @@ def write_estimate(
     carried = {key: recording.meta[key] for key in CARRIED if key in recording.meta}
     write_array(out, array, columns, {"rate_hz": recording.rate_hz, **carried, **note}, recording.segments)
     log.info("%s: %d samples, %d joints", out, len(array), len(joints))
-
-
-def std_scales(networks: Mapping[str, Path]) -> dict[str, float]:
-    """Return joint -> factor in its network's standard deviation, learned after its training."""
-    return {
-        joint: factor
-        for network in map(load_network, networks.values())
-        for joint, factor in zip(network.joints, network.std_scale.tolist(), strict=True)
-    }
 
 
 def table_of(result: Estimate, joints: Sequence[str], layout: JointLayout) -> tuple[NDArray[Any], list[Column]]:

@@ -80,7 +80,7 @@ def load_limb_data(
     Raises:
         DataError: a file is damaged, or a residual does not belong to its recording.
     """
-    inputs, joints = limb_inputs(layout, limb), joints_of(layout, limb)
+    inputs, joints = limb_inputs(layout, limb), layout.limbs(limb.joints)
     for stem in recordings:
         check_rate(stem, rate_hz)
     parts: list[tuple[NDArray[np.float32], NDArray[np.float32]]] = []
@@ -99,11 +99,6 @@ def load_limb_data(
     xs, ys = (np.concatenate(column) for column in zip(*parts, strict=True))
     first = sum(len(x) for x, _ in parts[:-held_out]) if held_out else None
     return LimbData(xs, ys, tuple(segments), inputs.names, joints, rates.pop(), first)
-
-
-def joints_of(layout: JointLayout, limb: Limb) -> tuple[str, ...]:
-    """Return the joints whose torques a network of Table 1 predicts, limb by limb, (n,)."""
-    return tuple(joint for name in limb.joints for joint in layout.limb(name))
 
 
 def _load_one(

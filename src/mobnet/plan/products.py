@@ -37,7 +37,7 @@ class Folders:
 
 @dataclass(frozen=True)
 class Product:
-    """A product of the paper, or of the report around it, under the name of its rule."""
+    """A table, a figure, or a part of the paper or report: the files that one rule makes, and how it makes them."""
 
     name: str
     job: Job

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import cast
 
@@ -146,6 +147,17 @@ class Files:
     def network_folders(self, methods: Iterable[str], limb: str) -> tuple[Path, ...]:
         """Return the folders of methods' trained networks of a limb."""
         return tuple(self.network(name, limb, seed) for name in methods for seed in self.network_seeds(name, limb))
+
+    @cached_property
+    def trained(self) -> Mapping[str, tuple[str, str, int]]:
+        """Name of a network's folder -> method, limb and seed; networks of `./reproduce tuning` are among them."""
+        methods = (*self.settings.all_methods, *self.settings.tried)
+        return {
+            self.network(method, limb, seed).name: (method, limb, seed)
+            for method in methods
+            for limb in self.settings.method(method).limbs
+            for seed in self.network_seeds(method, limb)
+        }
 
     def all_networks(self) -> tuple[Path, ...]:
         """Return the folders of every network that is trained."""

@@ -38,9 +38,10 @@ class Order(Section):
 
 
 class RobotTable(Section):
-    """All figures of a robot; `checks.robot` refuses what does not fit together.
+    """The table of a robot: joints, bodies, limbs, sensors, shapes, and the limbs that have networks.
 
-    `bodies` stand depth-first, parents first, and `joints` in the order of the motors; `groups` are limb -> joints.
+    Entries that contradict each other are refused by `checks.robot`. `bodies` stand depth-first, parents first, and
+    `joints` in the order of the motors; `groups` are limb -> joints.
     """
 
     name: Annotated[Text, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9 _.-]*$")]
@@ -72,6 +73,12 @@ class RobotTable(Section):
         legs = {side: foot.limb for side, foot in self.feet.items()}
         limits = {row.id: Limits(*row.range, row.velocity_limit, row.torque_limit) for row in self.joints}
         return JointLayout(self.order.virtual, self.order.actuated, self.groups, legs, limits)
+
+    @property
+    def posture_rad(self) -> dict[str, float]:
+        """Joint -> angle [rad] at which it is held where nothing moves it."""
+        rows = self.posture.items()
+        return {joint: rad for limb, row in rows for joint, rad in zip(self.groups[limb], row.angle_rad, strict=True)}
 
     @property
     def accepted_names(self) -> dict[str, Collection[str]]:

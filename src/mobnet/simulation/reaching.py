@@ -123,10 +123,9 @@ def upper_body(
     solids = leg_space(robot, leg_poses)
     spec = check_spec(robot, reach_m)
     spec.compiler.degree = False
-    legs = {name for foot in robot.feet.values() for name in robot.layout.limb(foot.limb)}
     for part in [*spec.actuators, *spec.sensors]:
         spec.delete(part)
-    for joint in [joint for joint in spec.joints if joint.name in legs or joint.name == "base"]:
+    for joint in [joint for joint in spec.joints if joint.name not in robot.layout.above_legs]:
         spec.delete(joint)
     for joint, span in zip(spec.joints, limits, strict=True):
         joint.limited, joint.range = True, span

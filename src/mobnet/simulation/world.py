@@ -56,8 +56,7 @@ def ground_height(world: World, points: NDArray[np.float64]) -> NDArray[np.float
 
 def leg_mask(robot: RobotDescription) -> NDArray[np.bool_]:
     """Return which actuators (nu,) belong to a leg."""
-    legs = {name for foot in robot.feet.values() for name in robot.layout.limb(foot.limb)}
-    return np.array([name in legs for name in robot.layout.actuated])
+    return np.isin(robot.layout.actuated, robot.layout.above_legs, invert=True)
 
 
 def _set_options(spec: mujoco.MjSpec, plant: Plant, rate_hz: float) -> None:

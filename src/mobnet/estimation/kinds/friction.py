@@ -36,8 +36,6 @@ from mobnet.settings.reading import Place
 
 Velocity = Annotated[Positive, Field(ge=0.0001, le=20)]
 Term = Literal["coulomb", "static", "viscous", "load"]
-
-
 LARGEST = 1e9  # of a fitted number
 
 
@@ -180,7 +178,7 @@ def fitted_joints(layout: JointLayout, options: Options, limbs: Iterable[Limb]) 
     """Return joint -> terms of (23) that are fitted, of the actuated joints of some networks; see `Options`."""
     found: dict[str, list[Term]] = {}
     for limb in limbs:
-        learned, seen = ([j for group in groups for j in layout.limb(group)] for groups in (limb.joints, limb.T))
+        learned, seen = layout.limbs(limb.joints), layout.limbs(limb.T)
         for joint in learned:
             if joint in layout.actuated:
                 found[joint] = [term for term in options.terms if term != "load" or joint in seen]

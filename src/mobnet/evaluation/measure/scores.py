@@ -105,7 +105,7 @@ def shown(
     for test in tests:
         if (test.scenario, test.level) == (run.scenario, run.level) and run.method in test.methods:
             named = test.limbs if isinstance(test, LimbRuns) else limbs
-            return pair.only([joint for limb in named for joint in layout.limb(limb)])
+            return pair.only(layout.limbs(named))
     return None
 
 

@@ -8,7 +8,6 @@ from mobnet.core.columns import TABLE_01
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.tables.layout import Table, tex_escape, tex_table, write_table
-from mobnet.learning.dataset import joints_of
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network, parameter_count
 from mobnet.settings.methods import Target
@@ -48,7 +47,7 @@ def describe(
     time steps.
     """
     count = len(limb_inputs(layout, network).names)
-    built = build_network(network, count, len(joints_of(layout, network)), std_min, seed)
+    built = build_network(network, count, len(layout.limbs(network.joints)), std_min, seed)
     head = built.head
     return (
         limb,

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.files import WEIGHTS
-from mobnet.learning.deployed.weights import GRU_TENSORS, STD_SCALE, Z_SCORES, WeightsNote, read_weights
+from mobnet.learning.deployed.weights import GRU_TENSORS, Z_SCORES, WeightsNote, read_weights, std_scale_of
 from mobnet.settings.networks import CellKind
 
 Array = NDArray[np.float32]
@@ -31,7 +31,7 @@ class Prediction:
 class Deployed(ABC):
     """A trained network: physical inputs in, torques [N, N m] out, its state carried by the caller.
 
-    `joints` (n,) and `input_names` (n_in,) are names, `std_scale` (n,) are factors that are in its standard deviations.
+    `joints` (n,) and `input_names` (n_in,) are names.
     """
 
     def __init__(
@@ -52,8 +52,7 @@ class Deployed(ABC):
         self._input_mean, self._input_std, self._target_mean, self._target_std = (
             np.asarray(tensors[name], dtype=np.float32) for name in Z_SCORES
         )
-        self.std_scale: Array = tensors.get(STD_SCALE, np.ones_like(self._target_std))
-        self._std_unit: Array = self._target_std * self.std_scale
+        self._std_unit: Array = self._target_std * std_scale_of(tensors)
 
     @abstractmethod
     def init(self) -> Any:

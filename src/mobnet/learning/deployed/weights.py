@@ -1,7 +1,7 @@
 """The file of a trained network, `weights.safetensors`: its note, and which tensors of which shapes it holds."""
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -67,6 +67,17 @@ def read_weights(path: Path) -> tuple[dict[str, Array], WeightsNote]:
     note = checked(path, parse_json(told[NOTE], f"{path}: {NOTE}"), WeightsNote)
     refuse(path, _faults(tensors, note))
     return tensors, note
+
+
+def std_scale_of(tensors: Mapping[str, Array]) -> Array:
+    """Return the factors in a network's standard deviations (n,), learned after its training."""
+    return tensors.get(STD_SCALE, np.ones_like(tensors["target.std"]))
+
+
+def std_scales(paths: Iterable[Path]) -> dict[str, float]:
+    """Return joint -> factor in its standard deviation, of several networks."""
+    read = map(read_weights, paths)
+    return {j: x for tensors, note in read for j, x in zip(note.joints, std_scale_of(tensors).tolist(), strict=True)}
 
 
 def _faults(tensors: Mapping[str, Array], note: WeightsNote) -> Iterator[str]:

@@ -104,11 +104,7 @@ def _joint_range_problems(settings: Settings, motion: Motion) -> Iterator[Proble
     """Yield working ranges that are not as many as the joints, leave their limits or miss the posture."""
     robot = settings.robot
     limits = {joint.id: joint.range for joint in robot.joints}
-    posture = {
-        joint: angle
-        for limb, row in robot.posture.items()
-        for joint, angle in zip(robot.groups[limb], row.angle_rad, strict=True)
-    }
+    posture = robot.posture_rad
     for name, limb in (("waist_rad", "W"), ("neck_rad", "N"), ("arm_rad", "LA")):
         spans, joints = getattr(motion, name), robot.groups.get(limb, ())
         if len(spans) != len(joints):

@@ -62,13 +62,12 @@ def _method_problems(settings: Settings, name: str, method: Method) -> Iterator[
         yield ("of",), misfit(method.of, "a method with `fitted`, for one with `limbs` of its own")
     robot = settings.robot
     for index, limb in enumerate(method.fitted):
-        joints = {joint for group in robot.networks[limb].joints for joint in robot.groups[group]}
-        if not joints & set(robot.order.actuated):
+        if not set(robot.order.actuated).intersection(settings.layout.limbs(robot.networks[limb].joints)):
             yield ("fitted", index), misfit(limb, "a network of joints that have motors and friction")
     seen = dict[str, str]()
     for index, limb in enumerate((*method.limbs, *method.fitted)):
         key = "limbs" if index < len(method.limbs) else "fitted"
-        for joint in {joint for group in robot.networks[limb].joints for joint in robot.groups[group]}:
+        for joint in settings.layout.limbs(robot.networks[limb].joints):
             first = seen.setdefault(f"{key} {joint}", limb)
             if first != limb:
                 yield (key, index), misfit(limb, f"networks without joints of {first}")

@@ -80,9 +80,7 @@ def _learned_problems(results: Results) -> Iterator[Problem]:
     for place, method in shown:
         if method not in learned:
             yield (*ROOT, *place), not_accepted("method with networks", method, learned)
-    joints = [
-        joint for group in settings.robot.networks[settings.trials.limb].joints for joint in results.joints(group)
-    ]
+    joints = results.layout.limbs(settings.robot.networks[settings.trials.limb].joints)
     data = evaluation.learning_curve.data
     if not re.fullmatch(r"docs/trials/[a-z0-9_]+\.csv", data):
         yield (*ROOT, "learning_curve", "data"), not_accepted("file", data, ["a .csv file of docs/trials"])

@@ -102,8 +102,8 @@ class Results:
 
     def predicted(self, method: str) -> set[str]:
         """Return the joints that a method's networks predict."""
-        row, robot = self.settings.all_methods[method], self.settings.robot
-        return {joint for limb in row.limbs for group in robot.networks[limb].joints for joint in robot.groups[group]}
+        networks, limbs = self.settings.robot.networks, self.settings.all_methods[method].limbs
+        return set(self.layout.limbs(group for limb in limbs for group in networks[limb].joints))
 
     def not_estimated(self, method: str, joints: Collection[str]) -> str:
         """Return what is wrong with a method where these joints are shown: networks predict their limbs alone."""
