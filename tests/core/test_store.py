@@ -18,6 +18,15 @@ from mobnet.core.store import GROUP_ROWS, array_writer, footer_hash, read_array,
 
 COLUMNS = [("a", "m", "world"), ("b", "rad", "joint")]
 META = {"rate_hz": 1000.0}
+ROUND_TRIP = """
+import sys
+from pathlib import Path
+import numpy as np
+from mobnet.core.store import read_array, write_array
+write_array(Path("s1"), np.zeros((3, 1)), [("a", "m", "world")], {"rate_hz": 1000.0})
+read_array(Path("s1"))
+print(*sys.modules)
+"""
 
 
 @pytest.fixture
@@ -25,6 +34,11 @@ def array_stem(tmp_path: Path) -> Path:
     stem = tmp_path / "run" / "s1"
     write_array(stem, np.arange(20.0).reshape(10, 2), COLUMNS, META)
     return stem
+
+
+def test_arrays_are_written_and_read_without_pandas_whose_import_takes_a_second(tmp_path: Path) -> None:
+    done = subprocess.run([sys.executable, "-c", ROUND_TRIP], cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert "pandas" not in done.stdout.split()
 
 
 @pytest.mark.parametrize("rows", [1, GROUP_ROWS - 1, GROUP_ROWS, GROUP_ROWS + 1])

@@ -17,6 +17,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
+from mobnet.core.code import SHORT
 from mobnet.core.columns import Column
 from mobnet.core.contract import Values, column_faults
 from mobnet.core.errors import DataError, not_accepted, refuse, refuse_lines
@@ -30,7 +31,7 @@ ARRAY, NOTE = ".parquet", ".json"
 GROUP_ROWS = 60_000  # rows stored together, a minute at 1 kHz: writer and reader hold as many besides their result
 BLOCK_ROWS = 256  # rows transposed together: they fit into the processor's cache
 STREAMED = {"buffer_size": 2**16, "pre_buffer": False}  # a foreign file may be a single group of rows
-MAGIC, SHORT = b"PAR1", 16  # first and last bytes of a Parquet file; digits of a hash
+MAGIC = b"PAR1"  # first and last bytes of a Parquet file
 FLOATS = (pa.float32(), pa.float64())  # types of columns
 CODING = {
     "compression": "lz4",
@@ -105,7 +106,8 @@ class ArrayWriter:
     def _store(self, count: int) -> None:
         """Store the first `count` rows of the present group as a row group."""
         if count:
-            columns = [pa.array(column[:count]) for column in self._group]
+            # pa.array would import pandas, which takes about a second of each job.
+            columns = [pa.Array.from_buffers(pa.float32(), count, [None, pa.py_buffer(row)]) for row in self._group]
             self._file.write_batch(pa.RecordBatch.from_arrays(columns, schema=self._file.schema), GROUP_ROWS)
             # to disk at once, and out of the page cache: new pages of memory would take more time than the encoding
             os.posix_fadvise(self._descriptor, 0, 0, os.POSIX_FADV_DONTNEED)
@@ -211,11 +213,19 @@ def _pieces(file: pq.ParquetFile, names: Sequence[str]) -> Iterator[tuple[int, N
         columns = piece[:, : batch.num_rows]
         with np.errstate(over="ignore"):  # a foreign file may hold more than float32 can; infinite is refused
             for column, name in zip(columns, names, strict=True):
-                column[:] = batch.column(name)
+                column[:] = _numbers(batch.column(name))
         yield first, columns
         first += batch.num_rows
     if first != rows:
         raise ValueError(f"{first} of {rows} rows")
+
+
+def _numbers(column: Any) -> NDArray[Any]:
+    """Return a column as NumPy's array, NaN where it has no number.
+
+    Arrow's own conversion imports pandas, about a second of each job.
+    """
+    return np.from_dlpack(column.fill_null(np.nan) if column.null_count else column)
 
 
 def footer_hash(path: Path) -> str:
