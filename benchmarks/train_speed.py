@@ -6,6 +6,7 @@ All train GRU[30,150]-Linear[150,12] of Table 1 by (22) at the configuration's b
 import statistics
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import torch
@@ -13,11 +14,12 @@ from torch import Tensor, nn
 from torch.utils.data import DataLoader, TensorDataset
 
 from mobnet.learning.features import limb_inputs
-from mobnet.learning.job import PRECISIONS, Job, precision_of
+from mobnet.learning.job import PRECISIONS, Job
 from mobnet.learning.losses import gaussian_loss
 from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.learning.optimisation import Samples, train_epoch
 from mobnet.learning.streams import epoch_plan
+from mobnet.plan.precision import with_precision
 from mobnet.settings.load import load_settings
 
 UPDATES, ROUNDS = 40, 5  # updates in a turn, turns
@@ -30,7 +32,7 @@ def main() -> list[dict[str, float | str]]:
     The format that this CPU trains in has to keep the bar.
     """
     torch.set_num_threads(1)
-    settings = load_settings(overrides={"scale": "default"})
+    settings = with_precision(load_settings(overrides={"scale": "default"}), Path("results") / "default")
     job = Job(settings.training("MOB-Net", "LL"), 0, settings.seed)
     leg, learning = job.training.network, job.training.learning
     sizes = len(limb_inputs(settings.layout, leg).names), len(settings.layout.limbs(leg.joints))
@@ -47,12 +49,12 @@ def main() -> list[dict[str, float | str]]:
     turns = [[_speed(epoch, len(data[0])) for epoch in epochs] for _ in range(ROUNDS + 1)][1:]  # the first one compiles
     speeds = [statistics.median(column) / 1e3 for column in zip(*turns, strict=True)]
     rows = []
-    for k, (name, precision) in enumerate(PRECISIONS.items()):
+    for k, name in enumerate(PRECISIONS):
         ratios = [turn[k] / turn[-1] for turn in turns]
         rows.append({"name": f"training, leg network in {name}, against nn.GRU + DataLoader", "ours": speeds[k],
                      "reference": speeds[-1], "unit": "1000 time steps/s", "ratio": statistics.median(ratios),
                      "ratio_min": min(ratios)})  # fmt: skip
-        if precision == precision_of("auto", torch.device("cpu")):
+        if name == learning.precision:
             rows[-1]["bar"] = BAR
     return rows
 

@@ -15,6 +15,7 @@ from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Recording, Sensed, Truth, write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.recipe import Recipe
+from mobnet.plan.precision import with_precision
 from mobnet.robot.description import RobotDescription, WalkingRobot, describe, for_walking
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.load import load_section, load_settings
@@ -29,8 +30,8 @@ Array = NDArray[np.float64]
 
 @pytest.fixture(scope="session")
 def settings() -> Settings:
-    """The repository's configuration at its smoke scale."""
-    return load_settings(overrides={"scale": "smoke"})
+    """The repository's configuration at its smoke scale, with this machine's number format."""
+    return with_precision(load_settings(overrides={"scale": "smoke"}), ROOT / "results" / "none")
 
 
 @pytest.fixture(scope="session")

@@ -30,6 +30,7 @@ from mobnet.learning.deployed.limbs import LimbNetworks, check_limb
 from mobnet.learning.deployed.networks import deployed
 from mobnet.learning.deployed.weights import read_weights
 from mobnet.plan.places import scale_of
+from mobnet.plan.precision import with_precision
 from mobnet.plan.runs import Files
 from mobnet.settings.load import CONFIGS, load_section, load_settings
 from mobnet.settings.reading import read_yaml
@@ -57,7 +58,7 @@ class UnknownKindError(DataError):
 @functools.cache
 def settings_of(scale: str) -> Settings:
     """Return the configuration of a scale."""
-    return load_settings(overrides={"scale": scale})
+    return with_precision(load_settings(overrides={"scale": scale}), CONFIGS.parent / "results" / scale)
 
 
 @dataclass(frozen=True)

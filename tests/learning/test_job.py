@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 import torch
 
-from mobnet.learning.job import PRECISIONS, UNITS, Job, precision_name, precision_of
+from mobnet.core.errors import ConfigError
+from mobnet.learning.job import PRECISIONS, Job, precision_name, precision_of
 from mobnet.settings.settings import Settings
 
 CPU, GPU = torch.device("cpu"), torch.device("cuda")
@@ -76,14 +77,10 @@ def test_fingerprint_changes_with_seeds_and_data(job: Job) -> None:
     assert len({job.fingerprint("data", CPU), job.fingerprint("other", CPU), *others}) == 4
 
 
-def test_fingerprint_depends_on_the_number_format_in_use(job: Job, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The same configuration, on a CPU with bfloat16 and on one without."""
-    found = []
-    for has in (True, False):
-        monkeypatch.setattr(torch.cpu, "get_capabilities", lambda has=has: {"avx512_bf16": has})
-        found.append((job.precision(CPU), job.fingerprint("data", CPU)))
-    assert [precision for precision, _ in found] == [torch.bfloat16, torch.float32]
-    assert found[0][1] != found[1][1]
+def test_fingerprint_depends_on_the_number_format(job: Job) -> None:
+    one, other = (changed(job, precision=name) for name in PRECISIONS)
+    assert one.fingerprint("data", CPU) != other.fingerprint("data", CPU)
+    assert one.fingerprint("data", GPU) != one.fingerprint("data", CPU)
 
 
 @pytest.mark.parametrize("cell", ["LSTM", "RNN", "TCN", "MLP", "constant"])
@@ -93,31 +90,17 @@ def test_only_a_gru_has_bfloat16_products(job: Job, cell: str) -> None:
     assert changed(gru, cell=cell).precision(CPU) == torch.float32
 
 
-def pretend(monkeypatch: pytest.MonkeyPatch, unit: str | None) -> None:
-    """Let this machine's CPU have one unit, or none."""
-    monkeypatch.setattr(torch.cpu, "get_capabilities", lambda: {name: name == unit for name in (*UNITS, "avx2")})
-
-
-@pytest.mark.parametrize("unit", UNITS)
-def test_auto_is_bfloat16_where_the_cpu_computes_in_it(monkeypatch: pytest.MonkeyPatch, unit: str) -> None:
-    pretend(monkeypatch, unit)
-    assert precision_of("auto", CPU) == torch.bfloat16
-
-
-def test_auto_is_float32_elsewhere(monkeypatch: pytest.MonkeyPatch) -> None:
-    pretend(monkeypatch, None)
-    assert precision_of("auto", CPU) == torch.float32
-    monkeypatch.setattr(torch.cpu, "get_capabilities", dict)  # a CPU of another kind tells other things
-    assert precision_of("auto", CPU) == torch.float32
-
-
 @pytest.mark.parametrize("name", PRECISIONS)
-def test_a_named_format_is_that_format_on_any_cpu(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
-    for unit in (*UNITS, None):
-        pretend(monkeypatch, unit)
-        assert precision_name(precision_of(name, CPU)) == name
+def test_a_named_format_is_that_format(name: str) -> None:
+    assert precision_name(precision_of(name, CPU)) == name
 
 
-@pytest.mark.parametrize("setting", ["auto", *PRECISIONS])
+def test_auto_names_no_format_of_a_training() -> None:
+    """What it stands for is decided once for all trainings (`mobnet.plan.precision`)."""
+    with pytest.raises(ConfigError, match=r"precision of a training: 'auto' is not accepted; accepted: bfloat"):
+        precision_of("auto", CPU)
+
+
+@pytest.mark.parametrize("setting", PRECISIONS)
 def test_a_gpu_computes_in_float32(setting: str) -> None:
     assert precision_of(setting, GPU) == torch.float32

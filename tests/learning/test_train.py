@@ -48,7 +48,8 @@ def test_it_writes_weights_metrics_and_a_note(small: Any, tmp_path: Path) -> Non
     note = json.loads((out / RUN).read_text())
     assert (note["limb"], note["target"], note["samples"]) == ("LL", "uncertainty", 7200)  # nine tenths
     assert (note["settings"]["network"]["cell"], note["settings"]["epochs"]) == ("GRU", 5)
-    assert note["precision"] == precision_name(precision_of("auto", torch.device(note["device"])))
+    asked = small.settings.learning.precision
+    assert note["precision"] == precision_name(precision_of(asked, torch.device(note["device"])))
     assert load_network(out).joints == ("LL1", "LL2", "LL3", "LL4", "LL5", "LL6")
 
 

@@ -13,6 +13,7 @@ from mobnet.evaluation.report.paper import missing_packages
 from mobnet.plan.disk import check_places, check_space
 from mobnet.plan.places import check_scale
 from mobnet.plan.plan import make_plan
+from mobnet.plan.precision import record_precision, with_precision
 from mobnet.plan.products import shown
 from mobnet.plan.texts import text_problems
 from mobnet.settings.load import load_settings, refuse_configfiles
@@ -33,6 +34,7 @@ sys.executable = shlex.quote(sys.executable)  # snakemake writes it into shell c
 try:
     refuse_configfiles(workflow.overwrite_configfiles)
     SETTINGS = load_settings(ROOT / "configs", config, what_other_packages_know)
+    SETTINGS = with_precision(SETTINGS, Path("results") / SETTINGS.scale)
     PLAN = make_plan(SETTINGS, with_pdf=not missing_packages())
     check_scale(sys.argv[1:], SETTINGS.scale)
     check_places(PLAN)
@@ -51,6 +53,7 @@ onstart:
 
     try:
         start_jobs(ROOT)
+        record_precision(PLAN.folders.results)
         made = {str(path) for job in workflow.dag.needrun_jobs() for path in job.output}
         check_space(PLAN, made)
         read = {str(path) for job in workflow.dag.needrun_jobs() for path in job.input}

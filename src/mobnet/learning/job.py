@@ -11,10 +11,10 @@ import numpy as np
 import torch
 
 from mobnet.core.code import SHORT, code_hash
+from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.settings.networks import Precision, Training
 
 PRECISIONS = {"float32": torch.float32, "bfloat16": torch.bfloat16}
-UNITS = ("avx512_bf16", "amx_bf16")  # a CPU with one of these multiplies bfloat16 several times faster than float32
 
 
 @dataclass(frozen=True)
@@ -68,16 +68,16 @@ class Job:
 
 
 def precision_of(setting: Precision, device: torch.device) -> torch.dtype:
-    """Return the number format that a training's products have; `auto` is bfloat16 where the CPU computes in it.
+    """Return the number format that a training's products have.
 
     On a GPU torch runs the GRU, its weights and states in float32.
+
+    Raises:
+        ConfigError: the setting is `auto`: what it stands for is decided for all trainings, by the plan.
     """
-    if device.type != "cpu":
-        return torch.float32
-    if setting == "auto":
-        found = torch.cpu.get_capabilities()
-        return torch.bfloat16 if any(found.get(unit, False) for unit in UNITS) else torch.float32
-    return PRECISIONS[setting]
+    if setting not in PRECISIONS:
+        raise ConfigError(not_accepted("learning.precision of a training", setting, PRECISIONS))
+    return PRECISIONS[setting] if device.type == "cpu" else torch.float32
 
 
 def precision_name(precision: torch.dtype) -> str:

@@ -1,0 +1,61 @@
+"""Which number format `learning.precision: auto` stands for: decided once for the results of a scale, and recorded.
+
+The machine that starts the first run decides. A training gets the format by its name, so that it is part of what the
+training is, and a node of another kind of processor makes the same network.
+"""
+
+from pathlib import Path
+from typing import Literal
+
+from mobnet.core.files import read_json, write_json
+from mobnet.core.notes import Note, checked
+from mobnet.settings.settings import Settings
+
+AUTO, PLACE = "auto", Path("state") / "precision.json"  # below the results of a scale
+PROCESSOR = Path("/proc/cpuinfo")
+UNITS = {"avx512_bf16", "amx_bf16"}  # a CPU with one of these multiplies bfloat16 several times faster than float32
+Precision = Literal["float32", "bfloat16"]
+
+
+class PrecisionNote(Note):
+    """The file in which the format is recorded."""
+
+    auto: Precision
+
+
+def with_precision(settings: Settings, results: Path) -> Settings:
+    """Return the settings with a number format in place of every `auto`: the recorded one, or else this machine's.
+
+    Raises:
+        DataError: the record is damaged.
+    """
+    name = _recorded(results) or of_processor(PROCESSOR)
+    methods = {
+        method: row.model_copy(update={"learning": {**row.learning, "precision": name}})
+        for method, row in settings.methods.items()
+        if row.learning.get("precision") == AUTO
+    }
+    learning = settings.learning
+    if learning.precision == AUTO:
+        learning = learning.model_copy(update={"precision": name})
+    values = {key: getattr(settings, key) for key in Settings.model_fields}  # a copy would keep what is cached
+    changed = {"learning": learning, "methods": {**settings.methods, **methods}}
+    return Settings.model_construct(**{**values, **changed})
+
+
+def record_precision(results: Path) -> None:
+    """Record what `auto` stands for in the results of a scale, if it is not recorded yet."""
+    if _recorded(results) is None:
+        write_json(results / PLACE, {"auto": of_processor(PROCESSOR)})
+
+
+def _recorded(results: Path) -> Precision | None:
+    """Return the recorded format, if there is one."""
+    path = results / PLACE
+    return checked(path, read_json(path), PrecisionNote).auto if path.exists() else None
+
+
+def of_processor(described: Path) -> Precision:
+    """Return bfloat16 where a processor, as Linux describes it, computes in it."""
+    flags = set(described.read_text(encoding="utf-8").split()) if described.exists() else set[str]()
+    return "bfloat16" if flags & UNITS else "float32"
