@@ -2,7 +2,7 @@
 
 import functools
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -22,10 +22,14 @@ SIGNALS = {"recordings": POSITIONS, "residuals": RESIDUAL, "estimates": EXTERNAL
 
 def array_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[str]:
     """Yield in what the note of a recording, residual or estimate is not that of its place."""
+    if len(place) != (6 if place[0] == "estimates" else 4):
+        return
     kind, *owner, scenario, level, name = place
     found, settings = NAMES.fullmatch(name), files.settings
     if not found or path.suffix == ARRAY or scenario not in settings.scenarios or level not in settings.levels:
         return
+    if kind == "estimates":
+        yield from _run_faults(owner, scenario, level, files)
     note = read_array_note(path)
     signals = {column["name"].partition(".")[0] for column in note["columns"]}
     if SIGNALS[kind] not in signals or (kind != "recordings" and POSITIONS in signals):
@@ -44,6 +48,20 @@ def array_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[s
     if kind != "recordings" and file_of(recording, NOTE).exists():
         other = read_array_note(file_of(recording, NOTE))
         yield from note_differences(note, other, f"{recording}{NOTE}, its recording")
+
+
+def _run_faults(owner: Sequence[str], scenario: str, level: str, files: Files) -> Iterator[str]:
+    """Yield what no job has in the folders of an estimate: method, n with a network seed, scenario, level."""
+    method, seed, settings = owner[0], owner[1].removeprefix("n"), files.settings
+    if method not in settings.all_methods:
+        yield not_accepted("folder of the method", method, settings.all_methods)
+        return
+    seeds = [str(number) for number in files.network_seeds(method)]
+    if seed not in seeds:
+        yield not_accepted(f"folder of the seed of {method}", owner[1], [f"n{number}" for number in seeds])
+    if method not in settings.tests.get(scenario, {}).get(level, ()):
+        tests = [f"{test}/{of}" for test, levels in settings.tests.items() for of in levels if method in levels[of]]
+        yield not_accepted(f"folder of the test of {method}", f"{scenario}/{level}", tests)
 
 
 def _recording_faults(note: Mapping[str, Any], scenario: str, level: str, seed: int, files: Files) -> Iterator[str]:

@@ -2,9 +2,10 @@
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
-from pydantic import ConfigDict
+from pydantic import ConfigDict, Field
 
 from mobnet.agreement.arrays import NAMES
 from mobnet.agreement.said import differences
@@ -12,7 +13,7 @@ from mobnet.core.columns import named
 from mobnet.core.errors import not_accepted
 from mobnet.core.files import read_json
 from mobnet.core.notes import Index, Note, NotNegative, Text, checked
-from mobnet.core.store import NOTE, read_array
+from mobnet.core.store import ARRAY, NOTE, read_array
 from mobnet.plan.runs import Files
 from mobnet.settings.data import Motion
 
@@ -30,9 +31,9 @@ class MotionNote(Note):
     seed: Index
     part: Index
     variant: Index
-    clearance_m: NotNegative
+    clearance_m: Annotated[NotNegative, Field(le=5)]
     hand_speed_mean_m_s: NotNegative
-    hand_speed_max_m_s: NotNegative
+    hand_speed_max_m_s: Annotated[NotNegative, Field(le=20)]
 
 
 def motion_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[str]:
@@ -50,11 +51,17 @@ def motion_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[
     if note["hand_speed_mean_m_s"] > note["hand_speed_max_m_s"]:
         accepted = [f"at most hand_speed_max_m_s, {note['hand_speed_max_m_s']}"]
         yield not_accepted("hand_speed_mean_m_s", note["hand_speed_mean_m_s"], accepted)
-    yield from _knot_faults(path, row, place[1], int(found[1]), files)
+
+
+def knot_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[str]:
+    """Yield columns, ranges, speeds, a beginning and a length that are not those of a motion."""
+    found, rows = NAMES.fullmatch(place[-1]), files.settings.motions
+    if found and path.suffix == ARRAY and len(place) == 3 and place[1] in rows:
+        yield from _knot_faults(path, rows[place[1]], place[1], int(found[1]), files)
 
 
 def _knot_faults(path: Path, motion: Motion, name: str, seed: int, files: Files) -> Iterator[str]:
-    """Yield columns, ranges, speeds, a beginning and a length that are not those of a motion."""
+    """Yield in what the knots of a motion, its row of the configuration being given, are not those of its seed."""
     settings, layout = files.settings, files.settings.layout
     array, note = read_array(path.with_suffix(""), None, layout)
     held = [column["name"] for column in note["columns"]]
@@ -71,10 +78,12 @@ def _knot_faults(path: Path, motion: Motion, name: str, seed: int, files: Files)
         if speeds[k] > AT_ONCE * limit.speed:
             accepted = [f"at most {AT_ONCE * limit.speed:g} rad/s from knot to knot"]
             yield not_accepted(f"{TARGET}.{joint}: speed", float(speeds[k]), accepted)
+        if low == high:
+            yield not_accepted(f"{TARGET}.{joint}: every knot", low, ["angles that change"])
         if abs(array[0, k] - posture[joint]) > SAME_RAD:
             yield not_accepted(f"{TARGET}.{joint}, row 0", float(array[0, k]), [f"{posture[joint]}, the posture"])
     moved = [scenario for scenario, row in settings.scenarios.items() if row.motion == name]
     if any(scenario in moved and seed == other for scenario, _, other in files.recorded()):
         rows = round(files.duration_s(moved, seed) * motion.knot_hz) + 1
         if note["rows"] != rows:
-            yield not_accepted(f"{path.with_suffix('').name}{NOTE}: rows", note["rows"], [f"{rows}, of its duration"])
+            yield not_accepted("rows", note["rows"], [f"{rows}, of its duration"])

@@ -1,17 +1,19 @@
 """Weights, notes and epochs of networks against their folders, the configuration, and each other."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from math import prod
 from pathlib import Path
 
 import numpy as np
 
 from mobnet.agreement.said import NOTHING, differences
+from mobnet.core.contract import rule_of
 from mobnet.core.errors import not_accepted
 from mobnet.core.files import METRICS, RUN, WEIGHTS
+from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.trainings import TrainingNote, read_training_note
 from mobnet.evaluation.number.rows import read_epochs
-from mobnet.learning.deployed.weights import STD_SCALE, Z_SCORES, read_weights, shapes
+from mobnet.learning.deployed.weights import STD_SCALE, Z_SCORES, Array, read_weights, shapes
 from mobnet.learning.features import limb_inputs
 from mobnet.plan.runs import Files
 from mobnet.settings.base import Section
@@ -33,8 +35,10 @@ def _faults(path: Path, training: Training, seed: int, files: Files) -> Iterator
     inputs = limb_inputs(files.settings.layout, training.network).names
     joints = list(files.settings.layout.limbs(training.network.joints))
     if path.name == WEIGHTS:
-        note = read_weights(path)[1]
-        yield from differences(vars(note), {"name": name, "limb": training.limb, "inputs": list(inputs)})
+        tensors, note = read_weights(path)
+        said = {"name": name, "limb": training.limb, "inputs": list(inputs), "std_min": training.learning.std_min}
+        yield from differences(vars(note), said)
+        yield from _tensor_faults(tensors, inputs, files.settings.layout)
         yield from differences(note.network, _json(training.network), "network.")
     if path.name == RUN:
         noted = read_training_note(folder)
@@ -51,11 +55,22 @@ def _faults(path: Path, training: Training, seed: int, files: Files) -> Iterator
             yield not_accepted("diverged", True, ["False, without `learning.may_diverge`"])
     if path.name == METRICS:
         for epoch in read_epochs(path):
-            if epoch.rate > training.learning.rate_first * (1.0 + SAME):
-                accepted = [f"at most {training.learning.rate_first}, rate_first"]
+            if not 0.0 < epoch.rate <= training.learning.rate_first * (1.0 + SAME):
+                accepted = [f"above 0, at most {training.learning.rate_first}, rate_first"]
                 yield not_accepted(f"epoch {epoch.epoch}: rate", epoch.rate, accepted)
     if path.name in (WEIGHTS, RUN) and (folder / WEIGHTS).exists() and (folder / RUN).exists():
         yield from _scale_faults(folder, training)
+
+
+def _tensor_faults(tensors: Mapping[str, Array], inputs: Sequence[str], layout: JointLayout) -> Iterator[str]:
+    """Yield weights of a cell that are all zero, and means of inputs that no recording of the robot can have."""
+    for name, tensor in tensors.items():
+        if name.startswith("cell.weight") and not tensor.any():
+            yield not_accepted(f"tensor {name!r}: every entry", 0.0, ["numbers that a training gives"])
+    for name, mean in zip(inputs, tensors["input.mean"].tolist(), strict=False):
+        rule = rule_of(name, layout)
+        if not rule.low <= mean <= rule.high:
+            yield not_accepted(f"tensor 'input.mean': {name}", mean, [f"{rule.low:g} to {rule.high:g}"])
 
 
 def _setting_faults(noted: TrainingNote, training: Training) -> Iterator[str]:

@@ -1,11 +1,10 @@
-"""The numbers of recordings and residuals against what a walk of their scenario can be.
+"""The numbers of recordings, residuals and estimates at their places.
 
-The ground carries the robot's weight, so that forces have the right sign and unit; nothing pushes where the scenario
-pushes nothing; a residual stands beside the external torque of its recording.
+A recording is a walk (`mobnet.agreement.walks`) of its scenario: nothing pushes where the scenario pushes nothing. A
+residual or an estimate stands beside what it was made from (`mobnet.agreement.derived`).
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -13,21 +12,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.agreement.arrays import NAMES
-from mobnet.core.columns import COMMAND, EXTERNAL, EXTERNAL_LP, PUSH_TORQUE, RANDOM, RESIDUAL, named
+from mobnet.agreement.derived import estimate_faults, residual_faults
+from mobnet.agreement.motions import knot_faults
+from mobnet.agreement.said import signals_of
+from mobnet.agreement.walks import walk_faults, walk_names
+from mobnet.core.columns import COMMAND, PUSH_TORQUE, PUSHED, RANDOM, named
 from mobnet.core.errors import not_accepted
+from mobnet.core.files import read_json
 from mobnet.core.notes import read_array_note
-from mobnet.core.store import ARRAY, NOTE, file_of, read_array
-from mobnet.estimation.low_pass import low_pass
+from mobnet.core.store import ARRAY, NOTE, file_of
 from mobnet.plan.runs import Files
-from mobnet.settings.data import FixedCommand
+from mobnet.settings.data import FixedCommand, Push
 
-FEET, AXES = ("left_foot", "right_foot"), ("base_x", "base_y")
-WEIGHT = (0.5, 2.0)  # share of the weight that the ground carries on average
-CARRIED = 0.5  # of the samples, from which on that is asked
-JUMP_M = 0.05  # in a sample: a simulator may shift the base's place
 SAME = 1e-3  # relative to the largest number of a column
-LEAST = 0.01  # share of the samples of a state that is compared
-UP = "V3"
+IDLE = 0.1  # share of the samples marked as pushed in which nothing may push
 KEYS = {  # column of a step's command -> key of the configuration
     "step_x": "step_x_m", "step_y": "step_y_m", "turn": "turn_deg", "duration": "duration_s",
     "foot_height": "foot_height_m",
@@ -36,88 +34,93 @@ Signals = Mapping[str, NDArray[Any]]
 
 
 def number_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[str]:
-    """Yield what is wrong with the numbers of a recording or a residual at its place."""
-    kind, *_, name = place
-    found = NAMES.fullmatch(name)
-    if path.suffix != ARRAY or kind not in ("recordings", "residuals") or len(place) != 4 or not found:
+    """Yield what is wrong with the numbers of a recording, residual or estimate at its place."""
+    if place[0] == "motions":
+        yield from knot_faults(path, place, files)
+    if len(place) != (6 if place[0] == "estimates" else 4):
         return
-    scenario, level, stem = place[1], place[2], path.with_suffix("")
-    if scenario not in files.settings.scenarios or files.settings.robot.base != "floating":
+    kind, *owner, scenario, level, name = place
+    found, stem = NAMES.fullmatch(name), path.with_suffix("")
+    if path.suffix != ARRAY or not found or scenario not in files.settings.scenarios:
         return
+    yield from _copy_faults(path, kind)
+    if files.settings.robot.base != "floating":
+        return
+    recording, residual = (files.array(of, scenario, level, found[1]) for of in ("recordings", "residuals"))
     if kind == "recordings":
-        signals = _read(stem, _ground_names())
-        yield from (*_weight_faults(signals, files), *_flag_faults(signals), *_direction_faults(signals))
+        rate = read_array_note(file_of(stem, NOTE))["rate_hz"]
+        yield from walk_faults(signals_of(stem, walk_names(files.settings.layout)), rate, files)
         yield from _scenario_faults(stem, scenario, files)
-    else:
-        yield from _residual_faults(stem, files.array("recordings", scenario, level, found[1]), files)
+    elif kind == "residuals":
+        yield from residual_faults(stem, recording, files)
+    elif kind == "estimates" and owner[0] in files.settings.all_methods:
+        yield from estimate_faults(stem, residual, files.settings.all_methods[owner[0]])
 
 
-def _read(stem: Path, names: Sequence[str]) -> dict[str, NDArray[Any]]:
-    """Return columns of an array that it has, by name, each (T,)."""
-    held = {column["name"] for column in read_array_note(file_of(stem, NOTE))["columns"]}
-    wanted = [name for name in names if name in held]
-    array = read_array(stem, wanted)[0].astype(np.float64)
-    return dict(zip(wanted, array.T, strict=True))
-
-
-def _ground_names() -> list[str]:
-    """Return the columns that say how the ground carries the robot and where that goes."""
-    force = [f"wrench_{foot}.force_z" for foot in FEET]
-    flags = [f"{flag}.{foot}" for flag in ("contact", "swing") for foot in FEET]
-    return [f"{EXTERNAL}.{UP}", *force, *flags, *(f"{signal}.{axis}" for signal in "qv" for axis in AXES)]
-
-
-def _weight_faults(signals: Signals, files: Files) -> Iterator[str]:
-    """Yield forces of the ground that do not carry the robot, where it stands on its feet most of the time."""
-    feet = [foot for foot in FEET if {f"wrench_{foot}.force_z", f"contact.{foot}"} <= signals.keys()]
-    if not feet or np.mean([signals[f"contact.{foot}"].mean() for foot in feet]) < CARRIED:
-        return
-    weight = sum(body.mass for body in files.settings.robot.bodies) * files.settings.plant.gravity_m_s2
-    means = {"wrench_*.force_z of both feet": float(sum(signals[f"wrench_{foot}.force_z"].mean() for foot in feet))}
-    means |= {name: float(signals[name].mean()) for name in (f"{EXTERNAL}.{UP}",) if name in signals}
-    for name, mean in means.items():
-        if not WEIGHT[0] * weight <= mean <= WEIGHT[1] * weight:
-            accepted = [f"about {weight:.0f} N, the robot's weight, upwards"]
-            yield not_accepted(f"columns {name}: mean", round(mean, 3), accepted)
-
-
-def _flag_faults(signals: Signals) -> Iterator[str]:
-    """Yield flags of feet that are the wrong way round: a foot that touches, and one that does not swing, carries."""
-    for foot, (flag, on) in product(FEET, (("contact", 1.0), ("swing", 0.0))):
-        state, force = signals.get(f"{flag}.{foot}"), signals.get(f"wrench_{foot}.force_z")
-        if state is None or force is None or not LEAST < state.mean() < 1.0 - LEAST:
-            continue
-        loaded, free = float(force[state == on].mean()), float(force[state != on].mean())
-        if loaded <= free:
-            text = f"a mean force of {loaded:.1f} N where it is {on:g} and of {free:.1f} N elsewhere"
-            yield not_accepted(f"column {flag}.{foot}", text, ["more force where the foot stands"])
-
-
-def _direction_faults(signals: Signals) -> Iterator[str]:
-    """Yield a base that goes against its velocity."""
-    for axis in AXES:
-        if {f"q.{axis}", f"v.{axis}"} <= signals.keys():
-            moved = np.clip(np.diff(signals[f"q.{axis}"]), -JUMP_M, JUMP_M)
-            if moved @ signals[f"v.{axis}"][1:] < 0.0:
-                yield not_accepted(f"column q.{axis}", "against v", [f"the direction of v.{axis}"])
+def _copy_faults(path: Path, kind: str) -> Iterator[str]:
+    """Yield another recording or residual of the same scenario and level whose array is the same."""
+    own = read_json(path.with_suffix(NOTE)).get("footer")
+    for other in sorted(path.parent.glob(f"s*{NOTE}")) if own and kind != "estimates" else ():
+        if other.stem != path.stem and read_json(other).get("footer") == own:
+            yield not_accepted("array", f"that of {other.stem}", ["numbers of its own, as seeds differ"])
 
 
 def _scenario_faults(stem: Path, scenario: str, files: Files) -> Iterator[str]:
-    """Yield torques, pushes and commands that the scenario does not have."""
+    """Yield torques, pushes and commands that the scenario does not have, or lacks."""
     settings, row = files.settings, files.settings.scenarios[scenario]
     random, pushed = named(RANDOM, settings.layout.actuated), named(PUSH_TORQUE, settings.layout.names)
-    signals = _read(stem, [*random, *pushed, "pushed", *named("command", [name for name, _ in COMMAND])])
-    absent = [*(() if row.random_torque else random), *(() if row.pushes else (*pushed, "pushed"))]
+    signals = signals_of(stem, [*random, *pushed, PUSHED, *named("command", [name for name, _ in COMMAND])])
+    absent = [*(() if row.random_torque else random), *(() if row.pushes else (*pushed, PUSHED))]
     for name in absent:
         if name in signals and signals[name].any():
             largest = float(np.abs(signals[name]).max())
             yield not_accepted(f"column {name}: largest number", largest, [f"0 everywhere, as {scenario} has none"])
-    acting = np.any([signals[name] != 0.0 for name in pushed if name in signals], axis=0)
-    if "pushed" in signals and np.any(acting & (signals["pushed"] == 0.0)):
-        first = int(np.argmax(acting & (signals["pushed"] == 0.0)))
-        yield not_accepted(f"column pushed, row {first}", 0.0, ["1 where tau_push acts"])
+    if row.random_torque:
+        yield from _random_faults(signals, random, files)
+    yield from _push_faults(signals, pushed, [settings.pushes[name] for name in row.pushes])
     for name, _ in COMMAND:
         yield from _command_faults(name, signals.get(f"command.{name}"), scenario, files)
+
+
+def _random_faults(signals: Signals, names: Sequence[str], files: Files) -> Iterator[str]:
+    """Yield random torques that are zero everywhere, or above their largest."""
+    held = {name: float(np.abs(signals[name]).max()) for name in names if name in signals}
+    if held and not any(held.values()):
+        yield not_accepted(f"columns {RANDOM}.*: largest number", 0.0, ["random torques, as the scenario has them"])
+    random = files.settings.random_torque
+    most = max(random.legs_waist_nm, random.neck_nm, *random.arms_nm)
+    for name, largest in held.items():
+        if largest > most * (1.0 + SAME):
+            yield not_accepted(f"column {name}: largest number", largest, [f"at most {most:g}"])
+
+
+def _push_faults(signals: Signals, names: Sequence[str], pushes: Sequence[Push]) -> Iterator[str]:
+    """Yield pushes that are not marked, marks without a push, and torques on joints that no push turns so."""
+    held = {name: signals[name] for name in names if name in signals}
+    acting = np.any([values != 0.0 for values in held.values()], axis=0)
+    if PUSHED in signals and held and pushes:
+        marked = signals[PUSHED] != 0.0
+        if np.any(acting & ~marked):
+            first = int(np.argmax(acting & ~marked))
+            yield not_accepted(f"column {PUSHED}, row {first}", 0.0, [f"1 where {PUSH_TORQUE} acts"])
+        if marked.any() and (idle := float(np.mean(~acting[marked]))) > IDLE:
+            yield not_accepted(f"column {PUSHED}: share of 1 without {PUSH_TORQUE}", idle, [f"at most {IDLE:g}"])
+    turned = {f"{PUSH_TORQUE}.{push.joint}": push for push in pushes if push.joint}
+    if len(turned) < len(pushes) or not pushes:
+        return
+    for name, values in held.items():
+        largest = float(np.abs(values).max())
+        if name not in turned and largest > 0.0:
+            yield not_accepted(f"column {name}: largest number", largest, [f"0, as pushes turn {', '.join(turned)}"])
+        elif name in turned and largest > (most := _most_nm(turned[name])) * (1.0 + SAME):
+            yield not_accepted(f"column {name}: largest number", largest, [f"at most {most:g}"])
+        elif name in turned and largest == 0.0 and acting.any():
+            yield not_accepted(f"column {name}: largest number", 0.0, ["a torque, as its joint is pushed"])
+
+
+def _most_nm(push: Push) -> float:
+    """Return the largest torque of a push on a joint [N m]: amplitudes of a sum of sines add up."""
+    return max(map(abs, push.torque_nm or (0.0,))) * (sum(push.sines.share) if push.sines else 1.0)
 
 
 def _command_faults(name: str, found: NDArray[Any] | None, scenario: str, files: Files) -> Iterator[str]:
@@ -134,25 +137,3 @@ def _command_faults(name: str, found: NDArray[Any] | None, scenario: str, files:
     if beyond.any():
         row = int(np.argmax(beyond))
         yield not_accepted(f"column command.{name}, row {row}", float(found[row]), [f"0, or {low:g} to {high:g}"])
-
-
-def _residual_faults(stem: Path, recording: Path, files: Files) -> Iterator[str]:
-    """Yield external torques that are not the recording's behind the low-pass, and a residual that is not theirs."""
-    layout, observer = files.settings.layout, files.settings.observer
-    if not file_of(recording, NOTE).exists():
-        return
-    signals = _read(stem, [*named(EXTERNAL_LP, layout.names), *named(RESIDUAL, layout.names)])
-    truth = _read(recording, named(EXTERNAL, layout.names))
-    segments, rate = (read_array_note(file_of(stem, NOTE))[key] for key in ("segments", "rate_hz"))
-    for joint in layout.names:
-        exact, found = truth[f"{EXTERNAL}.{joint}"], signals[f"{EXTERNAL_LP}.{joint}"]
-        for start, end in segments:
-            wanted = low_pass(exact[start:end, None], observer.gain_hz, rate)[:, 0]
-            apart, size = float(np.abs(wanted - found[start:end]).max()), float(np.abs(wanted).max())
-            if apart > SAME * max(size, 1.0):
-                accepted = [f"{EXTERNAL}.{joint} of its recording behind the low-pass of (11)"]
-                yield not_accepted(f"column {EXTERNAL_LP}.{joint}: difference", apart, accepted)
-                break
-    up, wanted = float(signals[f"{RESIDUAL}.{UP}"].mean()), float(signals[f"{EXTERNAL_LP}.{UP}"].mean())
-    if not WEIGHT[0] * wanted <= up <= WEIGHT[1] * wanted:
-        yield not_accepted(f"column {RESIDUAL}.{UP}: mean", up, [f"about {wanted:.0f} N, the mean external force"])

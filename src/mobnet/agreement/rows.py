@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator
 from itertools import groupby
 from math import isclose
 from pathlib import Path
+from typing import Any
 
 from mobnet.agreement.said import differences
 from mobnet.core.columns import Score
@@ -13,13 +14,13 @@ from mobnet.core.notes import read_note
 from mobnet.estimation.kinds.friction import FrictionNote, JointNote, Options, fitted_joints
 from mobnet.evaluation.measure.scores import AVERAGE, ERROR
 from mobnet.evaluation.number.rows import read_scores
-from mobnet.plan.runs import Files
-from mobnet.settings.checks.results import metric_unit
+from mobnet.plan.runs import Files, Run
+from mobnet.settings.checks.results import Results, metric_unit
 from mobnet.settings.evaluation import METRIC
 
 PRINTED = 1e-4  # relative error of numbers with six digits, and of their mean
 RUN_FIELDS = ("level", "method", "network_seed", "test_seed")  # of a score
-SHARES = "cover"  # beginning of metrics that are shares
+BOUNDS = {"cover": (0.0, 1.0), "acf": (-1.0, 1.0)}  # beginning of a metric -> what shares and correlations can be
 
 
 def fit_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[str]:
@@ -30,7 +31,12 @@ def fit_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[str
     note, options = read_note(path, FrictionNote), Options.model_validate(settings.method(method).options)
     yield from differences(vars(note), {"smoothing_rad_s": options.smoothing_rad_s})
     limbs = [settings.network(method, limb) for limb in settings.method(method).fitted]
-    for joint, terms in fitted_joints(settings.layout, options, limbs).items():
+    wanted = fitted_joints(settings.layout, options, limbs)
+    for term in options.terms:
+        held = [note.joints[joint].terms()[term] for joint in wanted if joint in note.joints and term in wanted[joint]]
+        if held and not any(held):
+            yield not_accepted(f"joints: {term}", 0.0, [f"above 0 for some joint, as `methods.{method}` fits it"])
+    for joint, terms in wanted.items():
         if joint not in note.joints:
             yield f"joints: {joint!r} is missing; accepted: every joint of `methods.{method}.fitted`"
             continue
@@ -64,9 +70,30 @@ def score_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[s
             if str(getattr(row, name)) not in accepted:
                 yield not_accepted(f"line {line}: {name}", getattr(row, name), accepted)
         yield from (f"line {line}: {fault}" for fault in _row_faults(row, files))
-    for key in runs.keys() - {tuple(getattr(row, name) for name in RUN_FIELDS) for row in rows}:
-        yield f"rows: {dict(zip(RUN_FIELDS, key, strict=True))} is missing; accepted: every run of the test"
+    for metric in sorted({row.metric for row in rows}):
+        if text := Results(files.settings).not_scored(scenario, metric):
+            yield f"metric {metric}: {text}"
+    limbs: dict[tuple[Any, ...], set[str]] = {key: set() for key in runs}
+    for row in rows:
+        limbs.setdefault(run_of(row), set()).update([row.limb] if row.metric == ERROR else ())
+    for key, run in runs.items():
+        for limb in sorted(_limbs_of(run, files) - limbs[key]):
+            told = {**dict(zip(RUN_FIELDS, key, strict=True)), "limb": limb, "metric": ERROR}
+            yield f"rows: {told} is missing; accepted: every limb that a run estimates"
     yield from _average_faults(rows, files)
+
+
+def run_of(row: Score) -> tuple[Any, ...]:
+    """Return what names the run of a score: level, method, seed of the networks, seed of the test."""
+    return tuple(getattr(row, name) for name in RUN_FIELDS)
+
+
+def _limbs_of(run: Run, files: Files) -> set[str]:
+    """Return the limbs that have errors in a run, because the run estimates a joint of theirs."""
+    results, source = Results(files.settings), files.settings.network_source_of(run.method)
+    joints = results.predicted(source) or set(results.layout.names)
+    found = {limb for limb, members in results.layout.groups.items() if joints.intersection(members)}
+    return found.difference(run.repeated)
 
 
 def _row_faults(row: Score, files: Files) -> Iterator[str]:
@@ -83,8 +110,9 @@ def _row_faults(row: Score, files: Files) -> Iterator[str]:
         units = {metric_unit(row.metric, layout.unit(joint)) for joint in joints if row.joint in (joint, AVERAGE)}
         if row.unit not in units:
             yield not_accepted("unit", row.unit, units)
-    if row.metric.startswith(SHARES) and not 0.0 <= row.value <= 1.0:
-        yield not_accepted(f"value of {row.metric}", row.value, ["0 to 1, a share"])
+    for beginning, (low, high) in BOUNDS.items():
+        if row.metric.startswith(beginning) and not low <= row.value <= high:
+            yield not_accepted(f"value of {row.metric}", row.value, [f"{low:g} to {high:g}"])
 
 
 def _average_faults(rows: Iterable[Score], files: Files) -> Iterator[str]:
@@ -104,6 +132,8 @@ def _average_faults(rows: Iterable[Score], files: Files) -> Iterator[str]:
             missing = [joint for joint in expected if joint not in joints]
             yield from (f"{where}: {joint!r} is missing; accepted: {', '.join(expected)}" for joint in missing)
         mean = sum(values[joint] for joint in joints) / max(len(joints), 1)
+        if AVERAGE not in values:
+            yield f"{where}: {AVERAGE!r} is missing; accepted: {mean:.6g}, the mean of its joints"
         average = values.get(AVERAGE, mean)
         if joints and unit in ("N", "N m") and not isclose(average, mean, rel_tol=PRINTED, abs_tol=PRINTED**2):
             yield not_accepted(f"{where}: {AVERAGE}", average, [f"{mean:.6g}, the mean of its joints"])

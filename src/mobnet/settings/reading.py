@@ -102,7 +102,8 @@ class Document:
             mark, place = getattr(error, "problem_mark", None), getattr(error, "position", 0)
             what = getattr(error, "problem", None) or getattr(error, "reason", None) or error
             line = mark.line + 1 if mark else text.count("\n", 0, place) + 1
-            self._refuse(line, (), f"not YAML, {' '.join(str(what).split())}; accepted: one YAML mapping")
+            said = f"{what} {_token(text, mark)}" if mark else str(what)
+            self._refuse(line, (), f"not YAML, {' '.join(said.split())}; accepted: one YAML mapping")
         return None
 
     def _refuse(self, line: int, place: Place, text: str) -> None:
@@ -215,6 +216,12 @@ def mapping(value: object) -> dict[str, Any]:
 def dotted(place: Place) -> str:
     """Return a place as keys joined by dots."""
     return ".".join(map(str, place)) or "top level"
+
+
+def _token(text: str, mark: Any) -> str:
+    """Return the word of a text at which a mark stands."""
+    rest: str = "\n".join(text.splitlines()[mark.line : mark.line + 1])[mark.column :]
+    return rest.partition(" ")[0]
 
 
 def _line(node: Node) -> int:

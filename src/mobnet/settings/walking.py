@@ -22,7 +22,7 @@ class Walking(Section):
     double_support_share: Real = Field(ge=0.01, le=0.8)
     velocity_filter: Real = Field(ge=0.001, le=1)
     com_height_min_m: Real = Field(ge=0.1, le=2)
-    dcm_gain: Real = Field(ge=0.2, le=20)
+    dcm_gain: Real = Field(gt=1, le=20)
     vertical_damping_hz: Real = Field(ge=0.1, le=50)
     sole_x_m: Span[Metres]
     sole_y_m: Real = Field(ge=0.005, le=0.3)

@@ -58,7 +58,7 @@ class JointNote(Note):
     coulomb_nm: Annotated[NotNegative, Field(le=LARGEST)]
     static_nm: Annotated[NotNegative, Field(le=LARGEST)]
     viscous_nms: Annotated[NotNegative, Field(le=LARGEST)]
-    load_per_nm: Annotated[NotNegative, Field(le=LARGEST)]
+    load_per_nm: Annotated[NotNegative, Field(le=1)]
     stribeck_rad_s: Annotated[AboveZero, Field(le=20)]
     target_rms_nm: NotNegative = 0.0
     left_rms_nm: NotNegative = 0.0

@@ -98,7 +98,7 @@ class TrainingNote(Note):
     best: NotedEpoch | None
     on_windows: OnWindows
     calibration: NotedCalibration
-    device: Text
+    device: Literal["cpu", "cuda"]
     precision: Literal["float32", "bfloat16"]
     fingerprint: Text
     provenance: dict[str, Any]
@@ -147,7 +147,7 @@ def read_training(folder: Path) -> Training:
         DataError: a file is missing or damaged, or they do not agree, one line for each fault.
     """
     note, epochs = read_training_note(folder), read_epochs(folder / METRICS)
-    refuse(folder / METRICS, _disagreements(note, epochs))
+    refuse(folder, _disagreements(note, epochs))
     return Training(
         note.method, note.seed, note.parameters, note.samples, note.diverged, note.on_windows.loss, note.chosen_by,
         note.settings.epoch_samples or note.samples, epochs,
@@ -168,18 +168,21 @@ def read_training_note(folder: Path) -> TrainingNote:
 def _disagreements(note: TrainingNote, epochs: Sequence[Epoch]) -> Iterator[str]:
     """Yield where the epochs are not what the note says: how many, and which one is kept."""
     count = note.settings.epochs
-    if not note.diverged and len(epochs) != count:
-        yield not_accepted("epochs", len(epochs), [f"{count}, as {RUN} says of a training that did not diverge"])
-    if len(epochs) > count:
-        yield not_accepted("epochs", len(epochs), [f"at most {count}, as {RUN} says"])
+    if (not note.diverged and len(epochs) != count) or len(epochs) > count:
+        yield _apart("epochs", len(epochs), count)
     kept = min(epochs, key=attrgetter(note.chosen_by), default=None)
     noted = note.best.epoch if note.best else None
     if noted != (kept.epoch if kept else None):
-        yield not_accepted(f"epoch of the smallest {note.chosen_by}", kept and kept.epoch, [f"{noted}, as {RUN} says"])
+        yield _apart(f"epoch of the smallest {note.chosen_by}", kept and kept.epoch, noted)
     for name in ("validation_loss", "validation_rmse") if note.best and kept and noted == kept.epoch else ():
         said, found = getattr(note.best, name), getattr(kept, name)
         if said is not None and not isclose(said, found, rel_tol=DIGITS):
-            yield not_accepted(f"{name} of epoch {noted}", found, [f"{said:.6g}, as {RUN} says"])
+            yield _apart(f"{name} of epoch {noted}", found, said)
+
+
+def _apart(what: str, found: object, said: object) -> str:
+    """Return the message that the two files of a training differ; which of them is wrong nobody can tell."""
+    return f"{what}: {found} in {METRICS} and {said} in {RUN} are not accepted; accepted: the same in both"
 
 
 def _calibration_faults(noted: NotedCalibration) -> Iterator[str]:

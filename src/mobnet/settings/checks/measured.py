@@ -120,6 +120,8 @@ def _sigma_problems(results: Results) -> Iterator[Problem]:
         for name in (title, base):
             if name not in names:
                 yield (*ROOT, "sigma", "against", title), not_accepted("test of sigma", name, names)
+        if title == base:
+            yield (*ROOT, "sigma", "against", title), misfit(base, "another test of sigma than itself")
     learned = [name for name, method in settings.all_methods.items() if method.limbs]
     for title, test in sigma.tests.items():
         for k, method in enumerate(test.methods):

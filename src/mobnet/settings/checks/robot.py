@@ -179,7 +179,7 @@ def _leg_problems(table: RobotTable, joints: tuple[str, ...]) -> Iterator[Proble
     for side in table.feet:
         for joint, letter in zip(table.groups[table.feet[side].limb], LEG_AXES, strict=False):
             wanted = [float(letter == each) for each in "xyz"]
-            if dist(axes[joint], wanted) > LENGTH_TOLERANCE_M:
+            if joint in axes and dist(axes[joint], wanted) > LENGTH_TOLERANCE_M:
                 index = [row.id for row in table.joints].index(joint)
                 yield ("joints", index, "axis"), misfit(list(axes[joint]), f"{wanted} of a leg that walks")
     if dist(leg.hip_pos, steps[0]) > LENGTH_TOLERANCE_M:
