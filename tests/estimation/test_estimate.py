@@ -16,11 +16,11 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
 from mobnet.core.store import read_array, write_array
 from mobnet.estimation import estimate as estimate_module
-from mobnet.estimation.estimate import Observed, estimate, rate_of, read_observed, run_segments, std_scales, table_of
+from mobnet.estimation.estimate import Observed, estimate, rate_of, read_observed, run_segments, table_of
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.observe import observe
 from mobnet.estimation.recipe import Recipe
-from mobnet.learning.deployed.weights import NOTE, STD_SCALE, Z_SCORES
+from mobnet.learning.deployed.weights import NOTE, STD_SCALE, Z_SCORES, std_scales
 from mobnet.settings.settings import Settings
 
 Write = Callable[[Path, Recording], tuple[Path, Path]]
@@ -136,6 +136,6 @@ def test_factors_are_told_joint_by_joint_and_are_one_where_none_are_stored(tmp_p
         }
         note["network"] = {"cell": "GRU", "hidden": 1}
         save_file(tensors | more, tmp_path / limb / WEIGHTS, {NOTE: json.dumps(note)})
-    told = std_scales({limb: tmp_path / limb for limb in ("LA", "RA")})
+    told = std_scales(tmp_path / limb / WEIGHTS for limb in ("LA", "RA"))
     assert told == {"LA1": 1.0, "LA2": 1.0, "RA1": 0.5, "RA2": 2.0}
     assert std_scales({}) == {}

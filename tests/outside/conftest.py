@@ -18,6 +18,8 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.observe import observe
+from mobnet.plan.runs import Files
+from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
 RATE_HZ = 1000.0
@@ -149,3 +151,15 @@ def scores(tmp_path: Path) -> Path:
     lines = [",".join(map(str, vars(row).values())) for row in rows]
     (tmp_path / "walk.csv").write_text("\n".join([",".join(vars(rows[0])), *lines, ""]))
     return tmp_path / "walk.csv"
+
+
+@pytest.fixture(scope="module")
+def planned() -> Files:
+    """The files of the smoke scale below a folder that each test replaces."""
+    return Files(load_settings(overrides={"scale": "smoke"}), Path("results/smoke"))
+
+
+@pytest.fixture
+def files(planned: Files, tmp_path: Path) -> Files:
+    """The files of the smoke scale below a folder of its own."""
+    return Files(planned.settings, tmp_path)

@@ -1,17 +1,17 @@
 """A file of results that is not the one of its place is refused before a run, and by a check."""
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from made_notes import training_note
+from made_places import LEVEL, SCENARIO, Change, note_of, written
 from safetensors.numpy import save_file
 
 from mobnet.agreement import check_agreement
-from mobnet.core.columns import Score, recording_columns, torque_columns
+from mobnet.core.columns import Score, torque_columns
 from mobnet.core.errors import DataError
 from mobnet.core.store import file_of, read_array, write_array
 from mobnet.estimation.kinds.friction import Options, fitted_joints
@@ -20,22 +20,7 @@ from mobnet.evaluation.number.files import write_csv
 from mobnet.learning.deployed.weights import NOTE, shapes
 from mobnet.learning.features import limb_inputs
 from mobnet.plan.runs import Files
-from mobnet.settings.load import load_settings
-
-SCENARIO, LEVEL = "walk_test", "all_uncertainty"
-Change = Callable[[dict[str, Any]], Any]
-
-
-@pytest.fixture(scope="module")
-def planned() -> Files:
-    """The files of the smoke scale below a folder that each test replaces."""
-    return Files(load_settings(overrides={"scale": "smoke"}), Path("results/smoke"))
-
-
-@pytest.fixture
-def files(planned: Files, tmp_path: Path) -> Files:
-    """The files of the smoke scale below a folder of its own."""
-    return Files(planned.settings, tmp_path)
+from mobnet.settings.checks.results import Results
 
 
 def refused(path: Path, files: Files) -> str:
@@ -49,25 +34,6 @@ def refused(path: Path, files: Files) -> str:
 def put(key: str, value: Any) -> Change:
     """Return a change of a note that sets the value of a key."""
     return lambda note: note.update({key: value})
-
-
-def note_of(files: Files, kind: str, **more: Any) -> tuple[Path, dict[str, Any]]:
-    """Return the place of the note of a walk's array, and a sound note."""
-    seed, layout = files.test_seeds[0], files.settings.layout
-    names = {"recordings": ["q.LL1"], "residuals": ["r.LL1"]}.get(kind)
-    if names is None:
-        names = [f"{signal}.{joint}" for signal in ("tau_ext", "std") for joint in layout.names]
-    columns = [{"name": name, "unit": "-", "frame": "-"} for name in names]
-    note = {"rows": 10000, "segments": [[0, 10000]], "rate_hz": 1000.0, "scenario": SCENARIO, "level": LEVEL}
-    note |= {"seed": seed, "falls": 0, "columns": columns, **more}
-    return files.array(kind, SCENARIO, LEVEL, seed).with_suffix(".json"), note
-
-
-def written(path: Path, note: object) -> Path:
-    """Write a note."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(note))
-    return path
 
 
 ARRAYS: dict[str, tuple[str, Change, str]] = {
@@ -84,11 +50,17 @@ ARRAYS: dict[str, tuple[str, Change, str]] = {
         "rows: '12000 rows, 10000 in segments' is not",
     ),
     "segments": ("recordings", put("segments", [[0, 100]]), "rows: '10000 rows, 100 in segments' is not"),
+    "collisions": ("recordings", put("clearance_min_m", -0.03), "self_collisions: 0 is not accepted; accepted: those"),
+    "clearance": ("recordings", put("clearance_min_m", 60.0), "clearance_min_m: 60.0 is not accepted; accepted: less"),
     "kind": ("recordings", put("columns", [{"name": "r.LL1", "unit": "-", "frame": "-"}]), "columns: ['r'] is not"),
     "columns": ("estimates/MOB-Net/n0", lambda note: note["columns"].pop(), "columns: 'std.RA8' is missing"),
     "mass": ("residuals", put("nominal_mass_ratio", 1.0), "nominal_mass_ratio: 1.0 is not"),
     "method": ("estimates/MOB-Net/n0", put("method", "FTS-e2e"), "method: 'FTS-e2e' is not accepted; accepted: 'MOB-N"),
-    "network": ("estimates/MOB-Net/n0", put("networks", {"LL": "MOB-Net-RL-s0"}), "networks: {'LL': 'MOB-Net-RL-s0'}"),
+    "network": (
+        "estimates/MOB-Net/n0",
+        put("networks", {"LL": "MOB-Net-RL-s0"}),
+        "networks.LL: 'MOB-Net-RL-s0' is not",
+    ),
 }
 
 
@@ -103,6 +75,21 @@ def test_the_note_of_another_array_is_refused(name: str, files: Files) -> None:
     path, note = note_of(files, kind, **more)
     check_agreement([written(path, note)], files)
     change(note)
+    assert says in refused(written(path, note), files)
+
+
+@pytest.mark.parametrize(
+    ("folder", "says"),
+    [
+        ("MOB-Nett/n0", "folder of the method: 'MOB-Nett' is not accepted; accepted: MOB-Net"),
+        ("MOB-Net/n7", "folder of the seed of MOB-Net: 'n7' is not accepted; accepted: n0"),
+        ("MOB-Net-gray/n0", "folder of the test of MOB-Net-gray: 'walk_test/ideal' is not accepted"),
+    ],
+)
+def test_an_estimate_that_no_job_makes_is_refused(folder: str, says: str, files: Files) -> None:
+    path, note = note_of(files, f"estimates/{folder}")
+    if "gray" in folder:
+        path = path.parents[1] / "ideal" / path.name
     assert says in refused(written(path, note), files)
 
 
@@ -128,16 +115,26 @@ def test_factors_that_are_not_those_of_the_networks_are_refused(files: Files) ->
         assert "std_scale: " in refused(written(path, note | {"std_scale": wrong}), files)
 
 
-def weights(files: Files, method: str, limb: str, change: Change = lambda note: None) -> Path:
-    """Write weights of a method's network of zeros and ones."""
+def weights(files: Files, method: str, limb: str, change: Change = lambda note: None, **values: float) -> Path:
+    """Write weights of a method's network, all ones or the value that is given for a tensor."""
     training, layout = files.settings.training(method, limb), files.settings.layout
     inputs = limb_inputs(layout, training.network).names
     joints = [joint for group in training.network.joints for joint in layout.limb(group)]
     row = training.network.model_dump(mode="json", exclude_defaults=True)
     name = f"{method}-{limb}-s0"
-    note = {"name": name, "limb": limb, "joints": joints, "inputs": list(inputs), "std_min": 1e-6, "network": row}
+    note = {
+        "name": name,
+        "limb": limb,
+        "joints": joints,
+        "inputs": list(inputs),
+        "std_min": training.learning.std_min,
+        "network": row,
+    }
     change(note)
-    tensors = {k: np.ones(shape, np.float32) for k, shape in shapes(training.network, len(inputs), len(joints)).items()}
+    tensors = {
+        k: np.full(shape, values.get(k, 1.0), np.float32)
+        for k, shape in shapes(training.network, len(inputs), len(joints)).items()
+    }
     path = files.network(method, limb, 0) / "weights.safetensors"
     path.parent.mkdir(parents=True, exist_ok=True)
     save_file(tensors, path, {NOTE: json.dumps(note)})
@@ -147,7 +144,7 @@ def weights(files: Files, method: str, limb: str, change: Change = lambda note: 
 WEIGHTS: dict[str, tuple[str, Change, str]] = {
     "of another training": ("MOB-Net", put("name", "FTS-e2e-LL-s0"), "name: 'FTS-e2e-LL-s0' is not"),
     "other data": ("MOB-Net", lambda note: note["network"].update(data="walk_plain"), "network.data: 'walk_plain'"),
-    "inputs in another order": ("MOB-Net", lambda note: note["inputs"].reverse(), "inputs: ["),
+    "inputs in another order": ("MOB-Net", lambda note: note["inputs"].reverse(), "inputs.0: "),
     "no gain of its inputs": ("GRU-spectral", lambda note: note["network"].pop("input_gain"), "network.input_gain: 'n"),
 }
 
@@ -157,6 +154,18 @@ def test_weights_of_another_network_are_refused(name: str, files: Files) -> None
     method, change, says = WEIGHTS[name]
     check_agreement([weights(files, method, "LL")], files)
     assert says in refused(weights(files, method, "LL", change), files)
+
+
+TENSORS: dict[str, tuple[dict[str, Any], str]] = {
+    "cell": ({"cell.weight_hh_l0": 0.0}, "tensor 'cell.weight_hh_l0': every entry: 0.0 is not"),
+    "mean": ({"input.mean": 57.0}, "tensor 'input.mean': q.LL1: 57.0 is not accepted; accepted: -"),
+}
+
+
+@pytest.mark.parametrize("name", TENSORS)
+def test_weights_that_no_training_gives_are_refused(name: str, files: Files) -> None:
+    values, says = TENSORS[name]
+    assert says in refused(weights(files, "MOB-Net", "LL", **values), files)
 
 
 RUNS: dict[str, tuple[Change, str]] = {
@@ -206,6 +215,14 @@ FITS: dict[str, tuple[Change, str]] = {
     "load": (lambda note: note["joints"]["LL4"].update(load_per_nm=0.1), "joints.LL4: load: 0.1 is not accepted; acc"),
     "worse than nothing": (lambda n: n["joints"]["LL4"].update(left_rms_nm=9.0), "left_rms_nm: 9.0 is not"),
     "velocity": (lambda n: n["joints"]["LL4"].update(stribeck_rad_s=0.33), "stribeck_rad_s: 0.33 is not"),
+    "more load than there is": (
+        lambda note: note["joints"]["LL4"].update(load_per_nm=2.6),
+        "load_per_nm: 2.6 is not",
+    ),
+    "a term that no joint has": (
+        lambda note: [row.update(viscous_nms=0.0) for row in note["joints"].values()],
+        "joints: viscous: 0.0 is not accepted; accepted: above 0 for some joint",
+    ),
     "huge": (lambda note: note["joints"]["LL4"].update(viscous_nms=1e15), "viscous_nms: 1000000000000000.0 is not"),
 }
 
@@ -220,13 +237,14 @@ def test_a_fit_that_the_method_does_not_make_is_refused(name: str, files: Files)
 
 
 def scores_of(files: Files) -> list[Score]:
-    """Return the errors of every run of a test, on two joints of V and all of the left leg."""
-    layout = files.settings.layout
-    values = {joint: 1.0 + k for k, joint in enumerate((*layout.limb("V"), *layout.limb("LL")))}
+    """Return the errors of every run of a test, on all joints that it estimates."""
+    layout, results = files.settings.layout, Results(files.settings)
+    values = {joint: 1.0 + k for k, joint in enumerate(layout.names)}
+    held = {run.method: results.predicted(run.method) or layout.names for run in files.runs_of(SCENARIO)}
     return [
         Score(SCENARIO, run.level, run.method, run.network_seed, run.test_seed, limb, joint, "rmse", value, unit)
         for run in files.runs_of(SCENARIO)
-        for limb, joint, value, unit in limb_values(layout, values)
+        for limb, joint, value, unit in limb_values(layout, {joint: values[joint] for joint in held[run.method]})
     ]
 
 
@@ -241,6 +259,8 @@ SCORES: dict[str, tuple[int, dict[str, Any], str]] = {
     "metric": (0, {"metric": "rmse_push_0"}, "line 2: metric: 'rmse_push_0' is not"),
     "unit": (0, {"unit": "N m"}, "line 2: unit: 'N m' is not"),
     "unit of a share": (0, {"metric": "r_rmse"}, "line 2: unit: 'N' is not accepted; accepted: %"),
+    "correlation": (0, {"metric": "acf_10ms", "unit": "-", "value": 1.5}, "line 2: value of acf_10ms: 1.5 is not"),
+    "no push": (0, {"metric": "rmse_pushed"}, "metric rmse_pushed: test with a window around pushes: 'walk_test' is"),
     "share": (0, {"metric": "cover", "unit": "-", "value": 1.5}, "line 2: value of cover: 1.5 is not"),
     "average": (6, {"value": 99.0}, "metric rmse: avg: 99.0 is not accepted; accepted: 2, the mean"),
 }
@@ -266,121 +286,10 @@ def test_a_run_or_a_joint_without_an_error_is_refused(files: Files) -> None:
     assert f"rows: {{'level': '{LEVEL}', 'method': {method!r}" in refused(path, files)
     write_csv(path, names, [row for row in rows if row[6] != "LL3"])
     assert "limb LL, metric rmse: 'LL3' is missing" in refused(path, files)
-
-
-def ground(files: Files, change: Callable[[dict[str, Any]], Any] = lambda signals: None) -> Path:
-    """Write the columns of a walk in which the left foot carries the robot and then the right one."""
-    layout, weight = files.settings.layout, 940.0
-    left = np.repeat([1.0, 0.0], 5000)
-    signals = {
-        "q.base_x": np.linspace(0, 1, 10000), "v.base_x": np.full(10000, 0.1), "tau_ext.V3": np.full(10000, weight),
-        "tau_push.LL3": np.zeros(10000), "pushed": np.zeros(10000), "tau_random.LL3": np.zeros(10000),
-        "command.step_x": np.full(10000, 0.1),
-    }  # fmt: skip
-    for foot, carries in (("left_foot", left), ("right_foot", 1.0 - left)):
-        signals |= {
-            f"wrench_{foot}.force_z": weight * carries,
-            f"contact.{foot}": carries,
-            f"swing.{foot}": 1.0 - carries,
-        }
-    change(signals)
-    known = {name: column for group in recording_columns(layout).values() for name, *column in group}
-    columns = [(name, *known[name]) for name in signals]
-    path, note = note_of(files, "recordings")
-    meta = {key: note[key] for key in ("rate_hz", "scenario", "level", "seed", "falls")}
-    write_array(path.with_suffix(""), np.stack(list(signals.values()), axis=1), columns, meta)
-    return path.with_suffix(".parquet")
-
-
-def times(factor: float, *names: str) -> Callable[[dict[str, Any]], None]:
-    """Return a change of signals that multiplies some of them."""
-    return lambda signals: signals.update({name: factor * signals[name] for name in names})
-
-
-def flipped(flag: str) -> Callable[[dict[str, Any]], None]:
-    """Return a change of signals that turns the flags of the feet round."""
-    return lambda signals: signals.update({n: 1.0 - signals[n] for n in (f"{flag}.left_foot", f"{flag}.right_foot")})
-
-
-NUMBERS: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
-    "forces in kN": (
-        times(1e-3, "wrench_left_foot.force_z", "wrench_right_foot.force_z"),
-        "of both feet: mean: 0.94 is",
-    ),
-    "the ground pulls": (times(-1.0, "tau_ext.V3"), "columns tau_ext.V3: mean: -940.0 is not"),
-    "contact": (flipped("contact"), "column contact.left_foot: "),
-    "swing": (flipped("swing"), "column swing.left_foot: "),
-    "backwards": (times(-1.0, "q.base_x"), "column q.base_x: 'against v' is not"),
-    "a push": (lambda s: s["tau_push.LL3"].__iadd__(30.0), "column tau_push.LL3: largest number: 30.0 is not"),
-    "a random torque": (
-        lambda s: s["tau_random.LL3"].__iadd__(3.0),
-        "column tau_random.LL3: largest number: 3.0",
-    ),
-    "a command": (times(9.0, "command.step_x"), "column command.step_x, row 0: 0.89999"),
-}
-
-
-@pytest.mark.parametrize("name", NUMBERS)
-def test_numbers_that_no_walk_of_the_scenario_has_are_refused(name: str, files: Files) -> None:
-    change, says = NUMBERS[name]
-    check_agreement([ground(files)], files, numbers=True)
-    path = ground(files, change)
-    check_agreement([path], files)  # a run looks at notes alone
-    with pytest.raises(DataError) as found:
-        check_agreement([path], files, numbers=True)
-    assert says in str(found.value)
-
-
-Array = np.ndarray
-Twist = Callable[[Array, dict[str, Any]], Any]
-MOTION = "random_motion"
-
-
-def motion(files: Files, change: Twist = lambda array, note: None, names: slice = slice(None)) -> Path:
-    """Write a motion that stays in the posture."""
-    settings, layout = files.settings, files.settings.layout
-    posture = {joint: angle for limb, row in settings.robot.posture.items()
-               for joint, angle in zip(layout.limb(limb), row.angle_rad, strict=True)}  # fmt: skip
-    joints = [joint for joint in layout.actuated if joint in posture]
-    array = np.tile([posture[joint] for joint in joints], (501, 1))
-    note = {"motion": MOTION, "seed": 101, "rate_hz": 50.0, "part": 101, "variant": 0, "clearance_m": 0.07}
-    note |= {"hand_speed_mean_m_s": 0.3, "hand_speed_max_m_s": 0.9}
-    change(array, note)
-    stem = files.results / "motions" / MOTION / "s101"
-    columns = [(f"q_ref.{joint}", "rad", "joint") for joint in joints]
-    write_array(stem, array[:, names], columns[names], note)
-    return stem.with_suffix(".json")
-
-
-MOTIONS: dict[str, tuple[Twist, str]] = {
-    "motion": (lambda _, note: note.update(motion="other"), "motion: 'other' is not accepted; accepted: 'random_mo"),
-    "seed": (lambda _, note: note.update(seed=1001), "seed: 1001 is not accepted; accepted: 101"),
-    "rate": (lambda _, note: note.update(rate_hz=100.0), "rate_hz: 100.0 is not accepted; accepted: 50"),
-    "part": (lambda _, note: note.update(part="first"), "part: 'first' is not accepted"),
-    "variant": (lambda _, note: note.update(variant=7), "variant: 7 is not accepted; accepted: 0 to 3"),
-    "clearance": (lambda _, note: note.update(clearance_m=0.001), "clearance_m: 0.001 is not accepted; accepted: 0.0"),
-    "speeds": (lambda _, note: note.update(hand_speed_mean_m_s=9.0), "hand_speed_mean_m_s: 9.0 is not"),
-    "range": (lambda array, _: array.__setitem__((slice(9, None), 0), 5.0), "q_ref.W1"),
-    "a jump": (lambda array, _: array.__setitem__((9, 4), array[9, 4] + 0.9), "speed: 4"),
-    "beginning": (lambda array, _: array.__setitem__((slice(None), 4), array[0, 4] + 0.1), "row 0: "),
-}
-
-
-@pytest.mark.parametrize("name", MOTIONS)
-def test_a_motion_that_is_not_the_one_of_its_place_is_refused(name: str, files: Files) -> None:
-    change, says = MOTIONS[name]
-    check_agreement([motion(files)], files)
-    assert says in refused(motion(files, change), files)
-
-
-def test_a_motion_that_is_too_short_or_lacks_a_joint_is_refused(files: Files) -> None:
-    assert "columns: " in refused(motion(files, names=slice(0, 20)), files)
-    path = motion(files)
-    array, note = read_array(path.with_suffix(""))
-    meta = {key: note[key] for key in note if key not in ("rows", "segments", "columns", "footer")}
-    columns = [tuple(column.values()) for column in note["columns"]]
-    write_array(path.with_suffix(""), array[:100], columns, meta)
-    assert "rows: 100 is not accepted; accepted: 501" in refused(path, files)
+    write_csv(path, names, [row for row in rows if row[6] != "avg"])
+    assert "limb LL, metric rmse: 'avg' is missing; accepted: " in refused(path, files)
+    write_csv(path, names, [row for row in rows if row[5] != "RA"])
+    assert "'limb': 'RA', 'metric': 'rmse'} is missing; accepted: every limb" in refused(path, files)
 
 
 def test_the_array_of_another_recording_is_refused(files: Files, tmp_path: Path) -> None:

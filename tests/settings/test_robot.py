@@ -47,6 +47,7 @@ def load_broken(tmp_path: Path, source: Path, *breaks: Break) -> RobotTable:
         (lambda t: t["joints"][0].update(range=[1.0, -1.0]), "joints.0.range: .* is not .*: two numbers"),
         (lambda t: t["joints"].reverse(), "joints: joint 0, 'RA8', is not .*: 'LL1', by `order.actuated`"),
         (lambda t: t["joints"].pop(), "joints: joint 32, None, is not accepted; accepted: 'RA8'"),
+        (lambda t: t["joints"].pop(10), "joints: joint 10, 'RL6', is not accepted; accepted: 'RL5'"),
         (lambda t: t["groups"]["W"].append("W4"), "groups.W.3: joint: 'W4' is not accepted; accepted: "),
         (lambda t: t["groups"]["W"].append("LL1"), "groups: 'LL1' 2 times is not accepted; accepted: each name once"),
         (lambda t: t["networks"]["W"].update(Q=["tail"]), "networks.W.Q.0: limb: 'tail' is not accepted; accepted: LA"),

@@ -65,7 +65,10 @@ def _run_faults(owner: Sequence[str], scenario: str, level: str, files: Files) -
 
 
 def _recording_faults(note: Mapping[str, Any], scenario: str, level: str, seed: int, files: Files) -> Iterator[str]:
-    """Yield terrains that the scenario does not have, and samples that are missing where no robot fell."""
+    """Yield terrains and self-collisions that cannot be, and samples that are missing where no robot fell."""
+    collisions, nearest = note.get("self_collisions", 0), note.get("clearance_min_m", 0.0)
+    if (collisions > 0 and nearest > 0.0) or (collisions == 0 and nearest < 0.0):
+        yield not_accepted("self_collisions", collisions, [f"those of a clearance_min_m of {nearest}"])
     for terrain in note.get("terrains", ()):
         if terrain not in files.settings.scenarios[scenario].terrain:
             yield not_accepted("terrains", terrain, files.settings.scenarios[scenario].terrain)

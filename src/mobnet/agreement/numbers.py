@@ -36,7 +36,7 @@ Signals = Mapping[str, NDArray[Any]]
 def number_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[str]:
     """Yield what is wrong with the numbers of a recording, residual or estimate at its place."""
     if place[0] == "motions":
-        yield from knot_faults(path, place, files)
+        yield from (*_copy_faults(path, "motions"), *knot_faults(path, place, files))
     if len(place) != (6 if place[0] == "estimates" else 4):
         return
     kind, *owner, scenario, level, name = place
@@ -58,7 +58,7 @@ def number_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[
 
 
 def _copy_faults(path: Path, kind: str) -> Iterator[str]:
-    """Yield another recording or residual of the same scenario and level whose array is the same."""
+    """Yield another recording, residual or motion of the same scenario and level whose array is the same."""
     own = read_json(path.with_suffix(NOTE)).get("footer")
     for other in sorted(path.parent.glob(f"s*{NOTE}")) if own and kind != "estimates" else ():
         if other.stem != path.stem and read_json(other).get("footer") == own:

@@ -63,7 +63,7 @@ class ArrayNote(Note):
     seed: Index = 0
     falls: Index = 0
     terrains: list[Text] = []
-    clearance_min_m: float = 0.0
+    clearance_min_m: Annotated[float, Field(ge=-1, le=5)] = 0.0
     self_collisions: Index = 0
     provenance: dict[str, Text] = {}
     gain_hz: Positive = 1.0

@@ -34,7 +34,7 @@ def test_a_training_that_diverged_is_left_out_even_if_it_has_no_epoch(write_trai
 
 def test_a_training_without_epochs_that_did_not_diverge_is_an_error(write_training: Write) -> None:
     folder = write_training("GRU", epochs=0)
-    with pytest.raises(DataError, match=r"epochs: 0 is not accepted; accepted: 1, as run\.json says of a training"):
+    with pytest.raises(DataError, match=r"epochs: 0 in metrics\.csv and 1 in run\.json are not accepted"):
         read_training(folder)
 
 

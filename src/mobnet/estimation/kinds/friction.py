@@ -55,7 +55,7 @@ class JointNote(Note):
 
     model_config = ConfigDict(extra="forbid")
 
-    coulomb_nm: Annotated[NotNegative, Field(le=LARGEST)]
+    coulomb_nm: Annotated[NotNegative, Field(le=1000)]
     static_nm: Annotated[NotNegative, Field(le=LARGEST)]
     viscous_nms: Annotated[NotNegative, Field(le=LARGEST)]
     load_per_nm: Annotated[NotNegative, Field(le=1)]

@@ -186,7 +186,7 @@ def _apart(what: str, found: object, said: object) -> str:
 
 
 def _calibration_faults(noted: NotedCalibration) -> Iterator[str]:
-    """Yield lists that are not as long as there are joints or shares."""
+    """Yield lists that are not as long as there are joints or shares, and wide intervals that contain less."""
     joints, shares = len(noted.joints), len(noted.shares)
     fits = {"before": noted.before, "after": noted.after}
     lists: dict[str, Sequence[object]] = {"scale": noted.scale, "likelihood_scale": noted.likelihood_scale}
@@ -198,6 +198,10 @@ def _calibration_faults(noted: NotedCalibration) -> Iterator[str]:
     for when, fit in fits.items():
         if len(fit.coverage) != shares:
             yield not_accepted(f"calibration.{when}.coverage", fit.coverage, [f"{shares} rows, one for each share"])
+        for joint, contained in zip(noted.joints, zip(*fit.coverage, strict=False), strict=False):
+            if list(contained) != sorted(contained):
+                accepted = [f"shares of {joint} that grow with {noted.shares}"]
+                yield not_accepted(f"calibration.{when}.coverage", list(contained), accepted)
 
 
 def read_trainings(folders: Iterable[Path]) -> dict[str, list[Training]]:
