@@ -6,6 +6,7 @@ from string import Formatter
 from typing import get_args
 
 from mobnet.core.errors import misfit, not_accepted
+from mobnet.settings.checks.quoted import quoted_problems
 from mobnet.settings.checks.results import Results, metric_unit
 from mobnet.settings.claims import Bounds, Cell, Claim, MadeNumber, TrainingMetric
 from mobnet.settings.reading import Place
@@ -29,7 +30,7 @@ def claim_problems(results: Results) -> Iterator[Problem]:
         for key, number in claim.numbers.items():
             for place, text in _made_problems(results, number):
                 yield ("claims", name, "numbers", key, *place), text
-        for check in (_unit_problems, _statement_problems, _joint_problems):
+        for check in (_unit_problems, _statement_problems, _joint_problems, quoted_problems):
             for place, text in check(results, claim):
                 yield ("claims", name, *place), text
         for place, text in (*_bound_problems(claim), *_cause_problems(claim)):

@@ -160,3 +160,7 @@ def _network_problems(settings: Settings) -> Iterator[Problem]:
         if state != width or count != row.parameters:
             place = ("published", "table_01", "rows", limb, "parameters")
             yield place, misfit(row.parameters, f"{count}, those of {row.architecture}")
+    known = {row.parameters for row in settings.published.table_01.rows.values()}
+    kinds = settings.published.kinds.parameters
+    if "GRU" in kinds and kinds["GRU"] not in known:
+        yield ("published", "kinds", "parameters", "GRU"), not_accepted("parameters of Table 1", kinds["GRU"], known)
