@@ -261,14 +261,13 @@ def _disagreements(file: pq.ParquetFile, stem: Path, note: Mapping[str, Any], na
         named = f" (columns of one alone: {', '.join(apart[:3])})" if apart else ""
         yield f"shape {shape}{named} is not accepted; accepted: {noted_shape}, as {stem.name}{NOTE} says"
         return
-    others = [
-        (name, column["name"]) for name, column in zip(held, note["columns"], strict=True) if name != column["name"]
-    ]
-    if others:
-        (name, said), count = others[0], len(others)
-        yield f"column {name!r}, but {stem.name}{NOTE} says {said!r}" + (f", and {count - 1} more" if count > 1 else "")
+    described = {column["name"]: column for column in note["columns"]}
+    if others := set(held) - described.keys():
+        known = [f"those that {stem.name}{NOTE} has", *described.keys() - set(held)]
+        yield from (not_accepted("column", name, known) for name in sorted(others))
         return
-    for found, column in zip(schema, note["columns"], strict=True):
+    for found in schema:
+        column = described[found.name]
         if found.type not in FLOATS:
             yield not_accepted(f"column {found.name!r}: type", str(found.type), map(str, FLOATS))
         for key in ("unit", "frame"):

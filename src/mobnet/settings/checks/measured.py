@@ -57,6 +57,9 @@ def _push_problems(results: Results) -> Iterator[Problem]:
     for place, scenario in shown:
         if scenario not in pushed:
             yield (*ROOT, *place), not_accepted("test with pushes", scenario, pushed)
+    quiet, against = [name for name in settings.tests if name not in pushed], evaluation.figure_10.against.scenario
+    if against not in quiet:
+        yield (*ROOT, "figure_10", "against", "scenario"), not_accepted("test without pushes", against, quiet)
     for test in evaluation.drift.tests.values():
         longest = max(
             (settings.pushes[name].duration_s[1] for name in settings.scenarios[test.scenario].pushes), default=0.0
@@ -80,6 +83,10 @@ def _learned_problems(results: Results) -> Iterator[Problem]:
     for place, method in shown:
         if method not in learned:
             yield (*ROOT, *place), not_accepted("method with networks", method, learned)
+    tick_ms = MS / settings.rates.data_hz
+    if evaluation.latency.tick_ms != tick_ms:
+        text = misfit(evaluation.latency.tick_ms, f"{tick_ms:g}, between two samples")
+        yield (*ROOT, "latency", "tick_ms"), text
     joints = results.layout.limbs(settings.robot.networks[settings.trials.limb].joints)
     data = evaluation.learning_curve.data
     if not re.fullmatch(r"docs/trials/[a-z0-9_]+\.csv", data):
@@ -96,6 +103,8 @@ def _line_problems(results: Results) -> Iterator[Problem]:
     settings, bode = results.settings, results.settings.evaluation.bode
     pushes = [settings.pushes[name] for name in settings.scenarios[bode.scenario].pushes]
     lines = {push.joint: push.sines.frequency_hz for push in pushes if push.joint and push.sines}
+    if len(lines) < len(pushes):
+        yield (*ROOT, "bode", "scenario"), misfit(bode.scenario, "a test whose pushes are sines, each on its own joint")
     if not set(lines) & set(results.joints(bode.limb)):
         yield (*ROOT, "bode", "scenario"), misfit(bode.scenario, f"a test with sines on joints of {bode.limb}")
     for joint, frequencies in lines.items():
