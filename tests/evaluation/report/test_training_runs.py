@@ -24,7 +24,7 @@ def test_numbers_of_the_best_epoch_come_from_the_metrics(tmp_path: Path, write_r
 
 def test_another_best_epoch_in_the_note_is_refused(tmp_path: Path, write_run: Write) -> None:
     folder = write_run(tmp_path, NAME, [ONE], best={"epoch": 99, "validation_loss": -99.0})
-    with pytest.raises(DataError, match=r"metrics\.csv: epoch of the smallest .*: 1 is not accepted; accepted: 99, as"):
+    with pytest.raises(DataError, match=r"epoch of the smallest .*: 1 in metrics\.csv and 99 in run\.json are not"):
         read_training_run(folder, tmp_path)
 
 
