@@ -14,6 +14,7 @@ from mobnet.core.notes import note_differences, read_array_note
 from mobnet.core.store import ARRAY, NOTE, file_of
 from mobnet.learning.deployed.weights import std_scales
 from mobnet.plan.runs import Files
+from mobnet.settings.checks.results import Results
 
 NAMES = re.compile(r"s(\d+)\.(parquet|json)")
 POSITIONS = "q"
@@ -85,8 +86,7 @@ def _owner_faults(note: Mapping[str, Any], method: str, seed: int, files: Files)
     source = files.settings.network_source_of(method)
     folders = {limb: files.network(source, limb, seed) for limb in files.settings.method(source).limbs}
     yield from differences(note, {"method": method, "networks": {limb: path.name for limb, path in folders.items()}})
-    layout, networks = files.settings.layout, files.settings.robot.networks
-    joints = layout.limbs(group for limb in folders for group in networks[limb].joints) or layout.names
+    joints = Results(files.settings).estimated(method)
     expected = {*named(EXTERNAL, joints), *(named(STD, joints) if folders else ())}
     held = {column["name"] for column in note["columns"]}
     for name in sorted(expected ^ held):

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mobnet.agreement.said import signals_of
+from mobnet.agreement.said import Signals, difference, signals_of
 from mobnet.agreement.walks import UP, WEIGHT, rms
 from mobnet.core.columns import EXTERNAL, EXTERNAL_LP, RESIDUAL, named
 from mobnet.core.errors import not_accepted
@@ -16,7 +16,6 @@ from mobnet.estimation.low_pass import low_pass
 from mobnet.plan.runs import Files
 from mobnet.settings.methods import Method
 
-SAME = 1e-3  # relative to the largest number of a column
 ZERO, MOB = "zero", "residual"  # kinds of methods: one estimates nothing; one, without networks, the residual
 
 
@@ -32,8 +31,7 @@ def residual_faults(stem: Path, recording: Path, files: Files) -> Iterator[str]:
         exact, found = truth[f"{EXTERNAL}.{joint}"], signals[f"{EXTERNAL_LP}.{joint}"]
         for start, end in segments:
             wanted = low_pass(exact[start:end, None], observer.gain_hz, rate)[:, 0]
-            apart, size = float(np.abs(wanted - found[start:end]).max()), float(np.abs(wanted).max())
-            if apart > SAME * max(size, 1.0):
+            if apart := difference(found[start:end], wanted):
                 accepted = [f"{EXTERNAL}.{joint} of its recording behind the low-pass of (11)"]
                 yield not_accepted(f"column {EXTERNAL_LP}.{joint}: difference", apart, accepted)
                 break
@@ -46,7 +44,7 @@ def residual_faults(stem: Path, recording: Path, files: Files) -> Iterator[str]:
     yield from _side_faults(signals, layout)
 
 
-def _side_faults(signals: dict[str, np.ndarray], layout: JointLayout) -> Iterator[str]:
+def _side_faults(signals: Signals, layout: JointLayout) -> Iterator[str]:
     """Yield residuals of legs that are nearer to the external torque of the other leg."""
     if len(layout.legs) != 2:
         return
@@ -76,7 +74,6 @@ def estimate_faults(stem: Path, residual: Path, method: Method) -> Iterator[str]
         return
     joints = [name.partition(".")[2] for name in found]
     for joint, wanted in zip(joints, signals_of(residual, named(RESIDUAL, joints)).values(), strict=True):
-        apart = float(np.abs(found[f"{EXTERNAL}.{joint}"] - wanted).max())
-        if apart > SAME * max(float(np.abs(wanted).max()), 1.0):
+        if apart := difference(found[f"{EXTERNAL}.{joint}"], wanted):
             accepted = [f"{RESIDUAL}.{joint} of its residual, which this method estimates"]
             yield not_accepted(f"column {EXTERNAL}.{joint}: difference", apart, accepted)

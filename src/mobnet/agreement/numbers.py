@@ -4,7 +4,7 @@ A recording is a walk (`mobnet.agreement.walks`) of its scenario: nothing pushes
 residual or an estimate stands beside what it was made from (`mobnet.agreement.derived`).
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from mobnet.agreement.arrays import NAMES
 from mobnet.agreement.derived import estimate_faults, residual_faults
 from mobnet.agreement.motions import knot_faults
-from mobnet.agreement.said import signals_of
+from mobnet.agreement.said import SAME, Signals, signals_of
 from mobnet.agreement.walks import walk_faults, walk_names
 from mobnet.core.columns import COMMAND, PUSH_TORQUE, PUSHED, RANDOM, named
 from mobnet.core.errors import not_accepted
@@ -24,13 +24,11 @@ from mobnet.core.store import ARRAY, NOTE, file_of
 from mobnet.plan.runs import Files
 from mobnet.settings.data import FixedCommand, Push
 
-SAME = 1e-3  # relative to the largest number of a column
 IDLE = 0.1  # share of the samples marked as pushed in which nothing may push
 KEYS = {  # column of a step's command -> key of the configuration
     "step_x": "step_x_m", "step_y": "step_y_m", "turn": "turn_deg", "duration": "duration_s",
     "foot_height": "foot_height_m",
 }  # fmt: skip
-Signals = Mapping[str, NDArray[Any]]
 
 
 def number_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[str]:

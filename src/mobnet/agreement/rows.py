@@ -70,14 +70,15 @@ def score_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[s
             if str(getattr(row, name)) not in accepted:
                 yield not_accepted(f"line {line}: {name}", getattr(row, name), accepted)
         yield from (f"line {line}: {fault}" for fault in _row_faults(row, files))
+    results = Results(files.settings)
     for metric in sorted({row.metric for row in rows}):
-        if text := Results(files.settings).not_scored(scenario, metric):
+        if text := results.not_scored(scenario, metric):
             yield f"metric {metric}: {text}"
     limbs: dict[tuple[Any, ...], set[str]] = {key: set() for key in runs}
     for row in rows:
         limbs.setdefault(run_of(row), set()).update([row.limb] if row.metric == ERROR else ())
     for key, run in runs.items():
-        for limb in sorted(_limbs_of(run, files) - limbs[key]):
+        for limb in sorted(_limbs_of(run, results) - limbs[key]):
             told = {**dict(zip(RUN_FIELDS, key, strict=True)), "limb": limb, "metric": ERROR}
             yield f"rows: {told} is missing; accepted: every limb that a run estimates"
     yield from _average_faults(rows, files)
@@ -88,10 +89,9 @@ def run_of(row: Score) -> tuple[Any, ...]:
     return tuple(getattr(row, name) for name in RUN_FIELDS)
 
 
-def _limbs_of(run: Run, files: Files) -> set[str]:
+def _limbs_of(run: Run, results: Results) -> set[str]:
     """Return the limbs that have errors in a run, because the run estimates a joint of theirs."""
-    results, source = Results(files.settings), files.settings.network_source_of(run.method)
-    joints = results.predicted(source) or set(results.layout.names)
+    joints = results.estimated(run.method)
     found = {limb for limb, members in results.layout.groups.items() if joints.intersection(members)}
     return found.difference(run.repeated)
 

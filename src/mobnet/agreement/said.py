@@ -12,6 +12,8 @@ from mobnet.core.notes import read_array_note
 from mobnet.core.store import NOTE, file_of, read_array
 
 NOTHING = "nothing"  # in place of a value that is not there
+SAME = 1e-3  # relative to the largest number of a column
+Signals = Mapping[str, NDArray[Any]]  # columns of an array by name, each (T,)
 
 
 def signals_of(stem: Path, names: Sequence[str]) -> dict[str, NDArray[Any]]:
@@ -20,6 +22,12 @@ def signals_of(stem: Path, names: Sequence[str]) -> dict[str, NDArray[Any]]:
     wanted = [name for name in names if name in held]
     array = read_array(stem, wanted)[0].astype(np.float64)
     return dict(zip(wanted, array.T, strict=True))
+
+
+def difference(found: NDArray[Any], wanted: NDArray[Any]) -> float:
+    """Return the largest difference of a column (T,) from another one; 0 where it is one of rounding."""
+    apart, size = float(np.abs(found - wanted).max()), float(np.abs(wanted).max())
+    return apart if apart > SAME * max(size, 1.0) else 0.0
 
 
 def differences(note: Mapping[str, Any], said: Mapping[str, object], prefix: str = "") -> Iterator[str]:

@@ -4,13 +4,14 @@ The ground carries the robot's weight, so that forces have the right sign and un
 the base moves as its velocity says; and motors give about the torque that they are told.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from itertools import product
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.agreement.said import Signals
 from mobnet.core.columns import CONTACT, DESIRED, EXTERNAL, FEET, MOTOR, SWING, named
 from mobnet.core.errors import not_accepted
 from mobnet.core.joints import JointLayout
@@ -28,7 +29,6 @@ LAG, LEAST_NM = 0.5, 1.0  # root mean square of what a motor's torque may differ
 REACH_M = 2.0  # more than any lever arm of a force on a foot
 LEAST = 0.01  # share of the samples of a state that is compared
 UP = "V3"
-Signals = Mapping[str, NDArray[Any]]
 
 
 def walk_names(layout: JointLayout) -> list[str]:

@@ -90,10 +90,10 @@ def clip(gradients: Sequence[Tensor], most: float) -> Tensor:
 def predictions(
     network: LimbNetwork, samples: Samples, plan: Plan, horizon: int
 ) -> Iterator[tuple[Tensor, Tensor, Tensor]]:
-    """Run a network that is not trained any further, its state carried as planned, rows (updates, lanes).
+    """Run a network in evaluation mode over the rows of a plan (updates, lanes), its state carried as planned.
 
     Yields:
-        Mean, standard deviation and target of each horizon, (h, B, n) each, z-scored.
+        Mean, standard deviation and target of each horizon: (steps, lanes, n) each, z-scored.
     """
     network.eval()
     state = network.fresh_state(plan.rows.shape[1], samples.inputs.device)

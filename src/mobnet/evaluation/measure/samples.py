@@ -36,8 +36,8 @@ def read_blocks(
 ) -> list[NDArray[np.float32]]:  # fmt: skip
     """Return every k-th sample of a network's inputs and, last, the gait's phase [-], block by block (n, n_in + 1).
 
-    Units are those of `LimbInputs`; the phase is that of the limb. Only samples with a foot, 0 left, 1 right, in the
-    air count where one is given, and only those around pushes, a block each, where pushes are.
+    Units are those of `LimbInputs`; the phase is that of the limb. With a foot, 0 left or 1 right, only samples are
+    taken in which it is in the air; with pushes, only samples around them, a block for each push.
     """
     blocks = []
     own = FEET.index(foot_of(layout, layout.limb(settings.limb)[0]))

@@ -109,9 +109,9 @@ class Training:
     """One trained network, with its parameters (column `Network Size` of Table 1).
 
     The samples are those learned from, without those held out; an epoch has `epoch_samples` of them. A training that
-    diverged was stopped as its loss grew; its epochs end there. The validation loss (22) on windows is that of the
-    epoch kept where the network runs through a window from a zero state for every sample; all other losses are of a
-    state that is carried on.
+    diverged was stopped as its loss grew; its epochs end there. `windows_loss` is the validation loss (22) of the epoch
+    kept if the network starts from a zero state a window before every sample; for all other losses its state is
+    carried from sample to sample.
     """
 
     method: str

@@ -62,7 +62,11 @@ def _found(name: str) -> bool:
 
 
 def copy_sources(sources: Mapping[str, Sequence[Path]], folder: Path) -> None:
-    """Copy files into folders below an empty one."""
+    """Copy files, which stand by the name of a subfolder, into subfolders of an empty folder.
+
+    Raises:
+        DataError: a file is missing.
+    """
     for name, paths in sources.items():
         (folder / name).mkdir(exist_ok=True)
         for path in paths:

@@ -42,11 +42,6 @@ def metrics_of(cell: Cell) -> tuple[str, ...]:
     return (cell.metric,) if isinstance(cell.metric, str) else cell.metric or ("rmse",)
 
 
-def _joints_of(cell: Cell) -> tuple[str, ...]:
-    """Return the joints and limbs that a cell names."""
-    return (cell.joint,) if isinstance(cell.joint, str) else cell.joint or ()
-
-
 def _is_training(cell: Cell) -> bool:
     """Return whether a cell is about trainings."""
     return metrics_of(cell)[0] in get_args(TrainingMetric)
@@ -95,7 +90,7 @@ def _score_problems(results: Results, cell: Cell) -> Iterator[Problem]:
     scenario, method = str(cell.scenario), str(cell.method)
     if text := results.not_run(scenario, str(cell.level), method):
         yield ("level" if text.startswith("level") else "method",), text
-    elif text := results.not_estimated(method, [one for name in _joints_of(cell) for one in results.joints(name)]):
+    elif text := results.not_estimated(method, results.joints_of_cell(cell)):
         yield ("method",), text
     for metric in metrics_of(cell):
         if text := results.not_scored(scenario, metric):
@@ -108,7 +103,7 @@ def _units(results: Results, cell: Cell) -> set[str]:
         return set()
     if _is_training(cell):
         return {"N m" if metrics_of(cell) == ("validation RMSE",) else "-"}
-    units = {results.layout.unit(joint) for name in _joints_of(cell) for joint in results.joints(name)}
+    units = {results.layout.unit(joint) for joint in results.joints_of_cell(cell)}
     return {metric_unit(metric, unit) for metric in metrics_of(cell) for unit in units}
 
 
@@ -131,7 +126,7 @@ def _statement_problems(results: Results, claim: Claim) -> Iterator[Problem]:
 def _joint_problems(results: Results, claim: Claim) -> Iterator[Problem]:
     """Yield joints of a claim that its cells do not have, and numbers of joints where there is none of all."""
     for index, cell in enumerate(claim.cells if claim.by_joint else ()):
-        held = [joint for name in _joints_of(cell) for joint in results.joints(name)]
+        held = results.joints_of_cell(cell)
         for joint in claim.by_joint:
             if joint not in held:
                 yield ("by_joint", joint), not_accepted(f"joint of cell {index + 1}", joint, held)

@@ -75,7 +75,7 @@ def _push_problems(results: Results) -> Iterator[Problem]:
 
 
 def _learned_problems(results: Results) -> Iterator[Problem]:
-    """Yield methods without networks where networks are timed or drawn, and a joint that the trials do not have."""
+    """Yield methods without networks where networks are timed or drawn, another tick, and trials that there are not."""
     settings, evaluation = results.settings, results.settings.evaluation
     learned = [name for name, method in settings.all_methods.items() if method.limbs]
     shown: list[tuple[Place, str]] = [(("latency", "method"), evaluation.latency.method)]

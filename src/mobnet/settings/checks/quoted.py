@@ -33,8 +33,7 @@ def quoted_problems(results: Results, claim: Claim) -> Iterator[Problem]:
 
 def _printed(results: Results, cell: Cell, joint: str | None) -> float | None:
     """Return the paper's number of a cell, or of one of its joints; None where no table prints it."""
-    names = [joint] if joint else [cell.joint] if isinstance(cell.joint, str) else [*(cell.joint or ())]
-    joints = [one for name in names for one in results.joints(name)]
+    joints = [joint] if joint else results.joints_of_cell(cell)
     for name, table in results.settings.evaluation.tables.items():
         if name in results.settings.published.tables:
             found = _in_table(results, name, table, cell, joints)

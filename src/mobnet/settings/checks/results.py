@@ -9,6 +9,7 @@ from mobnet.core.columns import CALIBRATION, COVERAGE, ERRORS, KINDS, LATENCY, M
 from mobnet.core.errors import not_accepted
 from mobnet.core.joints import JointLayout, right_of, with_image
 from mobnet.settings.checks.robot import joints_above
+from mobnet.settings.claims import Cell
 from mobnet.settings.evaluation import Mean
 from mobnet.settings.names import uses
 from mobnet.settings.settings import Settings, swept_name
@@ -64,6 +65,11 @@ class Results:
         names = (column,) if isinstance(column, str) else column.joints
         return [joint for name in names for joint in self.joints(name)]
 
+    def joints_of_cell(self, cell: Cell) -> list[str]:
+        """Return the joints behind a cell of a claim, which may name limbs; none where it names no joint."""
+        names = (cell.joint,) if isinstance(cell.joint, str) else cell.joint or ()
+        return [joint for name in names for joint in self.joints(name)]
+
     def column_names(self, columns: Sequence[str | Mean]) -> list[str]:
         """Return the names of a table's columns: a limb has one for each of its joints."""
         return [
@@ -104,6 +110,10 @@ class Results:
         """Return the joints that a method's networks predict."""
         networks, limbs = self.settings.robot.networks, self.settings.all_methods[method].limbs
         return set(self.layout.limbs(group for limb in limbs for group in networks[limb].joints))
+
+    def estimated(self, method: str) -> set[str]:
+        """Return the joints that a method estimates: those that its networks predict, or all where it has none."""
+        return self.predicted(self.settings.network_source_of(method)) or set(self.layout.names)
 
     def not_estimated(self, method: str, joints: Collection[str]) -> str:
         """Return what is wrong with a method where these joints are shown: networks predict their limbs alone."""
