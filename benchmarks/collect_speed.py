@@ -92,6 +92,7 @@ def _noted_steps(settings: WalkSettings) -> tuple[Simulator, Inputs]:
     before = (plant.qpos, plant.qvel, data.qacc_warmstart)  # what a step changes; the loop sets the others
     live = (*before, plant.ctrl, plant.qfrc_applied, plant.xfrc_applied.ravel())
     values: list[list[NDArray[np.float64]]] = [[] for _ in live]
+    end = plant.qpos.copy()
     unnoted = np.zeros((round(UNNOTED_S * settings.rates.data_hz), simulator.width), np.float32)
     for _ in range(round(COLLECTED_S / (UNNOTED_S + NOTED_S))):
         simulator.plant = plant
@@ -101,9 +102,10 @@ def _noted_steps(settings: WalkSettings) -> tuple[Simulator, Inputs]:
         for _ in range(round(NOTED_S * settings.rates.plant_hz)):
             states = [array.copy() for array in before]
             simulator.run(unnoted[:1])
+            end = plant.qpos.copy()
             for column, array in zip(values, [*states, *live[len(before) :]], strict=True):
                 column.append(array.copy())
-    inputs, end = Inputs(live, tuple(map(np.array, values))), plant.qpos.copy()
+    inputs = Inputs(live, tuple(map(np.array, values)))
     _replay(plant, *inputs)
     np.testing.assert_array_equal(plant.qpos, end)  # the replay repeats the walk to the bit
     return simulator, inputs

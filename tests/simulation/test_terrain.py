@@ -59,12 +59,12 @@ def test_checks_are_a_drawn_share_of_cells_raised_by_one_drawn_height(
 
 @pytest.mark.parametrize("name", TERRAINS)
 def test_terrain_repeats_wherever_a_foot_gets(draw: Callable[..., Terrain], name: str) -> None:
-    """A robot at the end of its period is put back by one: all within its reach must be the same there."""
+    """A robot beyond the edge is put back by a period: all within its reach must be the same there."""
     terrain = draw(name)
     _, heights = build(terrain)
     around = np.random.default_rng(0).uniform(-REACH_M, REACH_M, (300, 2))
     for end in ([1, 0], [0, -1], [-1, 1]):
-        before = around + terrain.period * np.array(end)
+        before = around + terrain.edge * np.array(end)
         for axis in np.flatnonzero(end):
             after = before - terrain.period * np.array(end) * (np.arange(2) == axis)
             np.testing.assert_allclose(heights(after), heights(before), atol=1e-9)
@@ -97,7 +97,7 @@ def test_no_side_is_vertical(draw: Callable[..., Terrain], name: str, steepest: 
 def test_slope_rises_by_three_degrees_both_ways_and_is_even_across(draw: Callable[..., Terrain], seed: int) -> None:
     terrain = draw("slope", seed)
     _, heights = build(terrain)
-    line = np.arange(0.0, terrain.period, 0.01)
+    line = np.arange(-terrain.period / 2, terrain.period / 2, 0.01)
     profiles = [heights(np.column_stack([line * (axis == k) for k in range(2)])) for axis in range(2)]
     along, across = sorted(profiles, key=np.ptp, reverse=True)
     angle = np.rad2deg(np.arctan(np.diff(along) / 0.01))

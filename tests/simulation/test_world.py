@@ -29,7 +29,7 @@ def test_options_are_those_the_truth_is_aligned_with(build: Build) -> None:
     option = build("checks").model.opt
     assert option.timestep == 0.0005
     assert option.integrator == mujoco.mjtIntegrator.mjINT_EULER
-    assert option.jacobian == mujoco.mjtJacobian.mjJAC_DENSE  # the truth reads dense contact rows
+    assert option.jacobian == mujoco.mjtJacobian.mjJAC_SPARSE  # the truth reads sparse contact rows
     assert option.noslip_iterations == 0
     np.testing.assert_array_equal(option.gravity, [0, 0, -9.81])
 

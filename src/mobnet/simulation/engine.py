@@ -46,6 +46,7 @@ class Plant(NamedTuple):
     friction: Friction  # numbers of (23)
     limits: Array  # motor limits (nu,) [N m]
     period: float  # length after which the terrain repeats [m]
+    edge: float  # distance from the origin in x or y beyond which the robot is put back by a period [m]
     fall_height: float  # height of the pelvis below which the robot has fallen [m]
     dt: float  # step [s]
     every: int  # steps in a sample
@@ -59,8 +60,8 @@ def make_plant(
     return Plant(
         native, data.qpos, data.qvel, data.ctrl, data.qfrc_applied, data.xfrc_applied, data.site_xpos, data.xipos,
         data.xmat, data.qfrc_smooth, data.qfrc_bias, data.qfrc_passive, data.qfrc_actuator, data.sensordata, friction,
-        np.array(limits, dtype=float), float(world.period), float(fall_height), float(world.model.opt.timestep),
-        int(every),
+        np.array(limits, dtype=float), float(world.period), float(world.terrain.edge), float(fall_height),
+        float(world.model.opt.timestep), int(every),
     )  # fmt: skip
 
 
@@ -157,34 +158,35 @@ def _add_contacts(plant: Plant, walker: Walker, tau_ext: Array, touch: Array) ->
     Only the contact rows: the constraint forces as a whole also hold friction loss and joint limits. Of a contact's
     three rows the first is its normal; normal forces [N] are added to touch (2,) of the left, right foot.
     """
-    nv, data = len(tau_ext), plant.native.data
+    data = plant.native.data
     rows = ints_at(data + plant.native.nefc)[0]
     if rows == 0:
         return
     kinds = ints_at(addresses_at(data + plant.native.efc_type)[0])
     forces = doubles_at(addresses_at(data + plant.native.efc_force)[0])
-    jacobian = doubles_at(addresses_at(data + plant.native.efc_jacobian)[0])
+    entries = ints_at(addresses_at(data + plant.native.row_entries)[0])
+    starts = ints_at(addresses_at(data + plant.native.row_start)[0])
+    columns = ints_at(addresses_at(data + plant.native.entry_column)[0])
+    values = doubles_at(addresses_at(data + plant.native.entry_value)[0])
     for r in range(rows - 1, -1, -1):  # contact rows come last
         if kinds[r] < FIRST_CONTACT_ROW:
             break
-        if forces[r] != 0.0:
-            for i in range(nv):
-                tau_ext[i] += jacobian[r * nv + i] * forces[r]
-            if (rows - r) % CONTACT_ROWS != 0:
-                continue
+        if forces[r] == 0.0:
+            continue
+        for i in range(starts[r], starts[r] + entries[r]):
+            tau_ext[columns[i]] += values[i] * forces[r]
+        if (rows - r) % CONTACT_ROWS == 0:
+            ankle = columns[starts[r] + entries[r] - 1] - 6  # the last joint that the contact loads
             for k in range(2):
-                first = r * nv + 6 + walker.first[k]
-                for i in range(first, first + LEG_JOINTS):
-                    if jacobian[i] != 0.0:
-                        touch[k] += forces[r]
-                        break
+                if walker.first[k] <= ankle < walker.first[k] + LEG_JOINTS:
+                    touch[k] += forces[r]
 
 
 @compiled
 def _wrap(plant: Plant, sensors: Sensors, s: State) -> None:
-    """Put a robot that walked a period of the terrain back, and all world positions of the controller with it."""
+    """Put a robot beyond the edge back by a period, and all world positions of the controller with it."""
     for i in range(2):
-        if abs(plant.qpos[i]) <= plant.period:
+        if abs(plant.qpos[i]) <= plant.edge:
             continue
         shift = -plant.period if plant.qpos[i] > 0.0 else plant.period
         plant.qpos[i] += shift

@@ -29,10 +29,13 @@ C_TYPES: dict[str, Any] = {
 READ = {  # fields of mjData that compiled code reads by address, in the order of Native, and their type
     "nefc": np.int32,
     "efc_type": np.int32,
+    "efc_J_rownnz": np.int32,
+    "efc_J_rowadr": np.int32,
+    "efc_J_colind": np.int32,
     "efc_J": np.float64,
     "efc_force": np.float64,
 }
-BALL = """<mujoco><option jacobian="dense" cone="pyramidal"/><worldbody>
+BALL = """<mujoco><option jacobian="sparse" cone="pyramidal"/><worldbody>
 <geom type="plane" size="1 1 1"/><body pos="0 0 0.09"><freejoint/><geom size="0.1"/></body>
 </worldbody></mujoco>"""  # four rows of a contact, so that each field holds another number
 
@@ -45,7 +48,10 @@ class Native(NamedTuple):
     data: int  # of the mjData
     nefc: int  # offset in mjData of the number of constraint rows
     efc_type: int  # offset of the pointer to their types (nefc,) int32
-    efc_jacobian: int  # offset of the pointer to their dense Jacobian (nefc, nv)
+    row_entries: int  # offset of the pointer to the number of entries of each row of their Jacobian (nefc,) int32
+    row_start: int  # offset of the pointer to the place of each row's first entry (nefc,) int32
+    entry_column: int  # offset of the pointer to the entries' columns (nJ,) int32
+    entry_value: int  # offset of the pointer to the entries themselves (nJ,)
     efc_force: int  # offset of the pointer to their forces (nefc,)
 
 

@@ -18,7 +18,8 @@ TERRAIN_GROUP = 0  # geom group of the ground and what stands on it
 GROUND_RGBA = (0.55, 0.57, 0.60, 1.0)
 WOOD_RGBA = (0.75, 0.63, 0.45, 1.0)
 FLAT_PERIOD_M = 1.0  # flat ground repeats at any length
-REACH_M = 0.9  # no foot is ever further from the pelvis; the pelvis stays within a period of the origin
+REACH_M = 0.9  # no foot is ever further from the pelvis
+EDGE_PERIODS = 0.6  # more than one half, so that a robot that was put back does not come back at its next step
 DRAWS_MAX = 1000  # of one plate's place
 ROUND_OFF_M = 1e-9
 
@@ -38,6 +39,11 @@ class Terrain(NamedTuple):
 
     period: float  # length after which the terrain repeats in x and y [m]
     pieces: tuple[Piece, ...] = ()  # what stands on one period
+
+    @property
+    def edge(self) -> float:
+        """Return the distance from the origin in x or y beyond which the robot is put back by a period [m]."""
+        return EDGE_PERIODS * self.period
 
 
 def draw_terrain(row: Checks | Flat | Plates | Slope, rng: np.random.Generator) -> Terrain:
@@ -116,7 +122,7 @@ def _turn(yaw: float) -> Array:
 
 def add_terrain(spec: mujoco.MjSpec, terrain: Terrain, half_width: float | None = None) -> None:
     """Add the ground z = 0 and all that stands on it within a half width [m]; without one, as far as a robot gets."""
-    half_width = terrain.period + REACH_M if half_width is None else half_width
+    half_width = terrain.edge + REACH_M if half_width is None else half_width
     touch = {"contype": TERRAIN_TYPE, "conaffinity": SOLE_TYPE, "group": TERRAIN_GROUP}
     spec.worldbody.add_geom(name="ground", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], rgba=GROUND_RGBA, **touch)
     for number, piece in enumerate(terrain.pieces):
