@@ -186,7 +186,6 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("evaluation.bode.scenario", "foot_hold", "a test with sines on joints of LL"),
     ("pushes.sines_ll4.joint", "LL3", "sines, each on its own joint"),
     ("evaluation.figure_10.against.scenario", "knee_swing", "test without pushes"),
-    ("evaluation.latency.tick_ms", 0.001, "1, between two samples"),
     ("evaluation.drift.bin_s", 8.0, "at most longest_s"),
     ("evaluation.sigma.lags_ms", [10, 5000], "at most longest_s"),
     ("evaluation.sigma.against", {"random motion": "dancing"}, "test of sigma"),

@@ -71,7 +71,7 @@ class Cell(Section):
     joint: LimbOrJointName | Several[LimbOrJointName] | None = None
     metric: TrainingMetric | Metric | Several[Metric] | None = None
     table: LowerName | None = None
-    where: dict[LowerName, str] = {}
+    where: dict[LowerName, Text] = {}
     column: LowerName | None = None
 
     @model_validator(mode="before")

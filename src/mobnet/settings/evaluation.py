@@ -349,10 +349,9 @@ class Uncertainty(Section):
 
 
 class Latency(Section):
-    """The table of latency: stretches of ticks of a method's networks, and the tick of the robot."""
+    """The table of latency: stretches of ticks of a method's networks."""
 
     method: base.MethodName
-    tick_ms: base.Positive = Field(le=1000)
     stretches: base.Whole = Field(ge=2, le=1000)
     ticks: base.Whole = Field(ge=10, le=100_000)
 

@@ -10,17 +10,20 @@ from mobnet.core.joints import JointLayout
 from mobnet.evaluation.tables import latency
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.plant import Rates
 
 
-@pytest.mark.parametrize(("tick_ms", "met"), [(1000.0, 1.0), (1e-6, 0.0)])
+@pytest.mark.parametrize(("data_hz", "met"), [(1, 1.0), (10**9, 0.0)])
 def test_the_share_of_stretches_within_a_tick_has_an_interval(
-    tick_ms: float, met: float, make_table: Callable[..., Path], layout: JointLayout, evaluation: Evaluation,
+    data_hz: int, met: float, make_table: Callable[..., Path], layout: JointLayout, evaluation: Evaluation,
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path,
 ) -> None:  # fmt: skip
     monkeypatch.setattr(latency, "load_limb_networks", lambda networks, _: LimbNetworks([], layout))
     monkeypatch.setattr(LimbNetworks, "step", lambda _, state, sample: (state, None))
-    section = evaluation.latency.model_copy(update={"tick_ms": tick_ms, "stretches": 10, "ticks": 10})
-    (row,) = read_table(make_table("latency", settings=section, networks={"LL": tmp_path}))
+    section = evaluation.latency.model_copy(update={"stretches": 10, "ticks": 10})
+    (row,) = read_table(
+        make_table("latency", settings=section, rates=Rates.model_construct(data_hz=data_hz), networks={"LL": tmp_path})
+    )
     assert (row.quantity, row.value) == (latency.MET, met)
     assert row.low <= met <= row.high
     assert row.high - row.low < 0.3

@@ -18,24 +18,28 @@ from mobnet.evaluation.number.single import share
 from mobnet.evaluation.tables.layout import Table, write_table
 from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
 from mobnet.settings.evaluation import Latency, Statistics
+from mobnet.settings.plant import Rates
 
 MET = "stretches within a tick"
 MS = 1e3
 
 
 def latency(
-    settings: Latency, statistics: Statistics, layout: JointLayout, seed: int, networks: Mapping[str, Path],
-    table_dir: Path,
+    settings: Latency, statistics: Statistics, rates: Rates, layout: JointLayout, seed: int,
+    networks: Mapping[str, Path], table_dir: Path,
 ) -> None:  # fmt: skip
-    """Write latency.csv, .tex and .md: the share of stretches of ticks whose median is within the robot's tick [-].
+    """Write latency.csv, .tex and .md: the share of stretches of ticks whose median is within a tick [-].
+
+    A tick is the time between two samples.
 
     `networks` has the folder of each limb's network.
     """
+    tick_ms = MS / rates.data_hz
     medians = medians_ms(load_limb_networks(networks, layout), random_sample(layout, seed), settings)
-    met = share([RunGrid(np.array([[float(median < settings.tick_ms) for median in medians]]))], statistics)
+    met = share([RunGrid(np.array([[float(median < tick_ms) for median in medians]]))], statistics)
     header = ["Networks", "Tick [ms]", "Stretches", "Ticks of each", "Within a tick", f"{statistics.confidence:.0%}"]
     counts = [str(settings.stretches), str(settings.ticks)]
-    line = [str(len(networks)), f"{settings.tick_ms:g}", *counts, *met.texts()]
+    line = [str(len(networks)), f"{tick_ms:g}", *counts, *met.texts()]
     write_table(table_dir / "latency", Table(LATENCY, [(MET, *met.with_ends, met.unit)], header, [line], left=0))
 
 

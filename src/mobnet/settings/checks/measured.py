@@ -75,7 +75,7 @@ def _push_problems(results: Results) -> Iterator[Problem]:
 
 
 def _learned_problems(results: Results) -> Iterator[Problem]:
-    """Yield methods without networks where networks are timed or drawn, another tick, and trials that there are not."""
+    """Yield methods without networks where networks are timed or drawn, and trials that there are not."""
     settings, evaluation = results.settings, results.settings.evaluation
     learned = [name for name, method in settings.all_methods.items() if method.limbs]
     shown: list[tuple[Place, str]] = [(("latency", "method"), evaluation.latency.method)]
@@ -83,10 +83,6 @@ def _learned_problems(results: Results) -> Iterator[Problem]:
     for place, method in shown:
         if method not in learned:
             yield (*ROOT, *place), not_accepted("method with networks", method, learned)
-    tick_ms = MS / settings.rates.data_hz
-    if evaluation.latency.tick_ms != tick_ms:
-        text = misfit(evaluation.latency.tick_ms, f"{tick_ms:g}, between two samples")
-        yield (*ROOT, "latency", "tick_ms"), text
     joints = results.layout.limbs(settings.robot.networks[settings.trials.limb].joints)
     data = evaluation.learning_curve.data
     if not re.fullmatch(r"docs/trials/[a-z0-9_]+\.csv", data):
