@@ -31,18 +31,20 @@ def changed(job: Job, **values: Any) -> Job:
 def test_rate_falls_linearly_to_a_hundredth_over_the_first_half_at_the_papers_size(settings: Settings) -> None:
     job = Job(settings.model_copy(update={"scale": "paper"}).training("MOB-Net", "LL"), 0, 0)
     rates = np.array([job.rate(epoch) for epoch in range(200)])
-    assert rates[0] == 0.005
-    np.testing.assert_allclose(np.diff(rates[:101]), -0.005 * 0.99 / 100)
-    np.testing.assert_allclose(rates[100:], 5e-5)
+    first = settings.learning.rate_first
+    assert rates[0] == first
+    np.testing.assert_allclose(np.diff(rates[:101]), -first * 0.99 / 100)
+    np.testing.assert_allclose(rates[100:], first / 100)
 
 
-def test_rate_of_a_short_run_falls_to_its_very_end(job: Job) -> None:
+def test_rate_of_a_short_run_falls_to_its_very_end(job: Job, settings: Settings) -> None:
     """At 20 epochs the share of the default scale ends with the last epoch but one."""
     short = changed(job, epochs=20)
     rates = np.array([short.rate(epoch) for epoch in range(20)])
     assert (np.diff(rates) < 0).all()
-    np.testing.assert_allclose(rates[[0, -1]], [0.005, 5e-5])
-    assert changed(job, epochs=1).rate(0) == 0.005
+    first = settings.learning.rate_first
+    np.testing.assert_allclose(rates[[0, -1]], [first, first / 100])
+    assert changed(job, epochs=1).rate(0) == first
 
 
 @pytest.mark.parametrize("rate_hz", [1000.0, 500.0, 0.1])

@@ -1,5 +1,6 @@
 """The course of a training: the best epoch is kept, and a run that diverges stops."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ from mobnet.learning.checkpoint import CHECKPOINT
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.job import PRECISIONS, Job
 from mobnet.learning.trainer import Trainer
+from mobnet.settings.settings import Settings
 
 EPOCHS = 5
 
@@ -53,12 +55,13 @@ def test_two_runs_are_the_same_to_the_bit(trainer: Callable[..., Trainer], preci
 
 @pytest.mark.parametrize("how", ["bound", "nan"])
 def test_a_training_that_diverges_says_what_to_try(
-    trainer: Callable[..., Trainer], data: LimbData, how: str, tmp_path: Path
+    trainer: Callable[..., Trainer], data: LimbData, how: str, settings: Settings, tmp_path: Path
 ) -> None:
+    rate = re.escape(f"{settings.learning.rate_first:g}")
     if how == "nan":
         data.targets[20] = np.nan
     with pytest.raises(
-        TrainingError, match=r"MOB-Net-LL-s0: epoch 1: median training loss .* at rate 0.005 .*rate_first"
+        TrainingError, match=rf"MOB-Net-LL-s0: epoch 1: median training loss .* at rate {rate} .*rate_first"
     ):
         trainer(**({"divergence_loss": -100.0} if how == "bound" else {})).run(tmp_path)
     assert not (tmp_path / CHECKPOINT).exists()

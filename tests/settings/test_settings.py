@@ -24,7 +24,7 @@ BOUNDS = {"rule": "sign", "bar": [1.0, 2.0], "side": [1.0, None]}
 def test_a_sweep_stands_for_one_method_for_each_value(settings: Settings) -> None:
     base, swept = settings.method("MOB-Net"), settings.method("MOB-Net-hidden-44")
     assert swept == base.model_copy(update={"limbs": ("LL",), "network": {"experiment": "sweep", "hidden": 44}})
-    assert settings.method("FTS-e2e-data-parts-2").learning == {"data_parts": 2}
+    assert settings.method("FTS-e2e-data-parts-2").learning == {**settings.method("FTS-e2e").learning, "data_parts": 2}
     sizes = sum(len(sweep.of) * len(sweep.values) for sweep in settings.sweeps.values())
     assert len(settings.all_methods) == len(settings.methods) + sizes
 
