@@ -9,6 +9,7 @@ from mobnet.core.errors import DataError
 from mobnet.core.files import MIB, check_room
 from mobnet.plan.plan import Plan
 from mobnet.plan.runs import ARRAY
+from mobnet.settings.settings import Settings
 
 NUMBER_BYTES = 4
 STORED = 0.85  # of the bytes of a recording remain after compression, of other arrays less
@@ -55,10 +56,21 @@ def check_space(plan: Plan, outputs: Iterable[str]) -> None:
 
 def expected_bytes(plan: Plan, path: Path) -> int:
     """Return about how many bytes a file of the plan will have: rows by columns for an array."""
-    layout, of_residual = plan.settings.layout, len(residual_columns(plan.settings.layout))
-    widths = {"recordings": recording_width(layout), "residuals": of_residual, "estimates": of_residual}
-    kind = path.relative_to(plan.folders.results).parts[0] if path.is_relative_to(plan.folders.results) else ""
-    if path.suffix != ARRAY or kind not in widths:
-        return OTHER_BYTES
+    kind, *parts = path.relative_to(plan.folders.results).parts if path.is_relative_to(plan.folders.results) else ("",)
+    layout = plan.settings.layout
+    match kind if path.suffix == ARRAY else "":
+        case "recordings":
+            width = recording_width(layout)
+        case "residuals":
+            width = len(residual_columns(layout))
+        case "estimates":
+            width = _estimated_width(plan.settings, parts[0])
+        case _:
+            return OTHER_BYTES
     duration_s = plan.files.duration_s([path.parts[-3]], int(path.stem.removeprefix("s")))
-    return round(duration_s * plan.settings.rates.data_hz * widths[kind] * NUMBER_BYTES * STORED)
+    return round(duration_s * plan.settings.rates.data_hz * width * NUMBER_BYTES * STORED)
+
+
+def _estimated_width(settings: Settings, method: str) -> int:
+    """Return the columns of an estimate that are no constants: a network's joints have a standard deviation too."""
+    return 2 * len(settings.predicted(settings.network_source_of(method))) or settings.layout.nv

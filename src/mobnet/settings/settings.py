@@ -126,6 +126,11 @@ class Settings(Section):
         """Return the method whose networks a method runs on: itself if it has some, else that of its fit."""
         return method if self.method(method).limbs else self.source_of(method)
 
+    def predicted(self, method: str) -> tuple[str, ...]:
+        """Return the joints that the networks of a method predict, none where it has none of its own."""
+        limbs = self.method(method).limbs
+        return self.layout.limbs(group for limb in limbs for group in self.robot.networks[limb].joints)
+
     def network(self, method: str, limb: str) -> Network:
         """Return a network of Table 1 with a method's changes laid over it; a ConfigError names an unknown one."""
         if limb not in self.networks:

@@ -106,21 +106,16 @@ class Results:
         found = getattr(self.settings.evaluation, section)
         return sorted({name for _, kind, name in uses(found, type(found)) if kind == "test"})
 
-    def predicted(self, method: str) -> set[str]:
-        """Return the joints that a method's networks predict."""
-        networks, limbs = self.settings.robot.networks, self.settings.all_methods[method].limbs
-        return set(self.layout.limbs(group for limb in limbs for group in networks[limb].joints))
-
     def estimated(self, method: str) -> set[str]:
         """Return the joints that a method estimates: those that its networks predict, or all where it has none."""
-        return self.predicted(self.settings.network_source_of(method)) or set(self.layout.names)
+        return set(self.settings.predicted(self.settings.network_source_of(method)) or self.layout.names)
 
     def not_estimated(self, method: str, joints: Collection[str]) -> str:
         """Return what is wrong with a method where these joints are shown: networks predict their limbs alone."""
         source = self.settings.network_source_of(method)
         if not self.settings.all_methods[source].limbs:
             return ""
-        missing = [joint for joint in joints if joint not in self.predicted(source)]
+        missing = [joint for joint in joints if joint not in self.settings.predicted(source)]
         return f"{method} is not accepted; accepted: methods that estimate {missing[0]}" if missing else ""
 
     def trained(self, limb: str) -> list[str]:

@@ -257,7 +257,7 @@ def _test_problems(results: Results) -> Iterator[Problem]:
     for place, methods, joints in rows:
         predicted = set[str]()
         for k, method in enumerate(methods):
-            predicted |= results.predicted(method)
+            predicted |= {*results.settings.predicted(method)}
             if method not in learned:
                 yield (*ROOT, "calibration", *place, k), not_accepted("method with networks", method, learned)
         if not predicted.issuperset(joints):
