@@ -66,6 +66,7 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("methods.MOB-fric.fitted", ["V"], "joints that have motors"),
     ("development.scenario", "walk_test", "scenario apart from tests"),
     ("trials.lengths.methods", ["MOB"], "method with networks"),
+    ("trials.tuning.references", ["MOB-Net"], "method without networks"),
     ("trials.tuning.grids.MOB-Kalman.options.walk_nm", [30.0, 100.0], "12, as many"),
     ("evaluation.tables.table_05.columns.1.joints", ["LL", "LL1"], "each joint once"),
     ("evaluation.noise.paper.table_05", "nothing", "place of a row"),

@@ -10,7 +10,7 @@ from mobnet.plan.places import MAIN
 from mobnet.plan.products import TABLE, Product
 from mobnet.plan.runs import Files, Tried, files_in
 from mobnet.settings.settings import Settings
-from mobnet.settings.trials import Trial, of_lengths, tuned
+from mobnet.settings.trials import Trial, of_lengths, references, tuned
 
 KEPT = Path("docs/trials")  # at the main scale: these tables are data of the project, for they take hours
 
@@ -18,8 +18,10 @@ KEPT = Path("docs/trials")  # at the main scale: these tables are data of the pr
 def trial_products(settings: Settings, files: Files) -> Iterator[Product]:
     """Yield the tables of what was tried: `tuning` and `lengths`."""
     folder = KEPT if settings.scale == MAIN else files.results / "trials"
-    for name, found in (("tuning", tuned), ("lengths", of_lengths)):
-        yield _product(settings, files, folder / name, list(found(settings.trials, settings.methods)))
+    tables = {"tuning": (references, tuned), "lengths": (of_lengths,)}
+    for name, several in tables.items():
+        trials = [trial for found in several for trial in found(settings.trials, settings.methods)]
+        yield _product(settings, files, folder / name, trials)
 
 
 def _product(settings: Settings, files: Files, out: Path, trials: Iterable[Trial]) -> Product:

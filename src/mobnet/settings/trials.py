@@ -21,8 +21,9 @@ class Grid(Section):
 
 
 class Tuning(Section):
-    """What is tried for each method, all of them in trainings of one length."""
+    """What is tried for each method, all of them in trainings of one length, and methods beside which they stand."""
 
+    references: base.MethodNames
     experiment: base.ExperimentName
     grids: dict[base.MethodName, Grid]
 
@@ -61,6 +62,12 @@ def combinations(grid: Grid) -> Iterator[dict[str, Value]]:
 def trial_name(base: str, changes: Mapping[str, Value]) -> str:
     """Return the name of a variant, such as MOB-Net-squared-0-005: a folder's name, without a point."""
     return "-".join([base, *map(str, changes.values())]).replace("_", "-").replace(".", "-")
+
+
+def references(trials: Trials, methods: Mapping[str, Method]) -> Iterator[Trial]:
+    """Yield the methods that stand beside what is tried, unchanged."""
+    for name in trials.tuning.references:
+        yield Trial(name, name, {}, methods[name])
 
 
 def tuned(trials: Trials, methods: Mapping[str, Method]) -> Iterator[Trial]:

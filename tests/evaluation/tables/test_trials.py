@@ -54,16 +54,16 @@ def test_errors_are_means_over_the_walks(made: tuple[Path, list[tuple[Path, Path
         assert rows["MOB", None, joint].walks == 2
 
 
-def test_one_variant_of_each_method_is_the_best(made: tuple[Path, Any]) -> None:
+def test_one_variant_of_each_method_that_is_varied_is_the_best(made: tuple[Path, Any]) -> None:
     rows = [row for row in read_table(made[0].with_suffix(".csv")) if row.joint == "avg"]
     assert {row.method: sum(other.best for other in rows if other.method == row.method) for row in rows} == {
-        "zero": 1, "MOB": 1, "K": 1,
+        "zero": 0, "MOB": 0, "K": 1,
     }  # fmt: skip
     best, other = sorted((row for row in rows if row.method == "K"), key=lambda row: -row.best)
     assert best.rmse_nm <= other.rmse_nm
     lines = made[0].with_suffix(".md").read_text().splitlines()
     assert lines[0].startswith("| Method | Tried | Steps [million] | Val. loss | LL1 | LL4 | avg |")
-    assert sum("| best |" in line for line in lines) == 3
+    assert sum("| best |" in line for line in lines) == 1
 
 
 def test_the_grid_of_the_configuration_is_what_a_trial_says(settings: Settings) -> None:

@@ -48,9 +48,10 @@ def trials(
     write_table(out, Table(TRIALS, records, header, trial_lines(outcomes), left=2))
 
 
-def best_of(method: str, outcomes: Sequence[Outcome]) -> Outcome:
-    """Return the variant of a method with the smallest mean error."""
-    return min((one for one in outcomes if one.tried.base == method), key=lambda one: one.average)
+def is_best(outcome: Outcome, outcomes: Sequence[Outcome]) -> bool:
+    """Return whether a variant has the smallest mean error of its method; a method that is not changed is no choice."""
+    rivals = [one for one in outcomes if one.tried.base == outcome.tried.base]
+    return bool(outcome.tried.changes) and outcome is min(rivals, key=lambda one: one.average)
 
 
 def rows_of(outcome: Outcome, joints: Sequence[str], outcomes: Sequence[Outcome]) -> Iterator[TrialError]:
@@ -60,7 +61,7 @@ def rows_of(outcome: Outcome, joints: Sequence[str], outcomes: Sequence[Outcome]
         yield TrialError(
             outcome.tried.base, changes_of(outcome), outcome.tried.network_seed, steps_of(outcome), state_of(outcome),
             loss_of(outcome), joint, float(errors.mean()), float(errors.std(ddof=1)) if len(errors) > 1 else None,
-            len(errors), int(outcome is best_of(outcome.tried.base, outcomes)),
+            len(errors), int(is_best(outcome, outcomes)),
         )  # fmt: skip
 
 
@@ -68,18 +69,18 @@ def trial_lines(outcomes: Sequence[Outcome]) -> list[Line]:
     """Return the rows of text, method by method."""
     methods = dict.fromkeys(outcome.tried.base for outcome in outcomes)
     blocks = [
-        ([method], [_cells(one, best_of(method, outcomes)) for one in outcomes if one.tried.base == method])
+        ([method], [_cells(one, is_best(one, outcomes)) for one in outcomes if one.tried.base == method])
         for method in methods
     ]
     return in_blocks(blocks)
 
 
-def _cells(outcome: Outcome, best: Outcome) -> list[str]:
+def _cells(outcome: Outcome, best: bool) -> list[str]:
     """Return the cells of a variant after its method."""
     steps = steps_of(outcome)
     errors = [number_text(value) for value in (*outcome.errors.mean(axis=0).tolist(), outcome.average)]
     sizes = [number_text(None if steps is None else steps / MILLION, 1), number_text(loss_of(outcome))]
-    return [changes_of(outcome), *sizes, *errors, BEST if outcome is best else state_of(outcome)]
+    return [changes_of(outcome), *sizes, *errors, BEST if best else state_of(outcome)]
 
 
 def changes_of(outcome: Outcome) -> str:

@@ -39,6 +39,10 @@ def _trial_problems(settings: Settings) -> Iterator[Problem]:
         if (count := len([*combinations(grid)])) != most:
             yield (*place, name), misfit(f"{count} combinations", f"{most}, as many as other methods have")
     learned = [name for name, method in settings.methods.items() if method.limbs]
+    others = [name for name in settings.methods if name not in learned]
+    for index, name in enumerate(settings.trials.tuning.references):
+        if name in learned:
+            yield ("trials", "tuning", "references", index), not_accepted("method without networks", name, others)
     for index, name in enumerate(settings.trials.lengths.methods):
         if name in settings.methods and name not in learned:
             yield ("trials", "lengths", "methods", index), not_accepted("method with networks", name, learned)
