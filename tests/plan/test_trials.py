@@ -64,10 +64,14 @@ def test_no_product_of_a_run_needs_a_trial_and_none_is_stored(plan: Plan) -> Non
     assert not made & {name for product in plan.products for name in (*product.job.inputs, *product.outputs)}
 
 
-def test_tables_of_trials_are_data_of_the_project_at_the_main_scale_alone(products: dict[str, Product]) -> None:
-    assert products["tuning"].outputs == tuple(f"docs/trials/tuning.{ending}" for ending in ("csv", "tex", "md"))
-    smoke = make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False)
-    assert {Path(name).parent for product in smoke.trials for name in product.outputs} == {Path("results/smoke/trials")}
+def test_tables_of_trials_are_results_of_their_scale(products: dict[str, Product]) -> None:
+    """Those in docs/trials are copies, so that a fresh clone makes them anew where it is asked to."""
+    for scale in ("default", "smoke"):
+        trials = make_plan(load_settings(overrides={"scale": scale}), with_pdf=False).trials
+        folder = f"results/{scale}/trials"
+        assert {name for one in trials for name in one.outputs} == {
+            f"{folder}/{name}.{ending}" for name in ("tuning", "lengths") for ending in ("csv", "tex", "md")
+        }
 
 
 def test_a_gray_box_is_tried_on_its_fit_and_a_filter_without_networks(products: dict[str, Product]) -> None:

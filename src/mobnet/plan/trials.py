@@ -1,4 +1,4 @@
-"""The trials: products that are no part of `all`, and are kept beside the documents once they are made."""
+"""The trials: products that are no part of `all`. They take hours, so docs/trials holds a copy of their tables."""
 
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -6,22 +6,18 @@ from pathlib import Path
 from mobnet.core.files import WEIGHTS
 from mobnet.plan.call import Call, Job
 from mobnet.plan.jobs import KINDS
-from mobnet.plan.places import MAIN
 from mobnet.plan.products import TABLE, Product
 from mobnet.plan.runs import Files, Tried, files_in
 from mobnet.settings.settings import Settings
 from mobnet.settings.trials import Trial, of_lengths, references, tuned
 
-KEPT = Path("docs/trials")  # at the main scale: these tables are data of the project, for they take hours
-
 
 def trial_products(settings: Settings, files: Files) -> Iterator[Product]:
     """Yield the tables of what was tried: `tuning` and `lengths`."""
-    folder = KEPT if settings.scale == MAIN else files.results / "trials"
     tables = {"tuning": (references, tuned), "lengths": (of_lengths,)}
     for name, several in tables.items():
         trials = [trial for found in several for trial in found(settings.trials, settings.methods)]
-        yield _product(settings, files, folder / name, trials)
+        yield _product(settings, files, files.results / "trials" / name, trials)
 
 
 def _product(settings: Settings, files: Files, out: Path, trials: Iterable[Trial]) -> Product:
