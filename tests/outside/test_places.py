@@ -240,7 +240,7 @@ def scores_of(files: Files) -> list[Score]:
     """Return the errors of every run of a test, on all joints that it estimates."""
     layout, results = files.settings.layout, Results(files.settings)
     values = {joint: 1.0 + k for k, joint in enumerate(layout.names)}
-    held = {run.method: results.predicted(run.method) or layout.names for run in files.runs_of(SCENARIO)}
+    held = {run.method: results.settings.predicted(run.method) or layout.names for run in files.runs_of(SCENARIO)}
     return [
         Score(SCENARIO, run.level, run.method, run.network_seed, run.test_seed, limb, joint, "rmse", value, unit)
         for run in files.runs_of(SCENARIO)
