@@ -11,12 +11,17 @@ SCENARIO, LEVEL = "walk_test", "all_uncertainty"
 Change = Callable[[dict[str, Any]], Any]
 
 
+def estimated(files: Files) -> tuple[str, ...]:
+    """Return the joints of which the walk has estimates."""
+    return files.settings.estimated("MOB", SCENARIO, LEVEL)
+
+
 def note_of(files: Files, kind: str, **more: Any) -> tuple[Path, dict[str, Any]]:
     """Return the place of the note of a walk's array, and a sound note."""
-    seed, layout = files.test_seeds[0], files.settings.layout
+    seed = files.test_seeds[0]
     names = {"recordings": ["q.LL1"], "residuals": ["r.LL1"]}.get(kind)
     if names is None:
-        names = [f"{signal}.{joint}" for signal in ("tau_ext", "std") for joint in layout.names]
+        names = [f"{signal}.{joint}" for signal in ("tau_ext", "std") for joint in estimated(files)]
     columns = [{"name": name, "unit": "-", "frame": "-"} for name in names]
     note = {"rows": 10000, "segments": [[0, 10000]], "rate_hz": 1000.0, "scenario": SCENARIO, "level": LEVEL}
     note |= {"seed": seed, "falls": 0, "columns": columns, **more}

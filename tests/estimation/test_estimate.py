@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from safetensors.numpy import save_file
 
-from mobnet.core.errors import DataError
+from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.files import WEIGHTS
 from mobnet.core.joints import JointLayout
@@ -48,6 +48,20 @@ def test_each_segment_starts_from_a_fresh_state(
     assert meta["segments"] == [[0, 200], [200, 400]]
     assert (meta["method"], meta["scenario"], meta["level"]) == ("MOB", "made_up", "all_uncertainty")
     assert [column["name"] for column in meta["columns"]] == [f"tau_ext.{joint}" for joint in estimator.joints]
+
+
+def test_an_estimate_holds_the_joints_asked_for(
+    settings: Settings, tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write
+) -> None:
+    stem, residual = write_pair(tmp_path, made_up(0, 0.2))
+    given = settings.robot, settings.levels["all_uncertainty"], settings.plant.gravity_m_s2, settings.observer
+    files = [stem], [residual], [tmp_path / "out"]
+    estimate(*given, "MOB", settings.methods, {}, None, *files, joints=["LL4", "W1"])
+    array, meta = read_array(tmp_path / "out")
+    assert [column["name"] for column in meta["columns"]] == ["tau_ext.LL4", "tau_ext.W1"]
+    np.testing.assert_array_equal(array, read_array(residual, ["r.LL4", "r.W1"])[0])
+    with pytest.raises(ConfigError, match="joint to estimate: 'LL9' is not accepted; accepted: "):
+        estimate(*given, "MOB", settings.methods, {}, None, *files, joints=["LL9"])
 
 
 def test_std_columns_follow_if_there_are_any(layout: JointLayout) -> None:

@@ -13,8 +13,9 @@ from mobnet.estimation.recipe import Recipe
     ("method", "limbs", "fitted", "message"),
     [
         ("MOB2", [], False, "method: 'MOB2' is not accepted; accepted: MOB, FTS-e2e, "),
-        ("MOB", ["LL"], False, r"networks of method MOB: \['LL'\] is not accepted; accepted: \[\]"),
-        ("FTS-e2e", ["LL"], False, r"networks of method FTS-e2e: \['LL'\] is not accepted; accepted: \['LL', 'RL'\]"),
+        ("MOB", ["LL"], False, r"networks of method MOB: \['LL'\] is not accepted; accepted: none"),
+        ("FTS-e2e", ["LA", "LL"], False, r"\['LA', 'LL'\] is not accepted; accepted: some of \['LL', 'RL'\]"),
+        ("FTS-e2e", [], False, r"networks of method FTS-e2e: \[\] is not accepted; accepted: some of \['LL', 'RL'\]"),
         ("MOB-fric", [], False, "'MOB-fric' with the fit None; accepted: the file that rule `fit` writes"),
         ("MOB-fric-BPF", [], False, "'MOB-fric-BPF' with the fit None"),
         ("MOB", [], True, "'MOB' with the fit .*; accepted: none"),
@@ -25,6 +26,10 @@ def test_files_that_do_not_fit_the_method_are_refused(
 ) -> None:
     with pytest.raises(ConfigError, match=message):
         recipe_of(method, networks=dict.fromkeys(limbs, tmp_path), fitted=tmp_path if fitted else None)
+
+
+def test_a_method_may_run_some_of_its_networks(recipe_of: Callable[..., Recipe], tmp_path: Path) -> None:
+    assert set(recipe_of("MOB-Net", networks={"LL": tmp_path}).networks) == {"LL"}
 
 
 def test_a_method_of_another_takes_the_others_files(recipe_of: Callable[..., Recipe], tmp_path: Path) -> None:

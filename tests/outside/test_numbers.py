@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from made_places import LEVEL, SCENARIO, Change, note_of
+from made_places import LEVEL, SCENARIO, Change, estimated, note_of
 
 from mobnet.agreement import check_agreement
 from mobnet.core.columns import FEET, recording_columns, torque_columns
@@ -195,21 +195,20 @@ def test_residuals_that_are_not_of_their_recording_are_refused(name: str, files:
 
 def estimate(files: Files, method: str, factor: float) -> Path:
     """Write the estimate of a method that is so many times the residual."""
-    layout = files.settings.layout
-    joints = layout.names
+    joints = estimated(files)
     array = factor * read_array(residual(files).with_suffix(""), [f"r.{joint}" for joint in joints])[0]
     path, note = note_of(files, f"estimates/{method}/n0")
     meta = {key: note[key] for key in ("rate_hz", "scenario", "level", "seed")} | {"method": method, "networks": {}}
-    write_array(path.with_suffix(""), array, torque_columns(layout, ["tau_ext"], joints), meta)
+    write_array(path.with_suffix(""), array, torque_columns(files.settings.layout, ["tau_ext"], joints), meta)
     return path.with_suffix(".parquet")
 
 
 @pytest.mark.parametrize(
     ("method", "good", "bad", "says"),
     [
-        ("MOB", 1.0, -1.0, "column tau_ext.V1: difference: "),
-        ("zero", 0.0, 1.0, "column tau_ext.V1: largest number: "),
-        ("MOB-fric", 0.7, 0.0, "column tau_ext.V1: every number: 0.0 is not"),
+        ("MOB", 1.0, -1.0, "column tau_ext.LL1: difference: "),
+        ("zero", 0.0, 1.0, "column tau_ext.LL1: largest number: "),
+        ("MOB-fric", 0.7, 0.0, "column tau_ext.LL1: every number: 0.0 is not"),
     ],
 )
 def test_estimates_that_the_method_does_not_make_are_refused(

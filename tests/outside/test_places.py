@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from made_notes import training_note
-from made_places import LEVEL, SCENARIO, Change, note_of, written
+from made_places import LEVEL, SCENARIO, Change, estimated, note_of, written
 from safetensors.numpy import save_file
 
 from mobnet.agreement import check_agreement
@@ -20,7 +20,6 @@ from mobnet.evaluation.number.files import write_csv
 from mobnet.learning.deployed.weights import NOTE, shapes
 from mobnet.learning.features import limb_inputs
 from mobnet.plan.runs import Files
-from mobnet.settings.checks.results import Results
 
 
 def refused(path: Path, files: Files) -> str:
@@ -53,7 +52,7 @@ ARRAYS: dict[str, tuple[str, Change, str]] = {
     "collisions": ("recordings", put("clearance_min_m", -0.03), "self_collisions: 0 is not accepted; accepted: those"),
     "clearance": ("recordings", put("clearance_min_m", 60.0), "clearance_min_m: 60.0 is not accepted; accepted: less"),
     "kind": ("recordings", put("columns", [{"name": "r.LL1", "unit": "-", "frame": "-"}]), "columns: ['r'] is not"),
-    "columns": ("estimates/MOB-Net/n0", lambda note: note["columns"].pop(), "columns: 'std.RA8' is missing"),
+    "columns": ("estimates/MOB-Net/n0", lambda note: note["columns"].pop(), "columns: 'std.RL6' is missing"),
     "mass": ("residuals", put("nominal_mass_ratio", 1.0), "nominal_mass_ratio: 1.0 is not"),
     "method": ("estimates/MOB-Net/n0", put("method", "FTS-e2e"), "method: 'FTS-e2e' is not accepted; accepted: 'MOB-N"),
     "network": (
@@ -67,11 +66,11 @@ ARRAYS: dict[str, tuple[str, Change, str]] = {
 @pytest.mark.parametrize("name", ARRAYS)
 def test_the_note_of_another_array_is_refused(name: str, files: Files) -> None:
     kind, change, says = ARRAYS[name]
-    limbs = files.settings.method("MOB-Net").limbs
+    networks = {limb: folder.name for limb, folder in files.networks("MOB-Net", 0, SCENARIO, LEVEL).items()}
     more: dict[str, Any] = {
         "recordings": {"terrains": ["checks"]},
         "residuals": {"gain_hz": files.settings.observer.gain_hz, "nominal_mass_ratio": 0.9},
-    }.get(kind, {"method": "MOB-Net", "networks": {limb: f"MOB-Net-{limb}-s0" for limb in limbs}})
+    }.get(kind, {"method": "MOB-Net", "networks": networks})
     path, note = note_of(files, kind, **more)
     check_agreement([written(path, note)], files)
     change(note)
@@ -103,13 +102,11 @@ def test_a_residual_of_other_rows_than_its_recording_is_refused(files: Files) ->
 
 
 def test_factors_that_are_not_those_of_the_networks_are_refused(files: Files) -> None:
-    limbs = files.settings.method("MOB-Net").limbs
-    names = {limb: files.network("MOB-Net", limb, 0).name for limb in limbs}
+    names = {limb: folder.name for limb, folder in files.networks("MOB-Net", 0, SCENARIO, LEVEL).items()}
     path, note = note_of(files, "estimates/MOB-Net/n0", method="MOB-Net", networks=names)
-    for limb in limbs:
+    for limb in names:
         weights(files, "MOB-Net", limb)
-    scales = {joint: 1.0 for limb in limbs for group in files.settings.robot.networks[limb].joints
-              for joint in files.settings.layout.limb(group)}  # fmt: skip
+    scales = dict.fromkeys(estimated(files), 1.0)
     check_agreement([written(path, note | {"std_scale": scales})], files)
     for wrong in ({}, scales | {"LL1": 55.0}, scales | {"XX1": 1.0}):
         assert "std_scale: " in refused(written(path, note | {"std_scale": wrong}), files)
@@ -238,9 +235,9 @@ def test_a_fit_that_the_method_does_not_make_is_refused(name: str, files: Files)
 
 def scores_of(files: Files) -> list[Score]:
     """Return the errors of every run of a test, on all joints that it estimates."""
-    layout, results = files.settings.layout, Results(files.settings)
+    layout, settings = files.settings.layout, files.settings
     values = {joint: 1.0 + k for k, joint in enumerate(layout.names)}
-    held = {run.method: results.settings.predicted(run.method) or layout.names for run in files.runs_of(SCENARIO)}
+    held = {run.method: settings.estimated(run.method, run.scenario, run.level) for run in files.runs_of(SCENARIO)}
     return [
         Score(SCENARIO, run.level, run.method, run.network_seed, run.test_seed, limb, joint, "rmse", value, unit)
         for run in files.runs_of(SCENARIO)
@@ -257,12 +254,12 @@ SCORES: dict[str, tuple[int, dict[str, Any], str]] = {
     "limb": (0, {"limb": "XX"}, "line 2: limb: 'XX' is not"),
     "joint": (0, {"joint": "RA1"}, "line 2: joint: 'RA1' is not"),
     "metric": (0, {"metric": "rmse_push_0"}, "line 2: metric: 'rmse_push_0' is not"),
-    "unit": (0, {"unit": "N m"}, "line 2: unit: 'N m' is not"),
-    "unit of a share": (0, {"metric": "r_rmse"}, "line 2: unit: 'N' is not accepted; accepted: %"),
+    "unit": (0, {"unit": "N"}, "line 2: unit: 'N' is not"),
+    "unit of a share": (0, {"metric": "r_rmse"}, "line 2: unit: 'N m' is not accepted; accepted: %"),
     "correlation": (0, {"metric": "acf_10ms", "unit": "-", "value": 1.5}, "line 2: value of acf_10ms: 1.5 is not"),
     "no push": (0, {"metric": "rmse_pushed"}, "metric rmse_pushed: test with a window around pushes: 'walk_test' is"),
     "share": (0, {"metric": "cover", "unit": "-", "value": 1.5}, "line 2: value of cover: 1.5 is not"),
-    "average": (6, {"value": 99.0}, "metric rmse: avg: 99.0 is not accepted; accepted: 2, the mean"),
+    "average": (6, {"value": 99.0}, "metric rmse: avg: 99.0 is not accepted; accepted: 9.5, the mean"),
 }
 
 
@@ -288,8 +285,8 @@ def test_a_run_or_a_joint_without_an_error_is_refused(files: Files) -> None:
     assert "limb LL, metric rmse: 'LL3' is missing" in refused(path, files)
     write_csv(path, names, [row for row in rows if row[6] != "avg"])
     assert "limb LL, metric rmse: 'avg' is missing; accepted: " in refused(path, files)
-    write_csv(path, names, [row for row in rows if row[5] != "RA"])
-    assert "'limb': 'RA', 'metric': 'rmse'} is missing; accepted: every limb" in refused(path, files)
+    write_csv(path, names, [row for row in rows if row[5] != "RL"])
+    assert "'limb': 'RL', 'metric': 'rmse'} is missing; accepted: every limb" in refused(path, files)
 
 
 def test_the_array_of_another_recording_is_refused(files: Files, tmp_path: Path) -> None:

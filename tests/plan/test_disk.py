@@ -50,14 +50,19 @@ def test_an_array_takes_its_rows_by_its_columns(plan: Plan) -> None:
     assert expected_bytes(plan, Path("tables/smoke/table_05.csv")) < 1_000_000
 
 
-def test_an_estimate_takes_the_joints_that_its_networks_predict(plan: Plan) -> None:
-    """Six joints of a leg with their standard deviations, 33 of all limbs with theirs, and 39 of a method without."""
+def test_an_estimate_takes_the_joints_that_it_holds(plan: Plan) -> None:
+    """Six joints of a leg with their standard deviations, 33 of all limbs with theirs, and 39 of a method without.
+
+    Where a test is about both legs, it takes their twelve alone.
+    """
     names = ("MOB-Net-plain", "MOB-Net", "MOB")
     sizes = [
         expected_bytes(plan, Path(f"results/smoke/estimates/{name}/n0/walk_test/ideal/s101.parquet")) for name in names
     ]
     assert sizes[1] > sizes[2] > sizes[0]
     assert sizes[2] / sizes[0] == pytest.approx(39 / 12, rel=1e-3)
+    legs = Path("results/smoke/estimates/MOB/n0/walk_test/all_uncertainty/s101.parquet")
+    assert expected_bytes(plan, legs) == pytest.approx(sizes[0], rel=1e-3)
 
 
 def test_too_little_room_is_told_with_what_is_needed_and_free(plan: Plan, monkeypatch: pytest.MonkeyPatch) -> None:

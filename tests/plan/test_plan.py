@@ -128,6 +128,22 @@ def test_an_estimate_reads_weights_fit_and_recording(plan: Plan) -> None:
     assert fitted.modules == ("mobnet.estimation.kinds.band_pass", "mobnet.estimation.kinds.friction")
 
 
+def test_a_test_runs_the_networks_of_its_limbs_alone(plan: Plan) -> None:
+    def run(method: str, scenario: str) -> tuple[list[str], tuple[str, ...]]:
+        arguments: Any = plan.jobs.estimate(method, 0, scenario, "all_uncertainty").call.arguments
+        return list(arguments["networks"]), arguments["joints"]
+
+    layout = plan.settings.layout
+    assert run("MOB-Net", "knee_swing") == (["LL"], layout.limb("LL"))
+    assert run("MOB", "knee_swing") == ([], layout.limb("LL"))
+    limbs, joints = run("MOB-Net-Single", "hand_wrench")
+    assert limbs == ["WB"]
+    assert set(joints) == {*layout.limbs(["V", "W", "LA", "RA"])}
+    limbs, joints = run("MOB-Net", "motion_test")
+    assert len(limbs) == 7
+    assert set(joints) == set(layout.names)
+
+
 def test_all_recordings_of_a_test_are_estimated_by_one_job_and_each_has_its_file(plans: dict[str, Plan]) -> None:
     plan = plans["default"]
     arguments: Any = plan.jobs.estimate("MOB-Net", 1, "forward_walk", "all_uncertainty").call.arguments

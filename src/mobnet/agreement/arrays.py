@@ -14,7 +14,6 @@ from mobnet.core.notes import note_differences, read_array_note
 from mobnet.core.store import ARRAY, NOTE, file_of
 from mobnet.learning.deployed.weights import std_scales
 from mobnet.plan.runs import Files
-from mobnet.settings.checks.results import Results
 
 NAMES = re.compile(r"s(\d+)\.(parquet|json)")
 POSITIONS = "q"
@@ -41,7 +40,7 @@ def array_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[s
         ratio = settings.levels[level].nominal_mass_ratio
         said |= {"gain_hz": settings.observer.gain_hz, "nominal_mass_ratio": ratio}
     if owner and owner[0] in settings.all_methods:
-        yield from _owner_faults(note, owner[0], int(owner[1].removeprefix("n")), files)
+        yield from _owner_faults(note, owner[0], int(owner[1].removeprefix("n")), (scenario, level), files)
     yield from differences(note, said)
     if kind == "recordings":
         yield from _recording_faults(note, scenario, level, int(found[1]), files)
@@ -81,12 +80,13 @@ def _recording_faults(note: Mapping[str, Any], scenario: str, level: str, seed: 
             yield not_accepted("rows", text, [f"{rows}, all of them in segments, as no robot fell"])
 
 
-def _owner_faults(note: Mapping[str, Any], method: str, seed: int, files: Files) -> Iterator[str]:
-    """Yield in what the note of an estimate is not that of a method and a network seed."""
-    source = files.settings.network_source_of(method)
-    folders = {limb: files.network(source, limb, seed) for limb in files.settings.method(source).limbs}
+def _owner_faults(
+    note: Mapping[str, Any], method: str, seed: int, test: tuple[str, str], files: Files
+) -> Iterator[str]:  # fmt: skip
+    """Yield in what the note of an estimate is not that of a method and a network seed in a test at a level."""
+    folders = files.networks(method, seed, *test)
     yield from differences(note, {"method": method, "networks": {limb: path.name for limb, path in folders.items()}})
-    joints = Results(files.settings).estimated(method)
+    joints = files.settings.estimated(method, *test)
     expected = {*named(EXTERNAL, joints), *(named(STD, joints) if folders else ())}
     held = {column["name"] for column in note["columns"]}
     for name in sorted(expected ^ held):

@@ -91,7 +91,7 @@ def run_of(row: Score) -> tuple[Any, ...]:
 
 def _limbs_of(run: Run, results: Results) -> set[str]:
     """Return the limbs that have errors in a run, because the run estimates a joint of theirs."""
-    joints = results.estimated(run.method)
+    joints = set(results.settings.estimated(run.method, run.scenario, run.level))
     found = {limb for limb, members in results.layout.groups.items() if joints.intersection(members)}
     return found.difference(run.repeated)
 

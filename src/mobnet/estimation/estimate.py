@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.columns import EXTERNAL, RESIDUAL, STD, Column, named, torque_columns
-from mobnet.core.errors import DataError
+from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.estimator import Estimate, Estimator, Stretch, estimate_all
 from mobnet.core.files import WEIGHTS
 from mobnet.core.joints import JointLayout
@@ -48,17 +48,19 @@ def estimate(
     residuals: Sequence[Path],
     outs: Sequence[Path],
     rate_hz: float | None = None,
+    joints: Sequence[str] | None = None,
 ) -> None:
     """Write a method's external torque for recordings made at an uncertainty level, as Table 5 scores it.
 
-    Columns are `tau_ext.<joint>` [N, N m] of the method's joints and, where the method gives it, `std.<joint>`;
-    segments are the recording's, and each is run from a fresh state. `methods` holds the method and, if it runs on
-    another one, that one too; `networks` the folder of each limb's network, and `fitted` is what rule `fit` wrote.
+    Columns are `tau_ext.<joint>` [N, N m] and, where the method gives it, `std.<joint>`, of the joints given, or of all
+    that the method estimates; segments are the recording's, and each is run from a fresh state. `methods` holds the
+    method and, if it runs on another one, that one too; `networks` the folders of networks by limb, which may be some
+    of the method's, and `fitted` is what rule `fit` wrote.
     Recordings, their residuals and `outs` are paths without a suffix, in the same order. Networks run at the rate [Hz]
     of their training alone; without it, any single one is accepted.
 
     Raises:
-        ConfigError: the method's kind is unknown, or networks do not match the method's limbs.
+        ConfigError: the method's kind is unknown, it has no such networks, or they do not estimate a joint.
         DataError: a recording, a residual, a network or the fit is damaged, or the rates differ.
     """
     layout = describe(robot).layout
@@ -74,7 +76,8 @@ def estimate(
         recipe = Recipe(method, methods, robot, level, gravity_m_s2, observer, rate_of(read), networks, fitted)
         estimator = build_estimator(recipe)
         for one, result, out in zip(read, run_segments(estimator, read), outs[some], strict=True):
-            write_estimate(out, one.recording, result, estimator.joints, layout, note)
+            shown = joints or estimator.joints
+            write_estimate(out, one.recording, only(result, estimator.joints, shown), shown, layout, note)
 
 
 def read_observed(layout: JointLayout, recording: Path, residual: Path, rate_hz: float | None = None) -> Observed:
@@ -110,6 +113,15 @@ def run_segments(estimator: Estimator, read: Sequence[Observed]) -> list[Estimat
         if part.std is not None:
             found[k][1][span], has_std = part.std, True
     return [Estimate(tau, std if has_std else None) for tau, std in found]
+
+
+def only(result: Estimate, held: Sequence[str], joints: Sequence[str]) -> Estimate:
+    """Return some of the joints (n,) of an estimate; raise ConfigError where it does not hold one."""
+    missing = [joint for joint in joints if joint not in held]
+    if missing:
+        raise ConfigError(not_accepted("joint to estimate", missing[0], held))
+    columns = [held.index(joint) for joint in joints]
+    return Estimate(result.tau_ext[:, columns], None if result.std is None else result.std[:, columns])
 
 
 def write_estimate(

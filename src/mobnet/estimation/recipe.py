@@ -56,7 +56,7 @@ class Recipe:
         gravity_m_s2: acceleration of gravity [m/s^2].
         observing: the observer's settings.
         rate_hz: samples per second [Hz].
-        networks: limb -> folder of its trained network; empty for a method without limbs.
+        networks: limb -> folder of its trained network, for some limbs of the method; empty where it has none.
         fitted: file that rule `fit` wrote; None for a method that is not fitted.
     """
 
@@ -77,9 +77,10 @@ class Recipe:
             ConfigError: the method is unknown, or networks or fit are not the ones that it names.
         """
         source = self._row(self.method.of or self.name)
-        if set(self.method.limbs or source.limbs) != set(self.networks):
-            accepted = [sorted(self.method.limbs or source.limbs)]
-            raise ConfigError(not_accepted(f"networks of method {self.name}", sorted(self.networks), accepted))
+        limbs = self.method.limbs or source.limbs
+        if bool(limbs) != bool(self.networks) or not set(limbs).issuperset(self.networks):
+            accepted = f"some of {sorted(limbs)}" if limbs else "none"
+            raise ConfigError(not_accepted(f"networks of method {self.name}", sorted(self.networks), [accepted]))
         if bool(source.fitted) != (self.fitted is not None):
             accepted = "the file that rule `fit` writes" if source.fitted else "none"
             raise ConfigError(f"method {self.name!r} with the fit {self.fitted}; accepted: {accepted}")

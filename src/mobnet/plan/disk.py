@@ -64,13 +64,13 @@ def expected_bytes(plan: Plan, path: Path) -> int:
         case "residuals":
             width = len(residual_columns(layout))
         case "estimates":
-            width = _estimated_width(plan.settings, parts[0])
+            width = _estimated_width(plan.settings, parts[0], *parts[2:4])
         case _:
             return OTHER_BYTES
     duration_s = plan.files.duration_s([path.parts[-3]], int(path.stem.removeprefix("s")))
     return round(duration_s * plan.settings.rates.data_hz * width * NUMBER_BYTES * STORED)
 
 
-def _estimated_width(settings: Settings, method: str) -> int:
-    """Return the columns of an estimate that are no constants: a network's joints have a standard deviation too."""
-    return 2 * len(settings.predicted(settings.network_source_of(method))) or settings.layout.nv
+def _estimated_width(settings: Settings, method: str, scenario: str, level: str) -> int:
+    """Return the columns of an estimate: a method with networks gives a standard deviation of each joint too."""
+    return (1 + bool(settings.method(method).limbs)) * len(settings.estimated(method, scenario, level))

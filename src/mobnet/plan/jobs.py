@@ -111,9 +111,7 @@ class Jobs:
 
     def estimate(self, method: str, network_seed: int, scenario: str, level: str) -> Job:
         """Return a method's external torque for all recordings of a test, which run side by side."""
-        source = self.settings.network_source_of(method)
-        limbs = self.settings.method(source).limbs
-        networks = {limb: self.files.network(source, limb, network_seed) for limb in limbs}
+        networks = self.files.networks(method, network_seed, scenario, level)
         kinds = "recordings", "residuals", f"estimates/{method}/n{network_seed}"
         recordings, residuals, outs = (self.files.tests(scenario, level, kind) for kind in kinds)
         fitted = self.files.fit(method)
@@ -123,6 +121,7 @@ class Jobs:
             "methods": {name: self.settings.method(name) for name in self._with_source(method)},
             "networks": networks,
             "fitted": next(iter(fitted), None),
+            "joints": self.settings.estimated(method, scenario, level),
             "recordings": recordings,
             "residuals": residuals,
             "outs": outs,

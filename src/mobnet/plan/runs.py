@@ -133,6 +133,15 @@ class Files:
         seeds = self.network_seeds(method, limb)
         return self.results / NETWORKS / f"{method}-{limb}-s{seeds[seed % len(seeds)]}"
 
+    def networks(self, method: str, seed: int, scenario: str, level: str) -> dict[str, Path]:
+        """Return the networks, limb -> folder, that a method runs in a test: those of joints that it estimates."""
+        source, joints = self.settings.network_source_of(method), {*self.settings.estimated(method, scenario, level)}
+        return {
+            limb: self.network(source, limb, seed)
+            for limb in self.settings.method(source).limbs
+            if joints.intersection(self.settings.layout.limbs(self.settings.robot.networks[limb].joints))
+        }
+
     def repeated(self, method: str, seed: int) -> tuple[str, ...]:
         """Return the limbs, groups of joints, whose network served an earlier seed of a method already."""
         source, seeds = self.settings.network_source_of(method), self.network_seeds(method)

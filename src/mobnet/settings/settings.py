@@ -10,6 +10,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.settings.base import (
     Index,
     LevelName,
+    LimbNames,
     LowerName,
     MethodNames,
     RobotNetworkName,
@@ -17,6 +18,7 @@ from mobnet.settings.base import (
     ScaleName,
     ScenarioName,
     Section,
+    TestName,
 )
 from mobnet.settings.claims import Claim, ClaimName
 from mobnet.settings.data import (
@@ -66,6 +68,7 @@ class Settings(Section):
     development: Development
     trials: Trials
     tests: dict[ScenarioName, Annotated[dict[LevelName, MethodNames], Field(min_length=1)]]
+    estimated_limbs: dict[TestName, dict[LevelName, Annotated[LimbNames, Field(min_length=1)]]]
     evaluation: Evaluation
     scales: Annotated[dict[LowerName, Scale], Field(min_length=1)]
     robot: RobotTable
@@ -130,6 +133,12 @@ class Settings(Section):
         """Return the joints that the networks of a method predict, none where it has none of its own."""
         limbs = self.method(method).limbs
         return self.layout.limbs(group for limb in limbs for group in self.robot.networks[limb].joints)
+
+    def estimated(self, method: str, scenario: str, level: str) -> tuple[str, ...]:
+        """Return the joints that a method estimates in a test: of the test's limbs, those that its networks predict."""
+        joints = self.layout.limbs(self.estimated_limbs.get(scenario, {}).get(level, self.layout.groups))
+        known = self.predicted(self.network_source_of(method)) or self.layout.names
+        return tuple(joint for joint in joints if joint in known)
 
     def network(self, method: str, limb: str) -> Network:
         """Return a network of Table 1 with a method's changes laid over it; a ConfigError names an unknown one."""

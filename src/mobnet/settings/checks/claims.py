@@ -90,7 +90,7 @@ def _score_problems(results: Results, cell: Cell) -> Iterator[Problem]:
     scenario, method = str(cell.scenario), str(cell.method)
     if text := results.not_run(scenario, str(cell.level), method):
         yield ("level" if text.startswith("level") else "method",), text
-    elif text := results.not_estimated(method, results.joints_of_cell(cell)):
+    elif text := results.not_estimated(method, scenario, str(cell.level), results.joints_of_cell(cell)):
         yield ("method",), text
     for metric in metrics_of(cell):
         if text := results.not_scored(scenario, metric):

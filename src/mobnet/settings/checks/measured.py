@@ -1,11 +1,10 @@
 """What must hold for the products beside errors: pushes, lines for every band, lags within what is looked at."""
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.checks.results import Results
-from mobnet.settings.evaluation import LimbRuns
 from mobnet.settings.reading import Place
 
 Problem = tuple[Place, str]
@@ -20,12 +19,6 @@ def measured_problems(results: Results) -> Iterator[Problem]:
         limb = getattr(evaluation, name).limb
         if limb not in results.legs:
             yield (*ROOT, name, "limb"), not_accepted("leg", limb, results.legs)
-    for name, tests in (
-        ("peaks", dict(enumerate(evaluation.peaks.tests))),
-        ("phases", dict(enumerate(evaluation.phases.tests))),
-        ("sigma", evaluation.sigma.tests),
-    ):
-        yield from _limb_problems(results, (*ROOT, name, "tests"), tests)
     yield from _push_problems(results)
     yield from _learned_problems(results)
     yield from _line_problems(results)
@@ -33,17 +26,6 @@ def measured_problems(results: Results) -> Iterator[Problem]:
     for k, row in enumerate(evaluation.methods):
         if text := results.not_scored(row.scenario, row.metric):
             yield (*ROOT, "methods", k, "metric"), text
-
-
-def _limb_problems(
-    results: Results, place: Place, tests: Mapping[str, LimbRuns] | Mapping[int, LimbRuns]
-) -> Iterator[Problem]:
-    """Yield methods that do not estimate the limbs at which they are shown."""
-    for key, test in tests.items():
-        joints = [joint for limb in test.limbs for joint in results.joints(limb)]
-        for k, method in enumerate(test.methods):
-            if text := results.not_estimated(method, joints):
-                yield (*place, key, "methods", k), text
 
 
 def _push_problems(results: Results) -> Iterator[Problem]:

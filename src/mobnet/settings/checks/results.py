@@ -106,16 +106,10 @@ class Results:
         found = getattr(self.settings.evaluation, section)
         return sorted({name for _, kind, name in uses(found, type(found)) if kind == "test"})
 
-    def estimated(self, method: str) -> set[str]:
-        """Return the joints that a method estimates: those that its networks predict, or all where it has none."""
-        return set(self.settings.predicted(self.settings.network_source_of(method)) or self.layout.names)
-
-    def not_estimated(self, method: str, joints: Collection[str]) -> str:
-        """Return what is wrong with a method where these joints are shown: networks predict their limbs alone."""
-        source = self.settings.network_source_of(method)
-        if not self.settings.all_methods[source].limbs:
-            return ""
-        missing = [joint for joint in joints if joint not in self.settings.predicted(source)]
+    def not_estimated(self, method: str, scenario: str, level: str, joints: Collection[str]) -> str:
+        """Return what is wrong with a method where these joints of a test are shown: it estimates some limbs alone."""
+        held = self.settings.estimated(method, scenario, level)
+        missing = [f"{joint} in {scenario}, {level}" for joint in joints if joint not in held]
         return f"{method} is not accepted; accepted: methods that estimate {missing[0]}" if missing else ""
 
     def trained(self, limb: str) -> list[str]:

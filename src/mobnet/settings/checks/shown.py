@@ -8,6 +8,7 @@ from pydantic import BaseModel
 
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.checks.claims import claim_problems
+from mobnet.settings.checks.estimated import estimate_problems
 from mobnet.settings.checks.measured import measured_problems
 from mobnet.settings.checks.printed import printed_problems
 from mobnet.settings.checks.results import Results
@@ -45,6 +46,7 @@ def shown_problems(settings: Settings) -> Iterator[Problem]:
     ):
         yield from check(results)
     yield from measured_problems(results)
+    yield from estimate_problems(results)
     yield from claim_problems(results)
     yield from printed_problems(settings)
 
@@ -110,7 +112,6 @@ def _table_problems(results: Results, table: ErrorTable) -> Iterator[Problem]:
     shown = {method for row in table.rows for method in (*row.methods, *row.further)}
     for name in table.names.keys() - shown:
         yield ("names", name), not_accepted("method", name, shown)
-    asked = {joint for column in table.columns for joint in results.joints_of(column)}
     own = {metric for column in table.columns if isinstance(column, Mean) for metric in column.metrics}
     for index, row in enumerate(table.rows):
         place = ("rows", index)
@@ -120,12 +121,9 @@ def _table_problems(results: Results, table: ErrorTable) -> Iterator[Problem]:
         for metric in sorted(own | {row.metric}):
             if text := results.not_scored(row.scenario, metric):
                 yield (*place, "metric" if metric == row.metric else "scenario"), text
-        for key, methods in (("methods", row.methods), ("further", row.further)):
-            for k, method in enumerate(methods):
-                if text := results.not_estimated(method, asked):
-                    yield (*place, key, k), text
-                if key == "further" and method in row.methods:
-                    yield (*place, key, k), misfit(method, "methods that are not among `methods`")
+        for k, method in enumerate(row.further):
+            if method in row.methods:
+                yield (*place, "further", k), misfit(method, "methods that are not among `methods`")
 
 
 def _budget_problems(results: Results) -> Iterator[Problem]:
@@ -150,19 +148,6 @@ def _figure_problems(results: Results) -> Iterator[Problem]:
     if drawn < LEAST_DRAWN:
         text = misfit(figure.end_s, f"{LEAST_DRAWN} drawn samples or more after {figure.start_s}")
         yield (*ROOT, "figure_07", "end_s"), text
-    upper = [joint for limb in evaluation.figure_18.limbs for joint in results.joints(limb)]
-    for name, joints, methods in (
-        ("figure_05", (evaluation.figure_05.joint,), {m for row in evaluation.figure_05.panels.values() for m in row}),
-        ("figure_06", (evaluation.figure_06.joint,), evaluation.figure_06.methods),
-        ("figure_07", figure.joints, figure.methods),
-        ("figure_08", results.joints(evaluation.figure_08.limb), evaluation.figure_08.methods),
-        ("figure_09", results.joints(evaluation.figure_09.limb), evaluation.figure_09.methods),
-        ("figure_10", (evaluation.figure_10.joint,), against),
-        ("figure_18", upper, evaluation.figure_18.methods),
-    ):
-        for method in methods:
-            if text := results.not_estimated(method, joints):
-                yield (*ROOT, name), text
     for title, test in evaluation.figure_10.tests.items():
         for k, method in enumerate(test.methods):
             if method not in against:
@@ -246,23 +231,8 @@ def _sweep_problems(results: Results) -> Iterator[Problem]:
 
 
 def _test_problems(results: Results) -> Iterator[Problem]:
-    """Yield tests of standard deviations that nothing predicts, and bounds for what the paper does not print."""
+    """Yield bounds for what the paper does not print, and tests without a dot."""
     settings, evaluation = results.settings, results.settings.evaluation
-    learned = [name for name, method in settings.all_methods.items() if method.limbs]
-    rows: list[tuple[Place, Sequence[str], Sequence[str]]] = [(("methods",), evaluation.calibration.methods, ())]
-    rows += [
-        (("tests", k, "methods"), test.methods, [joint for limb in test.limbs for joint in results.joints(limb)])
-        for k, test in enumerate(evaluation.calibration.tests)
-    ]
-    for place, methods, joints in rows:
-        predicted = set[str]()
-        for k, method in enumerate(methods):
-            predicted |= {*results.settings.predicted(method)}
-            if method not in learned:
-                yield (*ROOT, "calibration", *place, k), not_accepted("method with networks", method, learned)
-        if not predicted.issuperset(joints):
-            text = misfit("a limb that no method predicts", "limbs of the networks of `methods`")
-            yield (*ROOT, "calibration", "tests", place[1], "limbs"), text
     for limb in evaluation.uncertainty.ratio:
         if limb not in settings.published.uncertainty.std:
             text = not_accepted("limb", limb, settings.published.uncertainty.std)
@@ -272,13 +242,10 @@ def _test_problems(results: Results) -> Iterator[Problem]:
 
 
 def _method_table_problems(results: Results) -> Iterator[Problem]:
-    """Yield columns of the table of methods that its limbs do not have or its methods do not estimate."""
+    """Yield columns of the table of methods that its limbs do not have."""
     for index, row in enumerate(results.settings.evaluation.methods):
         for limb, columns in row.columns.items():
             for k, column in enumerate(columns):
                 if column not in (*results.joints(limb), "avg"):
                     place = (*ROOT, "methods", index, "columns", limb, k)
                     yield place, not_accepted(f"column of {limb}", column, [*results.joints(limb), "avg"])
-            for k, method in enumerate(row.methods):
-                if text := results.not_estimated(method, results.joints(limb)):
-                    yield (*ROOT, "methods", index, "methods", k), text
