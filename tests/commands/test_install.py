@@ -110,7 +110,7 @@ def test_cpu_is_looked_for_everywhere_before_cuda_is_taken(
         (False, True, False),
         (False, False, True),
     ]
-    assert "the CUDA build is taken, 6.0 GB in all" in capsys.readouterr().err
+    assert "the CUDA build is taken, 6.4 GB in all" in capsys.readouterr().err
 
 
 def test_cpu_that_is_asked_for_is_not_replaced(tools: tooling.Tools, monkeypatch: pytest.MonkeyPatch) -> None:

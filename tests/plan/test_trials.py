@@ -25,14 +25,15 @@ def test_every_method_is_tried_as_often_as_every_other(plan: Plan) -> None:
     trials = list(tuned(plan.settings.trials, plan.settings.methods))
     counts = {base: sum(trial.base == base for trial in trials) for base in plan.settings.trials.tuning.grids}
     assert len(set(counts.values())) == 1, counts
-    lengths = list(of_lengths(plan.settings.trials, plan.settings.methods))
+    lengths = list(of_lengths(plan.settings.trials, plan.settings.methods, plan.settings.learning.rate_first))
     wanted = plan.settings.trials.lengths
-    assert len(lengths) == len(wanted.methods) * len(wanted.experiments)
+    assert len(lengths) == len(wanted.methods) * len(wanted.experiments) * len(wanted.rate_shares)
 
 
 def test_names_are_distinct_and_can_be_folders(plan: Plan) -> None:
     settings = plan.settings
-    trials = [*tuned(settings.trials, settings.methods), *of_lengths(settings.trials, settings.methods)]
+    given = settings.trials, settings.methods
+    trials = [*tuned(*given), *of_lengths(*given, settings.learning.rate_first)]
     assert len(settings.tried) == len(trials)
     assert not set(settings.tried) & set(settings.all_methods)
     assert not [name for name in settings.tried if Path(f"{name}-LL-s0").suffix]
@@ -47,6 +48,9 @@ def test_a_trial_changes_what_it_says_and_its_length(plan: Plan) -> None:
     assert training.learning.may_diverge
     lengths = [settings.training(f"MOB-Net-steps-{steps}m", "LL") for steps in (3, 10, 39, 150)]
     assert [one.epochs * (one.epoch_samples or 0) for one in lengths] == [3e6, 10e6, 39e6, 150e6]
+    slower = [one for one in settings.tried if one.startswith("FTS-e2e-steps-39m-")]
+    chosen = settings.learned("FTS-e2e").rate_first
+    assert [settings.training(name, "LL").learning.rate_first for name in slower] == [chosen / 2]
     assert settings.method("MOB-Kalman-300-0").options["walk_nm"] == 300.0
 
 

@@ -21,8 +21,8 @@ class Build(NamedTuple):
 
 
 BUILDS = {  # `===` accepts no other build of the same version
-    "cpu": Build("=={version}+cpu", ((), ("--torch-backend=cpu",)), 2.5e9, "1 to 3 minutes"),
-    "cuda": Build("==={version}", ((),), 6.0e9, "2 to 6 minutes"),
+    "cpu": Build("=={version}+cpu", ((), ("--torch-backend=cpu",)), 2.8e9, "1 to 4 minutes"),
+    "cuda": Build("==={version}", ((),), 6.4e9, "2 to 7 minutes"),
 }
 MARGIN = 1.2  # of disk, for files that are only needed while packages are unpacked
 MEMORY = "1 GB"  # uv's peak, rounded up

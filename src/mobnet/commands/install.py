@@ -42,7 +42,8 @@ def attempt(tools: Tools, build: str) -> list[str]:
     python, places = str(tools.python), BUILDS[build].places
     locked = "-r", locked_packages(tools.root, build), "-c", str(tools.root / "cuda.constraints"), "--require-hashes"
     left_out = written(tools.root, "excludes.txt", f"{UNWANTED}\nuv\n")
-    uv = str(tools.uv), "pip", "install", "--quiet", "--python", python, "--excludes", left_out, *locked
+    compiled = "--compile-bytecode"  # once, instead of at the start of every process that may not write it
+    uv = str(tools.uv), "pip", "install", "--quiet", compiled, "--python", python, "--excludes", left_out, *locked
     if any(tools.try_to(*uv, "--offline", *place) is None for place in places):
         return []
     check_disk(tools.root, build)

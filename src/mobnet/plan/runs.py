@@ -117,10 +117,11 @@ class Files:
 
     def duration_s(self, scenarios: Iterable[str], seed: int) -> float:
         """Return how long the longest recording of some scenarios with a seed is [s]."""
-        if seed < FIRST_TRAINING_SEED:
-            sizes = self.settings.sizes
-            return (sizes.test if seed < FIRST_DEVELOPMENT_SEED else sizes.development).shard_s
         wanted, sets = list(scenarios), self.settings.training_sets
+        if seed < FIRST_DEVELOPMENT_SEED:
+            return max(self.settings.test_s(name) for name in wanted)
+        if seed < FIRST_TRAINING_SEED:
+            return self.settings.sizes.development.shard_s
         return max(self.training_size(name).shard_s for name, row in sets.items() if row.scenario in wanted)
 
     def network_seeds(self, method: str, limb: str | None = None) -> tuple[int, ...]:

@@ -14,9 +14,12 @@ from mobnet.settings.trials import Trial, of_lengths, references, tuned
 
 def trial_products(settings: Settings, files: Files) -> Iterator[Product]:
     """Yield the tables of what was tried: `tuning` and `lengths`."""
-    tables = {"tuning": (references, tuned), "lengths": (of_lengths,)}
-    for name, several in tables.items():
-        trials = [trial for found in several for trial in found(settings.trials, settings.methods)]
+    given = settings.trials, settings.methods
+    tables = {
+        "tuning": (*references(*given), *tuned(*given)),
+        "lengths": tuple(of_lengths(*given, settings.learning.rate_first)),
+    }
+    for name, trials in tables.items():
         yield _product(settings, files, files.results / "trials" / name, trials)
 
 

@@ -22,6 +22,7 @@ Duration = Annotated[base.Real, Field(ge=0.002, le=120)]  # of a push [s]
 FootHeight = Annotated[base.Real, Field(ge=0.005, le=0.5)]  # [m]
 Offset = Annotated[base.Real, Field(ge=-0.5, le=0.5)]  # [m]
 Cost = Annotated[base.Real, Field(ge=0.001, le=50)]
+RecordingSeconds = Annotated[base.Real, Field(ge=1, le=7200)]
 
 
 class Checks(Section):
@@ -197,7 +198,7 @@ class Recordings(Section):
     """Number of recordings and duration of each."""
 
     shards: base.Whole = Field(ge=1, le=500)
-    shard_s: base.Real = Field(ge=1, le=7200)
+    shard_s: RecordingSeconds
 
 
 class TrainingRecordings(Recordings):

@@ -4,8 +4,8 @@ from typing import Annotated
 
 from pydantic import Field
 
-from mobnet.settings.base import Count, LowerName, NotNegative, Positive, Section, Seeds, Share, Whole
-from mobnet.settings.data import Recordings
+from mobnet.settings.base import Count, LowerName, NotNegative, Positive, Section, Seeds, Share, TestName, Whole
+from mobnet.settings.data import Recordings, RecordingSeconds
 
 
 class Experiment(Section):
@@ -17,9 +17,13 @@ class Experiment(Section):
 
 
 class Scale(Section):
-    """One size of every test and of every training; the last four replace numbers of other sections."""
+    """One size of every test and of every training; the last four replace numbers of other sections.
+
+    `longer_s` are the durations of tests whose recordings are longer than those of the others.
+    """
 
     test: Recordings
+    longer_s: dict[TestName, RecordingSeconds] = {}
     development: Recordings
     experiments: dict[LowerName, Experiment] = Field(min_length=1)
     batch_size: Annotated[Count, Field(le=4096)] | None = None

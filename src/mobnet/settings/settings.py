@@ -85,6 +85,10 @@ class Settings(Section):
         """The chosen scale."""
         return self.scales[self.scale]
 
+    def test_s(self, scenario: str) -> float:
+        """Return how long a recording of a test is at the chosen scale [s]."""
+        return self.sizes.longer_s.get(scenario, self.sizes.test.shard_s)
+
     @cached_property
     def all_methods(self) -> dict[str, Method]:
         """The methods and those that sweeps stand for, such as `MOB-Net-hidden-44` (section 6.3)."""
@@ -110,7 +114,7 @@ class Settings(Section):
     @cached_property
     def tried(self) -> dict[str, Method]:
         """The methods of the trials, which no table shows."""
-        trials = [*tuned(self.trials, self.methods), *of_lengths(self.trials, self.methods)]
+        trials = [*tuned(self.trials, self.methods), *of_lengths(self.trials, self.methods, self.learning.rate_first)]
         return {trial.name: trial.method for trial in trials}
 
     def method(self, name: str) -> Method:

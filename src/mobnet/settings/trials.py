@@ -29,10 +29,11 @@ class Tuning(Section):
 
 
 class Lengths(Section):
-    """Methods whose networks are trained as long as each of some experiments says."""
+    """Methods whose networks are trained as long as each of some experiments says, at shares of their first rate."""
 
     methods: base.MethodNames
     experiments: base.Distinct[base.ExperimentName]
+    rate_shares: base.Distinct[base.PositiveShare]
 
 
 class Trials(Section):
@@ -81,12 +82,19 @@ def tuned(trials: Trials, methods: Mapping[str, Method]) -> Iterator[Trial]:
             yield Trial(name, trial_name(name, changes), changes, method)
 
 
-def of_lengths(trials: Trials, methods: Mapping[str, Method]) -> Iterator[Trial]:
-    """Yield every method at every length."""
+def of_lengths(trials: Trials, methods: Mapping[str, Method], rate_first: float) -> Iterator[Trial]:
+    """Yield every method at every length and share of its first rate, which is `rate_first` where it has none."""
     known = [name for name in trials.lengths.methods if name in methods]
-    for name, experiment in product(known, trials.lengths.experiments):
-        changes = {"experiment": experiment}
-        yield Trial(name, trial_name(name, changes), changes, _changed(methods[name], trials, experiment, {}, {}))
+    for name, experiment, share in product(known, trials.lengths.experiments, trials.lengths.rate_shares):
+        learning = {} if share == 1.0 else {"rate_first": share * _rate_of(methods[name], rate_first)}
+        changes = {"experiment": experiment, **learning}
+        yield Trial(name, trial_name(name, changes), changes, _changed(methods[name], trials, experiment, learning, {}))
+
+
+def _rate_of(method: Method, rate_first: float) -> float:
+    """Return a method's first learning rate."""
+    own = method.learning.get("rate_first", rate_first)
+    return float(own) if isinstance(own, int | float) else rate_first
 
 
 def _changed(

@@ -12,12 +12,12 @@ from mobnet.evaluation.number.number import Number
 from mobnet.settings.evaluation import LearningCurve
 
 
-def row(steps: int, error: float, seed: int = 0, state: str = "", joint: str = "avg") -> TrialError:
-    return TrialError("LSTM", f"experiment {steps}", seed, steps, state, -3.0, joint, error, 0.1, 6, 0)
+def row(steps: int, error: float, seed: int = 0, state: str = "", joint: str = "avg", best: int = 1) -> TrialError:
+    return TrialError("LSTM", f"experiment {steps}", seed, steps, state, -3.0, joint, error, 0.1, 6, best)
 
 
-def test_it_shows_the_mean_over_joints_of_trainings_that_did_not_diverge(tmp_path: Path) -> None:
-    rows = [row(10, 2.0), row(3, 4.0), row(3, 9.0, joint="LL1"), row(39, 99.0, state="diverged")]
+def test_it_shows_the_mean_over_joints_at_the_best_rate_of_trainings_that_did_not_diverge(tmp_path: Path) -> None:
+    rows = [row(10, 2.0), row(3, 4.0), row(3, 9.0, joint="LL1"), row(39, 99.0, state="diverged"), row(3, 5.0, best=0)]
     write_csv(tmp_path / "lengths.csv", TRIALS, [astuple(one) for one in rows])
     settings = LearningCurve(data=str(tmp_path / "lengths.csv"), joint="avg")
     learning_curve(settings, tmp_path / "lengths.csv", tmp_path)

@@ -2,7 +2,8 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from csv_files import read_table
 
 from mobnet.core.recording import Recording
 from mobnet.core.store import read_array
-from mobnet.evaluation.tables.trials import trials
+from mobnet.evaluation.tables.trials import is_best, trials
 from mobnet.plan.runs import Tried
 from mobnet.settings.settings import Settings
 from mobnet.settings.trials import tuned
@@ -64,6 +65,20 @@ def test_one_variant_of_each_method_that_is_varied_is_the_best(made: tuple[Path,
     lines = made[0].with_suffix(".md").read_text().splitlines()
     assert lines[0].startswith("| Method | Tried | Steps [million] | Val. loss | LL1 | LL4 | avg |")
     assert sum("| best |" in line for line in lines) == 1
+
+
+def test_of_lengths_each_has_its_best() -> None:
+    """The rate of each length is chosen by itself."""
+
+    class Made(NamedTuple):
+        tried: Any
+        average: float
+
+    outcomes: list[Any] = [
+        Made(SimpleNamespace(base="M", changes={"experiment": length, "rate_first": rate}), error)
+        for length, rate, error in (("short", 0.1, 3.0), ("short", 0.2, 2.0), ("long", 0.1, 1.0), ("long", 0.2, 1.5))
+    ]
+    assert [is_best(one, outcomes) for one in outcomes] == [False, True, True, False]
 
 
 def test_the_grid_of_the_configuration_is_what_a_trial_says(settings: Settings) -> None:

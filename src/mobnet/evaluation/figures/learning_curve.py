@@ -18,9 +18,10 @@ MILLION = 1e6
 def learning_curve(settings: LearningCurve, kept: Path, figure_dir: Path) -> None:
     """Write the figure as PDF, PNG and CSV: RMSE [N m], the mean over the limb's joints, over steps [million].
 
-    `kept` is the table that `./reproduce lengths` made; a training that diverged has no place.
+    `kept` is the table that `./reproduce lengths` made. Of the rates tried for a length the best is shown; a training
+    that diverged has no place.
     """
-    rows = [row for row in read_rows(kept, TrialError) if row.joint == settings.joint and row.steps and not row.state]
+    rows = [row for row in read_rows(kept, TrialError) if row.joint == settings.joint and row.best and not row.state]
     lines = [curve_of(method, rows) for method in dict.fromkeys(row.method for row in rows)]
     panel = LinePanel("development walks", "time steps learned from [million]", "RMSE [N m]", lines, sizes=True)
     write_csv(figure_dir / "learning_curve.csv", TRIALS, [astuple(row) for row in rows])

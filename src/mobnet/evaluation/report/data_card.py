@@ -140,6 +140,10 @@ def sizes(settings: Settings) -> str:
         for names, part in (
             *(((n, row.scenario, row.level), row.sizes[scale]) for n, row in settings.training_sets.items()),
             (("test", "each test", "as its table asks"), entry.test),
+            *(
+                (("test", name, "as its table asks"), entry.test.model_copy(update={"shard_s": duration}))
+                for name, duration in entry.longer_s.items()
+            ),
         )
     ]
     rows = [[*names, str(part.shards), f"{part.shards * part.shard_s / MINUTE_S:g}"] for names, part in sets]

@@ -92,6 +92,7 @@ def size_texts(scale: str, rates: Rates, sizes: Scale, train: Recordings) -> dic
         "train samples": f"{train.shards * train.shard_s * rates.data_hz / MILLION:.2g}",
         "test runs": str(sizes.test.shards),
         "test seconds": f"{sizes.test.shard_s:g}",
+        "longer seconds": f"{max(sizes.longer_s.values(), default=sizes.test.shard_s):g}",
         "network runs": str(len(legs.seeds)),
         "epochs": str(legs.epochs),
         **{f"{name} runs": str(len(row.seeds)) for name, row in sizes.experiments.items()},

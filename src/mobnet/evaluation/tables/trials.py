@@ -49,9 +49,17 @@ def trials(
 
 
 def is_best(outcome: Outcome, outcomes: Sequence[Outcome]) -> bool:
-    """Return whether a variant has the smallest mean error of its method; a method that is not changed is no choice."""
-    rivals = [one for one in outcomes if one.tried.base == outcome.tried.base]
+    """Return whether a variant has the smallest mean error of its method, among those of its length where they differ.
+
+    A method that is not changed is no choice.
+    """
+    rivals = [one for one in outcomes if _kind_of(one) == _kind_of(outcome)]
     return bool(outcome.tried.changes) and outcome is min(rivals, key=lambda one: one.average)
+
+
+def _kind_of(outcome: Outcome) -> tuple[str, object]:
+    """Return the method of which a variant is, and its length if that is what is tried."""
+    return outcome.tried.base, outcome.tried.changes.get("experiment")
 
 
 def rows_of(outcome: Outcome, joints: Sequence[str], outcomes: Sequence[Outcome]) -> Iterator[TrialError]:

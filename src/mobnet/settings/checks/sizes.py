@@ -55,6 +55,8 @@ def _length_problems(settings: Settings, scale: Scale) -> Iterator[Problem]:
     """Yield durations of recordings that are no whole number of samples."""
     rate, name = settings.rates.data_hz, settings.scale
     sizes: dict[Place, float] = {("scales", name, "test", "shard_s"): scale.test.shard_s}
+    for test, duration in scale.longer_s.items():
+        sizes["scales", name, "longer_s", test] = duration
     for key, row in settings.training_sets.items():
         sizes["training_sets", key, "sizes", name, "shard_s"] = row.sizes[name].shard_s
     for place, value in sizes.items():
@@ -65,26 +67,31 @@ def _length_problems(settings: Settings, scale: Scale) -> Iterator[Problem]:
 def _time_problems(settings: Settings, scale: Scale) -> Iterator[Problem]:
     """Yield figures and pushes behind the end of a test; a scale with `figure_start_s` is too short for pushes."""
     length, cycle = scale.test.shard_s, CYCLES * 2 * max(settings.commands.duration_s)
+    for test, duration in scale.longer_s.items():
+        if duration <= length:
+            text = misfit(duration, f"more than shard_s of test, {length:g}")
+            yield ("scales", settings.scale, "longer_s", test), text
     if scale.figure_start_s is not None:
         if scale.figure_start_s + cycle > length:
             accepted = f"at most {length - cycle:g}, {CYCLES} gait cycles before the end of a test"
             yield ("scales", settings.scale, "figure_start_s"), misfit(scale.figure_start_s, accepted)
         return
-    ends = dict[Place, tuple[float, float]]()  # place -> value and time after it that the test must last
+    ends = list[tuple[Place, str, float, float]]()  # place, test, value and time after it that the test must last
     for name, section in settings.evaluation:
         if isinstance(section, Figure05 | GaitFigure):
-            ends["evaluation", name, "start_s"] = section.start_s, cycle
+            ends.append((("evaluation", name, "start_s"), section.scenario, section.start_s, cycle))
         elif isinstance(section, Figure07):
-            ends["evaluation", name, "end_s"] = section.end_s, 0.0
-    pushed = {push for test in settings.tests for push in settings.scenarios[test].pushes}
-    for push in sorted(pushed):
-        row = settings.pushes[push]
-        for index, start in enumerate(row.at_s or ()):
-            ends["pushes", push, "at_s", index] = start, row.duration_s[1]
-    for place, (value, after) in ends.items():
-        most = min(length, settings.recording.episode_s) - after
+            ends.append((("evaluation", name, "end_s"), section.scenario, section.end_s, 0.0))
+    for test in settings.tests:
+        for push in settings.scenarios[test].pushes:
+            row = settings.pushes[push]
+            for index, start in enumerate(row.at_s or ()):
+                ends.append((("pushes", push, "at_s", index), test, start, row.duration_s[1]))
+    for place, test, value, after in ends:
+        most = min(settings.test_s(test), settings.recording.episode_s) - after
         if value > most:
-            yield place, misfit(value, f"at most {most:g}, for a test lasts {length} s at scale {settings.scale}")
+            lasts = f"for {test} lasts {settings.test_s(test)} s at scale {settings.scale}"
+            yield place, misfit(value, f"at most {most:g}, {lasts}")
     if settings.evaluation.coverage.block_s > length:
         accepted = f"at most {length}, a test at scale {settings.scale}"
         yield ("evaluation", "coverage", "block_s"), misfit(settings.evaluation.coverage.block_s, accepted)
