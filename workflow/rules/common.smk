@@ -51,6 +51,10 @@ onstart:
         check_agreement,
     )  # here, as it takes a second that a call without jobs need not wait
 
+    if workflow.local_exec:
+        # Snakemake 9.27 with a rate limit looks at all ready jobs in every timespan, once for each job that ended: half
+        # of a core after 100 jobs. Here the number of cores limits the rate.
+        workflow.scheduler.job_rate_limiter = None
     try:
         start_jobs(ROOT)
         record_precision(PLAN.folders.results)
