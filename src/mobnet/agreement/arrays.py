@@ -82,7 +82,7 @@ def _recording_faults(note: Mapping[str, Any], scenario: str, level: str, seed: 
 
 def _owner_faults(
     note: Mapping[str, Any], method: str, seed: int, test: tuple[str, str], files: Files
-) -> Iterator[str]:  # fmt: skip
+) -> Iterator[str]:
     """Yield in what the note of an estimate is not that of a method and a network seed in a test at a level."""
     folders = files.networks(method, seed, *test)
     yield from differences(note, {"method": method, "networks": {limb: path.name for limb, path in folders.items()}})

@@ -38,7 +38,7 @@ def set_up(root: Path, build: str | None = None) -> None:
 
 
 def wait_for(handle: int) -> None:
-    """Take a lock alone; waits while another set-up holds it."""
+    """Take the lock of the set-up; wait, and say so, while another set-up in this folder holds it."""
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

@@ -75,8 +75,8 @@ def estimate(
         read = [read_observed(layout, recording, residual, rate_hz) for recording, residual in pairs]
         recipe = Recipe(method, methods, robot, level, gravity_m_s2, observer, rate_of(read), networks, fitted)
         estimator = build_estimator(recipe)
+        shown = joints or estimator.joints
         for one, result, out in zip(read, run_segments(estimator, read), outs[some], strict=True):
-            shown = joints or estimator.joints
             write_estimate(out, one.recording, only(result, estimator.joints, shown), shown, layout, note)
 
 

@@ -69,7 +69,10 @@ def cut_streams(
 
 
 def deal(streams: Sequence[Span], lanes: int, horizon: int) -> Plan:
-    """Lay streams of whole horizons end to end and deal them to lanes of equal length, TBPTT of section 4.4.
+    """Distribute streams over the lanes of a batch for truncated back-propagation through time (section 4.4).
+
+    Streams, each a whole number of horizons long, are laid end to end and cut into lanes of equal length; what is left
+    over at the end is not learned from.
 
     Raises:
         DataError: the streams hold fewer horizons than there are lanes.

@@ -74,7 +74,7 @@ class Files:
 
     @property
     def test_seeds(self) -> list[int]:
-        """Seeds of the recordings of every test."""
+        """Seeds of the test recordings, the same in every test."""
         return [FIRST_TEST_SEED + i for i in range(self.settings.sizes.test.shards)]
 
     def array(self, kind: str, scenario: str, level: str, seed: int | str) -> Path:
@@ -116,7 +116,7 @@ class Files:
             yield from ((scenario, level, seed) for level in levels for seed in self.test_seeds)
 
     def duration_s(self, scenarios: Iterable[str], seed: int) -> float:
-        """Return how long the longest recording of some scenarios with a seed is [s]."""
+        """Return the duration of the recordings with a seed [s]; of several scenarios, the longest."""
         wanted, sets = list(scenarios), self.settings.training_sets
         if seed < FIRST_DEVELOPMENT_SEED:
             return max(self.settings.test_s(name) for name in wanted)

@@ -19,7 +19,7 @@ class Experiment(Section):
 class Scale(Section):
     """One size of every test and of every training; the last four replace numbers of other sections.
 
-    `longer_s` are the durations of tests whose recordings are longer than those of the others.
+    `longer_s` gives the duration [s] of tests that need longer recordings than the others.
     """
 
     test: Recordings

@@ -86,7 +86,7 @@ class Settings(Section):
         return self.scales[self.scale]
 
     def test_s(self, scenario: str) -> float:
-        """Return how long a recording of a test is at the chosen scale [s]."""
+        """Return the duration of a test's recordings at the chosen scale [s]."""
         return self.sizes.longer_s.get(scenario, self.sizes.test.shard_s)
 
     @cached_property
@@ -134,12 +134,15 @@ class Settings(Section):
         return method if self.method(method).limbs else self.source_of(method)
 
     def predicted(self, method: str) -> tuple[str, ...]:
-        """Return the joints that the networks of a method predict, none where it has none of its own."""
+        """Return the joints that a method's own networks predict; none for a method without networks."""
         limbs = self.method(method).limbs
         return self.layout.limbs(group for limb in limbs for group in self.robot.networks[limb].joints)
 
     def estimated(self, method: str, scenario: str, level: str) -> tuple[str, ...]:
-        """Return the joints that a method estimates in a test: of the test's limbs, those that its networks predict."""
+        """Return the joints that a method estimates in a test.
+
+        A method with networks estimates those joints of the test's limbs that they predict, any other method all.
+        """
         joints = self.layout.limbs(self.estimated_limbs.get(scenario, {}).get(level, self.layout.groups))
         known = self.predicted(self.network_source_of(method)) or self.layout.names
         return tuple(joint for joint in joints if joint in known)

@@ -29,7 +29,7 @@ class Tuning(Section):
 
 
 class Lengths(Section):
-    """Methods whose networks are trained as long as each of some experiments says, at shares of their first rate."""
+    """Methods whose networks are trained at each length, and with each of some shares of their first learning rate."""
 
     methods: base.MethodNames
     experiments: base.Distinct[base.ExperimentName]
@@ -45,7 +45,7 @@ class Trials(Section):
 
 
 class Trial(NamedTuple):
-    """A variant of the `base` method: its name, what is changed, key -> value, and the method after that."""
+    """A variant of the method `base`: its name, the keys that it changes with their new values, and the variant."""
 
     base: str
     name: str
@@ -83,7 +83,10 @@ def tuned(trials: Trials, methods: Mapping[str, Method]) -> Iterator[Trial]:
 
 
 def of_lengths(trials: Trials, methods: Mapping[str, Method], rate_first: float) -> Iterator[Trial]:
-    """Yield every method at every length and share of its first rate, which is `rate_first` where it has none."""
+    """Yield every method at every length and share of its first learning rate.
+
+    That rate is `rate_first` for a method without one of its own.
+    """
     known = [name for name in trials.lengths.methods if name in methods]
     for name, experiment, share in product(known, trials.lengths.experiments, trials.lengths.rate_shares):
         learning = {} if share == 1.0 else {"rate_first": share * _rate_of(methods[name], rate_first)}
@@ -92,7 +95,7 @@ def of_lengths(trials: Trials, methods: Mapping[str, Method], rate_first: float)
 
 
 def _rate_of(method: Method, rate_first: float) -> float:
-    """Return a method's first learning rate."""
+    """Return a method's first learning rate; a value that is no number is refused elsewhere, at its own place."""
     own = method.learning.get("rate_first", rate_first)
     return float(own) if isinstance(own, int | float) else rate_first
 

@@ -88,7 +88,7 @@ def collect(settings: WalkSettings, seed: int, duration_s: float, out: Path, mot
 def collect_tests(settings: WalkSettings, duration_s: float, walks: Sequence[tuple[int, Path, Path | None]]) -> None:
     """Make the recordings of a test one after another: seed, place without ending, motion of the upper body of each.
 
-    One job makes them all, because a job takes longer to start than a walk of a minute takes.
+    One job makes them all, so that Python, MuJoCo and the compiled code are loaded once and not for every walk.
 
     Raises:
         SimulationError: the robot keeps falling.

@@ -3,7 +3,7 @@
 from collections.abc import Collection, Iterable, Iterator
 from typing import NamedTuple
 
-from mobnet.core.errors import misfit, not_accepted
+from mobnet.core.errors import misfit
 from mobnet.settings.checks.results import Results
 from mobnet.settings.reading import Place
 
@@ -11,7 +11,7 @@ Problem = tuple[Place, str]
 ROOT: Place = ("evaluation",)
 
 
-class Shown(NamedTuple):
+class ShownJoints(NamedTuple):
     """Methods of a test, listed at a place below `evaluation`, and joints that a product shows of each of them."""
 
     place: Place
@@ -41,17 +41,19 @@ def estimate_problems(results: Results) -> Iterator[Problem]:
     yield from _calibration_problems(results)
 
 
-def _of_tables(results: Results) -> Iterator[Shown]:
+def _of_tables(results: Results) -> Iterator[ShownJoints]:
     """Yield what tables show."""
     evaluation = results.settings.evaluation
     for name, table in evaluation.tables.items():
         joints = {joint for column in table.columns for joint in results.joints_of(column)}
         for index, row in enumerate(table.rows):
             for key in ("methods", "further"):
-                yield Shown(("tables", name, "rows", index, key), row.scenario, row.level, getattr(row, key), joints)
+                yield ShownJoints(
+                    ("tables", name, "rows", index, key), row.scenario, row.level, getattr(row, key), joints
+                )
     for index, row in enumerate(evaluation.methods):
         for limb in row.columns:
-            yield Shown(("methods", index, "methods"), row.scenario, row.level, row.methods, results.joints(limb))
+            yield ShownJoints(("methods", index, "methods"), row.scenario, row.level, row.methods, results.joints(limb))
     budgeted = {joint for column in evaluation.error_budget.joints for joint in results.joints_of(column)}
     noisy = {joint for name in evaluation.noise.joints for joint in results.joints(name)}
     for name, tests, joints in (
@@ -59,15 +61,15 @@ def _of_tables(results: Results) -> Iterator[Shown]:
         ("noise", evaluation.noise.tests, noisy),
     ):
         for k, row in enumerate(tests):
-            yield Shown((name, "tests", k, "methods"), row.scenario, row.level, row.methods, joints)
+            yield ShownJoints((name, "tests", k, "methods"), row.scenario, row.level, row.methods, joints)
 
 
-def _of_figures(results: Results) -> Iterator[Shown]:
+def _of_figures(results: Results) -> Iterator[ShownJoints]:
     """Yield what figures of walks show."""
     evaluation = results.settings.evaluation
     cycle, knee, limbs = evaluation.figure_05, evaluation.figure_10, evaluation.figure_18
     for level, methods in cycle.panels.items():
-        yield Shown(("figure_05", "panels", level), cycle.scenario, level, methods, (cycle.joint,))
+        yield ShownJoints(("figure_05", "panels", level), cycle.scenario, level, methods, (cycle.joint,))
     for name, joints in (
         ("figure_06", (evaluation.figure_06.joint,)),
         ("figure_07", evaluation.figure_07.joints),
@@ -75,23 +77,25 @@ def _of_figures(results: Results) -> Iterator[Shown]:
         ("figure_09", results.joints(evaluation.figure_09.limb)),
     ):
         figure = getattr(evaluation, name)
-        yield Shown((name, "methods"), figure.scenario, figure.level, figure.methods, joints)
+        yield ShownJoints((name, "methods"), figure.scenario, figure.level, figure.methods, joints)
     for title, test in knee.tests.items():
-        yield Shown(("figure_10", "tests", title, "methods"), test.scenario, test.level, test.methods, (knee.joint,))
+        yield ShownJoints(
+            ("figure_10", "tests", title, "methods"), test.scenario, test.level, test.methods, (knee.joint,)
+        )
     still = knee.against
-    yield Shown(("figure_10", "against", "methods"), still.scenario, still.level, still.methods, (knee.joint,))
-    upper = [joint for limb in limbs.limbs for joint in results.joints(limb)]
+    yield ShownJoints(("figure_10", "against", "methods"), still.scenario, still.level, still.methods, (knee.joint,))
+    upper = results.layout.limbs(limbs.limbs)
     for scenario in limbs.panels:
-        yield Shown(("figure_18", "methods"), scenario, limbs.level, limbs.methods, upper)
+        yield ShownJoints(("figure_18", "methods"), scenario, limbs.level, limbs.methods, upper)
 
 
-def _of_measures(results: Results) -> Iterator[Shown]:
+def _of_measures(results: Results) -> Iterator[ShownJoints]:
     """Yield what is measured limb by limb: pushes, sines, phases of the gait, standard deviations."""
     evaluation = results.settings.evaluation
     bode, drift = evaluation.bode, evaluation.drift
-    yield Shown(("bode", "methods"), bode.scenario, bode.level, bode.methods, results.joints(bode.limb))
+    yield ShownJoints(("bode", "methods"), bode.scenario, bode.level, bode.methods, results.joints(bode.limb))
     for title, test in drift.tests.items():
-        yield Shown(
+        yield ShownJoints(
             ("drift", "tests", title, "methods"), test.scenario, test.level, test.methods, results.joints(drift.limb)
         )
     for name, tests in (
@@ -100,23 +104,21 @@ def _of_measures(results: Results) -> Iterator[Shown]:
         ("sigma", evaluation.sigma.tests),
     ):
         for key, test in tests.items():
-            joints = [joint for limb in test.limbs for joint in results.joints(limb)]
-            yield Shown((name, "tests", key, "methods"), test.scenario, test.level, test.methods, joints)
+            joints = results.layout.limbs(test.limbs)
+            yield ShownJoints((name, "tests", key, "methods"), test.scenario, test.level, test.methods, joints)
 
 
 def _calibration_problems(results: Results) -> Iterator[Problem]:
     """Yield tests of standard deviations that nothing predicts."""
     settings, calibration = results.settings, results.settings.evaluation.calibration
-    learned = [name for name, method in settings.all_methods.items() if method.limbs]
     lists: list[tuple[Place, Iterable[str]]] = [((), calibration.methods)]
     lists += [(("tests", k), test.methods) for k, test in enumerate(calibration.tests)]
     for place, methods in lists:
         for k, method in enumerate(methods):
-            if method not in learned:
-                text = not_accepted("method with networks", method, learned)
+            if text := results.not_learned(method):
                 yield (*ROOT, "calibration", *place, "methods", k), text
     for k, test in enumerate(calibration.tests):
         held = {joint for method in test.methods for joint in settings.estimated(method, test.scenario, test.level)}
-        if not held.issuperset(joint for limb in test.limbs for joint in results.joints(limb)):
+        if not held.issuperset(results.layout.limbs(test.limbs)):
             text = misfit("a limb that no method predicts", "limbs of the networks of `methods`")
             yield (*ROOT, "calibration", "tests", k, "limbs"), text

@@ -59,12 +59,11 @@ def _push_problems(results: Results) -> Iterator[Problem]:
 def _learned_problems(results: Results) -> Iterator[Problem]:
     """Yield methods without networks where networks are timed or drawn, and trials that there are not."""
     settings, evaluation = results.settings, results.settings.evaluation
-    learned = [name for name, method in settings.all_methods.items() if method.limbs]
     shown: list[tuple[Place, str]] = [(("latency", "method"), evaluation.latency.method)]
     shown += [(("figure_08", "methods", k), name) for k, name in enumerate(evaluation.figure_08.methods)]
     for place, method in shown:
-        if method not in learned:
-            yield (*ROOT, *place), not_accepted("method with networks", method, learned)
+        if text := results.not_learned(method):
+            yield (*ROOT, *place), text
     joints = results.layout.limbs(settings.robot.networks[settings.trials.limb].joints)
     data = evaluation.learning_curve.data
     if not re.fullmatch(r"docs/trials/[a-z0-9_]+\.csv", data):
@@ -99,7 +98,7 @@ def _line_problems(results: Results) -> Iterator[Problem]:
 
 def _sigma_problems(results: Results) -> Iterator[Problem]:
     """Yield lags that are not looked at, names of tests that there are not, and methods without standard deviations."""
-    settings, sigma = results.settings, results.settings.evaluation.sigma
+    sigma = results.settings.evaluation.sigma
     if sigma.lags_ms[-1] > sigma.longest_s * MS:
         yield (*ROOT, "sigma", "lags_ms"), misfit(sigma.lags_ms[-1], f"at most longest_s, {sigma.longest_s * MS:g} ms")
     names: Sequence[str] = list(sigma.tests)
@@ -109,9 +108,7 @@ def _sigma_problems(results: Results) -> Iterator[Problem]:
                 yield (*ROOT, "sigma", "against", title), not_accepted("test of sigma", name, names)
         if title == base:
             yield (*ROOT, "sigma", "against", title), misfit(base, "another test of sigma than itself")
-    learned = [name for name, method in settings.all_methods.items() if method.limbs]
     for title, test in sigma.tests.items():
         for k, method in enumerate(test.methods):
-            if method not in learned:
-                place = (*ROOT, "sigma", "tests", title, "methods", k)
-                yield place, not_accepted("method with networks", method, learned)
+            if text := results.not_learned(method):
+                yield (*ROOT, "sigma", "tests", title, "methods", k), text

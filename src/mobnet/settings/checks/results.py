@@ -112,6 +112,11 @@ class Results:
         missing = [f"{joint} in {scenario}, {level}" for joint in joints if joint not in held]
         return f"{method} is not accepted; accepted: methods that estimate {missing[0]}" if missing else ""
 
+    def not_learned(self, method: str) -> str:
+        """Return what is wrong with a method where networks are shown."""
+        learned = [name for name, row in self.settings.all_methods.items() if row.limbs]
+        return "" if method in learned else not_accepted("method with networks", method, learned)
+
     def trained(self, limb: str) -> list[str]:
         """Return the methods that train a network of a limb."""
         return [name for name, method in self.settings.all_methods.items() if limb in method.limbs]
