@@ -35,4 +35,4 @@ def test_a_method_keeps_its_look_beside_whatever_else_is_drawn(others: list[str]
 
 
 def test_more_than_there_are_looks_begin_anew() -> None:
-    assert looks(str(k) for k in range(9))["7"] == PALETTE[0]
+    assert looks(str(k) for k in range(len(PALETTE) + 1))[str(len(PALETTE))] == PALETTE[0]

@@ -36,7 +36,7 @@ class Look:
     """How a method is drawn, such that methods differ for colour-blind readers and in print without colour.
 
     Attributes:
-        colour: of lines, bars and dots; all are of Okabe and Ito's palette.
+        colour: of lines, bars and dots; Okabe and Ito's palette, and grey.
         dash: of lines, in Matplotlib's terms.
         hatch: of bars.
         marker: of places on a line.
@@ -66,6 +66,7 @@ PALETTE = (
     Look("#E69F00", (0, (3, 1, 1, 1, 1, 1)), "\\\\\\\\", "v"),
     Look("#56B4E9", (0, (8, 2)), "....", "s"),
     Look("black", (0, (1, 1)), "----", "X"),
+    Look("0.45", (0, (4, 1, 1, 1)), "||||", "p"),
 )
 METHODS = ("MOB-Net", "MOB", "MOB-Net-Single", "FTS-e2e", "MOB-fric-BPF", "MOB-fric")
 # method -> that whose look it shares, because no figure has both
