@@ -76,7 +76,8 @@ def test_training_and_test_recordings_are_disjoint(plans: dict[str, Plan]) -> No
     files = plans["default"].files
     train, test = files.training("recordings", "walk"), files.tests("forward_walk", "all_uncertainty")
     assert [path.name for path in train] == [f"s{1000 + k}" for k in range(files.training_size("walk").shards)]
-    assert [path.name for path in test] == [f"s{101 + k}" for k in range(files.settings.sizes.test.shards)]
+    sizes = files.settings.sizes.test
+    assert [path.name for path in test] == [f"s{sizes.first_seed + k}" for k in range(sizes.shards)]
     chosen_on = files.development("recordings")
     assert [path.name for path in chosen_on] == [f"s{501 + k}" for k in range(files.settings.sizes.development.shards)]
 

@@ -121,7 +121,9 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     # sets, scales and sizes
     ("training_sets.walk_plain.scenario", "random_walk", "what set walk does not record"),
     ("training_sets.walk.sizes.smoke.shards", 1_000_000_000, "to 500"),
-    ("scales.default.test.shards", 500, "recordings, residuals, networks and estimates"),
+    ("scales.default.test.shards", 101, "to 100"),
+    ("scales.default.test.first_seed", 401, "to 400"),
+    ("scales.default.experiments.left_leg.seeds", list(range(100)), "recordings, residuals, networks and estimates"),
     ("scales.default.test.shard_s", 10.0005, "a whole number of samples"),
     ("scales.default.test.shard_s", 10.0, "at most"),
     ("scales.smoke.figure_start_s", 9.0, "gait cycles before the end"),

@@ -7,7 +7,7 @@ import pytest
 from pydantic import ValidationError
 
 from mobnet.core.errors import ConfigError
-from mobnet.plan.runs import FIRST_DEVELOPMENT_SEED, FIRST_TEST_SEED, FIRST_TRAINING_SEED
+from mobnet.plan.runs import FIRST_DEVELOPMENT_SEED, FIRST_TRAINING_SEED
 from mobnet.settings import evaluation
 from mobnet.settings.claims import TAKES, Claim
 from mobnet.settings.names import uses
@@ -83,8 +83,14 @@ def test_names_are_looked_at_in_every_section(settings: Settings) -> None:
 
 def test_seeds_of_tests_development_and_training_never_meet(settings: Settings) -> None:
     for scale in settings.scales.values():
-        assert FIRST_TEST_SEED + scale.test.shards <= FIRST_DEVELOPMENT_SEED
+        assert scale.test.first_seed + scale.test.shards <= FIRST_DEVELOPMENT_SEED
         assert FIRST_DEVELOPMENT_SEED + scale.development.shards <= FIRST_TRAINING_SEED
+
+
+def test_seeds_of_the_tests_of_two_scales_never_meet(settings: Settings) -> None:
+    tests = [scale.test for scale in settings.scales.values()]
+    seeds = [seed for test in tests for seed in range(test.first_seed, test.first_seed + test.shards)]
+    assert len(set(seeds)) == len(seeds)
 
 
 def test_methods_are_chosen_on_walks_that_no_test_has(settings: Settings) -> None:

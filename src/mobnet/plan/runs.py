@@ -12,9 +12,9 @@ from mobnet.settings.evaluation import Runs
 from mobnet.settings.methods import Method
 from mobnet.settings.settings import Settings, swept_name
 
-# Recordings and motions count from these seeds. Tests are sealed: nobody has walked their seeds before the results are
-# made; seeds 1 to 3 were those of an earlier version, on which its methods were chosen.
-FIRST_TEST_SEED, FIRST_DEVELOPMENT_SEED, FIRST_TRAINING_SEED = 101, 501, 1000
+# Recordings and motions of development and of training count from these seeds; those of tests, from their scale's
+# `first_seed`, lie below.
+FIRST_DEVELOPMENT_SEED, FIRST_TRAINING_SEED = 501, 1000
 ARRAY = ".parquet"
 COURSE = (RUN, METRICS)  # files of a trained network that say how its training went
 NETWORKS = "networks"
@@ -75,7 +75,8 @@ class Files:
     @property
     def test_seeds(self) -> list[int]:
         """Seeds of the test recordings, the same in every test."""
-        return [FIRST_TEST_SEED + i for i in range(self.settings.sizes.test.shards)]
+        test = self.settings.sizes.test
+        return [test.first_seed + i for i in range(test.shards)]
 
     def array(self, kind: str, scenario: str, level: str, seed: int | str) -> Path:
         """Return a recording, residual or estimate without its ending; `{seed}` and so on make a pattern."""

@@ -201,6 +201,13 @@ class Recordings(Section):
     shard_s: RecordingSeconds
 
 
+class TestRecordings(Recordings):
+    """Recordings of a test, with the seeds from `first_seed` on, below those of development."""
+
+    first_seed: base.Whole = Field(ge=101, le=400)
+    shards: base.Whole = Field(ge=1, le=100)
+
+
 class TrainingRecordings(Recordings):
     """Recordings that networks learn from; the last `held_out` ones validate, or else a share of every stretch."""
 

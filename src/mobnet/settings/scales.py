@@ -5,7 +5,7 @@ from typing import Annotated
 from pydantic import Field
 
 from mobnet.settings.base import Count, LowerName, NotNegative, Positive, Section, Seeds, Share, TestName, Whole
-from mobnet.settings.data import Recordings, RecordingSeconds
+from mobnet.settings.data import Recordings, RecordingSeconds, TestRecordings
 
 
 class Experiment(Section):
@@ -22,7 +22,7 @@ class Scale(Section):
     `longer_s` gives the duration [s] of tests that need longer recordings than the others.
     """
 
-    test: Recordings
+    test: TestRecordings
     longer_s: dict[TestName, RecordingSeconds] = {}
     development: Recordings
     experiments: dict[LowerName, Experiment] = Field(min_length=1)

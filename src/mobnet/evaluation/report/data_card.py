@@ -17,7 +17,7 @@ from mobnet.core.files import write_text
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed, Truth
 from mobnet.evaluation.tables.layout import markdown_table
-from mobnet.plan.runs import FIRST_DEVELOPMENT_SEED, FIRST_TEST_SEED, FIRST_TRAINING_SEED
+from mobnet.plan.runs import FIRST_DEVELOPMENT_SEED, FIRST_TRAINING_SEED
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
@@ -51,11 +51,12 @@ frame = pd.read_parquet(name, columns=["q.LL3", "v.LL3", "tau_des.LL3", "tau_ext
 """
 SPLIT = """
 ## Seeds and splits
-Tests have the seeds {test} and up, the walks on which methods are chosen {development} and up, training recordings
-{first} and up. A recording's random numbers come from the configuration's seed ({seed}), its scenario (or the one that
-its key `draws` names) and its own seed, with separate streams for commands, noise, random torque, place, pushes and
-terrain: the three share no draw, and a file does not depend on the number of cores. Tests are sealed: their seeds were
-not walked before the published results were made.
+Seeds of tests count from {test},
+those of the walks on which methods are chosen from {development}, those of training recordings from {first}. A
+recording's random numbers come from the configuration's seed ({seed}), its scenario (or the one that its key `draws`
+names) and its own seed, with separate streams for commands, noise, random torque, place, pushes and terrain: the three
+share no draw, and a file does not depend on the number of cores. Tests are sealed: their seeds were not walked before
+the published results were made.
 
 The last {share:.0%} of the samples of every segment, one contiguous block, are for validation and the others for
 training (9:1, section 4.3); single samples of a stream are never shuffled into both. Of the motion of the upper body,
@@ -86,8 +87,9 @@ def card(settings: Settings) -> str:
         rate=settings.rates.data_hz, dropped=settings.recording.dropped_before_fall_s,
         scale=settings.scale, scenario=walk.scenario, level=walk.level, seed=FIRST_TRAINING_SEED,
     )  # fmt: skip
+    test = ", ".join(f"{row.test.first_seed} (scale {name})" for name, row in settings.scales.items())
     split = SPLIT.format(
-        test=FIRST_TEST_SEED, development=FIRST_DEVELOPMENT_SEED, first=FIRST_TRAINING_SEED, seed=settings.seed,
+        test=test, development=FIRST_DEVELOPMENT_SEED, first=FIRST_TRAINING_SEED, seed=settings.seed,
         share=settings.learning.validation_share,
     )  # fmt: skip
     tables = columns(settings.layout, settings.observer.gain_hz)
