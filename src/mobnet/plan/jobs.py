@@ -195,6 +195,7 @@ def walk_settings(settings: Settings, scenario: str, level: str) -> WalkSettings
         "scenario": row,
         "level_name": level,
         "level": settings.levels[level],
+        "surrogate": settings.surrogate if settings.levels[level].surrogate else None,
         "terrain": Terrain(**{name: getattr(settings.terrain, name) for name in row.terrain}),
         "pushes": {name: settings.pushes[name] for name in row.pushes},
     }

@@ -17,7 +17,11 @@ GEOM = {
     name: getattr(mujoco.mjtGeom, f"mjGEOM_{name.upper()}")
     for name in ("capsule", "cylinder", "box", "ellipsoid", "sphere")
 }
-FOOT_SENSORS = {"force": mujoco.mjtSensor.mjSENS_FORCE, "torque": mujoco.mjtSensor.mjSENS_TORQUE}
+FOOT_SENSORS = {
+    "force": mujoco.mjtSensor.mjSENS_FORCE,
+    "torque": mujoco.mjtSensor.mjSENS_TORQUE,
+    "acc": mujoco.mjtSensor.mjSENS_ACCELEROMETER,
+}
 IMU_SENSORS = {"gyro": mujoco.mjtSensor.mjSENS_GYRO, "acc": mujoco.mjtSensor.mjSENS_ACCELEROMETER}
 
 
@@ -27,8 +31,8 @@ def robot_spec(robot: RobotDescription) -> mujoco.MjSpec:
     `qvel` is then the generalized velocity of `JointLayout`: base linear [m/s] in world axes, base angular [rad/s] in
     base axes, joints [rad/s] in the order of `layout.actuated`; with a fixed base, the joints alone. Motors and joints
     are named by their ids and stand in that order; motors pass ctrl [N m] on unclipped. Sensors, where the robot has
-    them: `imu_gyro`, `imu_acc`, `left_foot_force`, `left_foot_torque` and the same of the right foot, those of the feet
-    being minus the ground's wrench at the sensor.
+    them: `imu_gyro`, `imu_acc`, `left_foot_force`, `left_foot_torque`, `left_foot_acc` and the same of the right foot;
+    force and torque of a foot are minus the ground's wrench at the sensor, acc is the specific force there.
     """
     spec = mujoco.MjSpec()
     spec.modelname = robot.name

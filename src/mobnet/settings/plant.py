@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field
 
 from mobnet.settings.base import NotNegative, Real, Section, Whole, distinct
+from mobnet.settings.surrogate import SurrogateRobot
 
 FrictionTerm = Literal["stribeck", "load", "loss"]
 Reading = Literal["none", "std", "swapped", "variance"]  # of Table 3
@@ -69,9 +70,14 @@ class Plant(Section):
 
 
 class Level(Section):
-    """An uncertainty level of section 5.1: which errors the plant has and what the observer's model gets wrong."""
+    """An uncertainty level of section 5.1: which errors the plant has and what the observer's model gets wrong.
+
+    With a `surrogate`, the plant is a surrogate robot; `labels` says what networks learn the external torque from.
+    """
 
     friction: Annotated[tuple[FrictionTerm, ...], AfterValidator(distinct)]
     noise: Reading
     nominal_mass_ratio: Real = Field(ge=0.3, le=3)
     base_state: Literal["true_state", "sensed"]
+    surrogate: SurrogateRobot | None = None
+    labels: Literal["truth", "foot_sensors"] = "truth"

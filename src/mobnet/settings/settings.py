@@ -39,6 +39,7 @@ from mobnet.settings.plant import Level, Plant, Rates
 from mobnet.settings.published import Published
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.scales import Experiment, Scale
+from mobnet.settings.surrogate import Surrogate
 from mobnet.settings.trials import Trials, of_lengths, tuned
 from mobnet.settings.walking import Walking
 
@@ -51,6 +52,7 @@ class Settings(Section):
     rates: Rates
     plant: Plant
     levels: Annotated[dict[LowerName, Level], Field(min_length=1)]
+    surrogate: Surrogate
     walking: Walking
     terrain: Terrain
     commands: Commands
@@ -202,6 +204,7 @@ class WalkSettings(Section):
     scenario: Scenario
     level_name: str
     level: Level
+    surrogate: Surrogate | None
     terrain: Terrain
     pushes: dict[str, Push]
 

@@ -15,6 +15,8 @@ from mobnet.control.walker import Walker
 from mobnet.control.walking import walk
 from mobnet.control.whole_body import LEG_JOINTS
 from mobnet.core.arrays import Array
+from mobnet.simulation.drives import Drives, drive
+from mobnet.simulation.faults import Faults, perceive
 from mobnet.simulation.friction import Friction, friction_torque
 from mobnet.simulation.native import Native, addresses_at, call_step, doubles_at, ints_at
 from mobnet.simulation.pushes import Pushes, push
@@ -44,6 +46,10 @@ class Plant(NamedTuple):
     qfrc_actuator: Array  # motor torques in the generalized velocity (nv,)
     sensordata: Array  # readings of the step just taken
     friction: Friction  # numbers of (23)
+    drives: Drives  # of a surrogate robot
+    faults: Faults  # of its sensors
+    gravity: float  # gravity [m/s^2]
+    links: Array  # torques of drives on the links (nu,) [N m]
     limits: Array  # motor limits (nu,) [N m]
     period: float  # length after which the terrain repeats [m]
     edge: float  # distance from the origin in x or y beyond which the robot is put back by a period [m]
@@ -53,13 +59,15 @@ class Plant(NamedTuple):
 
 
 def make_plant(
-    world: World, native: Native, friction: Friction, limits: Array, fall_height: float, every: int
-) -> Plant:
+    world: World, native: Native, friction: Friction, drives: Drives, faults: Faults, limits: Array, fall_height: float,
+    every: int,
+) -> Plant:  # fmt: skip
     """Collect the live arrays of a world; the world must outlive the plant. limits (nu,) [N m], fall_height [m]."""
     data = world.data
     return Plant(
         native, data.qpos, data.qvel, data.ctrl, data.qfrc_applied, data.xfrc_applied, data.site_xpos, data.xipos,
         data.xmat, data.qfrc_smooth, data.qfrc_bias, data.qfrc_passive, data.qfrc_actuator, data.sensordata, friction,
+        drives, faults, -float(world.model.opt.gravity[2]), np.zeros(len(data.ctrl)),
         np.array(limits, dtype=float), float(world.period), float(world.terrain.edge), float(fall_height),
         float(world.model.opt.timestep), int(every),
     )  # fmt: skip
@@ -101,7 +109,7 @@ def run(
             if active > 0:
                 _add_pushes(plant, tau_push)
             _add_contacts(plant, walker, tau_ext, touch)
-            read_sensors(sensors, walker, plant.qpos, plant.qvel, plant.sensordata, rng_noise, plant.dt)
+            _sense(plant, walker, sensors, rng_noise)
             wrenches += sensors.wrenches
             _wrap(plant, sensors, s)
         for i in range(nv):
@@ -137,10 +145,27 @@ def _actuate(plant: Plant, tau: Array, tau_des: Array, tau_motor: Array) -> None
     """
     for j in range(len(tau)):
         tau[j] = clip(tau[j], -plant.limits[j], plant.limits[j])
+        tau_des[j] += tau[j]
+    if plant.drives.hidden == 1:
+        drive(plant.drives, tau, plant.qpos[7:], plant.qvel[6:], plant.dt, plant.links, tau_motor)
+        for j in range(len(tau)):
+            plant.qfrc_applied[6 + j] = plant.links[j]
+        return
+    for j in range(len(tau)):
         plant.ctrl[j] = tau[j]
         plant.qfrc_applied[6 + j] = friction_torque(plant.friction, j, plant.qvel[6 + j], tau[j])
-        tau_des[j] += tau[j]
         tau_motor[j] += plant.ctrl[j]
+
+
+@compiled
+def _sense(plant: Plant, walker: Walker, sensors: Sensors, rng: np.random.Generator) -> None:
+    """Read the sensors after a step; those of a surrogate robot do not see the plant itself."""
+    if plant.faults.hidden == 0 and plant.drives.hidden == 0:
+        read_sensors(sensors, walker, plant.qpos, plant.qvel, plant.sensordata, rng, plant.dt)
+        return
+    seen = plant.faults
+    perceive(seen, sensors, plant.drives, plant.qpos, plant.qvel, plant.sensordata, plant.xmat, plant.gravity)
+    read_sensors(sensors, walker, seen.qpos, seen.qvel, seen.data, rng, plant.dt)
 
 
 @compiled

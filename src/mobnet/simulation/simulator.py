@@ -17,7 +17,10 @@ from mobnet.robot.description import describe, for_walking
 from mobnet.settings.data import CommandSource, FixedCommand
 from mobnet.settings.settings import WalkSettings
 from mobnet.simulation.engine import Plant, make_plant, run
+from mobnet.simulation.drives import reset_drives
+from mobnet.simulation.faults import reset_faults
 from mobnet.simulation.friction import make_friction
+from mobnet.simulation.hidden import draw_hidden
 from mobnet.simulation.native import bind
 from mobnet.simulation.pushes import Pushes, make_pushes, reset_pushes
 from mobnet.simulation.sensing import Sensors, make_sensors, reset_sensors
@@ -28,7 +31,7 @@ from mobnet.simulation.world import World, ground_height, leg_mask, make_world
 Rows = NDArray[np.float32]
 STAND, UNIFORM = "stand", "uniform"  # commands of an episode that does not walk, and that draws them evenly
 SOLE_POINTS = (5, 3)  # along and across a sole, where the ground under a start is looked for
-STREAMS = ("commands", "noise", "torque", "place", "pushes", "terrain")  # of random numbers, in the order spawned
+STREAMS = ("commands", "noise", "torque", "place", "pushes", "terrain", "running")  # of random numbers, in the order spawned
 
 
 class Setting(NamedTuple):
@@ -60,6 +63,9 @@ class Simulator:
         draws = scenario.draws or settings.scenario_name  # scenarios that differ in their pushes alone draw the same
         seeds = np.random.SeedSequence([settings.seed, zlib.crc32(draws.encode()), seed]).spawn(len(STREAMS))
         self.rng = {name: np.random.default_rng(stream) for name, stream in zip(STREAMS, seeds, strict=True)}
+        chosen, rate = settings.level.surrogate, settings.rates.plant_hz
+        self.hidden = draw_hidden(self.robot, settings.plant, rate, settings.surrogate, chosen, settings.seed)
+        self.running_s = self.rng["running"].uniform(*chosen.running_s) if chosen else 0.0
         self.episode = seed  # the first of the scenario's kinds of episodes depends on the seed
         self.commands: Array = np.zeros((0, 0))
         self.coming: list[str] = []  # terrains until all have been walked once more
@@ -72,16 +78,17 @@ class Simulator:
 
     def _enter(self, terrain: str) -> None:
         """Put the robot on a terrain that is drawn anew."""
-        settings, plant, rates = self.settings, self.settings.plant, self.settings.rates
+        settings, rates = self.settings, self.settings.rates
+        robot, plant, drives, faults = self.hidden
         drawn = draw_terrain(dict(settings.terrain)[terrain], self.rng["terrain"])
-        world = make_world(self.robot, drawn, plant, settings.level, rates.plant_hz)
+        world = make_world(robot, drawn, plant, settings.level, rates.plant_hz)
         friction = make_friction(plant, leg_mask(self.robot), settings.level.friction)
         every = round(rates.plant_hz / rates.data_hz)
         limits = np.maximum(self.robot.torque_limits, plant.motor_limit_min_nm)
         native, fall_height = bind(world.model, world.data), settings.recording.fall_height_m
         sensors = make_sensors(plant, settings.level, world.model)
         pushes = make_pushes(settings.pushes, world.model, self.robot)
-        plant = make_plant(world, native, friction, limits, fall_height, every)
+        plant = make_plant(world, native, friction, drives, faults, limits, fall_height, every)
         self.setting = Setting(terrain, world, plant, sensors, pushes)
         _, self.world, self.plant, self.sensors, self.pushes = self.setting
 
@@ -109,6 +116,7 @@ class Simulator:
         self.state.clock = clock
         reset_pushes(self.pushes, clock, self.rng["pushes"])
         self._put(q, v)
+        reset_drives(self.hidden.drives, q[7:], v[6:], self.running_s + motion_s)
 
     def _commands(self, kind: CommandSource | FixedCommand) -> Array:
         """Return the commands of an episode (n, 5)."""
@@ -135,6 +143,7 @@ class Simulator:
         plant.xfrc_applied[:] = 0.0
         plant.qpos[:], plant.qvel[:], plant.sensordata[:] = q, v, 0.0
         reset_sensors(self.sensors, q, v, self.rng["noise"])
+        reset_faults(self.hidden.faults, self.sensors)
 
     def run(self, rows: Rows) -> int:
         """Simulate len(rows) samples into rows (n, C); return how many came before a fall."""

@@ -1,0 +1,103 @@
+"""The surrogate robot: a plant with hidden drives, masses and sensor errors in place of the robot of sections 5.2 to 7."""
+
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, Field
+
+from mobnet.settings.base import (
+    BodyName,
+    Index,
+    LimbName,
+    NotNegative,
+    Range,
+    Real,
+    Section,
+    Share,
+    Some,
+    Vector3,
+    Whole,
+    distinct,
+)
+
+Part = Literal["drives", "body", "sensors"]
+Ratio = Annotated[Real, Field(ge=0.5, le=5)]
+Time = Annotated[Real, Field(ge=0, le=0.05)]  # of a drive or a sensor [s]
+
+
+class Drive(Section):
+    """Ranges from which every joint draws; `spread` is that of the numbers in `LimbDrives`."""
+
+    torque_constant: Range[Ratio]
+    lag_s: Range[Annotated[Real, Field(ge=0.0001, le=0.05)]]
+    delay_s: Range[Time]
+    stribeck_rad_s: Range[Annotated[Real, Field(ge=0.001, le=1)]]
+    static_share: Range[Share]
+    direction_share: Range[Share]
+    back_ratio: Range[Ratio]
+    presliding_rad: Range[Annotated[Real, Field(ge=0.0001, le=0.1)]]
+    ripple_share: Range[Share]
+    ripple_waves: Whole = Field(ge=1, le=10_000)
+    cogging_waves: Whole = Field(ge=1, le=10_000)
+    warm_share: Range[Share]
+    warm_s: Range[Annotated[Real, Field(ge=1, le=36_000)]]
+    damping_ratio: Share
+    rotor_min_kg_m2: Real = Field(ge=0.0001, le=1)
+    spread: Real = Field(ge=0, lt=1)
+
+
+class LimbDrives(Section):
+    """Typical numbers of the joints of a limb, one for each."""
+
+    coulomb_nm: Some[Annotated[NotNegative, Field(le=100)]]
+    viscous_nms: Some[Annotated[NotNegative, Field(le=100)]]
+    load_share: Some[Share]
+    cogging_nm: Some[Annotated[NotNegative, Field(le=20)]]
+    stiffness_nm_rad: Some[Annotated[Real, Field(ge=100, le=1e6)]]
+    cable_nm: Some[Annotated[NotNegative, Field(le=50)]]
+
+
+class Body(Section):
+    """What the robot's links and soles have that its table has not."""
+
+    mass_share: Real = Field(ge=0, le=0.5)
+    com_m: NotNegative = Field(le=0.1)
+    payload_body: BodyName
+    payload_kg: Range[Annotated[NotNegative, Field(le=50)]]
+    sole_stiffness_n_m: Range[Annotated[Real, Field(ge=1e3, le=1e7)]]
+
+
+class SensorErrors(Section):
+    """Errors of sensors that last; standard deviations, where they are no ranges."""
+
+    encoder_zero_rad: NotNegative = Field(le=0.1)
+    imu_late_s: Range[Time]
+    acceleration_m_s2: NotNegative = Field(le=5)
+    angular_velocity_rad_s: NotNegative = Field(le=0.5)
+    mounting_rad: NotNegative = Field(le=0.1)
+    foot_gain_share: NotNegative = Field(le=0.2)
+    foot_force_n: NotNegative = Field(le=200)
+    foot_moment_nm: NotNegative = Field(le=50)
+    plate_kg: NotNegative = Field(le=10)
+    plate_com_m: Vector3
+    plate_share: Real = Field(ge=0, le=0.5)
+
+
+class Surrogate(Section):
+    """All that a surrogate robot is drawn from."""
+
+    drive: Drive
+    limbs: dict[LimbName, LimbDrives]
+    body: Body
+    sensors: SensorErrors
+
+
+class SurrogateRobot(Section):
+    """One surrogate robot: the seed it is drawn from, its hidden parts, and how long it has been running [s].
+
+    Without `drives`, the friction of its joints is (23), and without `body` or `sensors` these are as on the plant of
+    section 5.1. `running_s` is the range of the time since its gears were cold, at the start of a recording.
+    """
+
+    seed: Index
+    parts: Annotated[tuple[Part, ...], AfterValidator(distinct)]
+    running_s: Range[Annotated[NotNegative, Field(le=360_000)]]

@@ -1,0 +1,74 @@
+"""What a surrogate robot hides: its links, drives and sensors, drawn from its seed."""
+
+import zlib
+from typing import NamedTuple
+
+import numpy as np
+
+from mobnet.core.arrays import Array
+from mobnet.robot.description import WalkingRobot
+from mobnet.robot.plant import robot_spec
+from mobnet.settings.parts import BodyRow
+from mobnet.settings.plant import Plant
+from mobnet.settings.surrogate import Body, Surrogate, SurrogateRobot
+from mobnet.simulation.drives import Drives, draw_drives, no_drives
+from mobnet.simulation.faults import Faults, draw_faults, no_faults
+
+
+class Hidden(NamedTuple):
+    """A plant's robot, its numbers, drives and sensor errors."""
+
+    robot: WalkingRobot
+    plant: Plant
+    drives: Drives
+    faults: Faults
+
+
+def draw_hidden(
+    robot: WalkingRobot, plant: Plant, rate_hz: float, surrogate: Surrogate, chosen: SurrogateRobot | None, seed: int
+) -> Hidden:
+    """Draw a surrogate robot, whose plant is stepped at a rate [1/s]; without one, the plant is that of section 5.1.
+
+    Each part has random numbers of its own, so that it is the same whichever other parts are hidden.
+    """
+    parts = chosen.parts if chosen else ()
+    number = chosen.seed if chosen else 0
+    seeds = np.random.SeedSequence([seed, zlib.crc32(b"surrogate"), number]).spawn(3)
+    body, drives, sensors = (np.random.default_rng(stream) for stream in seeds)
+    if "body" in parts:
+        robot = _other_links(surrogate.body, robot, body)
+        plant = plant.model_copy(update={"sole_stiffness_n_m": body.uniform(*surrogate.body.sole_stiffness_n_m)})
+    moved, rotors = no_drives(robot.layout.nu), robot
+    if "drives" in parts:
+        robot = _without_rotors(robot)
+        moved = draw_drives(surrogate, rotors, _link_inertia(robot), rate_hz, drives)
+    model = robot_spec(robot).compile()
+    faults = draw_faults(surrogate.sensors, robot, model, rate_hz, sensors) if "sensors" in parts else no_faults(model)
+    return Hidden(robot, plant, moved, faults)
+
+
+def _other_links(settings: Body, robot: WalkingRobot, rng: np.random.Generator) -> WalkingRobot:
+    """Return a robot whose links have other masses and centres of mass, one of them a payload."""
+    bodies: list[BodyRow] = []
+    for row in robot.bodies:
+        ratio, com = rng.uniform(1 - settings.mass_share, 1 + settings.mass_share), rng.uniform(-1, 1, 3)
+        update = {
+            "mass": ratio * row.mass,
+            "inertia": tuple(ratio * value for value in row.inertia),
+            "com": tuple(np.add(row.com, settings.com_m * com).tolist()),
+        }
+        if row.name == settings.payload_body:
+            update["mass"] += rng.uniform(*settings.payload_kg)
+        bodies.append(row.model_copy(update=update))
+    return WalkingRobot(**{**vars(robot), "bodies": tuple(bodies)})
+
+
+def _without_rotors(robot: WalkingRobot) -> WalkingRobot:
+    """Return a robot without the rotors' inertia, which its drives have."""
+    joints = tuple(joint.model_copy(update={"armature": 0.0}) for joint in robot.joints)
+    return WalkingRobot(**{**vars(robot), "joints": joints})
+
+
+def _link_inertia(robot: WalkingRobot) -> Array:
+    """Return the inertia that a torque on each joint turns (nu,) [kg m^2], the whole robot being free to move."""
+    return 1.0 / robot_spec(robot).compile().dof_invweight0[-robot.layout.nu :]
