@@ -14,7 +14,7 @@ from functools import cached_property
 from pathlib import Path
 
 from mobnet.agreement import check_agreement
-from mobnet.core.columns import EPOCHS, EXTERNAL, RESIDUAL, SCORES, STD, named, recording_columns, residual_columns
+from mobnet.core.columns import EPOCHS, EXTERNAL, LABEL_LP, RESIDUAL, SCORES, STD, named, recording_columns, residual_columns
 from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse
 from mobnet.core.files import METRICS, RUN, read_json, read_text
 from mobnet.core.joints import JointLayout
@@ -152,7 +152,7 @@ def kind_of(names: Sequence[str], layout: JointLayout) -> tuple[str, list[str]] 
                  held & {name for field in Truth.__dataclass_fields__ for name, *_ in groups[field]}]  # fmt: skip
         return "recording", [name for field in whole for name, *_ in groups[field]]
     if RESIDUAL in signals:
-        return "residual", [name for name, *_ in residual_columns(layout)]
+        return "residual", [name for name, *_ in residual_columns(layout, LABEL_LP in signals)]
     if EXTERNAL in signals:
         joints = [joint for joint in layout.names if held & set(named(EXTERNAL, [joint]) + named(STD, [joint]))]
         return "estimate", [name for signal in (EXTERNAL, STD) if signal in signals for name in named(signal, joints)]

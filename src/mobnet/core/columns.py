@@ -15,6 +15,7 @@ RANDOM = "tau_random"  # what random torque exploration added to the desired tor
 PUSH_TORQUE = "tau_push"  # what pushes alone add to the external torque
 EXTERNAL = "tau_ext"  # of a recording: true; of an estimate: estimated
 RESIDUAL, EXTERNAL_LP = "r", "tau_ext_lp"  # r of (9), and the true external torque behind the observer's low-pass, (15)
+LABEL_LP = "label_lp"  # the external torque by the foot sensors, J^T F, behind the same low-pass
 STD = "std"  # standard deviation that an estimate comes with
 
 
@@ -63,9 +64,10 @@ def torque_columns(layout: JointLayout, signals: Iterable[str], joints: Iterable
     return [(f"{signal}.{joint}", *known[joint][1:]) for signal in signals for joint in wanted]
 
 
-def residual_columns(layout: JointLayout) -> list[Column]:
-    """Return name, unit and frame of the columns of a residual file, (2 nv,)."""
-    return torque_columns(layout, (RESIDUAL, EXTERNAL_LP), layout.names)
+def residual_columns(layout: JointLayout, labelled: bool = False) -> list[Column]:
+    """Return name, unit and frame of the columns of a residual file, (2 nv,), or (3 nv,) with labels of foot sensors."""
+    signals = (RESIDUAL, EXTERNAL_LP, LABEL_LP) if labelled else (RESIDUAL, EXTERNAL_LP)
+    return torque_columns(layout, signals, layout.names)
 
 
 @dataclass(frozen=True)

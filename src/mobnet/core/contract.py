@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.columns import COMMAND, EXTERNAL, EXTERNAL_LP, FEET, PUSH_TORQUE, RESIDUAL, STD
+from mobnet.core.columns import COMMAND, EXTERNAL, EXTERNAL_LP, FEET, LABEL_LP, PUSH_TORQUE, RESIDUAL, STD
 from mobnet.core.errors import not_accepted
 from mobnet.core.joints import JointLayout
 
@@ -21,7 +21,7 @@ BEYOND_RAD = 0.1  # of a joint's range: its stop gives way, and its zero is know
 BEYOND_SPEED, BEYOND_TORQUE = 3.0, 3.0  # of a joint's limits: a hit, a motor stronger than its table says
 QUATERNION = tuple(f"q.quat_{axis}" for axis in "wxyz")
 # signals in N for V1..V3 of a floating base, in N m for all others
-TORQUES = (RESIDUAL, EXTERNAL_LP, EXTERNAL, PUSH_TORQUE, STD)
+TORQUES = (RESIDUAL, EXTERNAL_LP, LABEL_LP, EXTERNAL, PUSH_TORQUE, STD)
 
 
 class Rule(NamedTuple):

@@ -18,7 +18,7 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from mobnet.core.code import SHORT
-from mobnet.core.columns import Column
+from mobnet.core.columns import EXTERNAL_LP, LABEL_LP, Column
 from mobnet.core.contract import Values, column_faults
 from mobnet.core.errors import DataError, not_accepted, refuse, refuse_lines
 from mobnet.core.files import atomic_path, write_json
@@ -291,6 +291,16 @@ def check_finite(name: str, rows: NDArray[Any], names: Sequence[str], first: int
 def spans_and_rate(meta: Mapping[str, Any]) -> tuple[tuple[tuple[int, int], ...], float]:
     """Return segments, (start, end) each, and rate [Hz] of an array's description."""
     return tuple((int(start), int(end)) for start, end in meta["segments"]), float(meta["rate_hz"])
+
+
+def label_of(residual: Path) -> str:
+    """Return the signal of a residual file that methods learn as the external torque: that of foot sensors if it has one.
+
+    Raises:
+        DataError: the file's description is missing or damaged.
+    """
+    columns = read_array_note(file_of(residual, NOTE))["columns"]
+    return LABEL_LP if any(column["name"].startswith(f"{LABEL_LP}.") for column in columns) else EXTERNAL_LP
 
 
 def check_pair(recording: Path, residual: Path) -> None:

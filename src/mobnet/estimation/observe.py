@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.columns import EXTERNAL, named, residual_columns
+from mobnet.core.columns import EXTERNAL, named, recording_columns, residual_columns
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import check_rate, read_array, write_array
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observer import MomentumObserver, TorqueKind
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.nominal import NominalModel
+from mobnet.robot.wrench import feet_torque
 from mobnet.settings.methods import Observer
 from mobnet.settings.plant import Level
 from mobnet.settings.robot import RobotTable
@@ -35,8 +36,9 @@ def observe(
     """Write r of (9) and the low-passed external torque of (15) for a recording, 2 x (T, nv) [N] and [N m].
 
     Columns are `r.<joint>` and then `tau_ext_lp.<joint>`; segments are the recording's, and the observer starts anew
-    with each. The target of the networks (section 4.2.3) is their difference. Of the truth, only the external torque is
-    read, and r does not depend on it. The recording, made at the uncertainty
+    with each. The target of the networks (section 4.2.3) is their difference. At a level whose labels are those of the
+    foot sensors, `label_lp.<joint>` follows, and the target is r less this. Of the truth, only the external torque and
+    the feet's wrenches are read, and r does not depend on them. The recording, made at the uncertainty
     level, and `out` are paths without a suffix. The observer runs at the recording's rate, which is `rate_hz` [Hz]
     where that is given.
 
@@ -49,14 +51,18 @@ def observe(
     external, _ = read_array(recording, named(EXTERNAL, description.layout.names), description.layout)
     momentum = observer_of(description, level, gravity_m_s2, observer.gain_hz, read.rate_hz, observer.torque)
     log.info("%s: %d samples in %d segments", recording, len(read.sensed), len(read.segments))
-    array = np.concatenate(residual_and_truth(momentum, read, external), axis=1)
+    parts = residual_and_truth(momentum, read, external)
+    labelled = level.labels == "foot_sensors"
+    if labelled:
+        parts = (*parts, _label(momentum, read, recording, description))
     meta = {
         "rate_hz": read.rate_hz,
         **{key: read.meta[key] for key in CARRIED if key in read.meta},
         "gain_hz": observer.gain_hz,
         "nominal_mass_ratio": level.nominal_mass_ratio,
     }
-    write_array(out, array, residual_columns(description.layout), meta, read.segments)
+    columns = residual_columns(description.layout, labelled)
+    write_array(out, np.concatenate(parts, axis=1), columns, meta, read.segments)
 
 
 def observe_tests(
@@ -97,3 +103,16 @@ def residual_and_truth(
         residual[span] = observer.residual(recording.sensed[span])
         truth[span] = low_pass(external[span], observer.gain_hz, recording.rate_hz)
     return residual, truth
+
+
+def _label(
+    observer: MomentumObserver, read: SensedRecording, recording: Path, robot: RobotDescription
+) -> NDArray[np.float64]:
+    """Return J^T F of the measured wrenches of the feet, low-passed (T, nv) [N] and [N m], segment by segment."""
+    columns = recording_columns(robot.layout)
+    names = {side: [name for name, *_ in columns[f"wrench_{side}_foot"]] for side in robot.feet}
+    wrenches = {side: read_array(recording, names[side], robot.layout)[0] for side in robot.feet}
+    torque = feet_torque(observer.nominal, read.sensed.q, wrenches)
+    for span in read.spans():
+        torque[span] = low_pass(torque[span], observer.gain_hz, read.rate_hz)
+    return torque

@@ -15,8 +15,8 @@ import scipy  # its parts are imported where they are used first: the workflow i
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.columns import EXTERNAL_LP, MOTOR, RESIDUAL, VELOCITY, named
-from mobnet.core.store import check_pair, read_array, spans_and_rate
+from mobnet.core.columns import MOTOR, RESIDUAL, VELOCITY, named
+from mobnet.core.store import check_pair, label_of, read_array, spans_and_rate
 from mobnet.estimation.low_pass import low_pass
 
 Pair = tuple[Path, Path]  # stems of a recording and of its residual
@@ -70,7 +70,7 @@ def _sums(law: Law, joints: Sequence[str], pairs: Sequence[Pair]) -> dict[str, A
     for recording, residual in pairs:
         check_pair(recording, residual)
         velocity, torque, spans, rate_hz = _halves(recording, (VELOCITY, MOTOR), joints)
-        observed, external, _, _ = _halves(residual, (RESIDUAL, EXTERNAL_LP), joints)
+        observed, external, _, _ = _halves(residual, (RESIDUAL, label_of(residual)), joints)
         for span in (slice(*ends) for ends in spans):
             for i, joint in enumerate(joints):
                 columns = low_pass(_columns(law, velocity[span, i], torque[span, i]), law.gain_hz, rate_hz)

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.columns import EXTERNAL_LP, RESIDUAL, named
+from mobnet.core.columns import RESIDUAL, named
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
-from mobnet.core.store import check_pair, check_rate, read_array, spans_and_rate
+from mobnet.core.store import check_pair, check_rate, label_of, read_array, spans_and_rate
 from mobnet.learning.features import LimbInputs, limb_inputs
 from mobnet.learning.streams import Span
 from mobnet.settings.methods import Target
@@ -117,8 +117,8 @@ def _load_one(
 
 
 def read_target(stem: Path, joints: Sequence[str], target: Target) -> NDArray[np.float32]:
-    """Return the torque to learn of some joints, (T, n) [N, N m], from a residual file."""
-    external, _ = read_array(stem, named(EXTERNAL_LP, joints))
+    """Return the torque to learn of some joints, (T, n) [N, N m], from a residual file and its label."""
+    external, _ = read_array(stem, named(label_of(stem), joints))
     if target == "external":
         return external
     residual, _ = read_array(stem, named(RESIDUAL, joints))

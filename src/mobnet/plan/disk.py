@@ -62,7 +62,8 @@ def expected_bytes(plan: Plan, path: Path) -> int:
         case "recordings":
             width = recording_width(layout)
         case "residuals":
-            width = len(residual_columns(layout))
+            level = plan.settings.levels[path.parts[-2]]
+            width = len(residual_columns(layout, level.labels == "foot_sensors"))
         case "estimates":
             width = _estimated_width(plan.settings, parts[0], *parts[2:4])
         case _:

@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.columns import EXTERNAL_LP, RESIDUAL, UNCERTAINTY, named
+from mobnet.core.columns import RESIDUAL, UNCERTAINTY, named
 from mobnet.core.joints import JointLayout
-from mobnet.core.store import read_array
+from mobnet.core.store import label_of, read_array
 from mobnet.evaluation.number.number import number_text
 from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
 from mobnet.settings.evaluation import Uncertainty
@@ -44,11 +44,10 @@ def uncertainty(
 
 
 def target_std(stems: Sequence[Path], joints: Sequence[str]) -> NDArray[np.float64]:
-    """Return the standard deviation of r - tau_ext_lp over all samples of residual files (n,) [N m], V1..V3 [N]."""
-    names = [*named(RESIDUAL, joints), *named(EXTERNAL_LP, joints)]
+    """Return the standard deviation of r less the label over all samples of residual files (n,) [N m], V1..V3 [N]."""
     count, mean, spread = 0, np.zeros(len(joints)), np.zeros(len(joints))
     for stem in stems:
-        array = read_array(stem, names)[0].astype(np.float64)
+        array = read_array(stem, [*named(RESIDUAL, joints), *named(label_of(stem), joints)])[0].astype(np.float64)
         target = array[:, : len(joints)] - array[:, len(joints) :]
         before, count = count, count + len(target)
         step = target.mean(axis=0) - mean
