@@ -6,7 +6,7 @@ rule motion:
     input:
         lambda w: job("motion", w).inputs,
     output:
-        array("motions", "{motion}", "s{seed}"),
+        [f"{PLAN.folders.results}/motions/{{motion}}/s{{seed}}.{ending}" for ending in ("parquet", "json")],
     log:
         f"{LOGS}/motion/{{motion}}-s{{seed}}.log",
     priority: 30
@@ -27,7 +27,7 @@ rule collect:
     output:
         array("recordings", *RECORDING),
     log:
-        f"{LOGS}/collect/{{scenario}}-{{level}}-s{{seed}}.log",
+        f"{LOGS}/collect/{{robot}}{{scenario}}-{{level}}-s{{seed}}.log",
     priority: 20
     threads: 1
     resources:
@@ -46,7 +46,7 @@ use rule collect as collect_tests with:
     output:
         tests("recordings"),
     log:
-        f"{LOGS}/collect_tests/{{scenario}}-{{level}}.log",
+        f"{LOGS}/collect_tests/{{robot}}{{scenario}}-{{level}}.log",
     resources:
         mem_mb=1200,
         runtime=30,
@@ -64,7 +64,7 @@ rule observe:
     output:
         array("residuals", *RECORDING),
     log:
-        f"{LOGS}/observe/{{scenario}}-{{level}}-s{{seed}}.log",
+        f"{LOGS}/observe/{{robot}}{{scenario}}-{{level}}-s{{seed}}.log",
     priority: 20
     threads: 1
     resources:
@@ -83,7 +83,7 @@ use rule observe as observe_tests with:
     output:
         tests("residuals"),
     log:
-        f"{LOGS}/observe_tests/{{scenario}}-{{level}}.log",
+        f"{LOGS}/observe_tests/{{robot}}{{scenario}}-{{level}}.log",
     params:
         call=lambda w: job("observe_tests", w).call,
         given=lambda w: job("observe_tests", w).given,

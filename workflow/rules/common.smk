@@ -44,6 +44,7 @@ except MobnetError as error:
 config["scale"] = SETTINGS.scale  # the report names it
 RECORDING = "{scenario}", "{level}", "s{seed}"  # place of what belongs to a recording
 LOGS = PLAN.folders.results / "logs"
+OWN = f"{PLAN.folders.results}/{{robot}}"  # folder of what each robot of the fleet has, and the plant of section 5.1
 
 
 onstart:
@@ -70,6 +71,7 @@ onstart:
 wildcard_constraints:
     scenario="|".join(SETTINGS.scenarios),
     level="|".join(SETTINGS.levels),
+    robot=f"(({'|'.join(SETTINGS.fleet.robots)})/)?",
     method="|".join([*SETTINGS.all_methods, *SETTINGS.tried]),
     limb="|".join(SETTINGS.networks),
     motion="|".join(SETTINGS.motions),
@@ -78,13 +80,14 @@ wildcard_constraints:
 
 
 def job(kind, wildcards):
-    """Return the plan's job of a kind for the wildcards of its rule."""
-    return getattr(PLAN.jobs, kind)(**{k: int(v) if k.endswith("seed") else v for k, v in wildcards.items()})
+    """Return the plan's job of a kind for the wildcards of its rule, of which `robot` is a folder or empty."""
+    given = {k: int(v) if k.endswith("seed") else v for k, v in wildcards.items()}
+    return getattr(PLAN.jobs[given.pop("robot", "").rstrip("/")], kind)(**given)
 
 
-def array(*place):
-    """Return the two files of an array whose place below the results is a pattern."""
-    stem = PLAN.folders.results.joinpath(*place)
+def array(kind, *place):
+    """Return the two files of an array of a kind, whose place below its folder is a pattern."""
+    stem = f"{OWN}{Path(kind, *place)}"
     return ensure([f"{stem}.parquet", f"{stem}.json"], non_empty=True)
 
 

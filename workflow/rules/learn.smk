@@ -5,9 +5,9 @@ rule fit:
     input:
         lambda w: job("fit", w).inputs,
     output:
-        ensure(f"{PLAN.folders.results}/fits/{{method}}.json", non_empty=True),
+        ensure(f"{OWN}fits/{{method}}.json", non_empty=True),
     log:
-        f"{LOGS}/fit/{{method}}.log",
+        f"{LOGS}/fit/{{robot}}{{method}}.log",
     priority: 10
     threads: 1
     resources:
@@ -26,13 +26,13 @@ rule train:
     output:
         ensure(
             expand(
-                f"{PLAN.folders.results}/networks/{{{{method}}}}-{{{{limb}}}}-s{{{{seed}}}}/{{name}}",
+                f"{PLAN.folders.results}/{{{{robot}}}}networks/{{{{method}}}}-{{{{limb}}}}-s{{{{seed}}}}/{{name}}",
                 name=["weights.safetensors", "metrics.csv", "run.json"],
             ),
             non_empty=True,
         ),
     log:
-        f"{LOGS}/train/{{method}}-{{limb}}-s{{seed}}.log",
+        f"{LOGS}/train/{{robot}}{{method}}-{{limb}}-s{{seed}}.log",
     priority: 10
     threads: 1
     resources:
@@ -51,7 +51,7 @@ rule estimate:
     output:
         tests("estimates", "{method}", "n{network_seed}"),
     log:
-        f"{LOGS}/estimate/{{method}}-n{{network_seed}}-{{scenario}}-{{level}}.log",
+        f"{LOGS}/estimate/{{robot}}{{method}}-n{{network_seed}}-{{scenario}}-{{level}}.log",
     threads: 1
     resources:
         mem_mb=2800,

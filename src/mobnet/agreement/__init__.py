@@ -32,9 +32,9 @@ def check_agreement(paths: Iterable[Path], files: Files, *, numbers: bool = Fals
         DataError: a file is not the one that belongs to its place, or is not accepted; one line for each fault.
     """
     for path in paths:
-        place = path.relative_to(files.results).parts if path.is_relative_to(files.results) else ("",)
+        owner, place = files.owner_of(path)
         look = LOOKS.get(place[0])
         if look and path.exists():
-            refuse(path, look(path, place, files))
+            refuse(path, look(path, place, owner))
             if numbers:
-                refuse(path, number_faults(path, place, files))
+                refuse(path, number_faults(path, place, owner))

@@ -56,19 +56,19 @@ def check_space(plan: Plan, outputs: Iterable[str]) -> None:
 
 def expected_bytes(plan: Plan, path: Path) -> int:
     """Return about how many bytes a file of the plan will have: rows by columns for an array."""
-    kind, *parts = path.relative_to(plan.folders.results).parts if path.is_relative_to(plan.folders.results) else ("",)
-    layout = plan.settings.layout
+    files, (kind, *parts) = plan.files.owner_of(path)
+    settings, layout = files.settings, plan.settings.layout
     match kind if path.suffix == ARRAY else "":
         case "recordings":
             width = recording_width(layout)
         case "residuals":
-            level = plan.settings.levels[path.parts[-2]]
+            level = settings.levels[path.parts[-2]]
             width = len(residual_columns(layout, level.labels == "foot_sensors"))
         case "estimates":
-            width = _estimated_width(plan.settings, parts[0], *parts[2:4])
+            width = _estimated_width(settings, parts[0], *parts[2:4])
         case _:
             return OTHER_BYTES
-    duration_s = plan.files.duration_s([path.parts[-3]], int(path.stem.removeprefix("s")))
+    duration_s = files.duration_s([path.parts[-3]], int(path.stem.removeprefix("s")))
     return round(duration_s * plan.settings.rates.data_hz * width * NUMBER_BYTES * STORED)
 
 

@@ -1,5 +1,6 @@
 """The whole plan of a scale: its files, its jobs and its products."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,13 +16,14 @@ from mobnet.settings.settings import Settings
 class Plan:
     """What the workflow makes at the chosen scale: products, each after those that it needs, and all that is stored.
 
-    The trials are products that are made on their own.
+    Jobs are those of each robot of the fleet by its name, all others under an empty one. The trials are products that
+    are made on their own.
     """
 
     settings: Settings
     folders: Folders
     files: Files
-    jobs: Jobs
+    jobs: Mapping[str, Jobs]
     products: tuple[Product, ...]
     stored: tuple[str, ...]
     trials: tuple[Product, ...]
@@ -36,4 +38,6 @@ def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
     files = Files(settings, results)
     products = Products(settings, files, folders, with_pdf)
     made, trials = tuple(products.all()), tuple(trial_products(settings, files))
-    return Plan(settings, folders, files, Jobs(settings, files), made, tuple(products.stored), trials)
+    owners = {"": files, **files.robots}
+    jobs = {name: Jobs(own.settings, own) for name, own in owners.items()}
+    return Plan(settings, folders, files, jobs, made, tuple(products.stored), trials)

@@ -81,16 +81,23 @@ class Products:
     @cached_property
     def stored(self) -> list[str]:
         """Return every file that products are made from, also those that could be made again."""
-        arrays = [
-            self.files.array(kind, *place) for place in self.files.recorded() for kind in ("recordings", "residuals")
-        ]
+        owners = (self.files, *self.files.robots.values())
+        places = [(files, place) for files in owners for place in files.recorded()]
+        arrays = [files.array(kind, *place) for files, place in places for kind in ("recordings", "residuals")]
         scenarios = self.settings.tests
         runs = [run for scenario in scenarios for run in self.files.runs_of(scenario)]
         arrays += [run.estimate for run in runs]
-        arrays += [stem for scenario, _, seed in self.files.recorded() for stem in self.files.motion(scenario, seed)]
+        arrays += [stem for files, (scenario, _, seed) in places for stem in files.motion(scenario, seed)]
         pairs = [f"{stem}{ending}" for stem in dict.fromkeys(arrays) for ending in (ARRAY, ".json")]
         trained = [f"{folder}/{name}" for folder in self.files.all_networks() for name in (WEIGHTS, *COURSE)]
-        fits = dict.fromkeys(str(path) for run in runs for path in self.files.fit(run.method))
+        fits = dict.fromkeys(
+            str(path)
+            for files in owners
+            for levels in files.settings.tests.values()
+            for methods in levels.values()
+            for method in methods
+            for path in files.fit(method)
+        )
         return [*pairs, *trained, *fits, *map(str, self.files.scores(scenarios).values())]
 
     def _tables_and_figures(self) -> Iterator[Product]:

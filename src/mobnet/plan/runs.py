@@ -1,7 +1,7 @@
 """The runs of an estimator, and the files of recordings, residuals, estimates and networks at one scale."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import cast
@@ -24,7 +24,7 @@ NETWORKS = "networks"
 class Run:
     """One run of a method on a test: a network seed, 0 for a method without networks, on a recording.
 
-    The recording, the observer's residual of it and the method's estimate are named without the ending of their files.
+    On a fleet, the network seed is the number of the robot, counted from 1, for any method. The recording, the observer's residual of it and the method's estimate are named without the ending of their files.
     `repeated` are limbs whose network has run on the recording under an earlier seed: they have fewer networks than
     others, and these numbers must not count again.
     """
@@ -67,10 +67,27 @@ class SweptSize:
 
 @dataclass(frozen=True)
 class Files:
-    """Where the files of a scale stand, and which seeds they have; tables, figures and the paper stand elsewhere."""
+    """Where the files of a scale stand, and which seeds they have; tables, figures and the paper stand elsewhere.
+
+    Each robot of the fleet has files of its own in a folder of its name, but the motions that all share.
+    """
 
     settings: Settings
     results: Path
+    shared: Path | None = None
+
+    @cached_property
+    def robots(self) -> Mapping[str, "Files"]:
+        """Robot of the fleet -> its files; a robot has none below its own."""
+        named = self.settings.fleet.robots
+        return {name: Files(self.settings.on_robot(name), self.results / name, self.results) for name in named}
+
+    def owner_of(self, path: Path) -> tuple["Files", tuple[str, ...]]:
+        """Return whose file it is, this or a robot's, and its place below the owner's folder; ("",) if it is nobody's."""
+        for owner in (*self.robots.values(), self):
+            if path.is_relative_to(owner.results):
+                return owner, path.relative_to(owner.results).parts
+        return self, ("",)
 
     @property
     def test_seeds(self) -> list[int]:
@@ -85,7 +102,7 @@ class Files:
     def motion(self, scenario: str, seed: int) -> list[Path]:
         """Return the motion of the upper body in a recording; none where it is still."""
         name = self.settings.scenarios[scenario].motion
-        return [self.results / "motions" / name / f"s{seed}"] if name else []
+        return [(self.shared or self.results) / "motions" / name / f"s{seed}"] if name else []
 
     def training_seeds(self, name: str) -> list[int]:
         """Return the seeds of a training set's recordings."""
@@ -96,8 +113,11 @@ class Files:
         return self.settings.training_sets[name].sizes[self.settings.scale]
 
     def training(self, kind: str, name: str) -> tuple[Path, ...]:
-        """Return the recordings or residuals of a training set."""
+        """Return the recordings or residuals of a training set, of all robots where it is one of the fleet's."""
         row = self.settings.training_sets[name]
+        if row.level == self.settings.fleet.name:
+            own = next(own for own, other in self.settings.fleet.sets.items() if other == name)
+            return tuple(stem for files in self.robots.values() for stem in files.training(kind, own))
         return tuple(self.array(kind, row.scenario, row.level, seed) for seed in self.training_seeds(name))
 
     def tests(self, scenario: str, level: str, kind: str = "recordings") -> tuple[Path, ...]:
@@ -110,11 +130,13 @@ class Files:
         return tuple(self.array(kind, walk.scenario, walk.level, FIRST_DEVELOPMENT_SEED + i) for i in range(count))
 
     def recorded(self) -> Iterator[tuple[str, str, int]]:
-        """Yield scenario, level and seed of every recording."""
+        """Yield scenario, level and seed of every recording but those of robots of the fleet."""
         for name, row in self.settings.training_sets.items():
-            yield from ((row.scenario, row.level, seed) for seed in self.training_seeds(name))
+            if row.level in self.settings.levels:
+                yield from ((row.scenario, row.level, seed) for seed in self.training_seeds(name))
         for scenario, levels in self.settings.tests.items():
-            yield from ((scenario, level, seed) for level in levels for seed in self.test_seeds)
+            single = [level for level in levels if level in self.settings.levels]
+            yield from ((scenario, level, seed) for level in single for seed in self.test_seeds)
 
     def duration_s(self, scenarios: Iterable[str], seed: int) -> float:
         """Return the duration of the recordings with a seed [s]; of several scenarios, the longest."""
@@ -171,14 +193,15 @@ class Files:
         }
 
     def all_networks(self) -> tuple[Path, ...]:
-        """Return the folders of every network that is trained."""
+        """Return the folders of every network that is trained, those of robots last."""
         methods = self.settings.all_methods
-        return tuple(
+        own = [
             folder
             for name, row in methods.items()
             for limb in row.limbs
             for folder in self.network_folders([name], limb)
-        )
+        ]
+        return (*own, *(folder for files in self.robots.values() for folder in files.all_networks()))
 
     def fit(self, method: str) -> list[Path]:
         """Return the file of what a method, or the one it runs on, was fitted to; none if it is not fitted."""
@@ -193,7 +216,13 @@ class Files:
         return Run(scenario, level, method, network_seed, test_seed, recording, residual, estimate, repeated)
 
     def runs(self, scenario: str, level: str, methods: Iterable[str]) -> tuple[Run, ...]:
-        """Return the runs of methods on a test: every network on every recording."""
+        """Return the runs of methods on a test: every network on every recording; on a fleet, those of each robot."""
+        if level == self.settings.fleet.name:
+            return tuple(
+                replace(run, level=level, network_seed=number)
+                for number, (robot, files) in enumerate(self.robots.items(), start=1)
+                for run in files.runs(scenario, robot, methods)
+            )
         return tuple(
             self.run(scenario, level, method, network, test)
             for method in methods
@@ -202,11 +231,8 @@ class Files:
         )
 
     def first_runs(self, test: Runs) -> tuple[Run, ...]:
-        """Return the runs of a test that a figure of one recording shows: first network, first recording."""
-        first = self.test_seeds[0]
-        return tuple(
-            self.run(test.scenario, test.level, method, self.network_seeds(method)[0], first) for method in test.methods
-        )
+        """Return the runs of a test that a figure of one recording shows: first network or robot, first recording."""
+        return tuple(self.runs(test.scenario, test.level, [method])[0] for method in test.methods)
 
     def runs_of(self, scenario: str) -> tuple[Run, ...]:
         """Return every run of a test."""

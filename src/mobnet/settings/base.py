@@ -92,6 +92,7 @@ Vector3 = tuple[Metres, Metres, Metres]
 Seeds = Annotated[Distinct[Annotated[Index, Field(le=1_000_000)]], Field(max_length=100)]
 
 LevelName = Annotated[str, Named("level")]
+SingleLevelName = Annotated[str, Named("level of one plant")]
 TerrainName = Annotated[str, Named("terrain")]
 PushName = Annotated[str, Named("push")]
 MotionName = Annotated[str, Named("motion")]

@@ -226,7 +226,7 @@ class Development(Section):
     """Walks on which methods are chosen, apart from all tests."""
 
     scenario: base.ScenarioName
-    level: base.LevelName
+    level: base.SingleLevelName
 
 
 class RecordingSettings(Section):

@@ -8,24 +8,31 @@ from mobnet.settings.base import Count, LowerName, NotNegative, Positive, Sectio
 from mobnet.settings.data import Recordings, RecordingSeconds, TestRecordings
 
 
-class Experiment(Section):
-    """How long and how often networks are trained; an epoch is all training samples or `epoch_samples` of them."""
+class Length(Section):
+    """How long networks are trained; an epoch is all training samples or `epoch_samples` of them."""
 
     epochs: Whole = Field(ge=1, le=1000)
     epoch_samples: Annotated[Count, Field(le=100_000_000)] | None = None
+
+
+class Experiment(Length):
+    """How long and how often networks are trained."""
+
     seeds: Seeds
 
 
 class Scale(Section):
     """One size of every test and of every training; the last four replace numbers of other sections.
 
-    `longer_s` gives the duration [s] of tests that need longer recordings than the others.
+    `longer_s` gives the duration [s] of tests that need longer recordings than the others; `robots` has the
+    experiments that take another length on the robots of the fleet, each of which trains one network.
     """
 
     test: TestRecordings
     longer_s: dict[TestName, RecordingSeconds] = {}
     development: Recordings
     experiments: dict[LowerName, Experiment] = Field(min_length=1)
+    robots: dict[LowerName, Length] = {}
     batch_size: Annotated[Count, Field(le=4096)] | None = None
     stream_s: Annotated[Positive, Field(ge=0.05, le=600)] | None = None
     rate_decay_share: Share | None = None

@@ -6,14 +6,18 @@ from pydantic import AfterValidator, Field
 
 from mobnet.settings.base import (
     BodyName,
+    Distinct,
     Index,
     LimbName,
+    LowerName,
     NotNegative,
     Range,
     Real,
     Section,
     Share,
+    SingleLevelName,
     Some,
+    TrainingSetName,
     Vector3,
     Whole,
     distinct,
@@ -101,3 +105,15 @@ class SurrogateRobot(Section):
     seed: Index
     parts: Annotated[tuple[Part, ...], AfterValidator(distinct)]
     running_s: Range[Annotated[NotNegative, Field(le=360_000)]]
+
+
+class Fleet(Section):
+    """Surrogate robots that stand together for the robot of the paper, each a level of its own.
+
+    A test at the level `name` is walked by each of the `robots`, with methods that are fitted and trained on that
+    robot's recordings. There, `sets` take the place of the training sets that networks name.
+    """
+
+    name: LowerName
+    robots: Distinct[SingleLevelName]
+    sets: dict[TrainingSetName, TrainingSetName]
