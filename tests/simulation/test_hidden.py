@@ -1,0 +1,148 @@
+"""A surrogate robot: drawn from its seed, part by part, and seen by its sensors alone."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from mobnet.robot.description import WalkingRobot
+from mobnet.settings.settings import Settings
+from mobnet.settings.surrogate import SurrogateRobot
+from mobnet.simulation.faults import perceive
+from mobnet.simulation.hidden import Hidden, draw_hidden
+from mobnet.simulation.simulator import Simulator
+
+RATE_HZ = 2000.0
+WHOLE = ("drives", "body", "sensors")
+Draw = Callable[..., Hidden]
+
+
+@pytest.fixture
+def draw(settings: Settings, robot: WalkingRobot) -> Draw:
+    """A function of a seed and the hidden parts -> a surrogate robot."""
+
+    def make(seed: int, *parts: str) -> Hidden:
+        chosen = SurrogateRobot.model_validate({"seed": seed, "parts": parts, "running_s": (0.0, 0.0)})
+        return draw_hidden(robot, settings.plant, RATE_HZ, settings.surrogate, chosen, settings.seed)
+
+    return make
+
+
+def test_a_seed_is_a_robot(draw: Draw) -> None:
+    """The same whenever it is drawn; another one differs in every part."""
+    first, again, other = draw(1, *WHOLE), draw(1, *WHOLE), draw(2, *WHOLE)
+    assert first.robot.bodies == again.robot.bodies
+    assert (first.drives.law == again.drives.law).all()
+    assert (first.faults.offset == again.faults.offset).all()
+    assert all(one.mass != two.mass for one, two in zip(first.robot.bodies, other.robot.bodies, strict=True))
+    assert not (first.drives.law == other.drives.law).any()
+    assert (first.faults.gain != other.faults.gain).all()
+
+
+@pytest.mark.parametrize("part", WHOLE)
+def test_a_part_is_the_same_by_itself(draw: Draw, robot: WalkingRobot, settings: Settings, part: str) -> None:
+    """So that a level can show what a part costs; the others are then those of the plant of section 5.1."""
+    whole, single = draw(1, *WHOLE), draw(1, part)
+    same = {
+        "drives": (whole.drives.law["coulomb"] == single.drives.law["coulomb"]).all(),
+        "body": [body.com for body in whole.robot.bodies] == [body.com for body in single.robot.bodies],
+        "sensors": (whole.faults.zero == single.faults.zero).all(),
+    }
+    assert same == {name: name == part for name in WHOLE}
+    if part != "body":
+        assert single.robot.bodies == robot.bodies
+        assert single.plant == settings.plant
+    assert single.drives.hidden == (part == "drives")
+    assert single.faults.hidden == (part == "sensors")
+
+
+def test_numbers_lie_in_their_ranges(draw: Draw, robot: WalkingRobot, settings: Settings) -> None:
+    """Every joint draws its own drive, every link its own mass and centre of mass."""
+    hidden, ranges = draw(1, *WHOLE), settings.surrogate
+    law = hidden.drives.law
+    for name, key in (("constant", "torque_constant"), ("lag", "lag_s"), ("back", "back_ratio"), ("warm", "warm_share")):
+        low, high = getattr(ranges.drive, key)
+        assert low <= law[name].min() < law[name].max() <= high
+        assert len(np.unique(law[name])) == len(law)
+    for row, body in zip(robot.bodies, hidden.robot.bodies, strict=True):
+        payload = ranges.body.payload_kg[1] if row.name == ranges.body.payload_body else 0.0
+        assert abs(body.mass / row.mass - 1.0) <= ranges.body.mass_share + payload / row.mass
+        assert np.abs(np.subtract(body.com, row.com)).max() <= ranges.body.com_m
+    assert (law["rotor"] >= robot.armature).all()
+    assert not hidden.robot.armature.any()
+
+
+def test_the_mass_matrix_is_that_of_links_and_rotors(draw: Draw, robot: WalkingRobot) -> None:
+    """A rotor's inertia is in its drive and no longer in the joint, where it would count twice."""
+    hidden = draw(1, "drives")
+    np.testing.assert_allclose(hidden.drives.law["rotor"], np.maximum(robot.armature, hidden.drives.law["rotor"].min()))
+
+
+def test_the_controller_and_the_observer_know_the_table_alone(simulate: Callable[..., Simulator]) -> None:
+    """Nothing of a surrogate robot is in what they are built from."""
+    known, other = (simulate("flat_place", level, standing=True) for level in ("robot_1", "robot_2"))
+    for name in known.walker.tree._fields:
+        np.testing.assert_array_equal(getattr(known.walker.tree, name), getattr(other.walker.tree, name))
+    assert known.robot.bodies == other.robot.bodies
+
+
+def seen(simulator: Simulator) -> None:
+    """Let the sensors of a surrogate robot look at the plant once more."""
+    plant, faults = simulator.plant, simulator.hidden.faults
+    perceive(
+        faults, simulator.sensors, plant.drives, plant.qpos, plant.qvel, plant.sensordata, plant.xmat, plant.gravity
+    )
+
+
+def test_encoders_see_the_rotors(simulate: Callable[..., Simulator]) -> None:
+    """With the error of their zeros."""
+    simulator = simulate("flat_place", "robot_1", standing=True)
+    drives, faults = simulator.hidden.drives, simulator.hidden.faults
+    drives.state["angle"] += 0.01
+    drives.state["rate"] = 0.5
+    seen(simulator)
+    np.testing.assert_allclose(faults.qpos[7:], drives.state["angle"] + faults.zero, rtol=1e-12)
+    np.testing.assert_array_equal(faults.qvel[6:], 0.5)
+
+
+def test_inertial_readings_are_late_and_biased(simulate: Callable[..., Simulator]) -> None:
+    simulator = simulate("flat_place", "robot_1", standing=True)
+    faults, plant, acc = simulator.hidden.faults, simulator.plant, simulator.sensors.acc
+    faults.steps[0] = 0
+    found = []
+    for k in range(3 * faults.late):
+        plant.sensordata[acc : acc + 3] = k
+        seen(simulator)
+        found.append(faults.data[acc : acc + 3] - faults.acc)
+    wanted = np.maximum(np.arange(3 * faults.late) - faults.late, 0)
+    np.testing.assert_allclose(np.array(found), wanted[:, None] * np.ones(3), atol=1e-12)
+
+
+def test_a_foot_at_rest_in_the_air_reads_what_its_calibration_left(simulate: Callable[..., Simulator]) -> None:
+    """Upright and at rest: the error of the calibrated mass, times gravity, times the gain, plus the constant error."""
+    simulator = simulate("flat_place", "robot_1", standing=True)
+    faults, plant, sensors = simulator.hidden.faults, simulator.plant, simulator.sensors
+    plant.sensordata[:] = 0.0
+    for k in range(2):
+        plant.xmat[faults.soles[k]] = np.eye(3).ravel()
+        plant.sensordata[faults.foot_acc[k] + 2] = plant.gravity
+    seen(simulator)
+    true, known = faults.plate
+    weight = np.array([0.0, 0.0, -(true - known) * plant.gravity])
+    moment = np.cross(faults.arm, weight)
+    for k in range(2):
+        wrench = -faults.data[[*range(sensors.force[k], sensors.force[k] + 3),
+                               *range(sensors.torque[k], sensors.torque[k] + 3)]]  # fmt: skip
+        expected = faults.gain[k] * np.concatenate([weight, moment]) + faults.offset[k]
+        np.testing.assert_allclose(wrench, expected, rtol=1e-9, atol=1e-12)
+
+
+def test_the_gears_go_on_running(simulate: Callable[..., Simulator]) -> None:
+    """From one episode to the next, from a time that is drawn for the recording."""
+    simulator = simulate("flat_place", "robot_1")
+    low, high = simulator.settings.level.surrogate.running_s
+    assert low <= simulator.running_s <= high
+    simulator.start(100.0)
+    assert simulator.hidden.drives.clock[0] == simulator.running_s + 100.0
+    simulator.run(np.zeros((200, simulator.width), dtype=np.float32))
+    assert simulator.hidden.drives.clock[0] == pytest.approx(simulator.running_s + 100.2, abs=1e-6)
