@@ -14,7 +14,17 @@ from functools import cached_property
 from pathlib import Path
 
 from mobnet.agreement import check_agreement
-from mobnet.core.columns import EPOCHS, EXTERNAL, LABEL_LP, RESIDUAL, SCORES, STD, named, recording_columns, residual_columns
+from mobnet.core.columns import (
+    EPOCHS,
+    EXTERNAL,
+    LABEL_LP,
+    RESIDUAL,
+    SCORES,
+    STD,
+    named,
+    recording_columns,
+    residual_columns,
+)
 from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse
 from mobnet.core.files import METRICS, RUN, read_json, read_text
 from mobnet.core.joints import JointLayout

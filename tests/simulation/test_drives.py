@@ -20,7 +20,7 @@ def made() -> Drive:
     """A function of numbers of LAW -> one drive with them, at rest."""
 
     def make(running_s: float = 0.0, rate: float = 0.0, **law: float) -> Drives:
-        drives = no_drives(1)._replace(hidden=1)
+        drives = no_drives(1)._replace(hidden=1, wanted=np.zeros((1, int(law.get("delay", 0)) + 1)))
         for name, value in {**PLAIN, **law}.items():
             drives.law[name] = value
         reset_drives(drives, np.zeros(1), np.full(1, rate), running_s)
@@ -88,7 +88,8 @@ def test_torque_constant_and_current_loop(made: Drive) -> None:
 def test_coulomb_and_viscous_friction(made: Drive, rate: float) -> None:
     """Far from rest: Coulomb friction, apart for each direction, and a part that grows with the rate."""
     drives = made(coulomb=6.0, direction=0.1, viscous=4.0)
-    assert held(drives, rate, 0.0) == pytest.approx(np.sign(rate) * 6.0 * (1 + 0.1 * np.sign(rate)) + 4.0 * rate, rel=0.02)
+    sign = np.sign(rate)
+    assert held(drives, rate, 0.0) == pytest.approx(sign * 6.0 * (1.0 + 0.1 * sign) + 4.0 * rate, rel=0.02)
 
 
 def test_friction_is_larger_near_rest(made: Drive) -> None:
@@ -100,7 +101,7 @@ def test_friction_is_larger_near_rest(made: Drive) -> None:
     (0.5, 80.0, 0.2), (-0.5, -80.0, 0.2), (0.5, -80.0, 0.3), (-0.5, 80.0, 0.3),
 ])  # fmt: skip
 def test_friction_under_load_depends_on_which_side_drives(made: Drive, rate: float, load: float, share: float) -> None:
-    """Of the transmitted torque, the share `load` where the motor drives, and `back` times as much where the load does."""
+    """Of the transmitted torque, the share `load` where the motor drives, `back` times as much where the load does."""
     found = held(made(load=0.2, back=1.5), rate, load)
     assert found == pytest.approx(np.sign(rate) * share * 80.0, rel=0.02)
 

@@ -60,7 +60,8 @@ def test_numbers_lie_in_their_ranges(draw: Draw, robot: WalkingRobot, settings: 
     """Every joint draws its own drive, every link its own mass and centre of mass."""
     hidden, ranges = draw(1, *WHOLE), settings.surrogate
     law = hidden.drives.law
-    for name, key in (("constant", "torque_constant"), ("lag", "lag_s"), ("back", "back_ratio"), ("warm", "warm_share")):
+    keys = {"constant": "torque_constant", "lag": "lag_s", "back": "back_ratio", "warm": "warm_share"}
+    for name, key in keys.items():
         low, high = getattr(ranges.drive, key)
         assert low <= law[name].min() < law[name].max() <= high
         assert len(np.unique(law[name])) == len(law)

@@ -65,7 +65,7 @@ def torque_columns(layout: JointLayout, signals: Iterable[str], joints: Iterable
 
 
 def residual_columns(layout: JointLayout, labelled: bool = False) -> list[Column]:
-    """Return name, unit and frame of the columns of a residual file, (2 nv,), or (3 nv,) with labels of foot sensors."""
+    """Return name, unit and frame of the columns of a residual file, (2 nv,), or (3 nv,) if foot sensors label it."""
     signals = (RESIDUAL, EXTERNAL_LP, LABEL_LP) if labelled else (RESIDUAL, EXTERNAL_LP)
     return torque_columns(layout, signals, layout.names)
 

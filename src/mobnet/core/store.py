@@ -294,7 +294,7 @@ def spans_and_rate(meta: Mapping[str, Any]) -> tuple[tuple[tuple[int, int], ...]
 
 
 def label_of(residual: Path) -> str:
-    """Return the signal of a residual file that methods learn as the external torque: that of foot sensors if it has one.
+    """Return the signal of a residual file that methods learn as external torque: that of foot sensors if it has one.
 
     Raises:
         DataError: the file's description is missing or damaged.

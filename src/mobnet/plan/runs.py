@@ -24,9 +24,10 @@ NETWORKS = "networks"
 class Run:
     """One run of a method on a test: a network seed, 0 for a method without networks, on a recording.
 
-    On a fleet, the network seed is the number of the robot, counted from 1, for any method. The recording, the observer's residual of it and the method's estimate are named without the ending of their files.
-    `repeated` are limbs whose network has run on the recording under an earlier seed: they have fewer networks than
-    others, and these numbers must not count again.
+    On a fleet, the network seed is the number of the robot, counted from 1, for any method. The recording, the
+    observer's residual of it and the method's estimate are named without the ending of their files. `repeated` are
+    limbs whose network has run on the recording under an earlier seed: they have fewer networks than others, and these
+    numbers must not count again.
     """
 
     scenario: str
@@ -83,7 +84,7 @@ class Files:
         return {name: Files(self.settings.on_robot(name), self.results / name, self.results) for name in named}
 
     def owner_of(self, path: Path) -> tuple["Files", tuple[str, ...]]:
-        """Return whose file it is, this or a robot's, and its place below the owner's folder; ("",) if it is nobody's."""
+        """Return whose file it is, this or a robot's, and its place below that folder; ("",) if it is nobody's."""
         for owner in (*self.robots.values(), self):
             if path.is_relative_to(owner.results):
                 return owner, path.relative_to(owner.results).parts

@@ -22,7 +22,19 @@ from mobnet.settings.settings import Settings
 
 ROOT = Path(__file__).parents[3]
 CONFIGS = ROOT / "configs"
-PARTS = ("config", "plant", "surrogate", "walking", "data", "networks", "methods", "tests", "trials", "evaluation", "scales")
+PARTS = (
+    "config",
+    "plant",
+    "surrogate",
+    "walking",
+    "data",
+    "networks",
+    "methods",
+    "tests",
+    "trials",
+    "evaluation",
+    "scales",
+)
 NAMED_FILES = ("robot", "published", "claims")  # sections that stand in files which config.yaml names
 WITH_NULLS = ("published", "claims")  # null: the paper prints no number; a range has no bound
 Kind = TypeVar("Kind", bound=Section)

@@ -1,7 +1,7 @@
 """The whole configuration, what follows from a row of it, and what a walk takes; other jobs take whole sections."""
 
 from functools import cached_property
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import Field
 
@@ -91,7 +91,7 @@ class Settings(Section):
         return self.scales[self.scale]
 
     def on_robot(self, robot: str) -> "Settings":
-        """Return the configuration as a robot of the fleet has it: with its own tests, training sets and experiments."""
+        """Return the configuration as a robot of the fleet has it: with its tests, training sets and experiments."""
         fleet = self.fleet
         sets = {
             name: self.training_sets[other].model_copy(update={"level": robot}) for name, other in fleet.sets.items()
@@ -101,15 +101,16 @@ class Settings(Section):
             for section in (self.tests, self.estimated_limbs)
         )
         named = {name for levels in tests.values() for name in levels[robot]}
-        methods = {name: row for name, row in self.methods.items() if name in named | {self.source_of(n) for n in named}}
-        number = FIRST_ROBOT_SEED + fleet.robots.index(robot)  # of its networks, whose names then differ from all others
+        named |= {self.source_of(name) for name in named}
+        methods = {name: row for name, row in self.methods.items() if name in named}
+        number = FIRST_ROBOT_SEED + fleet.robots.index(robot)  # of its networks: names then differ from all others
         lengths = {**self.sizes.experiments, **self.sizes.robots}
         experiments = {
             name: Experiment(epochs=row.epochs, epoch_samples=row.epoch_samples, seeds=(number,))
             for name, row in lengths.items()
         }
         scale = self.sizes.model_copy(update={"experiments": experiments})
-        changed = {
+        changed: dict[str, Any] = {
             "training_sets": sets, "tests": tests, "estimated_limbs": limbs, "methods": methods, "sweeps": {},
             "scales": {self.scale: scale}, "fleet": fleet.model_copy(update={"robots": ()}),
         }  # fmt: skip

@@ -1,4 +1,4 @@
-"""The surrogate robot: a plant with hidden drives, masses and sensor errors in place of the robot of sections 5.2 to 7."""
+"""The surrogate robot: hidden drives, masses and sensor errors in place of the paper's robot (sections 5.2 to 7)."""
 
 from typing import Annotated, Literal
 

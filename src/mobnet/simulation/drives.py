@@ -22,7 +22,7 @@ LAW = np.dtype([
     ("cogging", "f8"), ("cogging_waves", "f8"), ("cogging_phase", "f8"), ("cable", "f8"), ("cable_phase", "f8"),
     ("warm", "f8"), ("warm_s", "f8"),
 ])  # fmt: skip
-STATE = np.dtype([("angle", "f8"), ("rate", "f8"), ("current", "f8"), ("bend", "f8"), ("wanted", "f8", 64)])
+STATE = np.dtype([("angle", "f8"), ("rate", "f8"), ("current", "f8"), ("bend", "f8")])
 CABLE_WAVES = 2.0  # periods of a cable's torque in a turn of the joint
 
 
@@ -35,20 +35,22 @@ class Drives(NamedTuple):
             time constant of the current loop [s], `delay` its dead time in steps of the plant; `rotor` is its inertia
             [kg m^2], `stiffness` [N m/rad] and `damping` [N m s/rad] are those of the gear's spring; `load` is friction
             for each transmitted torque where the motor drives, `back` what it is multiplied by where the load drives.
-        state: records of STATE: angle [rad] and rate [rad/s] of the rotor at the joint, `current` as a torque [N m],
-            `bend` of the friction from -1 to 1, and what was desired in the last steps [N m].
+        state: records of STATE: angle [rad] and rate [rad/s] of the rotor at the joint, `current` as a torque [N m]
+            and `bend` of the friction from -1 to 1.
+        wanted: what was desired in the last steps (nu, steps) [N m], as many as the longest delay takes.
         clock: time for which the gears have been running [s], and the number of steps so far (2,).
     """
 
     hidden: int
     law: NDArray[Any]
     state: NDArray[Any]
+    wanted: Array
     clock: Array
 
 
 def no_drives(nu: int) -> Drives:
     """Return what stands in the place of drives on the plant of section 5.1."""
-    return Drives(0, np.zeros(nu, LAW), np.zeros(nu, STATE), np.zeros(2))
+    return Drives(0, np.zeros(nu, LAW), np.zeros(nu, STATE), np.zeros((nu, 1)), np.zeros(2))
 
 
 def draw_drives(
@@ -67,7 +69,7 @@ def draw_drives(
     }
     for k, joint in enumerate(robot.layout.actuated):
         row = {name: value * rng.uniform(1 - drive.spread, 1 + drive.spread) for name, value in typical[joint].items()}
-        rotor = max(robot.joints[k].armature, drive.rotor_min_kg_m2)
+        rotor, either = max(robot.joints[k].armature, drive.rotor_min_kg_m2), rng.choice([-1.0, 1.0])
         shared = rotor * link[k] / (rotor + link[k])
         found = {
             "constant": rng.uniform(*drive.torque_constant), "lag": rng.uniform(*drive.lag_s),
@@ -75,7 +77,7 @@ def draw_drives(
             "stiffness": row["stiffness_nm_rad"],
             "damping": 2 * drive.damping_ratio * np.sqrt(row["stiffness_nm_rad"] * shared),
             "coulomb": row["coulomb_nm"], "viscous": row["viscous_nms"], "load": row["load_share"],
-            "back": rng.uniform(*drive.back_ratio), "direction": rng.choice([-1, 1]) * rng.uniform(*drive.direction_share),
+            "back": rng.uniform(*drive.back_ratio), "direction": either * rng.uniform(*drive.direction_share),
             "static": rng.uniform(*drive.static_share), "stribeck": rng.uniform(*drive.stribeck_rad_s),
             "presliding": rng.uniform(*drive.presliding_rad), "ripple": rng.uniform(*drive.ripple_share),
             "ripple_waves": drive.ripple_waves, "cogging": row["cogging_nm"], "cogging_waves": drive.cogging_waves,
@@ -85,7 +87,7 @@ def draw_drives(
             law[name][k] = value
         for name in ("ripple_phase", "cogging_phase", "cable_phase"):
             law[name][k] = rng.uniform(-np.pi, np.pi)
-    return drives._replace(hidden=1)
+    return drives._replace(hidden=1, wanted=np.zeros((len(law), law["delay"].max() + 1)))
 
 
 def reset_drives(drives: Drives, q: Array, v: Array, running_s: float) -> None:
@@ -102,12 +104,12 @@ def drive(drives: Drives, tau: Array, q: Array, v: Array, dt: float, link: Array
     Joints are at q (nu,) [rad], v (nu,) [rad/s]. Written are the torques on the links (nu,) [N m], and added what the
     drives report of their motors (nu,) [N m].
     """
-    step = int(drives.clock[1])
+    step, size = int(drives.clock[1]), drives.wanted.shape[1]
     for j in range(len(tau)):
         law, s = drives.law[j], drives.state[j]
-        s.wanted[step % 64] = tau[j]
-        past = max(step - law.delay, 0)
-        s.current += (s.wanted[past % 64] - s.current) * (1.0 - np.exp(-dt / law.lag))
+        drives.wanted[j, step % size] = tau[j]
+        past = drives.wanted[j, max(step - law.delay, 0) % size]
+        s.current += (past - s.current) * (1.0 - np.exp(-dt / law.lag))
         reported[j] += s.current
         spring = law.stiffness * (s.angle - q[j]) + law.damping * (s.rate - v[j])
         cold = 1.0 - law.warm * (1.0 - np.exp(-drives.clock[0] / law.warm_s))

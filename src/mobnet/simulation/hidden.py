@@ -25,16 +25,18 @@ class Hidden(NamedTuple):
 
 
 def draw_hidden(
-    robot: WalkingRobot, plant: Plant, rate_hz: float, surrogate: Surrogate, chosen: SurrogateRobot | None, seed: int
-) -> Hidden:
+    robot: WalkingRobot, plant: Plant, rate_hz: float, surrogate: Surrogate | None, chosen: SurrogateRobot | None,
+    seed: int,
+) -> Hidden:  # fmt: skip
     """Draw a surrogate robot, whose plant is stepped at a rate [1/s]; without one, the plant is that of section 5.1.
 
     Each part has random numbers of its own, so that it is the same whichever other parts are hidden.
     """
-    parts = chosen.parts if chosen else ()
-    number = chosen.seed if chosen else 0
-    seeds = np.random.SeedSequence([seed, zlib.crc32(b"surrogate"), number]).spawn(3)
+    if surrogate is None or chosen is None:
+        return Hidden(robot, plant, no_drives(robot.layout.nu), no_faults(robot_spec(robot).compile()))
+    seeds = np.random.SeedSequence([seed, zlib.crc32(b"surrogate"), chosen.seed]).spawn(3)
     body, drives, sensors = (np.random.default_rng(stream) for stream in seeds)
+    parts = chosen.parts
     if "body" in parts:
         robot = _other_links(surrogate.body, robot, body)
         plant = plant.model_copy(update={"sole_stiffness_n_m": body.uniform(*surrogate.body.sole_stiffness_n_m)})

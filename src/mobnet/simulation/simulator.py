@@ -16,8 +16,8 @@ from mobnet.core.columns import recording_width
 from mobnet.robot.description import describe, for_walking
 from mobnet.settings.data import CommandSource, FixedCommand
 from mobnet.settings.settings import WalkSettings
-from mobnet.simulation.engine import Plant, make_plant, run
 from mobnet.simulation.drives import reset_drives
+from mobnet.simulation.engine import Plant, make_plant, run
 from mobnet.simulation.faults import reset_faults
 from mobnet.simulation.friction import make_friction
 from mobnet.simulation.hidden import draw_hidden
@@ -31,7 +31,15 @@ from mobnet.simulation.world import World, ground_height, leg_mask, make_world
 Rows = NDArray[np.float32]
 STAND, UNIFORM = "stand", "uniform"  # commands of an episode that does not walk, and that draws them evenly
 SOLE_POINTS = (5, 3)  # along and across a sole, where the ground under a start is looked for
-STREAMS = ("commands", "noise", "torque", "place", "pushes", "terrain", "running")  # of random numbers, in the order spawned
+STREAMS = (
+    "commands",
+    "noise",
+    "torque",
+    "place",
+    "pushes",
+    "terrain",
+    "running",
+)  # of random numbers, in the order spawned
 
 
 class Setting(NamedTuple):

@@ -111,7 +111,7 @@ def columns(layout: JointLayout, gain_hz: float) -> Iterator[str]:
     texts = {
         "r": f"the observer's residual, eq. (9), gain {gain_hz:g} 1/s",
         "tau_ext_lp": "external torque behind the observer's low-pass filter, eq. (15); r minus this is the target",
-        "label_lp": "of surrogate robots: the same by their foot sensors, J^T F of eq. (2), which is learned in its place",
+        "label_lp": "the same by the foot sensors, J^T F of eq. (2), which surrogate robots learn in its place",
     }
     grouped = groupby(residual_columns(layout, labelled=True), key=lambda column: column[0].split(".")[0])
     rows = [row for field, found in grouped for row in column_rows(field, list(found), texts[field])]

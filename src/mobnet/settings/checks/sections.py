@@ -11,6 +11,7 @@ from mobnet.settings.checks.data import data_problems
 from mobnet.settings.checks.learning import learning_problems
 from mobnet.settings.checks.shown import shown_problems
 from mobnet.settings.checks.sizes import size_problems
+from mobnet.settings.checks.surrogate import surrogate_problems
 from mobnet.settings.checks.walking import walking_problems
 from mobnet.settings.names import Use, unknown, uses
 from mobnet.settings.networks import Learning, Network
@@ -73,7 +74,8 @@ def _place_of(settings: Settings, method: str, part: str) -> Place:
 
 def inconsistencies(settings: Settings) -> Iterator[Problem]:
     """Yield the place and the text of everything that does not fit together."""
-    found = [*walking_problems(settings), *data_problems(settings), *learning_problems(settings)]
+    checks = walking_problems, data_problems, learning_problems, surrogate_problems
+    found = [problem for check in checks for problem in check(settings)]
     yield from found
     if not found:  # only then can sizes and results be looked up
         yield from size_problems(settings)

@@ -1,0 +1,68 @@
+"""What must hold for the surrogate robots, the levels that name them and the fleet that they form."""
+
+from collections.abc import Iterator
+
+from mobnet.core.errors import misfit, not_accepted
+from mobnet.settings.reading import Place
+from mobnet.settings.settings import Settings
+
+Problem = tuple[Place, str]
+
+
+def surrogate_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield what does not fit in drives, levels and the fleet."""
+    yield from _drive_problems(settings)
+    yield from _level_problems(settings)
+    yield from _fleet_problems(settings)
+
+
+def _drive_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield limbs whose drives are not those of their joints, and motors without a drive."""
+    limbs, groups = settings.surrogate.limbs, settings.robot.groups
+    for limb, row in limbs.items():
+        for name, values in row:
+            if len(values) != len(groups[limb]):
+                accepted = f"{len(groups[limb])}, one for each joint of {limb}"
+                yield ("surrogate", "limbs", limb, name), misfit(f"{len(values)} numbers", accepted)
+    driven = {joint for limb in limbs for joint in groups[limb]}
+    for joint in settings.robot.order.actuated:
+        if joint not in driven:
+            yield ("surrogate", "limbs"), misfit(f"no drive of {joint}", "limbs with all motors of the robot")
+            return
+
+
+def _level_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield levels whose friction acts twice, and labels that no sensor gives."""
+    for name, level in settings.levels.items():
+        if level.surrogate and "drives" in level.surrogate.parts and level.friction:
+            accepted = "[], as the hidden drives have friction of their own"
+            yield ("levels", name, "friction"), misfit(list(level.friction), accepted)
+        if level.labels == "foot_sensors" and not settings.robot.feet:
+            yield ("levels", name, "labels"), misfit(level.labels, "truth, for a robot without feet")
+
+
+def _fleet_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield a fleet that has the name of a level, robots that are none, and training sets without a counterpart."""
+    fleet, sets = settings.fleet, settings.training_sets
+    if fleet.name in settings.levels:
+        yield ("fleet", "name"), misfit(fleet.name, "a name that is no level's")
+    for index, robot in enumerate(fleet.robots):
+        if settings.levels[robot].surrogate is None:
+            named = [name for name, level in settings.levels.items() if level.surrogate]
+            yield ("fleet", "robots", index), not_accepted("level of a surrogate robot", robot, named)
+    for name, other in fleet.sets.items():
+        if sets[other].level != fleet.name:
+            yield ("fleet", "sets", name), misfit(other, f"a set at the level {fleet.name}")
+    for name, row in sets.items():
+        if row.level == fleet.name and name not in fleet.sets.values():
+            yield ("training_sets", name, "level"), misfit(row.level, "a level of one plant, or a set of `fleet.sets`")
+    for test, levels in settings.tests.items():
+        for index, method in enumerate(levels.get(fleet.name, ())):
+            learned = settings.method(settings.network_source_of(method)).limbs
+            fitted = settings.method(settings.source_of(method)).fitted
+            for limb in (*learned, *fitted):
+                data = settings.network(settings.source_of(method) if limb in fitted else method, limb).data
+                if data not in fleet.sets:
+                    accepted = f"methods that learn from {', '.join(fleet.sets)}"
+                    yield ("tests", test, fleet.name, index), misfit(f"{method}, which learns from {data}", accepted)
+                    break
