@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mobnet.settings.data import Direction, Phase, Push
-from mobnet.simulation.pushes import DIRECTIONS, PHASES, SHAPES
+from mobnet.simulation.pushes import DIRECTIONS, PHASES, SHAPES, STATE, hit, meet
 from mobnet.simulation.simulator import Simulator
 
 LL3 = 6 + 2
@@ -148,3 +148,43 @@ def test_words_of_the_configuration_are_all_known() -> None:
     assert set(get_args(Phase)) == set(PHASES)
     assert set(get_args(Direction)) == set(DIRECTIONS)
     assert set(get_args(Push.model_fields["shape"].annotation)) == set(SHAPES)
+
+
+@pytest.mark.parametrize(("force", "seconds"), [(200.0, 0.1), (150.0, 0.4)])
+def test_an_impactor_pushes_a_wall_as_hard_and_as_long_as_it_says(force: float, seconds: float) -> None:
+    """The closed form of a mass that meets a wall on a spring: half a sine of F and T."""
+    p, place, dt, felt = np.zeros(1, STATE)[0], np.array([1.0, 0.0, 0.0]), 0.0005, []
+    p["size"], p["start"], p["end"], p["direction"], p["place"] = force, 0.0, seconds, [-1.0, 0.0, 0.0], place
+    meet(p, 20.0, place, dt)
+    while not felt or felt[-1] >= 0.0:
+        felt.append(hit(p, 20.0, place, dt))
+    assert max(felt) == pytest.approx(force, rel=0.02)
+    assert len(felt) * dt == pytest.approx(seconds, rel=0.02)
+    assert sum(felt) * dt == pytest.approx(2.0 / np.pi * force * seconds, rel=0.02)
+
+
+def test_an_impactor_pushes_less_a_point_that_gives_way() -> None:
+    """A free mass as large as the impactor's takes it over: half the mass acts on the spring."""
+    p, dt, mass, felt, x, rate = np.zeros(1, STATE)[0], 0.0005, 20.0, [0.0], 0.0, 0.0
+    p["size"], p["end"], p["direction"] = 200.0, 0.1, [1.0, 0.0, 0.0]
+    meet(p, mass, np.zeros(3), dt)
+    while felt[-1] >= 0.0:
+        felt.append(hit(p, mass, np.array([x, 0.0, 0.0]), dt))
+        rate += felt[-1] / mass * dt
+        x += rate * dt
+    assert max(felt) == pytest.approx(200.0 / np.sqrt(2.0), rel=0.02)
+    assert len(felt) * dt == pytest.approx(0.1 / np.sqrt(2.0), rel=0.03)
+
+
+def test_an_impactor_hits_the_swinging_knee_and_leaves_it(simulate: Callable, run: Callable) -> None:
+    """The force is part of the external torque, begins and ends at zero, and comes once for each of its times."""
+    row = {"point": "left_knee_front", "during": "left_swing", "share": [0.4, 0.4], "at_s": [0.0, 2.5]}
+    row |= {"force_n": [100.0, 100.0], "duration_s": [0.1, 0.1], "direction": "backward", "shape": "impactor"}
+    seen = watch(pushed(simulate, knee={**row, "impactor_kg": 20.0}), run, 6.5)
+    torque = np.array([moment["tau_push"][LL3] for moment in seen])
+    flags = np.array([moment["pushed"] for moment in seen])
+    starts = np.flatnonzero(np.diff(flags, prepend=0.0) > 0)
+    assert len(starts) == 2
+    assert (torque[flags == 0] == 0.0).all()
+    assert 0.02 < flags.sum() / 1000 / 2 < 0.15
+    assert 5.0 < np.abs(torque).max() < 60.0

@@ -52,7 +52,11 @@ def _steps(files: Files) -> Needs:
 def _uncertainty(files: Files) -> Needs:
     """Return the residuals of the training sets that networks learn from."""
     names = dict.fromkeys(row.data for row in files.settings.networks.values())
-    return {"sets": {name: files.training("residuals", name) for name in names}}
+    robots = {
+        robot: {name: own.training("residuals", name) for name in own.settings.training_sets if name in names}
+        for robot, own in files.robots.items()
+    }
+    return {"sets": {name: files.training("residuals", name) for name in names}, "robots": robots}
 
 
 def _coverage(files: Files) -> Needs:

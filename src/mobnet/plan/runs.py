@@ -202,7 +202,18 @@ class Files:
             for limb in row.limbs
             for folder in self.network_folders([name], limb)
         ]
-        return (*own, *(folder for files in self.robots.values() for folder in files.all_networks()))
+        return (*own, *(folder for files in self.robots.values() for folder in files.tested_networks()))
+
+    def tested_networks(self) -> tuple[Path, ...]:
+        """Return the folders of the networks that run in some test, each once."""
+        runs = [
+            (method, seed, scenario, level)
+            for scenario, levels in self.settings.tests.items()
+            for level, methods in levels.items()
+            for method in methods
+            for seed in self.network_seeds(method)
+        ]
+        return tuple(dict.fromkeys(folder for run in runs for folder in self.networks(*run).values()))
 
     def fit(self, method: str) -> list[Path]:
         """Return the file of what a method, or the one it runs on, was fitted to; none if it is not fitted."""

@@ -165,7 +165,8 @@ class Sines(Section):
 class Push(Section):
     """A force at a point, or a torque on a joint, with the times at which it comes.
 
-    A push of shape `sines` is a sum of sines, whose amplitudes are shares of its size.
+    A push of shape `sines` is a sum of sines, whose amplitudes are shares of its size. An `impactor` is a mass on a
+    spring that meets the point and leaves it again; force and duration are those of its hit on a wall.
     """
 
     point: base.PointName | None = None
@@ -178,8 +179,9 @@ class Push(Section):
     torque_nm: base.Range[base.NewtonMetre] | None = None
     duration_s: base.Range[Duration]
     direction: Direction = "any"
-    shape: Literal["step", "half_sine", "sines"]
+    shape: Literal["step", "half_sine", "sines", "impactor"]
     sines: Sines | None = None
+    impactor_kg: Annotated[base.Real, Field(ge=0.1, le=500)] | None = None
 
 
 class Scenario(Section):

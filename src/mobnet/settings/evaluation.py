@@ -10,7 +10,7 @@ from mobnet.settings.base import Section
 PART = "swing|touch_down|stance|stuck|moving"  # parts of a walk
 NUMBER = "[1-9][0-9]*"
 METRIC = "|".join([
-    "rmse(_raw)?", "r_rmse", "roughness", "rmse_pushed(_raw)?", f"rmse_push_{NUMBER}(_raw)?",
+    "rmse(_raw|_label)?", "r_rmse", "roughness", "rmse_pushed(_raw)?", f"rmse_push_{NUMBER}(_raw)?",
     f"(rmse|std|cover)_({PART})",
     "(peak_ratio|rise_delay)(_observer)?", r"(gain|phase)_[0-9]+(\.[0-9]+)?hz", f"held_(swing|stance)(_{NUMBER})?",
     "std", "cover", "(std|cover)_(pushed|calm)", f"(rmse|std|cover)_part_{NUMBER}", "excursion", f"acf_{NUMBER}ms",
@@ -343,9 +343,10 @@ class Steps(Section):
 
 
 class Uncertainty(Section):
-    """Size of the uncertainty torque: limb -> accepted ratio of simulated to real size."""
+    """Size of the uncertainty torque: limb -> accepted ratio of simulated to real size; that of each robot's joints."""
 
     ratio: dict[base.NetworkName, base.Span[Annotated[base.Real, Field(ge=0.01, le=100)]]]
+    robot_ratio: base.Span[Annotated[base.Real, Field(ge=0.01, le=100)]]
 
 
 class Latency(Section):

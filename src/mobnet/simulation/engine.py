@@ -99,8 +99,8 @@ def run(
             _explore(walker, s, torque, rng_torque, plant.dt, tau, tau_random)
             _actuate(plant, tau, tau_des, tau_motor)
             push(
-                pushes, s, plant.xfrc_applied, plant.qfrc_applied, plant.site_xpos, plant.xipos, plant.xmat, rng_pushes,
-                tau_push,
+                pushes, s, plant.xfrc_applied, plant.qfrc_applied, plant.site_xpos, plant.xipos, plant.xmat,
+                plant.dt, rng_pushes, tau_push,
             )  # fmt: skip
             active = pushes.state.active.sum()
             pushed += active

@@ -19,18 +19,19 @@ from mobnet.settings.data import Direction, Phase, Push, Sines
 
 DIRECTIONS: tuple[Direction, ...] = ("any", "horizontal", "down", "backward")  # the last: against the body's x axis
 ANY, HORIZONTAL, DOWN, BACKWARD = range(4)
-SHAPES = ("step", "half_sine", "sines")
-_, HALF_SINE, SINES = range(3)
+SHAPES = ("step", "half_sine", "sines", "impactor")
+_, HALF_SINE, SINES, IMPACTOR = range(4)
 PHASES: tuple[Phase, ...] = ("always", "left_swing", "right_swing", "left_support", "right_support")
 SHARE_WINDOW = 0.05  # [-] of a step: a push whose moment has passed by more waits for the next step
 
 LAW = np.dtype([
     ("site", "i8"), ("body", "i8"), ("dof", "i8"), ("phase", "i8"), ("direction", "i8"), ("shape", "i8"),
-    ("timed", "i8"), ("share", "f8", 2), ("pause", "f8", 2), ("size", "f8", 2), ("duration", "f8", 2),
+    ("timed", "i8"), ("share", "f8", 2), ("pause", "f8", 2), ("size", "f8", 2), ("duration", "f8", 2), ("mass", "f8"),
 ])  # fmt: skip
 STATE = np.dtype([
     ("start", "f8"), ("end", "f8"), ("share", "f8"), ("active", "i8"), ("count", "i8"),
-    ("size", "f8"), ("direction", "f8", 3),
+    ("size", "f8"), ("direction", "f8", 3), ("stiffness", "f8"), ("speed", "f8"), ("travel", "f8"), ("anchor", "f8"),
+    ("place", "f8", 3),
 ])  # fmt: skip
 
 
@@ -40,11 +41,14 @@ class Pushes(NamedTuple):
     # records of LAW (n,): `site`, the point that is pushed, and its `body`, both -1 for a torque on a joint; `dof`, the
     # joint's place in the generalized velocity, -1 for a force; `phase`, `direction` and `shape`, indices of PHASES,
     # DIRECTIONS and SHAPES; `timed`, 1 where `times` rules; bounds of the `share` [-] of the step at which it comes, of
-    # the `pause` [s] between two, of the `size` [N] or [N m] of the peak and of the `duration` [s]
+    # the `pause` [s] between two, of the `size` [N] or [N m] of the peak and of the `duration` [s]; `mass` [kg] of an
+    # impactor
     law: NDArray[Any]
     times: Array  # earliest times of the episode (n, k) [s], padded with infinity
     sines: Array  # lines (n, m, 3) of shape `sines`: angular frequency [rad/s], phase [rad], share of the size [-]
-    state: NDArray[Any]  # running push of each row (n,), records of STATE
+    # running push of each row (n,), records of STATE: of an impactor the `stiffness` [N/m], `speed` [m/s] and `travel`
+    # [m] along the push, where the point was at its start (`anchor`) and in the last step (`place`) [m]
+    state: NDArray[Any]
 
 
 def make_pushes(settings: Mapping[str, Push], model: mujoco.MjModel, robot: RobotDescription) -> Pushes:
@@ -76,6 +80,7 @@ def _law(row: Push, model: mujoco.MjModel, robot: RobotDescription) -> tuple[Any
     return (
         *target, PHASES.index(row.during), DIRECTIONS.index(row.direction), SHAPES.index(row.shape),
         row.at_s is not None, row.share, row.pause_s or (0.0, 0.0), row.force_n or row.torque_nm, row.duration_s,
+        row.impactor_kg or 0.0,
     )  # fmt: skip
 
 
@@ -112,7 +117,11 @@ def in_phase(phase: int, share: float, s: State) -> bool:
 
 @compiled
 def _begin(law: Any, p: Any, now: float, axes: Array, rng: np.random.Generator) -> None:
-    """Draw size, duration and direction of a push and start it now [s]; axes (9,) are those of the pushed body."""
+    """Draw size, duration and direction of a push and start it now [s]; axes (9,) are those of the pushed body.
+
+    An impactor of mass m that meets a wall at the speed F T / (pi m) on a spring of stiffness m (pi / T)^2 touches it
+    for T and pushes with F at most.
+    """
     p.active = 1
     p.count += 1
     p.start = now
@@ -130,13 +139,43 @@ def _begin(law: Any, p: Any, now: float, axes: Array, rng: np.random.Generator) 
 
 
 @compiled
-def _advance(pushes: Pushes, k: int, s: State, xmat: Array, rng: np.random.Generator) -> float:
+def meet(p: Any, mass: float, place: Array, dt: float) -> None:
+    """Set an impactor on its way that meets a point at place (3,) [m] now, faster than it by the speed of a hit."""
+    length = p.end - p.start
+    p.stiffness = mass * (np.pi / length) ** 2
+    p.speed = p.size * length / (np.pi * mass)
+    p.anchor = p.travel = 0.0
+    for i in range(3):
+        p.anchor += p.direction[i] * place[i]
+        p.speed += p.direction[i] * (place[i] - p.place[i]) / dt
+
+
+@compiled
+def hit(p: Any, mass: float, place: Array, dt: float) -> float:
+    """Advance an impactor by dt [s] against a point at place (3,) [m]; return its force [N], below 0 once they part."""
+    depth = p.travel + p.anchor
+    for i in range(3):
+        depth -= p.direction[i] * place[i]
+    force = p.stiffness * depth
+    p.speed -= max(force, 0.0) / mass * dt
+    p.travel += p.speed * dt
+    return force
+
+
+@compiled
+def _advance(
+    pushes: Pushes, k: int, s: State, xmat: Array, site_xpos: Array, dt: float, rng: np.random.Generator
+) -> float:
     """End or begin push k if it is time to; return how hard it pushes now [N] or [N m], zero between two pushes."""
     law, p = pushes.law[k], pushes.state[k]
-    if p.active == 1 and s.clock >= p.end:
+    if p.active == 1 and law.shape != IMPACTOR and s.clock >= p.end:
         plan(pushes, k, s.clock, rng)
     if p.active == 0 and s.clock >= p.start and in_phase(law.phase, p.share, s):
         _begin(law, p, s.clock, xmat[law.body], rng)
+        if law.shape == IMPACTOR:
+            meet(p, law.mass, site_xpos[law.site], dt)
+    if law.shape == IMPACTOR:
+        return _advance_impactor(pushes, k, s.clock, site_xpos[law.site], dt, rng)
     if p.active == 0:
         return 0.0
     if law.shape == HALF_SINE:
@@ -144,6 +183,20 @@ def _advance(pushes: Pushes, k: int, s: State, xmat: Array, rng: np.random.Gener
     if law.shape == SINES:
         return p.size * sum_of_sines(pushes.sines[k], s.clock - p.start)
     return p.size
+
+
+@compiled
+def _advance_impactor(pushes: Pushes, k: int, clock: float, place: Array, dt: float, rng: np.random.Generator) -> float:
+    """Return the force of an impactor [N] on a point at place (3,) [m], and plan the next one once it has parted."""
+    law, p, force = pushes.law[k], pushes.state[k], 0.0
+    if p.active == 1:
+        force = hit(p, law.mass, place, dt)
+        if force < 0.0:
+            force = 0.0
+            plan(pushes, k, clock, rng)
+    for i in range(3):
+        p.place[i] = place[i]
+    return force
 
 
 @compiled
@@ -158,9 +211,9 @@ def sum_of_sines(sines: Array, time_s: float) -> float:
 @compiled
 def push(
     pushes: Pushes, s: State, xfrc: Array, qfrc: Array, site_xpos: Array, xipos: Array, xmat: Array,
-    rng: np.random.Generator, tau_joints: Array,
+    dt: float, rng: np.random.Generator, tau_joints: Array,
 ) -> None:  # fmt: skip
-    """Apply what pushes now: forces into xfrc (nbody, 6) [N, N m], joint torques added to qfrc (nv,) [N m].
+    """Apply what pushes in a step of dt [s]: forces into xfrc (nbody, 6) [N, N m], joint torques to qfrc (nv,) [N m].
 
     xfrc holds wrenches at the bodies' centres of mass, world axes, and is overwritten for pushed bodies. The joint
     torques alone are added to tau_joints (nv,) [N m]: unlike forces they leave no trace in MuJoCo. Points (nsite, 3),
@@ -170,7 +223,7 @@ def push(
         if pushes.law[k].dof < 0:
             xfrc[pushes.law[k].body] = 0.0
     for k in range(len(pushes.law)):
-        law, size = pushes.law[k], _advance(pushes, k, s, xmat, rng)
+        law, size = pushes.law[k], _advance(pushes, k, s, xmat, site_xpos, dt, rng)
         if law.dof >= 0:
             qfrc[law.dof] += size
             tau_joints[law.dof] += size

@@ -13,7 +13,7 @@ from mobnet.core.columns import EXTERNAL, EXTERNAL_LP, STD, named
 from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import note_differences, read_array_note
-from mobnet.core.store import NOTE, file_of, read_array, spans_and_rate
+from mobnet.core.store import NOTE, file_of, label_of, read_array, spans_and_rate
 from mobnet.evaluation.measure.metrics import Spans
 from mobnet.plan.runs import Run
 
@@ -22,7 +22,8 @@ from mobnet.plan.runs import Run
 class Pair:
     """The estimate of a run and the truth behind the observer's low-pass: external torque (T, n) [N m], V1..V3 [N].
 
-    Both are of the same joints (n,) and samples; spans (start, end) are contiguous rows.
+    Both are of the same joints (n,) and samples, and so is the label, what foot sensors say of the truth, if they do;
+    spans (start, end) are contiguous rows.
     """
 
     run: Run
@@ -31,12 +32,14 @@ class Pair:
     truth: NDArray[Any]
     spans: Spans
     rate_hz: float
+    label: NDArray[Any] | None = None
 
     def only(self, joints: Sequence[str]) -> Pair:
         """Return what it holds of some joints; of those that are not estimated it holds nothing."""
         kept = tuple(joint for joint in self.joints if joint in joints)
         columns = self.places(kept)
-        return replace(self, joints=kept, estimate=self.estimate[:, columns], truth=self.truth[:, columns])
+        label = None if self.label is None else self.label[:, columns]
+        return replace(self, joints=kept, estimate=self.estimate[:, columns], truth=self.truth[:, columns], label=label)
 
     def places(self, joints: Sequence[str]) -> list[int]:
         """Return the columns of joints in the arrays (n,).
@@ -62,12 +65,14 @@ def read_pair(run: Run, layout: JointLayout) -> Pair:
     joints = tuple(joint for joint in layout.names if f"{EXTERNAL}.{joint}" in held)
     if not joints:
         raise DataError(f"{run.estimate}.json: no column {EXTERNAL}.<joint>; it holds {', '.join(held)}")
+    signal = label_of(run.residual)
     return Pair(
         run,
         joints,
         read_array(run.estimate, named(EXTERNAL, joints), layout)[0],
         read_array(run.residual, named(EXTERNAL_LP, joints), layout)[0],
         *spans_and_rate(meta),
+        None if signal == EXTERNAL_LP else read_array(run.residual, named(signal, joints), layout)[0],
     )
 
 

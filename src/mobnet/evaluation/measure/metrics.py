@@ -54,3 +54,4 @@ METRICS: Mapping[str, tuple[Measure, str]] = {  # name -> (estimate, truth, span
 }
 PUSHED, PUSH = "rmse_pushed", "rmse_push_{}"  # `rmse` of all windows around pushes, and of the window of each
 RAW = "_raw"  # ending of an error against the external torque itself, before the low-pass
+LABELLED = "_label"  # ending of an error against what foot sensors say of the external torque, (15)

@@ -14,7 +14,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.estimates import Pair, read_pair, read_std
 from mobnet.evaluation.measure.holding import holding
 from mobnet.evaluation.measure.measured import Measured, Measures
-from mobnet.evaluation.measure.metrics import METRICS, PUSH, PUSHED, RAW, rmse
+from mobnet.evaluation.measure.metrics import LABELLED, METRICS, PUSH, PUSHED, RAW, rmse
 from mobnet.evaluation.measure.peaks import push_measures
 from mobnet.evaluation.measure.response import responses
 from mobnet.evaluation.measure.scene import Scene
@@ -84,12 +84,14 @@ def measured(pair: Pair, scene: Scene, asked: Scoring) -> Iterator[tuple[Pair, M
 def errors(pair: Pair, scene: Scene, window: Window | None) -> Measures:
     """Yield the errors of a whole run, then those around its pushes, together and one by one.
 
-    Those against the raw truth have an ending of their own.
+    Those against the raw truth and against the label of foot sensors have endings of their own.
     """
     for metric, (measure, pattern) in METRICS.items():
         yield Measured(metric, measure(pair.estimate, pair.truth, pair.spans, pair.rate_hz), pattern)
     raw = scene.external[:, scene.layout.columns(pair.joints)]
     yield Measured(ERROR + RAW, rmse(pair.estimate, raw, pair.spans))
+    if pair.label is not None:
+        yield Measured(ERROR + LABELLED, rmse(pair.estimate, pair.label, pair.spans))
     windows = push_windows(scene.stem, len(raw), window.before_s, window.after_s) if window else ()
     pushes = {PUSHED: windows, **{PUSH.format(k): (one,) for k, one in enumerate(windows, start=1)}}
     for metric, spans in pushes.items() if windows else ():

@@ -20,25 +20,27 @@ HEADER = ["Limb", "Joint", "Set", "Unit", "Simulated", "Robot", "Ratio", "In bou
 
 def uncertainty(
     settings: Uncertainty, networks: Mapping[str, NetworkRow], layout: JointLayout, published: PublishedUncertainty,
-    sets: Mapping[str, Sequence[Path]], table_dir: Path,
+    sets: Mapping[str, Sequence[Path]], robots: Mapping[str, Mapping[str, Sequence[Path]]], table_dir: Path,
 ) -> None:  # fmt: skip
     """Write uncertainty.csv, .tex and .md: standard deviation of the learning target of each joint [N m], V1..V3 [N].
 
-    `sets` has the residuals of each training set.
+    `sets` has the residuals of each training set, `robots` those of each surrogate robot's own sets of the same names.
     """
     records, blocks = [], []
     for limb in (name for name in networks if name in layout.groups):  # not those that hold several
         name, joints = networks[limb].data, layout.limb(limb)
-        values = target_std(sets[name], joints).tolist()
         known = published.std.get(limb, [None] * len(joints))
-        lines = []
-        for joint, value, theirs in zip(joints, values, known, strict=True):
-            ratio, unit = None if theirs is None else value / theirs, layout.unit(joint)
-            within = verdict(ratio, settings.ratio.get(limb))
-            records.append((limb, joint, name, value, unit, theirs, ratio, within))
-            texts = number_text(value, 1), number_text(theirs, 1), number_text(ratio)
-            lines.append([joint, "" if lines else name, unit, *texts, within])
-        blocks.append(([limb], lines))
+        owners = {name: (sets[name], settings.ratio.get(limb))}
+        owners |= {robot: (own[name], settings.robot_ratio) for robot, own in robots.items() if name in own}
+        for owner, (stems, bounds) in owners.items():
+            values, lines = target_std(stems, joints).tolist(), []
+            for joint, value, theirs in zip(joints, values, known, strict=True):
+                ratio, unit = None if theirs is None else value / theirs, layout.unit(joint)
+                within = verdict(ratio, bounds)
+                records.append((limb, joint, owner, value, unit, theirs, ratio, within))
+                texts = number_text(value, 1), number_text(theirs, 1), number_text(ratio)
+                lines.append([joint, "" if lines else owner.replace("_", " "), unit, *texts, within])
+            blocks.append(([limb], lines))
     table = Table(UNCERTAINTY, records, HEADER, in_blocks(blocks), left=4, align="llllrrrl", note=published.note)
     write_table(table_dir / "uncertainty", table)
 

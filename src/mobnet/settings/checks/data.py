@@ -174,6 +174,9 @@ def _push_faults(push: Push) -> Iterator[Problem]:
         yield (), misfit(", ".join(sorted(given)) or "neither force nor torque", accepted)
     if (push.shape == "sines") != (push.sines is not None):
         yield (), misfit("`shape: sines` without `sines`, or the other way round", "both or neither")
+    if (push.shape == "impactor") != (push.impactor_kg is not None) or (push.shape == "impactor" and not push.point):
+        accepted = "`impactor_kg` with `shape: impactor` and a `point`, or neither"
+        yield (), misfit("`shape: impactor` without `impactor_kg` or `point`, or the other way round", accepted)
     if push.sines and len({len(numbers) for _, numbers in push.sines}) > 1:
         yield ("sines",), misfit("lists of different lengths", "a frequency, a phase and a share for each line")
     if (push.pause_s is None) == (push.at_s is None):
