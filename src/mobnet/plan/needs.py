@@ -36,12 +36,13 @@ def _scores(files: Files, section: Any) -> Mapping[str, Path]:
 
 def _folders(files: Files, section: Any) -> tuple[Path, ...]:
     """Return the trained networks of a section's methods and limb."""
-    return files.network_folders(section.methods, section.limb)
+    return files.network_folders(section.methods, section.limb, section.level)
 
 
 def _sets(files: Files, section: Any) -> Mapping[str, tuple[Path, ...]]:
-    """Return the recordings of every training set."""
-    return {name: files.training("recordings", name) for name in files.settings.training_sets}
+    """Return the recordings of every training set that is learned from, those of all robots together."""
+    fleet = dict.fromkeys(files.settings.fleet.sets.values())
+    return {name: files.training("recordings", name) for name in (*files.learned_sets, *fleet)}
 
 
 def _steps(files: Files) -> Needs:
@@ -60,12 +61,12 @@ def _uncertainty(files: Files) -> Needs:
 
 
 def _coverage(files: Files) -> Needs:
-    """Return the training sets with and without random torque exploration, the tests, and what the network sees."""
+    """Return the first robot's training sets with and without random torque, its tests, and what the network sees."""
     sets = {"with RTE": "walk", "without RTE": "walk_plain"}
-    settings = files.settings.evaluation.coverage
+    settings, (robot, own) = files.settings.evaluation.coverage, next(iter(files.robots.items()))
     return {
-        "training": {label: files.training("recordings", name) for label, name in sets.items()},
-        "tests": tuple(files.tests(test.scenario, test.level) for test in settings.tests),
+        "training": {label: own.training("recordings", name) for label, name in sets.items()},
+        "tests": tuple(own.tests(test.scenario, robot) for test in settings.tests),
         "ports": files.settings.robot.networks[settings.limb],
     }
 
@@ -73,14 +74,15 @@ def _coverage(files: Files) -> Needs:
 def _kinds(files: Files) -> Needs:
     """Return the trained networks of Figure 17 and of its variants."""
     figure, variants = files.settings.evaluation.figure_17, files.settings.evaluation.kinds.variants
-    return {"folders": files.network_folders((*figure.methods, *variants), figure.limb), "figure_17": figure}
+    folders = files.network_folders((*figure.methods, *variants), figure.limb, figure.level)
+    return {"folders": folders, "figure_17": figure}
 
 
 def _claims(files: Files) -> Needs:
     """Return the scores of every test, and the trainings of the kinds and sizes of the left leg's networks."""
     evaluation = files.settings.evaluation
     methods = (*evaluation.figure_17.methods, *evaluation.kinds.variants)
-    kinds = files.network_folders(methods, evaluation.figure_17.limb)
+    kinds = files.network_folders(methods, evaluation.figure_17.limb, evaluation.figure_17.level)
     sizes = [folder for size in files.swept_sizes() for folder in size.folders]
     return {"scores": files.scores(files.settings.tests), "folders": tuple(dict.fromkeys([*kinds, *sizes]))}
 
@@ -101,10 +103,10 @@ def _table_01(files: Files) -> Needs:
 
 
 def _calibration(files: Files) -> Needs:
-    """Return every network, and the runs of each test of the standard deviations."""
+    """Return the robots' networks, and the runs of each test of the standard deviations."""
     tests = files.settings.evaluation.calibration.tests
     return {
-        "folders": files.all_networks(),
+        "folders": tuple(folder for own in files.robots.values() for folder in own.all_networks()),
         "runs": tuple(files.runs(test.scenario, test.level, test.methods) for test in tests),
     }
 

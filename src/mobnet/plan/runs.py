@@ -75,13 +75,13 @@ class Files:
 
     settings: Settings
     results: Path
-    shared: Path | None = None
+    robot: str = ""
 
     @cached_property
     def robots(self) -> Mapping[str, "Files"]:
         """Robot of the fleet -> its files; a robot has none below its own."""
         named = self.settings.fleet.robots
-        return {name: Files(self.settings.on_robot(name), self.results / name, self.results) for name in named}
+        return {name: Files(self.settings.on_robot(name), self.results / name, name) for name in named}
 
     def owner_of(self, path: Path) -> tuple["Files", tuple[str, ...]]:
         """Return whose file it is, this or a robot's, and its place below that folder; ("",) if it is nobody's."""
@@ -103,7 +103,8 @@ class Files:
     def motion(self, scenario: str, seed: int) -> list[Path]:
         """Return the motion of the upper body in a recording; none where it is still."""
         name = self.settings.scenarios[scenario].motion
-        return [(self.shared or self.results) / "motions" / name / f"s{seed}"] if name else []
+        shared = self.results.parent if self.robot else self.results
+        return [shared / "motions" / name / f"s{seed}"] if name else []
 
     def training_seeds(self, name: str) -> list[int]:
         """Return the seeds of a training set's recordings."""
@@ -132,9 +133,9 @@ class Files:
 
     def recorded(self) -> Iterator[tuple[str, str, int]]:
         """Yield scenario, level and seed of every recording but those of robots of the fleet."""
-        for name, row in self.settings.training_sets.items():
-            if row.level in self.settings.levels:
-                yield from ((row.scenario, row.level, seed) for seed in self.training_seeds(name))
+        for name in self.learned_sets:
+            row = self.settings.training_sets[name]
+            yield from ((row.scenario, row.level, seed) for seed in self.training_seeds(name))
         for scenario, levels in self.settings.tests.items():
             single = [level for level in levels if level in self.settings.levels]
             yield from ((scenario, level, seed) for level in single for seed in self.test_seeds)
@@ -178,9 +179,22 @@ class Files:
             for group in networks[limb].joints
         )
 
-    def network_folders(self, methods: Iterable[str], limb: str) -> tuple[Path, ...]:
-        """Return the folders of methods' trained networks of a limb."""
-        return tuple(self.network(name, limb, seed) for name in methods for seed in self.network_seeds(name, limb))
+    def network_folders(self, methods: Iterable[str], limb: str, level: str) -> tuple[Path, ...]:
+        """Return the folders of methods' networks of a limb trained at a level, on a fleet those of each robot."""
+        owners = [files for files in (self, *self.robots.values()) if files.has(level)]
+        return tuple(
+            files.network(name, limb, seed)
+            for name in methods
+            for files in owners
+            for seed in files.network_seeds(name, limb)
+        )
+
+    def has(self, level: str) -> bool:
+        """Return whether a level is one of these files' own: of a robot, or of the plant of section 5.1."""
+        fleet = self.settings.fleet
+        if self.robot:
+            return level in (self.robot, fleet.name)
+        return level != fleet.name and level not in fleet.robots
 
     @cached_property
     def trained(self) -> Mapping[str, tuple[str, str, int]]:
@@ -193,27 +207,46 @@ class Files:
             for seed in self.network_seeds(method, limb)
         }
 
+    @cached_property
+    def learned(self) -> tuple[tuple[str, str], ...]:
+        """Method and limb of every network that runs in a test or is shown by itself, each once."""
+        settings, evaluation = self.settings, self.settings.evaluation
+        pairs = [
+            (settings.network_source_of(method), limb)
+            for scenario, levels in settings.tests.items()
+            for level, methods in levels.items()
+            if self.has(level)
+            for method in methods
+            for limb in self.networks(method, self.network_seeds(method)[0], scenario, level)
+        ]
+        kinds, sizes, timed = evaluation.figure_17, evaluation.figure_20, evaluation.latency.method
+        if self.has(kinds.level):
+            pairs += [(method, kinds.limb) for method in (*kinds.methods, *evaluation.kinds.variants)]
+        if self.has(sizes.level):
+            swept = [(key, base) for key in (sizes.parameters, sizes.samples) for base in settings.sweeps[key].of]
+            pairs += [
+                (swept_name(base, key, value), sizes.limb)
+                for key, base in swept
+                for value in settings.sweeps[key].values
+            ]
+        if not self.robot:
+            pairs += [(timed, limb) for limb in settings.method(timed).limbs]
+        return tuple(dict.fromkeys(pairs))
+
     def all_networks(self) -> tuple[Path, ...]:
         """Return the folders of every network that is trained, those of robots last."""
-        methods = self.settings.all_methods
-        own = [
-            folder
-            for name, row in methods.items()
-            for limb in row.limbs
-            for folder in self.network_folders([name], limb)
-        ]
-        return (*own, *(folder for files in self.robots.values() for folder in files.tested_networks()))
+        own = [self.network(*pair, seed) for pair in self.learned for seed in self.network_seeds(*pair)]
+        return (*own, *(folder for files in self.robots.values() for folder in files.all_networks()))
 
-    def tested_networks(self) -> tuple[Path, ...]:
-        """Return the folders of the networks that run in some test, each once."""
-        runs = [
-            (method, seed, scenario, level)
-            for scenario, levels in self.settings.tests.items()
-            for level, methods in levels.items()
-            for method in methods
-            for seed in self.network_seeds(method)
-        ]
-        return tuple(dict.fromkeys(folder for run in runs for folder in self.networks(*run).values()))
+    @cached_property
+    def learned_sets(self) -> tuple[str, ...]:
+        """Names of the training sets that networks and fits learn from, in the configuration's order."""
+        settings = self.settings
+        named = {method for levels in settings.tests.values() for methods in levels.values() for method in methods}
+        sources = {settings.source_of(method) for method in (*named, *(method for method, _ in self.learned))}
+        fitted = [(source, limb) for source in sources for limb in settings.method(source).fitted]
+        used = {settings.network(method, limb).data for method, limb in (*self.learned, *fitted)}
+        return tuple(name for name in settings.training_sets if name in used)
 
     def fit(self, method: str) -> list[Path]:
         """Return the file of what a method, or the one it runs on, was fitted to; none if it is not fitted."""
@@ -265,7 +298,9 @@ class Files:
                 if panel == "samples":
                     full = getattr(self.settings.network(base, figure.limb), figure.parameters)
                     names.append(swept_name(base, figure.parameters, full))
-                found += [SweptSize(panel, base, self.network_folders([name], figure.limb)) for name in names]
+                found += [
+                    SweptSize(panel, base, self.network_folders([name], figure.limb, figure.level)) for name in names
+                ]
         return tuple(found)
 
 

@@ -129,7 +129,7 @@ class Figure06(PushedRuns, Window):
 
 
 class Figure07(Runs):
-    """Figure 7: a load on the left hand; every so many samples is drawn."""
+    """Figures 7 and 12: a push on a hand; every so many samples is drawn."""
 
     joints: base.Distinct[base.JointName]
     start_s: base.NotNegative = Field(le=3600)
@@ -153,9 +153,10 @@ class Figure10(Window):
 
 
 class Figure17(Section):
-    """Figure 17: losses by kind of network."""
+    """Figure 17: losses by kind of network, trained at a level."""
 
     limb: base.NetworkName
+    level: base.LevelName
     methods: base.MethodNames
 
 
@@ -183,9 +184,10 @@ class Figure19(Section):
 
 
 class Figure20(Section):
-    """Figure 20: sweeps of the network's size and of the training data."""
+    """Figure 20: sweeps of the network's size and of the training data, at a level."""
 
     limb: base.NetworkName
+    level: base.LevelName
     parameters: base.SweepName
     samples: base.SweepName
 
@@ -378,6 +380,7 @@ class Evaluation(Section):
     figure_08: GaitFigure
     figure_09: GaitFigure
     figure_10: Figure10
+    figure_12: Figure07
     figure_17: Figure17
     kinds: Kinds
     figure_18: Figure18

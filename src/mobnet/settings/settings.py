@@ -100,9 +100,6 @@ class Settings(Section):
             {scenario: {robot: levels[fleet.name]} for scenario, levels in section.items() if fleet.name in levels}
             for section in (self.tests, self.estimated_limbs)
         )
-        named = {name for levels in tests.values() for name in levels[robot]}
-        named |= {self.source_of(name) for name in named}
-        methods = {name: row for name, row in self.methods.items() if name in named}
         number = FIRST_ROBOT_SEED + fleet.robots.index(robot)  # of its networks: names then differ from all others
         lengths = {**self.sizes.experiments, **self.sizes.robots}
         experiments = {
@@ -111,7 +108,7 @@ class Settings(Section):
         }
         scale = self.sizes.model_copy(update={"experiments": experiments})
         changed: dict[str, Any] = {
-            "training_sets": sets, "tests": tests, "estimated_limbs": limbs, "methods": methods, "sweeps": {},
+            "training_sets": sets, "tests": tests, "estimated_limbs": limbs,
             "scales": {self.scale: scale}, "fleet": fleet.model_copy(update={"robots": ()}),
         }  # fmt: skip
         # not `model_copy`, which would keep what has been worked out of the sections that change
