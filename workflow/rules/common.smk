@@ -70,7 +70,7 @@ onstart:
 
 wildcard_constraints:
     scenario="|".join(SETTINGS.scenarios),
-    level="|".join(SETTINGS.levels),
+    level="|".join(dict.fromkeys(level for jobs in PLAN.jobs.values() for level in jobs.settings.levels)),
     robot=f"(({'|'.join(SETTINGS.fleet.robots)})/)?",
     method="|".join([*SETTINGS.all_methods, *SETTINGS.tried]),
     limb="|".join(SETTINGS.networks),

@@ -9,6 +9,7 @@ from typing import cast
 from mobnet.core.files import METRICS, RUN
 from mobnet.settings.data import Recordings
 from mobnet.settings.evaluation import Runs
+from mobnet.settings.fleet import as_robot
 from mobnet.settings.methods import Method
 from mobnet.settings.settings import Settings, swept_name
 
@@ -81,7 +82,7 @@ class Files:
     def robots(self) -> Mapping[str, "Files"]:
         """Robot of the fleet -> its files; a robot has none below its own."""
         named = self.settings.fleet.robots
-        return {name: Files(self.settings.on_robot(name), self.results / name, name) for name in named}
+        return {name: Files(as_robot(self.settings, name), self.results / name, name) for name in named}
 
     def owner_of(self, path: Path) -> tuple["Files", tuple[str, ...]]:
         """Return whose file it is, this or a robot's, and its place below that folder; ("",) if it is nobody's."""
@@ -137,7 +138,7 @@ class Files:
             row = self.settings.training_sets[name]
             yield from ((row.scenario, row.level, seed) for seed in self.training_seeds(name))
         for scenario, levels in self.settings.tests.items():
-            single = [level for level in levels if level in self.settings.levels]
+            single = [level for level in levels if self.has(level)]
             yield from ((scenario, level, seed) for level in single for seed in self.test_seeds)
 
     def duration_s(self, scenarios: Iterable[str], seed: int) -> float:
@@ -193,8 +194,8 @@ class Files:
         """Return whether a level is one of these files' own: of a robot, or of the plant of section 5.1."""
         fleet = self.settings.fleet
         if self.robot:
-            return level in (self.robot, fleet.name)
-        return level != fleet.name and level not in fleet.robots
+            return level in fleet.levels or level in self.settings.levels
+        return level in self.settings.levels and level not in fleet.robots
 
     @cached_property
     def trained(self) -> Mapping[str, tuple[str, str, int]]:
@@ -262,11 +263,11 @@ class Files:
 
     def runs(self, scenario: str, level: str, methods: Iterable[str]) -> tuple[Run, ...]:
         """Return the runs of methods on a test: every network on every recording; on a fleet, those of each robot."""
-        if level == self.settings.fleet.name:
+        if level in self.settings.fleet.levels:
             return tuple(
                 replace(run, level=level, network_seed=number)
                 for number, (robot, files) in enumerate(self.robots.items(), start=1)
-                for run in files.runs(scenario, robot, methods)
+                for run in files.runs(scenario, self.settings.fleet.level_of(robot, level), methods)
             )
         return tuple(
             self.run(scenario, level, method, network, test)

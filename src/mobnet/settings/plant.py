@@ -5,9 +5,8 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field
 
 from mobnet.settings.base import NotNegative, Real, Section, Whole, distinct
-from mobnet.settings.surrogate import SurrogateRobot
+from mobnet.settings.surrogate import FrictionTerm, SurrogateRobot
 
-FrictionTerm = Literal["stribeck", "load", "loss"]
 Reading = Literal["none", "std", "swapped", "variance"]  # of Table 3
 
 

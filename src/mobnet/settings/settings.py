@@ -1,7 +1,7 @@
 """The whole configuration, what follows from a row of it, and what a walk takes; other jobs take whole sections."""
 
 from functools import cached_property
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import Field
 
@@ -42,8 +42,6 @@ from mobnet.settings.scales import Experiment, Scale
 from mobnet.settings.surrogate import Fleet, Surrogate
 from mobnet.settings.trials import Trials, of_lengths, tuned
 from mobnet.settings.walking import Walking
-
-FIRST_ROBOT_SEED = 101  # of the networks of the fleet's robots, one for each
 
 
 class Settings(Section):
@@ -89,30 +87,6 @@ class Settings(Section):
     def sizes(self) -> Scale:
         """The chosen scale."""
         return self.scales[self.scale]
-
-    def on_robot(self, robot: str) -> "Settings":
-        """Return the configuration as a robot of the fleet has it: with its tests, training sets and experiments."""
-        fleet = self.fleet
-        sets = {
-            name: self.training_sets[other].model_copy(update={"level": robot}) for name, other in fleet.sets.items()
-        }
-        tests, limbs = (
-            {scenario: {robot: levels[fleet.name]} for scenario, levels in section.items() if fleet.name in levels}
-            for section in (self.tests, self.estimated_limbs)
-        )
-        number = FIRST_ROBOT_SEED + fleet.robots.index(robot)  # of its networks: names then differ from all others
-        lengths = {**self.sizes.experiments, **self.sizes.robots}
-        experiments = {
-            name: Experiment(epochs=row.epochs, epoch_samples=row.epoch_samples, seeds=(number,))
-            for name, row in lengths.items()
-        }
-        scale = self.sizes.model_copy(update={"experiments": experiments})
-        changed: dict[str, Any] = {
-            "training_sets": sets, "tests": tests, "estimated_limbs": limbs,
-            "scales": {self.scale: scale}, "fleet": fleet.model_copy(update={"robots": ()}),
-        }  # fmt: skip
-        # not `model_copy`, which would keep what has been worked out of the sections that change
-        return type(self).model_construct(**{**dict(self), **changed})
 
     def test_s(self, scenario: str) -> float:
         """Return the duration of a test's recordings at the chosen scale [s]."""

@@ -7,6 +7,7 @@ from pydantic import AfterValidator, Field
 from mobnet.settings.base import (
     BodyName,
     Distinct,
+    Flag,
     Index,
     LimbName,
     LowerName,
@@ -26,6 +27,8 @@ from mobnet.settings.base import (
 Part = Literal["drives", "body", "sensors"]
 Ratio = Annotated[Real, Field(ge=0.5, le=5)]
 Time = Annotated[Real, Field(ge=0, le=0.05)]  # of a drive or a sensor [s]
+RunningTime = Range[Annotated[NotNegative, Field(le=360_000)]]
+FrictionTerm = Literal["stribeck", "load", "loss"]
 
 
 class Drive(Section):
@@ -99,21 +102,49 @@ class SurrogateRobot(Section):
     """One surrogate robot: the seed it is drawn from, its hidden parts, and how long it has been running [s].
 
     Without `drives`, the friction of its joints is (23), and without `body` or `sensors` these are as on the plant of
-    section 5.1. `running_s` is the range of the time since its gears were cold, at the start of a recording.
+    section 5.1. `running_s` is the range of the time since its gears were cold, at the start of a recording. Friction
+    and torque constants of its drives are those drawn, times a ratio.
     """
 
     seed: Index
     parts: Annotated[tuple[Part, ...], AfterValidator(distinct)]
-    running_s: Range[Annotated[NotNegative, Field(le=360_000)]]
+    running_s: RunningTime
+    friction_ratio: Ratio = 1.0
+    constant_ratio: Ratio = 1.0
+
+
+class Variant(Section):
+    """How every robot of the fleet is changed for a test, while its networks stay as they are.
+
+    What is given replaces that of the robot's own level; `other` puts the next robot of the fleet in its place.
+    """
+
+    other: Flag = False
+    parts: Annotated[tuple[Part, ...], AfterValidator(distinct)] | None = None
+    friction: Annotated[tuple[FrictionTerm, ...], AfterValidator(distinct)] = ()
+    running_s: RunningTime | None = None
+    friction_ratio: Ratio = 1.0
+    constant_ratio: Ratio = 1.0
 
 
 class Fleet(Section):
     """Surrogate robots that stand together for the robot of the paper, each a level of its own.
 
     A test at the level `name` is walked by each of the `robots`, with methods that are fitted and trained on that
-    robot's recordings. There, `sets` take the place of the training sets that networks name.
+    robot's recordings; at the level of a variant, by each of them changed. There, `sets` take the place of the training
+    sets that networks name.
     """
 
     name: LowerName
     robots: Distinct[SingleLevelName]
     sets: dict[TrainingSetName, TrainingSetName]
+    variants: dict[LowerName, Variant]
+
+    @property
+    def levels(self) -> tuple[str, ...]:
+        """Levels at which each robot walks."""
+        return (self.name, *self.variants)
+
+    def level_of(self, robot: str, level: str) -> str:
+        """Return the level of one robot at a level of the fleet."""
+        return robot if level == self.name else f"{robot}_{level}"

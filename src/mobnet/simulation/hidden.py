@@ -44,6 +44,9 @@ def draw_hidden(
     if "drives" in parts:
         robot = _without_rotors(robot)
         moved = draw_drives(surrogate, rotors, _link_inertia(robot), rate_hz, drives)
+        for name in ("coulomb", "viscous", "load"):
+            moved.law[name] *= chosen.friction_ratio
+        moved.law["constant"] *= chosen.constant_ratio
     model = robot_spec(robot).compile()
     faults = draw_faults(surrogate.sensors, robot, model, rate_hz, sensors) if "sensors" in parts else no_faults(model)
     return Hidden(robot, plant, moved, faults)

@@ -27,7 +27,7 @@ def accepted_names(settings: Settings) -> dict[str, Collection[str]]:
     experiments = chain.from_iterable(scale.experiments for scale in settings.scales.values())
     terrains = [name for name in type(settings.terrain).model_fields if getattr(settings.terrain, name) is not None]
     return {
-        "scale": settings.scales, "level": [*settings.levels, settings.fleet.name],
+        "scale": settings.scales, "level": [*settings.levels, *settings.fleet.levels],
         "level of one plant": settings.levels, "terrain": terrains, "push": settings.pushes,
         "motion": settings.motions, "scenario": settings.scenarios, "test": settings.tests,
         "test with a window around pushes": settings.evaluation.windows,

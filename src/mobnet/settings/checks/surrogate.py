@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.reading import Place
 from mobnet.settings.settings import Settings
+from mobnet.settings.surrogate import Variant
 
 Problem = tuple[Place, str]
 
@@ -44,8 +45,16 @@ def _level_problems(settings: Settings) -> Iterator[Problem]:
 def _fleet_problems(settings: Settings) -> Iterator[Problem]:
     """Yield a fleet that has the name of a level, robots that are none, and training sets without a counterpart."""
     fleet, sets = settings.fleet, settings.training_sets
-    if fleet.name in settings.levels:
-        yield ("fleet", "name"), misfit(fleet.name, "a name that is no level's")
+    taken = [*settings.levels, *(fleet.level_of(robot, name) for robot in fleet.robots for name in fleet.variants)]
+    for place, name in ((("name",), fleet.name), *((("variants", name), name) for name in fleet.variants)):
+        if name in taken or (name == fleet.name and place != ("name",)):
+            yield ("fleet", *place), misfit(name, "a name that is no level's")
+    for name, row in fleet.variants.items():
+        if row.parts is not None and ("drives" in row.parts) == bool(row.friction):
+            accepted = "terms of (23) without hidden drives, or [] with them"
+            yield ("fleet", "variants", name, "friction"), misfit(list(row.friction), accepted)
+        if row == Variant():
+            yield ("fleet", "variants", name), misfit("a variant that changes nothing", "one change or more")
     for index, robot in enumerate(fleet.robots):
         if settings.levels[robot].surrogate is None:
             named = [name for name, level in settings.levels.items() if level.surrogate]
@@ -57,12 +66,13 @@ def _fleet_problems(settings: Settings) -> Iterator[Problem]:
         if row.level == fleet.name and name not in fleet.sets.values():
             yield ("training_sets", name, "level"), misfit(row.level, "a level of one plant, or a set of `fleet.sets`")
     for test, levels in settings.tests.items():
-        for index, method in enumerate(levels.get(fleet.name, ())):
+        named = [(level, k, name) for level in fleet.levels for k, name in enumerate(levels.get(level, ()))]
+        for level, index, method in named:
             learned = settings.method(settings.network_source_of(method)).limbs
             fitted = settings.method(settings.source_of(method)).fitted
             for limb in (*learned, *fitted):
                 data = settings.network(settings.source_of(method) if limb in fitted else method, limb).data
                 if data not in fleet.sets:
                     accepted = f"methods that learn from {', '.join(fleet.sets)}"
-                    yield ("tests", test, fleet.name, index), misfit(f"{method}, which learns from {data}", accepted)
+                    yield ("tests", test, level, index), misfit(f"{method}, which learns from {data}", accepted)
                     break
