@@ -114,7 +114,7 @@ def test_the_manifest_lists_every_result(plan: Plan) -> None:
 
 
 def test_a_walk_gets_the_terrains_and_pushes_that_it_names(plan: Plan) -> None:
-    walk: Any = plan.jobs.collect("knee_swing", "all_uncertainty", 1).call.arguments["settings"]
+    walk: Any = plan.jobs[""].collect("knee_swing", "all_uncertainty", 1).call.arguments["settings"]
     assert set(walk.pushes) == {"left_knee_swing"}
     assert walk.terrain.checks is not None
     assert walk.terrain.plates is None
@@ -122,7 +122,7 @@ def test_a_walk_gets_the_terrains_and_pushes_that_it_names(plan: Plan) -> None:
 
 def test_an_estimate_reads_weights_fit_and_recording(plan: Plan) -> None:
     place = ("walk_test", "all_uncertainty")
-    learned, fitted = (plan.jobs.estimate(method, 0, *place) for method in ("FTS-e2e", "MOB-fric-BPF"))
+    learned, fitted = (plan.jobs[""].estimate(method, 0, *place) for method in ("FTS-e2e", "MOB-fric-BPF"))
     array, weights = f"s{plan.files.test_seeds[0]}.parquet", "weights.safetensors"
     assert [Path(name).name for name in learned.inputs] == [array, array, weights, weights]
     assert fitted.inputs[2] == "results/smoke/fits/MOB-fric.json"
@@ -131,7 +131,7 @@ def test_an_estimate_reads_weights_fit_and_recording(plan: Plan) -> None:
 
 def test_a_test_runs_the_networks_of_its_limbs_alone(plan: Plan) -> None:
     def run(method: str, scenario: str) -> tuple[list[str], tuple[str, ...]]:
-        arguments: Any = plan.jobs.estimate(method, 0, scenario, "all_uncertainty").call.arguments
+        arguments: Any = plan.jobs[""].estimate(method, 0, scenario, "all_uncertainty").call.arguments
         return list(arguments["networks"]), arguments["joints"]
 
     layout = plan.settings.layout
@@ -147,7 +147,7 @@ def test_a_test_runs_the_networks_of_its_limbs_alone(plan: Plan) -> None:
 
 def test_all_recordings_of_a_test_are_estimated_by_one_job_and_each_has_its_file(plans: dict[str, Plan]) -> None:
     plan = plans["default"]
-    arguments: Any = plan.jobs.estimate("MOB-Net", 1, "forward_walk", "all_uncertainty").call.arguments
+    arguments: Any = plan.jobs[""].estimate("MOB-Net", 1, "forward_walk", "all_uncertainty").call.arguments
     runs = [run for run in plan.files.runs("forward_walk", "all_uncertainty", ["MOB-Net"]) if run.network_seed == 1]
     assert len(runs) == plan.settings.sizes.test.shards
     assert list(arguments["outs"]) == [run.estimate for run in runs]
@@ -160,8 +160,8 @@ def test_a_setting_reruns_what_reads_it_and_nothing_else(plan: Plan) -> None:
     assert rerun(plan, changed(settings, "evaluation", "steps", bins=8)) == {"steps"}
     assert rerun(plan, changed(settings, "evaluation", "compute", pause_s=61.0)) == {"compute"}
     assert rerun(plan, changed(settings, "observer", gain_hz=50.0)) <= {"data_card", "bode"}
-    observed = plan.jobs.observe("walk_test", "all_uncertainty", 1).call.fingerprint
-    after = changed(settings, "observer", gain_hz=50.0).jobs.observe("walk_test", "all_uncertainty", 1)
+    observed = plan.jobs[""].observe("walk_test", "all_uncertainty", 1).call.fingerprint
+    after = changed(settings, "observer", gain_hz=50.0).jobs[""].observe("walk_test", "all_uncertainty", 1)
     assert after.call.fingerprint != observed
     table = {**settings.evaluation.tables, "table_07": settings.evaluation.tables["table_10"]}
     assert rerun(plan, changed(settings, "evaluation", tables=table)) >= {"table_07"}

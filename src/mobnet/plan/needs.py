@@ -41,7 +41,8 @@ def _folders(files: Files, section: Any) -> tuple[Path, ...]:
 
 def _sets(files: Files, section: Any) -> Mapping[str, tuple[Path, ...]]:
     """Return the recordings of every training set that is learned from, those of all robots together."""
-    fleet = dict.fromkeys(files.settings.fleet.sets.values())
+    walked = {name for own in files.robots.values() for name in own.learned_sets}
+    fleet = [other for name, other in files.settings.fleet.sets.items() if name in walked]
     return {name: files.training("recordings", name) for name in (*files.learned_sets, *fleet)}
 
 
@@ -54,19 +55,19 @@ def _uncertainty(files: Files) -> Needs:
     """Return the residuals of the training sets that networks learn from."""
     names = dict.fromkeys(row.data for row in files.settings.networks.values())
     robots = {
-        robot: {name: own.training("residuals", name) for name in own.settings.training_sets if name in names}
+        robot: {name: own.training("residuals", name) for name in own.learned_sets if name in names}
         for robot, own in files.robots.items()
     }
     return {"sets": {name: files.training("residuals", name) for name in names}, "robots": robots}
 
 
 def _coverage(files: Files) -> Needs:
-    """Return the first robot's training sets with and without random torque, its tests, and what the network sees."""
+    """Return the training sets with and without random torque exploration, the tests, and what the network sees."""
     sets = {"with RTE": "walk", "without RTE": "walk_plain"}
-    settings, (robot, own) = files.settings.evaluation.coverage, next(iter(files.robots.items()))
+    settings = files.settings.evaluation.coverage
     return {
-        "training": {label: own.training("recordings", name) for label, name in sets.items()},
-        "tests": tuple(own.tests(test.scenario, robot) for test in settings.tests),
+        "training": {label: files.training("recordings", name) for label, name in sets.items()},
+        "tests": tuple(files.tests(test.scenario, test.level) for test in settings.tests),
         "ports": files.settings.robot.networks[settings.limb],
     }
 
@@ -103,10 +104,10 @@ def _table_01(files: Files) -> Needs:
 
 
 def _calibration(files: Files) -> Needs:
-    """Return the robots' networks, and the runs of each test of the standard deviations."""
+    """Return every network, and the runs of each test of the standard deviations."""
     tests = files.settings.evaluation.calibration.tests
     return {
-        "folders": tuple(folder for own in files.robots.values() for folder in own.all_networks()),
+        "folders": files.all_networks(),
         "runs": tuple(files.runs(test.scenario, test.level, test.methods) for test in tests),
     }
 

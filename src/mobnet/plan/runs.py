@@ -194,7 +194,7 @@ class Files:
         """Return whether a level is one of these files' own: of a robot, or of the plant of section 5.1."""
         fleet = self.settings.fleet
         if self.robot:
-            return level in fleet.levels or level in self.settings.levels
+            return level in (*fleet.levels, *(fleet.level_of(self.robot, name) for name in fleet.levels))
         return level in self.settings.levels and level not in fleet.robots
 
     @cached_property
@@ -209,8 +209,8 @@ class Files:
         }
 
     @cached_property
-    def learned(self) -> tuple[tuple[str, str], ...]:
-        """Method and limb of every network that runs in a test or is shown by itself, each once."""
+    def learned(self) -> frozenset[tuple[str, str]]:
+        """Method and limb of every network that runs in a test or is shown by itself."""
         settings, evaluation = self.settings, self.settings.evaluation
         pairs = [
             (settings.network_source_of(method), limb)
@@ -232,11 +232,14 @@ class Files:
             ]
         if not self.robot:
             pairs += [(timed, limb) for limb in settings.method(timed).limbs]
-        return tuple(dict.fromkeys(pairs))
+        return frozenset(pairs)
 
     def all_networks(self) -> tuple[Path, ...]:
         """Return the folders of every network that is trained, those of robots last."""
-        own = [self.network(*pair, seed) for pair in self.learned for seed in self.network_seeds(*pair)]
+        pairs = [(name, limb) for name, row in self.settings.all_methods.items() for limb in row.limbs]
+        own = [
+            self.network(*pair, seed) for pair in pairs if pair in self.learned for seed in self.network_seeds(*pair)
+        ]
         return (*own, *(folder for files in self.robots.values() for folder in files.all_networks()))
 
     @cached_property
