@@ -43,7 +43,7 @@ for name in [name for name in vars(module) if name.startswith("test_")]:
     getattr(module, name)(settings, Path("tested"))
 print(json.dumps({
     "stored": plan.stored,
-    "recorded": plan.jobs.collect("plates_walk", "all_uncertainty", 1000).call.arguments["duration_s"],
+    "recorded": plan.jobs[""].collect("plates_walk", "all_uncertainty", 1000).call.arguments["duration_s"],
     "products": {product.name: [product.job.inputs, product.outputs] for product in plan.products},
 }))
 """

@@ -17,6 +17,7 @@ from mobnet.estimation.observer import MomentumObserver
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.plant import SOLE_TYPE, TERRAIN_TYPE, robot_spec
+from mobnet.robot.wrench import feet_torque
 from mobnet.settings.settings import Settings
 
 RATE_HZ, GAIN_HZ = 1000.0, 100.0
@@ -67,6 +68,25 @@ def test_file_has_residual_then_truth_and_says_where_from(
     assert {key: meta[key] for key in META} == META
     assert (meta["rate_hz"], meta["gain_hz"], meta["nominal_mass_ratio"]) == (RATE_HZ, GAIN_HZ, 1.0)
     assert meta["segments"] == [[0, 100], [100, 200]]
+
+
+def test_the_label_of_foot_sensors_stands_beside_the_truth(
+    run: Callable, recording: Recording, robot: RobotDescription, written: Callable, tmp_path: Path
+) -> None:
+    """J^T F of (2) behind the observer's low-pass, segment by segment; r and the truth do not depend on the forces."""
+    rng = np.random.default_rng(0)
+    wrenches = {side: rng.normal(0.0, 100.0, (200, 6)) for side in ("left", "right")}
+    truth = replace(recording.truth, wrench_left_foot=wrenches["left"], wrench_right_foot=wrenches["right"])
+    stem = written(replace(recording, truth=truth))
+    for level in ("robot_1", "exact_model"):  # both observe with the same model
+        run(stem, tmp_path / level, level)
+    labelled, meta = read_array(tmp_path / "robot_1")
+    parts = np.split(labelled, 3, axis=1)
+    np.testing.assert_array_equal(np.concatenate(parts[:2], axis=1), read_array(tmp_path / "exact_model")[0])
+    torque = feet_torque(NominalModel(robot), recording.sensed.q, wrenches)
+    expected = np.concatenate([low_pass(torque[:100], GAIN_HZ, RATE_HZ), low_pass(torque[100:], GAIN_HZ, RATE_HZ)])
+    np.testing.assert_allclose(parts[2], expected, rtol=1e-4, atol=1e-2)
+    assert [column["name"] for column in meta["columns"]][2 * robot.layout.nv] == "label_lp.V1"
 
 
 def test_without_uncertainty_residual_is_the_low_passed_truth(

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mobnet.core.columns import residual_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
@@ -40,6 +41,20 @@ def test_uncertainty_and_external_torque_add_up_to_the_residual(
     total = load("uncertainty").targets + load("external").targets
     residual = np.concatenate([read_array(stem)[0][:, layout.columns(layout.limb("LL"))] for _, stem in stems])
     np.testing.assert_allclose(total, residual, atol=1e-5)
+
+
+def test_what_foot_sensors_say_is_learned_where_they_label(
+    load: Callable[..., LimbData], stems: list[tuple[Path, Path]], layout: JointLayout
+) -> None:
+    """As on a robot: the residual less the label is the target, and the exact torque is not looked at."""
+    before, error = load("external").targets, 2.5
+    for _, stem in stems:
+        array, meta = read_array(stem)
+        label = array[:, layout.nv :] + error
+        kept = {key: meta[key] for key in ("rate_hz", "segments")}
+        columns = residual_columns(layout, labelled=True)
+        write_array(stem, np.concatenate([array, label], axis=1), columns, kept, meta["segments"])
+    np.testing.assert_allclose(load("external").targets, before + error, atol=1e-4)
 
 
 def test_recordings_are_laid_end_to_end_and_keep_their_segments(load: Callable[..., LimbData]) -> None:

@@ -171,7 +171,8 @@ def test_a_push_reruns_the_walks_that_it_comes_in(plan: Plan) -> None:
     pushes = {**plan.settings.pushes, "left_knee_swing": plan.settings.pushes["left_knee_support"]}
     after = make_plan(plan.settings.model_copy(update={"pushes": pushes}), with_pdf=True)
     calls = {
-        name: [p.jobs.collect(name, "all_uncertainty", 1).call for p in (plan, after)] for name in after.settings.tests
+        name: [p.jobs[""].collect(name, "all_uncertainty", 1).call for p in (plan, after)]
+        for name in after.settings.tests
     }
     assert [name for name, (one, two) in calls.items() if one != two] == ["knee_swing"]
 

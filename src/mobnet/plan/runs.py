@@ -9,7 +9,7 @@ from typing import cast
 from mobnet.core.files import METRICS, RUN
 from mobnet.settings.data import Recordings
 from mobnet.settings.evaluation import Runs
-from mobnet.settings.fleet import as_robot
+from mobnet.settings.fleet import as_robot, level_of, levels_of
 from mobnet.settings.methods import Method
 from mobnet.settings.settings import Settings, swept_name
 
@@ -194,7 +194,8 @@ class Files:
         """Return whether a level is one of these files' own: of a robot, or of the plant of section 5.1."""
         fleet = self.settings.fleet
         if self.robot:
-            return level in (*fleet.levels, *(fleet.level_of(self.robot, name) for name in fleet.levels))
+            known = levels_of(fleet)
+            return level in (*known, *(level_of(fleet, self.robot, name) for name in known))
         return level in self.settings.levels and level not in fleet.robots
 
     @cached_property
@@ -266,11 +267,12 @@ class Files:
 
     def runs(self, scenario: str, level: str, methods: Iterable[str]) -> tuple[Run, ...]:
         """Return the runs of methods on a test: every network on every recording; on a fleet, those of each robot."""
-        if level in self.settings.fleet.levels:
+        fleet = self.settings.fleet
+        if level in levels_of(fleet):
             return tuple(
                 replace(run, level=level, network_seed=number)
                 for number, (robot, files) in enumerate(self.robots.items(), start=1)
-                for run in files.runs(scenario, self.settings.fleet.level_of(robot, level), methods)
+                for run in files.runs(scenario, level_of(fleet, robot, level), methods)
             )
         return tuple(
             self.run(scenario, level, method, network, test)

@@ -6,9 +6,19 @@ from typing import Any
 from mobnet.settings.plant import Level
 from mobnet.settings.scales import Experiment
 from mobnet.settings.settings import Settings
-from mobnet.settings.surrogate import SurrogateRobot, Variant
+from mobnet.settings.surrogate import Fleet, SurrogateRobot, Variant
 
 FIRST_SEED = 101  # of the networks of the fleet's robots, one for each: their names differ from all others
+
+
+def levels_of(fleet: Fleet) -> tuple[str, ...]:
+    """Return the levels at which each robot of a fleet walks: as it is, and changed."""
+    return (fleet.name, *fleet.variants)
+
+
+def level_of(fleet: Fleet, robot: str, level: str) -> str:
+    """Return the level of one robot at a level of its fleet."""
+    return robot if level == fleet.name else f"{robot}_{level}"
 
 
 def as_robot(settings: Settings, robot: str) -> Settings:
@@ -16,7 +26,7 @@ def as_robot(settings: Settings, robot: str) -> Settings:
     fleet, index = settings.fleet, settings.fleet.robots.index(robot)
     following = fleet.robots[(index + 1) % len(fleet.robots)]
     levels = {
-        fleet.level_of(robot, name): varied(settings.levels[following if row.other else robot], row)
+        level_of(fleet, robot, name): varied(settings.levels[following if row.other else robot], row)
         for name, row in fleet.variants.items()
     }
     sets = {
@@ -53,7 +63,7 @@ def _own(settings: Settings, section: Mapping[str, Mapping[str, Any]], robot: st
     """Return of a section scenario -> level -> value the scenarios that the fleet has, at the robot's levels."""
     fleet = settings.fleet
     found = {
-        scenario: {fleet.level_of(robot, name): rows[name] for name in fleet.levels if name in rows}
+        scenario: {level_of(fleet, robot, name): rows[name] for name in levels_of(fleet) if name in rows}
         for scenario, rows in section.items()
     }
     return {scenario: rows for scenario, rows in found.items() if rows}

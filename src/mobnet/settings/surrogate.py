@@ -139,12 +139,3 @@ class Fleet(Section):
     robots: Distinct[SingleLevelName]
     sets: dict[TrainingSetName, TrainingSetName]
     variants: dict[LowerName, Variant]
-
-    @property
-    def levels(self) -> tuple[str, ...]:
-        """Levels at which each robot walks."""
-        return (self.name, *self.variants)
-
-    def level_of(self, robot: str, level: str) -> str:
-        """Return the level of one robot at a level of the fleet."""
-        return robot if level == self.name else f"{robot}_{level}"

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mobnet.core.columns import Score, torque_columns
+from mobnet.core.columns import Score, residual_columns, torque_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array, write_array
@@ -37,6 +37,18 @@ def test_constant_error_is_scored_as_that_constant_in_every_joint(walk: Walk, la
     assert values_of(rows, "rmse") == pytest.approx([3.0] * 7, rel=1e-5)
     named = {(row.limb, row.unit, row.scenario, row.method) for row in rows if row.metric == "rmse"}
     assert named == {("LL", "N m", "forward_walk", "MOB-Net")}
+
+
+def test_an_error_against_the_label_stands_beside_that_against_the_truth(walk: Walk, layout: JointLayout) -> None:
+    """Where foot sensors label a recording: their error adds to that of the estimate."""
+    run = walk(-3.0)
+    assert not values_of(score_run(layout, run, Scoring()), "rmse_label")
+    array, meta = read_array(run.residual)
+    labelled = np.concatenate([array, array[:, layout.nv :] + 1.0], axis=1)
+    write_array(run.residual, labelled, residual_columns(layout, labelled=True), RATE, meta["segments"])
+    rows = score_run(layout, run, Scoring())
+    assert values_of(rows, "rmse") == pytest.approx([3.0] * 7, rel=1e-5)
+    assert values_of(rows, "rmse_label") == pytest.approx([4.0] * 7, rel=1e-5)
 
 
 def test_a_constant_error_does_not_change_the_roughness(walk: Walk, layout: JointLayout) -> None:

@@ -30,7 +30,7 @@ def test_rows_stand_beside_the_robots_numbers_above_the_note(
     sets = {name: [stem.with_name(f"{stem.name}_residual") for stem in stems] for name, stems in data_sets.items()}
     networks = {limb: settings.networks[limb] for limb in ("LL", "W", "V")}
     bounds = settings.evaluation.uncertainty.model_copy(update={"ratio": {"LL": (0.4, 2.5)}})
-    table = make_table("uncertainty", settings=bounds, networks=networks, sets=sets)
+    table = make_table("uncertainty", settings=bounds, networks=networks, sets=sets, robots={})
     check_golden(table)
     rows = {row.joint: row for row in read_table(table)}
     assert list(rows) == [*(f"LL{i}" for i in range(1, 7)), "W1", "W2", "W3", *(f"V{i}" for i in range(1, 7))]
@@ -44,6 +44,21 @@ def test_rows_stand_beside_the_robots_numbers_above_the_note(
     note = settings.published.uncertainty.note
     assert note in table.with_suffix(".md").read_text()
     assert table.with_suffix(".tex").read_text().endswith(note_tex(note))
+
+
+def test_each_surrogate_robot_has_its_rows_and_bounds(
+    make_table: Callable[..., Path], settings: Settings, data_sets: dict[str, list[Path]]
+) -> None:
+    """Of the limbs whose set it has."""
+    sets = {name: [stem.with_name(f"{stem.name}_residual") for stem in stems] for name, stems in data_sets.items()}
+    networks = {limb: settings.networks[limb] for limb in ("LL", "W")}
+    robots = {"robot_1": {"walk": sets["walk"]}, "robot_2": {"walk": sets["walk_plain"]}}
+    rows = read_table(make_table("uncertainty", networks=networks, sets=sets, robots=robots))
+    assert [row.set for row in rows if row.joint in ("LL1", "W1")] == ["walk", "robot_1", "robot_2", "motion"]
+    own = [row for row in rows if row.set == "robot_1"]
+    assert [row.joint for row in own] == [f"LL{i}" for i in range(1, 7)]
+    low, high = settings.evaluation.uncertainty.robot_ratio
+    assert [row.within for row in own] == ["yes" if low <= row.ratio <= high else "no" for row in own]
 
 
 def test_bounds_are_closed_and_a_missing_number_is_no_verdict() -> None:

@@ -13,6 +13,7 @@ from mobnet.settings.checks.shown import shown_problems
 from mobnet.settings.checks.sizes import size_problems
 from mobnet.settings.checks.surrogate import surrogate_problems
 from mobnet.settings.checks.walking import walking_problems
+from mobnet.settings.fleet import levels_of
 from mobnet.settings.names import Use, unknown, uses
 from mobnet.settings.networks import Learning, Network
 from mobnet.settings.reading import Place
@@ -27,7 +28,7 @@ def accepted_names(settings: Settings) -> dict[str, Collection[str]]:
     experiments = chain.from_iterable(scale.experiments for scale in settings.scales.values())
     terrains = [name for name in type(settings.terrain).model_fields if getattr(settings.terrain, name) is not None]
     return {
-        "scale": settings.scales, "level": [*settings.levels, *settings.fleet.levels],
+        "scale": settings.scales, "level": [*settings.levels, *levels_of(settings.fleet)],
         "level of one plant": settings.levels, "terrain": terrains, "push": settings.pushes,
         "motion": settings.motions, "scenario": settings.scenarios, "test": settings.tests,
         "test with a window around pushes": settings.evaluation.windows,

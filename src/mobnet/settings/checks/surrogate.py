@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from mobnet.core.errors import misfit, not_accepted
+from mobnet.settings.fleet import level_of, levels_of
 from mobnet.settings.reading import Place
 from mobnet.settings.settings import Settings
 from mobnet.settings.surrogate import Variant
@@ -45,7 +46,7 @@ def _level_problems(settings: Settings) -> Iterator[Problem]:
 def _fleet_problems(settings: Settings) -> Iterator[Problem]:
     """Yield a fleet that has the name of a level, robots that are none, and training sets without a counterpart."""
     fleet, sets = settings.fleet, settings.training_sets
-    taken = [*settings.levels, *(fleet.level_of(robot, name) for robot in fleet.robots for name in fleet.variants)]
+    taken = [*settings.levels, *(level_of(fleet, robot, name) for robot in fleet.robots for name in fleet.variants)]
     for place, name in ((("name",), fleet.name), *((("variants", name), name) for name in fleet.variants)):
         if name in taken or (name == fleet.name and place != ("name",)):
             yield ("fleet", *place), misfit(name, "a name that is no level's")
@@ -66,7 +67,7 @@ def _fleet_problems(settings: Settings) -> Iterator[Problem]:
         if row.level == fleet.name and name not in fleet.sets.values():
             yield ("training_sets", name, "level"), misfit(row.level, "a level of one plant, or a set of `fleet.sets`")
     for test, levels in settings.tests.items():
-        named = [(level, k, name) for level in fleet.levels for k, name in enumerate(levels.get(level, ()))]
+        named = [(level, k, name) for level in levels_of(fleet) for k, name in enumerate(levels.get(level, ()))]
         for level, index, method in named:
             learned = settings.method(settings.network_source_of(method)).limbs
             fitted = settings.method(settings.source_of(method)).fitted

@@ -1,0 +1,115 @@
+"""A test at the level of the fleet is walked by each of its robots, with networks of that robot's own recordings."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mobnet.core.errors import ConfigError
+from mobnet.plan.plan import Plan, make_plan
+from mobnet.plan.precision import with_precision
+from mobnet.settings.load import load_settings
+
+TESTS = {"robots": ["MOB", "MOB-fric", "MOB-Net"], "robots_other": ["MOB-Net"], "robots_law": ["MOB-Net"]}
+ROBOTS = ("robot_1", "robot_2", "robot_3")
+RESULTS = Path("results/smoke")
+
+
+def planned(tmp_path: Path, **sections: Any) -> Plan:
+    """Return the plan of the smoke scale with changed sections."""
+    settings = load_settings(overrides={"scale": "smoke", **sections})
+    return make_plan(with_precision(settings, tmp_path), with_pdf=False)
+
+
+@pytest.fixture(scope="module")
+def plan(tmp_path_factory: pytest.TempPathFactory) -> Plan:
+    """The plan with a test at three levels of the fleet."""
+    return planned(tmp_path_factory.mktemp("plan"), tests={"walk_test": TESTS})
+
+
+def folders(paths: Sequence[Path]) -> set[str]:
+    """Return the first folders of paths below the results."""
+    return {path.relative_to(RESULTS).parts[0] for path in paths}
+
+
+def test_each_robot_is_a_run_and_its_number_the_seed(plan: Plan) -> None:
+    """Of a method without networks too, so that an interval is over robots."""
+    for method in ("MOB", "MOB-Net"):
+        runs = plan.files.runs("walk_test", "robots", [method])
+        assert [run.network_seed for run in runs] == [1, 2, 3]
+        assert [run.recording.relative_to(RESULTS).parts[:-1] for run in runs] == [
+            (robot, "recordings", "walk_test", robot) for robot in ROBOTS
+        ]
+        assert {run.level for run in runs} == {"robots"}
+
+
+def test_a_variant_is_another_plant_for_the_same_networks(plan: Plan) -> None:
+    """The next robot in the place of one, or joints that rub by (23)."""
+    runs = plan.files.runs("walk_test", "robots_other", ["MOB-Net"])
+    assert [run.recording.parts[-2] for run in runs] == [f"{robot}_robots_other" for robot in ROBOTS]
+    walks: Any = [plan.jobs[robot].collect_tests("walk_test", f"{robot}_robots_other") for robot in ROBOTS]
+    assert [walk.call.arguments["settings"].level.surrogate.seed for walk in walks] == [2, 3, 1]
+    law: Any = plan.jobs["robot_1"].collect_tests("walk_test", "robot_1_robots_law").call.arguments["settings"].level
+    assert (law.surrogate.parts, law.friction) == (("body", "sensors"), ("stribeck", "load", "loss"))
+    same, other = (plan.files.robots["robot_1"].networks("MOB-Net", 101, "walk_test", level)
+                   for level in ("robot_1", "robot_1_robots_other"))  # fmt: skip
+    assert same == other
+
+
+@pytest.mark.parametrize("robot", ROBOTS)
+def test_a_robot_learns_from_its_own_recordings(plan: Plan, robot: str) -> None:
+    """Networks and fits; what it walks on is that of the set which takes the place of the one that a network names."""
+    training, fit = plan.jobs[robot].train("MOB-Net", "LL", 101), plan.jobs[robot].fit("MOB-fric")
+    for job in (training, fit):
+        assert {Path(name).relative_to(RESULTS).parts[0] for name in job.inputs} == {robot}
+    assert all("/robot_walk/" in name for name in training.inputs)
+
+
+def test_names_of_networks_differ_and_motions_are_shared(plan: Plan) -> None:
+    networks = plan.files.all_networks()
+    assert len({folder.name for folder in networks}) == len(networks)
+    assert {folder.relative_to(RESULTS).parts[0] for folder in networks} == {"networks", *ROBOTS}
+    motions = {path for own in plan.files.robots.values() for path in own.motion("random_motion", 1000)}
+    assert motions == set(plan.files.motion("random_motion", 1000))
+
+
+def test_every_run_of_a_test_is_scored_and_stored(plan: Plan) -> None:
+    """One file of scores has all levels of a test; all that its runs read is made."""
+    read = plan.jobs[""].score("walk_test").inputs
+    assert {Path(name).relative_to(RESULTS).parts[0] for name in read} >= set(ROBOTS)
+    assert set(read) <= set(plan.stored)
+
+
+def test_a_fleet_without_a_test_makes_nothing(tmp_path: Path) -> None:
+    bare = planned(tmp_path)
+    assert not [name for name in bare.stored if "robot_" in name]
+    assert bare.files.robots["robot_1"].all_networks() == ()
+
+
+def test_products_can_show_the_fleet(tmp_path: Path) -> None:
+    """A figure of one recording shows the first robot; networks shown by themselves are those of every robot."""
+    sections = {"tests": {"walk_test": TESTS}, "evaluation": {"figure_17": {"level": "robots"}}}
+    plan = planned(tmp_path, **sections)
+    assert {folder.relative_to(RESULTS).parts[0] for folder in plan.files.network_folders(["GRU"], "LL", "robots")} == {
+        *ROBOTS
+    }
+    shown = next(product for product in plan.products if product.name == "figure_17")
+    assert folders([Path(name) for name in shown.job.inputs]) == set(ROBOTS)
+
+
+@pytest.mark.parametrize(("sections", "text"), [
+    ({"fleet": {"robots": ["ideal"]}}, "level of a surrogate robot: 'ideal' is not accepted"),
+    ({"fleet": {"sets": {"walk": "walk"}}}, "fleet.sets.walk: walk is not accepted; accepted: a set at the level"),
+    ({"fleet": {"variants": {"robot_1": {"other": True}}}}, "fleet.variants.robot_1: robot_1 is not accepted"),
+    ({"fleet": {"variants": {"same": {}}}}, "a variant that changes nothing"),
+    ({"fleet": {"variants": {"odd": {"friction": ["load"], "parts": ["drives"]}}}}, "odd.friction: ['load'] is not"),
+    ({"levels": {"robot_1": {"friction": ["load"]}}}, "levels.robot_1.friction: ['load'] is not accepted"),
+    ({"surrogate": {"limbs": {"N": {"coulomb_nm": [1.0]}}}}, "1 numbers is not accepted; accepted: 2"),
+    ({"training_sets": {"walk": {"level": "robots"}}}, "training_sets.walk.level: robots is not accepted"),
+    ({"development": {"level": "robots"}}, "development.level: level of one plant: 'robots' is not accepted"),
+])  # fmt: skip
+def test_what_does_not_fit_is_told(sections: dict[str, Any], text: str) -> None:
+    with pytest.raises(ConfigError) as told:
+        load_settings(overrides=sections)
+    assert text in str(told.value)
