@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.core.columns import recording_columns
+from mobnet.core.columns import recording_columns, residual_columns
 from mobnet.core.recording import Sensed, Truth
 from mobnet.evaluation.report.data_card import CARD, DRAWN, card, column_rows, columns, drawn, field_texts, sizes
 from mobnet.settings.load import load_settings
@@ -26,7 +26,7 @@ def test_every_field_is_explained_and_every_column_counted() -> None:
     assert {*field_texts(Sensed), *field_texts(Truth)} == set(groups)
     tables = "".join(columns(layout, SETTINGS.observer.gain_hz))
     counts = [int(row.split(" | ")[2]) for row in re.findall(r"^\| (?:`\w+`)? ?\|.*$|^\| `.*$", tables, re.MULTILINE)]
-    assert sum(counts) == sum(map(len, groups.values())) + 2 * layout.nv
+    assert sum(counts) == sum(map(len, groups.values())) + len(residual_columns(layout, labelled=True))
 
 
 def test_a_long_group_shows_its_first_and_last_column() -> None:
