@@ -80,7 +80,7 @@ def test_it_trains(settings: Settings, pair: Any, fitted: Path, tmp_path: Path) 
 
 
 def test_a_training_reads_the_fit_that_it_builds_upon_and_no_other_does(settings: Settings) -> None:
-    jobs = make_plan(settings, with_pdf=False).jobs
+    jobs = make_plan(settings, with_pdf=False).jobs[""]
     gray, plain = jobs.train(METHOD, LIMB, 0), jobs.train("MOB-Net", LIMB, 0)
     assert [name for name in gray.inputs if "/fits/" in name] == ["results/smoke/fits/MOB-fric-load.json"]
     assert not [name for name in plain.inputs if "/fits/" in name]
