@@ -6,7 +6,7 @@ rule motion:
     input:
         lambda w: job("motion", w).inputs,
     output:
-        [f"{PLAN.folders.results}/motions/{{motion}}/s{{seed}}.{ending}" for ending in ("parquet", "json")],
+        both_files(PLAN.folders.results / "motions" / "{motion}" / "s{seed}"),
     log:
         f"{LOGS}/motion/{{motion}}-s{{seed}}.log",
     priority: 30

@@ -87,7 +87,11 @@ def job(kind, wildcards):
 
 def array(kind, *place):
     """Return the two files of an array of a kind, whose place below its folder is a pattern."""
-    stem = f"{OWN}{Path(kind, *place)}"
+    return both_files(f"{OWN}{Path(kind, *place)}")
+
+
+def both_files(stem):
+    """Return the two files of an array, neither of them empty."""
     return ensure([f"{stem}.parquet", f"{stem}.json"], non_empty=True)
 
 

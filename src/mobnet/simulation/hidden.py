@@ -5,7 +5,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mobnet.core.arrays import Array
 from mobnet.robot.description import WalkingRobot
 from mobnet.robot.plant import robot_spec
 from mobnet.settings.parts import BodyRow
@@ -41,13 +40,14 @@ def draw_hidden(
         robot = _other_links(surrogate.body, robot, body)
         plant = plant.model_copy(update={"sole_stiffness_n_m": body.uniform(*surrogate.body.sole_stiffness_n_m)})
     moved, rotors = no_drives(robot.layout.nu), robot
+    robot = _without_rotors(robot) if "drives" in parts else robot
+    model = robot_spec(robot).compile()
     if "drives" in parts:
-        robot = _without_rotors(robot)
-        moved = draw_drives(surrogate, rotors, _link_inertia(robot), rate_hz, drives)
+        link = 1.0 / model.dof_invweight0[-robot.layout.nu :]  # inertia that a torque on each joint turns [kg m^2]
+        moved = draw_drives(surrogate, rotors, link, rate_hz, drives)
         for name in ("coulomb", "viscous", "load"):
             moved.law[name] *= chosen.friction_ratio
         moved.law["constant"] *= chosen.constant_ratio
-    model = robot_spec(robot).compile()
     faults = draw_faults(surrogate.sensors, robot, model, rate_hz, sensors) if "sensors" in parts else no_faults(model)
     return Hidden(robot, plant, moved, faults)
 
@@ -72,8 +72,3 @@ def _without_rotors(robot: WalkingRobot) -> WalkingRobot:
     """Return a robot without the rotors' inertia, which its drives have."""
     joints = tuple(joint.model_copy(update={"armature": 0.0}) for joint in robot.joints)
     return WalkingRobot(**{**vars(robot), "joints": joints})
-
-
-def _link_inertia(robot: WalkingRobot) -> Array:
-    """Return the inertia that a torque on each joint turns (nu,) [kg m^2], the whole robot being free to move."""
-    return 1.0 / robot_spec(robot).compile().dof_invweight0[-robot.layout.nu :]

@@ -117,11 +117,7 @@ def in_phase(phase: int, share: float, s: State) -> bool:
 
 @compiled
 def _begin(law: Any, p: Any, now: float, axes: Array, rng: np.random.Generator) -> None:
-    """Draw size, duration and direction of a push and start it now [s]; axes (9,) are those of the pushed body.
-
-    An impactor of mass m that meets a wall at the speed F T / (pi m) on a spring of stiffness m (pi / T)^2 touches it
-    for T and pushes with F at most.
-    """
+    """Draw size, duration and direction of a push and start it now [s]; axes (9,) are those of the pushed body."""
     p.active = 1
     p.count += 1
     p.start = now
@@ -140,7 +136,11 @@ def _begin(law: Any, p: Any, now: float, axes: Array, rng: np.random.Generator) 
 
 @compiled
 def meet(p: Any, mass: float, place: Array, dt: float) -> None:
-    """Set an impactor on its way that meets a point at place (3,) [m] now, faster than it by the speed of a hit."""
+    """Set an impactor of a mass [kg] on its way that meets a point at place (3,) [m] now; the last step took dt [s].
+
+    A mass m that meets a wall at the speed F T / (pi m) on a spring of stiffness m (pi / T)^2 touches it for T and
+    pushes with F at most; the point's own speed along the push is added.
+    """
     length = p.end - p.start
     p.stiffness = mass * (np.pi / length) ** 2
     p.speed = p.size * length / (np.pi * mass)

@@ -31,15 +31,8 @@ from mobnet.simulation.world import World, ground_height, leg_mask, make_world
 Rows = NDArray[np.float32]
 STAND, UNIFORM = "stand", "uniform"  # commands of an episode that does not walk, and that draws them evenly
 SOLE_POINTS = (5, 3)  # along and across a sole, where the ground under a start is looked for
-STREAMS = (
-    "commands",
-    "noise",
-    "torque",
-    "place",
-    "pushes",
-    "terrain",
-    "running",
-)  # of random numbers, in the order spawned
+# Streams of random numbers, in the order spawned.
+STREAMS = ("commands", "noise", "torque", "place", "pushes", "terrain", "running")
 
 
 class Setting(NamedTuple):
