@@ -62,12 +62,12 @@ def _uncertainty(files: Files) -> Needs:
 
 
 def _coverage(files: Files) -> Needs:
-    """Return the training sets with and without random torque exploration, the tests, and what the network sees."""
+    """Return the first robot's training sets with and without random torque, its tests, and what the network sees."""
     sets = {"with RTE": "walk", "without RTE": "walk_plain"}
-    settings = files.settings.evaluation.coverage
+    settings, (robot, own) = files.settings.evaluation.coverage, next(iter(files.robots.items()))
     return {
-        "training": {label: files.training("recordings", name) for label, name in sets.items()},
-        "tests": tuple(files.tests(test.scenario, test.level) for test in settings.tests),
+        "training": {label: own.training("recordings", name) for label, name in sets.items()},
+        "tests": tuple(own.tests(test.scenario, robot) for test in settings.tests),
         "ports": files.settings.robot.networks[settings.limb],
     }
 

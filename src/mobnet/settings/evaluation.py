@@ -129,7 +129,7 @@ class Figure06(PushedRuns, Window):
 
 
 class Figure07(Runs):
-    """Figure 7: a load on the left hand; every so many samples is drawn."""
+    """Figures 7 and 12: a push on a hand; every so many samples is drawn."""
 
     joints: base.Distinct[base.JointName]
     start_s: base.NotNegative = Field(le=3600)
@@ -380,6 +380,7 @@ class Evaluation(Section):
     figure_08: GaitFigure
     figure_09: GaitFigure
     figure_10: Figure10
+    figure_12: Figure07
     figure_17: Figure17
     kinds: Kinds
     figure_18: Figure18

@@ -1,4 +1,4 @@
-"""Figure 7: upper body and base while a load hangs on a hand."""
+"""Figures 7 and 12: upper body and base while a hand is loaded or pushed."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -13,8 +13,8 @@ from mobnet.settings.evaluation import Figure07
 SIDE_BY_SIDE = 2
 
 
-def figure_07(settings: Figure07, layout: JointLayout, runs: Sequence[Run], figure_dir: Path) -> None:
-    """Write Figure 7, external torque of joints [N m] and force on the base [N] under a load on a hand.
+def figure_07(name: str, settings: Figure07, layout: JointLayout, runs: Sequence[Run], figure_dir: Path) -> None:
+    """Write a figure by its name: external torque of joints [N m], force [N] and torque [N m] on the base.
 
     The runs are one of each method, all of one recording.
     """
@@ -23,4 +23,4 @@ def figure_07(settings: Figure07, layout: JointLayout, runs: Sequence[Run], figu
     rows = slice(start, end, settings.every)
     panels = [curves.panel(f"{joint} [{layout.unit(joint)}]", joint, rows, band=True) for joint in settings.joints]
     figure = draw_panels(panels, "time [s]", "external torque or force", SIDE_BY_SIDE)
-    save_panels(figure, panels, figure_dir / "figure_07")
+    save_panels(figure, panels, figure_dir / name)
