@@ -285,10 +285,10 @@ def make_scores() -> Callable[..., list[Score]]:
 
 def push_scores(scenario: str, means: dict[str, float], pushes: int) -> list[Score]:
     """Return scores of LL3 around pushes: `means` of all [N m], a tenth more of each later one, one less of no push."""
-    rows = []
+    rows, level = [], "all_uncertainty" if scenario == "hip_pitch_step" else "robots"
     for method, mean in means.items():
         for network, test in itertools.product(range(1 if method == "MOB" else 2), (1, 2)):
-            run = (scenario, "all_uncertainty", method, network, test, "LL", "LL3")
+            run = (scenario, level, method, network, test, "LL", "LL3")
             value = mean * (1 + 0.1 * (test - 1.5) + 0.04 * (network - 0.5) * (method != "MOB"))
             each = {f"rmse_push_{k}": value * (1 + 0.1 * (k - 1)) for k in range(1, pushes + 1)}
             measured = {"rmse": value - 1.0} | each | ({"rmse_pushed": value} if pushes else {})

@@ -61,7 +61,7 @@ def test_an_estimate_takes_the_joints_that_it_holds(plan: Plan) -> None:
     ]
     assert sizes[1] > sizes[2] > sizes[0]
     assert sizes[2] / sizes[0] == pytest.approx(39 / 12, rel=1e-3)
-    legs = Path("results/smoke/estimates/MOB/n0/walk_test/all_uncertainty/s101.parquet")
+    legs = Path("results/smoke/robot_1/estimates/MOB/n0/walk_test/robot_1/s101.parquet")
     assert expected_bytes(plan, legs) == pytest.approx(sizes[0], rel=1e-3)
 
 

@@ -11,21 +11,15 @@ from mobnet.plan.plan import Plan, make_plan
 from mobnet.plan.precision import with_precision
 from mobnet.settings.load import load_settings
 
-TESTS = {"robots": ["MOB", "MOB-fric", "MOB-Net"], "robots_other": ["MOB-Net"], "robots_law": ["MOB-Net"]}
 ROBOTS = ("robot_1", "robot_2", "robot_3")
 RESULTS = Path("results/smoke")
 
 
-def planned(tmp_path: Path, **sections: Any) -> Plan:
-    """Return the plan of the smoke scale with changed sections."""
-    settings = load_settings(overrides={"scale": "smoke", **sections})
-    return make_plan(with_precision(settings, tmp_path), with_pdf=False)
-
-
 @pytest.fixture(scope="module")
 def plan(tmp_path_factory: pytest.TempPathFactory) -> Plan:
-    """The plan with a test at three levels of the fleet."""
-    return planned(tmp_path_factory.mktemp("plan"), tests={"walk_test": TESTS})
+    """The plan of the smoke scale."""
+    settings = load_settings(overrides={"scale": "smoke"})
+    return make_plan(with_precision(settings, tmp_path_factory.mktemp("plan")), with_pdf=False)
 
 
 def folders(paths: Sequence[Path]) -> set[str]:
@@ -46,13 +40,13 @@ def test_each_robot_is_a_run_and_its_number_the_seed(plan: Plan) -> None:
 
 def test_a_variant_is_another_plant_for_the_same_networks(plan: Plan) -> None:
     """The next robot in the place of one, or joints that rub by (23)."""
-    runs = plan.files.runs("walk_test", "robots_other", ["MOB-Net"])
+    runs = plan.files.runs("changed_walk", "robots_other", ["MOB-Net"])
     assert [run.recording.parts[-2] for run in runs] == [f"{robot}_robots_other" for robot in ROBOTS]
-    walks: Any = [plan.jobs[robot].collect_tests("walk_test", f"{robot}_robots_other") for robot in ROBOTS]
+    walks: Any = [plan.jobs[robot].collect_tests("changed_walk", f"{robot}_robots_other") for robot in ROBOTS]
     assert [walk.call.arguments["settings"].level.surrogate.seed for walk in walks] == [2, 3, 1]
-    law: Any = plan.jobs["robot_1"].collect_tests("walk_test", "robot_1_robots_law").call.arguments["settings"].level
+    law: Any = plan.jobs["robot_1"].collect_tests("changed_walk", "robot_1_robots_law").call.arguments["settings"].level
     assert (law.surrogate.parts, law.friction) == (("body", "sensors"), ("stribeck", "load", "loss"))
-    same, other = (plan.files.robots["robot_1"].networks("MOB-Net", 101, "walk_test", level)
+    same, other = (plan.files.robots["robot_1"].networks("MOB-Net", 101, "changed_walk", level)
                    for level in ("robot_1", "robot_1_robots_other"))  # fmt: skip
     assert same == other
 
@@ -81,16 +75,8 @@ def test_every_run_of_a_test_is_scored_and_stored(plan: Plan) -> None:
     assert set(read) <= set(plan.stored)
 
 
-def test_a_fleet_without_a_test_makes_nothing(tmp_path: Path) -> None:
-    bare = planned(tmp_path)
-    assert not [name for name in bare.stored if "robot_" in name]
-    assert bare.files.robots["robot_1"].all_networks() == ()
-
-
-def test_products_can_show_the_fleet(tmp_path: Path) -> None:
+def test_products_can_show_the_fleet(plan: Plan) -> None:
     """A figure of one recording shows the first robot; networks shown by themselves are those of every robot."""
-    sections = {"tests": {"walk_test": TESTS}, "evaluation": {"figure_17": {"level": "robots"}}}
-    plan = planned(tmp_path, **sections)
     assert {folder.relative_to(RESULTS).parts[0] for folder in plan.files.network_folders(["GRU"], "LL", "robots")} == {
         *ROBOTS
     }

@@ -84,10 +84,14 @@ def test_training_and_test_recordings_are_disjoint(plans: dict[str, Plan]) -> No
 
 @pytest.mark.parametrize("scale", SCALES)
 def test_every_method_gets_its_networks(plans: dict[str, Plan], scale: str) -> None:
-    settings = plans[scale].settings
-    seeds = [settings.experiment(name, limb).seeds for name, row in settings.all_methods.items() for limb in row.limbs]
+    """Those of the left leg on the plant of section 5.1 or on robots; each is trained once for each seed."""
+    files = plans[scale].files
+    rows = files.settings.all_methods.items()
+    learned = {*files.learned, *(pair for own in files.robots.values() for pair in own.learned)}
+    assert {name for name, _ in learned} == {name for name, row in rows if row.limbs}
     trained = [name for name in plans[scale].stored if name.endswith("weights.safetensors")]
-    assert len(trained) == sum(map(len, seeds))
+    owners = (files, *files.robots.values())
+    assert len(trained) == sum(len(own.network_seeds(*pair)) for own in owners for pair in own.learned)
 
 
 def test_a_limb_with_fewer_seeds_serves_them_in_turn(plans: dict[str, Plan]) -> None:
@@ -130,8 +134,9 @@ def test_an_estimate_reads_weights_fit_and_recording(plan: Plan) -> None:
 
 
 def test_a_test_runs_the_networks_of_its_limbs_alone(plan: Plan) -> None:
-    def run(method: str, scenario: str) -> tuple[list[str], tuple[str, ...]]:
-        arguments: Any = plan.jobs[""].estimate(method, 0, scenario, "all_uncertainty").call.arguments
+    def run(method: str, scenario: str, robot: str = "robot_1") -> tuple[list[str], tuple[str, ...]]:
+        seed, level = (101, robot) if robot else (0, "all_uncertainty")
+        arguments: Any = plan.jobs[robot].estimate(method, seed, scenario, level).call.arguments
         return list(arguments["networks"]), arguments["joints"]
 
     layout = plan.settings.layout
@@ -140,7 +145,7 @@ def test_a_test_runs_the_networks_of_its_limbs_alone(plan: Plan) -> None:
     limbs, joints = run("MOB-Net-Single", "hand_wrench")
     assert limbs == ["WB"]
     assert set(joints) == {*layout.limbs(["V", "W", "LA", "RA"])}
-    limbs, joints = run("MOB-Net", "motion_test")
+    limbs, joints = run("MOB-Net", "motion_test", robot="")
     assert len(limbs) == 7
     assert set(joints) == set(layout.names)
 

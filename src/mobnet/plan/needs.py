@@ -104,10 +104,12 @@ def _table_01(files: Files) -> Needs:
 
 
 def _calibration(files: Files) -> Needs:
-    """Return every network, and the runs of each test of the standard deviations."""
-    tests = files.settings.evaluation.calibration.tests
+    """Return every network by the level that it learned at, and the runs of each test of the standard deviations."""
+    tests, fleet = files.settings.evaluation.calibration.tests, files.settings.fleet.name
+    robots = tuple(folder for own in files.robots.values() for folder in own.all_networks())
+    plant = tuple(folder for folder in files.all_networks() if folder not in robots)
     return {
-        "folders": files.all_networks(),
+        "folders": {files.settings.development.level: plant, fleet: robots},
         "runs": tuple(files.runs(test.scenario, test.level, test.methods) for test in tests),
     }
 

@@ -24,12 +24,12 @@ class Experiment(Length):
 class Scale(Section):
     """One size of every test and of every training; the last four replace numbers of other sections.
 
-    `longer_s` gives the duration [s] of tests that need longer recordings than the others; `robots` has the
+    `durations_s` gives the duration [s] of tests whose recordings are longer or shorter than the others; `robots` has the
     experiments that take another length on the robots of the fleet, each of which trains one network.
     """
 
     test: TestRecordings
-    longer_s: dict[TestName, RecordingSeconds] = {}
+    durations_s: dict[TestName, RecordingSeconds] = {}
     development: Recordings
     experiments: dict[LowerName, Experiment] = Field(min_length=1)
     robots: dict[LowerName, Length] = {}

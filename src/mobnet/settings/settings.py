@@ -90,7 +90,7 @@ class Settings(Section):
 
     def test_s(self, scenario: str) -> float:
         """Return the duration of a test's recordings at the chosen scale [s]."""
-        return self.sizes.longer_s.get(scenario, self.sizes.test.shard_s)
+        return self.sizes.durations_s.get(scenario, self.sizes.test.shard_s)
 
     @cached_property
     def all_methods(self) -> dict[str, Method]:

@@ -26,7 +26,7 @@ def draw(tmp_path: Path, settings: Settings, evaluation: Evaluation) -> Draw:
     """Return a function of (changes of the section, scores) that writes the figure."""
 
     def write(changes: dict[str, object], scores: dict[str, Path]) -> None:
-        section = evaluation.figure_18.model_copy(update=changes)
+        section = evaluation.figure_18.model_copy(update={"level": "all_uncertainty", **changes})
         figure_18(section, settings.layout, evaluation.statistics, scores, tmp_path / "out")
 
     return write

@@ -85,13 +85,13 @@ def write_note(folder: Path, seed: int, diverged: bool = False) -> Path:
 
 def test_held_out_rows_come_from_the_notes_of_sound_trainings(tmp_path: Path, layout: JointLayout) -> None:
     folders = [write_note(tmp_path / f"s{seed}", seed, diverged=seed == 2) for seed in range(3)]
-    (grid,) = held_out(layout, folders, SHARES)
-    assert (grid.test, grid.method, grid.limb) == (VALIDATION, "GRU", "LL")
+    (grid,) = held_out(layout, {"robots": folders}, SHARES)
+    assert (grid.test, grid.level, grid.method, grid.limb) == (VALIDATION, "robots", "GRU", "LL")
     assert grid.values.shape == (2, 1, 2, 4)
     np.testing.assert_allclose(grid.values[:, 0, 1, :2], [SHARES, SHARES], atol=0.03)
     assert (grid.values[:, 0, 0, 1] < 0.45).all()
     with pytest.raises(DataError, match=r"shares \[0.5, 0.68\], but \[0.9\]"):
-        held_out(layout, folders, [0.9])
+        held_out(layout, {"robots": folders}, [0.9])
 
 
 def test_a_network_that_misses_a_test_is_refused() -> None:

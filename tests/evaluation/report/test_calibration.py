@@ -31,7 +31,7 @@ def made(tmp_path: Path, settings: Settings, evaluation: Evaluation, predicted: 
     (folder / "run.json").write_text(json.dumps(training_note("MOB-Net-LL-s0", [1.0], calibration=note)))
     calibration(
         evaluation.calibration.model_copy(update={"tests": tests}), learning, evaluation.coverage, settings.layout,
-        evaluation.statistics, [folder], runs, tmp_path, tmp_path / "figures",
+        evaluation.statistics, {"robots": [folder]}, runs, tmp_path, tmp_path / "figures",
     )  # fmt: skip
     return tmp_path
 

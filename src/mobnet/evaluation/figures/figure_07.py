@@ -1,4 +1,4 @@
-"""Figures 7 and 12: upper body and base while a hand is loaded or pushed."""
+"""Figure 7: upper body and base while a load hangs on a hand."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -13,8 +13,13 @@ from mobnet.settings.evaluation import Figure07
 SIDE_BY_SIDE = 2
 
 
-def figure_07(name: str, settings: Figure07, layout: JointLayout, runs: Sequence[Run], figure_dir: Path) -> None:
-    """Write a figure by its name: external torque of joints [N m], force [N] and torque [N m] on the base.
+def figure_07(settings: Figure07, layout: JointLayout, runs: Sequence[Run], figure_dir: Path) -> None:
+    """Write Figure 7 of the runs of each method on one recording."""
+    draw_hand(settings, layout, runs, figure_dir / "figure_07")
+
+
+def draw_hand(settings: Figure07, layout: JointLayout, runs: Sequence[Run], path: Path) -> None:
+    """Write a figure, a path without ending: external torque of joints [N m], force on the base [N].
 
     The runs are one of each method, all of one recording.
     """
@@ -23,4 +28,4 @@ def figure_07(name: str, settings: Figure07, layout: JointLayout, runs: Sequence
     rows = slice(start, end, settings.every)
     panels = [curves.panel(f"{joint} [{layout.unit(joint)}]", joint, rows, band=True) for joint in settings.joints]
     figure = draw_panels(panels, "time [s]", "external torque or force", SIDE_BY_SIDE)
-    save_panels(figure, panels, figure_dir / name)
+    save_panels(figure, panels, path)

@@ -36,7 +36,7 @@ STAGES = ("before", "after")  # of the scaling; also keys of a training's note
 
 @dataclass(frozen=True)
 class Grid:
-    """Measures of one limb of a method in one test, or in VALIDATION, which has no uncertainty level.
+    """Measures of one limb of a method in one test, or in VALIDATION, at one level.
 
     Where only samples around pushes count, `pushed` is the joint that is pushed, else it is empty. Values are means
     over the limb's joints (networks, tests, 2, k + 2), as learned and scaled: coverage of k nominal shares, negative
@@ -54,7 +54,8 @@ class Grid:
     @property
     def case(self) -> str:
         """Name of the test in table and figure."""
-        return self.test.replace("_", " ") + (", pushed" if self.pushed else "")
+        parts = self.test, self.level if self.test == VALIDATION else "", "pushed" if self.pushed else ""
+        return ", ".join(part.replace("_", " ") for part in parts if part)
 
 
 def limb_columns(layout: JointLayout, joints: Sequence[str]) -> dict[tuple[str, str], list[int]]:
@@ -72,14 +73,16 @@ def numbers_of(fit: Fit, columns: Sequence[int]) -> Array:
     return np.array([*fit.coverage[:, columns].mean(axis=1), fit.nll[columns].mean(), fit.crps[columns].mean()])
 
 
-def held_out(layout: JointLayout, folders: Sequence[Path], shares: Sequence[float]) -> list[Grid]:
+def held_out(layout: JointLayout, folders: Mapping[str, Sequence[Path]], shares: Sequence[float]) -> list[Grid]:
     """Return what trainings noted of their validation data, (networks, 1, 2, k + 2), those that diverged left out.
+
+    The trained networks are given by the level that they learned at.
 
     Raises:
         DataError: a note is missing, or has the coverage of other nominal shares than these (k,).
     """
-    found: dict[Key, list[Array]] = {}
-    for folder in folders:
+    found: dict[tuple[str, Key], list[Array]] = {}
+    for level, folder in ((level, folder) for level, own in folders.items() for folder in own):
         path, note = folder / RUN, read_training_note(folder)
         if note.diverged:
             log.info("%s: diverged, left out", path)
@@ -93,8 +96,8 @@ def held_out(layout: JointLayout, folders: Sequence[Path], shares: Sequence[floa
         ]
         for (limb, unit), columns in limb_columns(layout, measured.joints).items():
             cell = np.array([numbers_of(fit, columns) for fit in fits])
-            found.setdefault((note.method, limb, unit), []).append(cell)
-    return [Grid(VALIDATION, "", "", *key, np.array(cells)[:, None]) for key, cells in found.items()]
+            found.setdefault((level, (note.method, limb, unit)), []).append(cell)
+    return [Grid(VALIDATION, level, "", *key, np.array(cells)[:, None]) for (level, key), cells in found.items()]
 
 
 def in_tests(

@@ -1,6 +1,6 @@
 """Table and figure of the standard deviations' calibration: made together, because they are measured together."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from mobnet.core.joints import JointLayout
@@ -14,11 +14,11 @@ from mobnet.settings.networks import Learning
 
 def calibration(
     settings: Calibration, learning: Learning, coverage: Coverage, layout: JointLayout, statistics: Statistics,
-    folders: Sequence[Path], runs: Sequence[Sequence[Run]], table_dir: Path, figure_dir: Path,
+    folders: Mapping[str, Sequence[Path]], runs: Sequence[Sequence[Run]], table_dir: Path, figure_dir: Path,
 ) -> None:  # fmt: skip
     """Write calibration.csv, .tex and .md, and the reliability diagram as calibration.pdf, .png and .csv.
 
-    `runs` are those of each test of `settings`.
+    `folders` are the trained networks by the level that they learned at, `runs` those of each test of `settings`.
     """
     levels, points = learning.calibration_levels, nominal_points(settings.points)
     grids = in_tests(layout, coverage, settings.tests, runs, [*levels, *points])

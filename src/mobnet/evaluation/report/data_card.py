@@ -145,7 +145,7 @@ def sizes(settings: Settings) -> str:
             (("test", "each test", "as its table asks"), entry.test),
             *(
                 (("test", name, "as its table asks"), entry.test.model_copy(update={"shard_s": duration}))
-                for name, duration in entry.longer_s.items()
+                for name, duration in entry.durations_s.items()
             ),
         )
     ]

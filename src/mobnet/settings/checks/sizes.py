@@ -55,8 +55,8 @@ def _length_problems(settings: Settings, scale: Scale) -> Iterator[Problem]:
     """Yield durations of recordings that are no whole number of samples."""
     rate, name = settings.rates.data_hz, settings.scale
     sizes: dict[Place, float] = {("scales", name, "test", "shard_s"): scale.test.shard_s}
-    for test, duration in scale.longer_s.items():
-        sizes["scales", name, "longer_s", test] = duration
+    for test, duration in scale.durations_s.items():
+        sizes["scales", name, "durations_s", test] = duration
     for key, row in settings.training_sets.items():
         sizes["training_sets", key, "sizes", name, "shard_s"] = row.sizes[name].shard_s
     for place, value in sizes.items():
@@ -67,10 +67,10 @@ def _length_problems(settings: Settings, scale: Scale) -> Iterator[Problem]:
 def _time_problems(settings: Settings, scale: Scale) -> Iterator[Problem]:
     """Yield figures and pushes behind the end of a test; a scale with `figure_start_s` is too short for pushes."""
     length, cycle = scale.test.shard_s, CYCLES * 2 * max(settings.commands.duration_s)
-    for test, duration in scale.longer_s.items():
-        if duration <= length:
-            text = misfit(duration, f"more than shard_s of test, {length:g}")
-            yield ("scales", settings.scale, "longer_s", test), text
+    for test, duration in scale.durations_s.items():
+        if duration == length:
+            text = misfit(duration, f"another one than shard_s of test, {length:g}")
+            yield ("scales", settings.scale, "durations_s", test), text
     if scale.figure_start_s is not None:
         if scale.figure_start_s + cycle > length:
             accepted = f"at most {length - cycle:g}, {CYCLES} gait cycles before the end of a test"
