@@ -12,7 +12,7 @@ from mobnet.core.columns import residual_columns
 from mobnet.core.recording import Recording, Sensed, Truth, write_recording
 from mobnet.core.store import read_array
 from mobnet.estimation.low_pass import low_pass
-from mobnet.estimation.observe import observe, observer_of
+from mobnet.estimation.observe import observe, observer_of, zeroed
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
@@ -83,10 +83,22 @@ def test_the_label_of_foot_sensors_stands_beside_the_truth(
     labelled, meta = read_array(tmp_path / "robot_1")
     parts = np.split(labelled, 3, axis=1)
     np.testing.assert_array_equal(np.concatenate(parts[:2], axis=1), read_array(tmp_path / "exact_model")[0])
-    torque = feet_torque(NominalModel(robot), recording.sensed.q, wrenches)
+    swings = zip(wrenches.items(), recording.sensed.swing.T, strict=True)
+    torque = feet_torque(
+        NominalModel(robot), recording.sensed.q, {side: zeroed(wrench, swing) for (side, wrench), swing in swings}
+    )
     expected = np.concatenate([low_pass(torque[:100], GAIN_HZ, RATE_HZ), low_pass(torque[100:], GAIN_HZ, RATE_HZ)])
     np.testing.assert_allclose(parts[2], expected, rtol=1e-4, atol=1e-2)
     assert [column["name"] for column in meta["columns"]][2 * robot.layout.nv] == "label_lp.V1"
+
+
+def test_a_foots_sensor_is_zeroed_where_the_foot_swings() -> None:
+    """A push on the foot in the swing does not matter; without a swing the reading stays as it is."""
+    swing, wrench = np.repeat([0, 1, 0], 100), np.full((300, 6), 5.0)
+    wrench[swing == 0] += 400.0
+    wrench[120:140] += 80.0
+    np.testing.assert_allclose(zeroed(wrench, swing), wrench - 5.0)
+    np.testing.assert_array_equal(zeroed(wrench, np.zeros(300)), wrench)
 
 
 def test_without_uncertainty_residual_is_the_low_passed_truth(

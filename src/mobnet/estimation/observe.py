@@ -110,9 +110,20 @@ def _label(
 ) -> NDArray[np.float64]:
     """Return J^T F of the measured wrenches of the feet, low-passed (T, nv) [N] and [N m], segment by segment."""
     columns = recording_columns(robot.layout)
-    names = {side: [name for name, *_ in columns[f"wrench_{side}_foot"]] for side in robot.feet}
-    wrenches = {side: read_array(recording, names[side], robot.layout)[0] for side in robot.feet}
+    wrenches = dict[str, NDArray[np.float64]]()
+    for side, swing in zip(robot.feet, read.sensed.swing.T, strict=True):
+        names = [name for name, *_ in columns[f"wrench_{side}_foot"]]
+        wrenches[side] = zeroed(read_array(recording, names, robot.layout)[0], swing)
     torque = feet_torque(observer.nominal, read.sensed.q, wrenches)
     for span in read.spans():
         torque[span] = low_pass(torque[span], observer.gain_hz, read.rate_hz)
     return torque
+
+
+def zeroed(wrench: NDArray[Any], swing: NDArray[Any]) -> NDArray[np.float64]:
+    """Return a foot's wrench (T, 6) [N] and [N m] without its constant error, the median where the foot swings (T,).
+
+    A foot in the air is touched by pushes alone, which are rare; without a swing nothing is known of the error.
+    """
+    hanging = wrench[swing > 0]
+    return wrench - (np.median(hanging, axis=0) if len(hanging) else 0.0)
