@@ -128,7 +128,7 @@ class Figure06(PushedRuns, Window):
     joint: base.MotorName
 
 
-class Figure07(Runs):
+class HandFigure(Runs):
     """Figures 7 and 12: a push on a hand; every so many samples is drawn."""
 
     joints: base.Distinct[base.JointName]
@@ -376,11 +376,11 @@ class Evaluation(Section):
     noise: NoiseTable
     figure_05: Figure05
     figure_06: Figure06
-    figure_07: Figure07
+    figure_07: HandFigure
     figure_08: GaitFigure
     figure_09: GaitFigure
     figure_10: Figure10
-    figure_12: Figure07
+    figure_12: HandFigure
     figure_17: Figure17
     kinds: Kinds
     figure_18: Figure18

@@ -24,8 +24,8 @@ class Experiment(Length):
 class Scale(Section):
     """One size of every test and of every training; the last four replace numbers of other sections.
 
-    `durations_s` gives the duration [s] of tests whose recordings are longer or shorter than the others; `robots` has the
-    experiments that take another length on the robots of the fleet, each of which trains one network.
+    `durations_s` gives the duration [s] of tests whose recordings are longer or shorter than the others; `robots` has
+    the experiments that take another length on the robots of the fleet, each of which trains one network.
     """
 
     test: TestRecordings

@@ -3,29 +3,12 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from mobnet.core.columns import PUSHED
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.figures.drawing.curves import draw_panels, save_panels
-from mobnet.evaluation.measure.curves import read_curves
+from mobnet.evaluation.figures.drawing.hand import draw_hand
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import Figure07
-
-SIDE_BY_SIDE = 2
+from mobnet.settings.evaluation import HandFigure
 
 
-def figure_07(settings: Figure07, layout: JointLayout, runs: Sequence[Run], figure_dir: Path) -> None:
+def figure_07(settings: HandFigure, layout: JointLayout, runs: Sequence[Run], figure_dir: Path) -> None:
     """Write Figure 7 of the runs of each method on one recording."""
     draw_hand(settings, layout, runs, figure_dir / "figure_07")
-
-
-def draw_hand(settings: Figure07, layout: JointLayout, runs: Sequence[Run], path: Path) -> None:
-    """Write a figure, a path without ending: external torque of joints [N m], force on the base [N].
-
-    The runs are one of each method, all of one recording.
-    """
-    curves = read_curves(layout, runs, settings.joints, {"push": PUSHED})
-    start, end = (round(time_s * curves.rate_hz) for time_s in (settings.start_s, settings.end_s))
-    rows = slice(start, end, settings.every)
-    panels = [curves.panel(f"{joint} [{layout.unit(joint)}]", joint, rows, band=True) for joint in settings.joints]
-    figure = draw_panels(panels, "time [s]", "external torque or force", SIDE_BY_SIDE)
-    save_panels(figure, panels, path)

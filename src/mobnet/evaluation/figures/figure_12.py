@@ -4,11 +4,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.figures.figure_07 import draw_hand
+from mobnet.evaluation.figures.drawing.hand import draw_hand
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import Figure07
+from mobnet.settings.evaluation import HandFigure
 
 
-def figure_12(settings: Figure07, layout: JointLayout, runs: Sequence[Run], figure_dir: Path) -> None:
+def figure_12(settings: HandFigure, layout: JointLayout, runs: Sequence[Run], figure_dir: Path) -> None:
     """Write Figure 12 of the runs of each method on one recording."""
     draw_hand(settings, layout, runs, figure_dir / "figure_12")

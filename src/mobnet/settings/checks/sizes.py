@@ -5,7 +5,7 @@ from itertools import chain
 
 from mobnet.core.errors import misfit
 from mobnet.settings.checks.walking import is_whole
-from mobnet.settings.evaluation import Figure05, Figure07, GaitFigure
+from mobnet.settings.evaluation import Figure05, HandFigure, GaitFigure
 from mobnet.settings.reading import Place
 from mobnet.settings.scales import Scale
 from mobnet.settings.settings import Settings
@@ -80,7 +80,7 @@ def _time_problems(settings: Settings, scale: Scale) -> Iterator[Problem]:
     for name, section in settings.evaluation:
         if isinstance(section, Figure05 | GaitFigure):
             ends.append((("evaluation", name, "start_s"), section.scenario, section.start_s, cycle))
-        elif isinstance(section, Figure07):
+        elif isinstance(section, HandFigure):
             ends.append((("evaluation", name, "end_s"), section.scenario, section.end_s, 0.0))
     for test in settings.tests:
         for push in settings.scenarios[test].pushes:
