@@ -165,7 +165,7 @@ def scoring(settings: Settings, scenario: str) -> Scoring:
     evaluation = settings.evaluation
     sections = {
         name: getattr(evaluation, name)
-        for name in ("peaks", "bode", "drift", "phases", "sigma")
+        for name in ("peaks", "bode", "drift", "phases", "sigma", "changed")
         if scenario in _tests_in(getattr(evaluation, name))
     }
     pushes = [settings.pushes[name] for name in settings.scenarios[scenario].pushes]

@@ -301,6 +301,20 @@ class Sigma(Section):
     against: dict[base.Text, base.Text]
 
 
+class Changed(Section):
+    """Robots that networks do not know, and a check of their estimates where the plan has a leg in the air.
+
+    A window is flagged where less than the least share lies in the central interval of section `learning`; of a swing,
+    the time after the planned lift-off and before the planned landing is left out.
+    """
+
+    window_s: base.Real = Field(ge=1, le=600)
+    lift_off_s: base.NotNegative = Field(le=1)
+    landing_s: base.NotNegative = Field(le=1)
+    least_share: base.PositiveShare
+    tests: Annotated[dict[base.Text, LimbRuns], Field(min_length=1)]
+
+
 class Scoring(Section):
     """What is measured on the runs of one test besides errors: what no product asks for is None.
 
@@ -313,6 +327,7 @@ class Scoring(Section):
     drift: Drift | None = None
     phases: Phases | None = None
     sigma: Sigma | None = None
+    changed: Changed | None = None
     touch_down_s: float = 0.0
     stuck_rad_s: float = 0.0
     cover_share: float = 0.0
@@ -395,6 +410,7 @@ class Evaluation(Section):
     drift: Drift
     phases: Phases
     sigma: Sigma
+    changed: Changed
     data: DataTable
     commands: CommandsFigure
     steps: Steps

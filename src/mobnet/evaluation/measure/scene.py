@@ -62,6 +62,12 @@ class Scene:
                 found[name][:, self.layout.columns(self.layout.limb(limb))] = held[:, None]
         return found
 
+    def planned(self, joint: str) -> NDArray[np.bool_]:
+        """Return whether the walking plan has the foot of a joint's own leg in the air (T,)."""
+        side = next(side for side, limb in self.layout.legs.items() if joint in self.layout.limb(limb))
+        foot = next(name for name in FEET if name.startswith(side))
+        return self._read([f"{SWING}.{foot}"])[:, 0] > FLAG
+
     def behind(self, gain_hz: float, joints: Sequence[str]) -> NDArray[np.float64]:
         """Return pushes on joints behind the observer's low-pass, (T, n) [N m], V1..V3 [N]; the gain is K_0 [1/s]."""
         note = read_array_note(file_of(self.stem, NOTE))

@@ -11,6 +11,7 @@ import numpy as np
 
 from mobnet.core.columns import SCORES, Score
 from mobnet.core.joints import JointLayout
+from mobnet.evaluation.measure.changed import knowledge
 from mobnet.evaluation.measure.estimates import Pair, read_pair, read_std
 from mobnet.evaluation.measure.holding import holding
 from mobnet.evaluation.measure.measured import Measured, Measures
@@ -79,6 +80,8 @@ def measured(pair: Pair, scene: Scene, asked: Scoring) -> Iterator[tuple[Pair, M
     if asked.sigma and (part := shown(pair, scene.layout, asked.sigma.tests.values())):
         masks = {**parts_of(part, scene, asked.stuck_rad_s), **push_parts(part, scene)}
         yield part, spreads(part, read_std(part.run, part.joints), masks, asked.cover_share, asked.sigma)
+    if asked.changed and (part := shown(pair, scene.layout, asked.changed.tests.values())):
+        yield part, knowledge(part, read_std(part.run, part.joints), scene, asked.cover_share, asked.changed)
 
 
 def errors(pair: Pair, scene: Scene, window: Window | None) -> Measures:

@@ -11,8 +11,7 @@ from mobnet.evaluation.measure.spread import COVER, EXCURSION, STD
 from mobnet.evaluation.measure.strata import MOVING, PUSHED, STUCK
 from mobnet.evaluation.number.grid import Wanted
 from mobnet.evaluation.number.intervals import RATIO
-from mobnet.evaluation.number.number import Number
-from mobnet.evaluation.tables.layout import Table, in_blocks, measured_rows, write_table
+from mobnet.evaluation.tables.layout import Table, in_blocks, measured_rows, percent, write_table
 from mobnet.settings.evaluation import Runs, Sigma
 
 ERROR = "rmse"
@@ -70,8 +69,3 @@ def rises(settings: Sigma, lookup: Lookup, title: str, method: str, limb: str) -
 def cell(test: Runs, method: str, limb: str, metric: str) -> Wanted:
     """Return the average of a metric over a limb."""
     return Wanted(test.scenario, limb, test.level, method, AVERAGE, metric)
-
-
-def percent(number: Number) -> str:
-    """Return a share [-] in %, a dash where there is none."""
-    return "-" if number.value is None else f"{100.0 * number.value:.1f}"

@@ -102,6 +102,7 @@ def _of_measures(results: Results) -> Iterator[ShownJoints]:
         ("peaks", dict(enumerate(evaluation.peaks.tests))),
         ("phases", dict(enumerate(evaluation.phases.tests))),
         ("sigma", evaluation.sigma.tests),
+        ("changed", evaluation.changed.tests),
     ):
         for key, test in tests.items():
             joints = results.layout.limbs(test.limbs)

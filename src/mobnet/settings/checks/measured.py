@@ -13,7 +13,7 @@ MS = 1000.0
 
 
 def measured_problems(results: Results) -> Iterator[Problem]:
-    """Yield what does not fit in the sections of peaks, bode, drift, phases, sigma and of the table of methods."""
+    """Yield what does not fit in the sections of measures and in the table of methods."""
     evaluation = results.settings.evaluation
     for name in ("bode", "drift"):
         limb = getattr(evaluation, name).limb
@@ -23,6 +23,7 @@ def measured_problems(results: Results) -> Iterator[Problem]:
     yield from _learned_problems(results)
     yield from _line_problems(results)
     yield from _sigma_problems(results)
+    yield from _changed_problems(results)
     for k, row in enumerate(evaluation.methods):
         if text := results.not_scored(row.scenario, row.metric):
             yield (*ROOT, "methods", k, "metric"), text
@@ -112,3 +113,16 @@ def _sigma_problems(results: Results) -> Iterator[Problem]:
         for k, method in enumerate(test.methods):
             if text := results.not_learned(method):
                 yield (*ROOT, "sigma", "tests", title, "methods", k), text
+
+
+def _changed_problems(results: Results) -> Iterator[Problem]:
+    """Yield limbs that do not swing, and windows that no recording is long enough for."""
+    settings, changed = results.settings, results.settings.evaluation.changed
+    for title, test in changed.tests.items():
+        for k, limb in enumerate(test.limbs):
+            if limb not in results.legs:
+                yield (*ROOT, "changed", "tests", title, "limbs", k), not_accepted("leg", limb, results.legs)
+        longest = min(settings.test_s(test.scenario), settings.recording.episode_s)
+        if changed.window_s > longest:
+            text = misfit(changed.window_s, f"at most {longest:g}, for {test.scenario} lasts so long")
+            yield (*ROOT, "changed", "window_s"), text

@@ -25,11 +25,12 @@ ASKED = {  # section -> metrics that are measured on its tests alone
     "drift": r"held_.*",
     "phases": r"rmse_(swing|touch_down|stance|stuck|moving)",
     "sigma": r"(std|cover|acf|excursion|rmse_part).*",
+    "changed": r"(known|free|flagged)_share",
 }
 UNITS = {  # metrics that are no error of a joint -> unit, made of that of the joint
     r"roughness": "{}/s",
     r"r_rmse": "%",
-    r"(peak_ratio|gain|held|cover|acf).*": "-",
+    r"(peak_ratio|gain|held|cover|acf|known|free|flagged).*": "-",
     r"(rise_delay|excursion).*": "ms",
     r"phase_.*": "deg",
 }

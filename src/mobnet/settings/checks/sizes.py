@@ -5,7 +5,7 @@ from itertools import chain
 
 from mobnet.core.errors import misfit
 from mobnet.settings.checks.walking import is_whole
-from mobnet.settings.evaluation import Figure05, HandFigure, GaitFigure
+from mobnet.settings.evaluation import Figure05, GaitFigure, HandFigure
 from mobnet.settings.reading import Place
 from mobnet.settings.scales import Scale
 from mobnet.settings.settings import Settings
