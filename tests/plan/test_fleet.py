@@ -17,8 +17,8 @@ RESULTS = Path("results/smoke")
 
 @pytest.fixture(scope="module")
 def plan(tmp_path_factory: pytest.TempPathFactory) -> Plan:
-    """The plan of the smoke scale."""
-    settings = load_settings(overrides={"scale": "smoke"})
+    """The plan of the smoke scale with all robots."""
+    settings = load_settings(overrides={"scale": "smoke", "scales": {"smoke": {"fleet": len(ROBOTS)}}})
     return make_plan(with_precision(settings, tmp_path_factory.mktemp("plan")), with_pdf=False)
 
 
@@ -73,6 +73,15 @@ def test_every_run_of_a_test_is_scored_and_stored(plan: Plan) -> None:
     read = plan.jobs[""].score("walk_test").inputs
     assert {Path(name).relative_to(RESULTS).parts[0] for name in read} >= set(ROBOTS)
     assert set(read) <= set(plan.stored)
+
+
+def test_a_scale_may_have_fewer_robots() -> None:
+    """The smoke scale has the first one alone; the next one still takes its place."""
+    files = make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False).files
+    assert list(files.robots) == ["robot_1"]
+    assert [run.recording.parts[-2] for run in files.runs("changed_walk", "robots_other", ["MOB"])] == [
+        "robot_1_robots_other"
+    ]
 
 
 def test_products_can_show_the_fleet(plan: Plan) -> None:

@@ -81,7 +81,7 @@ class Files:
     @cached_property
     def robots(self) -> Mapping[str, "Files"]:
         """Robot of the fleet -> its files; a robot has none below its own."""
-        named = self.settings.fleet.robots
+        named = self.settings.fleet.robots[: self.settings.sizes.fleet]
         return {name: Files(as_robot(self.settings, name), self.results / name, name) for name in named}
 
     def owner_of(self, path: Path) -> tuple["Files", tuple[str, ...]]:
