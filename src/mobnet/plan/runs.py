@@ -134,7 +134,7 @@ class Files:
 
     def recorded(self) -> Iterator[tuple[str, str, int]]:
         """Yield scenario, level and seed of every recording but those of robots of the fleet."""
-        for name in self.recorded_sets:
+        for name in self.learned_sets:
             row = self.settings.training_sets[name]
             yield from ((row.scenario, row.level, seed) for seed in self.training_seeds(name))
         for scenario, levels in self.settings.tests.items():
@@ -253,12 +253,6 @@ class Files:
         used = {settings.network(method, limb).data for method, limb in (*self.learned, *fitted)}
         return tuple(name for name in settings.training_sets if name in used)
 
-    @property
-    def recorded_sets(self) -> tuple[str, ...]:
-        """Names of the training sets that are recorded: all of the plant of section 5.1, of a robot those it needs."""
-        sets = self.settings.training_sets
-        return self.learned_sets if self.robot else tuple(name for name, row in sets.items() if self.has(row.level))
-
     def fit(self, method: str) -> list[Path]:
         """Return the file of what a method, or the one it runs on, was fitted to; none if it is not fitted."""
         source = self.settings.source_of(method)
@@ -274,10 +268,11 @@ class Files:
     def runs(self, scenario: str, level: str, methods: Iterable[str]) -> tuple[Run, ...]:
         """Return the runs of methods on a test: every network on every recording; on a fleet, those of each robot."""
         fleet = self.settings.fleet
-        if level in levels_of(fleet):
+        if not self.has(level):
             return tuple(
                 replace(run, level=level, network_seed=number)
                 for number, (robot, files) in enumerate(self.robots.items(), start=1)
+                if level in (*levels_of(fleet), robot)
                 for run in files.runs(scenario, level_of(fleet, robot, level), methods)
             )
         return tuple(

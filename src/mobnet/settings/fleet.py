@@ -17,8 +17,8 @@ def levels_of(fleet: Fleet) -> tuple[str, ...]:
 
 
 def level_of(fleet: Fleet, robot: str, level: str) -> str:
-    """Return the level of one robot at a level of its fleet."""
-    return robot if level == fleet.name else f"{robot}_{level}"
+    """Return the level of one robot at a level of its fleet, or at its own."""
+    return robot if level in (fleet.name, robot) else f"{robot}_{level}"
 
 
 def as_robot(settings: Settings, robot: str) -> Settings:
@@ -37,12 +37,14 @@ def as_robot(settings: Settings, robot: str) -> Settings:
         name: Experiment(epochs=row.epochs, epoch_samples=row.epoch_samples, seeds=(FIRST_SEED + index,))
         for name, row in lengths.items()
     }
+    test = settings.sizes.test.model_copy(update={"shards": settings.sizes.fleet_shards or settings.sizes.test.shards})
+    sizes = settings.sizes.model_copy(update={"experiments": experiments, "test": test})
     changed: dict[str, Any] = {
         "levels": {**settings.levels, **levels},
         "training_sets": sets,
         "tests": _own(settings, settings.tests, robot),
         "estimated_limbs": _own(settings, settings.estimated_limbs, robot),
-        "scales": {settings.scale: settings.sizes.model_copy(update={"experiments": experiments})},
+        "scales": {settings.scale: sizes},
         "fleet": fleet.model_copy(update={"robots": ()}),
     }
     # not `model_copy`, which would keep what has been worked out of the sections that change
@@ -60,10 +62,15 @@ def varied(level: Level, row: Variant) -> Level:
 
 
 def _own(settings: Settings, section: Mapping[str, Mapping[str, Any]], robot: str) -> dict[str, dict[str, Any]]:
-    """Return of a section scenario -> level -> value the scenarios that the fleet has, at the robot's levels."""
-    fleet = settings.fleet
-    found = {
-        scenario: {level_of(fleet, robot, name): rows[name] for name in levels_of(fleet) if name in rows}
-        for scenario, rows in section.items()
-    }
-    return {scenario: rows for scenario, rows in found.items() if rows}
+    """Return of a section scenario -> level -> names the scenarios that the robot walks, at its own levels.
+
+    What stands at the robot's own level adds to what the whole fleet has.
+    """
+    fleet, found = settings.fleet, dict[str, dict[str, Any]]()
+    for scenario, rows in section.items():
+        for name in (*levels_of(fleet), robot):
+            if name in rows:
+                own = found.setdefault(scenario, {})
+                level = level_of(fleet, robot, name)
+                own[level] = tuple(dict.fromkeys([*own.get(level, ()), *rows[name]]))
+    return found

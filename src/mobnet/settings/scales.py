@@ -25,8 +25,9 @@ class Scale(Section):
     """One size of every test and of every training; the last four replace numbers of other sections.
 
     `durations_s` gives the duration [s] of tests whose recordings are longer or shorter than the others; `robots` has
-    the experiments that take another length on the robots of the fleet, each of which trains one network, and `fleet`
-    how many of these robots there are, the first ones; all without it.
+    the experiments that take another length on the robots of the fleet, each of which trains one network, `fleet`
+    how many of these robots there are, the first ones, and `fleet_shards` how many recordings of each test each of
+    them makes; all of them, and as many as elsewhere, without these.
     """
 
     test: TestRecordings
@@ -35,6 +36,7 @@ class Scale(Section):
     experiments: dict[LowerName, Experiment] = Field(min_length=1)
     robots: dict[LowerName, Length] = {}
     fleet: Annotated[Count, Field(le=100)] | None = None
+    fleet_shards: Annotated[Count, Field(le=100)] | None = None
     batch_size: Annotated[Count, Field(le=4096)] | None = None
     stream_s: Annotated[Positive, Field(ge=0.05, le=600)] | None = None
     rate_decay_share: Share | None = None
