@@ -26,6 +26,16 @@ def history(settings: Settings, layout: JointLayout) -> tuple[Exploration, np.nd
     return law, rows
 
 
+@pytest.mark.parametrize(("asked", "largest"), [(False, 0.0), (True, 50.0), (25.0, 25.0)])
+def test_a_scenario_may_ask_for_another_torque_on_legs_and_waist(
+    settings: Settings, layout: JointLayout, asked: bool | float, largest: float
+) -> None:
+    law = make_exploration(settings.random_torque, layout, asked)
+    own = dict(zip(layout.actuated, law.amplitude, strict=True))
+    assert [own[joint] for joint in (*layout.limb("LL"), *layout.limb("RL"), *layout.limb("W"))] == [largest] * 15
+    assert (own["LA1"] > 0.0) == bool(asked)
+
+
 def periods(torque: np.ndarray) -> list[tuple[bool, int, float]]:
     """Return on or off, length [ticks] and torque of the whole periods of one joint."""
     edges = np.flatnonzero(np.diff(torque)) + 1

@@ -2,6 +2,7 @@
 
 import itertools
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from made_notes import training_note
 from mobnet.core.columns import FEET, Epoch, Score, residual_columns, torque_columns
 from mobnet.core.files import write_json
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
-from mobnet.core.recording import Recording, Sensed, Truth, write_recording
+from mobnet.core.recording import Recording, Sensed, Truth, read_recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.evaluation.measure.results import listed
 from mobnet.plan.call import call_of
@@ -45,12 +46,15 @@ def evaluation(settings: Settings) -> Evaluation:
     """Tables and figures of made-up runs: few draws, joints and times that they have."""
     whole, methods = settings.evaluation, {"methods": ("MOB", "MOB-Net")}
     collisions = {title: test.model_copy(update=methods) for title, test in whole.figure_10.tests.items()}
+    levels = {"level": "all_uncertainty"}
+    amplitudes = {title: test.model_copy(update=levels) for title, test in whole.amplitude.tests.items()}
     cells = {"phases": 4, "state_cells": 3, "cell_samples": 5}
     changes: dict[str, dict[str, Any]] = {
         "figure_06": methods,
         "figure_07": {"joints": ("W2", "V3"), "start_s": 0.5, "end_s": 1.0, "every": 5},
         "figure_10": {"tests": collisions, "against": whole.figure_10.against.model_copy(update=methods)},
         "figure_18": {"limbs": ("W", "RA"), "methods": ("MOB-Net", "MOB-Net-Single")},
+        "amplitude": {"tests": amplitudes},
         "figure_19": {"joints": ("LL2", "LL3"), "dots": 12, "test_dots": 8},
         "coverage": {"samples": 400, "every": 2, "cells": 10, "tests": whole.coverage.tests[:1], **cells},
         "calibration": {"points": 9, "methods": ("MOB-Net",)},
@@ -440,3 +444,27 @@ def data_sets(tmp_path_factory: pytest.TempPathFactory, layout: JointLayout) -> 
         name: [write_steps(folder / f"{name}{k}", layout, 10 * k + len(name), *kind) for k in range(2)]
         for name, kind in sets.items()
     }
+
+
+@pytest.fixture
+def explored(tmp_path: Path, layout: JointLayout, data_sets: dict[str, list[Path]], rng: np.random.Generator) -> Path:
+    """A walk whose desired torque answers a step of the random torque of LL3 by a decay to a quarter of it, and W1 not.
+
+    The decay has a time constant of 0.05 s. The other joints have no random torque. Torques of the gait are noise here.
+    """
+    walk = read_recording(data_sets["walk"][0], layout)
+    rows = len(walk.sensed)
+    random, answer = np.zeros((rows, layout.nu)), np.zeros((rows, layout.nu))
+    for k, share in ((layout.actuated.index("LL3"), 0.25), (layout.actuated.index("W1"), 1.0)):
+        left = 0.0
+        for row in range(rows):
+            if row and row % 15 == 0:
+                random[row:, k] = rng.uniform(-50, 50)
+                left += (1 - share) * (random[row, k] - random[row - 1, k])
+            answer[row, k] = share * random[row, k] + left
+            left *= np.exp(-1 / (walk.rate_hz * 0.05))
+    torque = rng.normal(size=random.shape) + answer
+    changed = replace(walk.sensed, tau_des=torque), replace(walk.truth, tau_random=random)
+    whole = Recording(changed[0], walk.segments, walk.rate_hz, walk.meta, changed[1])
+    write_recording(tmp_path / "explored", whole, layout)
+    return tmp_path / "explored"

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mobnet.settings.data import Direction, Phase, Push
-from mobnet.simulation.pushes import DIRECTIONS, PHASES, SHAPES, STATE, hit, meet
+from mobnet.simulation.pushes import DIRECTIONS, LAW, PHASES, SHAPES, STATE, Pushes, advance_impactor, hit, meet
 from mobnet.simulation.simulator import Simulator
 
 LL3 = 6 + 2
@@ -174,6 +174,22 @@ def test_an_impactor_pushes_less_a_point_that_gives_way() -> None:
         x += rate * dt
     assert max(felt) == pytest.approx(200.0 / np.sqrt(2.0), rel=0.02)
     assert len(felt) * dt == pytest.approx(0.1 / np.sqrt(2.0), rel=0.03)
+
+
+def test_an_impactor_stays_until_it_has_parted() -> None:
+    """At its start it just touches the point, up to rounding; it must not be gone then."""
+    rng = np.random.default_rng(7)
+    for _ in range(200):
+        law, p = np.zeros(1, LAW), np.zeros(1, STATE)
+        law["mass"], law["timed"] = 20.0, 1
+        place, towards = rng.normal(size=3), rng.normal(size=3)
+        p["size"], p["start"], p["end"], p["active"], p["place"] = 200.0, 1.0, 1.1, 1, place
+        p["direction"] = towards / np.linalg.norm(towards)
+        pushes = Pushes(law, np.full((1, 2), np.inf), np.zeros((1, 0, 3)), p)
+        meet(p[0], 20.0, place, 0.0005)
+        forces = [advance_impactor(pushes, 0, 1.0 + 0.0005 * k, place, 0.0005, rng) for k in range(150)]
+        assert p["active"][0] == 1
+        assert min(forces[1:]) > 0.0
 
 
 def test_an_impactor_hits_the_swinging_knee_and_leaves_it(simulate: Callable, run: Callable) -> None:

@@ -169,6 +169,7 @@ COMMANDS = (*BIN, "share", "unit")
 PUSH_ERRORS = ("scenario", "method", "push", "rmse_nm", "low", "high", *SPREAD, "published")
 LOSSES = ("measure", "method", "runs", "epoch", "mean", "low", "high")
 LIMB_ERRORS = ("scenario", "method", "limb", "joint", "rmse_nm", "low", "high", *SPREAD)
+AMPLITUDES = ("panel", "amplitude_nm", *RUN, "joint", "metric", "value", "low", "high", *SPREAD, "unit")
 DOTS = ("kind", "set", "joint", "velocity_rad_s", "torque_nm", "phase")
 SIZES = (
     "panel", "base", "method", "parameters", "samples", "runs",

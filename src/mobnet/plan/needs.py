@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, cast
 
+from mobnet.control.random_torque import largest_on_legs
 from mobnet.core.errors import ConfigError
 from mobnet.plan.runs import Files
 from mobnet.settings.evaluation import Runs
@@ -70,6 +71,20 @@ def _coverage(files: Files) -> Needs:
         "tests": tuple(own.tests(test.scenario, robot) for test in settings.tests),
         "ports": files.settings.robot.networks[settings.limb],
     }
+
+
+def _amplitude(files: Files) -> Needs:
+    """Return the scores, and of each method the largest random torque [N m] in its training data, and these data."""
+    settings, section = files.settings, files.settings.evaluation.amplitude
+    amplitudes, training = dict[str, float](), dict[str, tuple[Path, ...]]()
+    for test in section.tests.values():
+        for method in test.methods:
+            data = settings.network(method, test.limb).data
+            own = files.robots.get(test.level, files)
+            row = own.settings.scenarios[own.settings.training_sets[data].scenario]
+            amplitudes[method] = largest_on_legs(settings.random_torque, row.random_torque)
+            training[method] = own.training("recordings", data)
+    return {"scores": _scores(files, section), "amplitudes": amplitudes, "training": training}
 
 
 def _kinds(files: Files) -> Needs:
@@ -149,6 +164,7 @@ NEEDS: Mapping[str, Callable[[Files], Needs]] = {  # products that need somethin
     "uncertainty": _uncertainty,
     "kinds": _kinds,
     "calibration": _calibration,
+    "amplitude": _amplitude,
     "noise": _noise,
     "figure_05": _figure_05,
     "figure_10": _figure_10,

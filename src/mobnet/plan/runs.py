@@ -116,11 +116,12 @@ class Files:
         return self.settings.training_sets[name].sizes[self.settings.scale]
 
     def training(self, kind: str, name: str) -> tuple[Path, ...]:
-        """Return the recordings or residuals of a training set, of all robots where it is one of the fleet's."""
+        """Return the recordings or residuals of a training set, of all robots that learn from it where it is theirs."""
         row = self.settings.training_sets[name]
         if row.level == self.settings.fleet.name:
             own = next(own for own, other in self.settings.fleet.sets.items() if other == name)
-            return tuple(stem for files in self.robots.values() for stem in files.training(kind, own))
+            robots = [files for files in self.robots.values() if own in files.learned_sets]
+            return tuple(stem for files in robots for stem in files.training(kind, own))
         return tuple(self.array(kind, row.scenario, row.level, seed) for seed in self.training_seeds(name))
 
     def tests(self, scenario: str, level: str, kind: str = "recordings") -> tuple[Path, ...]:

@@ -185,12 +185,15 @@ class Push(Section):
 
 
 class Scenario(Section):
-    """What is walked; a level and a seed make it a recording."""
+    """What is walked; a level and a seed make it a recording.
+
+    `random_torque` may give another largest torque on the joints of legs and waist [N m] than its section.
+    """
 
     terrain: base.Distinct[base.TerrainName]
     commands: CommandSource | base.Some[CommandSource] | FixedCommand
     narrowed: Narrowed = Narrowed()
-    random_torque: base.Flag
+    random_torque: base.Flag | base.NewtonMetre
     pushes: Annotated[tuple[base.PushName, ...], AfterValidator(base.distinct)] = ()
     motion: base.MotionName | None = None
     draws: base.ScenarioName | None = None

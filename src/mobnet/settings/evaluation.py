@@ -214,6 +214,21 @@ class CoverageTest(Section):
     pushed: base.MotorName | None = None
 
 
+class AmplitudeTest(Runs):
+    """A test of networks that learned with random torques of different size; `joint` may be `avg`, the limb's mean."""
+
+    limb: base.LimbName
+    joint: base.Text
+    metric: Metric = "rmse"
+
+
+class Amplitude(Section):
+    """Error over the largest random torque of the training data, and what is left of that torque after a time."""
+
+    lag_s: Annotated[base.Positive, Field(le=1)]
+    tests: Annotated[dict[base.Text, AmplitudeTest], Field(min_length=1)]
+
+
 class Coverage(Section):
     """What the training data hold of what the tests ask about."""
 
@@ -403,6 +418,7 @@ class Evaluation(Section):
     figure_19: Figure19
     figure_20: Figure20
     learning_curve: LearningCurve
+    amplitude: Amplitude
     coverage: Coverage
     calibration: Calibration
     peaks: Peaks

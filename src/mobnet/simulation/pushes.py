@@ -175,7 +175,7 @@ def _advance(
         if law.shape == IMPACTOR:
             meet(p, law.mass, site_xpos[law.site], dt)
     if law.shape == IMPACTOR:
-        return _advance_impactor(pushes, k, s.clock, site_xpos[law.site], dt, rng)
+        return advance_impactor(pushes, k, s.clock, site_xpos[law.site], dt, rng)
     if p.active == 0:
         return 0.0
     if law.shape == HALF_SINE:
@@ -186,13 +186,12 @@ def _advance(
 
 
 @compiled
-def _advance_impactor(pushes: Pushes, k: int, clock: float, place: Array, dt: float, rng: np.random.Generator) -> float:
+def advance_impactor(pushes: Pushes, k: int, clock: float, place: Array, dt: float, rng: np.random.Generator) -> float:
     """Return the force of an impactor [N] on a point at place (3,) [m], and plan the next one once it has parted."""
     law, p, force = pushes.law[k], pushes.state[k], 0.0
     if p.active == 1:
-        force = hit(p, law.mass, place, dt)
-        if force < 0.0:
-            force = 0.0
+        force = max(hit(p, law.mass, place, dt), 0.0)
+        if force == 0.0 and clock > p.start:  # at the start they just touch
             plan(pushes, k, clock, rng)
     for i in range(3):
         p.place[i] = place[i]

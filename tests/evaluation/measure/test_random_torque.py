@@ -1,41 +1,14 @@
 """The share of a random torque that is left: that of a desired torque whose answer to a step is known."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording, read_recording, write_recording
 from mobnet.evaluation.measure.random_torque import STEPS_MIN, steps_of, torque_left
 
-TIME_S, LAGS_S = 0.05, (0.02, 0.1)
-ROWS, RATE_HZ = 6000, 100.0
-
-
-@pytest.fixture
-def explored(tmp_path: Path, layout: JointLayout, data_sets: dict[str, list[Path]], rng: np.random.Generator) -> Path:
-    """A walk whose desired torque answers a step of the random torque of LL3 by a decay to a quarter of it, and W1 not.
-
-    The other joints have no random torque. Torques of the gait are noise here.
-    """
-    walk = read_recording(data_sets["walk"][0], layout)
-    rows = len(walk.sensed)
-    random, answer = np.zeros((rows, layout.nu)), np.zeros((rows, layout.nu))
-    for k, share in ((layout.actuated.index("LL3"), 0.25), (layout.actuated.index("W1"), 1.0)):
-        left = 0.0
-        for row in range(rows):
-            if row and row % 15 == 0:
-                random[row:, k] = rng.uniform(-50, 50)
-                left += (1 - share) * (random[row, k] - random[row - 1, k])
-            answer[row, k] = share * random[row, k] + left
-            left *= np.exp(-1 / (RATE_HZ * TIME_S))
-    torque = rng.normal(size=random.shape) + answer
-    changed = replace(walk.sensed, tau_des=torque), replace(walk.truth, tau_random=random)
-    whole = Recording(changed[0], walk.segments, walk.rate_hz, walk.meta, changed[1])
-    write_recording(tmp_path / "explored", whole, layout)
-    return tmp_path / "explored"
+TIME_S, LAGS_S = 0.05, (0.02, 0.1)  # the first is that of the recording's answer
 
 
 def test_what_is_left_is_the_answer_to_a_step(explored: Path, layout: JointLayout) -> None:

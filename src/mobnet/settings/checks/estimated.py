@@ -98,6 +98,9 @@ def _of_measures(results: Results) -> Iterator[ShownJoints]:
         yield ShownJoints(
             ("drift", "tests", title, "methods"), test.scenario, test.level, test.methods, results.joints(drift.limb)
         )
+    for title, test in evaluation.amplitude.tests.items():
+        place = "amplitude", "tests", title, "methods"
+        yield ShownJoints(place, test.scenario, test.level, test.methods, results.joints(test.limb))
     for name, tests in (
         ("peaks", dict(enumerate(evaluation.peaks.tests))),
         ("phases", dict(enumerate(evaluation.phases.tests))),

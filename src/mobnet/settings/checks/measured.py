@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence
 
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.checks.results import Results
+from mobnet.settings.evaluation import AmplitudeTest, MethodsRow
 from mobnet.settings.reading import Place
 
 Problem = tuple[Place, str]
@@ -24,9 +25,16 @@ def measured_problems(results: Results) -> Iterator[Problem]:
     yield from _line_problems(results)
     yield from _sigma_problems(results)
     yield from _changed_problems(results)
-    for k, row in enumerate(evaluation.methods):
+    shown: list[tuple[Place, MethodsRow | AmplitudeTest]] = [
+        *((("methods", k), row) for k, row in enumerate(evaluation.methods)),
+        *((("amplitude", "tests", title), test) for title, test in evaluation.amplitude.tests.items()),
+    ]
+    for place, row in shown:
         if text := results.not_scored(row.scenario, row.metric):
-            yield (*ROOT, "methods", k, "metric"), text
+            yield (*ROOT, *place, "metric"), text
+    for title, test in evaluation.amplitude.tests.items():
+        if test.joint not in (joints := [*results.joints(test.limb), "avg"]):
+            yield (*ROOT, "amplitude", "tests", title, "joint"), not_accepted("joint", test.joint, joints)
 
 
 def _push_problems(results: Results) -> Iterator[Problem]:
@@ -62,6 +70,11 @@ def _learned_problems(results: Results) -> Iterator[Problem]:
     settings, evaluation = results.settings, results.settings.evaluation
     shown: list[tuple[Place, str]] = [(("latency", "method"), evaluation.latency.method)]
     shown += [(("figure_08", "methods", k), name) for k, name in enumerate(evaluation.figure_08.methods)]
+    shown += [
+        (("amplitude", "tests", title, "methods", k), name)
+        for title, test in evaluation.amplitude.tests.items()
+        for k, name in enumerate(test.methods)
+    ]
     for place, method in shown:
         if text := results.not_learned(method):
             yield (*ROOT, *place), text

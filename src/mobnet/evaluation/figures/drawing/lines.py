@@ -35,7 +35,7 @@ class Line:
 
 @dataclass(frozen=True)
 class LinePanel:
-    """One panel of Figures 17 and 20; where x is a size, its few places are marked, on a logarithmic axis."""
+    """Lines over epochs or sizes; few places, as sizes are, are marked, on a logarithmic axis if none is zero."""
 
     title: str
     x_label: str
@@ -85,6 +85,7 @@ def _places(axis: Axes, panel: LinePanel) -> None:
         axis.xaxis.set_major_locator(MaxNLocator(integer=True))
         return
     places = np.unique(np.concatenate([line.x for line in panel.lines]))
-    axis.set_xscale("log")
-    axis.minorticks_off()
+    if places[0] > 0.0:
+        axis.set_xscale("log")
+        axis.minorticks_off()
     axis.set_xticks(places, [f"{place:.0f}" for place in places])
