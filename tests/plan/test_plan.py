@@ -106,7 +106,7 @@ def test_a_network_that_serves_several_seeds_counts_with_the_first_of_them(plans
     runs = plans["default"].files.runs("walk_test", "all_uncertainty", ["MOB", "MOB-Net", "MOB-Net-Single"])
     repeated = {(run.method, run.network_seed): run.repeated for run in runs}
     assert repeated["MOB", 0] == repeated["MOB-Net", 0] == ()
-    assert repeated["MOB-Net", 1] == repeated["MOB-Net", 2] == ("RL", "N")
+    assert repeated["MOB-Net", 1] == repeated["MOB-Net", 2] == ("RL", "N", "RA")
     assert repeated["MOB-Net-Single", 1] == ()
 
 

@@ -66,12 +66,12 @@ def test_every_scale_is_accepted(scale: str) -> None:
         ("scenarios.walk_test.terrain", ["flat", "ice"], f"walk_test.terrain.1: terrain: 'ice' {ACCEPTED}checks, flat"),
         ("scenarios.knee_swing.pushes", ["elbow"], f"knee_swing.pushes.0: push: 'elbow' {ACCEPTED}hip_pitch"),
         ("scenarios.motion_test.motion", "dance", f"motion_test.motion: motion: 'dance' {ACCEPTED}random_m"),
-        ("scenarios.hand_load_10.draws", "hops", f"hand_load_10.draws: scenario: 'hops' {ACCEPTED}developm"),
+        ("scenarios.hand_load_10.draws", "hops", f"hand_load_10.draws: scenario: 'hops' {ACCEPTED}changed_w"),
         ("pushes.torso.point", "tail", f"pushes.torso.point: point: 'tail' {ACCEPTED}left_hand, .*left_sole"),
         ("pushes.hip_pitch.joint", "LL9", f"pushes.hip_pitch.joint: motor: 'LL9' {ACCEPTED}"),
-        ("tests.stroll", {"ideal": ["MOB"]}, f"tests.stroll: scenario: 'stroll' {ACCEPTED}development"),
+        ("tests.stroll", {"ideal": ["MOB"]}, f"tests.stroll: scenario: 'stroll' {ACCEPTED}changed_walk"),
         ("tests.walk_test.perfect", ["MOB"], f"tests.walk_test.perfect: level: 'perfect' {ACCEPTED}all_uncertainty"),
-        ("tests.walk_test.all_uncertainty", ["MOB"], f"rows.0.methods.3: method of .*'FTS-e2e' {ACCEPTED}MOB\n"),
+        ("tests.walk_test.robots", ["MOB"], f"rows.0.methods.3: method of .*'FTS-e2e' {ACCEPTED}MOB\n"),
         ("evaluation.figure_05.joint", "LL9", f"evaluation.figure_05.joint: joint: 'LL9' {ACCEPTED}"),
         ("evaluation.figure_05.scenario", "dance", f"figure_05.scenario: test: 'dance' {ACCEPTED}"),
         ("evaluation.figure_05.panels.ideal", ["magic"], f"figure_05.panels.ideal.0: method: 'magic' {ACCEPTED}"),
@@ -106,7 +106,7 @@ def test_all_faults_of_all_files_are_told_at_once() -> None:
 def test_the_rows_of_a_table_are_run_and_printed_and_have_windows(settings: Settings) -> None:
     row = settings.evaluation.tables["table_05"].rows[0].model_dump()
     for change, message in (
-        ({"scenario": "walk_test", "level": "ideal"}, f"level of test walk_test: 'ideal' {ACCEPTED}all_uncertainty"),
+        ({"scenario": "walk_test", "level": "ideal"}, f"level of test walk_test: 'ideal' {ACCEPTED}robot_1, robots"),
         ({"methods": ["MOB-fric"]}, rf"(?m)method of test forward_walk, ideal: 'MOB-fric' {ACCEPTED}MOB$"),
         ({"metric": "rmse_pushed"}, f"test with a window around pushes: 'forward_walk' {ACCEPTED}hand_load_10"),
         ({"paper": "rows.ideal"}, f"rows.0.paper: paper: 'rows.ideal' {ACCEPTED}ideal, all_uncertainty, sensor_noise"),

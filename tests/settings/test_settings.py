@@ -67,7 +67,7 @@ def test_names_are_looked_at_in_every_section(settings: Settings) -> None:
         ("scale", "scale"), ("scenarios.random_walk.terrain.0", "terrain"), ("scenarios.random_walk.pushes.2", "push"),
         ("scenarios.random_motion.motion", "motion"), ("scenarios.hand_load_10.draws", "scenario"),
         ("pushes.hip_pitch.joint", "motor"), ("tests.walk_test", "scenario"),
-        ("tests.walk_test.all_uncertainty", "level"),
+        ("tests.walk_test.robots", "level"),
         ("networks.LL.experiment", "experiment"), ("methods.MOB-Net.limbs.0", "network"),
         ("sweeps.hidden.of.1", "method"),
         ("training_sets.walk.scenario", "scenario"), ("training_sets.motion.sizes.smoke", "scale"),
