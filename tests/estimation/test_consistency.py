@@ -3,18 +3,10 @@
 import numpy as np
 import pytest
 
-from mobnet.estimation.consistency import hanging, shares_inside
+from mobnet.estimation.consistency import shares_inside
 
-RATE_HZ, SHARE = 1000.0, 0.68
+SHARE = 0.68
 SPANS = [(0, 20_000), (20_000, 30_000)]
-
-
-def test_a_foot_hangs_between_the_ends_of_its_swing() -> None:
-    """Two swings; the second begins with a span, the third is too short to be sure of."""
-    swing = np.zeros(1000)
-    swing[100:400] = swing[500:800] = swing[900:950] = 1
-    free = hanging(swing, [(0, 500), (500, 1000)], RATE_HZ, 0.09, 0.03)
-    assert np.flatnonzero(np.diff(free, prepend=False, append=False)).tolist() == [190, 370, 590, 770]
 
 
 @pytest.fixture

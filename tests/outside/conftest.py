@@ -10,6 +10,7 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 from made_notes import training_note
+from made_places import LEVEL, SCENARIO
 
 from mobnet.check import Against, check
 from mobnet.core.columns import Epoch, Score, torque_columns
@@ -155,8 +156,10 @@ def scores(tmp_path: Path) -> Path:
 
 @pytest.fixture(scope="module")
 def planned() -> Files:
-    """The files of the smoke scale below a folder that each test replaces."""
-    return Files(load_settings(overrides={"scale": "smoke"}), Path("results/smoke"))
+    """The files of the smoke scale below a folder that each test replaces; its tests have the made-up walk."""
+    walked = {LEVEL: ["zero", "MOB", "MOB-fric", "MOB-fric-load", "MOB-Kalman", "MOB-Net-gray", "MOB-Net", "FTS-e2e"]}
+    sections = {"tests": {SCENARIO: walked}, "estimated_limbs": {SCENARIO: {LEVEL: ["LL", "RL"]}}}
+    return Files(load_settings(overrides={"scale": "smoke", **sections}), Path("results/smoke"))
 
 
 @pytest.fixture

@@ -60,6 +60,33 @@ def test_a_robot_learns_from_its_own_recordings(plan: Plan, robot: str) -> None:
     assert all("/robot_walk/" in name for name in training.inputs)
 
 
+def test_a_level_of_one_robot_is_walked_by_it_alone(plan: Plan) -> None:
+    """Its methods are those of all robots and its own."""
+    runs = plan.files.runs("motion_test", "robot_1", ["MOB-Net", "MOB-Net-Single"])
+    assert {(run.level, run.network_seed, run.recording.parts[2]) for run in runs} == {("robot_1", 1, "robot_1")}
+    assert {run.estimate for run in runs} >= {plan.files.runs("motion_test", "robots", ["MOB-Net"])[0].estimate}
+    trained = [{method for method, _ in plan.files.robots[robot].learned} for robot in ROBOTS]
+    assert ["MOB-Net-Single" in methods for methods in trained] == [True, False, False]
+    read = {Path(name).parts[2] for name in plan.jobs["robot_1"].train("MOB-Net-100", "LL", 101).inputs}
+    assert read == {"robot_1"}
+    assert {path.parts[2] for path in plan.files.training("recordings", "robot_walk_100")} == {"robot_1"}
+
+
+def test_a_fine_tuning_begins_with_the_robot_s_own_network_and_learns_from_the_changed_one(plan: Plan) -> None:
+    job = plan.jobs["robot_2"].train("MOB-Net-other-swing-data-s-60", "LL", 102)
+    arguments: Any = job.call.arguments
+    assert arguments["start"] == RESULTS / "robot_2/networks/MOB-Net-LL-s102/weights.safetensors"
+    assert str(arguments["start"]) in job.inputs
+    assert arguments["recordings"] == (RESULTS / "robot_2/recordings/robot_walk/robot_2_robots_other/s1000",)
+    swings = plan.settings.evaluation.changed
+    assert arguments["margins"] == (swings.lift_off_s, swings.landing_s)
+    learning = arguments["training"].learning
+    assert (learning.data_s, learning.labels) == (60, "swing")
+    labelled: Any = plan.jobs["robot_2"].train("MOB-Net-other-data-s-60", "LL", 102).call.arguments
+    assert "margins" not in labelled
+    assert "start" not in plan.jobs["robot_2"].train("MOB-Net", "LL", 102).call.arguments
+
+
 def test_names_of_networks_differ_and_motions_are_shared(plan: Plan) -> None:
     networks = plan.files.all_networks()
     assert len({folder.name for folder in networks}) == len(networks)
@@ -95,7 +122,7 @@ def test_products_can_show_the_fleet(plan: Plan) -> None:
 
 @pytest.mark.parametrize(("sections", "text"), [
     ({"fleet": {"robots": ["ideal"]}}, "level of a surrogate robot: 'ideal' is not accepted"),
-    ({"fleet": {"sets": {"walk": "walk"}}}, "fleet.sets.walk: walk is not accepted; accepted: a set at the level"),
+    ({"fleet": {"sets": {"walk": "walk"}}}, "sets.walk: walk is not accepted; accepted: a set at one of the levels"),
     ({"fleet": {"variants": {"robot_1": {"other": True}}}}, "fleet.variants.robot_1: robot_1 is not accepted"),
     ({"fleet": {"variants": {"same": {}}}}, "a variant that changes nothing"),
     ({"fleet": {"variants": {"odd": {"friction": ["load"], "parts": ["drives"]}}}}, "odd.friction: ['load'] is not"),

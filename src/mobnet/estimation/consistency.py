@@ -10,23 +10,6 @@ from mobnet.core.arrays import Array
 from mobnet.learning.gaussian import half_width
 
 
-def hanging(
-    swing: NDArray[Any], spans: Sequence[tuple[int, int]], rate_hz: float, lift_off_s: float, landing_s: float
-) -> NDArray[np.bool_]:
-    """Return where a foot surely hangs in the air (T,), from the walking plan's swing (T,): without its two ends.
-
-    After a foot should have lifted off it may still touch the ground for some time [s], and before it should land it
-    may have landed; spans (start, end) hang together, and the end of one ends a swing.
-    """
-    after, before = round(lift_off_s * rate_hz), round(landing_s * rate_hz)
-    found = np.zeros(len(swing), dtype=bool)
-    for start, end in spans:
-        edges = np.flatnonzero(np.diff(np.asarray(swing[start:end]) > 0, prepend=False, append=False))
-        for lifted, landed in start + edges.reshape(-1, 2):
-            found[lifted + after : max(landed - before, lifted + after)] = True
-    return found
-
-
 def shares_inside(
     estimate: NDArray[Any], std: NDArray[Any], free: NDArray[np.bool_], spans: Sequence[tuple[int, int]], rows: int,
     share: float,

@@ -15,6 +15,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.store import check_pair, check_rate, label_of, read_array, spans_and_rate
 from mobnet.learning.features import LimbInputs, limb_inputs
 from mobnet.learning.streams import Span
+from mobnet.learning.swings import Margins, free_rows
 from mobnet.settings.methods import Target
 from mobnet.settings.networks import Limb
 
@@ -36,7 +37,7 @@ class LimbData:
 
     Attributes:
         inputs: x^g of eq. (17), (N, n_in), in physical units.
-        targets: torque to learn (N, n) [N, N m].
+        targets: torque to learn (N, n) [N, N m]; rows of nan where it is not known.
         segments: contiguous stretches (start, end) of rows.
         input_names: names of the inputs, (n_in,).
         joints: names of the limb's joints, (n,).
@@ -70,12 +71,15 @@ def load_limb_data(
     rate_hz: float | None = None,
     held_out: int = 0,
     known: Known | None = None,
+    first_s: float | None = None,
+    margins: Margins | None = None,
 ) -> LimbData:
     """Read recordings and residuals of one limb into RAM, inputs (N, n_in) and target torques (N, n) [N, N m].
 
     The target is the `uncertainty`, r - tau_e of section 4.2.3, or the `external` torque, tau_e, both low-passed alike.
     What is `known` of the target is subtracted from it. Residuals stand in the order of their recordings, of which the
-    last `held_out` validate. Without a rate [Hz], any one is accepted.
+    last `held_out` validate. Without a rate [Hz], any one is accepted. With `first_s`, only so many seconds are read.
+    With margins, the target is r where a leg hangs in the air, whose external torque is zero, and nan elsewhere.
 
     Raises:
         DataError: a file is damaged, or a residual does not belong to its recording.
@@ -89,6 +93,9 @@ def load_limb_data(
     for recording, residual in zip(recordings, residuals, strict=True):
         offset = sum(len(x) for x, _ in parts)
         x, y, spans, rate = _load_one(layout, inputs, joints, target, recording, residual)
+        if margins is not None:
+            y = read_array(residual, named(RESIDUAL, joints))[0]
+            y[~free_rows(recording, layout, joints, margins)] = np.nan
         if known is not None:
             y -= known(recording, joints).astype(np.float32)
         parts.append((x, y))
@@ -98,7 +105,10 @@ def load_limb_data(
         raise DataError(f"recordings at {sorted(rates)} Hz cannot be mixed; accepted: one or more at a single rate")
     xs, ys = (np.concatenate(column) for column in zip(*parts, strict=True))
     first = sum(len(x) for x, _ in parts[:-held_out]) if held_out else None
-    return LimbData(xs, ys, tuple(segments), inputs.names, joints, rates.pop(), first)
+    rate = rates.pop()
+    rows = len(xs) if first_s is None else min(len(xs), round(first_s * rate))
+    spans = tuple((start, min(end, rows)) for start, end in segments if start < rows)
+    return LimbData(xs[:rows], ys[:rows], spans, inputs.names, joints, rate, first)
 
 
 def _load_one(

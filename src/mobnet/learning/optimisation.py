@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
+from mobnet.core.errors import DataError
 from mobnet.learning.losses import Objective, gaussian_loss, likelihood
 from mobnet.learning.model import LimbNetwork
 from mobnet.learning.streams import Plan, epoch_plan, window_plan
@@ -20,10 +21,18 @@ SEQUENCES = {"carried": (epoch_plan, EVERY_STEP), "windows": (window_plan, LAST_
 
 @dataclass(frozen=True)
 class Samples:
-    """Z-scored training samples on the device that trains: inputs (N, n_in) and targets (N, n), unitless."""
+    """Z-scored training samples on the device that trains: inputs (N, n_in) and targets (N, n), unitless.
+
+    Where they are `partial`, rows of the targets are nan; the state runs through them, and nothing is learned there.
+    """
 
     inputs: Tensor
     targets: Tensor
+    partial: bool = False
+
+    def told(self, *tensors: Tensor) -> tuple[Tensor, ...]:
+        """Return mean, std and target (h, B, n) of a horizon, or their samples (m, n) whose target is known."""
+        return tuple(tensor[~tensors[-1][..., 0].isnan()] for tensor in tensors) if self.partial else tensors
 
     def horizons(self, plan: Plan, horizon: int) -> Iterator[tuple[Tensor, Tensor, Tensor]]:
         """Walk through a plan, `horizon` steps an update.
@@ -67,14 +76,19 @@ def train_epoch(
     state = network.fresh_state(plan.rows.shape[1], samples.inputs.device)
     for x, target, keep in samples.horizons(plan, horizon):
         mean, std, after = network(x, state * keep)
-        minimised, loss = objective(mean[scored], std[scored], target[scored])
+        state = after.detach()
+        known = samples.told(mean[scored], std[scored], target[scored])
+        if not known[0].numel():
+            continue
+        minimised, loss = objective(*known)
         optimizer.zero_grad()
         minimised.backward()
         norm, *_ = [clip(part, gradient_norm) for part in network.gradients()]
         norms.append(norm)
         optimizer.step()
-        state = after.detach()
         losses.append(loss.detach())
+    if not losses:
+        raise DataError("no target of the training data is known; accepted: recordings with a swing of the leg")
     return torch.stack(losses), torch.stack(norms)
 
 
@@ -110,7 +124,11 @@ def validate(
     Return mean loss (22), and the root mean square error of each joint (n,), z-scored.
     """
     losses, squares = [], []
-    for mean, std, target in predictions(network, samples, plan, horizon):
-        losses.append(gaussian_loss(mean[scored], std[scored], target[scored]))
-        squares.append((mean - target)[scored].square().mean(dim=(0, 1)))
+    for predicted in predictions(network, samples, plan, horizon):
+        mean, std, target = samples.told(*(part[scored] for part in predicted))
+        if target.numel():
+            losses.append(gaussian_loss(mean, std, target))
+            squares.append((mean - target).square().flatten(0, -2).mean(dim=0))
+    if not losses:
+        raise DataError("no target of the samples that validate is known; accepted: recordings with a swing of the leg")
     return torch.stack(losses).mean().item(), torch.stack(squares).mean(dim=0).sqrt().cpu()

@@ -20,6 +20,7 @@ from mobnet.learning.dataset import Known, LimbData, load_limb_data
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE
 from mobnet.learning.job import Job, precision_name
 from mobnet.learning.model import parameter_count
+from mobnet.learning.swings import Margins
 from mobnet.learning.trainer import Trainer
 from mobnet.settings.base import Section
 from mobnet.settings.networks import Training
@@ -38,13 +39,16 @@ def train(
     state: Path,
     rate_hz: float | None = None,
     known: Known | None = None,
+    start: Path | None = None,
+    margins: Margins | None = None,
 ) -> None:
     """Train one limb network of Table 1 by (22), or by another of `losses`, and keep the epoch that validates best.
 
     The folder `out` gets `weights.safetensors`, `metrics.csv` and, last, `run.json`; nothing before the training is
     done. The folder `state` gets a checkpoint and `metrics.csv` at each epoch; a killed training goes on from there to
     the same weights. The checkpoint is deleted when the training is done. The recordings are at `rate_hz` [Hz] where
-    that is given. What is `known` of the target is subtracted from it.
+    that is given. What is `known` of the target is subtracted from it. A fine-tuning begins with the weights of the
+    file `start`; where swings label, `margins` say what is left out of them.
 
     Raises:
         DataError: a recording or a residual is damaged or too short.
@@ -53,9 +57,10 @@ def train(
     torch.set_num_threads(1)  # more are slower beside another training, and give other weights
     job = Job(training, seed, root_seed)
     data = load_limb_data(
-        layout, training.network, training.target, recordings, residuals, rate_hz, training.held_out, known
-    )
-    trainer = Trainer(job, data)
+        layout, training.network, training.target, recordings, residuals, rate_hz, training.held_out, known,
+        training.learning.data_s, margins,
+    )  # fmt: skip
+    trainer = Trainer(job, data, start)
     done = trainer.run(state)
     calibration = trainer.calibrate(done)
     note = run_note(trainer, data, done, calibration)

@@ -21,6 +21,7 @@ from mobnet.learning.job import Job
 from mobnet.learning.losses import CHOSEN_BY, objective_of
 from mobnet.learning.model import build_network, seeded
 from mobnet.learning.optimisation import EVERY_STEP, LAST_STEP, SEQUENCES, Samples, train_epoch, validate
+from mobnet.learning.start import read_start
 from mobnet.learning.streams import Plan, some_of, split, validation_plan, window_plan
 
 log = logging.getLogger(__name__)
@@ -29,22 +30,29 @@ log = logging.getLogger(__name__)
 class Trainer:
     """Trains one network on z-scored samples, on a GPU if there is one.
 
-    The z-scores `scales` of the inputs (n_in,) and targets (n,) come from the training blocks alone; `fingerprint` is a
-    hash of all that the weights depend on.
+    The z-scores `scales` of the inputs (n_in,) and targets (n,) come from the training blocks alone, or with the first
+    weights from the network that it starts from; `fingerprint` is a hash of all that the weights depend on.
     """
 
-    def __init__(self, job: Job, data: LimbData) -> None:
-        """Split, scale and move inputs (N, n_in) and targets (N, n) [N, N m] to the device."""
+    def __init__(self, job: Job, data: LimbData, start: Path | None = None) -> None:
+        """Split, scale and move inputs (N, n_in) and targets (N, n) [N, N m] to the device.
+
+        Raises:
+            DataError: the network that it starts from is damaged, or another one.
+        """
         self.job = job
         self.device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
-        self.fingerprint = job.fingerprint(data.digest(), self.device)
+        first = read_start(start, job, data) if start else None
+        self.fingerprint = job.fingerprint(data.digest() + (first.digest if first else ""), self.device)
         network, learning = job.training.network, job.training.learning
         blocks, held_out = split(data.segments, learning.validation_share, data.held_out)
         stream = job.stream(data.rate_hz)
         self._blocks = some_of(blocks, stream, learning.data_parts, job.shared_generator("data"))
-        self.scales = scale_of(data.inputs, self._blocks), scale_of(data.targets, self._blocks)
         arrays = (data.inputs, data.targets)
-        self._samples = Samples(*(self._scaled(*pair) for pair in zip(arrays, self.scales, strict=True)))
+        inputs, targets = first.scales if first else (scale_of(array, self._blocks) for array in arrays)
+        self.scales = inputs, targets
+        partial = bool(np.isnan(data.targets).any())
+        self._samples = Samples(*(self._scaled(*pair) for pair in zip(arrays, self.scales, strict=True)), partial)
         self._shape = (stream, job.horizon, learning.batch_size)
         self._validation = validation_plan(held_out, *self._shape)
         lanes = self._validation.rows.shape[1]
@@ -53,6 +61,8 @@ class Trainer:
         self.network = build_network(network, *sizes, learning.std_min, self._seed("weights")).to(self.device)
         self.network.precision = job.precision(self.device)
         self.network.std_apart = learning.loss == "squared"
+        if first:
+            self.network.load_state_dict(first.weights)
         parameters, betas = self.network.parameters(), learning.optimizer_betas
         self._optimizer = torch.optim.Adam(parameters, lr=job.rate(0), betas=betas)
 
@@ -110,6 +120,8 @@ class Trainer:
         """Return how far off the best weights' standard deviations (n,) [N, N m] are on the validation blocks."""
         self.network.load_state_dict(done.best)
         error, std = predict(self.network, self._samples, self._validation, self.job.horizon)
+        known = ~np.isnan(error[:, 0])
+        error, std = error[known], std[known]
         unit, learning = self.scales[1].std.astype(np.float64), self.job.training.learning
         return calibrate(error * unit, std * unit, learning.calibration_share, learning.calibration_levels)
 

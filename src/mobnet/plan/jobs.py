@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mobnet.core.files import WEIGHTS
+from mobnet.learning.swings import Margins
 from mobnet.plan.call import Call, Job
 from mobnet.plan.runs import Files, files_in
 from mobnet.settings.base import Section
@@ -89,7 +90,10 @@ class Jobs:
         return Job(Call("mobnet.estimation.fitting:write_fit", arguments), _read(training), self._kinds(method))
 
     def train(self, method: str, limb: str, seed: int) -> Job:
-        """Return the training of a network; one with `of` learns what is left of the uncertainty by a fit."""
+        """Return the training of a network; one with `of` learns what is left of the uncertainty by a fit.
+
+        One with `start` begins with the weights of that method's network.
+        """
         training, fitted = self.settings.training(method, limb), self.files.fit(method)
         recordings, residuals = self._training(training.network.data)
         name = f"{method}-{limb}-s{seed}"
@@ -104,8 +108,13 @@ class Jobs:
             "out": self.files.results / "networks" / name,
             "state": self.files.results / "state" / name,
         }
+        if start := self.files.start(method, limb, seed):
+            arguments |= {"start": start}
+        if training.learning.labels == "swing":
+            swings = self.settings.evaluation.changed
+            arguments |= {"margins": Margins(swings.lift_off_s, swings.landing_s)}
         if not fitted:
-            return Job(Call("mobnet.learning.train:train", arguments), _read([recordings, residuals]))
+            return Job(Call("mobnet.learning.train:train", arguments), _read([recordings, residuals, start]))
         arguments |= {"observer": self.settings.observer, "fitted": fitted[0]}
         return Job(Call("mobnet.estimation.train_gray:train_gray", arguments), _read([recordings, residuals, fitted]))
 

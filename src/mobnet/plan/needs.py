@@ -87,6 +87,12 @@ def _amplitude(files: Files) -> Needs:
     return {"scores": _scores(files, section), "amplitudes": amplitudes, "training": training}
 
 
+def _fine_tuning(files: Files) -> Needs:
+    """Return the scores, and the seconds of new data of the sweep."""
+    section = files.settings.evaluation.fine_tuning
+    return {"scores": _scores(files, section), "seconds": files.settings.sweeps[section.sweep].values}
+
+
 def _kinds(files: Files) -> Needs:
     """Return the trained networks of Figure 17 and of its variants."""
     figure, variants = files.settings.evaluation.figure_17, files.settings.evaluation.kinds.variants
@@ -165,6 +171,7 @@ NEEDS: Mapping[str, Callable[[Files], Needs]] = {  # products that need somethin
     "kinds": _kinds,
     "calibration": _calibration,
     "amplitude": _amplitude,
+    "fine_tuning": _fine_tuning,
     "noise": _noise,
     "figure_05": _figure_05,
     "figure_10": _figure_10,

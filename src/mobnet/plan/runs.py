@@ -6,7 +6,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import cast
 
-from mobnet.core.files import METRICS, RUN
+from mobnet.core.files import METRICS, RUN, WEIGHTS
 from mobnet.settings.data import Recordings
 from mobnet.settings.evaluation import Runs
 from mobnet.settings.fleet import as_robot, level_of, levels_of
@@ -118,7 +118,7 @@ class Files:
     def training(self, kind: str, name: str) -> tuple[Path, ...]:
         """Return the recordings or residuals of a training set, of all robots that learn from it where it is theirs."""
         row = self.settings.training_sets[name]
-        if row.level == self.settings.fleet.name:
+        if row.level in levels_of(self.settings.fleet):
             own = next(own for own, other in self.settings.fleet.sets.items() if other == name)
             robots = [files for files in self.robots.values() if own in files.learned_sets]
             return tuple(stem for files in robots for stem in files.training(kind, own))
@@ -234,6 +234,7 @@ class Files:
             ]
         if not self.robot:
             pairs += [(timed, limb) for limb in settings.method(timed).limbs]
+        pairs += [(first, limb) for method, limb in pairs if (first := settings.method(method).start)]
         return frozenset(pairs)
 
     def all_networks(self) -> tuple[Path, ...]:
@@ -258,6 +259,11 @@ class Files:
         """Return the file of what a method, or the one it runs on, was fitted to; none if it is not fitted."""
         source = self.settings.source_of(method)
         return [self.results / "fits" / f"{source}.json"] if self.settings.method(source).fitted else []
+
+    def start(self, method: str, limb: str, seed: int) -> Path | None:
+        """Return the weights from which a method's network is fine-tuned; None of one that learns from the first."""
+        first = self.settings.method(method).start
+        return self.network(first, limb, seed) / WEIGHTS if first else None
 
     def run(self, scenario: str, level: str, method: str, network_seed: int, test_seed: int) -> Run:
         """Return one run of a method."""

@@ -193,7 +193,7 @@ class Scenario(Section):
     terrain: base.Distinct[base.TerrainName]
     commands: CommandSource | base.Some[CommandSource] | FixedCommand
     narrowed: Narrowed = Narrowed()
-    random_torque: base.Flag | base.NewtonMetre
+    random_torque: base.Flag | Annotated[base.Positive, Field(le=1000)]
     pushes: Annotated[tuple[base.PushName, ...], AfterValidator(base.distinct)] = ()
     motion: base.MotionName | None = None
     draws: base.ScenarioName | None = None

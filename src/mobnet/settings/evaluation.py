@@ -229,6 +229,23 @@ class Amplitude(Section):
     tests: Annotated[dict[base.Text, AmplitudeTest], Field(min_length=1)]
 
 
+class TunedTest(Runs):
+    """A changed robot: the method before it is fine-tuned, a level that it knows, and the `tuned` methods by name."""
+
+    methods: tuple[base.MethodName]
+    known: base.LevelName
+    tuned: Annotated[dict[base.Text, base.MethodName], Field(min_length=1)]
+
+
+class FineTuning(Section):
+    """Error over the seconds of new data, the values of a sweep; `joint` may be `avg`, the limb's mean."""
+
+    sweep: base.SweepName
+    limb: base.LimbName
+    joint: base.Text
+    tests: Annotated[dict[base.Text, TunedTest], Field(min_length=1)]
+
+
 class Coverage(Section):
     """What the training data hold of what the tests ask about."""
 
@@ -419,6 +436,7 @@ class Evaluation(Section):
     figure_20: Figure20
     learning_curve: LearningCurve
     amplitude: Amplitude
+    fine_tuning: FineTuning
     coverage: Coverage
     calibration: Calibration
     peaks: Peaks

@@ -29,9 +29,8 @@ def as_robot(settings: Settings, robot: str) -> Settings:
         level_of(fleet, robot, name): varied(settings.levels[following if row.other else robot], row)
         for name, row in fleet.variants.items()
     }
-    sets = {
-        name: settings.training_sets[other].model_copy(update={"level": robot}) for name, other in fleet.sets.items()
-    }
+    rows = {name: settings.training_sets[other] for name, other in fleet.sets.items()}
+    sets = {name: row.model_copy(update={"level": level_of(fleet, robot, row.level)}) for name, row in rows.items()}
     lengths = {**settings.sizes.experiments, **settings.sizes.robots}
     experiments = {
         name: Experiment(epochs=row.epochs, epoch_samples=row.epoch_samples, seeds=(FIRST_SEED + index,))

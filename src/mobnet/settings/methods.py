@@ -24,8 +24,8 @@ class Method(Section):
     """An estimator.
 
     `fitted` names networks of Table 1 whose joints are fitted without a network, on the training set of that network.
-    With `of` it runs on another method: on its output, or, if it has networks of its own, on its fit. `options` are
-    numbers of its kind, which checks them.
+    With `of` it runs on another method: on its output, or, if it has networks of its own, on its fit. `start` names the
+    method from whose networks its own are fine-tuned. `options` are numbers of its kind, which checks them.
     """
 
     kind: base.Text
@@ -35,6 +35,7 @@ class Method(Section):
     learning: base.Change = {}
     fitted: Networks = ()
     of: base.SourceName | None = None
+    start: base.MethodName | None = None
     options: dict[str, JsonValue] = {}
 
 

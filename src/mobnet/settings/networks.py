@@ -84,7 +84,11 @@ class Network(NetworkRow, Limb):
 
 
 class Learning(Section):
-    """Optimisation and calibration of every network, section 4.4; `data_parts` is that of section 6.3."""
+    """Optimisation and calibration of every network, section 4.4; `data_parts` is that of section 6.3.
+
+    A fine-tuning learns from the first `data_s` [s] of its training data, by their `labels` or, in `swing`, where the
+    walking plan has the leg in the air and nothing else is told.
+    """
 
     loss: Loss
     loss_beta: base.Share
@@ -105,6 +109,8 @@ class Learning(Section):
     calibration_share: base.InnerShare
     calibration_levels: base.Rising[base.InnerShare]
     data_parts: base.Whole = Field(default=1, ge=1, le=1000)
+    data_s: Annotated[base.Positive, Field(le=1e6)] | None = None
+    labels: Literal["all", "swing"] = "all"
 
 
 class Training(Section):

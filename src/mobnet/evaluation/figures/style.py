@@ -91,10 +91,14 @@ def looks(labels: Iterable[str]) -> dict[str, Look]:
     return {name: LOOKS[name] if name in LOOKS else free[others.index(name) % len(free)] for name in names}
 
 
-def stacked(count: int, panel_inch: float, legend_inch: float) -> tuple[Figure, list[Axes]]:
-    """Return a figure of one column's width with panels of one scale below one another; sizes in [inch]."""
-    figure = Figure(figsize=(COLUMN_INCH, panel_inch * count + legend_inch), layout="constrained")
-    return figure, figure.subplots(count, 1, squeeze=False, sharey=True)[:, 0].tolist()
+def stacked(units: Sequence[str], panel_inch: float, legend_inch: float) -> tuple[Figure, list[Axes]]:
+    """Return a figure of one column's width with panels below one another, those of a unit on one scale; in [inch]."""
+    figure = Figure(figsize=(COLUMN_INCH, panel_inch * len(units) + legend_inch), layout="constrained")
+    axes: list[Axes] = figure.subplots(len(units), 1, squeeze=False)[:, 0].tolist()
+    for axis, unit in zip(axes, units, strict=True):
+        if axis is not (first := axes[units.index(unit)]):
+            axis.sharey(first)
+    return figure, axes
 
 
 def entitle(axis: Axes, k: int, title: str) -> None:

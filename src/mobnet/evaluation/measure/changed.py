@@ -3,12 +3,13 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.estimation.consistency import hanging, shares_inside
+from mobnet.estimation.consistency import shares_inside
 from mobnet.evaluation.measure.estimates import Pair
 from mobnet.evaluation.measure.measured import Measured, Measures
 from mobnet.evaluation.measure.metrics import parts
 from mobnet.evaluation.measure.scene import Scene
 from mobnet.learning.gaussian import half_width
+from mobnet.learning.swings import Margins, hanging
 from mobnet.settings.evaluation import Changed
 
 KNOWN, FREE, FLAGGED = "known_share", "free_share", "flagged_share"
@@ -30,7 +31,7 @@ def knowledge(
     covered = np.abs(error) <= half_width(share) * std
     yield Measured(KNOWN, np.concatenate(parts(covered, pair.spans)).mean(axis=0), "-")
     swing = scene.planned(pair.joints[0])
-    free = hanging(swing, pair.spans, pair.rate_hz, settings.lift_off_s, settings.landing_s)
+    free = hanging(swing, pair.spans, pair.rate_hz, Margins(settings.lift_off_s, settings.landing_s))
     rows = round(settings.window_s * pair.rate_hz)
     shares = shares_inside(pair.estimate, std, free, pair.spans, rows, share)
     shares = shares[~np.isnan(shares)]

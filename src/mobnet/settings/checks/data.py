@@ -94,11 +94,17 @@ def _torque_problems(settings: Settings) -> Iterator[Problem]:
                 )
     for name, limbs in (("legs_waist_nm", ("LL", "RL", "W")), ("neck_nm", ("N",))):
         most = min((limits[joint] for limb in limbs for joint in groups.get(limb, ())), default=0.0)
-        if getattr(torque, name) > most:
-            yield (
-                ("random_torque", name),
-                misfit(getattr(torque, name), f"at most {most}, the least limit of a motor"),
-            )
+        given: dict[Place, float] = {("random_torque", name): getattr(torque, name)}
+        if name == "legs_waist_nm":
+            asked = {key: row.random_torque for key, row in settings.scenarios.items()}
+            given |= {
+                ("scenarios", key, "random_torque"): value
+                for key, value in asked.items()
+                if not isinstance(value, bool)
+            }
+        for place, value in given.items():
+            if value > most:
+                yield place, misfit(value, f"at most {most}, the least limit of a motor")
 
 
 def _motion_problems(settings: Settings) -> Iterator[Problem]:

@@ -98,6 +98,9 @@ def _of_measures(results: Results) -> Iterator[ShownJoints]:
         yield ShownJoints(
             ("drift", "tests", title, "methods"), test.scenario, test.level, test.methods, results.joints(drift.limb)
         )
+    for title, test in evaluation.fine_tuning.tests.items():
+        place, joints = ("fine_tuning", "tests", title, "methods"), results.joints(evaluation.fine_tuning.limb)
+        yield ShownJoints(place, test.scenario, test.level, test.methods, joints)
     for title, test in evaluation.amplitude.tests.items():
         place = "amplitude", "tests", title, "methods"
         yield ShownJoints(place, test.scenario, test.level, test.methods, results.joints(test.limb))

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.methods import Method
-from mobnet.settings.networks import Learning, Network
+from mobnet.settings.networks import Cell, Learning, Network
 from mobnet.settings.reading import Place
 from mobnet.settings.settings import Settings, swept_name
 from mobnet.settings.trials import combinations
@@ -64,6 +64,7 @@ def _method_problems(settings: Settings, name: str, method: Method) -> Iterator[
         yield ("of",), misfit(method.of, "another method, without `fitted` of its own")
     if method.of in settings.methods and method.limbs and not settings.methods[method.of].fitted:
         yield ("of",), misfit(method.of, "a method with `fitted`, for one with `limbs` of its own")
+    yield from _tuning_problems(settings, name, method)
     robot = settings.robot
     for index, limb in enumerate(method.fitted):
         if not set(robot.order.actuated).intersection(settings.layout.limbs(robot.networks[limb].joints)):
@@ -76,6 +77,29 @@ def _method_problems(settings: Settings, name: str, method: Method) -> Iterator[
             if first != limb:
                 yield (key, index), misfit(limb, f"networks without joints of {first}")
                 break
+
+
+def _tuning_problems(settings: Settings, name: str, method: Method) -> Iterator[Problem]:
+    """Yield methods that are fine-tuned from other networks, or learn from swings with nothing to start from."""
+    first = settings.methods.get(method.start or "")
+    if first is None:
+        if method.learning.get("labels") == "swing":
+            yield ("learning", "labels"), misfit("swing", "`labels: swing` of a method with `start`")
+        return
+    if first.start or first.of or method.of or first.target != method.target:
+        yield ("start",), misfit(method.start, "a method with the same target, without `start`; neither with `of`")
+    for limb in method.limbs:
+        if limb not in first.limbs:
+            yield ("start",), misfit(method.start, f"a method that trains {limb}")
+            continue
+        own, other = (settings.network(row, limb) for row in (name, str(method.start)))
+        differs = any(getattr(own, key) != getattr(other, key) for key in Cell.model_fields)
+        if own.cell != "GRU" or own.spectral or differs:
+            yield ("start",), misfit(method.start, f"a method with the same GRU for {limb}, without `spectral`")
+        legs = [settings.layout.limb(foot.limb) for foot in settings.robot.feet.values()]
+        joints = set(settings.layout.limbs(own.joints))
+        if method.learning.get("labels") == "swing" and not any(joints <= set(leg) for leg in legs):
+            yield ("learning", "labels"), misfit("swing", "`labels: swing` of networks of one leg")
 
 
 def _window_problems(settings: Settings, limb: str) -> Iterator[Problem]:

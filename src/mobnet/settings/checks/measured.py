@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.checks.results import Results
-from mobnet.settings.evaluation import AmplitudeTest, MethodsRow
+from mobnet.settings.evaluation import AmplitudeTest, FineTuning, MethodsRow
 from mobnet.settings.reading import Place
 
 Problem = tuple[Place, str]
@@ -32,9 +32,11 @@ def measured_problems(results: Results) -> Iterator[Problem]:
     for place, row in shown:
         if text := results.not_scored(row.scenario, row.metric):
             yield (*ROOT, *place, "metric"), text
-    for title, test in evaluation.amplitude.tests.items():
+    averaged: list[tuple[Place, AmplitudeTest | FineTuning]] = [(("fine_tuning",), evaluation.fine_tuning)]
+    averaged += [(("amplitude", "tests", title), test) for title, test in evaluation.amplitude.tests.items()]
+    for place, test in averaged:
         if test.joint not in (joints := [*results.joints(test.limb), "avg"]):
-            yield (*ROOT, "amplitude", "tests", title, "joint"), not_accepted("joint", test.joint, joints)
+            yield (*ROOT, *place, "joint"), not_accepted("joint", test.joint, joints)
 
 
 def _push_problems(results: Results) -> Iterator[Problem]:

@@ -12,9 +12,9 @@ from mobnet.settings.checks.estimated import estimate_problems
 from mobnet.settings.checks.measured import measured_problems
 from mobnet.settings.checks.printed import printed_problems
 from mobnet.settings.checks.results import Results
-from mobnet.settings.evaluation import CoverageTest, ErrorRow, ErrorTable, Mean
+from mobnet.settings.evaluation import CoverageTest, ErrorRow, ErrorTable, Mean, TunedTest
 from mobnet.settings.reading import Place
-from mobnet.settings.settings import Settings
+from mobnet.settings.settings import Settings, swept_name
 
 Problem = tuple[Place, str]
 Shown = tuple[Place, str, str, str]  # place, scenario, level, method
@@ -66,8 +66,20 @@ def shown_runs(settings: Settings) -> Iterator[Shown]:
     for level, methods in figure.panels.items():
         place = (*ROOT, "figure_05", "panels", level)
         yield from (((*place, k), figure.scenario, level, method) for k, method in enumerate(methods))
+    for title, test in evaluation.fine_tuning.tests.items():
+        place = (*ROOT, "fine_tuning", "tests", title)
+        yield (*place, "known"), test.scenario, test.known, test.methods[0]
+        for label, method in tuned_methods(settings, test):
+            yield (*place, "tuned", label), test.scenario, test.level, method
     for scenario, method in product(evaluation.figure_18.panels, evaluation.figure_18.methods):
         yield (*ROOT, "figure_18", "panels", scenario), scenario, evaluation.figure_18.level, method
+
+
+def tuned_methods(settings: Settings, test: TunedTest) -> Iterator[tuple[str, str]]:
+    """Yield the name of each line of fine-tuned methods with each of them."""
+    key = settings.evaluation.fine_tuning.sweep
+    values = settings.sweeps[key].values if key in settings.sweeps else ()
+    yield from ((label, swept_name(base, key, value)) for label, base in test.tuned.items() for value in values)
 
 
 def sections_below(value: object, place: Place) -> Iterator[tuple[Place, BaseModel]]:

@@ -61,10 +61,10 @@ def _fleet_problems(settings: Settings) -> Iterator[Problem]:
             named = [name for name, level in settings.levels.items() if level.surrogate]
             yield ("fleet", "robots", index), not_accepted("level of a surrogate robot", robot, named)
     for name, other in fleet.sets.items():
-        if sets[other].level != fleet.name:
-            yield ("fleet", "sets", name), misfit(other, f"a set at the level {fleet.name}")
+        if sets[other].level not in levels_of(fleet):
+            yield ("fleet", "sets", name), misfit(other, f"a set at one of the levels {', '.join(levels_of(fleet))}")
     for name, row in sets.items():
-        if row.level == fleet.name and name not in fleet.sets.values():
+        if row.level in levels_of(fleet) and name not in fleet.sets.values():
             yield ("training_sets", name, "level"), misfit(row.level, "a level of one plant, or a set of `fleet.sets`")
     for test, levels in settings.tests.items():
         named = [(level, k, name) for level in levels_of(fleet) for k, name in enumerate(levels.get(level, ()))]

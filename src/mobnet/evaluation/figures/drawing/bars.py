@@ -38,7 +38,7 @@ class BarPanel:
 def draw_bars(panels: Sequence[BarPanel], y_label: str) -> Figure:
     """Draw groups of bars [N m], one for each method with its interval, and a panel for each test (Figure 18)."""
     with mpl.rc_context(STYLE):
-        figure, axes = stacked(len(panels), PANEL_INCH, LEGEND_INCH)
+        figure, axes = stacked([y_label] * len(panels), PANEL_INCH, LEGEND_INCH)
         for k, (axis, panel) in enumerate(zip(axes, panels, strict=True)):
             draw_bar_panel(axis, panel)
             axis.set(ylabel=y_label)

@@ -35,7 +35,7 @@ class Line:
 
 @dataclass(frozen=True)
 class LinePanel:
-    """Lines over epochs or sizes; few places, as sizes are, are marked, on a logarithmic axis if none is zero."""
+    """Lines over epochs or sizes; few places, as sizes are, are marked, on a logarithmic axis if no panel has zero."""
 
     title: str
     x_label: str
@@ -47,14 +47,15 @@ class LinePanel:
 def draw_lines(panels: Sequence[LinePanel]) -> Figure:
     """Draw panels of lines with the spread of their runs below one another (Figures 17 and 20)."""
     styles = looks(line.label for panel in panels for line in panel.lines)
+    logarithmic = all(min(line.x) > 0.0 for panel in panels for line in panel.lines)
     with mpl.rc_context(STYLE):
-        figure, axes = stacked(len(panels), PANEL_INCH, LEGEND_INCH)
+        figure, axes = stacked([panel.y_label for panel in panels], PANEL_INCH, LEGEND_INCH)
         for k, (axis, panel) in enumerate(zip(axes, panels, strict=True)):
             for line in panel.lines:
                 _line(axis, line, styles[line.label], panel.sizes)
             axis.set(xlabel=panel.x_label, ylabel=panel.y_label)
             entitle(axis, k, panel.title)
-            _places(axis, panel)
+            _places(axis, panel, logarithmic)
         if not any(panel.sizes for panel in panels):
             axes[0].set_ylim(*_range_of_means(panels))
         legend(figure, axes, **LEGEND)
@@ -79,13 +80,13 @@ def _line(axis: Axes, line: Line, look: Look, marked: bool) -> None:
     axis.fill_between(line.x, low, high, color=look.colour, alpha=0.18, linewidth=0.0)
 
 
-def _places(axis: Axes, panel: LinePanel) -> None:
+def _places(axis: Axes, panel: LinePanel, logarithmic: bool) -> None:
     """Mark whole epochs, or the sizes there are."""
     if not panel.sizes:
         axis.xaxis.set_major_locator(MaxNLocator(integer=True))
         return
     places = np.unique(np.concatenate([line.x for line in panel.lines]))
-    if places[0] > 0.0:
+    if logarithmic:
         axis.set_xscale("log")
         axis.minorticks_off()
     axis.set_xticks(places, [f"{place:.0f}" for place in places])

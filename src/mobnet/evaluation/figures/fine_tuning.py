@@ -1,0 +1,56 @@
+"""Fine-tuning to a changed robot (section 8.2): error over the seconds of new data."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from mobnet.core.columns import TUNED
+from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
+from mobnet.evaluation.figures.style import save_figure
+from mobnet.evaluation.number.files import write_csv
+from mobnet.evaluation.number.grid import Wanted, number_of
+from mobnet.evaluation.number.rows import read_scores
+from mobnet.settings.evaluation import FineTuning, Statistics, TunedTest
+from mobnet.settings.settings import swept_name
+
+BEFORE, KNOWN = "not fine-tuned", "trained on its own data"
+X_LABEL, Y_LABEL = "new data [s]", "RMSE [N m]"
+
+
+def fine_tuning(
+    settings: FineTuning, seconds: Sequence[int], statistics: Statistics, scores: Mapping[str, Path], figure_dir: Path
+) -> None:
+    """Write the figure as PDF, PNG and CSV: RMSE [N m] of networks on changed robots over their new data [s].
+
+    Beside it stand, at every place, the networks before and those that learned from the robot's own walks.
+    """
+    panels, rows = [], []
+    for title, test in settings.tests.items():
+        own, lines = read_scores(scores[test.scenario]), []
+        for label, shown in shown_of(settings, seconds, test).items():
+            errors = [number_of(own, [wanted], statistics) for wanted in shown]
+            lines.append(Line(label, seconds, errors))
+            rows += [
+                (title, label, time, wanted.scenario, wanted.level, wanted.method, wanted.joint,
+                 *error.with_ends, *error.spread, error.unit)
+                for time, wanted, error in zip(seconds, shown, errors, strict=True)
+            ]  # fmt: skip
+        panels.append(LinePanel(title, X_LABEL, Y_LABEL, lines, sizes=True))
+    write_csv(figure_dir / "fine_tuning.csv", TUNED, rows)
+    save_figure(draw_lines(panels), figure_dir / "fine_tuning")
+
+
+def shown_of(settings: FineTuning, seconds: Sequence[int], test: TunedTest) -> dict[str, list[Wanted]]:
+    """Return line -> what is looked at for each number of seconds (n,)."""
+    (before,) = test.methods
+
+    def wanted(level: str, method: str) -> Wanted:
+        return Wanted(test.scenario, settings.limb, level, method, settings.joint)
+
+    return {
+        BEFORE: [wanted(test.level, before)] * len(seconds),
+        **{
+            label: [wanted(test.level, swept_name(base, settings.sweep, time)) for time in seconds]
+            for label, base in test.tuned.items()
+        },
+        KNOWN: [wanted(test.known, before)] * len(seconds),
+    }

@@ -1,0 +1,53 @@
+"""Where nothing touches a leg, by the walking plan alone: there the external torque of its joints is zero."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.columns import FEET, SWING
+from mobnet.core.errors import DataError
+from mobnet.core.joints import JointLayout
+from mobnet.core.store import read_array, spans_and_rate
+
+IN_THE_AIR = 0.5  # of a flag
+
+
+class Margins(NamedTuple):
+    """What is left out of a swing: time after the planned lift-off, and before the planned landing [s]."""
+
+    lift_off_s: float
+    landing_s: float
+
+
+def hanging(
+    swing: NDArray[Any], spans: Sequence[tuple[int, int]], rate_hz: float, margins: Margins
+) -> NDArray[np.bool_]:
+    """Return where a foot surely hangs in the air (T,), from the walking plan's swing (T,): without its two ends.
+
+    After a foot should have lifted off it may still touch the ground for some time [s], and before it should land it
+    may have landed; spans (start, end) hang together, and the end of one ends a swing.
+    """
+    after, before = (round(margin * rate_hz) for margin in margins)
+    found = np.zeros(len(swing), dtype=bool)
+    for start, end in spans:
+        edges = np.flatnonzero(np.diff(np.asarray(swing[start:end]) > 0, prepend=False, append=False))
+        for lifted, landed in start + edges.reshape(-1, 2):
+            found[lifted + after : max(landed - before, lifted + after)] = True
+    return found
+
+
+def free_rows(recording: Path, layout: JointLayout, joints: Sequence[str], margins: Margins) -> NDArray[np.bool_]:
+    """Return where the leg of some joints surely hangs in the air in a recording (T,).
+
+    Raises:
+        DataError: the joints are not those of one leg.
+    """
+    sides = [side for side, limb in layout.legs.items() if set(joints) <= set(layout.limb(limb))]
+    if not sides:
+        raise DataError(f"joints {', '.join(joints)} are not accepted where swings label; accepted: joints of one leg")
+    foot = next(name for name in FEET if name.startswith(sides[0]))
+    swing, meta = read_array(recording, [f"{SWING}.{foot}"])
+    return hanging(swing[:, 0] > IN_THE_AIR, *spans_and_rate(meta), margins)
