@@ -48,11 +48,10 @@ class Trainer:
         blocks, held_out = split(data.segments, learning.validation_share, data.held_out)
         stream = job.stream(data.rate_hz)
         self._blocks = some_of(blocks, stream, learning.data_parts, job.shared_generator("data"))
-        arrays = (data.inputs, data.targets)
-        inputs, targets = first.scales if first else (scale_of(array, self._blocks) for array in arrays)
-        self.scales = inputs, targets
-        partial = bool(np.isnan(data.targets).any())
-        self._samples = Samples(*(self._scaled(*pair) for pair in zip(arrays, self.scales, strict=True)), partial)
+        arrays = data.inputs, data.targets
+        self.scales = first.scales if first else (scale_of(arrays[0], self._blocks), scale_of(arrays[1], self._blocks))
+        inputs, targets = (self._scaled(*pair) for pair in zip(arrays, self.scales, strict=True))
+        self._samples = Samples(inputs, targets, partial=bool(np.isnan(data.targets).any()))
         self._shape = (stream, job.horizon, learning.batch_size)
         self._validation = validation_plan(held_out, *self._shape)
         lanes = self._validation.rows.shape[1]

@@ -41,10 +41,10 @@ def _folders(files: Files, section: Any) -> tuple[Path, ...]:
 
 
 def _sets(files: Files, section: Any) -> Mapping[str, tuple[Path, ...]]:
-    """Return the recordings of every training set that is learned from, those of all robots together."""
+    """Return the recordings of every training set that is recorded, those of all robots together."""
     walked = {name for own in files.robots.values() for name in own.learned_sets}
     fleet = [other for name, other in files.settings.fleet.sets.items() if name in walked]
-    return {name: files.training("recordings", name) for name in (*files.learned_sets, *fleet)}
+    return {name: files.training("recordings", name) for name in (*files.recorded_sets, *fleet)}
 
 
 def _steps(files: Files) -> Needs:

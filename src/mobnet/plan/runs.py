@@ -135,7 +135,7 @@ class Files:
 
     def recorded(self) -> Iterator[tuple[str, str, int]]:
         """Yield scenario, level and seed of every recording but those of robots of the fleet."""
-        for name in self.learned_sets:
+        for name in self.recorded_sets:
             row = self.settings.training_sets[name]
             yield from ((row.scenario, row.level, seed) for seed in self.training_seeds(name))
         for scenario, levels in self.settings.tests.items():
@@ -254,6 +254,12 @@ class Files:
         fitted = [(source, limb) for source in sources for limb in settings.method(source).fitted]
         used = {settings.network(method, limb).data for method, limb in (*self.learned, *fitted)}
         return tuple(name for name in settings.training_sets if name in used)
+
+    @property
+    def recorded_sets(self) -> tuple[str, ...]:
+        """Names of the training sets that are recorded: all of the plant of section 5.1, of a robot those it needs."""
+        sets = self.settings.training_sets
+        return self.learned_sets if self.robot else tuple(name for name, row in sets.items() if self.has(row.level))
 
     def fit(self, method: str) -> list[Path]:
         """Return the file of what a method, or the one it runs on, was fitted to; none if it is not fitted."""

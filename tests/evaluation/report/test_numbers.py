@@ -26,7 +26,9 @@ ASKED = {  # command of the paper's text -> name of its number
 def defined(table: Path, claims_csv: Path, summary_csv: Path, settings: Settings) -> dict[str, str]:
     """Return name -> text of the numbers of a table and of claims."""
     out = claims_csv.with_name("numbers.tex")
-    numbers(settings.scale, settings.rates, settings.sizes, TRAIN, [table], claims_csv, summary_csv, out)
+    numbers(
+        settings.scale, settings.rates, settings.sizes, settings.fleet, TRAIN, [table], claims_csv, summary_csv, out
+    )
     return dict(re.findall(r"\\csname ([^\\]+)\\endcsname\{(.*)\}\n", out.read_text()))
 
 
@@ -71,6 +73,7 @@ def test_every_number_the_paper_asks_for_exists(texts: dict[str, str]) -> None:
 
 
 def test_sizes_are_those_of_the_scale(settings: Settings) -> None:
-    found = size_texts("default", settings.rates, settings.sizes, TRAIN)
+    found = size_texts("default", settings.rates, settings.sizes, settings.fleet, TRAIN)
     assert (found["train minutes"], found["train samples"], found["scale"]) == ("30", "1.8", "default")
+    assert (found["robots"], found["robot test runs"]) == ("3", "6")
     assert found["network runs"] == str(len(settings.sizes.experiments["left_leg"].seeds))

@@ -12,6 +12,7 @@ from mobnet.evaluation.tables.layout import tex_escape
 from mobnet.settings.data import Recordings
 from mobnet.settings.plant import Rates
 from mobnet.settings.scales import Scale
+from mobnet.settings.surrogate import Fleet
 
 LOOKUP = r"""% Written by mobnet.evaluation.report.numbers; do not edit.
 \newcommand{\lookup}[1]{\ifcsname #1\endcsname\csname #1\endcsname\else\errmessage{numbers.tex has no #1}\fi}
@@ -35,6 +36,7 @@ def numbers(
     scale: str,
     rates: Rates,
     sizes: Scale,
+    fleet: Fleet,
     train: Recordings,
     table_csvs: Sequence[Path],
     claims_csv: Path,
@@ -49,7 +51,7 @@ def numbers(
     \scored{score}{verdict} gives how many statements of a score have a verdict, \size{name} gives sizes of the scale.
     `train` has the recordings of random walking that networks learn from.
     """
-    values = {f"size@{name}": text for name, text in size_texts(scale, rates, sizes, train).items()}
+    values = {f"size@{name}": text for name, text in size_texts(scale, rates, sizes, fleet, train).items()}
     for path in table_csvs:
         for of, number in read_numbers(path):
             values |= cell_texts(of, number)
@@ -83,8 +85,8 @@ def tex_definition(item: tuple[str, str]) -> str:
     return rf"\expandafter\def\csname {name}\endcsname{{{text}}}" + "\n"
 
 
-def size_texts(scale: str, rates: Rates, sizes: Scale, train: Recordings) -> dict[str, str]:
-    """Return the sizes of a scale as texts: minutes [min], million samples, epochs, seeds."""
+def size_texts(scale: str, rates: Rates, sizes: Scale, fleet: Fleet, train: Recordings) -> dict[str, str]:
+    """Return the sizes of a scale as texts: minutes [min], million samples, epochs, seeds, robots."""
     legs = sizes.experiments["left_leg"]
     return {
         "scale": tex_escape(scale),
@@ -94,6 +96,8 @@ def size_texts(scale: str, rates: Rates, sizes: Scale, train: Recordings) -> dic
         "test seconds": f"{sizes.test.shard_s:g}",
         "longest seconds": f"{max(sizes.durations_s.values(), default=sizes.test.shard_s):g}",
         "shortest seconds": f"{min(sizes.durations_s.values(), default=sizes.test.shard_s):g}",
+        "robots": str(sizes.fleet or len(fleet.robots)),
+        "robot test runs": str(sizes.fleet_shards or sizes.test.shards),
         "network runs": str(len(legs.seeds)),
         "epochs": str(legs.epochs),
         **{f"{name} runs": str(len(row.seeds)) for name, row in sizes.experiments.items()},
