@@ -2,10 +2,12 @@
 
 from collections.abc import Callable
 
+import mujoco
 import numpy as np
 import pytest
 
 from mobnet.robot.description import WalkingRobot
+from mobnet.robot.plant import robot_spec
 from mobnet.settings.settings import Settings
 from mobnet.settings.surrogate import SurrogateRobot
 from mobnet.simulation.faults import perceive
@@ -73,10 +75,21 @@ def test_numbers_lie_in_their_ranges(draw: Draw, robot: WalkingRobot, settings: 
     assert not hidden.robot.armature.any()
 
 
-def test_the_mass_matrix_is_that_of_links_and_rotors(draw: Draw, robot: WalkingRobot) -> None:
+def mass_matrix(robot: WalkingRobot) -> np.ndarray:
+    """Return the mass matrix (nv, nv) of a robot's plant where it starts."""
+    model = robot_spec(robot).compile()
+    data, matrix = mujoco.MjData(model), np.zeros((model.nv, model.nv))
+    mujoco.mj_forward(model, data)
+    mujoco.mj_fullM(model, data, matrix)
+    return matrix
+
+
+def test_the_mass_matrix_is_that_of_links_and_rotors(draw: Draw, robot: WalkingRobot, settings: Settings) -> None:
     """A rotor's inertia is in its drive and no longer in the joint, where it would count twice."""
-    hidden = draw(1, "drives")
-    np.testing.assert_allclose(hidden.drives.law["rotor"], np.maximum(robot.armature, hidden.drives.law["rotor"].min()))
+    hidden, least = draw(1, "drives"), settings.surrogate.drive.rotor_min_kg_m2
+    gone = mass_matrix(robot) - mass_matrix(hidden.robot)
+    np.testing.assert_allclose(gone, np.diag([0.0] * 6 + [*robot.armature]), atol=1e-9)
+    np.testing.assert_allclose(hidden.drives.law["rotor"], np.maximum(robot.armature, least))
 
 
 def test_the_controller_and_the_observer_know_the_table_alone(simulate: Callable[..., Simulator]) -> None:
