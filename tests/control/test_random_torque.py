@@ -9,6 +9,7 @@ from scipy.stats import kstest
 from mobnet.control.random_torque import Exploration, advance_random_torque, make_exploration
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
+from mobnet.plan.jobs import walk_settings
 from mobnet.settings.settings import Settings
 
 TICK_S, TICKS = 0.0005, 100_000
@@ -26,14 +27,17 @@ def history(settings: Settings, layout: JointLayout) -> tuple[Exploration, np.nd
     return law, rows
 
 
-@pytest.mark.parametrize(("asked", "largest"), [(False, 0.0), (True, 50.0), (25.0, 25.0)])
+@pytest.mark.parametrize(
+    ("scenario", "largest"), [("robot_walk_plain", 0.0), ("robot_walk", 50.0), ("robot_walk_25", 25.0)]
+)
 def test_a_scenario_may_ask_for_another_torque_on_legs_and_waist(
-    settings: Settings, layout: JointLayout, asked: bool | float, largest: float
+    settings: Settings, layout: JointLayout, scenario: str, largest: float
 ) -> None:
-    law = make_exploration(settings.random_torque, layout, asked)
+    walk = walk_settings(settings, scenario, "robot_1")
+    law = make_exploration(walk.random_torque, layout, bool(walk.scenario.random_torque))
     own = dict(zip(layout.actuated, law.amplitude, strict=True))
     assert [own[joint] for joint in (*layout.limb("LL"), *layout.limb("RL"), *layout.limb("W"))] == [largest] * 15
-    assert (own["LA1"] > 0.0) == bool(asked)
+    assert (own["LA1"] > 0.0) == (largest > 0.0)
 
 
 def periods(torque: np.ndarray) -> list[tuple[bool, int, float]]:

@@ -21,12 +21,12 @@ from mobnet.learning.job import Job
 from mobnet.learning.model import LimbNetwork
 from mobnet.learning.optimisation import Samples, train_epoch
 from mobnet.learning.streams import deal
-from mobnet.learning.swings import Margins, free_rows, hanging
+from mobnet.learning.swings import free_rows, hanging
 from mobnet.learning.train import train
 from mobnet.learning.trainer import Trainer
 from mobnet.settings.settings import Settings
 
-RATE_HZ, MARGINS = 1000.0, Margins(0.09, 0.03)
+RATE_HZ, MARGINS = 1000.0, (0.09, 0.03)
 
 
 def test_a_foot_hangs_between_the_ends_of_its_swing() -> None:

@@ -78,13 +78,13 @@ def test_every_scale_is_accepted(scale: str) -> None:
         ("evaluation.figure_06.scenario", "walk_test", f"figure_06.scenario: test with.*: 'walk_test' {ACCEPTED}"),
         ("evaluation.error_budget.joints", ["LL9"], f"error_budget.joints.0: limb or joint: 'LL9' {ACCEPTED}"),
         ("evaluation.windows.stroll", {"before_s": 0.0, "after_s": 0.1}, f"windows.stroll: test: 'stroll' {ACCEPTED}"),
-        ("evaluation.figure_20.samples", "shares", f"figure_20.samples: sweep: 'shares' {ACCEPTED}data_parts, hidden"),
+        ("evaluation.figure_20.samples", "shares", f"figure_20.samples: sweep: 'shares' {ACCEPTED}data_parts, data_s"),
         ("training_sets.walk.level", "none", f"training_sets.walk.level: level: 'none' {ACCEPTED}"),
         ("training_sets.motion.scenario", "nap", f"training_sets.motion.scenario: scenario: 'nap' {ACCEPTED}"),
         ("training_sets.motion.sizes.tiny", {"shards": 1, "shard_s": 1.0}, f"sizes.tiny: scale: 'tiny' {ACCEPTED}"),
         ("networks.tail", {"data": "walk", "experiment": "sweep", "horizon_steps": 1, "cell": "constant"},
          f"networks.tail: network of the robot: 'tail' {ACCEPTED}LA"),
-        ("networks.LL.data", "wolks", f"networks.LL.data: training set: 'wolks' {ACCEPTED}walk, motion"),
+        ("networks.LL.data", "wolks", f"networks.LL.data: training set: 'wolks' {ACCEPTED}walk, friction_walk"),
     ],
 )  # fmt: skip
 def test_a_fault_is_one_line_with_file_key_value_and_accepted(key: str, value: object, message: str) -> None:

@@ -29,7 +29,8 @@ KILLS = 5
 LONGEST_S = 20.0
 MADE = ("results", "tables", "figures", "paper", ".snakemake")
 LOST = (
-    "results/smoke/recordings/walk_test",
+    "results/smoke/recordings/forward_walk",
+    "results/smoke/robot_1/recordings/walk_test",
     "results/smoke/networks/MOB-Net-LL-s0",
     "results/smoke/networks/FTS-e2e-LL-s0",
     "results/smoke/scores",
@@ -96,14 +97,14 @@ def accounts(folder: Path) -> list[Path]:
 
 
 def test_every_job_left_a_log_and_an_account(unbroken: Path, plan: Plan) -> None:
-    logs = {path.with_suffix(".json") for path in (unbroken / "results" / "smoke" / "logs").rglob("*.log")}
+    folder = unbroken / "results" / "smoke" / "logs"
+    logs = {path.with_suffix(".json") for path in folder.rglob("*.log")}
     assert logs == set(accounts(unbroken))
-    collected = Counter(path.parent.name for path in logs)
-    trained = {
-        (scenario, level, seed) for scenario, level, seed in plan.files.recorded() if seed >= FIRST_TRAINING_SEED
-    }
-    assert collected["collect"] == len(trained)
-    assert collected["collect_tests"] == sum(map(len, plan.settings.tests.values()))
+    collected = Counter(path.relative_to(folder).parts[0] for path in logs)
+    walks = [(files.robot, *walk) for files in (plan.files, *plan.files.robots.values()) for walk in files.recorded()]
+    trained = {walk for walk in walks if walk[-1] >= FIRST_TRAINING_SEED}
+    tested = {walk[:-1] for walk in walks if walk not in trained}
+    assert (collected["collect"], collected["collect_tests"]) == (len(trained), len(tested))
 
 
 def test_second_call_does_nothing(unbroken: Path) -> None:

@@ -16,14 +16,13 @@ from mobnet.agreement.derived import estimate_faults, residual_faults
 from mobnet.agreement.motions import knot_faults
 from mobnet.agreement.said import SAME, Signals, signals_of
 from mobnet.agreement.walks import walk_faults, walk_names
-from mobnet.control.random_torque import largest_on_legs
 from mobnet.core.columns import COMMAND, PUSH_TORQUE, PUSHED, RANDOM, named
 from mobnet.core.errors import not_accepted
 from mobnet.core.files import read_json
 from mobnet.core.notes import read_array_note
 from mobnet.core.store import ARRAY, NOTE, file_of
 from mobnet.plan.runs import Files
-from mobnet.settings.data import FixedCommand, Push
+from mobnet.settings.data import FixedCommand, Push, RandomTorque
 
 IDLE = 0.1  # share of the samples marked as pushed in which nothing may push
 KEYS = {  # column of a step's command -> key of the configuration
@@ -75,19 +74,18 @@ def _scenario_faults(stem: Path, scenario: str, files: Files) -> Iterator[str]:
             largest = float(np.abs(signals[name]).max())
             yield not_accepted(f"column {name}: largest number", largest, [f"0 everywhere, as {scenario} has none"])
     if row.random_torque:
-        yield from _random_faults(signals, random, row.random_torque, files)
+        yield from _random_faults(signals, random, files.settings.random_torque_of(scenario))
     yield from _push_faults(signals, pushed, [settings.pushes[name] for name in row.pushes])
     for name, _ in COMMAND:
         yield from _command_faults(name, signals.get(f"command.{name}"), scenario, files)
 
 
-def _random_faults(signals: Signals, names: Sequence[str], asked: bool | float, files: Files) -> Iterator[str]:
+def _random_faults(signals: Signals, names: Sequence[str], random: RandomTorque) -> Iterator[str]:
     """Yield random torques that are zero everywhere, or above their largest."""
     held = {name: float(np.abs(signals[name]).max()) for name in names if name in signals}
     if held and not any(held.values()):
         yield not_accepted(f"columns {RANDOM}.*: largest number", 0.0, ["random torques, as the scenario has them"])
-    random = files.settings.random_torque
-    most = max(largest_on_legs(random, asked), random.neck_nm, *random.arms_nm)
+    most = max(random.legs_waist_nm, random.neck_nm, *random.arms_nm)
     for name, largest in held.items():
         if largest > most * (1.0 + SAME):
             yield not_accepted(f"column {name}: largest number", largest, [f"at most {most:g}"])

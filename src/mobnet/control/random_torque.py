@@ -23,14 +23,13 @@ class Exploration(NamedTuple):
     on: NDArray[np.int64]  # 1 while the torque acts (nu,)
 
 
-def make_exploration(settings: RandomTorque, layout: JointLayout, asked: bool | float) -> Exploration:
-    """Build the exploration of section 4.3: as in its section, with another torque on legs and waist [N m], or none.
+def make_exploration(settings: RandomTorque, layout: JointLayout, present: bool) -> Exploration:
+    """Build the exploration of section 4.3; all amplitudes are zero where it is not present.
 
     Raises:
         ConfigError: the amplitudes of an arm are not as many as its joints.
     """
-    arms, neck = settings.arms_nm, settings.neck_nm
-    legs_waist = largest_on_legs(settings, asked)
+    legs_waist, arms, neck = settings.legs_waist_nm, settings.arms_nm, settings.neck_nm
     amplitude = np.zeros(layout.nu)
     for limb, bound in {"LL": legs_waist, "RL": legs_waist, "W": legs_waist, "LA": arms, "RA": arms, "N": neck}.items():
         joints = layout.limb(limb)
@@ -38,12 +37,7 @@ def make_exploration(settings: RandomTorque, layout: JointLayout, asked: bool | 
             raise ConfigError(f"random_torque.arms_nm: {len(bound)} values; accepted: {len(joints)} ({limb})")
         amplitude[layout.columns(joints) - len(layout.virtual)] = bound
     nu = layout.nu
-    return Exploration(amplitude * bool(asked), *settings.period_s, np.zeros(nu), np.zeros(nu), np.zeros(nu, np.int64))
-
-
-def largest_on_legs(settings: RandomTorque, asked: bool | float) -> float:
-    """Return the largest torque on the joints of legs and waist [N m]: the section's, another one, or none."""
-    return settings.legs_waist_nm * asked if isinstance(asked, bool) else asked
+    return Exploration(amplitude * present, *settings.period_s, np.zeros(nu), np.zeros(nu), np.zeros(nu, np.int64))
 
 
 @compiled

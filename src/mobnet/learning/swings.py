@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,11 +15,7 @@ from mobnet.core.store import read_array, spans_and_rate
 IN_THE_AIR = 0.5  # of a flag
 
 
-class Margins(NamedTuple):
-    """What is left out of a swing: time after the planned lift-off, and before the planned landing [s]."""
-
-    lift_off_s: float
-    landing_s: float
+Margins = tuple[float, float]  # left out of a swing: time after the planned lift-off, before the planned landing [s]
 
 
 def hanging(

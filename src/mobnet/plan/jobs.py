@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mobnet.core.files import WEIGHTS
-from mobnet.learning.swings import Margins
 from mobnet.plan.call import Call, Job
 from mobnet.plan.runs import Files, files_in
 from mobnet.settings.base import Section
@@ -112,7 +111,7 @@ class Jobs:
             arguments |= {"start": start}
         if training.learning.labels == "swing":
             swings = self.settings.evaluation.changed
-            arguments |= {"margins": Margins(swings.lift_off_s, swings.landing_s)}
+            arguments |= {"margins": (swings.lift_off_s, swings.landing_s)}
         if not fitted:
             return Job(Call("mobnet.learning.train:train", arguments), _read([recordings, residuals, start]))
         arguments |= {"observer": self.settings.observer, "fitted": fitted[0]}
@@ -202,6 +201,7 @@ def walk_settings(settings: Settings, scenario: str, level: str) -> WalkSettings
     picked = {
         "scenario_name": scenario,
         "scenario": row,
+        "random_torque": settings.random_torque_of(scenario),
         "level_name": level,
         "level": settings.levels[level],
         "surrogate": settings.surrogate if settings.levels[level].surrogate else None,

@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, cast
 
-from mobnet.control.random_torque import largest_on_legs
 from mobnet.core.errors import ConfigError
 from mobnet.plan.runs import Files
 from mobnet.settings.evaluation import Runs
@@ -81,8 +80,9 @@ def _amplitude(files: Files) -> Needs:
         for method in test.methods:
             data = settings.network(method, test.limb).data
             own = files.robots.get(test.level, files)
-            row = own.settings.scenarios[own.settings.training_sets[data].scenario]
-            amplitudes[method] = largest_on_legs(settings.random_torque, row.random_torque)
+            scenario = own.settings.training_sets[data].scenario
+            asked = settings.scenarios[scenario].random_torque
+            amplitudes[method] = settings.random_torque_of(scenario).legs_waist_nm if asked else 0.0
             training[method] = own.training("recordings", data)
     return {"scores": _scores(files, section), "amplitudes": amplitudes, "training": training}
 

@@ -92,6 +92,12 @@ class Settings(Section):
         """Return the duration of a test's recordings at the chosen scale [s]."""
         return self.sizes.durations_s.get(scenario, self.sizes.test.shard_s)
 
+    def random_torque_of(self, scenario: str) -> RandomTorque:
+        """Return the random torques of a scenario that has some: it may have its own largest one on legs and waist."""
+        asked = self.scenarios[scenario].random_torque
+        own = {} if isinstance(asked, bool) else {"legs_waist_nm": asked}
+        return self.random_torque.model_copy(update=own)
+
     @cached_property
     def all_methods(self) -> dict[str, Method]:
         """The methods and those that sweeps stand for, such as `MOB-Net-hidden-44` (section 6.3)."""

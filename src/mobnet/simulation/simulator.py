@@ -58,7 +58,7 @@ class Simulator:
         self.robot = for_walking(describe(settings.robot))
         ratio, gravity = settings.level.nominal_mass_ratio, settings.plant.gravity_m_s2
         self.walker = make_walker(self.robot, settings.walking, ratio, gravity)
-        self.torque = make_exploration(settings.random_torque, self.robot.layout, scenario.random_torque)
+        self.torque = make_exploration(settings.random_torque, self.robot.layout, bool(scenario.random_torque))
         self.upper = upper or UpperBody(self.robot.posture.angle[None].copy(), 1.0, np.zeros(1))
         self.state = empty_state()
         draws = scenario.draws or settings.scenario_name  # scenarios that differ in their pushes alone draw the same

@@ -70,10 +70,11 @@ def test_equal_results_have_equal_manifests_whatever_time_they_took(files: list[
 def test_files_that_are_too_many_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     names = ["results/smoke/scores/a.csv", "tables/smoke/t.csv", "paper/build.json"]
-    extra = ["results/smoke/scores/b.csv", "tables/smoke/u.csv"]
+    extra = ["results/smoke/robot_1/networks/b", "results/smoke/scores/b.csv", "tables/smoke/u.csv"]
     others = [
         "results/smoke/logs/a.log",
         "results/smoke/state/a",
+        "results/smoke/robot_1/state/a",
         "results/default/a",
         "tables/v.csv",
         "paper/main.tex",

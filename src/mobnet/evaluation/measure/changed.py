@@ -9,7 +9,7 @@ from mobnet.evaluation.measure.measured import Measured, Measures
 from mobnet.evaluation.measure.metrics import parts
 from mobnet.evaluation.measure.scene import Scene
 from mobnet.learning.gaussian import half_width
-from mobnet.learning.swings import Margins, hanging
+from mobnet.learning.swings import hanging
 from mobnet.settings.evaluation import Changed
 
 KNOWN, FREE, FLAGGED = "known_share", "free_share", "flagged_share"
@@ -31,7 +31,7 @@ def knowledge(
     covered = np.abs(error) <= half_width(share) * std
     yield Measured(KNOWN, np.concatenate(parts(covered, pair.spans)).mean(axis=0), "-")
     swing = scene.planned(pair.joints[0])
-    free = hanging(swing, pair.spans, pair.rate_hz, Margins(settings.lift_off_s, settings.landing_s))
+    free = hanging(swing, pair.spans, pair.rate_hz, (settings.lift_off_s, settings.landing_s))
     rows = round(settings.window_s * pair.rate_hz)
     shares = shares_inside(pair.estimate, std, free, pair.spans, rows, share)
     shares = shares[~np.isnan(shares)]

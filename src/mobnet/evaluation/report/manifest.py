@@ -16,7 +16,8 @@ LINE = re.compile(r"([0-9a-f]{64})  (.+)")
 TIMES = "TIMES.sha256"  # beside the manifest
 RESULTS = "results"
 # Folders of results, and names of files, that no list has: logs, what a training goes on from, views, others' files
-UNLISTED = ("logs", "state", "wandb")
+STATE = "state"
+UNLISTED = ("logs", STATE, "wandb")
 KEPT = ("README.md", ".gitignore", ".snakemake_timestamp")
 
 
@@ -58,10 +59,15 @@ def too_many(names: Iterable[str]) -> list[Path]:
     known = {Path(name) for name in names}
     scales = {Path(*path.parts[:2]) for path in known if path.parts[0] == RESULTS}
     beside = {path.parent for path in known if path.parts[0] != RESULTS}
-    found = [path for scale in scales for path in scale.rglob("*") if path.relative_to(scale).parts[0] not in UNLISTED]
+    found = [path for scale in scales for path in scale.rglob("*") if is_listed(path.relative_to(scale))]
     found += [path for folder in beside for path in folder.glob("*") if folder.name != "paper"]
     kept = {*KEPT, TIMES, "MANIFEST.sha256"}
     return sorted(path for path in set(found) - known if path.is_file() and path.name not in kept)
+
+
+def is_listed(path: Path) -> bool:
+    """Return whether a file below a scale's results stands in a list; robots have the folders of states too."""
+    return path.parts[0] not in UNLISTED and path.parts[1:2] != (STATE,)
 
 
 def _fault(name: str, expected: str) -> str | None:
