@@ -44,7 +44,7 @@ def test_mob_estimates_every_joint(recipe_of: Callable[..., Recipe]) -> None:
 
 def test_missing_weights_are_named(recipe_of: Callable[..., Recipe], tmp_path: Path) -> None:
     with pytest.raises(DataError, match=r"weights\.safetensors: file is missing"):
-        build_estimator(recipe_of("FTS-e2e", networks={"LL": tmp_path, "RL": tmp_path}))
+        build_estimator(recipe_of("FTS-e2e", networks={"LL": tmp_path}))
 
 
 def test_the_configured_methods_are_accepted(settings: Settings) -> None:

@@ -14,8 +14,8 @@ from mobnet.estimation.recipe import Recipe
     [
         ("MOB2", [], False, "method: 'MOB2' is not accepted; accepted: MOB, FTS-e2e, "),
         ("MOB", ["LL"], False, r"networks of method MOB: \['LL'\] is not accepted; accepted: none"),
-        ("FTS-e2e", ["LA", "LL"], False, r"\['LA', 'LL'\] is not accepted; accepted: some of \['LL', 'RL'\]"),
-        ("FTS-e2e", [], False, r"networks of method FTS-e2e: \[\] is not accepted; accepted: some of \['LL', 'RL'\]"),
+        ("FTS-e2e", ["LA", "LL"], False, r"\['LA', 'LL'\] is not accepted; accepted: some of \['LL'\]"),
+        ("FTS-e2e", [], False, r"networks of method FTS-e2e: \[\] is not accepted; accepted: some of \['LL'\]"),
         ("MOB-fric", [], False, "'MOB-fric' with the fit None; accepted: the file that rule `fit` writes"),
         ("MOB-fric-BPF", [], False, "'MOB-fric-BPF' with the fit None"),
         ("MOB", [], True, "'MOB' with the fit .*; accepted: none"),

@@ -109,11 +109,11 @@ def test_a_limb_with_fewer_seeds_serves_them_in_turn(plans: dict[str, Plan]) -> 
 
 
 def test_a_network_that_serves_several_seeds_counts_with_the_first_of_them(plans: dict[str, Plan]) -> None:
-    runs = plans["default"].files.runs("walk_test", "all_uncertainty", ["MOB", "MOB-Net", "MOB-Net-Single"])
+    runs = plans["default"].files.runs("walk_test", "all_uncertainty", ["MOB", "MOB-Net", "FTS-e2e"])
     repeated = {(run.method, run.network_seed): run.repeated for run in runs}
     assert repeated["MOB", 0] == repeated["MOB-Net", 0] == ()
     assert repeated["MOB-Net", 1] == repeated["MOB-Net", 2] == ("RL", "N", "RA")
-    assert repeated["MOB-Net-Single", 1] == ()
+    assert repeated["FTS-e2e", 1] == ()
 
 
 def test_the_manifest_lists_every_result(plan: Plan) -> None:
@@ -134,7 +134,7 @@ def test_an_estimate_reads_weights_fit_and_recording(plan: Plan) -> None:
     place = ("walk_test", "all_uncertainty")
     learned, fitted = (plan.jobs[""].estimate(method, 0, *place) for method in ("FTS-e2e", "MOB-fric-BPF"))
     array, weights = f"s{plan.files.test_seeds[0]}.parquet", "weights.safetensors"
-    assert [Path(name).name for name in learned.inputs] == [array, array, weights, weights]
+    assert [Path(name).name for name in learned.inputs] == [array, array, weights]
     assert fitted.inputs[2] == "results/smoke/fits/MOB-fric.json"
     assert fitted.modules == ("mobnet.estimation.kinds.band_pass", "mobnet.estimation.kinds.friction")
 

@@ -75,8 +75,16 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("evaluation.amplitude.tests.random walking, left leg.metric", "rmse_pushed", "window around pushes"),
     ("evaluation.amplitude.tests.random walking, left leg.methods", ["MOB"], "method with networks"),
     ("evaluation.fine_tuning.joint", "LX", "joint: 'LX' is not"),
-    ("evaluation.fine_tuning.tests.more friction.known", "ideal", "level of test changed_walk"),
-    ("evaluation.fine_tuning.tests.more friction.tuned.with labels", "MOB-Net-plain", "method of test changed_walk"),
+    (
+        "evaluation.fine_tuning.tests.the next robot in place of the known one.known",
+        "ideal",
+        "level of test changed_walk",
+    ),
+    (
+        "evaluation.fine_tuning.tests.the next robot in place of the known one.tuned.with labels",
+        "MOB-Net-plain",
+        "method of test changed_walk",
+    ),
     ("evaluation.fine_tuning.sweep", "hidden", "method of test changed_walk"),
     ("methods.MOB-Net-plain.learning", {"labels": "swing"}, "a method with `start`"),
     ("methods.MOB-Net-other.start", "FTS-e2e", "the same target"),
@@ -176,7 +184,7 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("scenarios.hand_load_30", VALUES["data"]["scenarios"]["hand_load_10"], "what hand_load_10 says too is not"),
     ("walking.dcm_gain", 0.25, "a number above 1"),
     ("networks.LL.hidden", 151, "values with 151, that of Table 1"),
-    ("sweeps.hidden.limb", "RL", "LL"),
+    ("sweeps.hidden.limb", "RL", "method that trains RL: 'FTS-e2e'"),
     ("sweeps.data_parts.section", "network", "sweeps.data_parts: key: 'data_parts'"),
     # what tables, figures and claims show
     ("tests.walk_test.all_uncertainty", ["MOB", "MOB"], "each value once"),

@@ -51,7 +51,7 @@ class Trainer:
         arrays = data.inputs, data.targets
         self.scales = first.scales if first else (scale_of(arrays[0], self._blocks), scale_of(arrays[1], self._blocks))
         inputs, targets = (self._scaled(*pair) for pair in zip(arrays, self.scales, strict=True))
-        self._samples = Samples(inputs, targets, partial=bool(np.isnan(data.targets).any()))
+        self._samples = Samples(inputs, targets, partial=learning.labels == "swing")
         self._shape = (stream, job.horizon, learning.batch_size)
         self._validation = validation_plan(held_out, *self._shape)
         lanes = self._validation.rows.shape[1]
