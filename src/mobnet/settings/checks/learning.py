@@ -81,10 +81,10 @@ def _method_problems(settings: Settings, name: str, method: Method) -> Iterator[
 
 def _tuning_problems(settings: Settings, name: str, method: Method) -> Iterator[Problem]:
     """Yield methods that are fine-tuned from other networks, or learn from swings with nothing to start from."""
-    first = settings.methods.get(method.start or "")
+    first, swings = settings.methods.get(method.start or ""), method.learning.get("labels") == "swing"
+    if swings and (first is None or method.target != "uncertainty"):
+        yield ("learning", "labels"), misfit("swing", "`labels: swing` of a method with `start` and target uncertainty")
     if first is None:
-        if method.learning.get("labels") == "swing":
-            yield ("learning", "labels"), misfit("swing", "`labels: swing` of a method with `start`")
         return
     if first.start or first.of or method.of or first.target != method.target:
         yield ("start",), misfit(method.start, "a method with the same target, without `start`; neither with `of`")
@@ -98,7 +98,7 @@ def _tuning_problems(settings: Settings, name: str, method: Method) -> Iterator[
             yield ("start",), misfit(method.start, f"a method with the same GRU for {limb}, without `spectral`")
         legs = [settings.layout.limb(foot.limb) for foot in settings.robot.feet.values()]
         joints = set(settings.layout.limbs(own.joints))
-        if method.learning.get("labels") == "swing" and not any(joints <= set(leg) for leg in legs):
+        if swings and not any(joints <= set(leg) for leg in legs):
             yield ("learning", "labels"), misfit("swing", "`labels: swing` of networks of one leg")
 
 
