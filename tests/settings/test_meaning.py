@@ -81,7 +81,7 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
         "level of test changed_walk",
     ),
     (
-        "evaluation.fine_tuning.tests.the next robot in place of the known one.tuned.with labels",
+        "evaluation.fine_tuning.tests.the next robot in place of the known one.tuned.labels",
         "MOB-Net-plain",
         "method of test changed_walk",
     ),

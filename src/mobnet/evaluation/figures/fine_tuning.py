@@ -12,7 +12,7 @@ from mobnet.evaluation.number.rows import read_scores
 from mobnet.settings.evaluation import FineTuning, Statistics, TunedTest
 from mobnet.settings.settings import swept_name
 
-BEFORE, KNOWN = "not fine-tuned", "trained on its own data"
+BEFORE, KNOWN = "not tuned", "own walks"
 X_LABEL, Y_LABEL = "new data [s]", "RMSE [N m]"
 
 
