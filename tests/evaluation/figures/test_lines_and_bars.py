@@ -100,3 +100,11 @@ def test_notes_stand_above_their_bars_or_upright_above_the_group(axis: Axes, ang
 def test_without_bars_there_is_an_empty_panel(axis: Axes) -> None:
     draw_bar_panel(axis, BarPanel("a", [], {}))
     assert not axis.patches
+
+
+def test_panels_of_one_unit_have_one_scale_and_sizes_with_zero_a_linear_axis() -> None:
+    small, large = (Line("a", [0.0, 50.0], [Number(size), Number(2.0 * size)]) for size in (1.0, 100.0))
+    labels = {"loss [-]": small, "other loss [-]": large, "RMSE [N m]": large}
+    axes = draw_lines([LinePanel("one", "x [-]", label, [line], sizes=True) for label, line in labels.items()]).axes
+    assert axes[0].get_ylim() == axes[1].get_ylim() != axes[2].get_ylim()
+    assert {axis.get_xscale() for axis in axes} == {"linear"}

@@ -43,13 +43,18 @@ class LinePanel:
     lines: Sequence[Line]
     sizes: bool = False
 
+    @property
+    def unit(self) -> str:
+        """Unit of the numbers, the end of their label."""
+        return self.y_label.partition("[")[2].rstrip("]")
+
 
 def draw_lines(panels: Sequence[LinePanel]) -> Figure:
     """Draw panels of lines with the spread of their runs below one another (Figures 17 and 20)."""
     styles = looks(line.label for panel in panels for line in panel.lines)
     logarithmic = all(min(line.x) > 0.0 for panel in panels for line in panel.lines)
     with mpl.rc_context(STYLE):
-        figure, axes = stacked([panel.y_label for panel in panels], PANEL_INCH, LEGEND_INCH)
+        figure, axes = stacked([panel.unit for panel in panels], PANEL_INCH, LEGEND_INCH)
         for k, (axis, panel) in enumerate(zip(axes, panels, strict=True)):
             for line in panel.lines:
                 _line(axis, line, styles[line.label], panel.sizes)
