@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, fields
 
+from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import JointLayout
 
 Column = tuple[str, str, str]  # name, unit, frame
@@ -55,6 +56,19 @@ def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:
 def recording_width(layout: JointLayout) -> int:
     """Return the number of columns of a stored recording."""
     return sum(map(len, recording_columns(layout).values()))
+
+
+def foot_of(layout: JointLayout, joint: str) -> str:
+    """Return the foot, as named in a recording, of the leg that has a joint.
+
+    Raises:
+        ConfigError: the joint belongs to no leg.
+    """
+    legs = {side: layout.limb(limb) for side, limb in layout.legs.items()}
+    for side, joints in legs.items():
+        if joint in joints:
+            return next(foot for foot in FEET if foot.startswith(side))
+    raise ConfigError(not_accepted("leg joint", joint, [name for joints in legs.values() for name in joints]))
 
 
 def torque_columns(layout: JointLayout, signals: Iterable[str], joints: Iterable[str]) -> list[Column]:

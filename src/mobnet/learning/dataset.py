@@ -92,10 +92,7 @@ def load_limb_data(
     rates: set[float] = set()
     for recording, residual in zip(recordings, residuals, strict=True):
         offset = sum(len(x) for x, _ in parts)
-        x, y, spans, rate = _load_one(layout, inputs, joints, target, recording, residual)
-        if margins is not None:
-            y = read_array(residual, named(RESIDUAL, joints))[0]
-            y[~free_rows(recording, layout, joints, margins)] = np.nan
+        x, y, spans, rate = _load_one(layout, inputs, joints, target, recording, residual, margins)
         if known is not None:
             y -= known(recording, joints).astype(np.float32)
         parts.append((x, y))
@@ -118,11 +115,16 @@ def _load_one(
     target: Target,
     recording: Path,
     residual: Path,
+    margins: Margins | None,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], tuple[Span, ...], float]:
     """Return inputs, targets, segments and rate of one recording."""
     check_pair(recording, residual)
     recorded, meta = read_array(recording, inputs.recorded, layout)
-    torque = read_target(residual, joints, target)
+    if margins is None:
+        torque = read_target(residual, joints, target)
+    else:
+        torque = read_array(residual, named(RESIDUAL, joints))[0]
+        torque[~free_rows(recording, layout, joints, margins)] = np.nan
     return inputs.from_recorded(recorded), torque, *spans_and_rate(meta)
 
 

@@ -7,14 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.columns import FEET, SWING
+from mobnet.core.columns import SWING, foot_of
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array, spans_and_rate
 
 IN_THE_AIR = 0.5  # of a flag
-
-
 Margins = tuple[float, float]  # left out of a swing: time after the planned lift-off, before the planned landing [s]
 
 
@@ -41,9 +39,7 @@ def free_rows(recording: Path, layout: JointLayout, joints: Sequence[str], margi
     Raises:
         DataError: the joints are not those of one leg.
     """
-    sides = [side for side, limb in layout.legs.items() if set(joints) <= set(layout.limb(limb))]
-    if not sides:
+    if not any(set(joints) <= set(layout.limb(limb)) for limb in layout.legs.values()):
         raise DataError(f"joints {', '.join(joints)} are not accepted where swings label; accepted: joints of one leg")
-    foot = next(name for name in FEET if name.startswith(sides[0]))
-    swing, meta = read_array(recording, [f"{SWING}.{foot}"])
+    swing, meta = read_array(recording, [f"{SWING}.{foot_of(layout, joints[0])}"])
     return hanging(swing[:, 0] > IN_THE_AIR, *spans_and_rate(meta), margins)

@@ -119,8 +119,9 @@ class Trainer:
         """Return how far off the best weights' standard deviations (n,) [N, N m] are on the validation blocks."""
         self.network.load_state_dict(done.best)
         error, std = predict(self.network, self._samples, self._validation, self.job.horizon)
-        known = ~np.isnan(error[:, 0])
-        error, std = error[known], std[known]
+        if self._samples.partial:
+            known = ~np.isnan(error[:, 0])
+            error, std = error[known], std[known]
         unit, learning = self.scales[1].std.astype(np.float64), self.job.training.learning
         return calibrate(error * unit, std * unit, learning.calibration_share, learning.calibration_levels)
 

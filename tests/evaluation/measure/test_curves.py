@@ -5,10 +5,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from mobnet.core.columns import foot_of
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.curves import Curves, gait_cycle, read_curves, read_cycle
-from mobnet.evaluation.measure.windows import foot_of
 from mobnet.plan.runs import Run
 
 Walk = Callable[..., Run]

@@ -15,7 +15,6 @@ from mobnet.evaluation.number.rows import read_scores
 from mobnet.settings.evaluation import Amplitude, AmplitudeTest, Statistics
 
 LABEL, X_LABEL = "MOB-Net", "largest random torque in the training data [N m]"
-LEFT = "random torque left"
 MS = 1e3
 
 
@@ -30,26 +29,24 @@ def amplitude(
     """
     panels, rows = [], []
     for title, test in settings.tests.items():
-        methods = sorted(test.methods, key=lambda name: amplitudes[name])
-        errors = [
-            number_of(read_scores(scores[test.scenario]), [wanted_of(test, name)], statistics) for name in methods
-        ]
+        own, methods = read_scores(scores[test.scenario]), sorted(test.methods, key=lambda name: amplitudes[name])
+        errors = [number_of(own, [wanted_of(test, name)], statistics) for name in methods]
         panels.append(panel_of(title, "RMSE [N m]", [amplitudes[name] for name in methods], errors))
         of = test.scenario, test.level
         rows += [
             (title, amplitudes[name], *of, name, test.joint, test.metric, *error.with_ends, *error.spread, error.unit)
             for name, error in zip(methods, errors, strict=True)
         ]
-    limbs = list(dict.fromkeys(test.limb for test in settings.tests.values()))
+    limb = next(iter(settings.tests.values())).limb
     left = {
-        name: share_left(training[name], layout, limbs[0], settings.lag_s)
+        name: share_left(training[name], layout, limb, settings.lag_s)
         for name in sorted(training, key=lambda name: amplitudes[name])
         if amplitudes[name]
     }
-    title = f"{LEFT} after {settings.lag_s * MS:g} ms"
+    title = f"random torque left after {settings.lag_s * MS:g} ms"
     panels.append(panel_of(title, "share [-]", [amplitudes[name] for name in left], list(left.values())))
     rows += [
-        (title, amplitudes[name], "", "", name, limbs[0], "share", *share.with_ends, *share.spread, "-")
+        (title, amplitudes[name], "", "", name, limb, "share", *share.with_ends, *share.spread, "-")
         for name, share in left.items()
     ]
     write_csv(figure_dir / "amplitude.csv", AMPLITUDES, rows)

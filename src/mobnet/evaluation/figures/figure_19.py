@@ -11,12 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from mobnet.core.columns import DESIRED, DOTS, SWING, VELOCITY
+from mobnet.core.columns import DESIRED, DOTS, SWING, VELOCITY, foot_of
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
 from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, entitle, legend, looks, save_figure
 from mobnet.evaluation.measure.conditional import HALF, TorqueRange, even_cells, gait_phase, torque_range
-from mobnet.evaluation.measure.windows import FLAG, Pushed, evenly, foot_of, pushed_of
+from mobnet.evaluation.measure.windows import FLAG, Pushed, evenly, pushed_of
 from mobnet.evaluation.number.files import write_csv
 from mobnet.settings.evaluation import Coverage, Figure19
 

@@ -16,11 +16,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.columns import DESIRED, FEET, VELOCITY
+from mobnet.core.columns import DESIRED, FEET, VELOCITY, foot_of
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.conditional import TorqueRange, even_cells, torque_range
 from mobnet.evaluation.measure.samples import Blocks, Reference, equal_sets, read_blocks, refer, scale_of
-from mobnet.evaluation.measure.windows import foot_of, pushed_of
+from mobnet.evaluation.measure.windows import pushed_of
 from mobnet.evaluation.number.intervals import RATIO, RunGrid, summarise
 from mobnet.evaluation.number.number import Number
 from mobnet.learning.features import limb_inputs

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.columns import RESIDUAL, SWING, named
+from mobnet.core.columns import RESIDUAL, SWING, foot_of, named
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
 from mobnet.evaluation.measure.estimates import read_pair, read_std
 from mobnet.evaluation.measure.metrics import Spans
-from mobnet.evaluation.measure.windows import FLAG, foot_of
+from mobnet.evaluation.measure.windows import FLAG
 from mobnet.plan.runs import Run
 
 TRUTH, TARGET = "truth", "target"  # labels: tau_e, and what is learned of the uncertainty, r - tau_e (section 4.2.3)

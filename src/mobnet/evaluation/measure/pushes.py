@@ -4,11 +4,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mobnet.core.columns import PUSHED, SWING, Score
+from mobnet.core.columns import PUSHED, SWING, Score, foot_of
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.curves import Panel, read_curves
 from mobnet.evaluation.measure.metrics import PUSH
-from mobnet.evaluation.measure.windows import foot_of, push_windows
+from mobnet.evaluation.measure.windows import push_windows
 from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.intervals import Formula
 from mobnet.evaluation.number.number import Number, published_value

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from mobnet.core.arrays import Array
-from mobnet.core.columns import FEET
+from mobnet.core.columns import FEET, foot_of
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import read_sensed
 from mobnet.evaluation.measure.conditional import gait_phase
-from mobnet.evaluation.measure.windows import FLAG, Pushed, blocks_of, evenly, foot_of
+from mobnet.evaluation.measure.windows import FLAG, Pushed, blocks_of, evenly
 from mobnet.learning.features import LimbInputs
 from mobnet.settings.evaluation import Coverage
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.columns import CONTACT, EXTERNAL, FEET, PUSH_TORQUE, PUSHED, SWING, VELOCITY, named
+from mobnet.core.columns import CONTACT, EXTERNAL, FEET, PUSH_TORQUE, PUSHED, SWING, VELOCITY, foot_of, named
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
 from mobnet.core.store import NOTE, file_of, read_array
@@ -64,9 +64,7 @@ class Scene:
 
     def planned(self, joint: str) -> NDArray[np.bool_]:
         """Return whether the walking plan has the foot of a joint's own leg in the air (T,)."""
-        side = next(side for side, limb in self.layout.legs.items() if joint in self.layout.limb(limb))
-        foot = next(name for name in FEET if name.startswith(side))
-        return self._read([f"{SWING}.{foot}"])[:, 0] > FLAG
+        return self._read([f"{SWING}.{foot_of(self.layout, joint)}"])[:, 0] > FLAG
 
     def behind(self, gain_hz: float, joints: Sequence[str]) -> NDArray[np.float64]:
         """Return pushes on joints behind the observer's low-pass, (T, n) [N m], V1..V3 [N]; the gain is K_0 [1/s]."""

@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.columns import CONTACT, EXTERNAL, FEET, PUSHED, SWING
-from mobnet.core.errors import ConfigError, DataError, not_accepted
-from mobnet.core.joints import JointLayout
+from mobnet.core.errors import DataError
 from mobnet.core.store import read_array
 from mobnet.evaluation.measure.metrics import Spans
 from mobnet.settings.evaluation import Coverage, CoverageTest
@@ -64,19 +63,6 @@ def pushed_of(test: CoverageTest, settings: Coverage) -> Pushed | None:
     if test.pushed is None:
         return None
     return Pushed(test.pushed, settings.push_nm, settings.push_after_s, test.pushed.startswith(settings.limb))
-
-
-def foot_of(layout: JointLayout, joint: str) -> str:
-    """Return the foot, as named in a recording, of the leg that has a joint.
-
-    Raises:
-        ConfigError: the joint belongs to no leg.
-    """
-    legs = {side: layout.limb(limb) for side, limb in layout.legs.items()}
-    for side, joints in legs.items():
-        if joint in joints:
-            return next(foot for foot in FEET if foot.startswith(side))
-    raise ConfigError(not_accepted("leg joint", joint, [name for joints in legs.values() for name in joints]))
 
 
 def flagged_spans(flags: NDArray[np.bool_], segments: Spans, after: int) -> Spans:

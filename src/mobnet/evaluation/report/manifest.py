@@ -66,7 +66,7 @@ def too_many(names: Iterable[str]) -> list[Path]:
 
 
 def is_listed(path: Path) -> bool:
-    """Return whether a file below a scale's results stands in a list; robots have the folders of states too."""
+    """Return whether a list has a file below a scale's results; a robot's states lie in the folder of the robot."""
     return path.parts[0] not in UNLISTED and path.parts[1:2] != (STATE,)
 
 
