@@ -233,6 +233,14 @@ def test_a_fit_that_the_method_does_not_make_is_refused(name: str, files: Files)
     assert says in refused(written(path, note), files)
 
 
+def test_friction_that_does_not_fall_with_the_speed_is_a_sound_fit(files: Files) -> None:
+    """Gears of the surrogate robots are such: no joint has static friction beyond its Coulomb friction."""
+    note = fit_of(files)
+    for row in note["joints"].values():
+        row["static_nm"] = 0.0
+    check_agreement([written(files.results / "fits" / "MOB-fric.json", note)], files)
+
+
 def scores_of(files: Files) -> list[Score]:
     """Return the errors of every run of a test, on all joints that it estimates."""
     layout, settings = files.settings.layout, files.settings
