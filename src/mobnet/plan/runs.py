@@ -156,6 +156,12 @@ class Files:
         limbs = [limb] if limb else self.settings.method(self.settings.network_source_of(method)).limbs
         return max((self.settings.experiment(method, name).seeds for name in limbs), key=len, default=(0,))
 
+    def run_seeds(self, method: str, scenario: str, level: str) -> tuple[int, ...]:
+        """Return the seeds with which a method runs in a test: those of the limb with the most among the test's."""
+        every = self.network_seeds(method)
+        source, limbs = self.settings.network_source_of(method), self.networks(method, every[0], scenario, level)
+        return max((self.network_seeds(source, limb) for limb in limbs), key=len, default=every)
+
     def network(self, method: str, limb: str, seed: int) -> Path:
         """Return the folder of a trained network; a limb with fewer seeds than others serves them in turn."""
         seeds = self.network_seeds(method, limb)
@@ -291,7 +297,7 @@ class Files:
         return tuple(
             self.run(scenario, level, method, network, test)
             for method in methods
-            for network in self.network_seeds(method)
+            for network in self.run_seeds(method, scenario, level)
             for test in self.test_seeds
         )
 
