@@ -1,6 +1,12 @@
 """The workflow can be planned at every scale, and a bad configuration stops it with one line."""
 
+from collections.abc import Callable
+
 import pytest
+
+from mobnet.evaluation.report.paper import missing_packages
+from mobnet.plan.plan import make_plan
+from mobnet.settings.load import load_settings
 
 from .conftest import Snakemake
 
@@ -12,6 +18,14 @@ def test_every_scale_can_be_planned(snakemake: Snakemake, scale: str) -> None:
     done = snakemake("-n", "--forceall", "--config", f"scale={scale}")
     assert done.returncode == 0, done.stderr
     assert {"collect", "train", "table_05", "figure_05", "paper"} <= set((done.stdout + done.stderr).split())
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_rules_make_exactly_what_is_planned(outputs: Callable[[str], dict[str, str]], scale: str) -> None:
+    """A rule with an output that its job does not make would fail when it has run."""
+    plan = make_plan(load_settings(overrides={"scale": scale}), with_pdf=not missing_packages())
+    planned = {*plan.stored, *(name for product in plan.products for name in product.outputs)}
+    assert outputs(scale).keys() == planned
 
 
 def test_main_tables_stand_where_a_reader_looks(snakemake: Snakemake) -> None:

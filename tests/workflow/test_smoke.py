@@ -180,7 +180,7 @@ SIMULATION, EVALUATION = "src/mobnet/simulation", "src/mobnet/evaluation"
 NOTHING: frozenset[str] = frozenset()
 UNTOUCHED = frozenset({"table_01", "deviations"})
 DECORATED, DEFINED = "\n@compiled\n", "\n\n\ndef "
-COLLECTED = frozenset({"collect", "collect_tests"})
+COLLECTED = frozenset({"collect", "collect_tests", "collect_robots"})
 EDITS = {
     "wording of an error": Edit("src/mobnet/core/store.py", "}: file is missing", "}: there is no file", NOTHING),
     "wording of a log": Edit("src/mobnet/learning/train.py", "done after epoch", "ended after epoch", NOTHING),

@@ -44,9 +44,11 @@ use rule collect as collect_tests with:
     input:
         lambda w: job("collect_tests", w).inputs,
     output:
-        tests("recordings"),
+        tests(OF_PLANT, "recordings"),
     log:
         f"{LOGS}/collect_tests/{{robot}}{{scenario}}-{{level}}.log",
+    wildcard_constraints:
+        robot=PLANT,
     resources:
         mem_mb=1200,
         runtime=30,
@@ -55,7 +57,14 @@ use rule collect as collect_tests with:
         given=lambda w: job("collect_tests", w).given,
 
 
-ruleorder: collect_tests > collect
+use rule collect_tests as collect_robots with:
+    output:
+        tests(OF_ROBOTS, "recordings"),
+    wildcard_constraints:
+        robot=ROBOTS,
+
+
+ruleorder: collect_robots > collect_tests > collect
 
 
 rule observe:
@@ -81,12 +90,21 @@ use rule observe as observe_tests with:
     input:
         lambda w: job("observe_tests", w).inputs,
     output:
-        tests("residuals"),
+        tests(OF_PLANT, "residuals"),
     log:
         f"{LOGS}/observe_tests/{{robot}}{{scenario}}-{{level}}.log",
+    wildcard_constraints:
+        robot=PLANT,
     params:
         call=lambda w: job("observe_tests", w).call,
         given=lambda w: job("observe_tests", w).given,
 
 
-ruleorder: observe_tests > observe
+use rule observe_tests as observe_robots with:
+    output:
+        tests(OF_ROBOTS, "residuals"),
+    wildcard_constraints:
+        robot=ROBOTS,
+
+
+ruleorder: observe_robots > observe_tests > observe

@@ -45,6 +45,9 @@ config["scale"] = SETTINGS.scale  # the report names it
 RECORDING = "{scenario}", "{level}", "s{seed}"  # place of what belongs to a recording
 LOGS = PLAN.folders.results / "logs"
 OWN = f"{PLAN.folders.results}/{{robot}}"  # folder of what each robot of the fleet has, and the plant of section 5.1
+# Values of the wildcard `robot`, and one of those who have as many test recordings as all of them.
+PLANT, ROBOTS = "()", "|".join(f"{name}/" for name in SETTINGS.fleet.robots)
+OF_PLANT, OF_ROBOTS = PLAN.files, next(iter(PLAN.files.robots.values()), PLAN.files)
 
 
 onstart:
@@ -71,7 +74,7 @@ onstart:
 wildcard_constraints:
     scenario="|".join(SETTINGS.scenarios),
     level="|".join(dict.fromkeys(level for jobs in PLAN.jobs.values() for level in jobs.settings.levels)),
-    robot=f"(({'|'.join(SETTINGS.fleet.robots)})/)?",
+    robot=f"({ROBOTS})?",
     method="|".join([*SETTINGS.all_methods, *SETTINGS.tried]),
     limb="|".join(SETTINGS.networks),
     motion="|".join(SETTINGS.motions),
@@ -95,9 +98,9 @@ def both_files(stem):
     return ensure([f"{stem}.parquet", f"{stem}.json"], non_empty=True)
 
 
-def tests(*place):
+def tests(files, *place):
     """Return the files of all test recordings of a scenario at a level, or of what is made from each of them."""
-    return [name for seed in PLAN.files.test_seeds for name in array(*place, "{scenario}", "{level}", f"s{seed}")]
+    return [name for seed in files.test_seeds for name in array(*place, "{scenario}", "{level}", f"s{seed}")]
 
 
 def flagged(name):

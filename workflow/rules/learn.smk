@@ -49,9 +49,11 @@ rule estimate:
     input:
         lambda w: job("estimate", w).inputs,
     output:
-        tests("estimates", "{method}", "n{network_seed}"),
+        tests(OF_PLANT, "estimates", "{method}", "n{network_seed}"),
     log:
         f"{LOGS}/estimate/{{robot}}{{method}}-n{{network_seed}}-{{scenario}}-{{level}}.log",
+    wildcard_constraints:
+        robot=PLANT,
     threads: 1
     resources:
         mem_mb=2800,
@@ -61,3 +63,10 @@ rule estimate:
         given=lambda w: job("estimate", w).given,
     script:
         "../scripts/call.py"
+
+
+use rule estimate as estimate_robots with:
+    output:
+        tests(OF_ROBOTS, "estimates", "{method}", "n{network_seed}"),
+    wildcard_constraints:
+        robot=ROBOTS,
