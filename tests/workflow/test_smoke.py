@@ -8,7 +8,6 @@ import signal
 import subprocess
 import sys
 import time
-from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,8 +15,12 @@ from pathlib import Path
 import pytest
 from browser import Browser, with_browser
 
+from mobnet.evaluation.report.accounts import read_account
+from mobnet.evaluation.report.compute import HOUR_S, WHOLE
+from mobnet.evaluation.report.cost import costs
+from mobnet.evaluation.report.rates import measured
 from mobnet.plan.plan import Plan, make_plan
-from mobnet.plan.runs import FIRST_TRAINING_SEED
+from mobnet.plan.work import all_work
 from mobnet.settings.load import load_settings
 
 from .clicks import choose, explain, show, text_of_frame
@@ -100,11 +103,14 @@ def test_every_job_left_a_log_and_an_account(unbroken: Path, plan: Plan) -> None
     folder = unbroken / "results" / "smoke" / "logs"
     logs = {path.with_suffix(".json") for path in folder.rglob("*.log")}
     assert logs == set(accounts(unbroken))
-    collected = Counter(path.relative_to(folder).parts[0] for path in logs)
-    walks = [(files.robot, *walk) for files in (plan.files, *plan.files.robots.values()) for walk in files.recorded()]
-    trained = {walk for walk in walks if walk[-1] >= FIRST_TRAINING_SEED}
-    tested = {walk[:-1] for walk in walks if walk not in trained}
-    assert (collected["collect"], collected["collect_tests"]) == (len(trained), len(tested))
+    names = {str(path.relative_to(folder).with_suffix("")) for path in logs}
+    assert names == {work.job for work in all_work(plan)}
+
+
+def test_the_run_can_be_priced_by_its_own_accounts(unbroken: Path, plan: Plan) -> None:
+    rates = measured(plan, map(read_account, accounts(unbroken)))
+    priced = costs(all_work(plan), rates.kinds)[WHOLE][1]
+    assert priced / HOUR_S == pytest.approx(rates.core_h, rel=0.1)
 
 
 def test_second_call_does_nothing(unbroken: Path) -> None:

@@ -18,6 +18,7 @@ MODULES = {  # command -> the module that `python -m` runs, with words that come
     "test": ("pytest", "-n", "2", "--dist", "loadfile", "--max-worker-restart", "0"),
     "bench": ("benchmarks",),
     "check": ("mobnet.check",),
+    "cost": ("mobnet.evaluation.report.cost",),
     **{name: ("mobnet.evaluation.report.snapshot", name) for name in ("verify", "compare", "snapshot")},
 }
 REPORT = ("--report", "report.html", "--report-after-run")

@@ -54,6 +54,12 @@ def check_space(plan: Plan, outputs: Iterable[str]) -> None:
             )
 
 
+def whole_bytes(plan: Plan) -> int:
+    """Return about how many bytes everything that a plan makes will have."""
+    names = {*plan.stored, *(name for product in plan.products for name in product.outputs)}
+    return sum(expected_bytes(plan, Path(name)) for name in names)
+
+
 def expected_bytes(plan: Plan, path: Path) -> int:
     """Return about how many bytes a file of the plan will have: rows by columns for an array."""
     files, (kind, *parts) = plan.files.owner_of(path)

@@ -50,12 +50,17 @@ def compute(settings: Compute, accounts: Path, out: Path) -> None:
 
 def by_stage(jobs: Sequence[Account]) -> Iterator[tuple[str, Sequence[Account]]]:
     """Yield each stage that has jobs with them, then all of them."""
-    stage_of = {rule: stage for stage, rules in STAGES.items() for rule in rules}
     for stage in STAGES:
-        own = [job for job in jobs if stage_of.get(job.job.split("/")[0], REST) == stage]
+        own = [job for job in jobs if stage_of(job.job) == stage]
         if own:
             yield stage, own
     yield WHOLE, jobs
+
+
+def stage_of(job: str) -> str:
+    """Return the stage of a job by the name of its account."""
+    rule = job.split("/")[0]
+    return next((stage for stage, rules in STAGES.items() if rule in rules), REST)
 
 
 def uses_of(stage: str, jobs: Sequence[Account]) -> Uses:

@@ -19,6 +19,9 @@ from mobnet.evaluation.number.files import read_texts
 from mobnet.evaluation.report.accounts import read_account
 from mobnet.evaluation.report.compute import pauses
 from mobnet.evaluation.report.manifest import differences, file_hash
+from mobnet.evaluation.report.paper import missing_packages
+from mobnet.evaluation.report.rates import RATES, measured
+from mobnet.plan.plan import make_plan
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
@@ -45,11 +48,10 @@ def check_run(results: Path, manifest: Path, pause_s: float) -> None:
         DataError: one line for each fault: tracked files were changed, another commit made a result, a job came after
             a pause longer than `pause_s` [s], or a file is not as the run wrote it.
     """
-    head = commit()
     head, faults = commit(), differences(manifest)
     if head == UNKNOWN or head.endswith(CHANGED):
         faults.append(f"commit {head}: is not accepted; accepted: a checkout without changed files")
-    notes = [note for folder in NOTED for note in sorted((results / folder).rglob("*.json"))]
+    notes = [note for folder in NOTED for note in sorted(results.glob(f"**/{folder}/**/*.json"))]
     made = {note: read_json(note).get("provenance", {}).get("commit", UNKNOWN) for note in notes}
     faults += [
         f"{note}: commit {found} is not accepted; accepted: {head}" for note, found in made.items() if found != head
@@ -156,6 +158,9 @@ def main(words: list[str]) -> int:
             settings = load_settings()
             check_run(RESULTS, options.manifest, settings.evaluation.compute.pause_s)
             write_snapshot(settings, TABLES, FIGURES, COMPUTE, SNAPSHOT)
+            plan = make_plan(settings, with_pdf=not missing_packages())
+            jobs = map(read_account, sorted((RESULTS / "logs").rglob("*.json")))
+            write_json(RATES, measured(plan, jobs).model_dump())
             page = read_text(README)
             for name in HEADLINES:
                 page = with_headline(page, name, read_text(SNAPSHOT / f"{name}.md"))

@@ -1,0 +1,101 @@
+"""What a run of the workflow will cost, priced by the rates of the published one: `./reproduce cost`."""
+
+import argparse
+import logging
+import sys
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import yaml
+
+from mobnet.core.errors import ConfigError, MobnetError
+from mobnet.core.notes import read_note
+from mobnet.evaluation.report.compute import HOUR_S, STAGES, WHOLE, stage_of
+from mobnet.evaluation.report.paper import missing_packages
+from mobnet.evaluation.report.rates import RATES, Kind, RatesNote, price
+from mobnet.evaluation.tables.layout import markdown_table
+from mobnet.plan.disk import whole_bytes
+from mobnet.plan.plan import Plan, make_plan
+from mobnet.plan.work import Work, all_work
+from mobnet.settings.load import load_settings
+
+log = logging.getLogger(__name__)
+
+HEADER = ("stage", "jobs", "core-hours", "memory [MiB]")
+GIB, PERCENT = 2**30, 100.0
+Cost = tuple[int, float, float]  # jobs, processor time [s], largest peak of the memory [MiB]
+
+
+def costs(works: Iterable[Work], kinds: dict[str, Kind]) -> dict[str, Cost]:
+    """Return what the jobs of each stage will take, then all of them; jobs without a rate do not count."""
+    found: dict[str, Cost] = dict.fromkeys((*STAGES, WHOLE), (0, 0.0, 0.0))
+    for work in works:
+        if work.kind in kinds:
+            cpu_s, peak_mib = price(work, kinds[work.kind])
+            for stage in (stage_of(work.job), WHOLE):
+                jobs, before_s, most_mib = found[stage]
+                found[stage] = jobs + 1, before_s + cpu_s, max(most_mib, peak_mib)
+    return {stage: cost for stage, cost in found.items() if cost[0]}
+
+
+def report(plan: Plan, rates: RatesNote) -> str:
+    """Return the price of a plan as text: a row for each stage, the disk, and what has no rate."""
+    works = all_work(plan)
+    found = costs(works, rates.kinds)
+    rows = [[stage, str(n), f"{cpu_s / HOUR_S:.2f}", f"{mib:.0f}"] for stage, (n, cpu_s, mib) in found.items()]
+    unknown = sorted({work.kind for work in works} - {*rates.kinds})
+    lines = [
+        f"scale {plan.settings.scale}, priced as on this processor: {rates.processor}",
+        "",
+        markdown_table(HEADER, rows),
+        f"disk: {whole_bytes(plan) / GIB:.1f} GiB; time: the core-hours over the number of cores",
+        "GPU-hours: none, as no training on a GPU has been measured",
+    ]
+    lines += [f"without a rate, and not counted: {', '.join(unknown)}"] if unknown else []
+    return "\n".join(lines)
+
+
+def check(rates: RatesNote, with_pdf: bool) -> str:
+    """Return how the rates price the run to which they are fitted."""
+    plan = make_plan(load_settings(overrides={"scale": rates.scale}), with_pdf=with_pdf)
+    _, cpu_s, peak_mib = costs(all_work(plan), rates.kinds)[WHOLE]
+    pairs = {"core-hours": (cpu_s / HOUR_S, rates.core_h, 2), "MiB": (peak_mib, rates.peak_mib, 0)}
+    told = [
+        f"{priced:.{digits}f} {unit} where it took {took:.{digits}f} ({PERCENT * (priced / took - 1):+.0f} %)"
+        for unit, (priced, took, digits) in pairs.items()
+    ]
+    return f"the published run of scale {rates.scale}, to which the rates are fitted: {', '.join(told)}"
+
+
+def overrides(words: Sequence[str]) -> dict[str, Any]:
+    """Return the values that replace those of the configuration, from words KEY=VALUE.
+
+    Raises:
+        ConfigError: a word is none.
+    """
+    parts = [word.partition("=") for word in words]
+    for word, (key, sign, _) in zip(words, parts, strict=True):
+        if not (key and sign):
+            raise ConfigError(f"--config: {word!r} is not accepted; accepted: KEY=VALUE, a key of configs")
+    return {key: yaml.safe_load(value) for key, _, value in parts}
+
+
+def main(words: Sequence[str]) -> int:
+    """Print what a run will cost; return the exit status."""
+    parser = argparse.ArgumentParser(prog="./reproduce cost", description=__doc__)
+    parser.add_argument("--config", "-C", nargs="+", default=[], metavar="KEY=VALUE", help="as of ./reproduce all")
+    options = parser.parse_args(words)
+    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+    with_pdf = not missing_packages()
+    try:
+        rates = read_note(RATES, RatesNote)
+        plan = make_plan(load_settings(overrides=overrides(options.config)), with_pdf=with_pdf)
+        log.info("%s\n%s", report(plan, rates), check(rates, with_pdf))
+    except MobnetError as error:
+        log.error("%s", error)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

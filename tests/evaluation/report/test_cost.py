@@ -1,0 +1,79 @@
+"""`./reproduce cost` prices every job of a scale, and says what it cannot price."""
+
+import logging
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from mobnet.core.files import write_json
+from mobnet.evaluation.report.cost import main
+from mobnet.evaluation.report.rates import RATES
+from mobnet.plan.plan import make_plan
+from mobnet.plan.work import all_work
+from mobnet.settings.load import load_settings
+
+HOUR_S = 3600.0
+Told = Callable[[], str]
+
+
+@pytest.fixture(autouse=True)
+def rates(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, object]:
+    """A folder in which every job of the smoke scale took 36 s and 500 MiB, and the table 8 is not known."""
+    monkeypatch.chdir(tmp_path)
+    works = all_work(make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False))
+    kinds = {work.kind: {"cpu_s": {"job": 36.0}, "peak_mib": {"job": 500.0}} for work in works}
+    del kinds["table_08"]
+    note = {"processor": "made-up", "scale": "smoke", "core_h": len(works) / 50, "peak_mib": 500.0, "kinds": kinds}
+    write_json(RATES, note)
+    return note
+
+
+@pytest.fixture
+def told(caplog: pytest.LogCaptureFixture) -> Told:
+    """Return a function that returns what was told since its last call."""
+    caplog.set_level(logging.INFO)
+
+    def text() -> str:
+        found = "\n".join(caplog.messages)
+        caplog.clear()
+        return found
+
+    return text
+
+
+def test_every_job_is_priced_and_the_rest_is_named(told: Told) -> None:
+    assert main(["--config", "scale=smoke"]) == 0
+    text = told()
+    jobs = len(all_work(make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False))) - 1
+    assert f"| all jobs | {jobs} | {jobs * 36 / HOUR_S:.2f} | 500 |" in text
+    assert "without a rate, and not counted: table_08" in text
+    assert "(-50 %), 500 MiB where it took 500 (+0 %)" in text
+
+
+def test_the_papers_size_costs_more(told: Told) -> None:
+    found: list[float] = []
+    for scale in ("default", "paper"):
+        assert main(["-C", f"scale={scale}"]) == 0
+        found.append(float(told().split("| all jobs |")[1].split("|")[1]))
+    assert found[1] > found[0] > 1
+
+
+@pytest.mark.parametrize(
+    ("words", "line"),
+    [
+        (["scale"], "--config: 'scale' is not accepted; accepted: KEY=VALUE, a key of configs"),
+        (["scale=huge"], "'huge' is not accepted; accepted: default, paper, smoke"),
+    ],
+)
+def test_what_is_not_accepted_is_one_line(words: list[str], line: str, told: Told) -> None:
+    assert main(["--config", *words]) == 1
+    text = told()
+    assert line in text
+    assert "\n" not in text
+
+
+def test_without_rates_one_line_says_so(told: Told) -> None:
+    RATES.unlink()
+    assert main([]) == 1
+    assert told().startswith(f"{RATES}: file is missing")
