@@ -1,13 +1,15 @@
 """One run in a folder; jobs share a lock of their own; only unfinished files are removed."""
 
+import errno
 import fcntl
+import os
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from mobnet.core.lock import JOBS, LOCKS, holder, job_prefix, sweep
+from mobnet.core.lock import JOBS, LOCKS, RUN, begin_run, holder, job_prefix, sweep, warn_of_missing_locks
 
 HOLD = """
 import fcntl, sys, time
@@ -32,7 +34,8 @@ def test_who_holds_a_lock_is_told(tmp_path: Path, name: str) -> None:
 
 def test_a_job_holds_its_lock_in_a_folder_of_any_name_and_leaves_ctrl_c_to_its_run(tmp_path: Path) -> None:
     root = tmp_path / "a folder's name"
-    (root / ".cache").mkdir(parents=True)
+    root.mkdir()
+    begin_run(root)
     words = ["bash", "-c", f"{job_prefix(root)} echo held; kill -INT $$; read"]
     with subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as job, (root / JOBS).open("w") as lock:
         assert job.stdout is not None
@@ -42,6 +45,33 @@ def test_a_job_holds_its_lock_in_a_folder_of_any_name_and_leaves_ctrl_c_to_its_r
         job.communicate(b"\n")
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     assert job.returncode == 0
+
+
+def test_a_job_of_an_earlier_run_ends_at_once_with_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    begin_run(tmp_path)
+    words = ["bash", "-c", f"{job_prefix(tmp_path)} echo works"]
+    assert subprocess.run(words, capture_output=True, text=True, check=True).stdout == "works\n"
+    before = os.environ[RUN]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("mobnet.core.lock.LOCKS", {JOBS: ""})  # this process holds the other one
+        begin_run(tmp_path)
+    monkeypatch.setenv(RUN, before)
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr == "the run that asked for this job has ended, and another one has begun\n"
+
+
+def test_a_file_system_without_locks_is_told_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    def refuse(*_: object) -> None:
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr("fcntl.flock", refuse)
+    warn_of_missing_locks.cache_clear()
+    assert not begin_run(tmp_path)
+    assert caplog.messages == ["this file system has no locks: nothing keeps two runs in this folder apart"]
+    assert holder(tmp_path) is None
 
 
 def test_only_unfinished_files_are_removed(tmp_path: Path) -> None:

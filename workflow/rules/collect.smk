@@ -1,5 +1,5 @@
 # Recordings of the walking robot, and what the observer makes of them. Memory [MB] and time [min] are those of the
-# default scale, doubled.
+# default scale, doubled. On a cluster, jobs of a group go into its queue together.
 
 
 rule motion:
@@ -10,9 +10,11 @@ rule motion:
     log:
         f"{LOGS}/motion/{{motion}}-s{{seed}}.log",
     priority: 30
+    group:
+        "motions"
     threads: 1
     resources:
-        mem_mb=500,
+        mem_mb=growing(500),
         runtime=10,
     params:
         call=lambda w: job("motion", w).call,
@@ -29,9 +31,11 @@ rule collect:
     log:
         f"{LOGS}/collect/{{robot}}{{scenario}}-{{level}}-s{{seed}}.log",
     priority: 20
+    group:
+        "walks"
     threads: 1
     resources:
-        mem_mb=1200,
+        mem_mb=growing(1200),
         runtime=10,
     params:
         call=lambda w: job("collect", w).call,
@@ -50,7 +54,7 @@ use rule collect as collect_tests with:
     wildcard_constraints:
         robot=PLANT,
     resources:
-        mem_mb=1200,
+        mem_mb=growing(1200),
         runtime=30,
     params:
         call=lambda w: job("collect_tests", w).call,
@@ -75,9 +79,11 @@ rule observe:
     log:
         f"{LOGS}/observe/{{robot}}{{scenario}}-{{level}}-s{{seed}}.log",
     priority: 20
+    group:
+        "walks"
     threads: 1
     resources:
-        mem_mb=2300,
+        mem_mb=growing(2300),
         runtime=10,
     params:
         call=lambda w: job("observe", w).call,

@@ -60,7 +60,7 @@ onstart:
         # of a core after 100 jobs. Here the number of cores limits the rate.
         workflow.scheduler.job_rate_limiter = None
     try:
-        start_jobs(ROOT)
+        start_jobs(ROOT, are_here=workflow.local_exec)
         record_precision(PLAN.folders.results)
         made = {str(path) for job in workflow.dag.needrun_jobs() for path in job.output}
         check_space(PLAN, made)
@@ -69,6 +69,14 @@ onstart:
         check_agreement((Path(name) for name in sorted(read - made) if not name.endswith(".csv")), PLAN.files)
     except MobnetError as error:
         sys.exit(str(error))
+
+
+onerror:
+    if not workflow.local_exec:
+        sys.stderr.write(
+            "a job that the cluster ended for its memory or time gets more by --set-resources RULE:mem_mb=MB or "
+            "RULE:runtime=MINUTES\n"
+        )
 
 
 wildcard_constraints:
@@ -86,6 +94,11 @@ def job(kind, wildcards):
     """Return the plan's job of a kind for the wildcards of its rule, of which `robot` is a folder or empty."""
     given = {k: int(v) if k.endswith("seed") else v for k, v in wildcards.items()}
     return getattr(PLAN.jobs[given.pop("robot", "").rstrip("/")], kind)(**given)
+
+
+def growing(memory_mb):
+    """Return what a job asks for in memory [MB], each time it is sent again as much more."""
+    return lambda wildcards, attempt: attempt * memory_mb
 
 
 def array(kind, *place):

@@ -9,9 +9,11 @@ rule fit:
     log:
         f"{LOGS}/fit/{{robot}}{{method}}.log",
     priority: 10
+    group:
+        "fits"
     threads: 1
     resources:
-        mem_mb=4000,
+        mem_mb=growing(4000),
         runtime=10,
     params:
         call=lambda w: job("fit", w).call,
@@ -36,7 +38,7 @@ rule train:
     priority: 10
     threads: 1
     resources:
-        mem_mb=6000,
+        mem_mb=growing(6000),
         runtime=30,
     params:
         call=lambda w: job("train", w).call,
@@ -54,9 +56,11 @@ rule estimate:
         f"{LOGS}/estimate/{{robot}}{{method}}-n{{network_seed}}-{{scenario}}-{{level}}.log",
     wildcard_constraints:
         robot=PLANT,
+    group:
+        "estimates"
     threads: 1
     resources:
-        mem_mb=2800,
+        mem_mb=growing(2800),
         runtime=10,
     params:
         call=lambda w: job("estimate", w).call,

@@ -9,9 +9,11 @@ rule score:
         ensure(f"{PLAN.folders.results}/scores/{{scenario}}.csv", non_empty=True),
     log:
         f"{LOGS}/score/{{scenario}}.log",
+    group:
+        "scores"
     threads: 1
     resources:
-        mem_mb=500,
+        mem_mb=growing(500),
         runtime=5,
     params:
         call=lambda w: job("score", w).call,
@@ -31,9 +33,11 @@ for product in (*PLAN.products, *PLAN.trials):
             [flagged(name) for name in product.outputs],
         log:
             f"{LOGS}/{product.name}.log",
+        group:
+            "tables"
         threads: 1
         resources:
-            mem_mb=1700,
+            mem_mb=growing(1700),
             runtime=10,
         params:
             call=product.job.call,

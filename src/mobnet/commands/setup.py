@@ -16,6 +16,7 @@ from mobnet.commands.disk import remove, sizes_of
 from mobnet.commands.install import install, make_venv
 from mobnet.commands.tell import in_gb, say
 from mobnet.commands.tools import LOG, Tools
+from mobnet.core.lock import taken
 
 LOCKS = ("environment.lock", "cuda.constraints")
 STAMP = "installed"
@@ -39,9 +40,7 @@ def set_up(root: Path, build: str | None = None) -> None:
 
 def wait_for(handle: int) -> None:
     """Take the lock of the set-up; wait, and say so, while another set-up in this folder holds it."""
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
+    if not taken(handle):
         say("waiting for another set-up in this folder to end")
         fcntl.flock(handle, fcntl.LOCK_EX)
 

@@ -3,18 +3,24 @@
 A run holds `run.lock` alone until its process ends. Each of its jobs holds `jobs.lock` together with the others, also
 one that outlives a killed run. Whoever holds both alone may remove unfinished files. The system frees a lock when its
 process ends. No other module takes them. Standard library only.
+
+A cluster's queue may hold jobs of a killed run that start later and have no lock yet. So each run gives its jobs its
+name, which stands in the folder too, and a job of another name ends at once.
 """
 
+import errno
 import fcntl
+import functools
 import logging
 import os
 import shlex
 import shutil
+import uuid
 from collections.abc import Iterator
 from pathlib import Path
 
 from mobnet.core.errors import DataError
-from mobnet.core.files import PARTIAL, refusal
+from mobnet.core.files import PARTIAL, refusal, write_text
 
 log = logging.getLogger(__name__)
 
@@ -23,6 +29,8 @@ LOCKS = {  # file below the project -> what holds it
     ".cache/jobs.lock": "jobs of a run that was killed",
 }
 _, JOBS = LOCKS
+NAME, RUN = ".cache/run.name", "MOBNET_RUN"  # file with the name of the latest run, and the variable that its jobs get
+LOCKLESS = {errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP}  # what a file system says that has no locks
 ANY = "[a-z0-9_]" * 8  # what tempfile puts into the name of a file
 SWEPT = {  # folder of the project -> unfinished files in it and below
     **dict.fromkeys(("results", "tables", "figures", "paper", "docs/results"), f"**/{PARTIAL}{ANY}.*"),
@@ -32,8 +40,15 @@ SWEPT = {  # folder of the project -> unfinished files in it and below
 
 
 def job_prefix(root: Path) -> str:
-    """Return what a job's shell does first: hold the lock of the jobs, and leave Ctrl-C to the run that started it."""
-    return f"trap '' INT; exec 9<>{shlex.quote(str(root / JOBS))}; flock -s 9; "
+    """Return what a job's shell does first.
+
+    It holds the lock of the jobs, where there are locks, leaves Ctrl-C to the run that started it, and ends if that run
+    is not the latest one. No brace is in it, as Snakemake takes the text for a pattern.
+    """
+    jobs, name = (shlex.quote(str(root / file)) for file in (JOBS, NAME))
+    lock = f"trap '' INT; exec 9<>{jobs}; flock -s 9 2> /dev/null || :; "
+    ended = "the run that asked for this job has ended, and another one has begun"
+    return lock + f'if [ "$(printenv {RUN})" != "$(cat {name})" ]; then echo {shlex.quote(ended)} >&2; exit 1; fi; '
 
 
 def begin_run(root: Path) -> bool:
@@ -49,7 +64,9 @@ def begin_run(root: Path) -> bool:
             fcntl.flock(handle, fcntl.LOCK_EX)
             waited = True
     sweep(root)
-    fcntl.flock(handles[JOBS], fcntl.LOCK_UN)
+    os.close(handles[JOBS])
+    os.environ[RUN] = uuid.uuid4().hex
+    write_text(root / NAME, os.environ[RUN])
     return waited
 
 
@@ -77,12 +94,22 @@ def opened(path: Path) -> int:
 
 
 def taken(handle: int) -> bool:
-    """Take a lock alone, if nobody holds it, and return whether that is so."""
+    """Take a lock alone, if nobody holds it, and return whether that is so; without locks nobody ever does."""
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         return False
+    except OSError as error:
+        if error.errno not in LOCKLESS:
+            raise
+        warn_of_missing_locks()
     return True
+
+
+@functools.cache
+def warn_of_missing_locks() -> None:
+    """Say, once, that two runs may meet."""
+    log.warning("this file system has no locks: nothing keeps two runs in this folder apart")
 
 
 def sweep(root: Path) -> None:

@@ -13,6 +13,7 @@ import signal
 import sys
 import tempfile
 import time
+from functools import partial
 from pathlib import Path
 from typing import TextIO, cast
 
@@ -90,14 +91,25 @@ def lives(process: psutil.Process) -> bool:
     return False
 
 
-def start_jobs(root: Path) -> None:
-    """Wait until this run is alone in the folder; what another one made meanwhile needs a new plan."""
+def start_jobs(root: Path, *, are_here: bool) -> None:
+    """Wait until this run is alone in the folder; what another one made meanwhile needs a new plan.
+
+    Where jobs are not run here but by a cluster, Ctrl-C is Snakemake's, which takes them out of the queue.
+    """
     if begin_run(root):
         python = shlex.split(sys.executable)[0]  # common.smk quotes it for snakemake
         os.execv(python, [python, *sys.orig_argv[1:]])
     if commit() == UNKNOWN:
         log.warning("%s: git knows no commit here; results will not say which code made them (commit: unknown)", root)
-    signal.signal(signal.SIGINT, lambda number, _: stop(root, number, alone=True))
+    stops = partial(stop, root, alone=True) if are_here else cancel_jobs
+    signal.signal(signal.SIGINT, lambda number, _: stops(number))
+
+
+def cancel_jobs(number: int) -> None:
+    """Let Snakemake cancel the jobs that a cluster has, and end; a second Ctrl-C does not hurry it."""
+    signal.signal(number, signal.SIG_IGN)
+    log.warning("%s; the cluster's jobs are cancelled", STOPPED)
+    raise KeyboardInterrupt
 
 
 def plain_yaml(stream: TextIO, **_: object) -> object:

@@ -1,0 +1,143 @@
+"""The workflow on a real SLURM cluster: what fails there ends with the same files or with one clear line."""
+
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from mobnet.core.files import METRICS, RUN, WEIGHTS
+
+from .cluster import Cluster, cluster_in, wait_for
+
+SMOKE = ("--config", "scale=smoke")
+PROFILE = ("--profile", "workflow/profiles/slurm", "--latency-wait", "5")
+NETWORK = Path("results/smoke/networks/MOB-Net-LL-s0")
+TARGETS = tuple(str(NETWORK / name) for name in (WEIGHTS, METRICS, RUN))
+COLLECTED = "results/smoke/recordings/random_walk/all_uncertainty/s1000.parquet"
+LONGEST_S = 300.0
+
+pytestmark = [pytest.mark.slow, pytest.mark.sim]
+
+
+@pytest.fixture(scope="module")
+def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
+    """A running cluster of one node."""
+    with cluster_in(tmp_path_factory.mktemp("cluster")) as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def trained(make_project: Callable[..., Path], cluster: Cluster) -> Path:
+    """A project in which one network was trained without a cluster."""
+    folder = make_project("trained")
+    words = [sys.executable, str(folder / "reproduce"), *TARGETS, *SMOKE]
+    subprocess.run(words, cwd=folder, check=True, capture_output=True)
+    return folder
+
+
+@pytest.fixture
+def project(make_project: Callable[..., Path], trained: Path, request: pytest.FixtureRequest) -> Path:
+    """A copy of the project with the data of the network, which is not trained."""
+    folder = make_project("project")
+    for part in ("recordings", "residuals"):
+        subprocess.run(["cp", "-a", "--parents", f"results/smoke/{part}", str(folder)], cwd=trained, check=True)
+    subprocess.run(["cp", "-a", ".snakemake", str(folder)], cwd=trained, check=True)
+    return folder
+
+
+def start(cluster: Cluster, folder: Path, *words: str) -> subprocess.Popen[str]:
+    """Start ./reproduce on the cluster; what it says is in out.log."""
+    command = [sys.executable, str(folder / "reproduce"), *(words or TARGETS), *SMOKE, *PROFILE]
+    with (folder / "out.log").open("a") as out:
+        return subprocess.Popen(cluster.words(*command), cwd=folder, stdout=out, stderr=out, text=True)
+
+
+def told(folder: Path) -> str:
+    """Return what the runs in a folder said."""
+    return (folder / "out.log").read_text()
+
+
+def wait_for_training(cluster: Cluster, folder: Path) -> str:
+    """Wait until a training runs; return the number of its job."""
+    log = folder / "results" / "smoke" / "logs" / "train" / f"{NETWORK.name}.log"
+    wait_for(lambda: log.exists() and "epoch" in log.read_text(), LONGEST_S)
+    return next(job for job, state, _ in cluster.jobs() if state == "RUNNING")
+
+
+def ended(run: subprocess.Popen[str], cluster: Cluster, folder: Path) -> int:
+    """Wait for the end of a run; return its status. Nothing of it is left in the queue, and no file is half written."""
+    status = run.wait(LONGEST_S)
+    wait_for(lambda: not cluster.jobs())
+    assert not list(folder.glob("results/**/.partial.*"))
+    return status
+
+
+def assert_same_network(folder: Path, trained: Path) -> None:
+    """Check that a project has the network that was trained without a cluster."""
+    for name in (WEIGHTS, METRICS):
+        assert (folder / NETWORK / name).read_bytes() == (trained / NETWORK / name).read_bytes()
+
+
+def test_a_cancelled_training_is_sent_again_and_ends_the_same(cluster: Cluster, project: Path, trained: Path) -> None:
+    run = start(cluster, project)
+    cluster.ask("scancel", wait_for_training(cluster, project))
+    assert ended(run, cluster, project) == 0, told(project)
+    assert "Trying to restart job" in told(project)
+    assert_same_network(project, trained)
+
+
+def test_a_node_that_fails_and_returns_does_not_lose_its_job(cluster: Cluster, project: Path, trained: Path) -> None:
+    run = start(cluster, project)
+    wait_for_training(cluster, project)
+    cluster.kill("slurmd")
+    wait_for(lambda: "down" in cluster.ask("sinfo", "--noheader", "--format=%T"), LONGEST_S)
+    cluster.start("slurmd")
+    assert ended(run, cluster, project) == 0, told(project)
+    assert_same_network(project, trained)
+
+
+def test_a_controller_that_fails_and_returns_is_waited_for(cluster: Cluster, project: Path, trained: Path) -> None:
+    run = start(cluster, project)
+    wait_for_training(cluster, project)
+    cluster.kill("slurmctld")
+    cluster.start("slurmctld")
+    assert ended(run, cluster, project) == 0, told(project)
+    assert_same_network(project, trained)
+
+
+def test_a_killed_run_started_again_ends_the_same(cluster: Cluster, project: Path, trained: Path) -> None:
+    run = start(cluster, project)
+    wait_for_training(cluster, project)
+    cluster.ask("pkill", "-KILL", "-f", "mobnet.core.run")
+    run.wait(LONGEST_S)
+    again = start(cluster, project)
+    assert ended(again, cluster, project) == 0, told(project)
+    assert_same_network(project, trained)
+
+
+def test_ctrl_c_empties_the_queue(cluster: Cluster, project: Path) -> None:
+    run = start(cluster, project)
+    wait_for_training(cluster, project)
+    cluster.ask("pkill", "-INT", "-f", "mobnet.core.run")
+    assert ended(run, cluster, project) != 0
+    assert told(project).count("stopped; the same command goes on from here") == 1
+
+
+def test_a_job_over_its_memory_is_named_with_a_remedy(cluster: Cluster, project: Path) -> None:
+    run = start(cluster, project, *TARGETS, "--set-resources", "train:mem_mb=100")
+    assert ended(run, cluster, project) != 0
+    assert "rule train" in told(project)
+    assert told(project).count("--set-resources RULE:mem_mb=") == 1
+
+
+def test_a_full_disk_is_told_in_one_line(cluster: Cluster, project: Path, trained: Path) -> None:
+    target = str(project / "results")
+    cluster.ask("mount", "-t", "tmpfs", "-o", "size=1M", "none", target)
+    try:
+        run = start(cluster, project, COLLECTED)
+        assert ended(run, cluster, project) != 0
+    finally:
+        cluster.ask("umount", target)
+    assert "too little space" in told(project)
