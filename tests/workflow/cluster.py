@@ -100,19 +100,18 @@ def cluster_in(folder: Path) -> Iterator[Cluster]:
     text = CONFIGURATION.format(node=socket.gethostname(), folder=folder, ports=PORTS, memory_mb=memory_mb)
     (folder / "etc" / "slurm.conf").write_text(text)
     words = ["unshare", "--mount", "--pid", "--fork", "--kill-child", "--mount-proc", "bash", "-c"]
-    holder = subprocess.Popen([*words, START.format(folder=folder)], stderr=subprocess.PIPE, text=True)
-    try:
-        wait_for(lambda: (folder / "ready").exists() or holder.poll() is not None)
-        if holder.poll() is not None:
-            pytest.skip(f"a cluster needs namespaces of its own: {holder.stderr and holder.stderr.read()}")
-        cluster = Cluster(psutil.Process(holder.pid).children()[0].pid)
-        for daemon in DAEMONS:
-            cluster.start(daemon)
-        wait_for(lambda: "idle" in cluster.ask("sinfo", "--noheader", "--format=%T"))
-        yield cluster
-    finally:
-        holder.kill()
-        holder.wait()
+    with subprocess.Popen([*words, START.format(folder=folder)]) as holder:
+        try:
+            wait_for(lambda: (folder / "ready").exists() or holder.poll() is not None)
+            if holder.poll() is not None:
+                pytest.skip("a cluster needs namespaces of its own, which cannot be made here")
+            cluster = Cluster(psutil.Process(holder.pid).children()[0].pid)
+            for daemon in DAEMONS:
+                cluster.start(daemon)
+            wait_for(lambda: "idle" in cluster.ask("sinfo", "--noheader", "--format=%T"))
+            yield cluster
+        finally:
+            holder.kill()
 
 
 def wait_for(is_so: Callable[[], bool], longest_s: float = READY_S) -> None:

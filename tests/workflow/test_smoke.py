@@ -24,6 +24,7 @@ from mobnet.plan.work import all_work
 from mobnet.settings.load import load_settings
 
 from .clicks import choose, explain, show, text_of_frame
+from .cluster import cluster_in
 from .conftest import Snakemake
 
 SMOKE = ("--config", "scale=smoke")
@@ -242,6 +243,22 @@ def test_damaged_recording_stops_with_one_line_and_nothing_half_written(
     assert done.returncode != 0
     assert (done.stdout + done.stderr).count(f"{place}/s101.parquet: truncated or damaged") == 1
     assert not (folder / target).exists()
+
+
+def test_a_cluster_makes_the_same_files(
+    unbroken: Path, make_project: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    """At this scale trainings take seconds, so that they go into the queue together too."""
+    with cluster_in(tmp_path_factory.mktemp("cluster")) as cluster:
+        folder = make_project("on_cluster", unbroken)
+        groups = ("motions=20", "walks=8", "fits=4", "networks=8", "estimates=20", "scores=20", "tables=100")
+        words = ["--profile", "workflow/profiles/slurm", "--groups", "train=networks", "--group-components", *groups]
+        command = [sys.executable, str(folder / "reproduce"), "all", *words, *SMOKE]
+        with (folder / "out.log").open("w") as out:
+            done = subprocess.run(cluster.words(*command), cwd=folder, stdout=out, stderr=out, check=False)
+        assert done.returncode == 0, told(folder)
+    assert products(folder) == products(unbroken)
+    assert manifest_of(folder) == manifest_of(unbroken)
 
 
 def test_killed_at_random_moments_ends_with_the_same_tables(unbroken: Path, make_project: Callable[..., Path]) -> None:

@@ -2,8 +2,10 @@
 
 import shlex
 import sys
+import time
 from pathlib import Path
 
+from mobnet.core.cluster import failed_jobs
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
 from mobnet.core.lock import job_prefix
@@ -18,7 +20,7 @@ from mobnet.plan.products import shown
 from mobnet.plan.texts import text_problems
 from mobnet.settings.load import load_settings, refuse_configfiles
 
-ROOT = Path(workflow.basedir)
+ROOT, STARTED_S = Path(workflow.basedir), time.time()
 quieten(ROOT)
 shell.prefix(job_prefix(ROOT))
 
@@ -73,10 +75,8 @@ onstart:
 
 onerror:
     if not workflow.local_exec:
-        sys.stderr.write(
-            "a job that the cluster ended for its memory or time gets more by --set-resources RULE:mem_mb=MB or "
-            "RULE:runtime=MINUTES\n"
-        )
+        for line in failed_jobs(ROOT, STARTED_S):
+            sys.stderr.write(f"{line}\n")
 
 
 wildcard_constraints:

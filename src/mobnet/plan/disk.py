@@ -12,8 +12,9 @@ from mobnet.plan.runs import ARRAY
 from mobnet.settings.settings import Settings
 
 NUMBER_BYTES = 4
-STORED = 0.85  # of the bytes of a recording remain after compression, of other arrays less
+STORED = 0.6  # of the bytes of an array remain after compression: of recordings 0.46, of residuals 0.54
 OTHER_BYTES = MIB // 2  # of a file that is no array: the largest are weights and figures
+NOTE, NOTE_BYTES = ".json", MIB // 32  # ending and size of the note of an array
 
 
 def check_places(plan: Plan) -> None:
@@ -73,7 +74,7 @@ def expected_bytes(plan: Plan, path: Path) -> int:
         case "estimates":
             width = _estimated_width(settings, parts[0], *parts[2:4])
         case _:
-            return OTHER_BYTES
+            return NOTE_BYTES if path.suffix == NOTE else OTHER_BYTES
     duration_s = files.duration_s([path.parts[-3]], int(path.stem.removeprefix("s")))
     return round(duration_s * plan.settings.rates.data_hz * width * NUMBER_BYTES * STORED)
 
