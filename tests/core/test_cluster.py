@@ -13,6 +13,8 @@ from mobnet.core.cluster import LOGS, failed_jobs, reason
     [
         ("17:11:11 INFO epoch 1\nslurmstepd: error: Exceeded job memory limit\n", "RULE:mem_mb=MB"),
         ("slurmstepd: error: *** JOB 6 CANCELLED AT x DUE TO TIME LIMIT ***\n", "RULE:runtime=MINUTES"),
+        ("slurmstepd: error: Detected 1 oom_kill event in StepId=6.batch.\n", "RULE:mem_mb=MB"),
+        ("12:00:00 ERROR results/: no room is left\n", "results/: no room is left"),
         ("12:00:00 ERROR results/x.parquet: file is missing\nError in rule observe:\n", "results/x.parquet: file is"),
         ("bash: python: command not found\n\n", "bash: python: command not found"),
         ("", "no word of why"),

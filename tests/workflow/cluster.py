@@ -81,8 +81,8 @@ class Cluster:
         self.ask("pkill", "-KILL", "-x", daemon)
 
     def jobs(self) -> list[list[str]]:
-        """Return id, state and comment of each job that waits or runs."""
-        return [line.split("|") for line in self.ask("squeue", "--noheader", "--format=%i|%T|%k").splitlines()]
+        """Return number and state of each job that waits or runs."""
+        return [line.split("|") for line in self.ask("squeue", "--noheader", "--format=%i|%T").splitlines()]
 
 
 @contextmanager

@@ -38,7 +38,7 @@ def trained(make_project: Callable[..., Path], cluster: Cluster) -> Path:
 
 
 @pytest.fixture
-def project(make_project: Callable[..., Path], trained: Path, request: pytest.FixtureRequest) -> Path:
+def project(make_project: Callable[..., Path], trained: Path) -> Path:
     """A copy of the project with the data of the network, which is not trained."""
     folder = make_project("project")
     for part in ("recordings", "residuals"):
@@ -63,7 +63,7 @@ def wait_for_training(cluster: Cluster, folder: Path) -> str:
     """Wait until a training runs; return the number of its job."""
     log = folder / "results" / "smoke" / "logs" / "train" / f"{NETWORK.name}.log"
     wait_for(lambda: log.exists() and "epoch" in log.read_text(), LONGEST_S)
-    return next(job for job, state, _ in cluster.jobs() if state == "RUNNING")
+    return next(job for job, state in cluster.jobs() if state == "RUNNING")
 
 
 def ended(run: subprocess.Popen[str], cluster: Cluster, folder: Path) -> int:
@@ -74,8 +74,9 @@ def ended(run: subprocess.Popen[str], cluster: Cluster, folder: Path) -> int:
     return status
 
 
-def assert_same_network(folder: Path, trained: Path) -> None:
-    """Check that a project has the network that was trained without a cluster."""
+def assert_ends_the_same(run: subprocess.Popen[str], cluster: Cluster, folder: Path, trained: Path) -> None:
+    """Check that a run succeeds, with the network that was trained without a cluster."""
+    assert ended(run, cluster, folder) == 0, told(folder)
     for name in (WEIGHTS, METRICS):
         assert (folder / NETWORK / name).read_bytes() == (trained / NETWORK / name).read_bytes()
 
@@ -83,9 +84,8 @@ def assert_same_network(folder: Path, trained: Path) -> None:
 def test_a_cancelled_training_is_sent_again_and_ends_the_same(cluster: Cluster, project: Path, trained: Path) -> None:
     run = start(cluster, project)
     cluster.ask("scancel", wait_for_training(cluster, project))
-    assert ended(run, cluster, project) == 0, told(project)
+    assert_ends_the_same(run, cluster, project, trained)
     assert "Trying to restart job" in told(project)
-    assert_same_network(project, trained)
 
 
 def test_a_node_that_fails_and_returns_does_not_lose_its_job(cluster: Cluster, project: Path, trained: Path) -> None:
@@ -94,8 +94,7 @@ def test_a_node_that_fails_and_returns_does_not_lose_its_job(cluster: Cluster, p
     cluster.kill("slurmd")
     wait_for(lambda: "down" in cluster.ask("sinfo", "--noheader", "--format=%T"), LONGEST_S)
     cluster.start("slurmd")
-    assert ended(run, cluster, project) == 0, told(project)
-    assert_same_network(project, trained)
+    assert_ends_the_same(run, cluster, project, trained)
 
 
 def test_a_controller_that_fails_and_returns_is_waited_for(cluster: Cluster, project: Path, trained: Path) -> None:
@@ -103,8 +102,7 @@ def test_a_controller_that_fails_and_returns_is_waited_for(cluster: Cluster, pro
     wait_for_training(cluster, project)
     cluster.kill("slurmctld")
     cluster.start("slurmctld")
-    assert ended(run, cluster, project) == 0, told(project)
-    assert_same_network(project, trained)
+    assert_ends_the_same(run, cluster, project, trained)
 
 
 def test_a_killed_run_started_again_ends_the_same(cluster: Cluster, project: Path, trained: Path) -> None:
@@ -113,8 +111,7 @@ def test_a_killed_run_started_again_ends_the_same(cluster: Cluster, project: Pat
     cluster.ask("pkill", "-KILL", "-f", "mobnet.core.run")
     run.wait(LONGEST_S)
     again = start(cluster, project)
-    assert ended(again, cluster, project) == 0, told(project)
-    assert_same_network(project, trained)
+    assert_ends_the_same(again, cluster, project, trained)
 
 
 def test_ctrl_c_empties_the_queue(cluster: Cluster, project: Path) -> None:
@@ -133,7 +130,7 @@ def test_a_job_over_its_memory_is_named_with_a_remedy(cluster: Cluster, project:
     assert said[0].startswith("rule_train/")
 
 
-def test_a_full_disk_is_told_in_one_line(cluster: Cluster, project: Path, trained: Path) -> None:
+def test_a_full_disk_is_told_in_one_line(cluster: Cluster, project: Path) -> None:
     target = str(project / "results")
     cluster.ask("mount", "-t", "tmpfs", "-o", "size=1M", "none", target)
     try:

@@ -47,7 +47,7 @@ config["scale"] = SETTINGS.scale  # the report names it
 RECORDING = "{scenario}", "{level}", "s{seed}"  # place of what belongs to a recording
 LOGS = PLAN.folders.results / "logs"
 OWN = f"{PLAN.folders.results}/{{robot}}"  # folder of what each robot of the fleet has, and the plant of section 5.1
-# Values of the wildcard `robot`, and one of those who have as many test recordings as all of them.
+# Patterns of the wildcard `robot` (Snakemake takes an empty one for none), and whose number of test recordings each has.
 PLANT, ROBOTS = "()", "|".join(f"{name}/" for name in SETTINGS.fleet.robots)
 OF_PLANT, OF_ROBOTS = PLAN.files, next(iter(PLAN.files.robots.values()), PLAN.files)
 

@@ -7,7 +7,8 @@ from pathlib import Path
 LOGS = Path(".snakemake") / "slurm_logs"  # of jobs that failed: rule_NAME or group_NAMES / wildcards / NUMBER.log
 SHORT = {  # what SLURM says -> what the job had too little of
     "memory limit": "mem_mb=MB",
-    "oom": "mem_mb=MB",
+    "oom_kill": "mem_mb=MB",
+    "oom-kill": "mem_mb=MB",
     "TIME LIMIT": "runtime=MINUTES",
 }
 

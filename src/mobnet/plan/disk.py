@@ -75,8 +75,7 @@ def expected_bytes(plan: Plan, path: Path) -> int:
             width = _estimated_width(settings, parts[0], *parts[2:4])
         case _:
             return NOTE_BYTES if path.suffix == NOTE else OTHER_BYTES
-    duration_s = files.duration_s([path.parts[-3]], int(path.stem.removeprefix("s")))
-    return round(duration_s * plan.settings.rates.data_hz * width * NUMBER_BYTES * STORED)
+    return round(files.array_s(path) * plan.settings.rates.data_hz * width * NUMBER_BYTES * STORED)
 
 
 def _estimated_width(settings: Settings, method: str, scenario: str, level: str) -> int:

@@ -24,14 +24,13 @@ class Jobs:
 
     def motion(self, motion: str, seed: int) -> Job:
         """Return the making of a random motion of the upper body."""
-        moved = [name for name, row in self.settings.scenarios.items() if row.motion == motion]
         arguments = {
             "root_seed": self.settings.seed,
             "robot": self.settings.robot,
             "motion": self.settings.motions[motion],
             "name": motion,
             "seed": seed,
-            "duration_s": self.files.duration_s(moved, seed),
+            "duration_s": self.files.motion_s(motion, seed),
             "out": self.files.results / "motions" / motion / f"s{seed}",
         }
         return Job(Call("mobnet.simulation.motion:make_motion", arguments), ())

@@ -151,6 +151,15 @@ class Files:
             return self.settings.sizes.development.shard_s
         return max(self.training_size(name).shard_s for name, row in sets.items() if row.scenario in wanted)
 
+    def array_s(self, path: Path) -> float:
+        """Return the duration of a recording, or of what is made from it [s], by its place."""
+        return self.duration_s([path.parts[-3]], int(path.stem.removeprefix("s")))
+
+    def motion_s(self, motion: str, seed: int) -> float:
+        """Return the duration of a motion [s]: that of the longest recording that takes it."""
+        moved = [name for name, row in self.settings.scenarios.items() if row.motion == motion]
+        return self.duration_s(moved, seed)
+
     def network_seeds(self, method: str, limb: str | None = None) -> tuple[int, ...]:
         """Return the seeds of a method's networks of a limb, or of that with the most; (0,) if there are none."""
         limbs = [limb] if limb else self.settings.method(self.settings.network_source_of(method)).limbs

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mobnet.core.files import RUN
-from mobnet.core.joints import N_VIRTUAL
 from mobnet.plan.plan import Plan
 from mobnet.plan.runs import ARRAY, FIRST_DEVELOPMENT_SEED, Files
 from mobnet.settings.networks import Network
@@ -49,8 +48,7 @@ def _behind(plan: Plan, path: Path) -> Iterator[Work]:
     own = f"{files.robot}/" if files.robot else ""
     match kind, path.suffix:
         case "motions", suffix if suffix == ARRAY:
-            moved = [name for name, row in plan.settings.scenarios.items() if row.motion == path.parent.name]
-            seconds = files.duration_s(moved, int(path.stem.removeprefix("s")))
+            seconds = files.motion_s(path.parent.name, int(path.stem.removeprefix("s")))
             yield Work(f"motion/{path.parent.name}-{path.stem}", "motion", {SECONDS: seconds}, seconds)
         case (("recordings" | "residuals"), suffix) if suffix == ARRAY:
             yield _recorded(files, own, {"recordings": "collect", "residuals": "observe"}[kind], path)
@@ -71,10 +69,9 @@ def _behind(plan: Plan, path: Path) -> Iterator[Work]:
 def _recorded(files: Files, own: str, rule: str, path: Path) -> Work:
     """Return the work behind a recording or a residual; those of a test are made by one job, one after another."""
     scenario, level = path.parts[-3:-1]
-    seed = int(path.stem.removeprefix("s"))
-    seconds = files.duration_s([scenario], seed)
+    seconds = files.array_s(path)
     plant = "surrogate s" if own and rule == "collect" else SECONDS
-    if seed < FIRST_DEVELOPMENT_SEED:
+    if int(path.stem.removeprefix("s")) < FIRST_DEVELOPMENT_SEED:
         whole = seconds * len(files.test_seeds)
         return Work(f"{rule}_tests/{own}{scenario}-{level}", rule, {plant: whole}, seconds)
     return Work(f"{rule}/{own}{scenario}-{level}-{path.stem}", rule, {plant: seconds}, seconds)
@@ -107,9 +104,9 @@ def _trained(files: Files, own: str, name: str) -> Work:
 
 def _width(files: Files, network: Network) -> int:
     """Return the number of inputs and targets of a network."""
-    joints, layout = files.settings.layout.limbs, files.settings.layout
-    moved = [joint for joint in joints(network.Q) if joint not in layout.names[:N_VIRTUAL]]
-    return INPUTS_PER_JOINT * len(moved) + len(joints(network.T)) + BASE_INPUTS + len(joints(network.joints))
+    limbs = files.settings.layout.limbs
+    seen = INPUTS_PER_JOINT * len(limbs(network.Q)) + len(limbs(network.T)) + BASE_INPUTS
+    return seen + len(limbs(network.joints))
 
 
 def _fitted(files: Files, own: str, method: str) -> Work:
@@ -129,8 +126,5 @@ def _seconds_of(plan: Plan, names: Iterable[str]) -> float:
     """Return the duration of all recordings, residuals and estimates among some files [s]."""
     arrays = [path for path in map(Path, names) if path.suffix == ARRAY]
     return sum(
-        files.duration_s([path.parts[-3]], int(path.stem.removeprefix("s")))
-        for path in arrays
-        for files, (kind, *_) in [plan.files.owner_of(path)]
-        if kind != "motions"
+        files.array_s(path) for path in arrays for files, (kind, *_) in [plan.files.owner_of(path)] if kind != "motions"
     )
