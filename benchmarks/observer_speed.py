@@ -65,7 +65,7 @@ def motion(layout: JointLayout, rate_hz: float) -> Sensed:
     q[:, NQ_BASE:] = np.sin(phase[:, layout.nv - layout.nu :])
     torque: Any = 30.0 * np.sin(phase[:, layout.nv - layout.nu :])
     flags, command = np.zeros((SAMPLES, len(FEET))), np.zeros((SAMPLES, len(COMMAND)))
-    return Sensed(q, v, np.zeros((SAMPLES, 3)), torque, torque, flags, command)
+    return Sensed(q, v, np.zeros((SAMPLES, 3)), torque, torque, flags, command, flags)
 
 
 if __name__ == "__main__":

@@ -138,7 +138,7 @@ def _sample(layout: JointLayout, rng: np.random.Generator) -> Sensed:
     q[3:NQ_BASE] = [1.0, 0.0, 0.0, 0.0]
     torque = rng.normal(0, 30.0, layout.nu)
     flags, command = np.zeros(len(FEET)), np.zeros(len(COMMAND))
-    return Sensed(q, rng.normal(size=layout.nv), rng.normal(size=3), torque, torque, flags, command)
+    return Sensed(q, rng.normal(size=layout.nv), rng.normal(size=3), torque, torque, flags, command, flags)
 
 
 if __name__ == "__main__":

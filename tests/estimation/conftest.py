@@ -69,9 +69,8 @@ def trajectory(robot: RobotDescription) -> Trajectory:
 def sensed_of(q: Array, v: Array, tau: Array) -> Sensed:
     """Return what a robot senses from positions (T, nq), velocities (T, nv) and motor torques (T, nu)."""
     samples = len(q)
-    return Sensed(
-        q, v, np.zeros((samples, 3)), tau, tau, np.zeros((samples, len(FEET))), np.zeros((samples, len(COMMAND)))
-    )
+    flags, command = np.zeros((samples, len(FEET))), np.zeros((samples, len(COMMAND)))
+    return Sensed(q, v, np.zeros((samples, 3)), tau, tau, flags, command, flags)
 
 
 @pytest.fixture

@@ -45,8 +45,8 @@ def log(arm: RobotDescription) -> Recording:
         rows.append([data.qpos.copy(), data.qvel.copy(), *np.mean(ticks, axis=0)])
     q, v, tau, external = np.array(rows).transpose(1, 0, 2)
     none = np.zeros((SAMPLES, 0))
-    truth = Truth(external, none, none, none, np.zeros((SAMPLES, 1)), np.zeros_like(tau), np.zeros_like(external))
-    return Recording(Sensed(q, v, none, tau, tau, none, none), ((0, SAMPLES),), RATE_HZ, {"level": "ideal"}, truth)
+    truth = Truth(external, none, none, none, np.zeros((SAMPLES, 1)), np.zeros_like(tau), np.zeros_like(external), np.zeros((SAMPLES, 4)))
+    return Recording(Sensed(q, v, none, tau, tau, none, none, none), ((0, SAMPLES),), RATE_HZ, {"level": "ideal"}, truth)
 
 
 def swing(arm: RobotDescription, rate_hz: float) -> tuple[Sensed, Sensed]:
@@ -66,7 +66,7 @@ def swing(arm: RobotDescription, rate_hz: float) -> tuple[Sensed, Sensed]:
     before = period * ((np.arange(20) + 0.5) / 20 - 1)
     mean = np.array([np.mean([needed(t + dt) for dt in before], axis=0) for t in times]) - PUSH
     sample = np.array([needed(t) for t in times]) - PUSH
-    return tuple(Sensed(q, v, none, tau, tau, none, none) for tau in (mean, sample))
+    return tuple(Sensed(q, v, none, tau, tau, none, none, none) for tau in (mean, sample))
 
 
 def error(arm: RobotDescription, kind: Literal["mean", "sample"], sensed: Sensed, rate_hz: float) -> np.ndarray:

@@ -30,7 +30,7 @@ def recording(robot: RobotDescription, follow: Callable) -> Recording:
     sensed, tau_ext = follow(RATE_HZ, 0.199, np.zeros(robot.layout.nu))
     wrench = np.zeros((len(sensed), 6))
     touch, pushed = np.zeros((len(sensed), 2)), np.zeros((len(sensed), 1))
-    truth = Truth(tau_ext, wrench, wrench, touch, pushed, 0.0 * sensed.tau_des, 0.0 * tau_ext)
+    truth = Truth(tau_ext, wrench, wrench, touch, pushed, 0.0 * sensed.tau_des, 0.0 * tau_ext, np.zeros((len(sensed), 4)))
     return Recording(sensed, ((0, 100), (100, 200)), RATE_HZ, META, truth)
 
 
@@ -155,7 +155,7 @@ def test_columns_carry_unit_and_frame(robot: RobotDescription) -> None:
 def test_on_the_simulated_plant_the_scheme_meets_the_ideal_row(nominal: NominalModel, robot: RobotDescription) -> None:
     q, v, tau, tau_ext = _shaken(robot, samples=400)
     zeros = np.zeros((len(q), 3))
-    sensed = Sensed(q, v, zeros, tau, tau, zeros[:, :2], np.zeros((len(q), 5)))
+    sensed = Sensed(q, v, zeros, tau, tau, zeros[:, :2], np.zeros((len(q), 5)), zeros[:, :2])
     error = MomentumObserver(nominal, GAIN_HZ, RATE_HZ).residual(sensed) - low_pass(tau_ext, GAIN_HZ, RATE_HZ)
     rmse = np.sqrt(np.mean(error**2, axis=0))
     layout = robot.layout

@@ -147,7 +147,7 @@ def test_noise_of_velocity_obeys_its_law(nominal: NominalModel, observer: Moment
     v = std * rng.normal(size=(count, layout.nv))
     still = np.zeros((count, layout.nu))
     acc, swing, command = (np.zeros((count, width)) for width in (3, 2, 5))
-    sensed = Sensed(np.tile(q, (count, 1)), v, acc, still, still, swing, command)
+    sensed = Sensed(np.tile(q, (count, 1)), v, acc, still, still, swing, command, swing)
     factor = (1 - observer.pole) * RATE_HZ * np.sqrt(2 / (1 + observer.pole))
     assert factor == pytest.approx(97.5, abs=0.05)
     expected = factor * np.sqrt((mass_matrix(nominal, q) * std) ** 2 @ np.ones(layout.nv))

@@ -327,10 +327,10 @@ def write_walk(
     zeros = np.zeros
     q, acc = np.tile(np.eye(1, layout.nq, 3), (rows, 1)), np.tile([0.0, 0.0, 9.81], (rows, 1))
     sensed = Sensed(q, zeros((rows, layout.nv)), acc, zeros((rows, layout.nu)),
-                    zeros((rows, layout.nu)), np.stack([air, 1 - air], axis=1), zeros((rows, 5)))  # fmt: skip
+                    zeros((rows, layout.nu)), np.stack([air, 1 - air], axis=1), zeros((rows, 5)), zeros((rows, 2)))  # fmt: skip
     wrench, pushed = zeros((rows, 6)), (np.isin(phase, PUSHED_ROWS) & (not calm)).astype(float)[:, None]
     push = zeros((rows, layout.nv))
-    unseen = Truth(truth, wrench, wrench, zeros((rows, 2)), pushed, zeros((rows, layout.nu)), push)
+    unseen = Truth(truth, wrench, wrench, zeros((rows, 2)), pushed, zeros((rows, layout.nu)), push, zeros((rows, 4)))
     recording = Recording(sensed, ((0, rows),), RATE_HZ, {}, unseen)
     write_recording(folder / "recording", recording, layout)
     written = np.concatenate([truth + 5, truth], axis=1)
@@ -385,10 +385,10 @@ def write_steps(stem: Path, layout: JointLayout, seed: int, size: float = 1.0, s
         command[rows // 2 :], swing[rows // 2 :] = 0.0, False
     torque = 40.0 * size * rng.normal(size=(rows, layout.nu))
     acc = rng.normal(size=(rows, 3)) + [0.0, 0.0, 9.81]
-    sensed = Sensed(q, v, acc, torque, np.clip(torque, -25.0, 25.0), swing.astype(float), command)
+    sensed = Sensed(q, v, acc, torque, np.clip(torque, -25.0, 25.0), swing.astype(float), command, np.zeros((rows, 2)))
     wrench, pushed = np.zeros((rows, 6)), np.zeros((rows, 1))
     truth = Truth(
-        rng.normal(size=v.shape), wrench, wrench, 1.0 - swing, pushed, np.zeros_like(torque), np.zeros_like(v)
+        rng.normal(size=v.shape), wrench, wrench, 1.0 - swing, pushed, np.zeros_like(torque), np.zeros_like(v), np.zeros((rows, 4))
     )
     meta = {"falls": seed % 2, "terrains": ["checks", "flat"]}
     spans = ((0, rows // 2), (rows // 2, rows))

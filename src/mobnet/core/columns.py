@@ -12,6 +12,7 @@ Column = tuple[str, str, str]  # name, unit, frame
 FEET = ("left_foot", "right_foot")
 COMMAND = (("step_x", "m"), ("step_y", "m"), ("turn", "rad"), ("duration", "s"), ("foot_height", "m"))  # Table 2
 VELOCITY, DESIRED, MOTOR, SWING, CONTACT, PUSHED = "v", "tau_des", "tau_motor", "swing", "contact", "pushed"
+LANDING, PUSH = "landing", "push"
 RANDOM = "tau_random"  # what random torque exploration added to the desired torque
 PUSH_TORQUE = "tau_push"  # what pushes alone add to the external torque
 EXTERNAL = "tau_ext"  # of a recording: true; of an estimate: estimated
@@ -41,6 +42,7 @@ def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:
         "tau_motor": [(f"{MOTOR}.{j}", "N m", "joint") for j in actuated],
         "swing": [(f"{SWING}.{foot}", "-", "plan") for foot in feet],
         "command": [(f"command.{name}", unit, "stance foot") for name, unit in COMMAND if feet],
+        "landing": [(f"{LANDING}.{foot}", "s", "plan") for foot in feet],
         EXTERNAL: [(f"{EXTERNAL}.{joint}", *place) for joint, place in places],
         **{
             f"wrench_{foot}": [(f"wrench_{foot}.{name}", unit, foot) for name, unit in wrench if foot in feet]
@@ -50,6 +52,7 @@ def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:
         "pushed": [(PUSHED, "-", "scenario")],
         "tau_random": [(f"{RANDOM}.{j}", "N m", "joint") for j in actuated],
         PUSH_TORQUE: [(f"{PUSH_TORQUE}.{joint}", *place) for joint, place in places],
+        "push": [(f"{PUSH}.row", "-", "scenario"), *((f"{PUSH}.force_{axis}", "N", "world") for axis in "xyz")],
     }
 
 

@@ -45,6 +45,7 @@ def _command(name: str, unit: str) -> Rule:
 
 FORCE, TORQUE = ("N", "world"), ("N m", "joint")
 LARGEST = {"step_x": 2.0, "step_y": 2.0, "turn": np.pi, "duration": 60.0, "foot_height": 1.0}  # of a step's command
+PUSHES = 1000.0  # of a scenario, at most
 SIGNED = ("step_x", "step_y", "turn")  # the other numbers of a command are not below zero
 RULES: Mapping[str, Rule] = {  # pattern of names -> what is accepted; the first that fits counts
     r"q\.base_[xy]": _within(1e4, "m", "world"),
@@ -59,6 +60,9 @@ RULES: Mapping[str, Rule] = {  # pattern of names -> what is accepted; the first
     r"swing\..+": Rule((("-", "plan"),), 0.0, 1.0, flag=True),
     r"contact\..+": Rule((("-", "ground"),), 0.0, 1.0, flag=True),
     r"pushed": Rule((("-", "scenario"),), 0.0, 1.0, flag=True),
+    r"landing\..+": Rule((("s", "plan"),), 0.0, LARGEST["duration"]),
+    r"push\.row": Rule((("-", "scenario"),), 0.0, PUSHES),
+    r"push\.force_[xyz]": _within(1e5, "N", "world"),
     **{rf"command\.{name}": _command(name, unit) for name, unit in COMMAND},
     **{rf"wrench_{foot}\.force_[xyz]": _within(1e5, "N", foot) for foot in FEET},
     **{rf"wrench_{foot}\.moment_[xyz]": _within(1e4, "N m", foot) for foot in FEET},

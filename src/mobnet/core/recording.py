@@ -31,6 +31,7 @@ class Sensed:
         swing: 1 where the walking plan has the left, right foot in the air (T, 2).
         command: step x, step y [m], turn [rad], duration [s] and foot height [m] of the step being made (T, 5),
             Table 2; zero while the robot stands.
+        landing: time until the plan has the left, right foot land (T, 2) [s]; zero on the ground and once it is late.
     """
 
     q: NDArray[Any]
@@ -40,6 +41,7 @@ class Sensed:
     tau_motor: NDArray[Any]
     swing: NDArray[Any]
     command: NDArray[Any]
+    landing: NDArray[Any]
 
     def __len__(self) -> int:
         """Return the number of samples."""
@@ -67,6 +69,9 @@ class Truth:
             mean over the control ticks of the sample. Zero where there is none.
         tau_push: what the pushes of the scenario alone add to the external torque (T, nv) [N, N m], mean over the
             control ticks of the sample. Zero where nothing pushes.
+        push: the force that pushes (T, 4): its row among the pushes of the scenario, counted from 1, the last one if
+            there are several, and the force of all together in world axes [N], mean over the control ticks of the
+            sample. Zero where no force does.
     """
 
     tau_ext: NDArray[Any]
@@ -76,6 +81,7 @@ class Truth:
     pushed: NDArray[Any]
     tau_random: NDArray[Any]
     tau_push: NDArray[Any]
+    push: NDArray[Any]
 
     def __getitem__(self, rows: int | slice) -> Truth:
         """Return one sample (1-D arrays) or a span of samples."""

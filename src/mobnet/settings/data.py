@@ -10,7 +10,7 @@ from mobnet.settings import base
 from mobnet.settings.base import Section
 
 Phase = Literal["always", "left_swing", "right_swing", "left_support", "right_support"]
-Direction = Literal["any", "horizontal", "down", "backward"]
+Direction = Literal["any", "horizontal", "down", "backward", "leftward", "rightward"]
 CommandSource = Literal["random", "uniform", "stand"]
 
 
@@ -166,7 +166,8 @@ class Push(Section):
     """A force at a point, or a torque on a joint, with the times at which it comes.
 
     A push of shape `sines` is a sum of sines, whose amplitudes are shares of its size. An `impactor` is a mass on a
-    spring that meets the point and leaves it again; force and duration are those of its hit on a wall.
+    spring that meets the point and leaves it again; force and duration are those of its hit on a wall. Sizes are drawn
+    evenly from their range, or with `sizes: log` evenly on a log scale.
     """
 
     point: base.PointName | None = None
@@ -177,6 +178,7 @@ class Push(Section):
     at_s: base.Rising[Annotated[base.NotNegative, Field(le=3600)]] | None = None
     force_n: base.Range[base.Newton] | None = None
     torque_nm: base.Range[base.NewtonMetre] | None = None
+    sizes: Literal["even", "log"] = "even"
     duration_s: base.Range[Duration]
     direction: Direction = "any"
     shape: Literal["step", "half_sine", "sines", "impactor"]

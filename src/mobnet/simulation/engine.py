@@ -83,7 +83,7 @@ def run(
     nv, nu = len(plant.qvel), len(plant.ctrl)
     tau, tau_des, tau_motor, tau_ext = np.zeros(nu), np.zeros(nu), np.zeros(nu), np.zeros(nv)
     tau_random, tau_push = np.zeros(nu), np.zeros(nv)
-    wrenches, touch = np.zeros((2, 6)), np.zeros(2)
+    wrenches, touch, told = np.zeros((2, 6)), np.zeros(2), np.zeros(4)
     for row in range(len(log)):
         pushed = 0
         tau_des[:] = 0.0
@@ -93,6 +93,7 @@ def run(
         tau_push[:] = 0.0
         wrenches[:] = 0.0
         touch[:] = 0.0
+        told[:] = 0.0
         for _ in range(plant.every):
             follow(upper, s.clock, walker.posture, walker.posture_rate)
             walk(walker, s, sensors.q, sensors.v, sensors.wrenches, commands, plant.dt, tau)
@@ -100,7 +101,7 @@ def run(
             _actuate(plant, tau, tau_des, tau_motor)
             push(
                 pushes, s, plant.xfrc_applied, plant.qfrc_applied, plant.site_xpos, plant.xipos, plant.xmat,
-                plant.dt, rng_pushes, tau_push,
+                plant.dt, rng_pushes, tau_push, told,
             )  # fmt: skip
             active = pushes.state.active.sum()
             pushed += active
@@ -115,7 +116,7 @@ def run(
         for i in range(nv):
             tau_ext[i] += tau_push[i]
         _write(
-            log[row], sensors, s, tau_des, tau_motor, tau_ext, tau_random, tau_push, wrenches, touch, pushed,
+            log[row], sensors, s, tau_des, tau_motor, tau_ext, tau_random, tau_push, told, wrenches, touch, pushed,
             plant.every,
         )  # fmt: skip
         if not plant.qpos[2] > plant.fall_height:  # a state that is not finite is a fall too
@@ -225,7 +226,7 @@ def _wrap(plant: Plant, sensors: Sensors, s: State) -> None:
 @compiled
 def _write(
     row: NDArray[np.float32], sensors: Sensors, s: State, tau_des: Array, tau_motor: Array, tau_ext: Array,
-    tau_random: Array, tau_push: Array, wrenches: Array, touch: Array, pushed: int, every: int,
+    tau_random: Array, tau_push: Array, told: Array, wrenches: Array, touch: Array, pushed: int, every: int,
 ) -> None:  # fmt: skip
     """Write one sample in the order of `recording_columns`; sums over the sample's steps become means."""
     at = _put(row, 0, sensors.q, 1.0)
@@ -236,14 +237,18 @@ def _write(
     row[at] = s.swinging if s.side < 0 else 0
     row[at + 1] = s.swinging if s.side > 0 else 0
     at = _put(row, at + 2, s.command, 1.0 - s.standing)
-    at = _put(row, at, tau_ext, 1.0 / every)
+    for k in range(2):
+        row[at + k] = max(s.total - s.t, 0.0) * row[at - len(s.command) - 2 + k]
+    at = _put(row, at + 2, tau_ext, 1.0 / every)
     for k in range(2):
         at = _put(row, at, wrenches[k], 1.0 / every)
     for k in range(2):
         row[at + k] = touch[k] > every * CONTACT_FORCE_N
     row[at + 2] = pushed > 0
     at = _put(row, at + 3, tau_random, 1.0 / every)
-    _put(row, at, tau_push, 1.0 / every)
+    at = _put(row, at, tau_push, 1.0 / every)
+    row[at] = told[0]
+    _put(row, at + 1, told[1:], 1.0 / every)
 
 
 @compiled

@@ -17,8 +17,9 @@ from mobnet.core.joints import N_VIRTUAL
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Direction, Phase, Push, Sines
 
-DIRECTIONS: tuple[Direction, ...] = ("any", "horizontal", "down", "backward")  # the last: against the body's x axis
-ANY, HORIZONTAL, DOWN, BACKWARD = range(4)
+# the last three: against the body's x axis, along its y axis and against it
+DIRECTIONS: tuple[Direction, ...] = ("any", "horizontal", "down", "backward", "leftward", "rightward")
+ANY, HORIZONTAL, DOWN, BACKWARD, LEFTWARD, RIGHTWARD = range(6)
 SHAPES = ("step", "half_sine", "sines", "impactor")
 _, HALF_SINE, SINES, IMPACTOR = range(4)
 PHASES: tuple[Phase, ...] = ("always", "left_swing", "right_swing", "left_support", "right_support")
@@ -26,7 +27,7 @@ SHARE_WINDOW = 0.05  # [-] of a step: a push whose moment has passed by more wai
 
 LAW = np.dtype([
     ("site", "i8"), ("body", "i8"), ("dof", "i8"), ("phase", "i8"), ("direction", "i8"), ("shape", "i8"),
-    ("timed", "i8"), ("share", "f8", 2), ("pause", "f8", 2), ("size", "f8", 2), ("duration", "f8", 2), ("mass", "f8"),
+    ("timed", "i8"), ("log", "i8"), ("share", "f8", 2), ("pause", "f8", 2), ("size", "f8", 2), ("duration", "f8", 2), ("mass", "f8"),
 ])  # fmt: skip
 STATE = np.dtype([
     ("start", "f8"), ("end", "f8"), ("share", "f8"), ("active", "i8"), ("count", "i8"),
@@ -40,7 +41,7 @@ class Pushes(NamedTuple):
 
     # records of LAW (n,): `site`, the point that is pushed, and its `body`, both -1 for a torque on a joint; `dof`, the
     # joint's place in the generalized velocity, -1 for a force; `phase`, `direction` and `shape`, indices of PHASES,
-    # DIRECTIONS and SHAPES; `timed`, 1 where `times` rules; bounds of the `share` [-] of the step at which it comes, of
+    # DIRECTIONS and SHAPES; `timed`, 1 where `times` rules; `log`, 1 where sizes are drawn on a log scale; bounds of the `share` [-] of the step at which it comes, of
     # the `pause` [s] between two, of the `size` [N] or [N m] of the peak and of the `duration` [s]; `mass` [kg] of an
     # impactor
     law: NDArray[Any]
@@ -79,7 +80,7 @@ def _law(row: Push, model: mujoco.MjModel, robot: RobotDescription) -> tuple[Any
         target = model.site(row.point).id, int(model.site(row.point).bodyid[0]), -1
     return (
         *target, PHASES.index(row.during), DIRECTIONS.index(row.direction), SHAPES.index(row.shape),
-        row.at_s is not None, row.share, row.pause_s or (0.0, 0.0), row.force_n or row.torque_nm, row.duration_s,
+        row.at_s is not None, row.sizes == "log", row.share, row.pause_s or (0.0, 0.0), row.force_n or row.torque_nm, row.duration_s,
         row.impactor_kg or 0.0,
     )  # fmt: skip
 
@@ -122,16 +123,20 @@ def _begin(law: Any, p: Any, now: float, axes: Array, rng: np.random.Generator) 
     p.count += 1
     p.start = now
     p.end = now + rng.uniform(law.duration[0], law.duration[1])
-    p.size = rng.uniform(law.size[0], law.size[1])
+    if law.log == 1:
+        p.size = np.exp(rng.uniform(np.log(law.size[0]), np.log(law.size[1])))
+    else:
+        p.size = rng.uniform(law.size[0], law.size[1])
     yaw = rng.uniform(-np.pi, np.pi)
     up = rng.uniform(-1.0, 1.0) if law.direction == ANY else 0.0
     flat = np.sqrt(1.0 - up * up)
     p.direction[0], p.direction[1], p.direction[2] = flat * np.cos(yaw), flat * np.sin(yaw), up
     if law.direction == DOWN:
         p.direction[0], p.direction[1], p.direction[2] = 0.0, 0.0, -1.0
-    elif law.direction == BACKWARD:
+    elif law.direction >= BACKWARD:
+        axis, sign = (0, -1.0) if law.direction == BACKWARD else (1, 1.0 if law.direction == LEFTWARD else -1.0)
         for i in range(3):
-            p.direction[i] = -axes[3 * i]
+            p.direction[i] = sign * axes[3 * i + axis]
 
 
 @compiled
@@ -210,12 +215,13 @@ def sum_of_sines(sines: Array, time_s: float) -> float:
 @compiled
 def push(
     pushes: Pushes, s: State, xfrc: Array, qfrc: Array, site_xpos: Array, xipos: Array, xmat: Array,
-    dt: float, rng: np.random.Generator, tau_joints: Array,
+    dt: float, rng: np.random.Generator, tau_joints: Array, told: Array,
 ) -> None:  # fmt: skip
     """Apply what pushes in a step of dt [s]: forces into xfrc (nbody, 6) [N, N m], joint torques to qfrc (nv,) [N m].
 
     xfrc holds wrenches at the bodies' centres of mass, world axes, and is overwritten for pushed bodies. The joint
-    torques alone are added to tau_joints (nv,) [N m]: unlike forces they leave no trace in MuJoCo. Points (nsite, 3),
+    torques alone are added to tau_joints (nv,) [N m]: unlike forces they leave no trace in MuJoCo. What is told of forces (4,):
+    the row that pushes, counted from 1, and the sum of forces [N], to which this step's is added. Points (nsite, 3),
     centres of mass (nbody, 3) [m] and axes (nbody, 9) are MuJoCo's; the clock of the walking state s tells the time.
     """
     for k in range(len(pushes.law)):
@@ -228,6 +234,9 @@ def push(
             tau_joints[law.dof] += size
         elif size != 0.0:
             _force_at(site_xpos[law.site], xipos[law.body], size, pushes.state[k].direction, xfrc[law.body])
+            told[0] = k + 1
+            for i in range(3):
+                told[1 + i] += size * pushes.state[k].direction[i]
 
 
 @compiled

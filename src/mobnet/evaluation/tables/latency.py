@@ -49,8 +49,8 @@ def random_sample(layout: JointLayout, seed: int) -> Sensed:
     q = rng.normal(0.0, 0.3, layout.nq)
     q[3:NQ_BASE] = np.eye(1, NQ_BASE - 3)
     torque = rng.normal(0.0, 30.0, layout.nu)
-    base = rng.normal(size=3)
-    return Sensed(q, rng.normal(size=layout.nv), base, torque, torque, np.zeros(len(FEET)), np.zeros(len(COMMAND)))
+    base, flags = rng.normal(size=3), np.zeros(len(FEET))
+    return Sensed(q, rng.normal(size=layout.nv), base, torque, torque, flags, np.zeros(len(COMMAND)), flags)
 
 
 def medians_ms(networks: LimbNetworks, sample: Sensed, settings: Latency) -> list[float]:
