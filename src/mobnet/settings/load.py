@@ -32,6 +32,7 @@ PARTS = (
     "methods",
     "tests",
     "trials",
+    "detection",
     "evaluation",
     "scales",
 )

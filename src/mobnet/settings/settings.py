@@ -32,6 +32,7 @@ from mobnet.settings.data import (
     Terrain,
     TrainingSet,
 )
+from mobnet.settings.detection import Detection
 from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.methods import Method, Observer, Sweep
 from mobnet.settings.networks import Learning, Network, NetworkRow, Training
@@ -72,6 +73,7 @@ class Settings(Section):
     trials: Trials
     tests: dict[ScenarioName, Annotated[dict[LevelName, MethodNames], Field(min_length=1)]]
     estimated_limbs: dict[TestName, dict[LevelName, Annotated[LimbNames, Field(min_length=1)]]]
+    detection: Detection
     evaluation: Evaluation
     scales: Annotated[dict[LowerName, Scale], Field(min_length=1)]
     robot: RobotTable

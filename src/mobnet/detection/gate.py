@@ -1,0 +1,82 @@
+"""When a leg is watched: in its swing by the walking plan, away from both ends, and until the ground is met too early.
+
+The gate knows what a robot knows at the time: the plan's swing and the time until the planned landing, which are sensed
+columns, and the force on the foot as an estimate of the joints' external torque has it.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.control.compiled import compiled
+from mobnet.core.arrays import Array
+from mobnet.detection.leg import Leg, foot_load
+from mobnet.settings import detection as settings
+
+STATE = np.dtype([
+    ("air", "i8"),  # samples since the plan lifted the foot off, counted from 1; 0 on the ground
+    ("touching", "i8"),  # samples in which the force looked like the ground's, without a gap
+    ("landed", "i8"),  # 1 once it did for long enough in this swing
+    ("phase", "f8"),  # time since lift-off over that plus the time until landing [-]
+])  # fmt: skip
+IN_THE_AIR = 0.5  # of a flag
+
+
+class Gate(NamedTuple):
+    """Numbers of the gate."""
+
+    period: float  # between two samples [s]
+    lift_off: int  # samples after lift-off at which it opens
+    landing: float  # time before the planned landing at which it closes [s]
+    force: float  # of an early contact [N]
+    upright: float  # least cosine of its angle to the vertical
+    hold: int  # samples for which it must last
+
+
+def make_gate(numbers: settings.Gate, rate_hz: float) -> Gate:
+    """Return the gate at a rate of samples [Hz]."""
+    lift_off, hold = (max(1, round(time_s * rate_hz)) for time_s in (numbers.lift_off_s, numbers.contact_s))
+    upright = float(np.cos(np.deg2rad(numbers.contact_deg)))
+    return Gate(1.0 / rate_hz, lift_off, numbers.landing_s, numbers.contact_n, upright, hold)
+
+
+def gate_state() -> Any:
+    """Return the state of a gate before its first sample, a record of STATE."""
+    return np.zeros(1, dtype=STATE).view(np.recarray)[0]
+
+
+@compiled
+def advance_gate(gate: Gate, leg: Leg, s: Any, q: Array, tau: Array, swing: float, landing: float) -> bool:
+    """Take one sample; return whether the leg is watched.
+
+    q (nq,) is the generalized position, tau (6,) the estimated external torque of the leg's joints [N m], swing is 1 in
+    the air, landing the time until the planned landing [s].
+    """
+    if swing < IN_THE_AIR:
+        s.air = s.touching = s.landed = 0
+        s.phase = 0.0
+        return False
+    s.air += 1
+    since = s.air * gate.period
+    s.phase = since / (since + landing)
+    if s.landed == 1 or s.air < gate.lift_off or landing <= gate.landing:
+        return False
+    if foot_load(leg, q, tau):
+        up, size = leg.load[2], np.sqrt(leg.load[0] ** 2 + leg.load[1] ** 2 + leg.load[2] ** 2)
+        s.touching = s.touching + 1 if size > gate.force and up > gate.upright * size else 0
+    if s.touching >= gate.hold:
+        s.landed = 1
+        return False
+    return True
+
+
+@compiled
+def run_gate(
+    gate: Gate, leg: Leg, s: Any, q: Array, tau: Array, swing: NDArray[Any], landing: NDArray[Any],
+    watched: NDArray[np.bool_], phase: Array,
+) -> None:  # fmt: skip
+    """Run the gate over samples (T, ...) as `advance_gate` does, and write whether it watches and the phase (T,)."""
+    for row in range(len(q)):
+        watched[row] = advance_gate(gate, leg, s, q[row], tau[row], swing[row], landing[row])
+        phase[row] = s.phase

@@ -1,0 +1,125 @@
+"""Thresholds from a walk that nothing pushes: for a wanted rate of false alarms, and what rate to expect.
+
+In each swing a detector's signals have a largest value, over their scale. A rate of one false alarm in an hour is one
+in some thousands of swings, more than a lab records, so that the tail of the largest values is fitted: what exceeds a
+high level has a generalised Pareto law (Pickands 1975, Ann. Statist. 3), fitted by probability-weighted moments (Hosking
+and Wallis 1987, Technometrics 29). The interval of the expected rate is that of walks resampled from the fit and the
+swings, and it widens where the fit goes beyond what was seen.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mobnet.core.arrays import Array
+from mobnet.core.errors import DataError, not_accepted
+from mobnet.settings.detection import Thresholds
+
+HOUR_S = 3600.0
+SHAPES = (-0.5, 0.5)  # of the law, between which its moments can be trusted
+SEED = 0  # of the resampled walks
+
+
+@dataclass(frozen=True)
+class Tail:
+    """The largest values of swings above a level: the share of swings there, and scale and shape of their law."""
+
+    level: float
+    share: float
+    scale: float
+    shape: float
+
+    def above(self, size: float) -> float:
+        """Return the share of swings whose largest value lies above a size, not below the level [-]."""
+        over = max(size - self.level, 0.0) / self.scale
+        if abs(self.shape) < 1e-6:
+            return self.share * float(np.exp(-over))
+        return self.share * max(1.0 + self.shape * over, 0.0) ** (-1.0 / self.shape)
+
+    def size(self, share: float) -> float:
+        """Return the size above which the largest values of a share of swings [-] lie."""
+        rarer = share / self.share
+        grown = -np.log(rarer) if abs(self.shape) < 1e-6 else (rarer**-self.shape - 1.0) / self.shape
+        return self.level + self.scale * float(max(grown, 0.0))
+
+
+@dataclass(frozen=True)
+class Calibrated:
+    """A multiple of the scales for a wanted rate, and the rate that is to be expected, with its interval [1/h]."""
+
+    factor: float
+    rate_per_h: float
+    low: float
+    high: float
+
+
+def fit_tail(largest: Array, share: float) -> Tail:
+    """Return the tail of the largest values of swings (k,): that of a share of them."""
+    level = float(np.quantile(largest, 1.0 - share))
+    over = np.sort(largest[largest > level] - level)
+    return Tail(level, len(over) / len(largest), *_moments(over))
+
+
+def _moments(over: Array) -> tuple[float, float]:
+    """Return scale and shape of what exceeds a level (n,), in rising order, by probability-weighted moments."""
+    rank = (np.arange(1, len(over) + 1) - 0.35) / len(over)
+    mean, weighted = float(over.mean()), float((over * (1.0 - rank)).mean())
+    shape = float(np.clip(2.0 - mean / max(mean - 2.0 * weighted, 1e-12), *SHAPES))
+    return max(mean * (1.0 - shape), 1e-12), shape
+
+
+def calibrate(largest: Array, duration_s: float, rate_per_h: float, settings: Thresholds) -> Calibrated:
+    """Return the multiple of the scales for a wanted rate of false alarms.
+
+    Args:
+        largest: largest value of each swing over its scale (k,).
+        duration_s: time that was walked [s].
+        rate_per_h: wanted rate [1/h].
+        settings: least number of swings, share of the tail, resamples and confidence.
+
+    Raises:
+        DataError: there are too few swings, or the rate is more than the tail holds.
+    """
+    if len(largest) < settings.least_swings:
+        raise DataError(not_accepted("swings", len(largest), [f"{settings.least_swings} or more"]))
+    if not np.ptp(largest):
+        raise DataError(not_accepted("largest values", float(largest[0]), ["numbers that change from swing to swing"]))
+    per_h = len(largest) * HOUR_S / duration_s
+    share = rate_per_h / per_h
+    if share >= settings.tail_share:
+        most = settings.tail_share * per_h
+        raise DataError(not_accepted("rate", f"{rate_per_h:g} per hour", [f"below {most:.0f}, the tail of the swings"]))
+    tail = fit_tail(largest, settings.tail_share)
+    factor = tail.size(share)
+    rng = np.random.default_rng(SEED)
+    rates = [_resampled(largest, tail, factor, settings, rng) * per_h for _ in range(settings.resamples)]
+    low, high = np.quantile(rates, [(1.0 - settings.confidence) / 2.0, (1.0 + settings.confidence) / 2.0])
+    return Calibrated(factor, tail.above(factor) * per_h, float(low), float(high))
+
+
+def _resampled(
+    largest: Array, tail: Tail, factor: float, settings: Thresholds, rng: np.random.Generator
+) -> float:  # fmt: skip
+    """Return the share of swings above a factor that a walk like this one, drawn anew, would make one expect.
+
+    Swings below the level are drawn from those seen, those above from the law; a walk's own rare swing, which decides
+    its fit, is so as rare as it is.
+    """
+    drawn = largest[rng.integers(0, len(largest), len(largest))]
+    above = np.flatnonzero(drawn > tail.level)
+    uniform = rng.uniform(size=len(above))
+    shape = tail.shape if abs(tail.shape) > 1e-6 else 1e-6
+    drawn[above] = tail.level + tail.scale * (uniform**-shape - 1.0) / shape
+    return fit_tail(drawn, settings.tail_share).above(factor)
+
+
+def expected_counts(calibrated: Calibrated, hours: float, confidence: float) -> tuple[int, int]:
+    """Return between which numbers of false alarms a walk of some hours should have, by the interval of the rate.
+
+    The ends are those of Poisson's law at the ends of the rate's interval: both may be wrong at once.
+    """
+    from scipy.stats import poisson  # here, as it takes a second to import
+
+    low = poisson.ppf((1.0 - confidence) / 2.0, calibrated.low * hours)
+    high = poisson.ppf((1.0 + confidence) / 2.0, calibrated.high * hours)
+    return int(max(low, 0)), int(high)

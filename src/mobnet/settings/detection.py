@@ -1,0 +1,68 @@
+"""Detection of collisions with a swinging leg, section 5.3: filters, gate, thresholds and detectors."""
+
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, Field
+
+from mobnet.settings import base
+from mobnet.settings.base import Section
+
+Signal = Literal["mean", "std", "ratio"]
+
+
+class Gate(Section):
+    """When a leg is watched; `method` is the one whose estimate tells of an early contact with the ground."""
+
+    method: base.MethodName
+    lift_off_s: base.NotNegative = Field(le=1)
+    landing_s: base.NotNegative = Field(le=1)
+    contact_n: base.Newton
+    contact_deg: base.Real = Field(gt=0, le=90)
+    contact_s: base.Real = Field(ge=0.001, le=1)
+
+
+class Thresholds(Section):
+    """How thresholds follow from a walk that nothing pushes: by the paper's rule, and for rates of false alarms."""
+
+    margin: base.Real = Field(ge=1, le=10)
+    scale_quantile: base.InnerShare
+    tail_share: base.Real = Field(ge=0.01, le=0.5)
+    least_swings: base.Whole = Field(ge=20, le=100_000)
+    resamples: base.Whole = Field(ge=50, le=100_000)
+    confidence: base.Real = Field(ge=0.5, lt=1)
+    rates_per_h: Annotated[dict[base.LowerName, base.Positive], Field(min_length=1)]
+
+
+class Curve(Section):
+    """Multiples of the thresholds at which curves have points, on a log scale between two ends."""
+
+    factors: base.Span[base.Positive]
+    count: base.Whole = Field(ge=2, le=1000)
+
+
+class Detector(Section):
+    """A detector: signals of a method's estimate, each with a threshold of its own, or with `norm` one of all."""
+
+    method: base.MethodName
+    signals: Annotated[base.Some[Signal], AfterValidator(base.distinct)]
+    norm: base.Flag = False
+    phases: base.Whole = Field(default=1, ge=1, le=100)
+
+
+class Detection(Section):
+    """Detectors, how they are calibrated, and the walks on which they are tried."""
+
+    low_pass_hz: base.Positive
+    hold_s: base.Real = Field(ge=0.001, le=1)
+    gate: Gate
+    thresholds: Thresholds
+    collisions: base.TestName
+    sweep: base.TestName
+    quiet: base.TestName
+    calibration_share: base.InnerShare
+    late_s: base.NotNegative = Field(le=1)
+    onset_n: base.Newton
+    levels: base.Distinct[base.LevelName]
+    legs: base.Distinct[base.LimbName]
+    curve: Curve
+    detectors: Annotated[dict[base.RowName, Detector], Field(min_length=1)]
