@@ -1,0 +1,122 @@
+"""Rows of the files of a robot's detectors: its collisions, thresholds, what detectors find, and swings without any."""
+
+from dataclasses import dataclass, fields
+
+
+@dataclass(frozen=True)
+class Collision:
+    """A push of a leg in a recording, counted from 1; times are from the beginning of the recording.
+
+    `onset_s` is when its force first exceeds that of `detection.onset_n`, None if it never does; `force_n` its largest
+    force [N], `impulse_ns` its impulse [N s]; `swing_share` is the share of the swing at which it begins [-].
+    """
+
+    scenario: str
+    seed: int
+    number: int
+    push: str
+    leg: str
+    link: str
+    direction: str
+    start_s: float
+    onset_s: float | None
+    end_s: float
+    force_n: float
+    impulse_ns: float
+    swing_share: float
+
+
+@dataclass(frozen=True)
+class Threshold:
+    """The threshold of a signal of a detector, in a phase of the swing, counted from 1; `kind` says by which rule."""
+
+    detector: str
+    leg: str
+    kind: str
+    signal: str
+    phase: int
+    value: float
+    unit: str
+
+
+@dataclass(frozen=True)
+class Promise:
+    """The rate of false alarms [1/h] that a detector's thresholds should have, with its interval.
+
+    `swings` in `hours` of walking calibrated them; `factor` is the multiple of the signals' scales.
+    """
+
+    detector: str
+    leg: str
+    kind: str
+    swings: int
+    hours: float
+    factor: float
+    rate_per_h: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Detected:
+    """What a detector says of a collision.
+
+    `ratio` is its largest signal over the threshold, `delay_s` the time from the collision's start to the alarm, None
+    if there is none, `perfect_s` that of an estimate without error at the same thresholds; `link` and `direction` are
+    those that it names, `named_n` the force [N], and `signal` is what crosses first.
+    """
+
+    scenario: str
+    seed: int
+    number: int
+    detector: str
+    kind: str
+    ratio: float
+    delay_s: float | None
+    perfect_s: float | None
+    signal: str
+    link: str
+    direction: str
+    named_n: float | None
+
+
+@dataclass(frozen=True)
+class FreeSwing:
+    """A swing that nothing pushes: the largest signal over the threshold, by the rule of the paper and for a rate.
+
+    `part` says whether it calibrated the detector, was held out, or lies between the collisions of a walk.
+    """
+
+    detector: str
+    leg: str
+    part: str
+    terrain: str
+    seed: int
+    number: int
+    ratio: float
+    ratio_largest: float
+
+
+@dataclass(frozen=True)
+class CurvePoint:
+    """Collisions that a detector finds at a multiple of its thresholds, and the sum of their delays [s]."""
+
+    detector: str
+    leg: str
+    factor: float
+    found: int
+    collisions: int
+    delay_sum_s: float
+
+
+CALIBRATION, HELD_OUT, UNPUSHED = PARTS = ("calibration", "held out", "unpushed")  # values of `part`
+LARGEST, COLLISION = "largest", "collision"  # values of `kind`: by the paper's rule, and for one false alarm an hour
+FILES = {  # name of a file of detectors -> its rows
+    "collisions": Collision, "thresholds": Threshold, "promises": Promise, "detected": Detected, "swings": FreeSwing,
+    "curves": CurvePoint,
+}  # fmt: skip
+
+
+def columns_of(name: str) -> tuple[str, ...]:
+    """Return the columns of a file of detectors."""
+    return tuple(field.name for field in fields(FILES[name]))

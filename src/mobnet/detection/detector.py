@@ -1,0 +1,99 @@
+"""A detector of collisions with one leg: sample by sample in a closed loop, or over a whole stretch with the same flags.
+
+It runs on the estimate of any method. Flags come from the gate, the low-pass, the thresholds and the time for which
+these must be exceeded (section 5.3).
+"""
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.arrays import Array
+from mobnet.core.estimator import Estimate
+from mobnet.core.recording import Sensed
+from mobnet.detection.chain import Chain, ChainState, advance_chain, chain_state, run_chain
+from mobnet.detection.gate import Gate, advance_gate, gate_state, run_gate
+from mobnet.detection.leg import Leg
+from mobnet.detection.signals import signals_of
+from mobnet.settings import detection as settings
+
+COLLISION = 1.0  # ratio of a signal to its threshold above which there is a collision
+
+
+class Watch(NamedTuple):
+    """When a leg is watched (T,), and the phase of its swing (T,) [-]."""
+
+    watched: NDArray[np.bool_]
+    phase: Array
+
+
+class Alarm(NamedTuple):
+    """What a detector says of samples (T,), or of one: ratio to the threshold, above 1 a collision; the signal."""
+
+    ratio: Any
+    signal: Any
+
+
+class State(NamedTuple):
+    """State of a detector."""
+
+    gate: Any
+    chain: ChainState
+
+
+@dataclass(frozen=True)
+class LegGate:
+    """The gate of a leg: `foot` is the column of its foot in the plan's signals."""
+
+    gate: Gate
+    leg: Leg
+    foot: int
+
+    def run(self, sensed: Sensed, tau: NDArray[Any]) -> Watch:
+        """Return when the leg is watched in a contiguous stretch, tau (T, 6) [N m] being the estimate of its joints."""
+        watch = Watch(np.zeros(len(sensed), dtype=bool), np.zeros(len(sensed)))
+        q, torque = np.asarray(sensed.q, dtype=np.float64), np.ascontiguousarray(tau, dtype=np.float64)
+        swing, landing = (np.asarray(part[:, self.foot], dtype=np.float64) for part in (sensed.swing, sensed.landing))
+        run_gate(self.gate, self.leg, gate_state(), q, torque, swing, landing, *watch)
+        return watch
+
+
+@dataclass(frozen=True)
+class LegDetector:
+    """A detector with its thresholds; a whitening matrix (m, m) comes before the length of all signals."""
+
+    detector: settings.Detector
+    gate: LegGate
+    chain: Chain
+    whitening: Array | None = None
+
+    def init(self) -> State:
+        """Return the state before the first sample."""
+        signals = len(self.detector.signals) * len(self.gate.leg.load)
+        return State(gate_state(), chain_state(self.chain, signals))
+
+    def step(self, state: State, sample: Sensed, estimate: Estimate, gating: NDArray[Any]) -> Alarm:
+        """Take one sample (1-D arrays), the estimate of the leg's joints (6,) and that of the gate's method (6,) [N m].
+
+        The state is changed in place.
+        """
+        foot, leg = self.gate.foot, self.gate
+        q, tau = np.asarray(sample.q, dtype=np.float64), np.asarray(gating, dtype=np.float64)
+        swing, landing = float(sample.swing[foot]), float(sample.landing[foot])
+        watched = advance_gate(leg.gate, leg.leg, state.gate, q, tau, swing, landing)
+        signals = signals_of(self.detector, estimate, self.whitening)
+        ratio = advance_chain(self.chain, state.chain, signals, watched, float(state.gate.phase))
+        return Alarm(ratio, int(state.chain.count[1]))
+
+    def run(self, watch: Watch, estimate: Estimate) -> Alarm:
+        """Return what the detector says of a contiguous stretch (T,), of which the gate has run."""
+        return run_over(self.chain, signals_of(self.detector, estimate, self.whitening), watch)
+
+
+def run_over(chain: Chain, signals: Array, watch: Watch) -> Alarm:
+    """Run a chain over the signals (T, m) of a contiguous stretch from rest."""
+    alarm = Alarm(np.zeros(len(signals)), np.zeros(len(signals), dtype=np.int64))
+    run_chain(chain, chain_state(chain, signals.shape[1]), signals, watch.watched, watch.phase, *alarm)
+    return alarm

@@ -1,0 +1,50 @@
+"""Which link a collision hits, from which side, and how hard: the push that best explains the torques of the joints.
+
+A force F at a point turns the joints above it by F g, where g (6,) is known of each point and direction. Of all
+candidates that one is taken whose g explains most of the estimated torque, in units of what this does in free walking.
+"""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.arrays import Array
+
+
+class Named(NamedTuple):
+    """The candidate that explains a torque best, counted from 0, and its force [N]."""
+
+    candidate: int
+    force_n: float
+
+
+def name_push(torque: NDArray[Any], units: Array, whitening: Array) -> Named:
+    """Return which of k pushes explains the torque of the joints (6,) [N m].
+
+    Units (k, 6) are the torques of 1 N of each [N m/N]; the whitening (6, 6) is that of the torque in free walking. A
+    push cannot pull; where none explains anything, the first one has a force of zero.
+    """
+    seen, expected = whitening @ torque, units @ whitening.T
+    sizes = np.maximum((expected**2).sum(axis=1), 1e-12)
+    forces = np.maximum(expected @ seen / sizes, 0.0)
+    best = int(np.argmax(forces**2 * sizes))
+    return Named(best, float(forces[best]))
+
+
+def smallest_forces(units: Array, thresholds: Array, attenuation: float) -> Array:
+    """Return the least force of each of k pushes that brings a joint over its threshold (k,) [N].
+
+    Units (k, 6) are as in `name_push`, thresholds (6,) those of the joints [N m]; of a push that lasts as long as a
+    collision, filters leave the share `attenuation`.
+    """
+    return (thresholds / (attenuation * np.maximum(np.abs(units), 1e-9))).min(axis=1)
+
+
+def split_name(point: str, sides: Sequence[str]) -> tuple[str, str, str]:
+    """Return side, link and direction of a point named `<side>_<link>_<direction>`; raise ValueError of another one."""
+    side, link, direction = point.split("_")
+    if side not in sides:
+        raise ValueError(point)
+    return side, link, direction
