@@ -82,13 +82,14 @@ class Detected:
 
 @dataclass(frozen=True)
 class FreeSwing:
-    """A swing that nothing pushes: the largest signal over the threshold, by the rule of the paper and for a rate.
+    """A swing that nothing pushes: the largest signal over the threshold for one false alarm an hour, and the paper's.
 
     `part` says whether it calibrated the detector, was held out, or lies between the collisions of a walk.
     """
 
     detector: str
     leg: str
+    scenario: str
     part: str
     terrain: str
     seed: int

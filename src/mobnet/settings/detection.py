@@ -22,7 +22,7 @@ class Gate(Section):
 
 
 class Thresholds(Section):
-    """How thresholds follow from a walk that nothing pushes: by the paper's rule, and for rates of false alarms."""
+    """How thresholds follow from walks that nothing pushes: by the paper's rule, and for rates of false alarms."""
 
     margin: base.Real = Field(ge=1, le=10)
     scale_quantile: base.InnerShare
@@ -58,7 +58,8 @@ class Detection(Section):
     thresholds: Thresholds
     collisions: base.TestName
     sweep: base.TestName
-    quiet: base.TestName
+    place: base.TestName
+    random: base.TestName
     calibration_share: base.InnerShare
     late_s: base.NotNegative = Field(le=1)
     onset_n: base.Newton

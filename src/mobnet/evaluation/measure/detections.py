@@ -1,7 +1,7 @@
 """The rule `detect`: it calibrates a robot's detectors, counts their false alarms, and tries them on collisions."""
 
 import logging
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import astuple
 from pathlib import Path
 from typing import Any
@@ -9,6 +9,7 @@ from typing import Any
 from mobnet.core.detections import FILES, columns_of
 from mobnet.core.estimator import Estimate
 from mobnet.evaluation.measure.found import (
+    Struck,
     candidates_of,
     collision_rows,
     curve_rows,
@@ -16,7 +17,7 @@ from mobnet.evaluation.measure.found import (
     strike,
     unpushed_rows,
 )
-from mobnet.evaluation.measure.tuned import promise_rows, quiet_rows, threshold_rows, tune
+from mobnet.evaluation.measure.tuned import Tuned, promise_rows, quiet_of, quiet_rows, threshold_rows, tune
 from mobnet.evaluation.measure.watching import Leg, Walk, read_estimate
 from mobnet.evaluation.number.files import write_csv
 from mobnet.robot.description import describe
@@ -36,7 +37,7 @@ def detect(
         detection: gate, chain, thresholds and detectors.
         robot: the robot's table.
         rate_hz: samples per second [Hz].
-        walks: scenario -> its recordings and estimates: those of `detection.collisions`, `sweep` and `quiet`.
+        walks: scenario -> its recordings and estimates: those of `detection.collisions`, `sweep`, `place` and `random`.
         out: the folder.
 
     Raises:
@@ -53,26 +54,38 @@ def detect(
 def _try_leg(leg: Leg, walks: Mapping[str, Walk], rows: Rows) -> None:
     """Add the rows of a leg: its collisions, then what each detector of a method that estimates it makes of them."""
     settings = leg.detection
-    quiet, methods = leg.watch(walks[settings.quiet]), {row.method for row in settings.detectors.values()}
-    struck = {name: strike(leg, walks[name], leg.watch(walks[name])) for name in (settings.collisions, settings.sweep)}
+    seen = {name: leg.watch(walk) for name, walk in walks.items()}
+    struck = {name: strike(leg, walks[name], seen[name]) for name in (settings.collisions, settings.sweep)}
     for name, found in struck.items():
         rows["collisions"] += collision_rows(leg, name, found)
-    for method in sorted(methods):
+    for method in dict.fromkeys(row.method for row in settings.detectors.values()):
         read = {name: _estimates(leg, walk, method) for name, walk in walks.items()}
+        if not read[settings.random]:
+            continue  # the method does not estimate this leg
+        quiet = {name: quiet_of(leg, name, seen[name], read[name]) for name in (settings.place, settings.random)}
         for name, detector in settings.detectors.items():
-            if detector.method != method or not read[settings.quiet]:
-                continue  # the method does not estimate this leg
-            tuned = tune(leg, name, detector, quiet, read[settings.quiet])
-            rows["thresholds"] += threshold_rows(leg, tuned)
-            rows["promises"] += promise_rows(leg, tuned, quiet)
-            rows["swings"] += quiet_rows(leg, tuned, quiet, read[settings.quiet])
-            for walk, found in struck.items():
-                if read[walk]:
-                    points = candidates_of(leg, walks[walk])
-                    rows["detected"] += detected_rows(leg, walk, tuned, found, read[walk], points)
-            rows["curves"] += curve_rows(leg, tuned, struck[settings.collisions], read[settings.collisions])
-            rows["swings"] += unpushed_rows(leg, tuned, struck[settings.collisions], read[settings.collisions])
+            if detector.method == method:
+                tuned = tune(leg, name, detector, quiet[settings.place], quiet[settings.random])
+                rows["thresholds"] += threshold_rows(leg, tuned)
+                rows["promises"] += promise_rows(leg, tuned, quiet[settings.random])
+                for walk in quiet.values():
+                    rows["swings"] += quiet_rows(leg, tuned, walk)
+                for walk, found in struck.items():
+                    _try_walk(leg, walk, tuned, found, read[walk], candidates_of(leg, walks[walk]), rows)
         log.info("%s, %s: tried", leg.limb, method)
+
+
+def _try_walk(
+    leg: Leg, scenario: str, tuned: Tuned, struck: Sequence[Struck], estimates: Sequence[Estimate],
+    points: Sequence[str], rows: Rows,
+) -> None:  # fmt: skip
+    """Add what a detector makes of a walk with collisions; nothing where its method does not estimate the leg there."""
+    if not estimates:
+        return
+    rows["detected"] += detected_rows(leg, scenario, tuned, struck, estimates, points)
+    if scenario == leg.detection.collisions:
+        rows["curves"] += curve_rows(leg, tuned, struck, estimates)
+        rows["swings"] += unpushed_rows(leg, scenario, tuned, struck, estimates)
 
 
 def _estimates(leg: Leg, walk: Walk, method: str) -> list[Estimate]:

@@ -116,7 +116,7 @@ def curve_rows(
 
 
 def unpushed_rows(
-    leg: Leg, tuned: Tuned, struck: Sequence[Struck], estimates: Sequence[Estimate]
+    leg: Leg, scenario: str, tuned: Tuned, struck: Sequence[Struck], estimates: Sequence[Estimate]
 ) -> Iterator[FreeSwing]:  # fmt: skip
     """Yield the swings of a walk with collisions in which nothing pushes: most follow a push and recover from it."""
     for one, estimate in zip(struck, estimates, strict=True):
@@ -126,7 +126,7 @@ def unpushed_rows(
             if not any(hit.rows.start < end and start < hit.rows.stop for hit in one.every):
                 numbers = float(ratios[k]), float(others[k])
                 place = one.watched.terrains[k], one.watched.seed, k + 1
-                yield FreeSwing(tuned.name, leg.limb, UNPUSHED, *place, *numbers)
+                yield FreeSwing(tuned.name, leg.limb, scenario, UNPUSHED, *place, *numbers)
 
 
 def window_of(leg: Leg, hit: Hit) -> slice:

@@ -1,20 +1,12 @@
 """A detector of a leg with thresholds from a walk that nothing pushes, and its false alarms in that walk."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from mobnet.core.arrays import Array
-from mobnet.core.detections import (
-    CALIBRATION,
-    COLLISION,
-    HELD_OUT,
-    LARGEST,
-    FreeSwing,
-    Promise,
-    Threshold,
-)
+from mobnet.core.detections import CALIBRATION, COLLISION, HELD_OUT, LARGEST, FreeSwing, Promise, Threshold
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.estimator import Estimate
 from mobnet.detection.chain import Chain
@@ -26,6 +18,20 @@ from mobnet.settings.detection import Detector
 
 
 @dataclass(frozen=True)
+class Quiet:
+    """A leg in a walk that nothing pushes, and a method's estimate of it.
+
+    `first` is the number of swings that calibrate, the first ones, `hours` how long they took [h].
+    """
+
+    scenario: str
+    walk: tuple[Watched, ...]
+    estimates: tuple[Estimate, ...]
+    first: int
+    hours: float
+
+
+@dataclass(frozen=True)
 class Tuned:
     """A calibrated detector.
 
@@ -34,7 +40,6 @@ class Tuned:
         detector: what it watches.
         whitening: of its signals, if it watches their length.
         naming: of the estimated torques (6, 6), for telling links apart.
-        scales: of what has a threshold, in each phase (phases, c) [N m], for ratios [-].
         chains: rule -> the chain with its thresholds.
         promises: rule, but that of the paper -> multiple of the scales and expected rate.
     """
@@ -43,7 +48,6 @@ class Tuned:
     detector: Detector
     whitening: Array | None
     naming: Array
-    scales: Array
     chains: Mapping[str, Chain]
     promises: Mapping[str, Calibrated]
 
@@ -63,48 +67,42 @@ class Tuned:
         return chain if chain.norm else chain._replace(thresholds=np.ascontiguousarray(chain.thresholds[:, :joints]))
 
 
-def tune(
-    leg: Leg, name: str, detector: Detector, walk: Sequence[Watched], estimates: Sequence[Estimate]
-) -> Tuned:  # fmt: skip
-    """Calibrate a detector on the first swings of a walk that nothing pushes.
+def tune(leg: Leg, name: str, detector: Detector, place: Quiet, random: Quiet) -> Tuned:
+    """Calibrate a detector on the first swings of walks that nothing pushes: in place by the paper's rule, else rates.
 
     Raises:
         DataError: there are too few swings, or a signal never changes.
     """
-    first = calibrating(leg, walk)
-    plain = [signals_of(detector, estimate) for estimate in estimates]
-    _check_signals(leg, detector, walk, plain)
-    whitening = _whitening(leg, walk, plain, first) if detector.norm else None
-    naming = _whitening(leg, walk, [one.tau_ext.astype(np.float64) for one in estimates], first)
-    signals = plain if whitening is None else [one @ whitening.T for one in plain]
-    heights = np.concatenate([_heights(leg, detector, *pair) for pair in zip(walk, signals, strict=True)])[:first]
+    for walk in (place, random):
+        _check_signals(leg, detector, walk)
+    plain = [signals_of(detector, estimate) for estimate in random.estimates]
+    whitening = _whitening(leg, random, plain) if detector.norm else None
+    torques = [estimate.tau_ext.astype(np.float64) for estimate in random.estimates]
     numbers = leg.detection.thresholds
+    heights = _heights(leg, detector, whitening, random)
     scales = _over_swings(heights, lambda own: float(np.quantile(own, numbers.scale_quantile)))
-    chain = leg.chain(scales, norm=detector.norm)
-    seen = swing_ratios(walk, chain, signals)[:first]
+    watched = [signals_of(detector, estimate, whitening) for estimate in random.estimates]
+    seen = swing_ratios(random.walk, leg.chain(scales, norm=detector.norm), watched)[: random.first]
     promises = {
-        kind: calibrate(seen, hours_of(leg, walk) * HOUR_S * first / swing_count(walk), rate, numbers)
-        for kind, rate in numbers.rates_per_h.items()
+        kind: calibrate(seen, random.hours * HOUR_S, rate, numbers) for kind, rate in numbers.rates_per_h.items()
     }
-    thresholds = {LARGEST: numbers.margin * _over_swings(heights, np.max)}
+    thresholds = {LARGEST: numbers.margin * _over_swings(_heights(leg, detector, whitening, place), np.max)}
     thresholds |= {kind: found.factor * scales for kind, found in promises.items()}
     chains = {kind: leg.chain(own, norm=detector.norm) for kind, own in thresholds.items()}
-    return Tuned(name, detector, whitening, naming, scales, chains, promises)
+    return Tuned(name, detector, whitening, _whitening(leg, random, torques), chains, promises)
 
 
-def calibrating(leg: Leg, walk: Sequence[Watched]) -> int:
-    """Return how many of the swings of a walk calibrate, the first ones."""
-    return int(np.ceil(leg.detection.calibration_share * swing_count(walk)))
+def quiet_of(leg: Leg, scenario: str, walk: Sequence[Watched], estimates: Sequence[Estimate]) -> Quiet:
+    """Return a walk that nothing pushes, of which a share of the swings, the first ones, calibrates."""
+    count = swing_count(walk)
+    first = int(np.ceil(leg.detection.calibration_share * count))
+    walked = sum(one.samples for one in walk) / leg.rate_hz / HOUR_S
+    return Quiet(scenario, tuple(walk), tuple(estimates), first, walked * first / max(count, 1))
 
 
 def swing_count(walk: Sequence[Watched]) -> int:
     """Return the number of swings of a walk."""
     return sum(len(one.swings) for one in walk)
-
-
-def hours_of(leg: Leg, walk: Sequence[Watched]) -> float:
-    """Return the time that was walked [h]."""
-    return sum(one.samples for one in walk) / leg.rate_hz / HOUR_S
 
 
 def swing_ratios(walk: Sequence[Watched], chain: Chain, signals: Sequence[Array]) -> Array:
@@ -123,43 +121,44 @@ def threshold_rows(leg: Leg, tuned: Tuned) -> Iterator[Threshold]:
                 yield Threshold(tuned.name, leg.limb, kind, signal, phase, value, unit)
 
 
-def promise_rows(leg: Leg, tuned: Tuned, walk: Sequence[Watched]) -> Iterator[Promise]:
+def promise_rows(leg: Leg, tuned: Tuned, random: Quiet) -> Iterator[Promise]:
     """Yield the rates of false alarms that are to be expected of a detector."""
-    first = calibrating(leg, walk)
-    hours = hours_of(leg, walk) * first / swing_count(walk)
     for kind, found in tuned.promises.items():
-        yield Promise(tuned.name, leg.limb, kind, first, hours, found.factor, found.rate_per_h, found.low, found.high)
+        numbers = found.factor, found.rate_per_h, found.low, found.high
+        yield Promise(tuned.name, leg.limb, kind, random.first, random.hours, *numbers)
 
 
-def quiet_rows(leg: Leg, tuned: Tuned, walk: Sequence[Watched], estimates: Sequence[Estimate]) -> Iterator[FreeSwing]:
-    """Yield the swings of the walk that nothing pushes: those that calibrated the detector, and those held out."""
-    signals, first = [tuned.signals(one) for one in estimates], calibrating(leg, walk)
-    ratios, largest_ratios = (swing_ratios(walk, tuned.chains[kind], signals) for kind in (COLLISION, LARGEST))
-    places = [(one.seed, number, terrain) for one in walk for number, terrain in enumerate(one.terrains, start=1)]
+def quiet_rows(leg: Leg, tuned: Tuned, quiet: Quiet) -> Iterator[FreeSwing]:
+    """Yield the swings of a walk that nothing pushes: those that calibrated the detector, and those held out."""
+    signals = [tuned.signals(one) for one in quiet.estimates]
+    ratios, others = (swing_ratios(quiet.walk, tuned.chains[kind], signals) for kind in (COLLISION, LARGEST))
+    places = [(one.seed, number, terrain) for one in quiet.walk for number, terrain in enumerate(one.terrains, start=1)]
     for k, (seed, number, terrain) in enumerate(places):
-        part = CALIBRATION if k < first else HELD_OUT
-        numbers = float(ratios[k]), float(largest_ratios[k])
-        yield FreeSwing(tuned.name, leg.limb, part, terrain, seed, number, *numbers)
+        part = CALIBRATION if k < quiet.first else HELD_OUT
+        numbers = float(ratios[k]), float(others[k])
+        yield FreeSwing(tuned.name, leg.limb, quiet.scenario, part, terrain, seed, number, *numbers)
 
 
-def _check_signals(leg: Leg, detector: Detector, walk: Sequence[Watched], signals: Sequence[Array]) -> None:
-    """Raise a DataError if a signal has the same number in all samples."""
+def _check_signals(leg: Leg, detector: Detector, quiet: Quiet) -> None:
+    """Raise a DataError if a signal has the same number in all samples of a walk."""
+    signals = [signals_of(detector, estimate) for estimate in quiet.estimates]
     lowest, highest = (np.array([end(own, axis=0) for own in signals]) for end in (np.min, np.max))
     still = np.flatnonzero(lowest.min(axis=0) == highest.max(axis=0))
     if len(still):
-        names = [f"{kind}.{joint}" for kind in detector.signals for joint in leg.joints]
-        text = not_accepted(f"signal {names[still[0]]}: every number", float(lowest[0, still[0]]), ["numbers that change"])
-        raise DataError(f"{walk[0].recording}: {text}")
+        name = [f"{kind}.{joint}" for kind in detector.signals for joint in leg.joints][still[0]]
+        accepted = ["numbers that change"]
+        where = f"{quiet.walk[0].recording}: signal {name}: every number"
+        raise DataError(not_accepted(where, float(lowest[0, still[0]]), accepted))
 
 
-def _whitening(leg: Leg, walk: Sequence[Watched], signals: Sequence[Array], swings: int) -> Array:
-    """Return the whitening (m, m) of signals behind the low-pass, where the leg is watched in the first swings."""
-    parts: list[Array] = []
-    for one, own in zip(walk, signals, strict=True):
-        count = min(len(one.swings), swings)
+def _whitening(leg: Leg, quiet: Quiet, signals: Sequence[Array]) -> Array:
+    """Return the whitening (m, m) of signals behind the low-pass, where the leg is watched in calibrating swings."""
+    parts, left = list[Array](), quiet.first
+    for one, own in zip(quiet.walk, signals, strict=True):
+        count = min(len(one.swings), left)
         end = one.swings[count - 1][1] if count else 0
         parts.append(leg.low_passed(own[:end], _cut(one.segments, end))[one.watch.watched[:end]])
-        swings -= count
+        left -= count
     return whitening_of(np.concatenate(parts))
 
 
@@ -168,23 +167,27 @@ def _cut(segments: Sequence[tuple[int, int]], end: int) -> tuple[tuple[int, int]
     return tuple((start, min(stop, end)) for start, stop in segments if start < end)
 
 
-def _heights(leg: Leg, detector: Detector, one: Watched, signals: Array) -> Array:
-    """Return the largest held signal in each phase of each swing, (swings, phases, c); nan where it is not watched."""
+def _heights(leg: Leg, detector: Detector, whitening: Array | None, quiet: Quiet) -> Array:
+    """Return the largest held signal in each phase of each calibrating swing, (swings, phases, c).
+
+    It is minus infinity where a swing is not watched.
+    """
     whole = leg.chain(np.ones((1, 1)), norm=detector.norm)
-    parts = [signals] if detector.norm else np.split(signals, signals.shape[1], axis=1)
-    held = np.stack([one.run(whole, np.ascontiguousarray(part)).ratio for part in parts], axis=1)
-    part = np.minimum((one.watch.phase * detector.phases).astype(int), detector.phases - 1)
-    shown = [np.where((one.watch.watched & (part == k))[:, None], held, np.nan) for k in range(detector.phases)]
-    swings = [np.stack([_most(own[start:end]) for own in shown]) for start, end in one.swings]
-    return np.array(swings).reshape(len(swings), detector.phases, len(parts))
+    found: list[Array] = []
+    for one, estimate in zip(quiet.walk, quiet.estimates, strict=True):
+        signals = signals_of(detector, estimate, whitening)
+        parts = [signals] if detector.norm else np.split(signals, signals.shape[1], axis=1)
+        held = np.stack([one.run(whole, np.ascontiguousarray(part)).ratio for part in parts], axis=1)
+        phase = np.minimum((one.watch.phase * detector.phases).astype(int), detector.phases - 1)
+        shown = [one.watch.watched & (phase == k) for k in range(detector.phases)]
+        found += [
+            np.stack([held[start:end][own[start:end]].max(axis=0, initial=-np.inf) for own in shown])
+            for start, end in one.swings
+        ]
+    return np.array(found[: quiet.first])
 
 
-def _most(values: Array) -> Array:
-    """Return the largest numbers of columns (n, c) that are not nan, nan where all are."""
-    return np.where(np.isnan(values), -np.inf, values).max(axis=0, initial=-np.inf)
-
-
-def _over_swings(heights: Array, number) -> Array:
+def _over_swings(heights: Array, number: Callable[[Array], float]) -> Array:
     """Return a number of the heights (swings, phases, c) over the swings that have them, (phases, c).
 
     A phase that no swing has takes the largest of the other phases.
