@@ -96,7 +96,7 @@ def test_recordings_side_by_side_and_in_batches_are_those_alone(
     pairs = [write_pair(tmp_path, recording) for recording in recordings]
     given = settings.robot, settings.levels["all_uncertainty"], settings.plant.gravity_m_s2, settings.observer
     outs = [tmp_path / f"out{k}" for k in range(3)]
-    monkeypatch.setattr(estimate_module, "TOGETHER", 2)
+    monkeypatch.setattr(estimate_module, "TOGETHER_S", 0.8)
     estimate(*given, "MOB", settings.methods, {}, None, *map(list, zip(*pairs, strict=True)), outs)
     for recording, (_, residual), out in zip(recordings, pairs, outs, strict=True):
         array, meta = read_array(out)

@@ -6,6 +6,7 @@ import time
 from pathlib import Path
 
 from mobnet.core.cluster import failed_jobs
+from mobnet.core.detections import FILES as DETECTION_FILES
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
 from mobnet.core.lock import job_prefix

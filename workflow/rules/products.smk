@@ -22,6 +22,26 @@ rule score:
         "../scripts/call.py"
 
 
+rule detect:
+    input:
+        lambda w: job("detect", w).inputs,
+    output:
+        [ensure(f"{OWN}detection/{name}.csv", non_empty=True) for name in DETECTION_FILES],
+    log:
+        f"{LOGS}/detect/{{robot}}all.log",
+    group:
+        "scores"
+    threads: 1
+    resources:
+        mem_mb=growing(3000),
+        runtime=20,
+    params:
+        call=lambda w: job("detect", w).call,
+        given=lambda w: job("detect", w).given,
+    script:
+        "../scripts/call.py"
+
+
 for product in (*PLAN.products, *PLAN.trials):
 
     rule:

@@ -178,6 +178,20 @@ CALIBRATION = (
     "test", "level", "pushed", "method", "limb", "measure", "share", "before", "before_low", "before_high",
     "after", "low", "high", *SPREAD, "unit",
 )  # fmt: skip
+DETECTION = (
+    "level",
+    "detector",
+    "leg",
+    "kind",
+    "cell",
+    "quantity",
+    "value",
+    "low",
+    "high",
+    "count",
+    "unit",
+    "published",
+)  # of collisions: found shares, delays, smallest forces, thresholds and rates of false alarms
 LATENCY = ("quantity", "value", "low", "high", "unit")
 COMPUTE = ("stage", "quantity", "value", "unit")
 

@@ -68,6 +68,7 @@ class Detected:
 
     scenario: str
     seed: int
+    leg: str
     number: int
     detector: str
     kind: str

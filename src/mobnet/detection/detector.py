@@ -1,4 +1,4 @@
-"""A detector of collisions with one leg: sample by sample in a closed loop, or over a whole stretch with the same flags.
+"""A detector of collisions with one leg: sample by sample in a closed loop, or over a stretch with the same flags.
 
 It runs on the estimate of any method. Flags come from the gate, the low-pass, the thresholds and the time for which
 these must be exceeded (section 5.3).

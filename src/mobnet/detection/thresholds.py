@@ -2,9 +2,9 @@
 
 In each swing a detector's signals have a largest value, over their scale. A rate of one false alarm in an hour is one
 in some thousands of swings, more than a lab records, so that the tail of the largest values is fitted: what exceeds a
-high level has a generalised Pareto law (Pickands 1975, Ann. Statist. 3), fitted by probability-weighted moments (Hosking
-and Wallis 1987, Technometrics 29). The interval of the expected rate is that of walks resampled from the fit and the
-swings, and it widens where the fit goes beyond what was seen.
+high level has a generalised Pareto law (Pickands 1975, Ann. Statist. 3), fitted by probability-weighted moments
+(Hosking and Wallis 1987, Technometrics 29). The interval of the expected rate is that of walks resampled from the fit
+and the swings, and it widens where the fit goes beyond what was seen.
 """
 
 from dataclasses import dataclass

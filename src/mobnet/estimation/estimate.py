@@ -1,7 +1,7 @@
 """The rule `estimate`: it runs a method on recordings, several side by side, and writes the external torque of each."""
 
 import logging
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -13,8 +13,9 @@ from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.estimator import Estimate, Estimator, Stretch, estimate_all
 from mobnet.core.files import WEIGHTS
 from mobnet.core.joints import JointLayout
+from mobnet.core.notes import read_array_note
 from mobnet.core.recording import SensedRecording, read_sensed
-from mobnet.core.store import check_pair, check_rate, read_array, write_array
+from mobnet.core.store import NOTE, check_pair, check_rate, file_of, read_array, write_array
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.observe import CARRIED
 from mobnet.estimation.recipe import Recipe
@@ -24,7 +25,7 @@ from mobnet.settings.methods import Method, Observer
 from mobnet.settings.plant import Level
 from mobnet.settings.robot import RobotTable
 
-TOGETHER = 16  # recordings held in memory and run side by side: 1.3 GB of a minute each
+TOGETHER_S = 960.0  # recordings of so long are held in memory and run side by side [s]: 1.3 GB
 log = logging.getLogger(__name__)
 
 
@@ -69,8 +70,7 @@ def estimate(
         "networks": {limb: folder.name for limb, folder in networks.items()},
         "std_scale": std_scales(folder / WEIGHTS for folder in networks.values()),
     }
-    for start in range(0, len(recordings), TOGETHER):
-        some = slice(start, start + TOGETHER)
+    for some in batches(recordings):
         pairs = zip(recordings[some], residuals[some], strict=True)
         read = [read_observed(layout, recording, residual, rate_hz) for recording, residual in pairs]
         recipe = Recipe(method, methods, robot, level, gravity_m_s2, observer, rate_of(read), networks, fitted)
@@ -78,6 +78,19 @@ def estimate(
         shown = joints or estimator.joints
         for one, result, out in zip(read, run_segments(estimator, read), outs[some], strict=True):
             write_estimate(out, one.recording, only(result, estimator.joints, shown), shown, layout, note)
+
+
+def batches(recordings: Sequence[Path]) -> Iterator[slice]:
+    """Yield which recordings run side by side: as many as fit into memory, or a single longer one."""
+    start, held_s = 0, 0.0
+    for k, stem in enumerate(recordings):
+        note = read_array_note(file_of(stem, NOTE))
+        duration_s = note["rows"] / note["rate_hz"]
+        if k > start and held_s + duration_s > TOGETHER_S:
+            yield slice(start, k)
+            start, held_s = k, 0.0
+        held_s += duration_s
+    yield slice(start, len(recordings))
 
 
 def read_observed(layout: JointLayout, recording: Path, residual: Path, rate_hz: float | None = None) -> Observed:

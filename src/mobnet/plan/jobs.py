@@ -5,6 +5,7 @@ from pathlib import Path
 
 from mobnet.core.files import WEIGHTS
 from mobnet.plan.call import Call, Job
+from mobnet.plan.detection import numbers_of, walks_of
 from mobnet.plan.runs import Files, files_in
 from mobnet.settings.base import Section
 from mobnet.settings.data import Terrain
@@ -143,6 +144,18 @@ class Jobs:
         arguments = {"layout": self.settings.layout, "runs": runs, "asked": asked, "out": out}
         read = [[run.residual, run.estimate, run.recording] for run in runs]
         return Job(Call("mobnet.evaluation.measure.scores:score", arguments), _read(read))
+
+    def detect(self) -> Job:
+        """Return the calibration and the trial of the detectors of a robot, or of the plant of section 5.1."""
+        walks = walks_of(self.files)
+        arguments = {
+            "detection": numbers_of(self.files),
+            "robot": self.settings.robot,
+            "rate_hz": self.settings.rates.data_hz,
+            "walks": walks,
+            "out": self.files.results / "detection",
+        }
+        return Job(Call("mobnet.evaluation.measure.detections:detect", arguments), _read(walks))
 
     def _kinds(self, method: str) -> tuple[str, ...]:
         """Return the modules that a method imports by name: its kind and that of the method it runs on."""

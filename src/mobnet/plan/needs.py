@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from mobnet.core.errors import ConfigError
+from mobnet.plan.detection import all_detections
 from mobnet.plan.runs import Files
 from mobnet.settings.evaluation import Runs
 from mobnet.settings.names import uses
@@ -106,7 +107,7 @@ def _claims(files: Files) -> Needs:
     methods = (*evaluation.figure_17.methods, *evaluation.kinds.variants)
     kinds = files.network_folders(methods, evaluation.figure_17.limb, evaluation.figure_17.level)
     sizes = [folder for size in files.swept_sizes() for folder in size.folders]
-    return {"scores": files.scores(files.settings.tests), "folders": tuple(dict.fromkeys([*kinds, *sizes]))}
+    return {"scores": files.scores(files.scored_tests), "folders": tuple(dict.fromkeys([*kinds, *sizes]))}
 
 
 def _latency(files: Files) -> Needs:
@@ -160,6 +161,7 @@ USUAL: Mapping[str, Callable[[Files, Any], object]] = {  # parameter -> what it 
     "runs": Files.first_runs,
     "folders": _folders,
     "sets": _sets,
+    "detections": lambda files, _: all_detections(files),
 }
 NEEDS: Mapping[str, Callable[[Files], Needs]] = {  # products that need something else
     "table_01": _table_01,

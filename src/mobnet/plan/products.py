@@ -8,6 +8,7 @@ from pathlib import Path
 from mobnet.core.code import start_of
 from mobnet.core.files import WEIGHTS
 from mobnet.plan.call import Job, call_of, parameters
+from mobnet.plan.detection import detection_files, level_of_detectors
 from mobnet.plan.needs import needs_of
 from mobnet.plan.runs import ARRAY, COURSE, Files, files_in
 from mobnet.settings.evaluation import Evaluation
@@ -98,7 +99,8 @@ class Products:
             for method in methods
             for path in files.fit(method)
         )
-        return [*pairs, *trained, *fits, *map(str, self.files.scores(scenarios).values())]
+        found = [str(path) for own in owners if level_of_detectors(own) for path in detection_files(own).values()]
+        return [*pairs, *trained, *fits, *found, *map(str, self.files.scores(self.files.scored_tests).values())]
 
     def _tables_and_figures(self) -> Iterator[Product]:
         """Yield all tables and figures."""

@@ -8,9 +8,10 @@ from typing import cast
 
 from mobnet.core.files import METRICS, RUN, WEIGHTS
 from mobnet.settings.data import Recordings
-from mobnet.settings.evaluation import Runs
+from mobnet.settings.evaluation import Evaluation, Runs
 from mobnet.settings.fleet import as_robot, level_of, levels_of
 from mobnet.settings.methods import Method
+from mobnet.settings.names import uses
 from mobnet.settings.settings import Settings, swept_name
 
 # Recordings and motions of development and of training count from these seeds; those of tests, from their scale's
@@ -168,6 +169,8 @@ class Files:
     def run_seeds(self, method: str, scenario: str, level: str) -> tuple[int, ...]:
         """Return the seeds with which a method runs in a test: those of the limb with the most among the test's."""
         every = self.network_seeds(method)
+        if scenario in self.settings.detection_walks:
+            return every[:1]  # a robot detects with one network
         source, limbs = self.settings.network_source_of(method), self.networks(method, every[0], scenario, level)
         return max((self.network_seeds(source, limb) for limb in limbs), key=len, default=every)
 
@@ -318,6 +321,13 @@ class Files:
         """Return every run of a test."""
         levels = self.settings.tests[scenario]
         return tuple(run for level, methods in levels.items() for run in self.runs(scenario, level, methods))
+
+    @property
+    def scored_tests(self) -> tuple[str, ...]:
+        """The tests whose errors are scored: all but those of detectors, unless a product shows them."""
+        shown = {name for _, kind, name in uses(self.settings.evaluation, Evaluation) if kind == "test"}
+        walks = self.settings.detection_walks
+        return tuple(name for name in self.settings.tests if name in shown or name not in walks)
 
     def scores(self, scenarios: Iterable[str]) -> dict[str, Path]:
         """Return the files of scores of some tests."""

@@ -4,12 +4,14 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from mobnet.core.detections import FILES
 from mobnet.core.files import RUN
 from mobnet.plan.plan import Plan
 from mobnet.plan.runs import ARRAY, FIRST_DEVELOPMENT_SEED, Files
 from mobnet.settings.networks import Network
 
 SECONDS = "s"
+FIRST_FILE = next(iter(FILES))  # of detectors: their job makes all of them
 INPUTS_PER_JOINT, BASE_INPUTS = 2, 12  # of a network: position and velocity; rotation, turn and acceleration
 
 
@@ -58,6 +60,11 @@ def _behind(plan: Plan, path: Path) -> Iterator[Work]:
             yield _trained(files, own, path.parent.name)
         case "fits", _:
             yield _fitted(files, own, path.stem)
+        case "detection", _ if path.stem == FIRST_FILE:
+            seconds = sum(files.settings.test_s(name) for name in files.settings.detection_walks)
+            walked = seconds * len(files.test_seeds)
+            longest = max(files.settings.test_s(name) for name in files.settings.detection_walks)
+            yield Work(f"detect/{own}all", "detect", {SECONDS: walked}, longest * len(files.test_seeds))
         case "scores", _:
             runs = plan.files.runs_of(path.stem)
             seconds = sum(plan.settings.test_s(run.scenario) for run in runs)

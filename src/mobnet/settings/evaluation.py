@@ -347,6 +347,79 @@ class Changed(Section):
     tests: Annotated[dict[base.Text, LimbRuns], Field(min_length=1)]
 
 
+class DetectorTable(Section):
+    """Detectors on the collisions of a leg, by a rule of thresholds; `levels` are those at which they are tried."""
+
+    levels: base.Distinct[base.LevelName]
+    leg: base.LimbName
+    kind: base.LowerName
+    detectors: base.Distinct[base.DetectorName]
+
+
+class AlarmTable(Section):
+    """False alarms of detectors of a leg, by the rules of thresholds for wanted rates and by the paper's."""
+
+    levels: base.Distinct[base.LevelName]
+    leg: base.LimbName
+    detectors: base.Distinct[base.DetectorName]
+
+
+class SmallestForce(DetectorTable):
+    """The force that a share of the collisions of each kind must have to be found.
+
+    Of laws with these forces for one half and these steepnesses on a log scale the likeliest counts.
+    """
+
+    kinds: base.Distinct[base.LowerName]
+    share: base.InnerShare
+    halves_n: base.Span[base.Positive]
+    steepness: base.Span[base.Positive]
+    resamples: base.Whole = Field(ge=50, le=100_000)
+
+
+class Links(DetectorTable):
+    """Which link each collision hit and which one a detector named."""
+
+
+class Figure13(Section):
+    """Snapshots of collisions: the robot's level, the leg, and the cells, `<link> <direction>`."""
+
+    level: base.SingleLevelName
+    leg: base.LimbName
+    cells: Texts
+
+
+class Figure14(Section):
+    """Histograms of collisions."""
+
+    levels: base.Distinct[base.LevelName]
+    leg: base.LimbName
+    bins: base.Whole = Field(ge=2, le=200)
+
+
+class Figure15(Section):
+    """Standard deviations around collisions: of these methods, whose detectors have the thresholds, at one joint."""
+
+    level: base.SingleLevelName
+    leg: base.LimbName
+    joint: base.MotorName
+    cells: Texts
+    detectors: dict[base.MethodName, base.DetectorName]
+    kind: base.LowerName
+    before_s: base.NotNegative = Field(le=10)
+    after_s: base.Positive = Field(le=10)
+
+
+class DetectionCurves(Section):
+    """Found share and delay over the rate of false alarms, and the found share over the force."""
+
+    level: base.LevelName
+    leg: base.LimbName
+    kind: base.LowerName
+    detectors: base.Distinct[base.DetectorName]
+    force_bins: base.Whole = Field(ge=2, le=100)
+
+
 class Scoring(Section):
     """What is measured on the runs of one test besides errors: what no product asks for is None.
 
@@ -445,6 +518,15 @@ class Evaluation(Section):
     phases: Phases
     sigma: Sigma
     changed: Changed
+    table_09: DetectorTable
+    table_13: DetectorTable
+    false_alarms: AlarmTable
+    smallest_force: SmallestForce
+    links: Links
+    figure_13: Figure13
+    figure_14: Figure14
+    figure_15: Figure15
+    detection_curves: DetectionCurves
     data: DataTable
     commands: CommandsFigure
     steps: Steps

@@ -94,6 +94,12 @@ class Settings(Section):
         """Return the duration of a test's recordings at the chosen scale [s]."""
         return self.sizes.durations_s.get(scenario, self.sizes.test.shard_s)
 
+    @property
+    def detection_walks(self) -> tuple[str, ...]:
+        """The tests of the detectors of collisions; no errors are scored in them."""
+        detection = self.detection
+        return detection.collisions, detection.sweep, detection.place, detection.random
+
     def random_torque_of(self, scenario: str) -> RandomTorque:
         """Return the random torques of a scenario that has some: it may have its own largest one on legs and waist."""
         asked = self.scenarios[scenario].random_torque

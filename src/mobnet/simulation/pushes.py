@@ -27,7 +27,8 @@ SHARE_WINDOW = 0.05  # [-] of a step: a push whose moment has passed by more wai
 
 LAW = np.dtype([
     ("site", "i8"), ("body", "i8"), ("dof", "i8"), ("phase", "i8"), ("direction", "i8"), ("shape", "i8"),
-    ("timed", "i8"), ("log", "i8"), ("share", "f8", 2), ("pause", "f8", 2), ("size", "f8", 2), ("duration", "f8", 2), ("mass", "f8"),
+    ("timed", "i8"), ("log", "i8"),
+    ("share", "f8", 2), ("pause", "f8", 2), ("size", "f8", 2), ("duration", "f8", 2), ("mass", "f8"),
 ])  # fmt: skip
 STATE = np.dtype([
     ("start", "f8"), ("end", "f8"), ("share", "f8"), ("active", "i8"), ("count", "i8"),
@@ -39,11 +40,11 @@ STATE = np.dtype([
 class Pushes(NamedTuple):
     """Laws and state of the pushes of a scenario, one row each."""
 
-    # records of LAW (n,): `site`, the point that is pushed, and its `body`, both -1 for a torque on a joint; `dof`, the
-    # joint's place in the generalized velocity, -1 for a force; `phase`, `direction` and `shape`, indices of PHASES,
-    # DIRECTIONS and SHAPES; `timed`, 1 where `times` rules; `log`, 1 where sizes are drawn on a log scale; bounds of the `share` [-] of the step at which it comes, of
-    # the `pause` [s] between two, of the `size` [N] or [N m] of the peak and of the `duration` [s]; `mass` [kg] of an
-    # impactor
+    # records of LAW (n,): `site`, the point that is pushed, and its `body`, both -1 for a torque on a joint; `dof`,
+    # the joint's place in the generalized velocity, -1 for a force; `phase`, `direction` and `shape`, indices of
+    # PHASES, DIRECTIONS and SHAPES; `timed`, 1 where `times` rules; `log`, 1 where sizes are drawn on a log scale;
+    # bounds of the `share` [-] of the step at which it comes, of the `pause` [s] between two, of the `size` [N] or
+    # [N m] of the peak and of the `duration` [s]; `mass` [kg] of an impactor
     law: NDArray[Any]
     times: Array  # earliest times of the episode (n, k) [s], padded with infinity
     sines: Array  # lines (n, m, 3) of shape `sines`: angular frequency [rad/s], phase [rad], share of the size [-]
@@ -80,8 +81,8 @@ def _law(row: Push, model: mujoco.MjModel, robot: RobotDescription) -> tuple[Any
         target = model.site(row.point).id, int(model.site(row.point).bodyid[0]), -1
     return (
         *target, PHASES.index(row.during), DIRECTIONS.index(row.direction), SHAPES.index(row.shape),
-        row.at_s is not None, row.sizes == "log", row.share, row.pause_s or (0.0, 0.0), row.force_n or row.torque_nm, row.duration_s,
-        row.impactor_kg or 0.0,
+        row.at_s is not None, row.sizes == "log", row.share, row.pause_s or (0.0, 0.0), row.force_n or row.torque_nm,
+        row.duration_s, row.impactor_kg or 0.0,
     )  # fmt: skip
 
 
@@ -220,8 +221,8 @@ def push(
     """Apply what pushes in a step of dt [s]: forces into xfrc (nbody, 6) [N, N m], joint torques to qfrc (nv,) [N m].
 
     xfrc holds wrenches at the bodies' centres of mass, world axes, and is overwritten for pushed bodies. The joint
-    torques alone are added to tau_joints (nv,) [N m]: unlike forces they leave no trace in MuJoCo. What is told of forces (4,):
-    the row that pushes, counted from 1, and the sum of forces [N], to which this step's is added. Points (nsite, 3),
+    torques alone are added to tau_joints (nv,) [N m]: unlike forces they leave no trace in MuJoCo. `told` (4,) has of
+    forces the row that pushes, counted from 1, and the sum [N], to which this step's is added. Points (nsite, 3),
     centres of mass (nbody, 3) [m] and axes (nbody, 9) are MuJoCo's; the clock of the walking state s tells the time.
     """
     for k in range(len(pushes.law)):

@@ -1,6 +1,7 @@
 """Collisions of legs in a recording: when each begins and ends, where it hits, how hard."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -45,7 +46,7 @@ def runs_of(number: np.ndarray, segments: Sequence[Sequence[int]]) -> Iterator[t
     for first, last in segments:
         part = number[first:last]
         edges = np.flatnonzero(np.diff(part, prepend=0.0, append=0.0)) + first
-        for start, end in zip(edges[:-1], edges[1:], strict=True):
+        for start, end in pairwise(edges):
             if number[start] > 0:
                 yield int(start), int(end)
 

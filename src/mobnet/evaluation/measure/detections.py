@@ -18,8 +18,9 @@ from mobnet.evaluation.measure.found import (
     unpushed_rows,
 )
 from mobnet.evaluation.measure.tuned import Tuned, promise_rows, quiet_of, quiet_rows, threshold_rows, tune
-from mobnet.evaluation.measure.watching import Leg, Walk, read_estimate
+from mobnet.evaluation.measure.watching import Leg, read_estimate
 from mobnet.evaluation.number.files import write_csv
+from mobnet.plan.detection import Walk
 from mobnet.robot.description import describe
 from mobnet.settings.detection import Detection
 from mobnet.settings.robot import RobotTable

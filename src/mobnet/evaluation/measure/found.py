@@ -11,13 +11,13 @@ from mobnet.core.columns import EXTERNAL_LP, named
 from mobnet.core.detections import COLLISION, LARGEST, UNPUSHED, Collision, CurvePoint, Detected, FreeSwing
 from mobnet.core.estimator import Estimate
 from mobnet.core.store import read_array
-from mobnet.detection.chain import Chain
 from mobnet.detection.detector import COLLISION as OVER
 from mobnet.detection.isolation import name_push
 from mobnet.detection.leg import unit_torques
 from mobnet.evaluation.measure.collisions import Hit, hits_of
 from mobnet.evaluation.measure.tuned import Tuned, swing_ratios
-from mobnet.evaluation.measure.watching import Leg, Walk, Watched, read_positions
+from mobnet.evaluation.measure.watching import Leg, Watched, read_positions
+from mobnet.plan.detection import Walk
 
 
 @dataclass(frozen=True)
@@ -76,28 +76,25 @@ def collision_rows(leg: Leg, scenario: str, struck: Sequence[Struck]) -> Iterato
 
 
 def detected_rows(
-    leg: Leg, scenario: str, tuned: Tuned, struck: Sequence[Struck], estimates: Sequence[Estimate], points: Sequence[str]
+    leg: Leg, scenario: str, tuned: Tuned, struck: Sequence[Struck], estimates: Sequence[Estimate],
+    points: Sequence[str],
 ) -> Iterator[Detected]:  # fmt: skip
     """Yield what a detector says of each collision of a leg, by each rule of thresholds."""
-    for kind, chain in tuned.chains.items():
-        perfect = tuned.perfect(chain)
-        for one, estimate in zip(struck, estimates, strict=True):
-            alarm = one.watched.run(chain, tuned.signals(estimate))
-            ideal = None if perfect is None else one.watched.run(perfect, _truth_signals(tuned, one.truth)).ratio
-            low = leg.low_passed(estimate.tau_ext.astype(np.float64), one.watched.segments)
+    for one, estimate in zip(struck, estimates, strict=True):
+        signals, low = tuned.signals(estimate), leg.low_passed(np.float64(estimate.tau_ext), one.watched.segments)
+        for kind, chain in tuned.chains.items():
+            alarm, perfect = one.watched.run(chain, signals), tuned.perfect(chain)
+            ideal = one.watched.run(perfect, tuned.whitened(one.truth)).ratio if perfect else None
             for number, hit in enumerate(one.hits, start=1):
-                row = first_alarm(leg, alarm.ratio, hit)
-                best = None if ideal is None else first_alarm(leg, ideal, hit)
+                row, best = first_alarm(leg, alarm.ratio, hit), None if ideal is None else first_alarm(leg, ideal, hit)
                 signal, link, direction, force = "", "", "", None
                 if row is not None:
-                    names = tuned.names(leg.joints)
-                    signal = names[int(alarm.signal[row])]
                     named_push = name_push(low[row], one.units[number - 1], tuned.naming)
                     _, link, direction = points[named_push.candidate].split("_")
-                    force = named_push.force_n
+                    signal, force = tuned.names(leg.joints)[int(alarm.signal[row])], named_push.force_n
+                ratio = float(alarm.ratio[window_of(leg, hit)].max(initial=0.0))
                 yield Detected(
-                    scenario, one.watched.seed, number, tuned.name, kind,
-                    float(alarm.ratio[window_of(leg, hit)].max(initial=0.0)), delay(leg, hit, row),
+                    scenario, one.watched.seed, leg.limb, number, tuned.name, kind, ratio, delay(leg, hit, row),
                     delay(leg, hit, best), signal, link, direction, force,
                 )  # fmt: skip
 
@@ -146,8 +143,3 @@ def first_alarm(leg: Leg, ratio: Array, hit: Hit) -> int | None:
 def delay(leg: Leg, hit: Hit, row: int | None) -> float | None:
     """Return the time from the beginning of a collision to an alarm [s]."""
     return None if row is None else (row - hit.rows.start) / leg.rate_hz
-
-
-def _truth_signals(tuned: Tuned, truth: Array) -> Array:
-    """Return what a detector of the mean would watch of the true torque (T, 6)."""
-    return truth if tuned.whitening is None else truth @ tuned.whitening.T

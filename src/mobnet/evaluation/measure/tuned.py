@@ -59,6 +59,10 @@ class Tuned:
         """Return the names of what has a threshold."""
         return signal_names(self.detector, joints)
 
+    def whitened(self, torque: Array) -> Array:
+        """Return what a detector of the mean watches of a torque (T, 6) [N m] that is no estimate."""
+        return torque if self.whitening is None else torque @ self.whitening.T
+
     def perfect(self, chain: Chain) -> Chain | None:
         """Return the chain of an estimate without error at the same thresholds; None where no torque is watched."""
         if MEAN not in self.detector.signals:

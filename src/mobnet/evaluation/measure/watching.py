@@ -1,6 +1,6 @@
 """A leg in a recording as its detectors see it: the gate, its swings, and a method's estimate of its joints."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -20,21 +20,11 @@ from mobnet.detection.detector import Alarm, LegGate, Watch, run_over
 from mobnet.detection.gate import make_gate
 from mobnet.detection.leg import make_leg
 from mobnet.detection.swings import Spans, swings_of
+from mobnet.plan.detection import Walk
 from mobnet.robot.description import RobotDescription
-from mobnet.settings.data import Push
 from mobnet.settings.detection import Detection
 
 UNKNOWN = "-"  # terrain of a recording that does not say it
-
-
-@dataclass(frozen=True)
-class Walk:
-    """Recordings of a scenario, with their residuals and, by method, estimates, in the same order; and its pushes."""
-
-    recordings: tuple[Path, ...]
-    residuals: tuple[Path, ...]
-    estimates: Mapping[str, tuple[Path, ...]]
-    pushes: Mapping[str, Push]
 
 
 @dataclass(frozen=True)
@@ -125,7 +115,7 @@ class Leg:
 
 
 def read_estimate(stem: Path, joints: Sequence[str]) -> Estimate | None:
-    """Return the estimate of some joints (T, n) [N m], with its standard deviation; None where it does not hold them."""
+    """Return the estimate of some joints (T, n) [N m], with what std it has; None where it does not hold them."""
     held = {column["name"] for column in read_array_note(file_of(stem, NOTE))["columns"]}
     if not held.issuperset(named(EXTERNAL, joints)):
         return None

@@ -33,7 +33,8 @@ def accepted_names(settings: Settings) -> dict[str, Collection[str]]:
         "motion": settings.motions, "scenario": settings.scenarios, "test": settings.tests,
         "test with a window around pushes": settings.evaluation.windows,
         "training set": settings.training_sets, "experiment": set(experiments),
-        "network": settings.networks, "method": settings.all_methods, "sweep": settings.sweeps,
+        "network": settings.networks, "detector": settings.detection.detectors,
+        "method": settings.all_methods, "sweep": settings.sweeps,
         "method that runs on its own": [name for name, row in settings.methods.items() if row.of is None],
         **settings.robot.accepted_names,
     }  # fmt: skip

@@ -1,0 +1,116 @@
+"""What detectors found, read from the files of robots: the robots of a level are taken together."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+
+from mobnet.core.arrays import Array
+from mobnet.core.detections import Collision, Detected, FreeSwing, Promise
+from mobnet.core.errors import DataError, not_accepted
+from mobnet.evaluation.number.files import read_rows
+from mobnet.evaluation.number.number import Number
+from mobnet.settings.evaluation import Statistics
+
+Row = TypeVar("Row")
+Detections = Mapping[str, Mapping[str, Path]]  # level of the plant or of a robot -> name of a file -> its path
+MS = 1000.0
+LINKS, DIRECTIONS = ("foot", "ankle", "knee"), ("front", "side")  # in the paper's order
+CELLS = tuple(f"{link} {direction}" for link in LINKS for direction in DIRECTIONS)
+ALL = "all"  # cells together
+
+
+@dataclass(frozen=True)
+class Try:
+    """A collision and what a detector said of it."""
+
+    collision: Collision
+    detected: Detected
+
+    @property
+    def cell(self) -> str:
+        """What was hit from where."""
+        return f"{self.collision.link} {self.collision.direction}"
+
+    @property
+    def named(self) -> str:
+        """What the detector says was hit from where; empty where it found nothing."""
+        return f"{self.detected.link} {self.detected.direction}".strip()
+
+
+def owners(detections: Detections, level: str, levels: Sequence[str]) -> list[str]:
+    """Return the robots of a level of the fleet, or the level itself where it is that of one plant.
+
+    Raises:
+        DataError: nobody was tried at the level.
+    """
+    found = [level] if level in detections else [name for name in detections if name not in levels]
+    if not found:
+        raise DataError(not_accepted("level of detectors", level, detections))
+    return found
+
+
+def rows_of(detections: Detections, names: Sequence[str], file: str, kind: type[Row]) -> list[tuple[str, Row]]:
+    """Return the rows of a file of some robots, each with the robot's name."""
+    return [(name, row) for name in names for row in read_rows(detections[name][file], kind)]
+
+
+def tries_of(
+    detections: Detections, names: Sequence[str], scenario: str, leg: str, kind: str
+) -> dict[str, list[Try]]:  # fmt: skip
+    """Return what each detector said of the collisions of a leg in a scenario, by a rule of thresholds."""
+    collisions = {
+        (name, row.seed, row.number): row
+        for name, row in rows_of(detections, names, "collisions", Collision)
+        if (row.scenario, row.leg) == (scenario, leg)
+    }
+    found: dict[str, list[Try]] = {}
+    for name, row in rows_of(detections, names, "detected", Detected):
+        if (row.scenario, row.leg, row.kind) == (scenario, leg, kind):
+            found.setdefault(row.detector, []).append(Try(collisions[name, row.seed, row.number], row))
+    return found
+
+
+def share_of(flags: Sequence[bool], statistics: Statistics) -> Number:
+    """Return the share of flags that are set [-], with Wilson's interval."""
+    if not flags:
+        return Number(None)
+    from scipy.stats import binomtest  # here, as it takes a second to import
+
+    ends = binomtest(sum(flags), len(flags)).proportion_ci(statistics.confidence, method="wilson")
+    return Number(sum(flags) / len(flags), float(ends.low), float(ends.high))
+
+
+def mean_of(values: Sequence[float], statistics: Statistics, unit: str) -> Number:
+    """Return the mean of values of collisions, with the interval of Student's law [unit]."""
+    if len(values) < 2:
+        return Number(values[0] if values else None, unit=unit)
+    from scipy.stats import t  # here, as it takes a second to import
+
+    found: Array = np.array(values)
+    reach = t.ppf((1.0 + statistics.confidence) / 2.0, len(found) - 1) * found.std(ddof=1) / np.sqrt(len(found))
+    return Number(float(found.mean()), float(found.mean() - reach), float(found.mean() + reach), unit=unit)
+
+
+def rate_of(alarms: int, hours: float, statistics: Statistics) -> Number:
+    """Return a rate [1/h] with the exact interval of Poisson's law (Garwood 1936)."""
+    if hours <= 0.0:
+        return Number(None, unit="1/h")
+    from scipy.stats import chi2  # here, as it takes a second to import
+
+    tail = (1.0 - statistics.confidence) / 2.0
+    low = chi2.ppf(tail, 2 * alarms) / 2.0 if alarms else 0.0
+    high = chi2.ppf(1.0 - tail, 2 * alarms + 2) / 2.0
+    return Number(alarms / hours, float(low) / hours, float(high) / hours, unit="1/h")
+
+
+def hours_per_swing(promises: Sequence[Promise]) -> float:
+    """Return how long a swing of a walk takes [h], the other leg's and the steps between included."""
+    return sum(row.hours for row in promises) / max(sum(row.swings for row in promises), 1)
+
+
+def alarms_in(swings: Sequence[FreeSwing], over: float = 1.0) -> int:
+    """Return in how many swings a signal lies above a multiple of the threshold for one false alarm an hour."""
+    return sum(row.ratio > over for row in swings)
