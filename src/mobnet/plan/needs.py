@@ -156,6 +156,23 @@ def _figure_10(files: Files) -> Needs:
     return {"runs": runs, "scores": _scores(files, figure)}
 
 
+def _figure_13(files: Files) -> Needs:
+    """Return the detections, and the recordings with collisions of the robot of Figures 13 and 15."""
+    figure, scenario = files.settings.evaluation.figure_13, files.settings.detection.collisions
+    own = files.robots.get(figure.level, files)
+    return {"detections": all_detections(files), "recordings": own.tests(scenario, figure.level)}
+
+
+def _figure_15(files: Files) -> Needs:
+    """Return what Figure 13 takes, and the estimates of the methods of Figure 15."""
+    figure, scenario = files.settings.evaluation.figure_15, files.settings.detection.collisions
+    own = files.robots.get(figure.level, files)
+    estimates = {
+        method: tuple(run.estimate for run in own.runs(scenario, figure.level, [method])) for method in figure.detectors
+    }
+    return {**_figure_13(files), "recordings": own.tests(scenario, figure.level), "estimates": estimates}
+
+
 USUAL: Mapping[str, Callable[[Files, Any], object]] = {  # parameter -> what it gets
     "scores": _scores,
     "runs": Files.first_runs,
@@ -177,6 +194,8 @@ NEEDS: Mapping[str, Callable[[Files], Needs]] = {  # products that need somethin
     "noise": _noise,
     "figure_05": _figure_05,
     "figure_10": _figure_10,
+    "figure_13": _figure_13,
+    "figure_15": _figure_15,
     "figure_19": _coverage,
     "figure_20": lambda files: {"sizes_of_networks": files.swept_sizes()},
     "learning_curve": lambda files: {"kept": Path(files.settings.evaluation.learning_curve.data)},

@@ -1,0 +1,84 @@
+"""A robot at a position as a picture: its solids, seen from afar, the farther ones first. Drawing only.
+
+A solid is the convex hull of its surface points on the picture.
+"""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patches import Polygon
+from numpy.typing import NDArray
+
+from mobnet.control.kinematics import empty_pose, tree_of, update
+from mobnet.core.arrays import Array
+from mobnet.core.joints import N_VIRTUAL
+from mobnet.robot.description import RobotDescription
+from mobnet.settings.parts import ShapeRow
+
+RINGS, POINTS = 7, 14  # of a round solid
+GROUND = "0.6"
+
+
+def projection(azimuth_deg: float, elevation_deg: float) -> Array:
+    """Return the axes of a picture (3, 3) in the robot's: right, up, and towards the eye."""
+    a, e = np.deg2rad([azimuth_deg, elevation_deg])
+    towards = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
+    right = np.array([-np.sin(a), np.cos(a), 0.0])
+    return np.stack([right, np.cross(towards, right), towards])
+
+
+def draw_robot(axis: Axes, robot: RobotDescription, q: NDArray[Any], view: Array) -> None:
+    """Draw a robot at a position q (nq,) [m, -, rad] into axes in metres; the view is that of `projection`."""
+    tree = tree_of(robot, 1.0)
+    pose, names = empty_pose(tree), [body.name for body in robot.bodies]
+    update(tree, np.asarray(q, dtype=np.float64), np.zeros(N_VIRTUAL + len(tree.body_of_joint)), 0.0, pose)
+    solids: list[tuple[float, Array, Any]] = []
+    for shape in robot.shapes:
+        body = names.index(shape.body)
+        points = surface_of(shape) @ pose.rotation[body].T + pose.position[body]
+        seen = points @ view.T
+        solids.append((float(seen[:, 2].mean()), hull_of(seen[:, :2]), robot.tones[shape.tone]))
+    for order, (_, outline, colour) in enumerate(sorted(solids, key=lambda solid: solid[0])):
+        patch = Polygon(
+            outline, closed=True, facecolor=colour, edgecolor="0.25", linewidth=0.4, zorder=2 + 0.01 * order
+        )
+        axis.add_patch(patch)
+    axis.set_aspect("equal")
+    axis.set_axis_off()
+
+
+def surface_of(shape: ShapeRow) -> Array:
+    """Return points on the surface of a solid (n, 3) [m], axes of its body."""
+    size = shape.size
+    if shape.segment is not None:
+        start, end = np.reshape(shape.segment, (2, 3))
+        ball = size[0] * _sphere() if shape.type == "capsule" else size[0] * _ring(end - start)
+        return np.concatenate([start + ball, end + ball])
+    if shape.type == "box":
+        signs = np.array(np.meshgrid(*[(-1.0, 1.0)] * 3)).reshape(3, -1).T
+        return np.asarray(shape.pos) + signs * size
+    scale = np.asarray(size if len(size) == 3 else [size[0]] * 3)
+    return np.asarray(shape.pos) + _sphere() * scale
+
+
+def hull_of(points: Array) -> Array:
+    """Return the corners of the convex hull of points (n, 2) in order (k, 2)."""
+    from scipy.spatial import ConvexHull  # here, as it takes a second to import
+
+    return points[ConvexHull(points).vertices]
+
+
+def _sphere() -> Array:
+    """Return points of a unit sphere (n, 3)."""
+    up, around = np.meshgrid(np.linspace(0.0, np.pi, RINGS), np.linspace(0.0, 2 * np.pi, POINTS, endpoint=False))
+    return np.stack([np.sin(up) * np.cos(around), np.sin(up) * np.sin(around), np.cos(up)], axis=-1).reshape(-1, 3)
+
+
+def _ring(axis: Array) -> Array:
+    """Return points of a unit circle about an axis (n, 3)."""
+    along = axis / np.linalg.norm(axis)
+    first = np.cross(along, np.eye(3)[np.argmin(np.abs(along))])
+    first /= np.linalg.norm(first)
+    second, angle = np.cross(along, first), np.linspace(0.0, 2 * np.pi, POINTS, endpoint=False)[:, None]
+    return np.cos(angle) * first + np.sin(angle) * second
