@@ -18,6 +18,7 @@ MODULES = {  # command -> the module that `python -m` runs, with words that come
     "test": ("pytest", "-n", "2", "--dist", "loadfile", "--max-worker-restart", "0"),
     "bench": ("benchmarks",),
     "check": ("mobnet.check",),
+    "calibrate": ("mobnet.detection.calibrate",),
     "cost": ("mobnet.evaluation.report.cost",),
     **{name: ("mobnet.evaluation.report.snapshot", name) for name in ("verify", "compare", "snapshot")},
 }
@@ -55,7 +56,10 @@ def run(root: Path, words: Words) -> int:
     python = str(root / ".venv" / "bin" / "python")
     if words.command in MODULES:
         module = [*MODULES[words.command], *words.extra]
-        if words.command == "check":  # its words are files of whoever calls, and that folder has no code of ours
+        if words.command in (
+            "check",
+            "calibrate",
+        ):  # their words are files of whoever calls, and that folder has no code of ours
             return subprocess.run([python, "-P", "-m", *module], cwd=given, check=False).returncode
         return subprocess.run([python, "-m", *module], check=False).returncode
     return run_workflow(python, [*words.extra, *(REPORT if words.command == "report" else ())])

@@ -15,6 +15,7 @@ COMMANDS = {
     "test": "run pytest, lint, format, types and the smoke run included; further words go to pytest",
     "verify": "check every result file against results/MANIFEST.sha256, or --manifest FILE",
     "check": "check recordings, weights and configurations from outside: ./reproduce check FILE...",
+    "calibrate": "print thresholds of collision detection for a wanted rate of false alarms; --help says how",
     "tuning": "train what configs/trials.yaml lists, write results/default/trials/tuning.md; no part of all",
     "lengths": "train for longer and longer, write results/default/trials/lengths.md; no part of all",
     "report": "make everything, then report.html: every table and figure with its caption, in one file",

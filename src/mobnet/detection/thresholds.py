@@ -4,12 +4,15 @@ In each swing a detector's signals have a largest value, over their scale. A rat
 in some thousands of swings, more than a lab records, so that the tail of the largest values is fitted: what exceeds a
 high level has a generalised Pareto law (Pickands 1975, Ann. Statist. 3), fitted by probability-weighted moments
 (Hosking and Wallis 1987, Technometrics 29). The interval of the expected rate is that of walks resampled from the fit
-and the swings, and it widens where the fit goes beyond what was seen.
+and the swings, and it widens where the fit goes beyond what was seen. Swings of one episode are alike, so that whole
+episodes are drawn anew.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError, not_accepted
@@ -68,11 +71,14 @@ def _moments(over: Array) -> tuple[float, float]:
     return max(mean * (1.0 - shape), 1e-12), shape
 
 
-def calibrate(largest: Array, duration_s: float, rate_per_h: float, settings: Thresholds) -> Calibrated:
+def calibrate(
+    largest: Array, episodes: Sequence[int], duration_s: float, rate_per_h: float, settings: Thresholds
+) -> Calibrated:  # fmt: skip
     """Return the multiple of the scales for a wanted rate of false alarms.
 
     Args:
         largest: largest value of each swing over its scale (k,).
+        episodes: the episode of each swing (k,); swings of one episode are drawn together.
         duration_s: time that was walked [s].
         rate_per_h: wanted rate [1/h].
         settings: least number of swings, share of the tail, resamples and confidence.
@@ -92,20 +98,23 @@ def calibrate(largest: Array, duration_s: float, rate_per_h: float, settings: Th
     tail = fit_tail(largest, settings.tail_share)
     factor = tail.size(share)
     rng = np.random.default_rng(SEED)
-    rates = [_resampled(largest, tail, factor, settings, rng) * per_h for _ in range(settings.resamples)]
+    numbers = np.asarray(episodes)
+    groups = [np.flatnonzero(numbers == number) for number in np.unique(numbers)]
+    rates = [_resampled(largest, groups, tail, factor, settings, rng) * per_h for _ in range(settings.resamples)]
     low, high = np.quantile(rates, [(1.0 - settings.confidence) / 2.0, (1.0 + settings.confidence) / 2.0])
     return Calibrated(factor, tail.above(factor) * per_h, float(low), float(high))
 
 
 def _resampled(
-    largest: Array, tail: Tail, factor: float, settings: Thresholds, rng: np.random.Generator
+    largest: Array, groups: Sequence[NDArray[np.intp]], tail: Tail, factor: float, settings: Thresholds,
+    rng: np.random.Generator,
 ) -> float:  # fmt: skip
     """Return the share of swings above a factor that a walk like this one, drawn anew, would make one expect.
 
     Swings below the level are drawn from those seen, those above from the law; a walk's own rare swing, which decides
     its fit, is so as rare as it is.
     """
-    drawn = largest[rng.integers(0, len(largest), len(largest))]
+    drawn = np.concatenate([largest[groups[k]] for k in rng.integers(0, len(groups), len(groups))])
     above = np.flatnonzero(drawn > tail.level)
     uniform = rng.uniform(size=len(above))
     shape = tail.shape if abs(tail.shape) > 1e-6 else 1e-6

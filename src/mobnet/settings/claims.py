@@ -169,7 +169,7 @@ class Claim(MadeNumber):
     statement: ClaimName | None = None
     printed: Text
     says: Text
-    unit: Literal["N m", "N", "%", "-"]
+    unit: Literal["N m", "N", "%", "ms", "-"]
     published: Bound | None
     by_joint: dict[JointName, Bound] = {}
     rule: Rule

@@ -1,4 +1,4 @@
-"""What lower and higher thresholds do: found collisions and delays over false alarms, and found shares over the force."""
+"""What lower and higher thresholds do: collisions and delays over false alarms; and found shares over the force."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -37,6 +37,7 @@ LABELS = {
     FORCE: ("largest force [N]", "found share [-]"),
 }
 HEIGHT_INCH = 2.5
+RATE_MOST = 1000.0  # false alarms in an hour above which nobody detects
 RATE_FLOOR = 0.3  # false alarms in an hour below which a rate is drawn here: none was counted
 
 
@@ -88,7 +89,10 @@ def _over_rates(
     name: str, points: Sequence[CurvePoint], quiet: Sequence[FreeSwing], hours: float, statistics: Statistics
 ) -> list[Course]:  # fmt: skip
     """Return the found share and the mean delay [ms] at multiples of the thresholds, over the false alarms [1/h]."""
-    factors = sorted({row.factor for row in points}, reverse=True)
+    factors = sorted({row.factor for row in points})
+    factors = [factor for factor in factors if alarms_in(quiet, factor) <= RATE_MOST * hours]
+    quiet_at = next((k for k, factor in enumerate(factors) if not alarms_in(quiet, factor)), len(factors))
+    factors = factors[: quiet_at + 1]  # higher thresholds only find less
     rates, shares, delays, counts = list[float](), list[Number](), list[Number](), list[int]()
     for factor in factors:
         own = [row for row in points if row.factor == factor]

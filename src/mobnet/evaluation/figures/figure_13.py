@@ -16,7 +16,7 @@ from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array
-from mobnet.evaluation.figures.drawing.robot import draw_robot, projection
+from mobnet.evaluation.figures.drawing.robot import draw_robot, lowest, projection
 from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, entitle, save_figure
 from mobnet.evaluation.measure.detected import Detections, rows_of
 from mobnet.evaluation.number.files import write_csv
@@ -69,7 +69,8 @@ def _draw(axis: Axes, robot: RobotDescription, hit: Collision, recordings: Seque
     rows = slice(round(hit.start_s * rate), round(hit.end_s * rate))
     row = rows.start + int(np.argmax(np.linalg.norm(forces[rows], axis=1)))
     q, force = read_sensed(stem, robot.layout).sensed.q[row].astype(np.float64), forces[row].astype(np.float64)
-    q[:2] = 0.0
+    q[:3] = 0.0
+    q[2] = -lowest(robot, q)  # the sensed height drifts, and the supporting foot stands on the ground
     side = next(side for side, limb in robot.layout.legs.items() if limb == hit.leg)
     point = place_of(robot, q, f"{side}_{hit.link}_{hit.direction}")
     heading = np.rad2deg(np.arctan2(2 * (q[3] * q[6] + q[4] * q[5]), 1 - 2 * (q[5] ** 2 + q[6] ** 2)))

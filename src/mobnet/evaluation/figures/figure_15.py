@@ -81,7 +81,7 @@ def _course(
 
 
 def draw_courses(courses: Sequence[Course], joint: str) -> Figure:
-    """Draw a panel for each collision: standard deviations, thresholds dotted, the force behind on an axis of its own."""
+    """Draw a panel for each collision: standard deviations, thresholds dotted, and the force behind them."""
     methods = list(courses[0].stds)
     styles = looks(methods)
     with mpl.rc_context(STYLE):

@@ -8,6 +8,7 @@ With the range in which a claim is reproduced and the wider one of its direction
     inconclusive    partly inside the second one, or there is no interval
 """
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import get_args
@@ -22,6 +23,7 @@ from mobnet.settings.evaluation import Statistics
 from mobnet.settings.methods import Method
 
 NOT_REPRODUCED, INCONCLUSIVE, DIRECTION, REPRODUCED, NOT_MEASURED = VERDICTS
+DETECTOR = re.compile("-(OR|mean|sigma)$")  # what the name of a detector has behind that of its method
 WORST_FIRST: Sequence[str] = (NOT_REPRODUCED, NOT_MEASURED, INCONCLUSIVE, DIRECTION, REPRODUCED)
 
 
@@ -118,7 +120,8 @@ def score_of(claim: Claim, methods: Mapping[str, Method]) -> str:
     if claim.published is None:
         return SIGN_ONLY
     trained = any(listed(cell.metric or "")[0] in get_args(TrainingMetric) for cell in claim.cells)
-    named = [methods[str(cell.method)] for cell in claim.cells if cell.method in methods]
+    names = [cell.method or DETECTOR.sub("", cell.where.get("detector", "")) for cell in claim.cells]
+    named = [methods[name] for name in names if name in methods]
     return LEARNED if trained or any(method.limbs for method in named) else OBSERVER
 
 

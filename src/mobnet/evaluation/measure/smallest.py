@@ -19,8 +19,8 @@ SEED = 0
 def smallest_force(force: Array, found: Array, settings: SmallestForce, statistics: Statistics) -> Number:
     """Return the force of which a share of collisions is found [N], with its interval.
 
-    Forces (n,) [N] are the largest ones of the collisions, found (n,) is 1 or 0. There is no number where less than
-    that share of any size is found, which is so if the force lies above all that were tried.
+    Forces (n,) [N] are the largest ones of the collisions, found (n,) is 1 or 0. Where the force lies below or above
+    all that were tried there is no number, but that end as `low` or as `high`; else the interval is cut there.
     """
     halves, steepness = np.geomspace(*settings.halves_n, HALVES), np.geomspace(*settings.steepness, STEPS)
     half, steep = (grid.ravel() for grid in np.meshgrid(halves, steepness, indexing="ij"))
@@ -35,7 +35,7 @@ def smallest_force(force: Array, found: Array, settings: SmallestForce, statisti
     drawn = wanted[np.argmax(weights @ likely + prior, axis=1)]
     tail = (1.0 - statistics.confidence) / 2.0
     low, high = np.quantile(drawn, [tail, 1.0 - tail])
-    most = float(force.max())
-    if value > most:
-        return Number(None, min(float(low), most), None, unit="N")
-    return Number(value, float(low), float(high) if high <= most else None, unit="N")
+    least, most = float(force.min()), float(force.max())
+    if not least <= value <= most:
+        return Number(None, *((least, None) if value < least else (None, most)), unit="N")
+    return Number(value, max(float(low), least), min(float(high), most), unit="N")

@@ -88,7 +88,8 @@ def tune(leg: Leg, name: str, detector: Detector, place: Quiet, random: Quiet) -
     watched = [signals_of(detector, estimate, whitening) for estimate in random.estimates]
     seen = swing_ratios(random.walk, leg.chain(scales, norm=detector.norm), watched)[: random.first]
     promises = {
-        kind: calibrate(seen, random.hours * HOUR_S, rate, numbers) for kind, rate in numbers.rates_per_h.items()
+        kind: calibrate(seen, episodes_of(random), random.hours * HOUR_S, rate, numbers)
+        for kind, rate in numbers.rates_per_h.items()
     }
     thresholds = {LARGEST: numbers.margin * _over_swings(_heights(leg, detector, whitening, place), np.max)}
     thresholds |= {kind: found.factor * scales for kind, found in promises.items()}
@@ -102,6 +103,16 @@ def quiet_of(leg: Leg, scenario: str, walk: Sequence[Watched], estimates: Sequen
     first = int(np.ceil(leg.detection.calibration_share * count))
     walked = sum(one.samples for one in walk) / leg.rate_hz / HOUR_S
     return Quiet(scenario, tuple(walk), tuple(estimates), first, walked * first / max(count, 1))
+
+
+def episodes_of(quiet: Quiet) -> list[int]:
+    """Return the number of the contiguous segment of each calibrating swing, counted over all recordings."""
+    found, before = list[int](), 0
+    for one in quiet.walk:
+        ends = [end for _, end in one.segments]
+        found += [before + next(k for k, end in enumerate(ends) if swing[1] <= end) for swing in one.swings]
+        before += len(ends)
+    return found[: quiet.first]
 
 
 def swing_count(walk: Sequence[Watched]) -> int:

@@ -42,8 +42,8 @@ def false_alarms(
                 lines.append(_line(made, level, name))
     share = f"{statistics.confidence:.0%}"
     header = [
-        "Level", "Detector", "promised", share, "random walking", share, "within", "between pushes", "paper's rule: in place",
-        "random walking", "between pushes",
+        "Level", "Detector", "promised", share, "random walking", share, "within", "between pushes",
+        "paper's rule: in place", "random walking", "between pushes",
     ]  # fmt: skip
     write_table(table_dir / "false_alarms", Table(DETECTION, rows, header, lines, left=2))
 

@@ -15,7 +15,6 @@ from mobnet.settings.detection import Detection
 from mobnet.settings.evaluation import SmallestForce, Statistics
 
 QUANTITY = "smallest_force"
-NONE = ">"  # before the largest force that was tried
 
 
 def smallest_force(
@@ -40,7 +39,7 @@ def smallest_force(
                     number = force_of(force, found, settings, statistics) if len(own) else Number(None, unit="N")
                     place = level, name, settings.leg, kind, cell, QUANTITY
                     rows.append((*place, *number.with_ends, len(own), number.unit, None))
-                    texts.append(_text(number, force))
+                    texts.append(_text(number))
                 lines.append([name, *texts])
             if lines:
                 blocks.append(([level.replace("_", " "), kind], lines))
@@ -48,9 +47,8 @@ def smallest_force(
     write_table(table_dir / "smallest_force", Table(DETECTION, rows, header, in_blocks(blocks, nested=True), left=3))
 
 
-def _text(number: Number, force: np.ndarray) -> str:
-    """Return a force with its interval as text; above the largest force that was tried where there is none."""
+def _text(number: Number) -> str:
+    """Return a force with its interval as text; where it lies beyond all that were tried, beyond which of them."""
     if number.value is None:
-        return f"{NONE} {force.max():.0f}" if len(force) else "-"
-    high = "-" if number.high is None else f"{number.high:.0f}"
-    return f"{number.value:.0f} [{number.low or 0.0:.0f}, {high}]"
+        return f"< {number.low:.0f}" if number.low is not None else f"> {number.high:.0f}" if number.high else "-"
+    return f"{number.text(0)} {number.interval(0)}"

@@ -20,7 +20,7 @@ QUANTITY = "threshold"
 def table_13(
     settings: DetectorTable, layout: JointLayout, published: PublishedTable, detections: Detections, table_dir: Path
 ) -> None:
-    """Write table_13.csv, .tex and .md: thresholds [N m], means over the robots of a level, with the lowest and highest.
+    """Write table_13.csv, .tex and .md: thresholds [N m], means over the robots of a level with the least and the most.
 
     The CSV has the thresholds of all detectors of both legs and by all rules.
     """

@@ -5,7 +5,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from mobnet.core.columns import CALIBRATION, COVERAGE, ERRORS, KINDS, LATENCY, METHODS
+from mobnet.core.columns import CALIBRATION, COVERAGE, DETECTION, ERRORS, KINDS, LATENCY, METHODS
 from mobnet.core.errors import not_accepted
 from mobnet.core.joints import JointLayout, right_of, with_image
 from mobnet.settings.checks.robot import joints_above
@@ -15,6 +15,7 @@ from mobnet.settings.names import uses
 from mobnet.settings.settings import Settings, swept_name
 
 TABLES = {  # that are no entry of `tables` -> their columns
+    **dict.fromkeys(("table_09", "table_13", "false_alarms", "smallest_force", "links"), DETECTION),
     "calibration": CALIBRATION, "coverage": COVERAGE, "error_budget": ERRORS, "kinds": KINDS, "latency": LATENCY,
     "methods": METHODS,
 }  # fmt: skip

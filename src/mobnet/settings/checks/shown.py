@@ -8,6 +8,7 @@ from pydantic import BaseModel
 
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.checks.claims import claim_problems
+from mobnet.settings.checks.detection import detection_problems
 from mobnet.settings.checks.estimated import estimate_problems
 from mobnet.settings.checks.measured import measured_problems
 from mobnet.settings.checks.printed import printed_problems
@@ -46,6 +47,7 @@ def shown_problems(settings: Settings) -> Iterator[Problem]:
     ):
         yield from check(results)
     yield from measured_problems(results)
+    yield from detection_problems(results)
     yield from estimate_problems(results)
     yield from claim_problems(results)
     yield from printed_problems(settings)

@@ -30,13 +30,8 @@ def projection(azimuth_deg: float, elevation_deg: float) -> Array:
 
 def draw_robot(axis: Axes, robot: RobotDescription, q: NDArray[Any], view: Array) -> None:
     """Draw a robot at a position q (nq,) [m, -, rad] into axes in metres; the view is that of `projection`."""
-    tree = tree_of(robot, 1.0)
-    pose, names = empty_pose(tree), [body.name for body in robot.bodies]
-    update(tree, np.asarray(q, dtype=np.float64), np.zeros(N_VIRTUAL + len(tree.body_of_joint)), 0.0, pose)
     solids: list[tuple[float, Array, Any]] = []
-    for shape in robot.shapes:
-        body = names.index(shape.body)
-        points = surface_of(shape) @ pose.rotation[body].T + pose.position[body]
+    for shape, points in zip(robot.shapes, surfaces_of(robot, q), strict=True):
         seen = points @ view.T
         solids.append((float(seen[:, 2].mean()), hull_of(seen[:, :2]), robot.tones[shape.tone]))
     for order, (_, outline, colour) in enumerate(sorted(solids, key=lambda solid: solid[0])):
@@ -46,6 +41,21 @@ def draw_robot(axis: Axes, robot: RobotDescription, q: NDArray[Any], view: Array
         axis.add_patch(patch)
     axis.set_aspect("equal")
     axis.set_axis_off()
+
+
+def lowest(robot: RobotDescription, q: NDArray[Any]) -> float:
+    """Return the height of a robot's lowest point at a position q (nq,) [m]."""
+    return min(float(points[:, 2].min()) for points in surfaces_of(robot, q))
+
+
+def surfaces_of(robot: RobotDescription, q: NDArray[Any]) -> list[Array]:
+    """Return points on the surface of each solid of a robot at a position q (nq,), (n, 3) each [m]."""
+    tree = tree_of(robot, 1.0)
+    pose, names = empty_pose(tree), [body.name for body in robot.bodies]
+    update(tree, np.asarray(q, dtype=np.float64), np.zeros(N_VIRTUAL + len(tree.body_of_joint)), 0.0, pose)
+    bodies = [names.index(shape.body) for shape in robot.shapes]
+    pairs = zip(robot.shapes, bodies, strict=True)
+    return [surface_of(shape) @ pose.rotation[body].T + pose.position[body] for shape, body in pairs]
 
 
 def surface_of(shape: ShapeRow) -> Array:
