@@ -32,6 +32,7 @@ EXAMPLES = """
   ./reproduce tables/table_05.tex        make one file and what it needs; tables/smoke/table_05.tex at that scale"""
 OWN = {"clean", "setup"}  # commands with options of their own
 TARGETS = {"all": "all", "report": "all", "tuning": "tuning", "lengths": "lengths"}  # command -> rule of the workflow
+EXPLAINED = {"calibrate"}  # commands whose modules explain their own options
 HELP = {"-h", "--help"}
 CONFIG = {"-C", "--config"}
 
@@ -58,7 +59,7 @@ def parse(words: Sequence[str]) -> Words:
     options = parser_of(first)
     if first in OWN:
         return Words(first, options.parse_args(words[1:]), [])
-    if HELP & set(words[1:]):
+    if HELP & set(words[1:]) and first not in EXPLAINED:
         options.parse_args(["--help"])
     extra = [TARGETS[first], *in_order(words[1:])] if first in TARGETS else list(words[1:])
     return Words(first, argparse.Namespace(), extra)
