@@ -56,10 +56,7 @@ def run(root: Path, words: Words) -> int:
     python = str(root / ".venv" / "bin" / "python")
     if words.command in MODULES:
         module = [*MODULES[words.command], *words.extra]
-        if words.command in (
-            "check",
-            "calibrate",
-        ):  # their words are files of whoever calls, and that folder has no code of ours
+        if words.command in ("check", "calibrate"):  # their words are files of whoever calls, where no code is ours
             return subprocess.run([python, "-P", "-m", *module], cwd=given, check=False).returncode
         return subprocess.run([python, "-m", *module], check=False).returncode
     return run_workflow(python, [*words.extra, *(REPORT if words.command == "report" else ())])

@@ -15,17 +15,16 @@ from pathlib import Path
 import numpy as np
 
 from mobnet.core.arrays import Array
-from mobnet.core.columns import EXTERNAL, FEET, named
+from mobnet.core.columns import EXTERNAL, named
 from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse
 from mobnet.core.notes import note_differences, read_array_note
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import NOTE, check_finite, file_of, read_array
 from mobnet.detection.chain import make_chain
-from mobnet.detection.detector import LegGate, Watch, run_over
-from mobnet.detection.gate import make_gate
+from mobnet.detection.detector import LegGate, Watch, run_over, run_segments
 from mobnet.detection.isolation import smallest_forces
 from mobnet.detection.leg import make_leg, unit_torques
-from mobnet.detection.swings import Spans, largest, swings_of
+from mobnet.detection.swings import Spans, episodes_of, largest, swings_of
 from mobnet.detection.thresholds import Calibrated, calibrate
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.settings.detection import Detection
@@ -60,7 +59,7 @@ def read_quiet(recording: Path, estimate: Path, robot: RobotDescription, detecti
         DataError: a file is missing or damaged, a number is not finite, a column never changes, or the two differ.
         ConfigError: the limb is no leg.
     """
-    leg, joints = make_leg(robot, limb), robot.layout.limb(limb)
+    joints = robot.layout.limb(limb)
     notes = [read_array_note(file_of(stem, NOTE)) for stem in (estimate, recording)]
     refuse(f"{estimate}{NOTE}", note_differences(*notes, f"{recording}{NOTE}"))
     read, names = read_sensed(recording, robot.layout), named(EXTERNAL, joints)
@@ -69,26 +68,17 @@ def read_quiet(recording: Path, estimate: Path, robot: RobotDescription, detecti
     for name, column in zip(names, torque.T, strict=True):
         if column.min() == column.max():
             raise DataError(not_accepted(f"{estimate}: column {name!r}: every number", float(column[0]), ["changes"]))
-    sides = {name: side for side, name in robot.layout.legs.items()}
-    feet = [foot for foot in FEET if foot.removesuffix("_foot") in robot.layout.legs]
-    foot = feet.index(f"{sides[limb]}_foot")
-    gate = LegGate(make_gate(detection.gate, read.rate_hz), leg, foot)
-    watch = Watch(np.zeros(len(torque), dtype=bool), np.zeros(len(torque)))
-    for span in read.spans():
-        watch.watched[span], watch.phase[span] = gate.run(read.sensed[span], torque[span])
-    return Quiet(read, torque, watch, swings_of(read.sensed.swing[:, foot], read.segments))
+    gate = LegGate.of(detection.gate, robot, limb, read.rate_hz)
+    return Quiet(read, torque, gate.watch(read, torque), swings_of(read.sensed.swing[:, gate.foot], read.segments))
 
 
 def held(quiet: Quiet, detection: Detection) -> Array:
     """Return the largest held torque of each joint in each swing (k, 6) [N m], behind the low-pass."""
-    found = np.zeros(quiet.torque.shape)
-    rate_hz = quiet.recording.rate_hz
-    chain = make_chain(detection.low_pass_hz, detection.hold_s, rate_hz, np.ones((1, 1)))
-    for start, end in quiet.recording.segments:
-        part = Watch(quiet.watch.watched[start:end], quiet.watch.phase[start:end])
-        for k in range(found.shape[1]):
-            found[start:end, k] = run_over(chain, quiet.torque[start:end, k : k + 1].copy(), part).ratio
-    return largest(found, quiet.swings)
+    chain = make_chain(detection.low_pass_hz, detection.hold_s, quiet.recording.rate_hz, np.ones((1, 1)))
+    parts = np.split(quiet.torque, quiet.torque.shape[1], axis=1)
+    segments = quiet.recording.segments
+    held_parts = [run_segments(chain, np.ascontiguousarray(part), quiet.watch, segments).ratio for part in parts]
+    return largest(np.stack(held_parts, axis=1), quiet.swings)
 
 
 def thresholds_of(
@@ -105,20 +95,9 @@ def thresholds_of(
         raise DataError(not_accepted("swings in all recordings", len(heights), accepted))
     scales = np.quantile(heights, detection.thresholds.scale_quantile, axis=0)
     seen = (heights / scales).max(axis=1)
-    found = calibrate(
-        seen, episodes_of(quiets), sum(one.duration_s for one in quiets), rate_per_h, detection.thresholds
-    )
+    episodes = episodes_of((one.recording.segments, one.swings) for one in quiets)
+    found = calibrate(seen, episodes, sum(one.duration_s for one in quiets), rate_per_h, detection.thresholds)
     return found.factor * scales, found
-
-
-def episodes_of(quiets: Sequence[Quiet]) -> list[int]:
-    """Return the contiguous segment of each swing, counted over all recordings."""
-    found, before = list[int](), 0
-    for one in quiets:
-        ends = [end for _, end in one.recording.segments]
-        found += [before + next(k for k, end in enumerate(ends) if swing[1] <= end) for swing in one.swings]
-        before += len(ends)
-    return found
 
 
 def forces_of(
@@ -151,7 +130,8 @@ def attenuation(detection: Detection, rate_hz: float) -> float:
 
 
 def report(
-    thresholds: Array, found: Calibrated, forces: dict[str, float], joints: Sequence[str], swings: int, confidence: float
+    thresholds: Array, found: Calibrated, forces: dict[str, float], joints: Sequence[str], swings: int,
+    confidence: float,
 ) -> list[str]:  # fmt: skip
     """Return what the command prints, line by line."""
     lines = [f"{swings} swings", "", "joint  threshold [N m]"]
@@ -167,7 +147,7 @@ def main(words: list[str]) -> int:
     parser = argparse.ArgumentParser(
         prog="./reproduce calibrate",
         description="Print thresholds for a wanted rate of false alarms, from walking that nothing pushes.",
-        epilog="Files are .parquet with their .json, as docs/robots.md describes; recordings and estimates in one order.",
+        epilog="Files are .parquet with their .json (docs/robots.md); recordings and estimates come in one order.",
     )
     parser.add_argument("--recording", type=Path, action="append", required=True, help="walking; may be given again")
     parser.add_argument("--estimate", type=Path, action="append", required=True, help="its estimate by any method")

@@ -11,12 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
+from mobnet.core.columns import FEET
 from mobnet.core.estimator import Estimate
-from mobnet.core.recording import Sensed
+from mobnet.core.recording import Sensed, SensedRecording
 from mobnet.detection.chain import Chain, ChainState, advance_chain, chain_state, run_chain
-from mobnet.detection.gate import Gate, advance_gate, gate_state, run_gate
-from mobnet.detection.leg import Leg
+from mobnet.detection.gate import Gate, advance_gate, gate_state, make_gate, run_gate
+from mobnet.detection.leg import Leg, make_leg
 from mobnet.detection.signals import signals_of
+from mobnet.detection.swings import Spans
+from mobnet.robot.description import RobotDescription
 from mobnet.settings import detection as settings
 
 COLLISION = 1.0  # ratio of a signal to its threshold above which there is a collision
@@ -51,13 +54,36 @@ class LegGate:
     leg: Leg
     foot: int
 
+    @classmethod
+    def of(cls, numbers: settings.Gate, robot: RobotDescription, limb: str, rate_hz: float) -> "LegGate":
+        """Return the gate of a leg at a rate of samples [Hz]; a ConfigError names a limb that is no leg."""
+        leg, sides = make_leg(robot, limb), {name: side for side, name in robot.layout.legs.items()}
+        feet = [foot for foot in FEET if foot.removesuffix("_foot") in robot.layout.legs]
+        return cls(make_gate(numbers, rate_hz), leg, feet.index(f"{sides[limb]}_foot"))
+
+    def watch(self, recording: SensedRecording, tau: NDArray[Any]) -> Watch:
+        """Return when the leg is watched in a recording, tau (T, 6) [N m] being the estimate of its joints."""
+        watch = Watch(np.zeros(len(tau), dtype=bool), np.zeros(len(tau)))
+        for span in recording.spans():
+            watch.watched[span], watch.phase[span] = self.run(recording.sensed[span], tau[span])
+        return watch
+
     def run(self, sensed: Sensed, tau: NDArray[Any]) -> Watch:
-        """Return when the leg is watched in a contiguous stretch, tau (T, 6) [N m] being the estimate of its joints."""
+        """Return the same of a contiguous stretch."""
         watch = Watch(np.zeros(len(sensed), dtype=bool), np.zeros(len(sensed)))
         q, torque = np.asarray(sensed.q, dtype=np.float64), np.ascontiguousarray(tau, dtype=np.float64)
         swing, landing = (np.asarray(part[:, self.foot], dtype=np.float64) for part in (sensed.swing, sensed.landing))
         run_gate(self.gate, self.leg, gate_state(), q, torque, swing, landing, *watch)
         return watch
+
+
+def run_segments(chain: Chain, signals: Array, watch: Watch, segments: Spans) -> Alarm:
+    """Run a chain over the signals (T, m) of a recording, each contiguous segment from rest."""
+    alarm = Alarm(np.zeros(len(signals)), np.zeros(len(signals), dtype=np.int64))
+    for start, end in segments:
+        part = Watch(watch.watched[start:end], watch.phase[start:end])
+        alarm.ratio[start:end], alarm.signal[start:end] = run_over(chain, signals[start:end], part)
+    return alarm
 
 
 @dataclass(frozen=True)

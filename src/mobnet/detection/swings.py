@@ -1,6 +1,6 @@
 """Swings of a leg in a recording, and the largest numbers in each."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,20 @@ def swings_of(swing: NDArray[Any], segments: Sequence[tuple[int, int]]) -> Spans
         lifted = edges[1:] if len(edges) and air[0] else edges  # the first swing began before the segment
         found += [(int(a), int(b)) for a, b in lifted[: len(lifted) // 2 * 2].reshape(-1, 2)]
     return tuple(found)
+
+
+def episodes_of(walks: Iterable[tuple[Spans, Spans]]) -> list[int]:
+    """Return the contiguous segment of each swing, counted over recordings: their segments and swings in order."""
+    found, before = list[int](), 0
+    for segments, swings in walks:
+        found += [before + segment_of(swing, segments) for swing in swings]
+        before += len(segments)
+    return found
+
+
+def segment_of(swing: tuple[int, int], segments: Spans) -> int:
+    """Return in which of some segments a swing lies."""
+    return next(k for k, (_, end) in enumerate(segments) if swing[1] <= end)
 
 
 def largest(values: NDArray[Any], swings: Sequence[tuple[int, int]]) -> Array:

@@ -11,7 +11,7 @@ from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.estimator import Estimate
 from mobnet.detection.chain import Chain
 from mobnet.detection.signals import MEAN, STD, signal_names, signals_of, whitening_of
-from mobnet.detection.swings import largest
+from mobnet.detection.swings import episodes_of, largest
 from mobnet.detection.thresholds import HOUR_S, Calibrated, calibrate
 from mobnet.evaluation.measure.watching import Leg, Watched
 from mobnet.settings.detection import Detector
@@ -87,8 +87,9 @@ def tune(leg: Leg, name: str, detector: Detector, place: Quiet, random: Quiet) -
     scales = _over_swings(heights, lambda own: float(np.quantile(own, numbers.scale_quantile)))
     watched = [signals_of(detector, estimate, whitening) for estimate in random.estimates]
     seen = swing_ratios(random.walk, leg.chain(scales, norm=detector.norm), watched)[: random.first]
+    episodes = episodes_of((one.segments, one.swings) for one in random.walk)
     promises = {
-        kind: calibrate(seen, episodes_of(random), random.hours * HOUR_S, rate, numbers)
+        kind: calibrate(seen, episodes[: random.first], random.hours * HOUR_S, rate, numbers)
         for kind, rate in numbers.rates_per_h.items()
     }
     thresholds = {LARGEST: numbers.margin * _over_swings(_heights(leg, detector, whitening, place), np.max)}
@@ -103,16 +104,6 @@ def quiet_of(leg: Leg, scenario: str, walk: Sequence[Watched], estimates: Sequen
     first = int(np.ceil(leg.detection.calibration_share * count))
     walked = sum(one.samples for one in walk) / leg.rate_hz / HOUR_S
     return Quiet(scenario, tuple(walk), tuple(estimates), first, walked * first / max(count, 1))
-
-
-def episodes_of(quiet: Quiet) -> list[int]:
-    """Return the number of the contiguous segment of each calibrating swing, counted over all recordings."""
-    found, before = list[int](), 0
-    for one in quiet.walk:
-        ends = [end for _, end in one.segments]
-        found += [before + next(k for k, end in enumerate(ends) if swing[1] <= end) for swing in one.swings]
-        before += len(ends)
-    return found[: quiet.first]
 
 
 def swing_count(walk: Sequence[Watched]) -> int:

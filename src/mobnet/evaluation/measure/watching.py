@@ -9,17 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.columns import EXTERNAL, FEET, STD, named
+from mobnet.core.columns import EXTERNAL, STD, named
 from mobnet.core.estimator import Estimate
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
 from mobnet.core.recording import read_sensed
 from mobnet.core.store import NOTE, file_of, read_array
 from mobnet.detection.chain import Chain, low_passed, make_chain
-from mobnet.detection.detector import Alarm, LegGate, Watch, run_over
-from mobnet.detection.gate import make_gate
-from mobnet.detection.leg import make_leg
-from mobnet.detection.swings import Spans, swings_of
+from mobnet.detection.detector import Alarm, LegGate, Watch, run_segments
+from mobnet.detection.swings import Spans, segment_of, swings_of
 from mobnet.plan.detection import Walk
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.detection import Detection
@@ -49,11 +47,7 @@ class Watched:
 
     def run(self, chain: Chain, signals: Array) -> Alarm:
         """Run a chain over signals (T, m), each segment from rest; return what it says of the samples (T,)."""
-        alarm = Alarm(np.zeros(len(signals)), np.zeros(len(signals), dtype=np.int64))
-        for start, end in self.segments:
-            part = Watch(self.watch.watched[start:end], self.watch.phase[start:end])
-            alarm.ratio[start:end], alarm.signal[start:end] = run_over(chain, signals[start:end], part)
-        return alarm
+        return run_segments(chain, signals, self.watch, self.segments)
 
 
 @dataclass(frozen=True)
@@ -69,8 +63,7 @@ class Leg:
     @classmethod
     def of(cls, detection: Detection, robot: RobotDescription, limb: str, rate_hz: float) -> "Leg":
         """Return a leg; a ConfigError names a limb that is none."""
-        leg, foot = make_leg(robot, limb), foot_index(robot.layout, limb)
-        return cls(detection, robot, limb, rate_hz, LegGate(make_gate(detection.gate, rate_hz), leg, foot))
+        return cls(detection, robot, limb, rate_hz, LegGate.of(detection.gate, robot, limb, rate_hz))
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -105,13 +98,11 @@ class Leg:
         if estimate is None:
             return None
         read = read_sensed(recording, self.robot.layout)
-        watch = Watch(np.zeros(len(estimate.tau_ext), dtype=bool), np.zeros(len(estimate.tau_ext)))
-        for span in read.spans():
-            watch.watched[span], watch.phase[span] = self.gate.run(read.sensed[span], estimate.tau_ext[span])
+        watch = self.gate.watch(read, estimate.tau_ext)
         swings = swings_of(read.sensed.swing[:, self.gate.foot], read.segments)
         terrains = read.meta.get("terrains") or [UNKNOWN] * len(read.segments)
-        where = [next(k for k, (_, end) in enumerate(read.segments) if swing[1] <= end) for swing in swings]
-        return Watched(recording, read.segments, watch, swings, tuple(terrains[k] for k in where))
+        walked = tuple(terrains[segment_of(swing, read.segments)] for swing in swings)
+        return Watched(recording, read.segments, watch, swings, walked)
 
 
 def read_estimate(stem: Path, joints: Sequence[str]) -> Estimate | None:
@@ -126,10 +117,3 @@ def read_estimate(stem: Path, joints: Sequence[str]) -> Estimate | None:
 def read_positions(recording: Path, layout: JointLayout, rows: Sequence[int]) -> NDArray[Any]:
     """Return the generalized positions of some samples of a recording (n, nq) [m, -, rad]."""
     return read_sensed(recording, layout).sensed.q[list(rows)]
-
-
-def foot_index(layout: JointLayout, limb: str) -> int:
-    """Return the column of a leg's foot in the plan's signals."""
-    sides = {name: side for side, name in layout.legs.items()}
-    feet = [foot for foot in FEET if foot.removesuffix("_foot") in layout.legs]
-    return feet.index(f"{sides[limb]}_foot")
