@@ -188,7 +188,16 @@ def _recording(layout: JointLayout, rng: np.random.Generator, samples: int, segm
     acc = _sines(time, 3, rng, 1.0)[0] + [0, 0, 9.81]
     sensed = Sensed(q, v, acc, torque, torque, np.zeros((samples, 2)), np.zeros((samples, 5)), np.zeros((samples, 2)))
     none, wrench = np.zeros((samples, 1)), np.zeros((samples, 6))
-    truth = Truth(external, wrench, wrench, np.ones((samples, 2)), none, np.zeros_like(torque), np.zeros_like(external), np.zeros((samples, 4)))
+    truth = Truth(
+        external,
+        wrench,
+        wrench,
+        np.ones((samples, 2)),
+        none,
+        np.zeros_like(torque),
+        np.zeros_like(external),
+        np.zeros((samples, 4)),
+    )
     edges = np.linspace(0, samples, segments + 1).round().astype(int)
     spans = tuple((int(a), int(b)) for a, b in pairwise(edges))
     meta = {"scenario": "made_up", "level": "all_uncertainty", "seed": int(rng.integers(1 << 30))}

@@ -30,7 +30,9 @@ def recording(robot: RobotDescription, follow: Callable) -> Recording:
     sensed, tau_ext = follow(RATE_HZ, 0.199, np.zeros(robot.layout.nu))
     wrench = np.zeros((len(sensed), 6))
     touch, pushed = np.zeros((len(sensed), 2)), np.zeros((len(sensed), 1))
-    truth = Truth(tau_ext, wrench, wrench, touch, pushed, 0.0 * sensed.tau_des, 0.0 * tau_ext, np.zeros((len(sensed), 4)))
+    truth = Truth(
+        tau_ext, wrench, wrench, touch, pushed, 0.0 * sensed.tau_des, 0.0 * tau_ext, np.zeros((len(sensed), 4))
+    )
     return Recording(sensed, ((0, 100), (100, 200)), RATE_HZ, META, truth)
 
 

@@ -65,9 +65,10 @@ def read_quiet(recording: Path, estimate: Path, robot: RobotDescription, detecti
     read, names = read_sensed(recording, robot.layout), named(EXTERNAL, joints)
     torque = read_array(estimate, names)[0].astype(np.float64)
     check_finite(f"{estimate}", torque, names)
+    accepted = ["numbers that change"]
     for name, column in zip(names, torque.T, strict=True):
         if column.min() == column.max():
-            raise DataError(not_accepted(f"{estimate}: column {name!r}: every number", float(column[0]), ["changes"]))
+            raise DataError(not_accepted(f"{estimate}: column {name!r}: every number", float(column[0]), accepted))
     gate = LegGate.of(detection.gate, robot, limb, read.rate_hz)
     return Quiet(read, torque, gate.watch(read, torque), swings_of(read.sensed.swing[:, gate.foot], read.segments))
 

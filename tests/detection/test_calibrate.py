@@ -1,0 +1,116 @@
+"""The calibrator prints thresholds, rate and forces of a walk, and one clear line where it cannot."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from mobnet.core.columns import torque_columns
+from mobnet.core.joints import JointLayout
+from mobnet.core.recording import Recording, Sensed, Truth, write_recording
+from mobnet.core.store import write_array
+from mobnet.detection.calibrate import main
+
+from .conftest import AIR, GROUND, RATE_HZ
+
+SWINGS = 240
+Write = Callable[..., list[str]]
+
+
+@pytest.fixture
+def write(walk: Callable[[int], Sensed], layout: JointLayout, tmp_path: Path) -> Write:
+    """A function that writes a walk with an estimate, which a change may spoil, and returns the words that name them."""
+
+    def files(swings: int = SWINGS, change: Callable[[np.ndarray], None] | None = None) -> list[str]:
+        sensed = walk(swings)
+        count, none = len(sensed), np.zeros((len(sensed), 6))
+        zeros = np.zeros((count, layout.nv))
+        truth = Truth(zeros, none, none, np.zeros((count, 2)), np.zeros((count, 1)), np.zeros((count, layout.nu)),
+                      zeros, np.zeros((count, 4)))  # fmt: skip
+        joints, rng = layout.limb("LL"), np.random.default_rng(0)
+        sizes = np.repeat(rng.lognormal(0.0, 0.3, swings + 1), AIR + GROUND)[:count]
+        torque = sizes[:, None] * np.array([1.0, 4.0, 3.0, 2.0, 1.5, 0.5]) * (1.0 + 0.01 * rng.normal(size=(count, 6)))
+        if change:
+            change(torque)
+        write_recording(tmp_path / "walk", Recording(sensed, ((0, count),), RATE_HZ, {}, truth), layout)
+        columns = torque_columns(layout, ["tau_ext"], joints)
+        write_array(tmp_path / "estimate", torque, columns, {"rate_hz": RATE_HZ})
+        return ["--recording", str(tmp_path / "walk.parquet"), "--estimate", str(tmp_path / "estimate")]
+
+    return files
+
+
+def test_thresholds_rate_and_forces_are_printed(write: Write, caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level("INFO", "mobnet.detection")
+    assert main([*write(), "--rate", "20"]) == 0
+    text = "\n".join(caplog.messages)
+    assert f"{SWINGS} swings" in text
+    found = {line.split()[0]: float(line.split()[1]) for line in text.splitlines() if line.startswith("LL")}
+    assert list(found) == [f"LL{k}" for k in range(1, 7)]
+    assert found["LL2"] == pytest.approx(4.0 * found["LL1"], rel=0.05)
+    assert "false alarms to expect: 20 in an hour of walking, 95% interval" in text
+    forces = {line.split()[0]: float(line.split()[1]) for line in text.splitlines() if line.startswith("left_")}
+    assert set(forces) == {f"left_{link}_{side}" for link in ("foot", "ankle", "knee") for side in ("front", "side")}
+    assert forces["left_knee_front"] > forces["left_foot_front"]
+
+
+def constant(torque: np.ndarray) -> None:
+    """Let a joint never change."""
+    torque[:, 2] = 7.0
+
+
+def spoil(stem: str) -> None:
+    """Lose a sample of an estimate, as the log of another program may."""
+    path, note = Path(f"{stem}.parquet"), Path(f"{stem}.json")
+    table = pq.read_table(path)
+    values = [np.array(column) for column in table.columns]
+    values[4][1234] = np.nan
+    pq.write_table(pa.table([pa.array(column) for column in values], schema=table.schema), path)
+    said = json.loads(note.read_text())
+    note.write_text(json.dumps({key: value for key, value in said.items() if key != "footer"}))
+
+
+@pytest.mark.parametrize(
+    ("swings", "fault", "text"),
+    [
+        (40, "", "swings in all recordings: 40 is not accepted; accepted: 200 or more, some minutes of walking"),
+        (SWINGS, "constant", "column 'tau_ext.LL3': every number: 7.0 is not accepted; accepted: numbers that change"),
+        (SWINGS, "missing", "column 'tau_ext.LL5', row 1234: nan is not accepted; accepted: "),
+    ],
+)
+def test_a_walk_that_calibrates_nothing_is_one_line_and_no_threshold(
+    write: Write, caplog: pytest.LogCaptureFixture, swings: int, fault: str, text: str
+) -> None:
+    words = write(swings, constant if fault == "constant" else None)
+    if fault == "missing":
+        spoil(words[-1])
+    assert main(words) == 1
+    (line,) = caplog.messages
+    assert text in line
+    assert "\n" not in line
+
+
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [
+        (["--leg", "W"], "leg of 6 joints: 'W' is not accepted; accepted: "),
+        (["--rate", "0"], "--rate: 0.0 is not accepted; accepted: a number above 0"),
+        (["--estimate", "more"], "--estimate: 2 is not accepted; accepted: 1, one for each --recording"),
+    ],
+)
+def test_words_that_fit_nothing_are_told(
+    write: Write, caplog: pytest.LogCaptureFixture, words: list[str], text: str
+) -> None:
+    assert main([*write(3), *words]) == 1
+    assert text in caplog.text
+
+
+def test_help_says_what_it_takes(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["--help"])
+    text = capsys.readouterr().out
+    assert all(word in text for word in ("--recording", "--estimate", "--leg", "--rate", "--robot", "false alarms"))

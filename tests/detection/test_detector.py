@@ -1,0 +1,75 @@
+"""Step by step a detector says what it says of the whole recording, within the time of a tick."""
+
+import time
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from mobnet.core.estimator import Estimate
+from mobnet.core.recording import Sensed
+from mobnet.detection.chain import make_chain
+from mobnet.detection.detector import COLLISION, LegDetector, LegGate
+from mobnet.detection.signals import signal_names, whitening_of
+from mobnet.settings.detection import Detector
+
+from .conftest import AIR, GROUND, RATE_HZ
+
+STEP_S = 50e-6  # a step may take
+ROWS = {
+    "mean": Detector(method="MOB", signals=("mean",)),
+    "OR": Detector(method="MOB-Net", signals=("mean", "std")),
+    "ratio": Detector(method="MOB-Net", signals=("ratio",)),
+    "norm": Detector(method="MOB-Net", signals=("mean",), norm=True),
+    "phases": Detector(method="MOB-Net", signals=("mean", "std"), phases=8),
+}
+
+
+def detector_of(row: Detector, gate: LegGate, estimate: Estimate) -> LegDetector:
+    """Return a detector with thresholds that noise crosses now and then."""
+    names = signal_names(row, [f"LL{k}" for k in range(1, 7)])
+    thresholds = np.full((row.phases, len(names)), 1.5)
+    whitening = whitening_of(estimate.tau_ext) if row.norm else None
+    return LegDetector(row, gate, make_chain(15.0, 0.005, RATE_HZ, thresholds, norm=row.norm), whitening)
+
+
+@pytest.fixture
+def estimate(walk: Callable[[int], Sensed]) -> Estimate:
+    """An estimate of two swings: noise that changes slowly, and its standard deviation."""
+    rng, count = np.random.default_rng(4), len(walk(2))
+    slow = np.repeat(4.0 * rng.normal(size=(count // 50 + 1, 6)), 50, axis=0)[:count]
+    return Estimate(slow.astype(np.float32), rng.uniform(1.0, 2.0, (count, 6)).astype(np.float32))
+
+
+@pytest.mark.parametrize("name", ROWS)
+def test_in_steps_it_says_the_same_at_the_same_sample(
+    name: str, gate: LegGate, walk: Callable[[int], Sensed], estimate: Estimate
+) -> None:
+    sensed, detector = walk(2), detector_of(ROWS[name], gate, estimate)
+    whole = detector.run(gate.run(sensed, estimate.tau_ext), estimate)
+    state, std = detector.init(), estimate.std
+    assert std is not None
+    for k in range(len(sensed)):
+        one = Estimate(estimate.tau_ext[k], std[k])
+        alarm = detector.step(state, sensed[k], one, estimate.tau_ext[k])
+        assert alarm.ratio == pytest.approx(whole.ratio[k], rel=1e-9)
+        assert (alarm.ratio > COLLISION) == (whole.ratio[k] > COLLISION)
+        assert alarm.signal == whole.signal[k]
+    over = whole.ratio > COLLISION
+    assert over.any()
+    assert not over[:GROUND].any()
+    assert not over[GROUND + AIR : 2 * GROUND + AIR].any()
+
+
+def test_a_step_takes_a_twentieth_of_a_tick(gate: LegGate, walk: Callable[[int], Sensed], estimate: Estimate) -> None:
+    sensed, detector = walk(1), detector_of(ROWS["OR"], gate, estimate)
+    samples = [sensed[k] for k in range(GROUND, GROUND + AIR)]
+    assert estimate.std is not None
+    one = Estimate(estimate.tau_ext[0], estimate.std[0])
+    state, best = detector.init(), np.inf
+    for _ in range(5):
+        start = time.perf_counter()
+        for sample in samples:
+            detector.step(state, sample, one, one.tau_ext)
+        best = min(best, (time.perf_counter() - start) / len(samples))
+    assert best < STEP_S

@@ -1,0 +1,71 @@
+"""The gate opens in the middle of a swing, as the plan has it, and closes for good when the foot meets the ground."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from mobnet.core.recording import Sensed
+from mobnet.detection.detector import LegGate
+from mobnet.detection.leg import foot_load, unit_torques
+from mobnet.robot.description import WalkingRobot
+
+from .conftest import AIR, GROUND, RATE_HZ
+
+Walk = Callable[[int], Sensed]
+
+
+def ground_torque(robot: WalkingRobot, gate: LegGate, q: np.ndarray, force: np.ndarray) -> np.ndarray:
+    """Return the torques of the leg's joints (6,) under a force on its foot (3,) [N], world axes."""
+    assert foot_load(gate.leg, q, np.zeros(6))
+    jacobian = np.zeros((6, 6))
+    for j in range(6):
+        one = np.eye(6)[j]
+        assert foot_load(gate.leg, q, one)
+        jacobian[:, j] = gate.leg.load
+    return np.linalg.solve(jacobian, np.concatenate([force, np.zeros(3)]))
+
+
+def test_a_leg_is_watched_away_from_both_ends_of_its_swing(gate: LegGate, walk: Walk) -> None:
+    sensed = walk(2)
+    watch = gate.run(sensed, np.zeros((len(sensed), 6)))
+    for first in (GROUND, 2 * GROUND + AIR):
+        # open from the 90th sample in the air on, while more than 30 ms are left
+        assert np.flatnonzero(watch.watched[first : first + AIR]).tolist() == list(range(89, AIR - 30))
+        assert not watch.watched[first - 100 : first].any()
+    assert watch.phase[GROUND + 175] == pytest.approx(0.5, abs=0.01)
+
+
+def test_an_early_contact_closes_the_gate_for_the_rest_of_the_swing(
+    gate: LegGate, walk: Walk, robot: WalkingRobot
+) -> None:
+    sensed = walk(2)
+    tau = np.zeros((len(sensed), 6))
+    tau[GROUND + 150 : GROUND + 156] = ground_torque(robot, gate, sensed.q[0], np.array([5.0, 0.0, 60.0]))
+    watch = gate.run(sensed, tau)
+    assert watch.watched[GROUND + 153]
+    assert not watch.watched[GROUND + 154 : GROUND + AIR].any()  # five samples later
+    assert watch.watched[2 * GROUND + AIR + 100 : 2 * GROUND + 2 * AIR - 31].all()  # the next swing is watched again
+
+
+@pytest.mark.parametrize(
+    ("force", "samples"),
+    [([60.0, 0.0, 20.0], 50), ([0.0, 0.0, 30.0], 50), ([0.0, 0.0, 60.0], 4)],
+    ids=["flat", "weak", "short"],
+)
+def test_what_does_not_look_like_the_ground_leaves_the_gate_open(
+    gate: LegGate, walk: Walk, robot: WalkingRobot, force: list[float], samples: int
+) -> None:
+    sensed = walk(1)
+    tau = np.zeros((len(sensed), 6))
+    tau[GROUND + 150 : GROUND + 150 + samples] = ground_torque(robot, gate, sensed.q[0], np.array(force))
+    assert gate.run(sensed, tau).watched[GROUND + 100 : GROUND + AIR - 31].all()
+
+
+def test_a_hit_from_the_front_is_no_ground(gate: LegGate, walk: Walk, robot: WalkingRobot) -> None:
+    sensed = walk(1)
+    hit = 150.0 * unit_torques(robot, gate.leg, sensed.q[0], ["left_foot_front"], -1.0)[0]
+    tau = np.zeros((len(sensed), 6))
+    tau[GROUND + 150 : GROUND + 228] = hit
+    assert gate.run(sensed, tau).watched[GROUND + 160]
+    assert RATE_HZ == 1000.0
