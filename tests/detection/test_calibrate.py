@@ -8,14 +8,13 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
+from made_swings import AIR, GROUND, RATE_HZ, unseen
 
 from mobnet.core.columns import torque_columns
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording, Sensed, Truth, write_recording
+from mobnet.core.recording import Recording, Sensed, write_recording
 from mobnet.core.store import write_array
 from mobnet.detection.calibrate import main
-
-from .conftest import AIR, GROUND, RATE_HZ
 
 SWINGS = 240
 Write = Callable[..., list[str]]
@@ -23,14 +22,11 @@ Write = Callable[..., list[str]]
 
 @pytest.fixture
 def write(walk: Callable[[int], Sensed], layout: JointLayout, tmp_path: Path) -> Write:
-    """A function that writes a walk with an estimate, which a change may spoil, and returns the words that name them."""
+    """A function that writes a walk with an estimate, which a change may spoil, and returns words that name them."""
 
     def files(swings: int = SWINGS, change: Callable[[np.ndarray], None] | None = None) -> list[str]:
         sensed = walk(swings)
-        count, none = len(sensed), np.zeros((len(sensed), 6))
-        zeros = np.zeros((count, layout.nv))
-        truth = Truth(zeros, none, none, np.zeros((count, 2)), np.zeros((count, 1)), np.zeros((count, layout.nu)),
-                      zeros, np.zeros((count, 4)))  # fmt: skip
+        count, truth = len(sensed), unseen(layout, len(sensed))
         joints, rng = layout.limb("LL"), np.random.default_rng(0)
         sizes = np.repeat(rng.lognormal(0.0, 0.3, swings + 1), AIR + GROUND)[:count]
         torque = sizes[:, None] * np.array([1.0, 4.0, 3.0, 2.0, 1.5, 0.5]) * (1.0 + 0.01 * rng.normal(size=(count, 6)))

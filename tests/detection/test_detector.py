@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from made_swings import AIR, GROUND, RATE_HZ
 
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Sensed
@@ -12,8 +13,6 @@ from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import COLLISION, LegDetector, LegGate
 from mobnet.detection.signals import signal_names, whitening_of
 from mobnet.settings.detection import Detector
-
-from .conftest import AIR, GROUND, RATE_HZ
 
 STEP_S = 50e-6  # a step may take
 ROWS = {

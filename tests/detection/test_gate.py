@@ -4,13 +4,12 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from made_swings import AIR, GROUND
 
 from mobnet.core.recording import Sensed
 from mobnet.detection.detector import LegGate
 from mobnet.detection.leg import foot_load, unit_torques
 from mobnet.robot.description import WalkingRobot
-
-from .conftest import AIR, GROUND, RATE_HZ
 
 Walk = Callable[[int], Sensed]
 
@@ -68,4 +67,3 @@ def test_a_hit_from_the_front_is_no_ground(gate: LegGate, walk: Walk, robot: Wal
     tau = np.zeros((len(sensed), 6))
     tau[GROUND + 150 : GROUND + 228] = hit
     assert gate.run(sensed, tau).watched[GROUND + 160]
-    assert RATE_HZ == 1000.0

@@ -327,7 +327,8 @@ def write_walk(
     zeros = np.zeros
     q, acc = np.tile(np.eye(1, layout.nq, 3), (rows, 1)), np.tile([0.0, 0.0, 9.81], (rows, 1))
     sensed = Sensed(q, zeros((rows, layout.nv)), acc, zeros((rows, layout.nu)),
-                    zeros((rows, layout.nu)), np.stack([air, 1 - air], axis=1), zeros((rows, 5)), zeros((rows, 2)))  # fmt: skip
+                    zeros((rows, layout.nu)), np.stack([air, 1 - air], axis=1), zeros((rows, 5)),
+                    zeros((rows, 2)))  # fmt: skip
     wrench, pushed = zeros((rows, 6)), (np.isin(phase, PUSHED_ROWS) & (not calm)).astype(float)[:, None]
     push = zeros((rows, layout.nv))
     unseen = Truth(truth, wrench, wrench, zeros((rows, 2)), pushed, zeros((rows, layout.nu)), push, zeros((rows, 4)))

@@ -63,13 +63,13 @@ def read_quiet(recording: Path, estimate: Path, robot: RobotDescription, detecti
     notes = [read_array_note(file_of(stem, NOTE)) for stem in (estimate, recording)]
     refuse(f"{estimate}{NOTE}", note_differences(*notes, f"{recording}{NOTE}"))
     read, names = read_sensed(recording, robot.layout), named(EXTERNAL, joints)
+    gate = LegGate.of(detection.gate, robot, limb, read.rate_hz)
     torque = read_array(estimate, names)[0].astype(np.float64)
     check_finite(f"{estimate}", torque, names)
     accepted = ["numbers that change"]
     for name, column in zip(names, torque.T, strict=True):
         if column.min() == column.max():
             raise DataError(not_accepted(f"{estimate}: column {name!r}: every number", float(column[0]), accepted))
-    gate = LegGate.of(detection.gate, robot, limb, read.rate_hz)
     return Quiet(read, torque, gate.watch(read, torque), swings_of(read.sensed.swing[:, gate.foot], read.segments))
 
 
