@@ -367,14 +367,13 @@ class AlarmTable(Section):
 class SmallestForce(DetectorTable):
     """The force that a share of the collisions of each kind must have to be found.
 
-    Of laws with these forces for one half and these steepnesses on a log scale the likeliest counts.
+    Laws of the found share have these forces for one half and these steepnesses on a log scale.
     """
 
     kinds: base.Distinct[base.LowerName]
     share: base.InnerShare
     halves_n: base.Span[base.Positive]
     steepness: base.Span[base.Positive]
-    resamples: base.Whole = Field(ge=50, le=100_000)
 
 
 class Links(DetectorTable):

@@ -43,7 +43,8 @@ def figure_13(
     found = [row for _, row in rows_of(detections, [settings.level], "collisions", Collision)]
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(PAGE_INCH, HEIGHT_INCH), layout="constrained")
-        for k, (axis, cell) in enumerate(zip(figure.subplots(1, len(settings.cells)), settings.cells, strict=True)):
+        axes = figure.subplots(1, len(settings.cells), squeeze=False)[0]
+        for k, (axis, cell) in enumerate(zip(axes, settings.cells, strict=True)):
             hit = first_of(found, detection.collisions, settings.leg, cell)
             rows.append((cell, hit.seed, hit.number, *_draw(axis, description, hit, recordings)))
             entitle(axis, k, f"{cell}, {hit.force_n:.0f} N")

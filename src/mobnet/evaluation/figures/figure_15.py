@@ -86,7 +86,7 @@ def draw_courses(courses: Sequence[Course], joint: str) -> Figure:
     styles = looks(methods)
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(PAGE_INCH, HEIGHT_INCH), layout="constrained")
-        axes: list[Axes] = list(figure.subplots(1, len(courses), sharey=True))
+        axes: list[Axes] = figure.subplots(1, len(courses), sharey=True, squeeze=False)[0].tolist()
         for k, (axis, course) in enumerate(zip(axes, courses, strict=True)):
             for method in methods:
                 axis.plot(course.time, course.stds[method], label=method, **styles[method].line)

@@ -47,7 +47,9 @@ def candidates_of(leg: Leg, walk: Walk) -> list[str]:
 
 
 def strike(leg: Leg, walk: Walk, watched: Sequence[Watched]) -> list[Struck]:
-    """Return the leg in the recordings of a walk with collisions."""
+    """Return the leg in the recordings of a walk with collisions; none where it was not watched."""
+    if not watched:
+        return []
     return [_strike(leg, walk, *pair) for pair in zip(watched, walk.residuals, strict=True)]
 
 

@@ -1,8 +1,9 @@
 """The smallest force that a detector finds: the law of the found share over the force, and its interval.
 
-The found share is a logistic function of the logarithm of the force. The likeliest of many such laws counts, weighed by
-a broad law of the steepness, without which collisions that are all found above a force and none below it would leave
-the steepness open. The interval is that of collisions drawn anew.
+The found share is a logistic function of the logarithm of the force. Of many such laws, with forces for one half and
+steepnesses spread evenly on a logarithmic scale, each counts as much as it makes what was found likely. The number is
+the median over them, and the interval that of the nominal share in their middle. A likeliest law alone would not do:
+where all collisions above a force are found and none below it, it is as steep as one allows.
 """
 
 import numpy as np
@@ -12,8 +13,6 @@ from mobnet.evaluation.number.number import Number
 from mobnet.settings.evaluation import SmallestForce, Statistics
 
 HALVES, STEPS = 120, 24  # laws along the force for one half, and along the steepness
-BREADTH = 1.0  # standard deviation of the logarithm of the steepness, about the middle of its range
-SEED = 0
 
 
 def smallest_force(force: Array, found: Array, settings: SmallestForce, statistics: Statistics) -> Number:
@@ -25,17 +24,18 @@ def smallest_force(force: Array, found: Array, settings: SmallestForce, statisti
     halves, steepness = np.geomspace(*settings.halves_n, HALVES), np.geomspace(*settings.steepness, STEPS)
     half, steep = (grid.ravel() for grid in np.meshgrid(halves, steepness, indexing="ij"))
     slope = steep * (np.log(force)[:, None] - np.log(half))
-    likely = -np.logaddexp(0.0, np.where(found[:, None] > 0, -slope, slope))  # (n, laws)
-    middle = np.sqrt(settings.steepness[0] * settings.steepness[1])
-    prior = -0.5 * (np.log(steep / middle) / BREADTH) ** 2
+    likely = -np.logaddexp(0.0, np.where(found[:, None] > 0, -slope, slope)).sum(axis=0)
     wanted = half * (settings.share / (1.0 - settings.share)) ** (1.0 / steep)
-    value = float(wanted[np.argmax(likely.sum(axis=0) + prior)])
-    rng, count = np.random.default_rng(SEED), len(force)
-    weights = rng.multinomial(count, np.full(count, 1.0 / count), settings.resamples).astype(np.float64)
-    drawn = wanted[np.argmax(weights @ likely + prior, axis=1)]
     tail = (1.0 - statistics.confidence) / 2.0
-    low, high = np.quantile(drawn, [tail, 1.0 - tail])
+    low, value, high = quantiles(wanted, np.exp(likely - likely.max()), (tail, 0.5, 1.0 - tail))
     least, most = float(force.min()), float(force.max())
     if not least <= value <= most:
         return Number(None, *((least, None) if value < least else (None, most)), unit="N")
-    return Number(value, max(float(low), least), min(float(high), most), unit="N")
+    return Number(value, max(low, least), min(high, most), unit="N")
+
+
+def quantiles(values: Array, weights: Array, shares: tuple[float, ...]) -> list[float]:
+    """Return below which of some values (n,) these shares of their weights (n,) lie."""
+    order = np.argsort(values)
+    sums = np.cumsum(weights[order])
+    return [float(values[order[np.searchsorted(sums, share * sums[-1])]]) for share in shares]

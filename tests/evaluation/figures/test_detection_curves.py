@@ -1,0 +1,44 @@
+"""Curves go over the rates of false alarms that thresholds have, and areas are those of a rank test."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from csv_files import check_golden, read_table
+from made_detections import write_detections
+
+from mobnet.evaluation.figures.detection_curves import area_of, detection_curves
+from mobnet.settings.settings import Settings
+
+
+def test_curves_and_areas_follow_from_the_files(settings: Settings, tmp_path: Path) -> None:
+    evaluation = settings.evaluation
+    section = evaluation.detection_curves.model_copy(update={"detectors": ("MOB-Net-OR", "MOB")})
+    detections = write_detections(tmp_path / "detection")
+    detection_curves(section, settings.detection, evaluation.statistics, detections, tmp_path)
+    rows = read_table(tmp_path / "detection_curves.csv")
+    found = [row for row in rows if (row.panel, row.detector) == ("found collisions", "MOB-Net-OR")]
+    assert [row.x for row in found] == sorted((row.x for row in found), reverse=True)
+    assert found[-1].x == 0.0  # the lowest threshold without a false alarm ends the curve
+    assert all(row.x <= 1000.0 for row in found)
+    forces = [row for row in rows if (row.panel, row.detector) == ("found by force", "MOB-Net-OR")]
+    assert [row.value for row in forces] == [1.0] * len(forces)
+    assert {row.panel for row in rows if row.unit == "ms"} == {"delay"}
+    assert sum(row.panel == "area" for row in rows) == 2
+    check_golden(tmp_path / "detection_curves.csv")
+    assert {path.suffix for path in tmp_path.glob("detection_curves.*")} == {".csv", ".pdf", ".png"}
+
+
+def test_the_area_is_the_probability_that_a_hit_lies_higher(settings: Settings) -> None:
+    statistics = settings.evaluation.statistics
+    assert area_of(np.array([2.0, 3.0]), np.array([0.0, 1.0]), statistics).value == 1.0
+    assert area_of(np.array([1.0, 1.0]), np.array([1.0, 1.0]), statistics).value == pytest.approx(0.5)
+    held = 0
+    for seed in range(200):  # normal numbers that differ by 1: the area is Phi(1 / sqrt 2)
+        rng = np.random.default_rng(seed)
+        number = area_of(rng.normal(1.0, 1.0, 60), rng.normal(0.0, 1.0, 300), statistics)
+        assert number.low is not None
+        assert number.high is not None
+        held += number.low <= 0.7602 <= number.high
+    assert held >= 0.90 * 200
+    assert area_of(np.array([]), np.array([1.0]), statistics).value is None
