@@ -82,7 +82,7 @@ def test_missing_column_is_named(recording_stem: Path, layout: JointLayout) -> N
 
 def test_sensed_part_is_that_of_the_recording_and_needs_no_truth(recording_stem: Path, layout: JointLayout) -> None:
     recording = read_recording(recording_stem, layout)
-    sensed_only = [(n, u, f) for field in list(recording_columns(layout).items())[:7] for n, u, f in field[1]]
+    sensed_only = [(n, u, f) for field in list(recording_columns(layout).items())[:8] for n, u, f in field[1]]
     assert not [name for name, _, _ in sensed_only if name.startswith(("tau_ext", "wrench", "contact"))]
     array, meta = read_array(recording_stem, [name for name, _, _ in sensed_only])
     write_array(recording_stem.with_name("log"), array, sensed_only, {"rate_hz": meta["rate_hz"]})

@@ -96,7 +96,7 @@ NOTES = {
     "base frame": (column(40, frame="base"), "columns: 'v.base_x': unit 'm/s', frame 'base' is not accepted"),
     "omega in world": (column(43, frame="world"), "columns: 'v.omega_x': unit 'rad/s', frame 'world' is not accepted"),
     "gravity in g": (column(79, unit="g"), "columns: 'acc.x': unit 'g', frame 'base' is not accepted; accepted: .*m/s"),
-    "force as torque": (lambda n: n["columns"][155].update(unit="N m", frame="joint"), "'tau_ext.V1': unit 'N m'"),
+    "force as torque": (lambda n: n["columns"][157].update(unit="N m", frame="joint"), "'tau_ext.V1': unit 'N m'"),
     "column of another name": (column(7, name="q.LL9"), "column.* 'q.LL1'"),
     "name as a number": (column(7, name=7), "columns.7.name: 7 is not accepted; accepted: a valid string"),
     "name empty": (column(7, name=""), "columns.7.name: '' is not accepted"),
@@ -276,7 +276,7 @@ def test_a_robots_log_may_lack_truth_and_have_more_columns_in_any_order(copied: 
     log = np.concatenate([array[:, kept], np.full((ROWS, 1), 37.0)], axis=1)
     write_array(copied / "log", log, [*(columns[k] for k in kept), ("temperature", "deg C", "motor")], {"rate_hz": 1e3})
     assert len(read_sensed(copied / "log", layout).sensed) == ROWS
-    assert check(copied / "log.json", AGAINST) == "recording, 1200 rows at 1000 Hz, 1.2 s in 1 segment, 156 columns"
+    assert check(copied / "log.json", AGAINST) == "recording, 1200 rows at 1000 Hz, 1.2 s in 1 segment, 158 columns"
 
 
 def test_a_name_may_have_dots(copied: Path, layout: JointLayout) -> None:

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from mobnet.commands.builds import BUILDS
 from mobnet.core.errors import CommandError, not_accepted
+from mobnet.detection.words import calibrate_parser
 from mobnet.plan.places import scale_of
 
 COMMANDS = {
@@ -32,7 +33,6 @@ EXAMPLES = """
   ./reproduce tables/table_05.tex        make one file and what it needs; tables/smoke/table_05.tex at that scale"""
 OWN = {"clean", "setup"}  # commands with options of their own
 TARGETS = {"all": "all", "report": "all", "tuning": "tuning", "lengths": "lengths"}  # command -> rule of the workflow
-EXPLAINED = {"calibrate"}  # commands whose modules explain their own options
 HELP = {"-h", "--help"}
 CONFIG = {"-C", "--config"}
 
@@ -59,7 +59,7 @@ def parse(words: Sequence[str]) -> Words:
     options = parser_of(first)
     if first in OWN:
         return Words(first, options.parse_args(words[1:]), [])
-    if HELP & set(words[1:]) and first not in EXPLAINED:
+    if HELP & set(words[1:]):
         options.parse_args(["--help"])
     extra = [TARGETS[first], *in_order(words[1:])] if first in TARGETS else list(words[1:])
     return Words(first, argparse.Namespace(), extra)
@@ -79,6 +79,8 @@ def overview() -> argparse.ArgumentParser:
 
 def parser_of(command: str) -> argparse.ArgumentParser:
     """Return the parser of a command's own options."""
+    if command == "calibrate":
+        return calibrate_parser()
     usage = None if command in OWN else f"./reproduce {command} [WORDS]"
     parser = argparse.ArgumentParser(f"./reproduce {command}", usage, description=COMMANDS[command], allow_abbrev=False)
     if command == "clean":

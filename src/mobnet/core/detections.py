@@ -1,6 +1,8 @@
 """Rows of the files of a robot's detectors: its collisions, thresholds, what detectors find, and swings without any."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -113,7 +115,7 @@ class CurvePoint:
 
 CALIBRATION, HELD_OUT, UNPUSHED = PARTS = ("calibration", "held out", "unpushed")  # values of `part`
 LARGEST, COLLISION = "largest", "collision"  # values of `kind`: by the paper's rule, and for one false alarm an hour
-FILES = {  # name of a file of detectors -> its rows
+FILES: Mapping[str, type[Any]] = {  # name of a file of detectors -> its rows
     "collisions": Collision, "thresholds": Threshold, "promises": Promise, "detected": Detected, "swings": FreeSwing,
     "curves": CurvePoint,
 }  # fmt: skip

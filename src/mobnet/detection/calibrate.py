@@ -5,7 +5,6 @@ leg the threshold for a wanted rate of false alarms, the rate to expect with its
 collision must have at each point of the leg to be found.
 """
 
-import argparse
 import logging
 import sys
 from collections.abc import Sequence
@@ -26,6 +25,7 @@ from mobnet.detection.isolation import smallest_forces
 from mobnet.detection.leg import make_leg, unit_torques
 from mobnet.detection.swings import Spans, episodes_of, largest, swings_of
 from mobnet.detection.thresholds import Calibrated, calibrate
+from mobnet.detection.words import calibrate_parser
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.settings.detection import Detection
 from mobnet.settings.load import load_section, load_settings
@@ -95,6 +95,8 @@ def thresholds_of(
         accepted = [f"{detection.thresholds.least_swings} or more, some minutes of walking"]
         raise DataError(not_accepted("swings in all recordings", len(heights), accepted))
     scales = np.quantile(heights, detection.thresholds.scale_quantile, axis=0)
+    if not scales.all():
+        raise DataError(not_accepted("swings in which the leg is watched", "none", ["most of them; see the gate"]))
     seen = (heights / scales).max(axis=1)
     episodes = episodes_of((one.recording.segments, one.swings) for one in quiets)
     found = calibrate(seen, episodes, sum(one.duration_s for one in quiets), rate_per_h, detection.thresholds)
@@ -145,17 +147,7 @@ def report(
 
 def main(words: list[str]) -> int:
     """Run the command; return its exit status."""
-    parser = argparse.ArgumentParser(
-        prog="./reproduce calibrate",
-        description="Print thresholds for a wanted rate of false alarms, from walking that nothing pushes.",
-        epilog="Files are .parquet with their .json (docs/robots.md); recordings and estimates come in one order.",
-    )
-    parser.add_argument("--recording", type=Path, action="append", required=True, help="walking; may be given again")
-    parser.add_argument("--estimate", type=Path, action="append", required=True, help="its estimate by any method")
-    parser.add_argument("--leg", default="LL", help="limb of the robot (default: %(default)s)")
-    parser.add_argument("--rate", type=float, default=1.0, help="wanted false alarms in an hour (default: %(default)s)")
-    parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")
-    options = parser.parse_args(words)
+    options = calibrate_parser().parse_args(words)
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
     try:
         if len(options.recording) != len(options.estimate):

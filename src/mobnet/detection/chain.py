@@ -23,7 +23,7 @@ class ChainState(NamedTuple):
 
     low: Array  # signals behind the low-pass (m,)
     held: Array  # over thresholds, of the last samples (hold, c)
-    count: NDArray[np.int64]  # samples so far, and the signal that lies highest (2,)
+    place: NDArray[np.int64]  # samples so far, and the signal that lies highest (2,)
 
 
 def make_chain(low_pass_hz: float, hold_s: float, rate_hz: float, thresholds: Array, *, norm: bool = False) -> Chain:
@@ -45,8 +45,8 @@ def advance_chain(chain: Chain, state: ChainState, signals: Array, is_watched: b
     Above 1 there is a collision. What is not watched counts as zero. The phase of the swing [-] picks thresholds.
     """
     parts, count = chain.thresholds.shape
-    part, row, total = min(int(phase * parts), parts - 1), state.count[0] % chain.hold, 0.0
-    state.count[0] += 1
+    part, row, total = min(int(phase * parts), parts - 1), state.place[0] % chain.hold, 0.0
+    state.place[0] += 1
     for k in range(len(signals)):
         state.low[k] = chain.pole * state.low[k] + (1.0 - chain.pole) * signals[k]
         total += state.low[k] * state.low[k]
@@ -59,7 +59,7 @@ def advance_chain(chain: Chain, state: ChainState, signals: Array, is_watched: b
             least = min(least, state.held[i, k])
         if least > highest:
             highest = least
-            state.count[1] = k
+            state.place[1] = k
     return highest
 
 
@@ -71,7 +71,7 @@ def run_chain(
     """Run the chain over samples (T, m) as `advance_chain` does; write its numbers and the highest signals (T,)."""
     for row in range(len(signals)):
         ratio[row] = advance_chain(chain, state, signals[row], watched[row], phase[row])
-        which[row] = state.count[1]
+        which[row] = state.place[1]
 
 
 @compiled

@@ -111,7 +111,7 @@ class LegDetector:
         watched = advance_gate(leg.gate, leg.leg, state.gate, q, tau, swing, landing)
         signals = signals_of(self.detector, estimate, self.whitening)
         ratio = advance_chain(self.chain, state.chain, signals, watched, float(state.gate.phase))
-        return Alarm(ratio, int(state.chain.count[1]))
+        return Alarm(ratio, int(state.chain.place[1]))
 
     def run(self, watch: Watch, estimate: Estimate) -> Alarm:
         """Return what the detector says of a contiguous stretch (T,), of which the gate has run."""

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import yaml
 from csv_files import GOLDEN, check_golden, read_table
+from made_detections import write_detections
 
 from mobnet.core.columns import COVERAGE, LATENCY, VERDICTS
 from mobnet.evaluation.measure.claims import rows_of
@@ -74,6 +75,7 @@ def judge(
         (scores,), folders = write_results(list(some.values()), MEANS, pushes)
         tables = {"coverage": write_coverage(tmp_path / "coverage.csv"), "latency": tmp_path / "latency.csv"}
         write_csv(tables["latency"], LATENCY, [(MET, 1.0, 0.7, 1.0, "-")])
+        tables["table_09"] = make_table("table_09", tmp_path, detections=write_detections(tmp_path / "detection"))
         table = make_table("claims", claims=some, scores={"all": scores}, folders=folders, tables=tables)
         return {row.claim: row for row in read_table(table)}
 

@@ -74,8 +74,8 @@ def detection_curves(
         own = [row for row in points if row.detector == name]
         courses += [*_over_rates(name, own, quiet, hours, statistics),
                     _over_force(name, sweep[name], settings.force_bins, statistics)]  # fmt: skip
-        ratios = [np.array([one.detected.ratio for one in hits[name]]), np.array([row.ratio for row in quiet])]
-        area = area_of(*ratios, statistics)
+        hit = np.array([one.detected.ratio for one in hits[name]])
+        area = area_of(hit, np.array([row.ratio for row in quiet]), statistics)
         rows.append((AREA, settings.level, name, None, *area.with_ends, len(hits[name]), "-"))
     for one in courses:
         unit = "ms" if one.panel == DELAY else "-"

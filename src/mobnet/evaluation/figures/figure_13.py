@@ -77,9 +77,9 @@ def _draw(axis: Axes, robot: RobotDescription, hit: Collision, recordings: Seque
     heading = np.rad2deg(np.arctan2(2 * (q[3] * q[6] + q[4] * q[5]), 1 - 2 * (q[5] ** 2 + q[6] ** 2)))
     view = projection(heading + VIEW[0], VIEW[1])
     draw_robot(axis, robot, q, view)
-    end, start = (view @ place for place in (point, point - ARROW_M_N * force))
-    axis.annotate("", end[:2], start[:2], zorder=5,
-                  arrowprops={"arrowstyle": "-|>", "color": "#D55E00", "linewidth": 1.6})  # fmt: skip
+    (x, y, _), (from_x, from_y, _) = ((view @ place).tolist() for place in (point, point - ARROW_M_N * force))
+    arrow = {"arrowstyle": "-|>", "color": "#D55E00", "linewidth": 1.6}
+    axis.annotate("", (x, y), (from_x, from_y), zorder=5, arrowprops=arrow)
     ground = (view @ np.zeros(3))[1]
     axis.axhline(ground, color="0.6", linewidth=0.6, zorder=0)
     axis.set(xlim=ROOM_M[:2], ylim=(ground + ROOM_M[2], ground + ROOM_M[3]))

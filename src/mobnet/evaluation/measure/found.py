@@ -83,7 +83,10 @@ def detected_rows(
 ) -> Iterator[Detected]:  # fmt: skip
     """Yield what a detector says of each collision of a leg, by each rule of thresholds."""
     for one, estimate in zip(struck, estimates, strict=True):
-        signals, low = tuned.signals(estimate), leg.low_passed(np.float64(estimate.tau_ext), one.watched.segments)
+        signals, low = (
+            tuned.signals(estimate),
+            leg.low_passed(estimate.tau_ext.astype(np.float64), one.watched.segments),
+        )
         for kind, chain in tuned.chains.items():
             alarm, perfect = one.watched.run(chain, signals), tuned.perfect(chain)
             ideal = one.watched.run(perfect, tuned.whitened(one.truth)).ratio if perfect else None

@@ -196,12 +196,17 @@ def _heights(leg: Leg, detector: Detector, whitening: Array | None, quiet: Quiet
 def _over_swings(heights: Array, number: Callable[[Array], float]) -> Array:
     """Return a number of the heights (swings, phases, c) over the swings that have them, (phases, c).
 
-    A phase that no swing has takes the largest of the other phases.
+    A phase in which no swing is watched for long enough takes the largest number of the others.
+
+    Raises:
+        DataError: no swing is watched.
     """
     found = np.full(heights.shape[1:], np.nan)
     for place in np.ndindex(found.shape):
         own = heights[(slice(None), *place)]
-        own = own[np.isfinite(own)]
+        own = own[own > 0.0]
         if len(own):
             found[place] = number(own)
+    if np.isnan(found).all(axis=0).any():
+        raise DataError(not_accepted("swings in which the leg is watched", "none", ["some of those that calibrate"]))
     return np.where(np.isnan(found), np.nanmax(found, axis=0), found)

@@ -88,7 +88,8 @@ def _rows(
 
 def _promised(promises: Sequence[Promise]) -> Number:
     """Return the mean of the rates that robots' detectors promise [1/h], with that of the intervals."""
-    return Number(*(_mean([getattr(row, name) for row in promises]) for name in ("rate_per_h", "low", "high")))
+    rate, low, high = (_mean([getattr(row, name) for row in promises]) for name in ("rate_per_h", "low", "high"))
+    return Number(rate, low, high)
 
 
 def _is_within(promised: Number, hours: float, alarms: int, statistics: Statistics) -> float:

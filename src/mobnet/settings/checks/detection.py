@@ -2,6 +2,9 @@
 
 import re
 from collections.abc import Iterator
+from typing import Any
+
+from pydantic import BaseModel
 
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.checks.results import Results
@@ -76,9 +79,9 @@ def _shown_problems(results: Results) -> Iterator[Problem]:
     points = [settings.pushes[name].point or "" for name in settings.scenarios[detection.collisions].pushes]
     cells = list(dict.fromkeys(" ".join(point.split("_")[1:]) for point in points))
     for name in SHOWN:
-        section = getattr(evaluation, name)
+        section: BaseModel = getattr(evaluation, name)
         place: Place = ("evaluation", name)
-        given = {key: getattr(section, key) for key in type(section).model_fields}
+        given: dict[str, Any] = {key: getattr(section, key) for key in type(section).model_fields}
         if given["leg"] not in detection.legs:
             yield (*place, "leg"), not_accepted("leg with detectors", given["leg"], detection.legs)
         shown = given.get("levels", (given.get("level"),))

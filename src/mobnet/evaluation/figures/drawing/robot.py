@@ -89,6 +89,6 @@ def _ring(axis: Array) -> Array:
     """Return points of a unit circle about an axis (n, 3)."""
     along = axis / np.linalg.norm(axis)
     first = np.cross(along, np.eye(3)[np.argmin(np.abs(along))])
-    first /= np.linalg.norm(first)
+    first = np.asarray(first / np.linalg.norm(first), dtype=np.float64)
     second, angle = np.cross(along, first), np.linspace(0.0, 2 * np.pi, POINTS, endpoint=False)[:, None]
-    return np.cos(angle) * first + np.sin(angle) * second
+    return np.asarray(np.cos(angle) * first + np.sin(angle) * second, dtype=np.float64)
