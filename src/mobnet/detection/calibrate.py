@@ -60,8 +60,8 @@ def read_quiet(recording: Path, estimate: Path, robot: RobotDescription, detecti
         ConfigError: the limb is no leg.
     """
     joints = robot.layout.limb(limb)
-    notes = [read_array_note(file_of(stem, NOTE)) for stem in (estimate, recording)]
-    refuse(f"{estimate}{NOTE}", note_differences(*notes, f"{recording}{NOTE}"))
+    note, other = (read_array_note(file_of(stem, NOTE)) for stem in (estimate, recording))
+    refuse(f"{estimate}{NOTE}", note_differences(note, other, f"{recording}{NOTE}"))
     read, names = read_sensed(recording, robot.layout), named(EXTERNAL, joints)
     gate = LegGate.of(detection.gate, robot, limb, read.rate_hz)
     torque = read_array(estimate, names)[0].astype(np.float64)

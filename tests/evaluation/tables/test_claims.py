@@ -20,7 +20,7 @@ from mobnet.evaluation.number.quantities import QUANTITIES
 from mobnet.evaluation.tables.latency import MET
 from mobnet.settings.claims import Cell, Claim
 from mobnet.settings.evaluation import Statistics
-from mobnet.settings.published import Published
+from mobnet.settings.published import Published, PublishedTable
 from mobnet.settings.settings import Settings
 
 BRANCHES = {"MOB": 19.0, "MOB-fric": 15.0, "MOB-fric-load": 3.0, "MOB-Net": 1.5, "FTS-e2e": 2.0, "MOB-Net-plain": 2.5}
@@ -54,6 +54,8 @@ def test_numbers_of_the_paper_are_those_that_it_prints(settings: Settings) -> No
 
 def printed(cell: Cell, published: Published, on_robot: bool) -> float:
     """Return what the paper prints in a cell, from the first of its tables that has the method and the column."""
+    if cell.table == "table_09":
+        return detected(cell, published.tables["table_09"])
     joint = "+".join(listed(cell.joint or ()))
     column = "avg" if cell.scenario == "knee_swing" else COLUMNS.get(joint, joint)
     tables = PLACES[cell.scenario or ""]
@@ -62,6 +64,16 @@ def printed(cell: Cell, published: Published, on_robot: bool) -> float:
         if row.get(column) is not None:
             return float(row[column] or 0.0)
     raise AssertionError(f"the paper prints no {column} of {cell}")
+
+
+def detected(cell: Cell, table: PublishedTable) -> float:
+    """Return the share of collisions that a detector of the paper finds, or its mean delay over those [ms]."""
+    name, column = cell.where["detector"], cell.where["cell"]
+    counts, delays = (published_row(table, place, name) for place in ("detected", "delay_ms"))
+    if cell.where["quantity"] == "found":
+        return float(counts[column] or 0.0) / (60 if column == "all" else 10)
+    cells = [own for own in counts if own != "all"] if column == "all" else [column]
+    return sum((counts[own] or 0.0) * (delays[own] or 0.0) for own in cells) / sum(counts[own] or 0.0 for own in cells)
 
 
 @pytest.fixture
