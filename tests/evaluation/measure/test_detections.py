@@ -184,3 +184,14 @@ def write_still(settings: Settings) -> Callable[[Path, int], Path]:
         return stem
 
     return write
+
+
+def test_detectors_of_a_leg_that_is_never_watched_are_left_out(
+    section: Detection, settings: Settings, walks: Walks, tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    closed = section.gate.model_copy(update={"lift_off_s": 0.4})  # longer than a swing
+    left = section.model_copy(update={"legs": ("LL",), "gate": closed})
+    detect(left, settings.robot, RATE_HZ, walks, tmp_path)
+    assert read_table(tmp_path / "thresholds.csv") == []
+    assert len(read_table(tmp_path / "collisions.csv")) == len(POINTS)
+    assert "LL, mean is left out: swings in which the leg is watched: 'none' is not accepted" in caplog.text

@@ -17,7 +17,15 @@ from mobnet.evaluation.measure.found import (
     strike,
     unpushed_rows,
 )
-from mobnet.evaluation.measure.tuned import Tuned, promise_rows, quiet_of, quiet_rows, threshold_rows, tune
+from mobnet.evaluation.measure.tuned import (
+    NotWatchedError,
+    Tuned,
+    promise_rows,
+    quiet_of,
+    quiet_rows,
+    threshold_rows,
+    tune,
+)
 from mobnet.evaluation.measure.watching import Leg, read_estimate
 from mobnet.evaluation.number.files import write_csv
 from mobnet.plan.detection import Walk
@@ -66,7 +74,11 @@ def _try_leg(leg: Leg, walks: Mapping[str, Walk], rows: Rows) -> None:
         quiet = {name: quiet_of(leg, name, seen[name], read[name]) for name in (settings.place, settings.random)}
         for name, detector in settings.detectors.items():
             if detector.method == method:
-                tuned = tune(leg, name, detector, quiet[settings.place], quiet[settings.random])
+                try:
+                    tuned = tune(leg, name, detector, quiet[settings.place], quiet[settings.random])
+                except NotWatchedError as error:  # of networks that have hardly learned
+                    log.warning("%s, %s is left out: %s", leg.limb, name, error)
+                    continue
                 rows["thresholds"] += threshold_rows(leg, tuned)
                 rows["promises"] += promise_rows(leg, tuned, quiet[settings.random])
                 for walk in quiet.values():

@@ -17,6 +17,10 @@ from mobnet.evaluation.measure.watching import Leg, Watched
 from mobnet.settings.detection import Detector
 
 
+class NotWatchedError(DataError):
+    """No swing that should calibrate a detector is watched: the gate takes all of them for early contacts."""
+
+
 @dataclass(frozen=True)
 class Quiet:
     """A leg in a walk that nothing pushes, and a method's estimate of it.
@@ -76,6 +80,7 @@ def tune(leg: Leg, name: str, detector: Detector, place: Quiet, random: Quiet) -
 
     Raises:
         DataError: there are too few swings, or a signal never changes.
+        NotWatchedError: none of these swings is watched.
     """
     for walk in (place, random):
         _check_signals(leg, detector, walk)
@@ -199,7 +204,7 @@ def _over_swings(heights: Array, number: Callable[[Array], float]) -> Array:
     A phase in which no swing is watched for long enough takes the largest number of the others.
 
     Raises:
-        DataError: no swing is watched.
+        NotWatchedError: no swing is watched.
     """
     found = np.full(heights.shape[1:], np.nan)
     for place in np.ndindex(found.shape):
@@ -208,5 +213,7 @@ def _over_swings(heights: Array, number: Callable[[Array], float]) -> Array:
         if len(own):
             found[place] = number(own)
     if np.isnan(found).all(axis=0).any():
-        raise DataError(not_accepted("swings in which the leg is watched", "none", ["some of those that calibrate"]))
+        raise NotWatchedError(
+            not_accepted("swings in which the leg is watched", "none", ["some of those that calibrate"])
+        )
     return np.where(np.isnan(found), np.nanmax(found, axis=0), found)
