@@ -16,6 +16,8 @@ from mobnet.detection.thresholds import HOUR_S, Calibrated, calibrate
 from mobnet.evaluation.measure.watching import Leg, Watched
 from mobnet.settings.detection import Detector
 
+NEVER = not_accepted("swings in which the leg is watched", "none", ["some of those that calibrate"])
+
 
 class NotWatchedError(DataError):
     """No swing that should calibrate a detector is watched: the gate takes all of them for early contacts."""
@@ -170,7 +172,10 @@ def _whitening(leg: Leg, quiet: Quiet, signals: Sequence[Array]) -> Array:
         end = one.swings[count - 1][1] if count else 0
         parts.append(leg.low_passed(own[:end], _cut(one.segments, end))[one.watch.watched[:end]])
         left -= count
-    return whitening_of(np.concatenate(parts))
+    watched = np.concatenate(parts)
+    if not len(watched):
+        raise NotWatchedError(NEVER)
+    return whitening_of(watched)
 
 
 def _cut(segments: Sequence[tuple[int, int]], end: int) -> tuple[tuple[int, int], ...]:
@@ -213,7 +218,5 @@ def _over_swings(heights: Array, number: Callable[[Array], float]) -> Array:
         if len(own):
             found[place] = number(own)
     if np.isnan(found).all(axis=0).any():
-        raise NotWatchedError(
-            not_accepted("swings in which the leg is watched", "none", ["some of those that calibrate"])
-        )
+        raise NotWatchedError(NEVER)
     return np.where(np.isnan(found), np.nanmax(found, axis=0), found)
