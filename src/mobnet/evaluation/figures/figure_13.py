@@ -31,7 +31,7 @@ COLUMNS = (
 HEIGHT_INCH = 3.4
 VIEW = 40.0, 10.0  # azimuth and elevation of the eye [deg], from ahead and the robot's left
 ARROW_M_N = 0.0035  # length of an arrow for each newton
-ROOM_M = (-0.7, 0.7, -0.05, 1.65)  # of a panel: right of the robot's base, and above the ground
+ROOM_M = (-0.7, 0.7, -0.12, 1.75)  # of a panel: right of the robot's base, and above the ground
 
 
 def figure_13(
