@@ -6,6 +6,16 @@ from pydantic import AfterValidator, Field
 
 from mobnet.settings import base
 from mobnet.settings.base import Section
+from mobnet.settings.detected import (
+    AlarmTable,
+    DetectionCurves,
+    DetectorTable,
+    Figure13,
+    Figure14,
+    Figure15,
+    Links,
+    SmallestForce,
+)
 
 PART = "swing|touch_down|stance|stuck|moving"  # parts of a walk
 NUMBER = "[1-9][0-9]*"
@@ -345,78 +355,6 @@ class Changed(Section):
     landing_s: base.NotNegative = Field(le=1)
     least_share: base.PositiveShare
     tests: Annotated[dict[base.Text, LimbRuns], Field(min_length=1)]
-
-
-class DetectorTable(Section):
-    """Detectors on the collisions of a leg, by a rule of thresholds; `levels` are those at which they are tried."""
-
-    levels: base.Distinct[base.LevelName]
-    leg: base.LimbName
-    kind: base.LowerName
-    detectors: base.Distinct[base.DetectorName]
-
-
-class AlarmTable(Section):
-    """False alarms of detectors of a leg, by the rules of thresholds for wanted rates and by the paper's."""
-
-    levels: base.Distinct[base.LevelName]
-    leg: base.LimbName
-    detectors: base.Distinct[base.DetectorName]
-
-
-class SmallestForce(DetectorTable):
-    """The force that a share of the collisions of each kind must have to be found.
-
-    Laws of the found share have these forces for one half and these steepnesses on a log scale.
-    """
-
-    kinds: base.Distinct[base.LowerName]
-    share: base.InnerShare
-    halves_n: base.Span[base.Positive]
-    steepness: base.Span[base.Positive]
-
-
-class Links(DetectorTable):
-    """Which link each collision hit and which one a detector named."""
-
-
-class Figure13(Section):
-    """Snapshots of collisions: the robot's level, the leg, and the cells, `<link> <direction>`."""
-
-    level: base.SingleLevelName
-    leg: base.LimbName
-    cells: Texts
-
-
-class Figure14(Section):
-    """Histograms of collisions."""
-
-    levels: base.Distinct[base.LevelName]
-    leg: base.LimbName
-    bins: base.Whole = Field(ge=2, le=200)
-
-
-class Figure15(Section):
-    """Standard deviations around collisions: of these methods, whose detectors have the thresholds, at one joint."""
-
-    level: base.SingleLevelName
-    leg: base.LimbName
-    joint: base.MotorName
-    cells: Texts
-    detectors: dict[base.MethodName, base.DetectorName]
-    kind: base.LowerName
-    before_s: base.NotNegative = Field(le=10)
-    after_s: base.Positive = Field(le=10)
-
-
-class DetectionCurves(Section):
-    """Found share and delay over the rate of false alarms, and the found share over the force."""
-
-    level: base.LevelName
-    leg: base.LimbName
-    kind: base.LowerName
-    detectors: base.Distinct[base.DetectorName]
-    force_bins: base.Whole = Field(ge=2, le=100)
 
 
 class Scoring(Section):

@@ -10,8 +10,9 @@ from mobnet.evaluation.measure.detected import ALL, Detections, alarms_in, hours
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
+from mobnet.settings.detected import AlarmTable
 from mobnet.settings.detection import Detection
-from mobnet.settings.evaluation import AlarmTable, Statistics
+from mobnet.settings.evaluation import Statistics
 
 PROMISED, MEASURED, WITHIN = "promised", "measured", "within"
 Cells = Mapping[str, Sequence[FreeSwing]]
