@@ -4,7 +4,6 @@ A force F at a point turns the joints above it by F g, where g (6,) is known of 
 candidates that one is taken whose g explains most of the estimated torque, in units of what this does in free walking.
 """
 
-from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -40,11 +39,3 @@ def smallest_forces(units: Array, thresholds: Array, attenuation: float) -> Arra
     collision, filters leave the share `attenuation`.
     """
     return (thresholds / (attenuation * np.maximum(np.abs(units), 1e-9))).min(axis=1)
-
-
-def split_name(point: str, sides: Sequence[str]) -> tuple[str, str, str]:
-    """Return side, link and direction of a point named `<side>_<link>_<direction>`; raise ValueError of another one."""
-    side, link, direction = point.split("_")
-    if side not in sides:
-        raise ValueError(point)
-    return side, link, direction

@@ -104,8 +104,3 @@ def ancestors(tree: Tree, body: int) -> set[int]:
         found.add(body)
         body = int(tree.parent[body])
     return found
-
-
-def point_names(side: str, links: Sequence[str], directions: Sequence[str]) -> list[str]:
-    """Return the names of the points of a side's leg that collisions meet, link by link."""
-    return [f"{side}_{link}_{direction}" for link in links for direction in directions]

@@ -1,11 +1,13 @@
 """Collisions of legs in a recording: when each begins and ends, where it hits, how hard."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
+from mobnet.core.arrays import Array
 from mobnet.core.columns import PUSH, named
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.joints import JointLayout
@@ -15,13 +17,16 @@ from mobnet.settings.data import Push
 FORCE = named(PUSH, ("row", "force_x", "force_y", "force_z"))
 
 
+@dataclass(frozen=True)
 class Hit:
-    """A push in the rows [start, end) of a recording: its force over time and where it meets the robot."""
+    """A push in some rows of a recording: what it hits from where, and its force over time (n,) [N]."""
 
-    def __init__(self, name: str, point: str, leg: str, rows: slice, force: np.ndarray) -> None:
-        """Take a push of a scenario, the point that it meets, named `<side>_<link>_<direction>`, and its force [N]."""
-        self.name, self.leg, self.rows, self.force = name, leg, rows, force
-        _, self.link, self.direction = point.split("_")
+    name: str
+    leg: str
+    link: str
+    direction: str
+    rows: slice
+    force: Array
 
 
 def hits_of(recording: Path, pushes: Mapping[str, Push], layout: JointLayout) -> list[Hit]:
@@ -32,13 +37,12 @@ def hits_of(recording: Path, pushes: Mapping[str, Push], layout: JointLayout) ->
         DataError: a file or a column is missing.
     """
     array, meta = read_array(recording, FORCE)
-    number, force = array[:, 0], np.linalg.norm(array[:, 1:], axis=1).astype(np.float64)
-    names = list(pushes)
-    return [
-        Hit(names[int(number[start]) - 1], *leg_of(pushes[names[int(number[start]) - 1]], layout), slice(start, end),
-            force[start:end])
-        for start, end in runs_of(number, meta["segments"])
-    ]  # fmt: skip
+    number, force, names = array[:, 0], np.linalg.norm(array[:, 1:], axis=1).astype(np.float64), list(pushes)
+    found: list[Hit] = []
+    for start, end in runs_of(number, meta["segments"]):
+        name = names[int(number[start]) - 1]
+        found.append(Hit(name, *target_of(pushes[name], layout), slice(start, end), force[start:end]))
+    return found
 
 
 def runs_of(number: np.ndarray, segments: Sequence[Sequence[int]]) -> Iterator[tuple[int, int]]:
@@ -51,8 +55,8 @@ def runs_of(number: np.ndarray, segments: Sequence[Sequence[int]]) -> Iterator[t
                 yield int(start), int(end)
 
 
-def leg_of(push: Push, layout: JointLayout) -> tuple[str, str]:
-    """Return the point that a push meets and its leg.
+def target_of(push: Push, layout: JointLayout) -> tuple[str, str, str]:
+    """Return the leg, the link and the direction that a push meets.
 
     Raises:
         ConfigError: it meets no point named `<side>_<link>_<direction>`.
@@ -61,4 +65,5 @@ def leg_of(push: Push, layout: JointLayout) -> tuple[str, str]:
     if len(parts) != 3 or parts[0] not in layout.legs:
         accepted = [f"{side}_<link>_<direction>" for side in layout.legs]
         raise ConfigError(not_accepted("point of a collision", push.point, accepted))
-    return str(push.point), layout.legs[parts[0]]
+    side, link, direction = parts
+    return layout.legs[side], link, direction

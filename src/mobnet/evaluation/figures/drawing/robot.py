@@ -17,7 +17,6 @@ from mobnet.robot.description import RobotDescription
 from mobnet.settings.parts import ShapeRow
 
 RINGS, POINTS = 7, 14  # of a round solid
-GROUND = "0.6"
 
 
 def projection(azimuth_deg: float, elevation_deg: float) -> Array:
