@@ -53,7 +53,7 @@ def log(arm: RobotDescription) -> Recording:
         np.zeros((SAMPLES, 1)),
         np.zeros_like(tau),
         np.zeros_like(external),
-        np.zeros((SAMPLES, 4)),
+        none,
     )
     return Recording(
         Sensed(q, v, none, tau, tau, none, none, none), ((0, SAMPLES),), RATE_HZ, {"level": "ideal"}, truth

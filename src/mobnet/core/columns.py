@@ -13,6 +13,10 @@ FEET = ("left_foot", "right_foot")
 COMMAND = (("step_x", "m"), ("step_y", "m"), ("turn", "rad"), ("duration", "s"), ("foot_height", "m"))  # Table 2
 VELOCITY, DESIRED, MOTOR, SWING, CONTACT, PUSHED = "v", "tau_des", "tau_motor", "swing", "contact", "pushed"
 LANDING, PUSH = "landing", "push"
+FORCE = (
+    ("row", "-", "scenario"),
+    *((f"force_{axis}", "N", "world") for axis in "xyz"),
+)  # of a push on a robot that walks
 RANDOM = "tau_random"  # what random torque exploration added to the desired torque
 PUSH_TORQUE = "tau_push"  # what pushes alone add to the external torque
 EXTERNAL = "tau_ext"  # of a recording: true; of an estimate: estimated
@@ -52,7 +56,7 @@ def recording_columns(layout: JointLayout) -> dict[str, list[Column]]:
         "pushed": [(PUSHED, "-", "scenario")],
         "tau_random": [(f"{RANDOM}.{j}", "N m", "joint") for j in actuated],
         PUSH_TORQUE: [(f"{PUSH_TORQUE}.{joint}", *place) for joint, place in places],
-        "push": [(f"{PUSH}.row", "-", "scenario"), *((f"{PUSH}.force_{axis}", "N", "world") for axis in "xyz")],
+        "push": [(f"{PUSH}.{name}", unit, frame) for name, unit, frame in FORCE if feet],
     }
 
 
