@@ -1,4 +1,4 @@
-# From an empty folder to every table and figure: collect -> observe -> train -> estimate -> score -> tables, paper.
+# From an empty folder to every table and figure: collect -> train -> estimate -> score -> tables, paper.
 # `snakemake --cores 2` makes all of it at the scale that configs/config.yaml names; --config scale=smoke takes minutes.
 # What is made from what stands in src/mobnet/plan.
 
@@ -20,8 +20,7 @@ report: "workflow/report/workflow.rst"
 
 
 include: "workflow/rules/common.smk"
-include: "workflow/rules/collect.smk"
-include: "workflow/rules/learn.smk"
+include: "workflow/rules/steps.smk"
 include: "workflow/rules/products.smk"
 
 

@@ -15,10 +15,12 @@ import pytest
 from mobnet.core.columns import EXTERNAL_LP, FEET, SWING, named, recording_columns
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording, Truth, write_recording
+from mobnet.core.stage import Stage
 from mobnet.core.store import footer_hash, read_array
 from mobnet.estimation.estimate import estimate
 from mobnet.estimation.methods import kind_names
 from mobnet.estimation.observe import observe
+from mobnet.plan.parts import MethodRun
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
@@ -90,7 +92,8 @@ def run(settings: Settings, learned: Callable[..., tuple[dict[str, Path], Path |
         networks, fitted = files[method] = files.get(method) or learned(method)
         given = settings.robot, settings.levels[LEVEL], settings.plant.gravity_m_s2, settings.observer
         read, residual, out = (folder / name for name in ("recording", "residual", "estimate"))
-        estimate(*given, method, settings.all_methods, networks, fitted, [read], [residual], [out])
+        runs = [MethodRun(method, settings.all_methods, networks, fitted, (out,))]
+        estimate(*given, runs, [read], [residual], Stage(folder / "stage", method))
         return read_array(folder / "estimate")[0]
 
     return estimated

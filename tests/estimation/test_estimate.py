@@ -4,6 +4,7 @@ import json
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from mobnet.core.estimator import Estimate
 from mobnet.core.files import WEIGHTS
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
+from mobnet.core.stage import Stage
 from mobnet.core.store import read_array, write_array
 from mobnet.estimation import estimate as estimate_module
 from mobnet.estimation.estimate import Observed, estimate, rate_of, read_observed, run_segments, table_of
@@ -21,9 +23,26 @@ from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.observe import observe
 from mobnet.estimation.recipe import Recipe
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE, Z_SCORES, std_scales
+from mobnet.plan.parts import MethodRun
 from mobnet.settings.settings import Settings
 
 Write = Callable[[Path, Recording], tuple[Path, Path]]
+
+
+@pytest.fixture
+def run_methods(settings: Settings, tmp_path: Path) -> Callable[..., None]:
+    """Return a function that runs methods on recordings and their residuals: name -> where its estimates are written.
+
+    A method that is not there fails when its turn comes.
+    """
+
+    def run(recordings: Any, residuals: Any, outs: dict[str, list[Path]], joints: Any = None) -> None:
+        level, gravity = settings.levels["all_uncertainty"], settings.plant.gravity_m_s2
+        runs = [MethodRun(name, settings.methods, {}, None, tuple(own), joints) for name, own in outs.items()]
+        stage = Stage(tmp_path / "stage", "given", tuple(f"{stem}.parquet" for stem in recordings))
+        estimate(settings.robot, level, gravity, settings.observer, runs, recordings, residuals, stage)
+
+    return run
 
 
 def test_each_segment_starts_from_a_fresh_state(
@@ -32,13 +51,13 @@ def test_each_segment_starts_from_a_fresh_state(
     tmp_path: Path,
     made_up: Callable[..., Recording],
     write_pair: Write,
+    run_methods: Callable[..., None],
 ) -> None:
     recording = made_up(0, 0.4, segments=2)
     stem, _ = write_pair(tmp_path, recording)
     given = settings.robot, settings.levels["all_uncertainty"], settings.plant.gravity_m_s2, settings.observer
     observe(*given, stem, tmp_path / "residual")
-    stems = [[stem], [tmp_path / "residual"], [tmp_path / "out"]]
-    estimate(*given, "MOB", settings.methods, {}, None, *stems)
+    run_methods([stem], [tmp_path / "residual"], {"MOB": [tmp_path / "out"]})
     array, meta = read_array(tmp_path / "out")
     estimator = build_estimator(recipe_of("MOB"))
     for span in recording.spans():
@@ -51,17 +70,33 @@ def test_each_segment_starts_from_a_fresh_state(
 
 
 def test_an_estimate_holds_the_joints_asked_for(
-    settings: Settings, tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write
+    tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write, run_methods: Callable[..., None]
 ) -> None:
     stem, residual = write_pair(tmp_path, made_up(0, 0.2))
-    given = settings.robot, settings.levels["all_uncertainty"], settings.plant.gravity_m_s2, settings.observer
-    files = [stem], [residual], [tmp_path / "out"]
-    estimate(*given, "MOB", settings.methods, {}, None, *files, joints=["LL4", "W1"])
+    files = [stem], [residual], {"MOB": [tmp_path / "out"]}
+    run_methods(*files, joints=("LL4", "W1"))
     array, meta = read_array(tmp_path / "out")
     assert [column["name"] for column in meta["columns"]] == ["tau_ext.LL4", "tau_ext.W1"]
     np.testing.assert_array_equal(array, read_array(residual, ["r.LL4", "r.W1"])[0])
     with pytest.raises(ConfigError, match="joint to estimate: 'LL9' is not accepted; accepted: "):
-        estimate(*given, "MOB", settings.methods, {}, None, *files, joints=["LL9"])
+        run_methods(*files, joints=("LL9",))
+
+
+def test_a_job_that_failed_goes_on_with_the_method_that_it_was_at(
+    tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write, run_methods: Callable[..., None]
+) -> None:
+    """Nothing stands in its place before all of it is there, and what is there is not made again."""
+    stem, residual = write_pair(tmp_path, made_up(0, 0.2))
+    outs = {name: [tmp_path / name] for name in ("MOB", "none")}
+    with pytest.raises(ConfigError, match="method: 'none' is not accepted"):
+        run_methods([stem], [residual], outs)
+    assert not (tmp_path / "MOB.parquet").exists()
+    (kept,) = (tmp_path / "stage").rglob("MOB.parquet")
+    written = kept.stat().st_mtime_ns
+    run_methods([stem], [residual], {"MOB": outs["MOB"], "zero": [tmp_path / "zero"]})
+    assert (tmp_path / "MOB.parquet").stat().st_mtime_ns == written
+    assert (tmp_path / "zero.json").exists()
+    assert not (tmp_path / "stage").exists()
 
 
 def test_std_columns_follow_if_there_are_any(layout: JointLayout) -> None:
@@ -89,15 +124,14 @@ def test_an_observer_that_ran_already_is_not_run_again(
 
 def test_recordings_side_by_side_and_in_batches_are_those_alone(
     settings: Settings, recipe_of: Callable[..., Recipe], tmp_path: Path, made_up: Callable[..., Recording],
-    write_pair: Write, monkeypatch: pytest.MonkeyPatch,
+    write_pair: Write, monkeypatch: pytest.MonkeyPatch, run_methods: Callable[..., None],
 ) -> None:  # fmt: skip
     """Of different lengths, with falls, more of them than are held in memory at once."""
     recordings = [made_up(k, seconds, segments=k) for k, seconds in ((1, 0.3), (2, 0.5), (3, 0.2))]
     pairs = [write_pair(tmp_path, recording) for recording in recordings]
-    given = settings.robot, settings.levels["all_uncertainty"], settings.plant.gravity_m_s2, settings.observer
     outs = [tmp_path / f"out{k}" for k in range(3)]
     monkeypatch.setattr(estimate_module, "TOGETHER_S", 0.8)
-    estimate(*given, "MOB", settings.methods, {}, None, *map(list, zip(*pairs, strict=True)), outs)
+    run_methods(*map(list, zip(*pairs, strict=True)), {"MOB": outs})
     for recording, (_, residual), out in zip(recordings, pairs, outs, strict=True):
         array, meta = read_array(out)
         assert meta["segments"] == [list(span) for span in recording.segments]

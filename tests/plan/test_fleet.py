@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from made_steps import arguments, maker, recording
 
 from mobnet.core.errors import ConfigError
 from mobnet.plan.plan import Plan, make_plan
@@ -42,20 +43,23 @@ def test_a_variant_is_another_plant_for_the_same_networks(plan: Plan) -> None:
     """The next robot in the place of one, or joints that rub by (23)."""
     runs = plan.files.runs("changed_walk", "robots_other", ["MOB-Net"])
     assert [run.recording.parts[-2] for run in runs] == [f"{robot}_robots_other" for robot in ROBOTS]
-    walks: Any = [plan.jobs[robot].collect_tests("changed_walk", f"{robot}_robots_other") for robot in ROBOTS]
-    assert [walk.call.arguments["settings"].level.surrogate.seed for walk in walks] == [2, 3, 1]
-    law: Any = plan.jobs["robot_1"].collect_tests("changed_walk", "robot_1_robots_law").call.arguments["settings"].level
+
+    def level(robot: str, name: str) -> Any:
+        return arguments(plan, recording("changed_walk", f"{robot}_{name}", 101, robot))["settings"].level
+
+    assert [level(robot, "robots_other").surrogate.seed for robot in ROBOTS] == [2, 3, 1]
+    law = level("robot_1", "robots_law")
     assert (law.surrogate.parts, law.friction) == (("body", "sensors"), ("stribeck", "load", "loss"))
-    same, other = (plan.files.robots["robot_1"].networks("MOB-Net", 101, "changed_walk", level)
-                   for level in ("robot_1", "robot_1_robots_other"))  # fmt: skip
+    same, other = (plan.files.robots["robot_1"].networks("MOB-Net", 101, "changed_walk", name)
+                   for name in ("robot_1", "robot_1_robots_other"))  # fmt: skip
     assert same == other
 
 
 @pytest.mark.parametrize("robot", ROBOTS)
 def test_a_robot_learns_from_its_own_recordings(plan: Plan, robot: str) -> None:
     """Networks and fits; what it walks on is that of the set which takes the place of the one that a network names."""
-    training, fit = plan.jobs[robot].train("MOB-Net", "LL", 101), plan.jobs[robot].fit("MOB-fric")
-    for job in (training, fit):
+    training = maker(plan, robot, "networks", f"MOB-Net-LL-s{101 + ROBOTS.index(robot)}", "weights.safetensors").job
+    for job in (training, maker(plan, robot, "fits", "MOB-fric.json").job):
         assert {Path(name).relative_to(RESULTS).parts[0] for name in job.inputs} == {robot}
     assert all("/robot_walk/" in name for name in training.inputs)
 
@@ -67,24 +71,30 @@ def test_a_level_of_one_robot_is_walked_by_it_alone(plan: Plan) -> None:
     assert {run.estimate for run in runs} >= {plan.files.runs("motion_test", "robots", ["MOB-Net"])[0].estimate}
     trained = [{method for method, _ in plan.files.robots[robot].learned} for robot in ROBOTS]
     assert ["MOB-Net-Single" in methods for methods in trained] == [True, False, False]
-    read = {Path(name).parts[2] for name in plan.jobs["robot_1"].train("MOB-Net-100", "LL", 101).inputs}
+    training = maker(plan, "robot_1/networks/MOB-Net-100-LL-s101/weights.safetensors")
+    read = {Path(name).parts[2] for name in training.job.inputs}
     assert read == {"robot_1"}
     assert {path.parts[2] for path in plan.files.training("recordings", "robot_walk_100")} == {"robot_1"}
 
 
 def test_a_fine_tuning_begins_with_the_robot_s_own_network_and_learns_from_the_changed_one(plan: Plan) -> None:
-    job = plan.jobs["robot_2"].train("MOB-Net-other-swing-data-s-60", "LL", 102)
-    arguments: Any = job.call.arguments
-    assert arguments["start"] == RESULTS / "robot_2/networks/MOB-Net-LL-s102/weights.safetensors"
-    assert str(arguments["start"]) in job.inputs
-    assert arguments["recordings"] == (RESULTS / "robot_2/recordings/robot_walk/robot_2_robots_other/s1000",)
+    def given(method: str) -> tuple[Any, Any]:
+        """Return the arguments of the job that trains a method's network, and the network among them."""
+        place = f"robot_2/networks/{method}-LL-s102"
+        found = arguments(plan, place, "weights.safetensors")
+        (own,) = [network for network in found["networks"] if network.out == RESULTS / place]
+        return found, own
+
+    tuned, network = given("MOB-Net-other-swing-data-s-60")
+    assert network.start == RESULTS / "robot_2/networks/MOB-Net-LL-s102/weights.safetensors"
+    assert str(network.start) in maker(plan, str(network.out.relative_to(RESULTS)), "weights.safetensors").job.inputs
+    assert tuned["recordings"] == (RESULTS / "robot_2/recordings/robot_walk/robot_2_robots_other/s1000",)
     swings = plan.settings.evaluation.changed
-    assert arguments["margins"] == (swings.lift_off_s, swings.landing_s)
-    learning = arguments["training"].learning
+    assert tuned["margins"] == (swings.lift_off_s, swings.landing_s)
+    learning = network.training.learning
     assert (learning.data_s, learning.labels) == (60, "swing")
-    labelled: Any = plan.jobs["robot_2"].train("MOB-Net-other-data-s-60", "LL", 102).call.arguments
-    assert "margins" not in labelled
-    assert "start" not in plan.jobs["robot_2"].train("MOB-Net", "LL", 102).call.arguments
+    assert "margins" not in given("MOB-Net-other-data-s-60")[0]
+    assert given("MOB-Net")[1].start is None
 
 
 def test_names_of_networks_differ_and_motions_are_shared(plan: Plan) -> None:
@@ -97,7 +107,7 @@ def test_names_of_networks_differ_and_motions_are_shared(plan: Plan) -> None:
 
 def test_every_run_of_a_test_is_scored_and_stored(plan: Plan) -> None:
     """One file of scores has all levels of a test; all that its runs read is made."""
-    read = plan.jobs[""].score("walk_test").inputs
+    read = maker(plan, "scores/walk_test.csv").job.inputs
     assert {Path(name).relative_to(RESULTS).parts[0] for name in read} >= set(ROBOTS)
     assert set(read) <= set(plan.stored)
 

@@ -1,17 +1,21 @@
 """The plan names each file once, gives each job what its function takes and no more, and misses nothing."""
 
+import re
 from collections import Counter
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 import pytest
+from made_steps import arguments, maker, recording
 
 from mobnet.core.errors import ConfigError
-from mobnet.plan.call import Call, call_of, parameters
+from mobnet.plan.call import Call, Job, call_of, parameters
 from mobnet.plan.needs import needs_of
 from mobnet.plan.plan import Plan, make_plan
 from mobnet.plan.products import Shown, shown
 from mobnet.plan.runs import SweptSize, files_in
+from mobnet.plan.steps import Step
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
@@ -131,26 +135,37 @@ def test_the_manifest_lists_every_result(plan: Plan) -> None:
 
 
 def test_a_walk_gets_the_terrains_and_pushes_that_it_names(plan: Plan) -> None:
-    walk: Any = plan.jobs[""].collect("knee_swing", "all_uncertainty", 1).call.arguments["settings"]
+    walk = arguments(plan, recording("knee_swing", "robot_1", 101, "robot_1"))["settings"]
     assert set(walk.pushes) == {"left_knee_swing"}
     assert walk.terrain.checks is not None
     assert walk.terrain.plates is None
 
 
-def test_an_estimate_reads_weights_fit_and_recording(plan: Plan) -> None:
-    place = ("walk_test", "all_uncertainty")
-    learned, fitted = (plan.jobs[""].estimate(method, 0, *place) for method in ("FTS-e2e", "MOB-fric-BPF"))
-    array, weights = f"s{plan.files.test_seeds[0]}.parquet", "weights.safetensors"
-    assert [Path(name).name for name in learned.inputs] == [array, array, weights]
-    assert fitted.inputs[2] == "results/smoke/fits/MOB-fric.json"
-    assert fitted.modules == ("mobnet.estimation.kinds.band_pass", "mobnet.estimation.kinds.friction")
+def estimated(plan: Plan, scenario: str, level: str, robot: str = "") -> Step:
+    """Return the step that estimates a test, by way of the estimate of MOB."""
+    return maker(plan, robot, "estimates/MOB/n0", scenario, level, f"s{plan.files.test_seeds[0]}.parquet")
+
+
+def run_of(step: Step, method: str, seed: int) -> Any:
+    """Return the run of a method with a network's seed among those of a step."""
+    runs: Any = step.job.call.arguments["runs"]
+    (found,) = [run for run in runs if run.method == method and f"/{method}/n{seed}/" in str(run.outs[0])]
+    return found
+
+
+def test_an_estimate_reads_weights_fits_and_recordings(plan: Plan) -> None:
+    job = estimated(plan, "walk_test", "robot_1", "robot_1").job
+    array, own = f"s{plan.files.test_seeds[0]}.parquet", "results/smoke/robot_1"
+    assert [Path(name).name for name in job.inputs][:2] == [array, array]
+    assert {f"{own}/fits/MOB-fric.json", f"{own}/networks/FTS-e2e-LL-s101/weights.safetensors"} <= set(job.inputs)
+    assert {"mobnet.estimation.kinds.band_pass", "mobnet.estimation.kinds.friction"} <= set(job.modules)
 
 
 def test_a_test_runs_the_networks_of_its_limbs_alone(plan: Plan) -> None:
     def run(method: str, scenario: str, robot: str = "robot_1") -> tuple[list[str], tuple[str, ...]]:
         seed, level = (101, robot) if robot else (0, "all_uncertainty")
-        arguments: Any = plan.jobs[robot].estimate(method, seed, scenario, level).call.arguments
-        return list(arguments["networks"]), arguments["joints"]
+        found = run_of(estimated(plan, scenario, level, robot), method, seed if method != "MOB" else 0)
+        return list(found.networks), found.joints
 
     layout = plan.settings.layout
     assert run("MOB-Net", "knee_swing") == (["LL"], layout.limb("LL"))
@@ -165,11 +180,48 @@ def test_a_test_runs_the_networks_of_its_limbs_alone(plan: Plan) -> None:
 
 def test_all_recordings_of_a_test_are_estimated_by_one_job_and_each_has_its_file(plans: dict[str, Plan]) -> None:
     plan = plans["default"]
-    arguments: Any = plan.jobs[""].estimate("MOB-Net", 1, "forward_walk", "all_uncertainty").call.arguments
+    step = estimated(plan, "forward_walk", "all_uncertainty")
     runs = [run for run in plan.files.runs("forward_walk", "all_uncertainty", ["MOB-Net"]) if run.network_seed == 1]
     assert len(runs) == plan.settings.sizes.test.shards
-    assert list(arguments["outs"]) == [run.estimate for run in runs]
-    assert list(arguments["residuals"]) == [run.residual for run in runs]
+    assert list(run_of(step, "MOB-Net", 1).outs) == [run.estimate for run in runs]
+    assert step.job.call.arguments["residuals"] == tuple(run.residual for run in runs)
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_steps_have_rules_of_their_own_and_are_few(plans: dict[str, Plan], scale: str) -> None:
+    """A rule's name is that of its account, with an underscore for every other sign."""
+    steps = [*plans[scale].steps, *plans[scale].trial_steps]
+    names = [re.sub(r"\W", "_", step.work.job) for step in steps] + [p.name for p in plans[scale].products]
+    assert len(set(names)) == len(names)
+    assert len(plans[scale].steps) + len(plans[scale].products) <= 500
+
+
+def test_trainings_of_a_step_are_alike_and_share_what_they_read(plans: dict[str, Plan]) -> None:
+    """One data set, one basis; those with the same inputs follow each other, and a long one stands alone."""
+    steps = [step for step in plans["default"].steps if step.work.kind == "train"]
+    for step in steps:
+        networks: Any = step.job.call.arguments["networks"]
+        assert len({(one.training.network.data, one.training.learning.labels) for one in networks}) == 1
+        limbs = [(one.training.limb, one.training.target) for one in networks]
+        assert len(list(groupby(limbs))) == len(set(limbs))
+        steps_m = sum(amount for name, amount in step.work.amounts.items() if name.endswith(" step")) / 1e6
+        assert len(networks) == 1 or steps_m <= 30.0
+    alone = maker(plans["paper"], "networks/MOB-Net-LL-s0/weights.safetensors").job.call.arguments["networks"]
+    assert len(alone) == 1
+
+
+def test_a_fine_tuning_is_no_part_of_the_step_that_makes_its_start(plans: dict[str, Plan]) -> None:
+    for step in plans["default"].steps:
+        assert not set(step.job.inputs) & set(step.outputs)
+
+
+def test_what_a_step_keeps_depends_on_its_arguments_and_its_code(plan: Plan) -> None:
+    job = estimated(plan, "forward_walk", "ideal").job
+    stage: Any = job.call.arguments["stage"]
+    bare = {key: value for key, value in job.call.arguments.items() if key != "stage"}
+    assert stage.given == Job(Call(job.call.function, bare), job.inputs, job.modules).given
+    assert stage.inputs == job.inputs
+    assert stage.folder == Path("results/smoke/state/estimate/forward_walk-ideal")
 
 
 def test_a_setting_reruns_what_reads_it_and_nothing_else(plan: Plan) -> None:
@@ -178,9 +230,9 @@ def test_a_setting_reruns_what_reads_it_and_nothing_else(plan: Plan) -> None:
     assert rerun(plan, changed(settings, "evaluation", "steps", bins=8)) == {"steps"}
     assert rerun(plan, changed(settings, "evaluation", "compute", pause_s=61.0)) == {"compute"}
     assert rerun(plan, changed(settings, "observer", gain_hz=50.0)) <= {"data_card", "bode"}
-    observed = plan.jobs[""].observe("walk_test", "all_uncertainty", 1).call.fingerprint
-    after = changed(settings, "observer", gain_hz=50.0).jobs[""].observe("walk_test", "all_uncertainty", 1)
-    assert after.call.fingerprint != observed
+    walk = recording("forward_walk", "ideal", 101)
+    before, after = (maker(one, walk).job.call for one in (plan, changed(settings, "observer", gain_hz=50.0)))
+    assert after.fingerprint != before.fingerprint  # the job that records a walk observes it, too
     table = {**settings.evaluation.tables, "table_07": settings.evaluation.tables["table_10"]}
     assert rerun(plan, changed(settings, "evaluation", tables=table)) >= {"table_07"}
 
@@ -188,11 +240,10 @@ def test_a_setting_reruns_what_reads_it_and_nothing_else(plan: Plan) -> None:
 def test_a_push_reruns_the_walks_that_it_comes_in(plan: Plan) -> None:
     pushes = {**plan.settings.pushes, "left_knee_swing": plan.settings.pushes["left_knee_support"]}
     after = make_plan(plan.settings.model_copy(update={"pushes": pushes}), with_pdf=True)
-    calls = {
-        name: [p.jobs[""].collect(name, "all_uncertainty", 1).call for p in (plan, after)]
-        for name in after.settings.tests
-    }
-    assert [name for name, (one, two) in calls.items() if one != two] == ["knee_swing"]
+    calls = [{s.work.job: s.job.call for s in p.steps if s.work.kind == "collect"} for p in (plan, after)]
+    assert [name for name, call in calls[0].items() if call != calls[1][name]] == [
+        "collect/robot_1/knee_swing-robot_1-s101"
+    ]
 
 
 def test_scores_and_runs_follow_from_the_section_of_a_product(plan: Plan) -> None:

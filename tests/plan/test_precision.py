@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from made_steps import arguments
 
 from mobnet.core.errors import DataError
 from mobnet.plan import precision
@@ -55,8 +56,8 @@ def test_a_named_format_stays_and_that_of_a_method_is_named_too(asked: Settings,
 
 def test_a_training_of_the_plan_has_a_named_format(asked: Settings, tmp_path: Path) -> None:
     plan = make_plan(with_precision(asked, tmp_path), with_pdf=False)
-    training = plan.jobs[""].train("MOB-Net", "LL", 0).call.arguments["training"]
-    assert getattr(training, "learning").precision in ("float32", "bfloat16")  # noqa: B009, an argument of a call
+    (network, *_) = arguments(plan, "networks/MOB-Net-LL-s0/weights.safetensors")["networks"]
+    assert network.training.learning.precision in ("float32", "bfloat16")
 
 
 def test_a_damaged_record_is_named(asked: Settings, tmp_path: Path) -> None:

@@ -3,7 +3,7 @@
 import pytest
 
 from mobnet.plan.plan import Plan, make_plan
-from mobnet.plan.work import Work, all_work
+from mobnet.plan.work import TOGETHER_S, Work
 from mobnet.settings.load import load_settings
 
 
@@ -15,26 +15,25 @@ def plan() -> Plan:
 @pytest.fixture(scope="module")
 def works(plan: Plan) -> dict[str, Work]:
     """Name of a job -> its work, at the default scale."""
-    return {work.job: work for work in all_work(plan)}
+    return {work.job: work for work in plan.work}
 
 
 def test_every_job_is_there_once(plan: Plan, works: dict[str, Work]) -> None:
-    assert len(works) == len(all_work(plan))
+    assert len(works) == len(plan.work)
     assert {product.name for product in plan.products} <= works.keys()
     networks = plan.files.all_networks()
-    assert sum(name.startswith("train/") for name in works) == len(networks)
+    assert sum(work.amounts["network"] for work in works.values() if work.kind == "train") == len(networks)
 
 
 @pytest.mark.parametrize(
     ("job", "amounts"),
     [
-        ("collect/random_walk-all_uncertainty-s1000", {"s": 300.0}),
-        ("collect/robot_1/robot_walk-robot_1-s1000", {"surrogate s": 300.0}),
-        ("collect_tests/forward_walk-ideal", {"s": 15 * 30.0}),
-        ("observe_tests/robot_2/changed_walk-robot_2", {"s": 6 * 15.0}),
-        ("motion/random_motion-s1000", {"s": 150.0}),
-        ("estimate/MOB-n0-forward_walk-ideal", {"residual s": 450.0, "residual step": 0.0}),
-        ("estimate/robot_1/MOB-Net-n101-walk_test-robot_1", {"residual s": 180.0, "residual step": 2 * 30_000.0}),
+        ("collect/random_walk-all_uncertainty-s1000", {"s": 1200.0, "walk": 4}),
+        ("collect/robot_1/robot_walk-robot_1-s1000", {"surrogate s": 1200.0, "walk": 4}),
+        ("collect/forward_walk-ideal-s201", {"s": 15 * 30.0, "walk": 15}),
+        ("collect/robot_2/changed_walk-robot_2-s201", {"surrogate s": 6 * 15.0, "walk": 6}),
+        ("motion/random_motion-s1000", {"s": 1200.0, "motion": 8}),
+        ("estimate/forward_walk-ideal", {"s": 450.0, "run": 1.0, "residual s": 450.0, "residual step": 0.0}),
         ("score/leg_sines", {"s": 15 * 60.0 * (4 + 3 * 3)}),
         ("table_05", {}),
     ],
@@ -42,6 +41,18 @@ def test_every_job_is_there_once(plan: Plan, works: dict[str, Work]) -> None:
 def test_a_job_has_the_recordings_that_it_makes_or_reads(works: dict[str, Work], job: str, amounts: object) -> None:
     """Three methods of the Bode figure have three networks each, four have none."""
     assert works[job].amounts == amounts
+
+
+def test_an_estimate_runs_the_networks_of_the_test_s_limbs(works: dict[str, Work]) -> None:
+    """Both legs' of three methods, the plain one's left one and FTS-e2e's of the left leg alone; MOB has none."""
+    work = works["estimate/robot_2/walk_test-robot_2"]
+    assert work.amounts["residual s"] == 3 * 6 * 30.0
+    assert work.amounts["residual step"] == 30_000.0 * (2 + 1)
+    assert work.held == 6 * 30.0
+
+
+def test_an_estimate_of_long_walks_holds_some_of_them_at_a_time(works: dict[str, Work]) -> None:
+    assert works["estimate/robot_1/long_walk-robot_1"].held == TOGETHER_S
 
 
 def test_a_training_has_its_steps_and_the_numbers_that_it_holds(works: dict[str, Work]) -> None:
@@ -53,6 +64,7 @@ def test_a_training_has_its_steps_and_the_numbers_that_it_holds(works: dict[str,
     steps = 1000 * seconds * epochs
     assert work.amounts == {
         "s": seconds,
+        "network": 1.0,
         "GRU step": steps,
         "GRU step x unit": 150 * steps,
         "GRU step x unit^2": 150**2 * steps,

@@ -20,7 +20,6 @@ from mobnet.evaluation.report.compute import HOUR_S, WHOLE
 from mobnet.evaluation.report.cost import costs
 from mobnet.evaluation.report.rates import measured
 from mobnet.plan.plan import Plan, make_plan
-from mobnet.plan.work import all_work
 from mobnet.settings.load import load_settings
 
 from .clicks import choose, explain, show, text_of_frame
@@ -105,12 +104,12 @@ def test_every_job_left_a_log_and_an_account(unbroken: Path, plan: Plan) -> None
     logs = {path.with_suffix(".json") for path in folder.rglob("*.log")}
     assert logs == set(accounts(unbroken))
     names = {str(path.relative_to(folder).with_suffix("")) for path in logs}
-    assert names == {work.job for work in all_work(plan)}
+    assert names == {work.job for work in plan.work}
 
 
 def test_the_run_can_be_priced_by_its_own_accounts(unbroken: Path, plan: Plan) -> None:
     rates = measured(plan, map(read_account, accounts(unbroken)))
-    priced = costs(all_work(plan), rates.kinds)[WHOLE][1]
+    priced = costs(plan.work, rates.kinds)[WHOLE][1]
     assert priced / HOUR_S == pytest.approx(rates.core_h, rel=0.1)
 
 

@@ -1,12 +1,13 @@
 """What the rules share: the checked configuration, the plan that follows from it, and what each rule depends on."""
 
+import re
 import shlex
 import sys
 import time
 from pathlib import Path
+from typing import NamedTuple
 
 from mobnet.core.cluster import failed_jobs
-from mobnet.core.detections import FILES as DETECTION_FILES
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
 from mobnet.core.lock import job_prefix
@@ -45,12 +46,7 @@ except MobnetError as error:
     sys.exit(str(error))
 
 config["scale"] = SETTINGS.scale  # the report names it
-RECORDING = "{scenario}", "{level}", "s{seed}"  # place of what belongs to a recording
 LOGS = PLAN.folders.results / "logs"
-OWN = f"{PLAN.folders.results}/{{robot}}"  # folder of what each robot of the fleet has, and the plant of section 5.1
-# Patterns of the wildcard `robot` (Snakemake takes an empty one for none), and whose number of test recordings each has.
-PLANT, ROBOTS = "()", "|".join(f"{name}/" for name in SETTINGS.fleet.robots)
-OF_PLANT, OF_ROBOTS = PLAN.files, next(iter(PLAN.files.robots.values()), PLAN.files)
 
 
 onstart:
@@ -80,41 +76,30 @@ onerror:
             sys.stderr.write(f"{line}\n")
 
 
-wildcard_constraints:
-    scenario="|".join(SETTINGS.scenarios),
-    level="|".join(dict.fromkeys(level for jobs in PLAN.jobs.values() for level in jobs.settings.levels)),
-    robot=f"({ROBOTS})?",
-    method="|".join([*SETTINGS.all_methods, *SETTINGS.tried]),
-    limb="|".join(SETTINGS.networks),
-    motion="|".join(SETTINGS.motions),
-    seed=r"\d+",
-    network_seed=r"\d+",
+class Kind(NamedTuple):
+    """What rules of a kind have in common: their group on a cluster, priority, memory [MB] and time [min]."""
+
+    group: str
+    priority: int
+    mem_mb: int
+    runtime: int
 
 
-def job(kind, wildcards):
-    """Return the plan's job of a kind for the wildcards of its rule, of which `robot` is a folder or empty."""
-    given = {k: int(v) if k.endswith("seed") else v for k, v in wildcards.items()}
-    return getattr(PLAN.jobs[given.pop("robot", "").rstrip("/")], kind)(**given)
+def rule_of(step):
+    """Return the name of a step's rule, that of its account."""
+    return re.sub(r"\W", "_", step.work.job)
+
+
+STEPS = {rule_of(step): step for step in (*PLAN.steps, *PLAN.trial_steps)}
+asked = workflow.resource_settings.overwrite_resources
+for name, step in STEPS.items():  # `--set-resources train:mem_mb=8000` means every rule of the kind
+    if step.work.kind in asked:
+        asked[name] = {**asked[step.work.kind], **asked.get(name, {})}
 
 
 def growing(memory_mb):
     """Return what a job asks for in memory [MB], each time it is sent again as much more."""
     return lambda wildcards, attempt: attempt * memory_mb
-
-
-def array(kind, *place):
-    """Return the two files of an array of a kind, whose place below its folder is a pattern."""
-    return both_files(f"{OWN}{Path(kind, *place)}")
-
-
-def both_files(stem):
-    """Return the two files of an array, neither of them empty."""
-    return ensure([f"{stem}.parquet", f"{stem}.json"], non_empty=True)
-
-
-def tests(files, *place):
-    """Return the files of all test recordings of a scenario at a level, or of what is made from each of them."""
-    return [name for seed in files.test_seeds for name in array(*place, "{scenario}", "{level}", f"s{seed}")]
 
 
 def flagged(name):

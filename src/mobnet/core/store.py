@@ -47,6 +47,11 @@ def file_of(stem: Path, ending: str) -> Path:
     return stem.with_name(stem.name + ending)
 
 
+def files_of(stem: Path) -> tuple[Path, Path]:
+    """Return both files of an array, the one that is written last at the end."""
+    return file_of(stem, ARRAY), file_of(stem, NOTE)
+
+
 class ArrayWriter:
     """Writes an array row by row; `array_writer` makes one."""
 

@@ -1,4 +1,4 @@
-"""The rule `estimate`: it runs a method on recordings, several side by side, and writes the external torque of each."""
+"""The rule `estimate`: it runs methods on recordings, several side by side, and writes the external torque of each."""
 
 import logging
 from collections.abc import Iterator, Mapping, Sequence
@@ -15,17 +15,19 @@ from mobnet.core.files import WEIGHTS
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
 from mobnet.core.recording import SensedRecording, read_sensed
-from mobnet.core.store import NOTE, check_pair, check_rate, file_of, read_array, write_array
+from mobnet.core.stage import Stage
+from mobnet.core.store import NOTE, check_pair, check_rate, file_of, files_of, read_array, write_array
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.observe import CARRIED
 from mobnet.estimation.recipe import Recipe
 from mobnet.learning.deployed.weights import std_scales
+from mobnet.plan.parts import MethodRun
+from mobnet.plan.work import TOGETHER_S
 from mobnet.robot.description import describe
-from mobnet.settings.methods import Method, Observer
+from mobnet.settings.methods import Observer
 from mobnet.settings.plant import Level
 from mobnet.settings.robot import RobotTable
 
-TOGETHER_S = 960.0  # recordings of so long are held in memory and run side by side [s]: 1.3 GB
 log = logging.getLogger(__name__)
 
 
@@ -41,43 +43,48 @@ def estimate(
     level: Level,
     gravity_m_s2: float,
     observer: Observer,
-    method: str,
-    methods: Mapping[str, Method],
-    networks: Mapping[str, Path],
-    fitted: Path | None,
+    runs: Sequence[MethodRun],
     recordings: Sequence[Path],
     residuals: Sequence[Path],
-    outs: Sequence[Path],
+    stage: Stage,
     rate_hz: float | None = None,
-    joints: Sequence[str] | None = None,
 ) -> None:
-    """Write a method's external torque for recordings made at an uncertainty level, as Table 5 scores it.
+    """Write the external torque of recordings made at an uncertainty level by several methods, as Table 5 scores it.
 
-    Columns are `tau_ext.<joint>` [N, N m] and, where the method gives it, `std.<joint>`, of the joints given, or of all
-    that the method estimates; segments are the recording's, and each is run from a fresh state. `methods` holds the
-    method and, if it runs on another one, that one too; `networks` the folders of networks by limb, which may be some
-    of the method's, and `fitted` is what rule `fit` wrote.
-    Recordings, their residuals and `outs` are paths without a suffix, in the same order. Networks run at the rate [Hz]
-    of their training alone; without it, any single one is accepted.
+    Columns are `tau_ext.<joint>` [N, N m] and, where the method gives it, `std.<joint>`; segments are the recording's,
+    and each is run from a fresh state. Recordings, read once for all methods, and their residuals are paths without a
+    suffix, in the same order. Networks run at the rate [Hz] of their training alone; without it, any single one is
+    accepted. A job that was killed goes on with the method that it was at.
 
     Raises:
-        ConfigError: the method's kind is unknown, it has no such networks, or they do not estimate a joint.
+        ConfigError: a method's kind is unknown, it has no such networks, or they do not estimate a joint.
         DataError: a recording, a residual, a network or the fit is damaged, or the rates differ.
     """
+    stage.begin()
     layout = describe(robot).layout
-    note = {
-        "method": method,
-        "networks": {limb: folder.name for limb, folder in networks.items()},
-        "std_scale": std_scales(folder / WEIGHTS for folder in networks.values()),
-    }
     for some in batches(recordings):
+        waiting = [run for run in runs if not all(stage.has(files_of(out)) for out in run.outs[some])]
         pairs = zip(recordings[some], residuals[some], strict=True)
-        read = [read_observed(layout, recording, residual, rate_hz) for recording, residual in pairs]
-        recipe = Recipe(method, methods, robot, level, gravity_m_s2, observer, rate_of(read), networks, fitted)
-        estimator = build_estimator(recipe)
-        shown = joints or estimator.joints
-        for one, result, out in zip(read, run_segments(estimator, read), outs[some], strict=True):
-            write_estimate(out, one.recording, only(result, estimator.joints, shown), shown, layout, note)
+        read = [read_observed(layout, recording, residual, rate_hz) for recording, residual in pairs] if waiting else []
+        for run in waiting:
+            recipe = Recipe(
+                run.method, run.methods, robot, level, gravity_m_s2, observer, rate_of(read), run.networks, run.fitted
+            )
+            _estimate(recipe, read, [stage.place(out) for out in run.outs[some]], run.joints)
+    stage.publish(file for run in runs for out in run.outs for file in files_of(out))
+
+
+def _estimate(recipe: Recipe, read: Sequence[Observed], outs: Sequence[Path], joints: Sequence[str] | None) -> None:
+    """Write what a method estimates of the joints, or of all that it estimates, in recordings."""
+    estimator = build_estimator(recipe)
+    shown = joints or estimator.joints
+    note = {
+        "method": recipe.name,
+        "networks": {limb: folder.name for limb, folder in recipe.networks.items()},
+        "std_scale": std_scales(folder / WEIGHTS for folder in recipe.networks.values()),
+    }
+    for one, result, out in zip(read, run_segments(estimator, read), outs, strict=True):
+        write_estimate(out, one.recording, only(result, estimator.joints, shown), shown, recipe.layout, note)
 
 
 def batches(recordings: Sequence[Path]) -> Iterator[slice]:

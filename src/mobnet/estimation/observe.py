@@ -1,7 +1,6 @@
-"""The rule `observe`: from a recording to the observer's residual and the torque it should have followed."""
+"""From a recording to the observer's residual and the torque it should have followed."""
 
 import logging
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -63,23 +62,6 @@ def observe(
     }
     columns = residual_columns(description.layout, labelled)
     write_array(out, np.concatenate(parts, axis=1), columns, meta, read.segments)
-
-
-def observe_tests(
-    robot: RobotTable,
-    level: Level,
-    gravity_m_s2: float,
-    observer: Observer,
-    pairs: Sequence[tuple[Path, Path]],
-    rate_hz: float | None = None,
-) -> None:
-    """Observe the recordings of a test one after another; pairs are a recording and where its residual is written.
-
-    Raises:
-        DataError: a recording is damaged.
-    """
-    for recording, out in pairs:
-        observe(robot, level, gravity_m_s2, observer, recording, out, rate_hz)
 
 
 def observer_of(

@@ -1,4 +1,4 @@
-"""Training of a gray box: the target is what a fitted friction model leaves of the uncertainty."""
+"""Training of gray boxes: the target is what a fitted friction model leaves of the uncertainty."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -8,39 +8,38 @@ import numpy as np
 from mobnet.core.arrays import Array
 from mobnet.core.columns import MOTOR, VELOCITY, named
 from mobnet.core.joints import JointLayout
+from mobnet.core.stage import Stage
 from mobnet.core.store import read_array, spans_and_rate
 from mobnet.estimation.kinds.friction import Friction, read_friction
 from mobnet.estimation.low_pass import low_pass
-from mobnet.learning.train import train
+from mobnet.learning.train import train_all
+from mobnet.plan.parts import Repetition
 from mobnet.settings.methods import Observer
-from mobnet.settings.networks import Training
 
 
 def train_gray(
     root_seed: int,
     layout: JointLayout,
     observer: Observer,
-    training: Training,
-    seed: int,
+    networks: Sequence[Repetition],
     recordings: Sequence[Path],
     residuals: Sequence[Path],
     fitted: Path,
-    out: Path,
-    state: Path,
+    stage: Stage,
     rate_hz: float | None = None,
 ) -> None:
-    """Train one limb network on r - tau_e - friction, where `fitted` is what rule `fit` wrote; else as `train`.
+    """Train networks on r - tau_e - friction, where `fitted` is what rule `fit` wrote; else as `train_all`.
 
     Raises:
         DataError: a recording, a residual or the fit is damaged.
-        TrainingError: the loss diverged, where `learning.may_diverge` does not allow it.
+        TrainingError: a loss diverged, where `learning.may_diverge` does not allow it.
     """
     friction = read_friction(fitted, layout.actuated)
 
     def known(recording: Path, joints: Sequence[str]) -> Array:
         return filtered_friction(layout, friction, observer.gain_hz, recording, joints)
 
-    train(root_seed, layout, training, seed, recordings, residuals, out, state, rate_hz, known)
+    train_all(root_seed, layout, networks, recordings, residuals, stage, rate_hz, known)
 
 
 def filtered_friction(

@@ -3,6 +3,7 @@
 import hashlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -53,8 +54,9 @@ class LimbData:
     rate_hz: float
     held_out: int | None = None
 
+    @cached_property
     def digest(self) -> str:
-        """Return a hash of every number of the data."""
+        """Hash of every number of the data."""
         known = (self.segments, self.input_names, self.joints, self.rate_hz, self.held_out)
         digest = hashlib.sha256(repr(known).encode())
         for array in (self.inputs, self.targets):

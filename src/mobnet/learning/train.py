@@ -1,9 +1,10 @@
-"""Training one limb network: from recordings to weights (section 4.4)."""
+"""Training limb networks: from recordings to weights (section 4.4)."""
 
 import json
 import logging
 from collections.abc import Sequence
 from dataclasses import asdict
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -11,9 +12,10 @@ import numpy as np
 import torch
 from safetensors.torch import save as to_bytes
 
-from mobnet.core.files import METRICS, RUN, WEIGHTS, atomic_path, write_json
+from mobnet.core.files import METRICS, RUN, TIME, WEIGHTS, atomic_path, write_json
 from mobnet.core.joints import JointLayout
 from mobnet.core.provenance import provenance
+from mobnet.core.stage import Stage
 from mobnet.learning.calibration import Calibration
 from mobnet.learning.checkpoint import CHECKPOINT, Progress, write_metrics
 from mobnet.learning.dataset import Known, LimbData, load_limb_data
@@ -22,10 +24,53 @@ from mobnet.learning.job import Job, precision_name
 from mobnet.learning.model import parameter_count
 from mobnet.learning.swings import Margins
 from mobnet.learning.trainer import Trainer
+from mobnet.plan.parts import Repetition
 from mobnet.settings.base import Section
 from mobnet.settings.networks import Training
 
 log = logging.getLogger(__name__)
+
+
+def train_all(
+    root_seed: int,
+    layout: JointLayout,
+    networks: Sequence[Repetition],
+    recordings: Sequence[Path],
+    residuals: Sequence[Path],
+    stage: Stage,
+    rate_hz: float | None = None,
+    known: Known | None = None,
+    margins: Margins | None = None,
+) -> None:
+    """Train networks on the same recordings, one after another; data that several learn from are read once.
+
+    One job trains them all. One that was killed goes on with the network that it was at, from its last epoch. The other
+    arguments are those of `train`.
+
+    Raises:
+        DataError: a recording or a residual is damaged or too short.
+        TrainingError: a loss diverged, where `learning.may_diverge` does not allow it.
+    """
+    stage.begin()
+    waiting = [network for network in networks if not stage.has(_files(network))]
+    for _, alike in groupby(waiting, key=_reads):
+        same = list(alike)
+        data = _load(layout, same[0].training, recordings, residuals, rate_hz, known, margins)
+        for network in same:
+            job = Job(network.training, network.seed, root_seed)
+            train_on(data, job, stage.place(network.out), network.state, network.start)
+    stage.publish(file for network in networks for file in _files(network))
+
+
+def _files(network: Repetition) -> tuple[Path, ...]:
+    """Return the files of a network, in the order in which they are written."""
+    return tuple(network.out / name for name in (WEIGHTS, METRICS, RUN))
+
+
+def _reads(repetition: Repetition) -> tuple[object, ...]:
+    """Return what `_load` takes of a training: trainings with the same have the same data."""
+    training, network = repetition.training, repetition.training.network
+    return network.Q, network.T, network.joints, training.target, training.held_out, training.learning.data_s
 
 
 def train(
@@ -42,24 +87,48 @@ def train(
     start: Path | None = None,
     margins: Margins | None = None,
 ) -> None:
-    """Train one limb network of Table 1 by (22), or by another of `losses`, and keep the epoch that validates best.
+    """Train one limb network of Table 1 on recordings; `train_on` says how, and what is written.
 
-    The folder `out` gets `weights.safetensors`, `metrics.csv` and, last, `run.json`; nothing before the training is
-    done. The folder `state` gets a checkpoint and `metrics.csv` at each epoch; a killed training goes on from there to
-    the same weights. The checkpoint is deleted when the training is done. The recordings are at `rate_hz` [Hz] where
-    that is given. What is `known` of the target is subtracted from it. A fine-tuning begins with the weights of the
-    file `start`; where swings label, `margins` say what is left out of them.
+    The recordings are at `rate_hz` [Hz] where that is given. What is `known` of the target is subtracted from it. Where
+    swings label, `margins` say what is left out of them.
 
     Raises:
         DataError: a recording or a residual is damaged or too short.
         TrainingError: the loss diverged, where `learning.may_diverge` does not allow it.
     """
-    torch.set_num_threads(1)  # more are slower beside another training, and give other weights
-    job = Job(training, seed, root_seed)
-    data = load_limb_data(
+    data = _load(layout, training, recordings, residuals, rate_hz, known, margins)
+    train_on(data, Job(training, seed, root_seed), out, state, start)
+
+
+def _load(
+    layout: JointLayout,
+    training: Training,
+    recordings: Sequence[Path],
+    residuals: Sequence[Path],
+    rate_hz: float | None,
+    known: Known | None,
+    margins: Margins | None,
+) -> LimbData:
+    """Return the data of a training."""
+    return load_limb_data(
         layout, training.network, training.target, recordings, residuals, rate_hz, training.held_out, known,
         training.learning.data_s, margins,
     )  # fmt: skip
+
+
+def train_on(data: LimbData, job: Job, out: Path, state: Path, start: Path | None = None) -> None:
+    """Train one limb network by (22), or by another of `losses`, and keep the epoch that validates best.
+
+    The folder `out` gets `weights.safetensors`, `metrics.csv` and, last, `run.json`; nothing before the training is
+    done. The folder `state` gets a checkpoint and `metrics.csv` at each epoch; a killed training goes on from there to
+    the same weights. The checkpoint is deleted when the training is done; `time.json` stays. A fine-tuning begins with the weights of the
+    file `start`.
+
+    Raises:
+        DataError: the data are too short.
+        TrainingError: the loss diverged, where `learning.may_diverge` does not allow it.
+    """
+    torch.set_num_threads(1)  # more are slower beside another training, and give other weights
     trainer = Trainer(job, data, start)
     done = trainer.run(state)
     calibration = trainer.calibrate(done)
@@ -67,6 +136,7 @@ def train(
     write_weights(out / WEIGHTS, trainer, data, done, calibration)
     write_metrics(out / METRICS, done.epochs)
     write_json(out / RUN, note)
+    write_json(state / TIME, {"seconds": round(done.seconds, 3)})  # not in the note, which two runs have alike
     (state / CHECKPOINT).unlink(missing_ok=True)
     log.info("%s: done after epoch %d, %.1f s", job.name, len(done.epochs), done.seconds)
 

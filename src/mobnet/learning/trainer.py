@@ -43,7 +43,7 @@ class Trainer:
         self.job = job
         self.device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
         first = read_start(start, job, data) if start else None
-        self.fingerprint = job.fingerprint(data.digest() + (first.digest if first else ""), self.device)
+        self.fingerprint = job.fingerprint(data.digest + (first.digest if first else ""), self.device)
         network, learning = job.training.network, job.training.learning
         blocks, held_out = split(data.segments, learning.validation_share, data.held_out)
         stream = job.stream(data.rate_hz)

@@ -8,13 +8,13 @@ from mobnet.core.columns import recording_width, residual_columns
 from mobnet.core.errors import DataError
 from mobnet.core.files import MIB, check_room
 from mobnet.plan.plan import Plan
-from mobnet.plan.runs import ARRAY
+from mobnet.plan.runs import ARRAY, NOTE
 from mobnet.settings.settings import Settings
 
 NUMBER_BYTES = 4
 STORED = 0.6  # of the bytes of an array remain after compression: of recordings 0.46, of residuals 0.54
 OTHER_BYTES = MIB // 2  # of a file that is no array: the largest are weights and figures
-NOTE, NOTE_BYTES = ".json", MIB // 32  # ending and size of the note of an array
+NOTE_BYTES = MIB // 32  # size of the note of an array
 
 
 def check_places(plan: Plan) -> None:

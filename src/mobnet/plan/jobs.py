@@ -1,12 +1,15 @@
-"""The jobs that are made once for each recording, network or run: which function, what it gets, what it reads."""
+"""The jobs behind recordings, networks, estimates and scores: which function, what it gets, what it reads."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from mobnet.core.files import WEIGHTS
+from mobnet.core.stage import Stage
 from mobnet.plan.call import Call, Job
 from mobnet.plan.detection import numbers_of, walks_of
-from mobnet.plan.runs import Files, files_in
+from mobnet.plan.parts import MethodRun, Repetition, Shard
+from mobnet.plan.runs import Files, NetworkName, files_in
 from mobnet.settings.base import Section
 from mobnet.settings.data import Terrain
 from mobnet.settings.evaluation import Scoring
@@ -18,60 +21,43 @@ KINDS = "mobnet.estimation.kinds"  # modules that a method names as its kind
 
 @dataclass(frozen=True)
 class Jobs:
-    """Jobs by the wildcards of their rules."""
+    """The jobs of the plant of section 5.1 or of a robot of the fleet, behind the steps of the plan.
+
+    The name of a job is that of its log.
+    """
 
     settings: Settings
     files: Files
 
-    def motion(self, motion: str, seed: int) -> Job:
-        """Return the making of a random motion of the upper body."""
+    def motions(self, name: str, motion: str, seeds: Sequence[int]) -> Job:
+        """Return the making of random motions of the upper body."""
         arguments = {
             "root_seed": self.settings.seed,
             "robot": self.settings.robot,
             "motion": self.settings.motions[motion],
             "name": motion,
-            "seed": seed,
-            "duration_s": self.files.motion_s(motion, seed),
-            "out": self.files.results / "motions" / motion / f"s{seed}",
+            "motions": tuple(
+                (seed, self.files.motion_s(motion, seed), self.files.motion_place(motion, seed)) for seed in seeds
+            ),
         }
-        return Job(Call("mobnet.simulation.motion:make_motion", arguments), ())
+        return self._staged("mobnet.simulation.motion:make_motions", arguments, name, ())
 
-    def collect(self, scenario: str, level: str, seed: int) -> Job:
-        """Return the recording of a walk."""
-        motion = self.files.motion(scenario, seed)
+    def collect(self, name: str, scenario: str, level: str, seeds: Sequence[int]) -> Job:
+        """Return recordings of a scenario at a level, and the observer's residuals of them."""
+        shards = tuple(self._shard(scenario, level, seed) for seed in seeds)
         arguments = {
             "settings": walk_settings(self.settings, scenario, level),
-            "seed": seed,
-            "duration_s": self.files.duration_s([scenario], seed),
-            "out": self.files.array("recordings", scenario, level, seed),
-            "motion": next(iter(motion), None),
-        }
-        return Job(Call("mobnet.simulation.record:collect", arguments), _read(motion))
-
-    def collect_tests(self, scenario: str, level: str) -> Job:
-        """Return the recordings of a test, all of them."""
-        seeds = self.files.test_seeds
-        motions = [self.files.motion(scenario, seed) for seed in seeds]
-        outs = self.files.tests(scenario, level)
-        arguments = {
-            "settings": walk_settings(self.settings, scenario, level),
+            "observer": self.settings.observer,
             "duration_s": self.files.duration_s([scenario], seeds[0]),
-            "walks": tuple((*walk[:2], next(iter(walk[2]), None)) for walk in zip(seeds, outs, motions, strict=True)),
+            "shards": shards,
         }
-        return Job(Call("mobnet.simulation.record:collect_tests", arguments), _read(motions))
+        motions = [shard.motion for shard in shards]
+        return self._staged("mobnet.estimation.walks:collect_walks", arguments, name, _read(motions))
 
-    def observe(self, scenario: str, level: str, seed: int) -> Job:
-        """Return the observer's residual of a recording."""
-        recording = self.files.array("recordings", scenario, level, seed)
-        out = self.files.array("residuals", scenario, level, seed)
-        arguments = {**self._observer(level), "recording": recording, "out": out}
-        return Job(Call("mobnet.estimation.observe:observe", arguments), _read(recording))
-
-    def observe_tests(self, scenario: str, level: str) -> Job:
-        """Return the observer's residuals of all recordings of a test."""
-        recordings, outs = (self.files.tests(scenario, level, kind) for kind in ("recordings", "residuals"))
-        arguments = {**self._observer(level), "pairs": tuple(zip(recordings, outs, strict=True))}
-        return Job(Call("mobnet.estimation.observe:observe_tests", arguments), _read(recordings))
+    def _shard(self, scenario: str, level: str, seed: int) -> Shard:
+        """Return one recording of a scenario."""
+        recording, residual = (self.files.array(kind, scenario, level, seed) for kind in ("recordings", "residuals"))
+        return Shard(seed, recording, residual, next(iter(self.files.motion(scenario, seed)), None))
 
     def fit(self, method: str) -> Job:
         """Return the fit of a method without networks to the training sets of its limbs."""
@@ -88,54 +74,70 @@ class Jobs:
         }
         return Job(Call("mobnet.estimation.fitting:write_fit", arguments), _read(training), self._kinds(method))
 
-    def train(self, method: str, limb: str, seed: int) -> Job:
-        """Return the training of a network; one with `of` learns what is left of the uncertainty by a fit.
+    def train(self, name: str, networks: Sequence[NetworkName]) -> Job:
+        """Return the trainings of networks that learn from one set of recordings.
 
-        One with `start` begins with the weights of that method's network.
+        Those with `of` learn what is left of the uncertainty by a fit; those with `start` begin with the weights of
+        that method's network. Networks of one job are alike in both.
         """
-        training, fitted = self.settings.training(method, limb), self.files.fit(method)
-        recordings, residuals = self._training(training.network.data)
-        name = f"{method}-{limb}-s{seed}"
+        first = networks[0]
+        learning = self.settings.training(first.method, first.limb)
+        recordings, residuals = self._training(learning.network.data)
+        repetitions, fitted = tuple(map(self._repetition, networks)), self.files.fit(first.method)
         arguments = {
             "root_seed": self.settings.seed,
             "layout": self.settings.layout,
             "rate_hz": self.settings.rates.data_hz,
-            "training": training,
-            "seed": seed,
+            "networks": repetitions,
             "recordings": recordings,
             "residuals": residuals,
-            "out": self.files.results / "networks" / name,
-            "state": self.files.results / "state" / name,
         }
-        if start := self.files.start(method, limb, seed):
-            arguments |= {"start": start}
-        if training.learning.labels == "swing":
+        starts = [repetition.start for repetition in repetitions]
+        inputs = _read([recordings, residuals, fitted, starts])
+        if fitted:
+            arguments |= {"observer": self.settings.observer, "fitted": fitted[0]}
+            return self._staged("mobnet.estimation.train_gray:train_gray", arguments, name, inputs)
+        if learning.learning.labels == "swing":
             swings = self.settings.evaluation.changed
             arguments |= {"margins": (swings.lift_off_s, swings.landing_s)}
-        if not fitted:
-            return Job(Call("mobnet.learning.train:train", arguments), _read([recordings, residuals, start]))
-        arguments |= {"observer": self.settings.observer, "fitted": fitted[0]}
-        return Job(Call("mobnet.estimation.train_gray:train_gray", arguments), _read([recordings, residuals, fitted]))
+        return self._staged("mobnet.learning.train:train_all", arguments, name, inputs)
 
-    def estimate(self, method: str, network_seed: int, scenario: str, level: str) -> Job:
-        """Return a method's external torque for all recordings of a test, which run side by side."""
-        networks = self.files.networks(method, network_seed, scenario, level)
-        kinds = "recordings", "residuals", f"estimates/{method}/n{network_seed}"
-        recordings, residuals, outs = (self.files.tests(scenario, level, kind) for kind in kinds)
-        fitted = self.files.fit(method)
-        arguments = {
-            **self._observer(level),
-            "method": method,
-            "methods": {name: self.settings.method(name) for name in self._with_source(method)},
-            "networks": networks,
-            "fitted": next(iter(fitted), None),
-            "joints": self.settings.estimated(method, scenario, level),
-            "recordings": recordings,
-            "residuals": residuals,
-            "outs": outs,
-        }
-        inputs = _read([recordings, residuals, fitted, [folder / WEIGHTS for folder in networks.values()]])
-        return Job(Call("mobnet.estimation.estimate:estimate", arguments), inputs, self._kinds(method))
+    def _repetition(self, network: NetworkName) -> Repetition:
+        """Return the training of a network."""
+        folder = self.files.network(*network)
+        return Repetition(
+            training=self.settings.training(network.method, network.limb),
+            seed=network.seed,
+            out=folder,
+            state=self.files.results / "state" / folder.name,
+            start=self.files.start(*network),
+        )
+
+    def estimate(self, name: str, scenario: str, level: str) -> Job:
+        """Return the external torque of all methods of a test, whose recordings run side by side."""
+        methods = self.settings.tests[scenario][level]
+        runs = tuple(
+            self._run(method, seed, scenario, level)
+            for method in methods
+            for seed in self.files.run_seeds(method, scenario, level)
+        )
+        recordings, residuals = (self.files.tests(scenario, level, kind) for kind in ("recordings", "residuals"))
+        arguments = {**self._observer(level), "runs": runs, "recordings": recordings, "residuals": residuals}
+        weights = [folder / WEIGHTS for run in runs for folder in run.networks.values()]
+        inputs = _read([recordings, residuals, [run.fitted for run in runs], weights])
+        kinds = tuple(dict.fromkeys(kind for method in methods for kind in self._kinds(method)))
+        return self._staged("mobnet.estimation.estimate:estimate", arguments, name, inputs, kinds)
+
+    def _run(self, method: str, network_seed: int, scenario: str, level: str) -> MethodRun:
+        """Return the run of a method with its networks of a seed on all recordings of a test."""
+        return MethodRun(
+            method=method,
+            methods={name: self.settings.method(name) for name in self._with_source(method)},
+            networks=self.files.networks(method, network_seed, scenario, level),
+            fitted=next(iter(self.files.fit(method)), None),
+            outs=self.files.tests(scenario, level, f"estimates/{method}/n{network_seed}"),
+            joints=self.settings.estimated(method, scenario, level),
+        )
 
     def score(self, scenario: str) -> Job:
         """Return the errors of every run of a test, and what else products ask for."""
@@ -156,6 +158,19 @@ class Jobs:
             "out": self.files.results / "detection",
         }
         return Job(Call("mobnet.evaluation.measure.detections:detect", arguments), _read(walks))
+
+    def _staged(
+        self,
+        function: str,
+        arguments: Mapping[str, object],
+        name: str,
+        inputs: tuple[str, ...],
+        modules: tuple[str, ...] = (),
+    ) -> Job:
+        """Return a job that keeps its finished parts below `state` until all of them are there."""
+        job = Job(Call(function, arguments), inputs, modules)
+        stage = Stage(self.files.results / "state" / name, job.given, inputs)
+        return Job(Call(function, {**arguments, "stage": stage}), inputs, modules)
 
     def _kinds(self, method: str) -> tuple[str, ...]:
         """Return the modules that a method imports by name: its kind and that of the method it runs on."""

@@ -1,32 +1,48 @@
 """The whole plan of a scale: its files, its jobs and its products."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from mobnet.plan.jobs import Jobs
 from mobnet.plan.places import MAIN
 from mobnet.plan.products import Folders, Product, Products
-from mobnet.plan.runs import Files
+from mobnet.plan.runs import ARRAY, Files
+from mobnet.plan.steps import Step, all_steps, trial_steps
 from mobnet.plan.trials import trial_products
+from mobnet.plan.work import SECONDS, Work
 from mobnet.settings.settings import Settings
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What the workflow makes at the chosen scale: products, each after those that it needs, and all that is stored.
+    """What the workflow makes at the chosen scale: steps, and products, each after those that it needs.
 
-    Jobs are those of each robot of the fleet by its name, all others under an empty one. The trials are products that
-    are made on their own.
+    The trials are products that are made on their own, by steps of their own.
     """
 
     settings: Settings
     folders: Folders
     files: Files
-    jobs: Mapping[str, Jobs]
+    steps: tuple[Step, ...]
     products: tuple[Product, ...]
-    stored: tuple[str, ...]
+    trial_steps: tuple[Step, ...]
     trials: tuple[Product, ...]
+
+    @property
+    def stored(self) -> tuple[str, ...]:
+        """Every file that products are made from, also those that could be made again."""
+        return tuple(name for step in self.steps for name in step.outputs)
+
+    @property
+    def work(self) -> tuple[Work, ...]:
+        """The work of every job but the trials'."""
+        return (*(step.work for step in self.steps), *map(self._work_of, self.products))
+
+    def _work_of(self, product: Product) -> Work:
+        """Return the work of a product: the duration of all recordings, residuals and estimates that it reads [s]."""
+        arrays = [path for path in map(Path, product.job.inputs) if path.suffix == ARRAY]
+        owned = [(path, *self.files.owner_of(path)) for path in arrays]
+        seconds = sum(files.array_s(path) for path, files, (kind, *_) in owned if kind != "motions")
+        return Work(product.name, product.name, {SECONDS: seconds} if seconds else {}, seconds)
 
 
 def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
@@ -36,8 +52,6 @@ def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
     paper, manifest = (Path("paper"), results.parent) if scale == MAIN else (results / "paper", results)
     folders = Folders(results, Path("tables") / part, Path("figures") / part, paper, manifest / "MANIFEST.sha256")
     files = Files(settings, results)
-    products = Products(settings, files, folders, with_pdf)
-    made, trials = tuple(products.all()), tuple(trial_products(settings, files))
-    owners = {"": files, **files.robots}
-    jobs = {name: Jobs(own.settings, own) for name, own in owners.items()}
-    return Plan(settings, folders, files, jobs, made, tuple(products.stored), trials)
+    steps, trials = tuple(all_steps(files)), tuple(trial_products(settings, files))
+    products = Products(settings, files, folders, with_pdf, tuple(name for step in steps for name in step.outputs))
+    return Plan(settings, folders, files, steps, tuple(products.all()), tuple(trial_steps(files)), trials)

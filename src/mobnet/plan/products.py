@@ -6,11 +6,9 @@ from functools import cached_property
 from pathlib import Path
 
 from mobnet.core.code import start_of
-from mobnet.core.files import WEIGHTS
 from mobnet.plan.call import Job, call_of, parameters
-from mobnet.plan.detection import detection_files, level_of_detectors
 from mobnet.plan.needs import needs_of
-from mobnet.plan.runs import ARRAY, COURSE, Files, files_in
+from mobnet.plan.runs import Files, files_in
 from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.settings import Settings
 
@@ -56,12 +54,13 @@ class Shown:
 
 @dataclass(frozen=True)
 class Products:
-    """All products at one scale, with the paper's PDF only where TeX is there to build it."""
+    """All products at one scale, from the files `stored`; with the paper's PDF only where TeX is there to build it."""
 
     settings: Settings
     files: Files
     folders: Folders
     with_pdf: bool
+    stored: tuple[str, ...]
 
     @property
     def table_names(self) -> list[str]:
@@ -78,29 +77,6 @@ class Products:
         """Return every product, each after those that it needs."""
         made = [*self._tables_and_figures(), *self._texts()]
         return [*made, *self._report(made)]
-
-    @cached_property
-    def stored(self) -> list[str]:
-        """Return every file that products are made from, also those that could be made again."""
-        owners = (self.files, *self.files.robots.values())
-        places = [(files, place) for files in owners for place in files.recorded()]
-        arrays = [files.array(kind, *place) for files, place in places for kind in ("recordings", "residuals")]
-        scenarios = self.settings.tests
-        runs = [run for scenario in scenarios for run in self.files.runs_of(scenario)]
-        arrays += [run.estimate for run in runs]
-        arrays += [stem for files, (scenario, _, seed) in places for stem in files.motion(scenario, seed)]
-        pairs = [f"{stem}{ending}" for stem in dict.fromkeys(arrays) for ending in (ARRAY, ".json")]
-        trained = [f"{folder}/{name}" for folder in self.files.all_networks() for name in (WEIGHTS, *COURSE)]
-        fits = dict.fromkeys(
-            str(path)
-            for files in owners
-            for levels in files.settings.tests.values()
-            for methods in levels.values()
-            for method in methods
-            for path in files.fit(method)
-        )
-        found = [str(path) for own in owners if level_of_detectors(own) for path in detection_files(own).values()]
-        return [*pairs, *trained, *fits, *found, *map(str, self.files.scores(self.files.scored_tests).values())]
 
     def _tables_and_figures(self) -> Iterator[Product]:
         """Yield all tables and figures."""
@@ -139,9 +115,7 @@ class Products:
         yield self._report_product("deviations", {"markdown": Path("docs/deviations.md")}, [tables / "deviations.tex"])
         networks = {"folders": self.files.all_networks()}
         parts = [TEMPLATES / f"runs.{ending}" for ending in ("html", "css", "js")]
-        yield self._report_product(
-            "runs_page", {**networks, "templates": parts, "accounts": results / "logs"}, [results / "runs.html"]
-        )
+        yield self._report_product("runs_page", {**networks, "templates": parts}, [results / "runs.html"])
         yield self._report_product("wandb_runs", networks, [results / "wandb"])
 
     def _report(self, made: list[Product]) -> Iterator[Product]:

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import cast
+from typing import NamedTuple, cast
 
 from mobnet.core.files import METRICS, RUN, WEIGHTS
 from mobnet.settings.data import Recordings
@@ -17,9 +17,10 @@ from mobnet.settings.settings import Settings, swept_name
 # Recordings and motions of development and of training count from these seeds; those of tests, from their scale's
 # `first_seed`, lie below.
 FIRST_DEVELOPMENT_SEED, FIRST_TRAINING_SEED = 501, 1000
-ARRAY = ".parquet"
+ARRAY, NOTE = ".parquet", ".json"  # endings of the two files of an array
 COURSE = (RUN, METRICS)  # files of a trained network that say how its training went
 NETWORKS = "networks"
+Place = tuple[str, str, int]  # of a recording: scenario, level and seed
 
 
 @dataclass(frozen=True)
@@ -41,6 +42,14 @@ class Run:
     residual: Path
     estimate: Path
     repeated: tuple[str, ...] = ()
+
+
+class NetworkName(NamedTuple):
+    """A network that is trained: method, limb and seed."""
+
+    method: str
+    limb: str
+    seed: int
 
 
 @dataclass(frozen=True)
@@ -105,8 +114,12 @@ class Files:
     def motion(self, scenario: str, seed: int) -> list[Path]:
         """Return the motion of the upper body in a recording; none where it is still."""
         name = self.settings.scenarios[scenario].motion
+        return [self.motion_place(name, seed)] if name else []
+
+    def motion_place(self, motion: str, seed: int) -> Path:
+        """Return a motion of the upper body, which all robots share."""
         shared = self.results.parent if self.robot else self.results
-        return [shared / "motions" / name / f"s{seed}"] if name else []
+        return shared / "motions" / motion / f"s{seed}"
 
     def training_seeds(self, name: str) -> list[int]:
         """Return the seeds of a training set's recordings."""
@@ -129,12 +142,17 @@ class Files:
         """Return the recordings of a test, or their residuals or estimates."""
         return tuple(self.array(kind, scenario, level, seed) for seed in self.test_seeds)
 
+    @property
+    def development_seeds(self) -> range:
+        """Seeds of the walks on which methods are chosen."""
+        return range(FIRST_DEVELOPMENT_SEED, FIRST_DEVELOPMENT_SEED + self.settings.sizes.development.shards)
+
     def development(self, kind: str) -> tuple[Path, ...]:
         """Return the recordings or residuals of the walks on which methods are chosen; no table shows them."""
-        walk, count = self.settings.development, self.settings.sizes.development.shards
-        return tuple(self.array(kind, walk.scenario, walk.level, FIRST_DEVELOPMENT_SEED + i) for i in range(count))
+        walk = self.settings.development
+        return tuple(self.array(kind, walk.scenario, walk.level, seed) for seed in self.development_seeds)
 
-    def recorded(self) -> Iterator[tuple[str, str, int]]:
+    def recorded(self) -> Iterator[Place]:
         """Yield scenario, level and seed of every recording but those of robots of the fleet."""
         for name in self.recorded_sets:
             row = self.settings.training_sets[name]
@@ -218,11 +236,11 @@ class Files:
         return level in self.settings.levels and level not in fleet.robots
 
     @cached_property
-    def trained(self) -> Mapping[str, tuple[str, str, int]]:
+    def trained(self) -> Mapping[str, NetworkName]:
         """Name of a network's folder -> method, limb and seed; networks of `./reproduce tuning` are among them."""
         methods = (*self.settings.all_methods, *self.settings.tried)
         return {
-            self.network(method, limb, seed).name: (method, limb, seed)
+            self.network(method, limb, seed).name: NetworkName(method, limb, seed)
             for method in methods
             for limb in self.settings.method(method).limbs
             for seed in self.network_seeds(method, limb)
@@ -255,13 +273,33 @@ class Files:
         pairs += [(first, limb) for method, limb in pairs if (first := settings.method(method).start)]
         return frozenset(pairs)
 
+    @cached_property
+    def own_networks(self) -> tuple[NetworkName, ...]:
+        """The networks that are trained of the plant of section 5.1, or of a robot."""
+        pairs = [(name, limb) for name, row in self.settings.all_methods.items() for limb in row.limbs]
+        return tuple(
+            NetworkName(*pair, seed) for pair in pairs if pair in self.learned for seed in self.network_seeds(*pair)
+        )
+
     def all_networks(self) -> tuple[Path, ...]:
         """Return the folders of every network that is trained, those of robots last."""
-        pairs = [(name, limb) for name, row in self.settings.all_methods.items() for limb in row.limbs]
-        own = [
-            self.network(*pair, seed) for pair in pairs if pair in self.learned for seed in self.network_seeds(*pair)
-        ]
-        return (*own, *(folder for files in self.robots.values() for folder in files.all_networks()))
+        owners = (self, *self.robots.values())
+        return tuple(files.network(*name) for files in owners for name in files.own_networks)
+
+    @cached_property
+    def tried_networks(self) -> tuple[NetworkName, ...]:
+        """The networks that the trials train."""
+        rows = self.settings.tried.items()
+        pairs = [(name, limb) for name, row in rows for limb in row.limbs]
+        return tuple(NetworkName(*pair, seed) for pair in pairs for seed in self.network_seeds(*pair))
+
+    @cached_property
+    def own_fits(self) -> tuple[str, ...]:
+        """The methods that are fitted of the plant of section 5.1, or of a robot: for a test, or for a network."""
+        tests = [pair for levels in self.settings.tests.values() for pair in levels.items()]
+        named = [method for level, methods in tests if self.has(level) for method in methods]
+        sources = dict.fromkeys(map(self.settings.source_of, [*named, *(name.method for name in self.own_networks)]))
+        return tuple(name for name in sources if self.settings.method(name).fitted)
 
     @cached_property
     def learned_sets(self) -> tuple[str, ...]:
@@ -289,13 +327,6 @@ class Files:
         first = self.settings.method(method).start
         return self.network(first, limb, seed) / WEIGHTS if first else None
 
-    def run(self, scenario: str, level: str, method: str, network_seed: int, test_seed: int) -> Run:
-        """Return one run of a method."""
-        recording, residual = (self.array(kind, scenario, level, test_seed) for kind in ("recordings", "residuals"))
-        estimate = self.array(f"estimates/{method}/n{network_seed}", scenario, level, test_seed)
-        repeated = self.repeated(method, network_seed)
-        return Run(scenario, level, method, network_seed, test_seed, recording, residual, estimate, repeated)
-
     def runs(self, scenario: str, level: str, methods: Iterable[str]) -> tuple[Run, ...]:
         """Return the runs of methods on a test: every network on every recording; on a fleet, those of each robot."""
         fleet = self.settings.fleet
@@ -307,11 +338,19 @@ class Files:
                 for run in files.runs(scenario, level_of(fleet, robot, level), methods)
             )
         return tuple(
-            self.run(scenario, level, method, network, test)
+            run
             for method in methods
             for network in self.run_seeds(method, scenario, level)
-            for test in self.test_seeds
+            for run in self._runs_of(scenario, level, method, network)
         )
+
+    def _runs_of(self, scenario: str, level: str, method: str, network_seed: int) -> Iterator[Run]:
+        """Yield the runs of a method with the networks of a seed on every recording of a test."""
+        repeated = self.repeated(method, network_seed)
+        kinds = "recordings", "residuals", f"estimates/{method}/n{network_seed}"
+        for seed in self.test_seeds:
+            recording, residual, estimate = (self.array(kind, scenario, level, seed) for kind in kinds)
+            yield Run(scenario, level, method, network_seed, seed, recording, residual, estimate, repeated)
 
     def first_runs(self, test: Runs) -> tuple[Run, ...]:
         """Return the runs of a test that a figure of one recording shows: first network or robot, first recording."""

@@ -1,18 +1,15 @@
 """How much each job of a plan has to do: what a run will cost follows from it and from what jobs took before."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
-from mobnet.core.detections import FILES
-from mobnet.core.files import RUN
-from mobnet.plan.plan import Plan
-from mobnet.plan.runs import ARRAY, FIRST_DEVELOPMENT_SEED, Files
+from mobnet.plan.runs import Files, NetworkName
 from mobnet.settings.networks import Network
 
 SECONDS = "s"
-FIRST_FILE = next(iter(FILES))  # of detectors: their job makes all of them
 INPUTS_PER_JOINT, BASE_INPUTS = 2, 12  # of a network: position and velocity; rotation, turn and acceleration
+TOGETHER_S = 960.0  # recordings of so long are held in memory and run side by side [s]: 1.3 GB
+Amounts = dict[str, float]
 
 
 @dataclass(frozen=True)
@@ -22,8 +19,8 @@ class Work:
     Attributes:
         job: name of its account, `RULE` or `RULE/...`.
         kind: jobs of one kind take as long for as much work.
-        amounts: what its processor time grows with, by name: seconds of recordings [s]; steps of a network, for a
-            training also times its units and their square.
+        amounts: what its processor time grows with, by name: seconds of recordings [s]; steps of networks, for a
+            training also times their units and their square.
         held: what its memory grows with: seconds [s] of the recordings that it holds, or numbers of training data.
     """
 
@@ -33,80 +30,74 @@ class Work:
     held: float
 
 
-def all_work(plan: Plan) -> tuple[Work, ...]:
-    """Return the work of every job of a plan but the trials."""
-    stored = {work.job: work for path in map(Path, plan.stored) for work in _behind(plan, path)}
-    products = [
-        Work(product.name, product.name, {SECONDS: seconds} if seconds else {}, seconds)
-        for product in plan.products
-        for seconds in [_seconds_of(plan, product.job.inputs)]
-    ]
-    return (*stored.values(), *products)
+def total(amounts: Iterable[Mapping[str, float]]) -> Amounts:
+    """Return the sum of amounts, name by name."""
+    found: Amounts = {}
+    for own in amounts:
+        for name, amount in own.items():
+            found[name] = found.get(name, 0.0) + amount
+    return found
 
 
-def _behind(plan: Plan, path: Path) -> Iterator[Work]:
-    """Yield the work of the job that makes a stored file; none for a file that stands beside another one."""
-    files, (kind, *place) = plan.files.owner_of(path)
-    own = f"{files.robot}/" if files.robot else ""
-    match kind, path.suffix:
-        case "motions", suffix if suffix == ARRAY:
-            seconds = files.motion_s(path.parent.name, int(path.stem.removeprefix("s")))
-            yield Work(f"motion/{path.parent.name}-{path.stem}", "motion", {SECONDS: seconds}, seconds)
-        case (("recordings" | "residuals"), suffix) if suffix == ARRAY:
-            yield _recorded(files, own, {"recordings": "collect", "residuals": "observe"}[kind], path)
-        case "estimates", suffix if suffix == ARRAY:
-            yield _estimated(files, own, *place[:4])
-        case "networks", _ if path.name == RUN:
-            yield _trained(files, own, path.parent.name)
-        case "fits", _:
-            yield _fitted(files, own, path.stem)
-        case "detection", _ if path.stem == FIRST_FILE:
-            seconds = sum(files.settings.test_s(name) for name in files.settings.detection_walks)
-            walked = seconds * len(files.test_seeds)
-            longest = max(files.settings.test_s(name) for name in files.settings.detection_walks)
-            yield Work(f"detect/{own}all", "detect", {SECONDS: walked}, longest * len(files.test_seeds))
-        case "scores", _:
-            runs = plan.files.runs_of(path.stem)
-            seconds = sum(plan.settings.test_s(run.scenario) for run in runs)
-            yield Work(f"score/{path.stem}", "score", {SECONDS: seconds}, 0.0)
-        case _:
-            return
+def walked(files: Files, scenario: str, seeds: Sequence[int]) -> tuple[Amounts, float]:
+    """Return the work of recordings that are made one after another, and the longest of them [s]."""
+    seconds = files.duration_s([scenario], seeds[0])
+    return {"surrogate s" if files.robot else SECONDS: seconds * len(seeds), "walk": len(seeds)}, seconds
 
 
-def _recorded(files: Files, own: str, rule: str, path: Path) -> Work:
-    """Return the work behind a recording or a residual; those of a test are made by one job, one after another."""
-    scenario, level = path.parts[-3:-1]
-    seconds = files.array_s(path)
-    plant = "surrogate s" if own and rule == "collect" else SECONDS
-    if int(path.stem.removeprefix("s")) < FIRST_DEVELOPMENT_SEED:
-        whole = seconds * len(files.test_seeds)
-        return Work(f"{rule}_tests/{own}{scenario}-{level}", rule, {plant: whole}, seconds)
-    return Work(f"{rule}/{own}{scenario}-{level}-{path.stem}", rule, {plant: seconds}, seconds)
-
-
-def _estimated(files: Files, own: str, method: str, network: str, scenario: str, level: str) -> Work:
-    """Return the work of a method on a test, whose recordings run side by side through each of its networks."""
-    seconds = files.settings.test_s(scenario)
-    walked = seconds * len(files.test_seeds)
-    networks = files.networks(method, int(network.removeprefix("n")), scenario, level)
-    kind = files.settings.method(method).kind
-    amounts = {f"{kind} s": walked, f"{kind} step": seconds * files.settings.rates.data_hz * len(networks)}
-    return Work(f"estimate/{own}{method}-{network}-{scenario}-{level}", "estimate", amounts, walked)
-
-
-def _trained(files: Files, own: str, name: str) -> Work:
-    """Return the work of a training."""
-    method, limb, seed = files.trained[name]
-    training = files.settings.training(method, limb)
-    network, hidden = training.network, training.network.hidden or 0
-    read = _training_s(files, network.data)
+def trained(files: Files, networks: Sequence[NetworkName]) -> tuple[Amounts, float]:
+    """Return the work of trainings one after another, and the most numbers of training data that one of them holds."""
     rate_hz = files.settings.rates.data_hz
-    steps = training.epochs * (training.epoch_samples or read * rate_hz / training.learning.data_parts)
-    ways = {"windows": training.learning.sequences == "windows", "spectral": network.spectral}
-    cell = " ".join([network.cell, *(name for name, is_so in ways.items() if is_so)])
-    amounts = {f"{cell} step": steps, f"{cell} step x unit": steps * hidden, f"{cell} step x unit^2": steps * hidden**2}
-    numbers = read * rate_hz * _width(files, network)
-    return Work(f"train/{own}{method}-{limb}-s{seed}", "train", {SECONDS: read, **amounts}, numbers)
+    found, held = list[Amounts](), list[float]()
+    for name in networks:
+        training = files.settings.training(name.method, name.limb)
+        network, hidden = training.network, training.network.hidden or 0
+        ways = {"windows": training.learning.sequences == "windows", "spectral": network.spectral}
+        cell = " ".join([network.cell, *(way for way, is_so in ways.items() if is_so)])
+        steps, read = steps_of(files, name), training_s(files, network.data)
+        grown = {"step": steps, "step x unit": steps * hidden, "step x unit^2": steps * hidden**2}
+        found.append({SECONDS: read, "network": 1.0, **{f"{cell} {name}": amount for name, amount in grown.items()}})
+        held.append(read * rate_hz * _width(files, network))
+    return total(found), max(held)
+
+
+def steps_of(files: Files, name: NetworkName) -> float:
+    """Return the time steps that a network learns from, over all epochs."""
+    training = files.settings.training(name.method, name.limb)
+    read = training_s(files, training.network.data) * files.settings.rates.data_hz / training.learning.data_parts
+    return training.epochs * (training.epoch_samples or read)
+
+
+def estimated(files: Files, scenario: str, level: str) -> tuple[Amounts, float]:
+    """Return the work of all methods of a test at a level, and the seconds [s] that run side by side."""
+    settings, seconds = files.settings, files.settings.test_s(scenario)
+    whole = seconds * len(files.test_seeds)
+    found: list[Mapping[str, float]] = [{SECONDS: whole}]
+    for method in settings.tests[scenario][level]:
+        kind = settings.method(method).kind
+        for seed in files.run_seeds(method, scenario, level):
+            steps = seconds * settings.rates.data_hz * len(files.networks(method, seed, scenario, level))
+            found.append({"run": 1.0, f"{kind} s": whole, f"{kind} step": steps})
+    return total(found), max(seconds, min(whole, TOGETHER_S))
+
+
+def fitted(files: Files, method: str) -> tuple[Amounts, float]:
+    """Return the work of a fit, which reads the training set of one limb after the other, and the longest set [s]."""
+    limbs = files.settings.method(method).fitted
+    read = [training_s(files, files.settings.network(method, limb).data) for limb in limbs]
+    return {SECONDS: sum(read)}, max(read)
+
+
+def detected(files: Files) -> tuple[Amounts, float]:
+    """Return the work of detectors, and the seconds [s] of the longest of their walks."""
+    seconds = [files.settings.test_s(name) * len(files.test_seeds) for name in files.settings.detection_walks]
+    return {SECONDS: sum(seconds)}, max(seconds)
+
+
+def training_s(files: Files, name: str) -> float:
+    """Return the duration of a training set [s]."""
+    size = files.training_size(name)
+    return size.shards * size.shard_s
 
 
 def _width(files: Files, network: Network) -> int:
@@ -114,24 +105,3 @@ def _width(files: Files, network: Network) -> int:
     limbs = files.settings.layout.limbs
     seen = INPUTS_PER_JOINT * len(limbs(network.Q)) + len(limbs(network.T)) + BASE_INPUTS
     return seen + len(limbs(network.joints))
-
-
-def _fitted(files: Files, own: str, method: str) -> Work:
-    """Return the work of a fit, which reads the training set of one limb after the other."""
-    limbs = files.settings.method(method).fitted
-    read = [_training_s(files, files.settings.network(method, limb).data) for limb in limbs]
-    return Work(f"fit/{own}{method}", "fit", {SECONDS: sum(read)}, max(read))
-
-
-def _training_s(files: Files, name: str) -> float:
-    """Return the duration of a training set [s]."""
-    size = files.training_size(name)
-    return size.shards * size.shard_s
-
-
-def _seconds_of(plan: Plan, names: Iterable[str]) -> float:
-    """Return the duration of all recordings, residuals and estimates among some files [s]."""
-    arrays = [path for path in map(Path, names) if path.suffix == ARRAY]
-    return sum(
-        files.array_s(path) for path in arrays for files, (kind, *_) in [plan.files.owner_of(path)] if kind != "motions"
-    )

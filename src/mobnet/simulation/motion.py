@@ -7,6 +7,7 @@ the base motion, and the variants of a part share its targets.
 
 import logging
 import zlib
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,8 @@ from scipy.special import erf
 from mobnet.core.arrays import Array
 from mobnet.core.errors import SimulationError
 from mobnet.core.provenance import provenance
-from mobnet.core.store import write_array
+from mobnet.core.stage import Stage
+from mobnet.core.store import files_of, write_array
 from mobnet.plan.runs import FIRST_TRAINING_SEED
 from mobnet.robot.description import RobotDescription, describe, for_walking
 from mobnet.settings.data import Motion
@@ -26,6 +28,26 @@ from mobnet.simulation.reaching import Reacher
 log = logging.getLogger(__name__)
 BOTH_SIDES = np.array([[1.0, 1.0, 1.0], [1.0, -1.0, 1.0]])  # the right side is the mirror image in y
 HAND_WAVES = 6  # azimuth, elevation and distance of two hands
+
+
+def make_motions(
+    root_seed: int,
+    robot: RobotTable,
+    motion: Motion,
+    name: str,
+    motions: Sequence[tuple[int, float, Path]],
+    stage: Stage,
+) -> None:
+    """Make several random motions by one job: seed, duration [s] and place without ending of each.
+
+    Raises:
+        SimulationError: a motion comes too near to the robot itself.
+    """
+    stage.begin()
+    for seed, duration_s, out in motions:
+        if not stage.has(files_of(out)):
+            make_motion(root_seed, robot, motion, name, seed, duration_s, stage.place(out))
+    stage.publish(file for _, _, out in motions for file in files_of(out))
 
 
 def make_motion(

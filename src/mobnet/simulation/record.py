@@ -3,7 +3,7 @@
 import logging
 import time
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -83,18 +83,6 @@ def collect(settings: WalkSettings, seed: int, duration_s: float, out: Path, mot
         writer.close(meta, course.segments)
     speed = duration_s / (time.perf_counter() - started)
     log.info("%s: %d samples, %d falls, %.1f x real time", out.name, samples, course.falls, speed)
-
-
-def collect_tests(settings: WalkSettings, duration_s: float, walks: Sequence[tuple[int, Path, Path | None]]) -> None:
-    """Make the recordings of a test one after another: seed, place without ending, motion of the upper body of each.
-
-    One job makes them all, so that Python, MuJoCo and the compiled code are loaded once and not for every walk.
-
-    Raises:
-        SimulationError: the robot keeps falling.
-    """
-    for seed, out, motion in walks:
-        collect(settings, seed, duration_s, out, motion)
 
 
 def read_motion(stem: Path) -> UpperBody:

@@ -10,7 +10,6 @@ from mobnet.core.files import write_json
 from mobnet.evaluation.report.cost import main
 from mobnet.evaluation.report.rates import RATES
 from mobnet.plan.plan import make_plan
-from mobnet.plan.work import all_work
 from mobnet.settings.load import load_settings
 
 HOUR_S = 3600.0
@@ -21,7 +20,7 @@ Told = Callable[[], str]
 def rates(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, object]:
     """A folder in which every job of the smoke scale took 36 s and 500 MiB, and the table 8 is not known."""
     monkeypatch.chdir(tmp_path)
-    works = all_work(make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False))
+    works = make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False).work
     kinds = {work.kind: {"cpu_s": {"job": 36.0}, "peak_mib": {"job": 500.0}} for work in works}
     del kinds["table_08"]
     note = {"processor": "made-up", "scale": "smoke", "core_h": len(works) / 50, "peak_mib": 500.0, "kinds": kinds}
@@ -45,7 +44,7 @@ def told(caplog: pytest.LogCaptureFixture) -> Told:
 def test_every_job_is_priced_and_the_rest_is_named(told: Told) -> None:
     assert main(["--config", "scale=smoke"]) == 0
     text = told()
-    jobs = len(all_work(make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False))) - 1
+    jobs = len(make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False).work) - 1
     assert f"| all jobs | {jobs} | {jobs * 36 / HOUR_S:.2f} | 500 |" in text
     assert "without a rate, and not counted: table_08" in text
     assert "(-50 %), 500 MiB where it took 500 (+0 %)" in text

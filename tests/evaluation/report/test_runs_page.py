@@ -3,15 +3,13 @@
 import re
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import asdict
 from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
 from browser import Browser, with_browser
 
-from mobnet.core.files import write_json
-from mobnet.core.logs import Account
+from mobnet.core.files import TIME, write_json
 from mobnet.evaluation.report.runs_page import COLUMNS, runs_page
 from mobnet.plan.products import TEMPLATES
 
@@ -22,7 +20,7 @@ RUNS = {  # name -> cell, best validation loss, RMSE [N m]; the first one diverg
     "GRU-LL-s1": ("GRU", -4.0, 11.5),
     "LSTM-LL-s0": ("LSTM", -4.5, 2.5),
 }
-LOST = "FTS-e2e-LL-s0"  # its account
+LOST = "FTS-e2e-LL-s0"  # what its training took
 SHOWN = "[...document.querySelectorAll('tbody:not([hidden])')].map((run) => run.dataset.name)"
 OPEN = "[...document.querySelectorAll('.more')].filter((row) => row.getClientRects().length).map((row) => row.id)"
 
@@ -35,17 +33,16 @@ def page(tmp_path_factory: pytest.TempPathFactory, write_run: Callable[..., Path
         rows = [(loss + x, rmse + x) for x in (1, 0, 0.5)] if loss and rmse else []
         lines = [f"{i},{a - 0.25},{a},{b},{0.005 / i},9" for i, (a, b) in enumerate(rows, start=1)]
         write_run(networks, name, lines, diverged=not rows, settings={"network": {"cell": cell}})
-        account = Account(f"train/{name}", 0.0, 360.0, 360.0, 350.0, 900.0, succeeded=True)
         if name != LOST:
-            write_json(networks.with_name("logs") / "train" / f"{name}.json", asdict(account))
+            write_json(networks.with_name("state") / name / TIME, {"seconds": 360.0})
     return make_page(networks)
 
 
 def make_page(networks: Path) -> Path:
     """Write the page of all trainings in a folder, beside that folder."""
     parts = [REPO / TEMPLATES / f"runs.{ending}" for ending in ("html", "css", "js")]
-    page, accounts = networks.with_name("runs.html"), networks.with_name("logs")
-    runs_page("default", sorted(networks.iterdir()), parts, accounts, page)
+    page = networks.with_name("runs.html")
+    runs_page("default", sorted(networks.iterdir()), parts, page)
     return page
 
 

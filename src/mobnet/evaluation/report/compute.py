@@ -16,8 +16,7 @@ from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
 from mobnet.settings.evaluation import Compute
 
 STAGES = {  # stage -> its rules; those of no stage make tables and figures
-    "collect": ("motion", "collect", "collect_tests"),
-    "observe": ("observe", "observe_tests"),
+    "collect": ("motion", "collect"),
     "train": ("fit", "train"),
     "estimate": ("estimate",),
     "score": ("score",),

@@ -16,7 +16,7 @@ from mobnet.evaluation.report.rates import RATES, Kind, RatesNote, price
 from mobnet.evaluation.tables.layout import markdown_table
 from mobnet.plan.disk import whole_bytes
 from mobnet.plan.plan import Plan, make_plan
-from mobnet.plan.work import Work, all_work
+from mobnet.plan.work import Work
 from mobnet.settings.load import load_settings
 
 log = logging.getLogger(__name__)
@@ -40,7 +40,7 @@ def costs(works: Iterable[Work], kinds: dict[str, Kind]) -> dict[str, Cost]:
 
 def report(plan: Plan, rates: RatesNote) -> str:
     """Return the price of a plan as text: a row for each stage, the disk, and what has no rate."""
-    works = all_work(plan)
+    works = plan.work
     found = costs(works, rates.kinds)
     rows = [[stage, str(n), f"{cpu_s / HOUR_S:.2f}", f"{mib:.0f}"] for stage, (n, cpu_s, mib) in found.items()]
     unknown = sorted({work.kind for work in works} - {*rates.kinds})
@@ -58,7 +58,7 @@ def report(plan: Plan, rates: RatesNote) -> str:
 def check(rates: RatesNote, with_pdf: bool) -> str:
     """Return how the rates price the run to which they are fitted."""
     plan = make_plan(load_settings(overrides={"scale": rates.scale}), with_pdf=with_pdf)
-    _, cpu_s, peak_mib = costs(all_work(plan), rates.kinds)[WHOLE]
+    _, cpu_s, peak_mib = costs(plan.work, rates.kinds)[WHOLE]
     pairs = {"core-hours": (cpu_s / HOUR_S, rates.core_h, 2), "MiB": (peak_mib, rates.peak_mib, 0)}
     told = [
         f"{priced:.{digits}f} {unit} where it took {took:.{digits}f} ({PERCENT * (priced / took - 1):+.0f} %)"

@@ -15,7 +15,7 @@ from mobnet.core.notes import Note, NotNegative, Positive, Text
 from mobnet.evaluation.report.compute import HOUR_S
 from mobnet.plan.plan import Plan
 from mobnet.plan.precision import PROCESSOR
-from mobnet.plan.work import Work, all_work
+from mobnet.plan.work import Work
 
 RATES = Path("docs/results/rates.json")
 JOB = "job"  # the amount that every job has once: its start
@@ -47,7 +47,7 @@ def measured(plan: Plan, jobs: Iterable[Account]) -> RatesNote:
         DataError: a job of the plan has no account.
     """
     accounts = {job.job: job for job in jobs if job.succeeded}
-    works = all_work(plan)
+    works = plan.work
     kinds = fitted(works, accounts)
     own = [accounts[work.job] for work in works]
     return RatesNote(

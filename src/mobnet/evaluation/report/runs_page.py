@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from mobnet.core.columns import Epoch
-from mobnet.core.files import METRICS, RUN, read_json, write_text
+from mobnet.core.files import METRICS, RUN, TIME, read_json, write_text
 from mobnet.evaluation.measure.trainings import Training, read_training
-from mobnet.evaluation.report.accounts import read_account
 from mobnet.evaluation.report.charts import Chart, line_chart
 from mobnet.evaluation.report.html import rendered
 
@@ -34,7 +33,7 @@ class TrainingRun(Training):
         cell: kind of network.
         settings: what was trained on what, dotted name -> text.
         metrics: file that holds the curves.
-        seconds: time of the training's last start [s]; None where its job left no account.
+        seconds: time of the training's epochs [s], of all starts; None where it is not known.
     """
 
     name: str
@@ -77,21 +76,26 @@ class TrainingRun(Training):
         return self.best.validation_rmse if self.best else None
 
 
-def read_training_run(folder: Path, accounts: Path) -> TrainingRun:
-    """Read a network's folder, and what its training took from the folder of the jobs' accounts.
+def read_training_run(folder: Path) -> TrainingRun:
+    """Read a network's folder, and what its training took from the folder of its checkpoint.
 
     Raises:
         DataError: a file is missing or damaged, or lacks a key or a column.
     """
-    training, note, account = read_training(folder), read_json(folder / RUN), accounts / "train" / f"{folder.name}.json"
+    training, note, time = read_training(folder), read_json(folder / RUN), state_of(folder) / TIME
     return TrainingRun(
         **vars(training),
         **{key: note[key] for key in SHOWN},
         cell=note["settings"]["network"]["cell"],
         settings=dict(pair for key in SETTINGS for pair in flattened(key, note[key])),
         metrics=folder / METRICS,
-        seconds=read_account(account).wall_s if account.is_file() else None,
+        seconds=read_json(time)["seconds"] if time.is_file() else None,
     )
+
+
+def state_of(folder: Path) -> Path:
+    """Return the folder in which the training of a network kept its checkpoint."""
+    return folder.parent.with_name("state") / folder.name
 
 
 def flattened(name: str, value: Any) -> Iterator[tuple[str, str]]:
@@ -146,14 +150,12 @@ COLUMNS = (
 )
 
 
-def runs_page(scale: str, folders: Sequence[Path], templates: Sequence[Path], accounts: Path, out: Path) -> None:
+def runs_page(scale: str, folders: Sequence[Path], templates: Sequence[Path], out: Path) -> None:
     """Write the page of all trained networks; its links to the metrics are relative.
 
     `templates` has the page's HTML, then the files that it includes.
     """
-    runs = sorted(
-        (read_training_run(folder, accounts) for folder in folders), key=lambda run: (run.method, run.limb, run.seed)
-    )
+    runs = sorted(map(read_training_run, folders), key=lambda run: (run.method, run.limb, run.seed))
     text = rendered(
         templates[0], scale=scale, columns=COLUMNS, runs=runs, diverged=DIVERGED,
         charts={run.name: charts(run) for run in runs},

@@ -1,0 +1,149 @@
+"""The steps of the workflow before its products: what each of its rules makes, and how much that is to do.
+
+A step makes several things of one kind, as far as they belong together: each start of Python takes one or two seconds,
+and what several read is read once. It is short enough that steps keep all cores of a machine, or nodes, busy.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from pathlib import Path
+from typing import TypeVar
+
+from mobnet.core.files import METRICS, RUN, WEIGHTS
+from mobnet.plan.call import Job
+from mobnet.plan.detection import detection_files, level_of_detectors
+from mobnet.plan.jobs import Jobs
+from mobnet.plan.runs import ARRAY, FIRST_TRAINING_SEED, NOTE, Files, NetworkName, Place
+from mobnet.plan.work import SECONDS, Work, detected, estimated, fitted, steps_of, trained, walked
+
+PART_S = 1200.0  # recordings that one step makes [s]: some two minutes
+PART_STEPS = 30e6  # time steps that the trainings of one step go through: some four minutes of a leg's network
+Item = TypeVar("Item")
+
+
+@dataclass(frozen=True)
+class Step:
+    """What one rule makes: its job, the files, and how much it has to do; `work.job` names its log and its account."""
+
+    work: Work
+    job: Job
+    outputs: tuple[str, ...]
+
+
+def all_steps(files: Files) -> Iterator[Step]:
+    """Yield the steps behind everything that products are made from, those of robots last."""
+    yield from _motions(files)
+    for own in (files, *files.robots.values()):
+        yield from _walks(own, own.recorded())
+        yield from (_fit(own, method) for method in own.own_fits)
+        yield from _trainings(own, own.own_networks)
+        yield from _estimates(own)
+        yield from _detectors(own)
+    yield from (_score(files, scenario) for scenario in files.scored_tests)
+
+
+def trial_steps(files: Files) -> Iterator[Step]:
+    """Yield the steps that the trials need besides: their walks, and what learns in them."""
+    walk, fits = files.settings.development, dict.fromkeys(map(files.settings.source_of, files.settings.tried))
+    yield from _walks(files, ((walk.scenario, walk.level, seed) for seed in files.development_seeds))
+    yield from (_fit(files, name) for name in fits if files.fit(name) and name not in files.own_fits)
+    yield from _trainings(files, files.tried_networks)
+
+
+def _motions(files: Files) -> Iterator[Step]:
+    """Yield the motions of the upper body, which all robots share."""
+    owners = (files, *files.robots.values())
+    taken = {(own.settings.scenarios[name].motion, seed) for own in owners for name, _, seed in own.recorded()}
+    for motion in sorted({name for name, _ in taken if name}):
+        seeds = sorted(seed for name, seed in taken if name == motion)
+        for part in _parts(seeds, lambda seed, name=motion: files.motion_s(name, seed), PART_S):
+            account = f"motion/{motion}-s{part[0]}"
+            amounts = {SECONDS: sum(files.motion_s(motion, seed) for seed in part), "motion": len(part)}
+            job = Jobs(files.settings, files).motions(account, motion, part)
+            arrays = [files.motion_place(motion, seed) for seed in part]
+            yield Step(Work(account, "motion", amounts, 0.0), job, _both(arrays))
+
+
+def _walks(files: Files, recorded: Iterable[Place]) -> Iterator[Step]:
+    """Yield recordings and their residuals: of each scenario at a level, those for training and for tests apart."""
+    sets: dict[tuple[str, str, bool], list[int]] = {}
+    for scenario, level, seed in dict.fromkeys(recorded):
+        sets.setdefault((scenario, level, seed < FIRST_TRAINING_SEED), []).append(seed)
+    for (scenario, level, _), seeds in sets.items():
+        for part in _parts(seeds, lambda seed, name=scenario: files.duration_s([name], seed), PART_S):
+            account = _account("collect", files, f"{scenario}-{level}-s{part[0]}")
+            job = Jobs(files.settings, files).collect(account, scenario, level, part)
+            arrays = [files.array(kind, scenario, level, seed) for seed in part for kind in ("recordings", "residuals")]
+            yield Step(Work(account, "collect", *walked(files, scenario, part)), job, _both(arrays))
+
+
+def _fit(files: Files, method: str) -> Step:
+    """Return the fit of a method."""
+    account, job = _account("fit", files, method), Jobs(files.settings, files).fit(method)
+    return Step(Work(account, "fit", *fitted(files, method)), job, tuple(map(str, files.fit(method))))
+
+
+def _trainings(files: Files, networks: Iterable[NetworkName]) -> Iterator[Step]:
+    """Yield trainings: those of a step learn from one set of recordings, those on the same data one after another."""
+
+    def learns(name: NetworkName) -> tuple[str, ...]:
+        training, row = files.settings.training(name.method, name.limb), files.settings.method(name.method)
+        learning = training.learning
+        together = training.network.data, learning.labels, row.of or "", row.start or ""
+        return *together, name.limb, training.target, str(learning.data_s)
+
+    for _, alike in groupby(sorted(networks, key=learns), key=lambda name: learns(name)[:4]):
+        for part in _parts(list(alike), lambda name: steps_of(files, name), PART_STEPS):
+            folders = [files.network(*name) for name in part]
+            account = _account("train", files, folders[0].name)
+            job = Jobs(files.settings, files).train(account, part)
+            outputs = tuple(f"{folder}/{name}" for folder in folders for name in (WEIGHTS, METRICS, RUN))
+            yield Step(Work(account, "train", *trained(files, part)), job, outputs)
+
+
+def _estimates(files: Files) -> Iterator[Step]:
+    """Yield the estimates of each test at a level, by all of its methods."""
+    for scenario, levels in files.settings.tests.items():
+        for level in filter(files.has, levels):
+            account = _account("estimate", files, f"{scenario}-{level}")
+            job = Jobs(files.settings, files).estimate(account, scenario, level)
+            outputs = _both(run.estimate for run in files.runs(scenario, level, levels[level]))
+            yield Step(Work(account, "estimate", *estimated(files, scenario, level)), job, outputs)
+
+
+def _detectors(files: Files) -> Iterator[Step]:
+    """Yield the trial of the detectors of the plant of section 5.1, or of a robot, if there are some."""
+    if level_of_detectors(files):
+        account, job = _account("detect", files, "all"), Jobs(files.settings, files).detect()
+        outputs = tuple(map(str, detection_files(files).values()))
+        yield Step(Work(account, "detect", *detected(files)), job, outputs)
+
+
+def _score(files: Files, scenario: str) -> Step:
+    """Return the scores of a test."""
+    seconds = sum(files.settings.test_s(run.scenario) for run in files.runs_of(scenario))
+    work = Work(f"score/{scenario}", "score", {SECONDS: seconds}, 0.0)
+    return Step(work, Jobs(files.settings, files).score(scenario), (str(files.scores([scenario])[scenario]),))
+
+
+def _account(kind: str, files: Files, name: str) -> str:
+    """Return the name of a step's account; those of a robot stand in a folder of its name."""
+    return "/".join(part for part in (kind, files.robot, name) if part)
+
+
+def _both(arrays: Iterable[Path]) -> tuple[str, ...]:
+    """Return the two files of each array."""
+    return tuple(f"{stem}{ending}" for stem in arrays for ending in (ARRAY, NOTE))
+
+
+def _parts(items: Sequence[Item], size: Callable[[Item], float], most: float) -> Iterator[list[Item]]:
+    """Yield items in order, so many together that their sizes add up to at most `most`; a larger one stands alone."""
+    part, held = list[Item](), 0.0
+    for item in items:
+        if part and held + size(item) > most:
+            yield part
+            part, held = [], 0.0
+        part.append(item)
+        held += size(item)
+    yield part

@@ -1,0 +1,24 @@
+"""Which step of a plan makes a file."""
+
+from pathlib import Path
+from typing import Any
+
+from mobnet.plan.plan import Plan
+from mobnet.plan.steps import Step
+
+
+def maker(plan: Plan, *place: str) -> Step:
+    """Return the step, one of the trials too, that makes a file below the results of the plan's scale."""
+    file = str(plan.folders.results.joinpath(*place))
+    (found,) = [step for step in (*plan.steps, *plan.trial_steps) if file in step.outputs]
+    return found
+
+
+def arguments(plan: Plan, *place: str) -> Any:
+    """Return the arguments of the job that makes a file."""
+    return maker(plan, *place).job.call.arguments
+
+
+def recording(scenario: str, level: str, seed: int | str, robot: str = "") -> str:
+    """Return the place of a recording below the results."""
+    return str(Path(robot) / "recordings" / scenario / level / f"s{seed}.parquet")
