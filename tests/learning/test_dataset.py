@@ -65,10 +65,10 @@ def test_recordings_are_laid_end_to_end_and_keep_their_segments(load: Callable[.
 
 
 def test_digest_changes_with_any_number(load: Callable[..., LimbData]) -> None:
-    data, again = load("uncertainty"), load("uncertainty")
-    assert data.digest == again.digest != load("external").digest
-    again.inputs[17, 3] += 1e-3
-    assert data.digest != again.digest
+    data, changed = load("uncertainty"), load("uncertainty")
+    assert data.digest == load("uncertainty").digest != load("external").digest
+    changed.inputs[17, 3] += 1e-3
+    assert data.digest != changed.digest
 
 
 def test_z_scores_come_from_the_given_rows_alone() -> None:

@@ -7,7 +7,11 @@ import time
 from pathlib import Path
 from typing import NamedTuple
 
+from snakemake.logging import logger as snakemake_logger
+from snakemake.resources import Resources
+
 from mobnet.core.cluster import failed_jobs
+from mobnet.core.counts import by_kind
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
 from mobnet.core.lock import job_prefix
@@ -92,9 +96,10 @@ def rule_of(step):
 
 STEPS = {rule_of(step): step for step in (*PLAN.steps, *PLAN.trial_steps)}
 asked = workflow.resource_settings.overwrite_resources
+snakemake_logger.addFilter(by_kind({name: step.work.kind for name, step in STEPS.items()}))
 for name, step in STEPS.items():  # `--set-resources train:mem_mb=8000` means every rule of the kind
     if step.work.kind in asked:
-        asked[name] = {**asked[step.work.kind], **asked.get(name, {})}
+        asked[name] = Resources({**asked[step.work.kind], **asked.get(name, {})})
 
 
 def growing(memory_mb):

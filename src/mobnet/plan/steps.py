@@ -55,8 +55,8 @@ def _motions(files: Files) -> Iterator[Step]:
     """Yield the motions of the upper body, which all robots share."""
     owners = (files, *files.robots.values())
     taken = {(own.settings.scenarios[name].motion, seed) for own in owners for name, _, seed in own.recorded()}
-    for motion in sorted({name for name, _ in taken if name}):
-        seeds = sorted(seed for name, seed in taken if name == motion)
+    for motion, is_test in sorted({(name, seed < FIRST_TRAINING_SEED) for name, seed in taken if name}):
+        seeds = sorted(seed for name, seed in taken if (name, seed < FIRST_TRAINING_SEED) == (motion, is_test))
         for part in _parts(seeds, lambda seed, name=motion: files.motion_s(name, seed), PART_S):
             account = f"motion/{motion}-s{part[0]}"
             amounts = {SECONDS: sum(files.motion_s(motion, seed) for seed in part), "motion": len(part)}
