@@ -10,6 +10,8 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
+from mobnet.core.errors import DataError, not_accepted
+from mobnet.robot.momentum import sweep
 from mobnet.robot.nominal import NominalModel
 
 
@@ -53,21 +55,19 @@ def momentum_and_beta(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -
     """Return p = M v of (4) [kg m/s], [kg m^2/s] and C^T v - g of (6) [N], [N m], both (..., nv).
 
     Positions (..., nq) and velocities (..., nv) [m/s], [rad/s] are of any float type and memory order.
+
+    Raises:
+        DataError: their shapes do not fit the model or each other.
     """
-    model, data, nv = nominal.model, nominal.data, nominal.model.nv
-    positions = nominal.positions(q).reshape(-1, model.nq)
-    velocities = _float64(v).reshape(-1, nv)
-    # rnea(q, 0, v) = M v + g is cheaper than M itself
-    p, result, still = np.empty_like(velocities), np.empty_like(velocities), np.zeros(nv)
-    rnea, weight, matrix = pin.rnea, pin.computeGeneralizedGravity, pin.computeCoriolisMatrix
-    for k, (position, velocity) in enumerate(zip(positions, velocities, strict=True)):
-        matrix(model, data, position, velocity).T.dot(velocity, out=result[k])
-        load = weight(model, data, position)
-        result[k] -= load
-        np.subtract(rnea(model, data, position, still, velocity), load, out=p[k])
-    return p.reshape(np.shape(v)), result.reshape(np.shape(v))
+    shapes, (*samples, _) = (np.shape(q), np.shape(v)), np.shape(v)
+    nq, nv = nominal.model.nq, nominal.model.nv
+    if shapes != ((*samples, nq), (*samples, nv)):  # compiled code would read what is not there
+        raise DataError(not_accepted("shapes of q and v", shapes, [f"(..., {nq}) and (..., {nv})"]))
+    p, result = np.empty(np.shape(v)), np.empty(np.shape(v))
+    sweep(nominal.tree, *(array.reshape(-1, array.shape[-1]) for array in (_float64(q), _float64(v), p, result)))
+    return p, result
 
 
 def _float64(array: NDArray[Any]) -> Array:
-    """Return an array in float64, as physics is computed, its last axis contiguous, as Pinocchio takes it."""
+    """Return an array in float64, as physics is computed, contiguous, as Pinocchio and compiled code take it."""
     return np.ascontiguousarray(array, dtype=np.float64)
