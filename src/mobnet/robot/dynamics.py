@@ -9,8 +9,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from mobnet.core.arrays import Array
-from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.arrays import Array, rows_of
 from mobnet.robot.momentum import sweep
 from mobnet.robot.nominal import NominalModel
 
@@ -59,15 +58,13 @@ def momentum_and_beta(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -
     Raises:
         DataError: their shapes do not fit the model or each other.
     """
-    shapes, (*samples, _) = (np.shape(q), np.shape(v)), np.shape(v)
-    nq, nv = nominal.model.nq, nominal.model.nv
-    if shapes != ((*samples, nq), (*samples, nv)):  # compiled code would read what is not there
-        raise DataError(not_accepted("shapes of q and v", shapes, [f"(..., {nq}) and (..., {nv})"]))
-    p, result = np.empty(np.shape(v)), np.empty(np.shape(v))
-    sweep(nominal.tree, *(array.reshape(-1, array.shape[-1]) for array in (_float64(q), _float64(v), p, result)))
+    nv, samples = nominal.model.nv, np.shape(v)[:-1]
+    rows = rows_of("q", q, samples, nominal.model.nq), rows_of("v", v, samples, nv)
+    p, result = np.empty((*samples, nv)), np.empty((*samples, nv))
+    sweep(nominal.tree, *rows, p.reshape(-1, nv), result.reshape(-1, nv))
     return p, result
 
 
 def _float64(array: NDArray[Any]) -> Array:
-    """Return an array in float64, as physics is computed, contiguous, as Pinocchio and compiled code take it."""
+    """Return an array in float64, as physics is computed, its last axis contiguous, as Pinocchio takes it."""
     return np.ascontiguousarray(array, dtype=np.float64)

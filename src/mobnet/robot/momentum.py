@@ -35,7 +35,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.compiled import compiled
-from mobnet.robot.tree import Tree
+from mobnet.robot.tree import Tree, turn, turn_base
 from mobnet.robot.triples import Triple, add, at, cross, dot, into, out_of, product, put, times, vector
 
 LANES = 8  # samples side by side: the numbers in a register of AVX-512, or two of AVX2
@@ -95,21 +95,11 @@ def _start(tree: Tree, base: Any, floating: bool, q: Array, v: Array) -> None:
         put(base.omega, lane, (0.0, 0.0, 0.0))
         put(base.gravity, lane, vector(tree.gravity))
         if floating:
-            _turn_base(base.rotation, lane, q[lane])
+            turn_base(q[lane], base.rotation, lane)
             put(base.velocity, lane, into(base.rotation, lane, vector(v[lane])))
             put(base.omega, lane, vector(v[lane, 3:]))
             put(base.gravity, lane, into(base.rotation, lane, vector(tree.gravity)))
         _carry(tree.links[0], base, lane)
-
-
-@compiled
-def _turn_base(rotation: Array, lane: int, q: Array) -> None:
-    """Set a lane of the base's rotation to the world (3, 3, lanes) from a position."""
-    w, x, y, z = q[3], q[4], q[5], q[6]
-    s = 2.0 / (w * w + x * x + y * y + z * z)
-    put(rotation[0], lane, (1.0 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)))
-    put(rotation[1], lane, (s * (x * y + w * z), 1.0 - s * (x * x + z * z), s * (y * z - w * x)))
-    put(rotation[2], lane, (s * (x * z - w * y), s * (y * z + w * x), 1.0 - s * (x * x + y * y)))
 
 
 @compiled
@@ -118,10 +108,7 @@ def _go_out(link: Any, own: Any, parent: Any, q: Array, v: Array) -> None:
     for lane in range(own.cosine.shape[0]):  # apart, because these are calls and no vector instructions
         own.cosine[lane], own.sine[lane] = math.cos(q[lane]), math.sin(q[lane])
     for lane in range(own.cosine.shape[0]):
-        for i in range(3):
-            for j in range(3):
-                turned = own.cosine[lane] * link.cosine[i, j] + own.sine[lane] * link.sine[i, j]
-                own.rotation[i, j, lane] = link.still[i, j] + turned
+        turn(link, own.cosine[lane], own.sine[lane], own.rotation, lane)
         omega, axis = at(parent.omega, lane), vector(link.axis)
         here = add(at(parent.velocity, lane), cross(omega, vector(link.offset)))
         put(own.velocity, lane, into(own.rotation, lane, here))

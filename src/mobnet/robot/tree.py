@@ -1,4 +1,7 @@
-"""The constants of a robot's kinematic tree, as compiled code takes them: one record for each link, parents first."""
+"""A robot's kinematic tree as compiled code takes it, one record for each link, parents first; rotations of its links.
+
+Rotations are lanes of arrays (3, 3, lanes), from a link's axes to its parent's.
+"""
 
 from typing import Any, NamedTuple
 
@@ -7,6 +10,8 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
+from mobnet.core.compiled import compiled
+from mobnet.robot.triples import put
 
 ROOT_JOINTS = 2  # of a floating base in Pinocchio: translation and ball
 LINK = np.dtype(
@@ -64,3 +69,21 @@ def _place(model: pin.Model, joint: int, link: Any) -> None:
     link["still"], link["cosine"] = placement.rotation @ along, placement.rotation @ (np.eye(3) - along)
     link["sine"] = placement.rotation @ pin.skew(axis)
     link["axis"], link["offset"], link["armature"] = axis, placement.translation, model.armature[column]
+
+
+@compiled
+def turn(link: Any, cosine: float, sine: float, rotation: Array, lane: int) -> None:
+    """Set the rotation of a link whose hinge is at an angle of that cosine and sine."""
+    for i in range(3):
+        for j in range(3):
+            rotation[i, j, lane] = link.still[i, j] + (cosine * link.cosine[i, j] + sine * link.sine[i, j])
+
+
+@compiled
+def turn_base(q: Array, rotation: Array, lane: int) -> None:
+    """Set the rotation of a floating base to the world from a position (nq,), whose quaternion is of any length."""
+    w, x, y, z = q[3], q[4], q[5], q[6]
+    s = 2.0 / (w * w + x * x + y * y + z * z)
+    put(rotation[0], lane, (1.0 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)))
+    put(rotation[1], lane, (s * (x * y + w * z), 1.0 - s * (x * x + z * z), s * (y * z - w * x)))
+    put(rotation[2], lane, (s * (x * z - w * y), s * (y * z + w * x), 1.0 - s * (x * x + y * y)))
