@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -29,7 +30,7 @@ def test_equal_to_scipy_to_the_bit(shape: tuple[int, ...]) -> None:
 
 @pytest.mark.parametrize("order", ["C", "F"])
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
-def test_any_memory_order_and_float_type_is_taken(dtype: type, order: str) -> None:
+def test_any_memory_order_and_float_type_is_taken(dtype: type, order: Literal["C", "F"]) -> None:
     x = np.array(np.random.default_rng(0).normal(size=(50, 3)), dtype=dtype, order=order)
     expected = low_pass(x.astype(np.float64), GAIN_HZ, RATE_HZ)
     np.testing.assert_array_equal(low_pass(np.repeat(x, 2, axis=0)[::2], GAIN_HZ, RATE_HZ), expected)

@@ -46,13 +46,14 @@ class Tree(NamedTuple):
 def tree_of(model: pin.Model) -> Tree:
     """Return the constants of a model of hinges on a base that is fixed, or floats as `NominalModel` has it."""
     root = ROOT_JOINTS if model.nv >= model.njoints else 0
-    links = np.zeros(model.njoints - root, LINK)
+    links, data = np.zeros(model.njoints - root, LINK), model.createData()
+    pin.computeJointJacobians(model, data, pin.neutral(model))
     for link, body in zip(links, model.inertias[root:], strict=True):
         lever = pin.skew(body.lever)
         link["mass"], link["moment"] = body.mass, body.mass * body.lever
         link["inertia"] = body.inertia - body.mass * lever @ lever
     for joint, link in enumerate(links[1:], root + 1):
-        _place(model, joint, link)
+        _place(model, data, joint, link)
         link["parent"] = model.parents[joint] - root
     links["behind"] = links["mass"]
     for link in links[:0:-1]:
@@ -60,10 +61,10 @@ def tree_of(model: pin.Model) -> Tree:
     return Tree(links, np.array(model.gravity.linear))
 
 
-def _place(model: pin.Model, joint: int, link: Any) -> None:
+def _place(model: pin.Model, data: pin.Data, joint: int, link: Any) -> None:
     """Set the hinge of a link: where it is in its parent, its axis and its rotor."""
     placement, column = model.jointPlacements[joint], model.idx_vs[joint]
-    axis = pin.computeJointJacobian(model, model.createData(), pin.neutral(model), joint)[3:, column]
+    axis = pin.getJointJacobian(model, data, joint, pin.ReferenceFrame.LOCAL)[3:, column]
     along = np.outer(axis, axis)
     # Rodrigues' formula, behind the rotation of the joint's frame in its parent's
     link["still"], link["cosine"] = placement.rotation @ along, placement.rotation @ (np.eye(3) - along)
