@@ -101,10 +101,10 @@ def test_what_does_not_fit_is_refused(nominal: NominalModel, rows: tuple[int, in
 def test_the_constants_are_those_of_the_robot(model_of: Models) -> None:
     for machine in ("robot", "arm"):
         nominal = model_of(machine, 0.9)
-        tree = nominal.tree.links
-        assert tree["behind"][0] == pytest.approx(0.9 * nominal.robot.mass)
-        np.testing.assert_allclose(tree["armature"][1:], 0.9 * nominal.robot.armature)
-        assert (tree["parent"][1:] < np.arange(1, len(tree))).all()
+        links = nominal.linkage.links
+        assert links["behind"][0] == pytest.approx(0.9 * nominal.robot.mass)
+        np.testing.assert_allclose(links["armature"][1:], 0.9 * nominal.robot.armature)
+        assert (links["parent"][1:] < np.arange(1, len(links))).all()
 
 
 @pytest.mark.parametrize("machine", ["robot", "skew_robot"])

@@ -61,7 +61,7 @@ def momentum_and_beta(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -
     nv, samples = nominal.model.nv, np.shape(v)[:-1]
     rows = rows_of("q", q, samples, nominal.model.nq), rows_of("v", v, samples, nv)
     p, result = np.empty((*samples, nv)), np.empty((*samples, nv))
-    sweep(nominal.tree, *rows, p.reshape(-1, nv), result.reshape(-1, nv))
+    sweep(nominal.linkage, *rows, p.reshape(-1, nv), result.reshape(-1, nv))
     return p, result
 
 

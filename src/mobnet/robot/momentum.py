@@ -35,7 +35,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.compiled import compiled
-from mobnet.robot.tree import Tree, turn, turn_base
+from mobnet.robot.linkage import Linkage, turn, turn_base
 from mobnet.robot.triples import Triple, add, at, cross, dot, into, out_of, product, put, times, vector
 
 LANES = 8  # samples side by side: the numbers in a register of AVX-512, or two of AVX2
@@ -57,26 +57,26 @@ WIDE, NARROW = lanes(LANES), lanes(1)
 
 
 @compiled(allocating=True)
-def sweep(tree: Tree, q: Array, v: Array, p: Array, beta: Array) -> None:
+def sweep(linkage: Linkage, q: Array, v: Array, p: Array, beta: Array) -> None:
     """Write p of (4) [kg m/s], [kg m^2/s] and beta of (6) [N], [N m], both (T, nv), of positions (T, nq), w x y z.
 
     Quaternions may be of any length; velocities are (T, nv) [m/s], [rad/s].
     """
-    links, row = len(tree.links), 0
+    links, row = len(linkage.links), 0
     wide, narrow = np.empty(links, WIDE), np.empty(links, NARROW)
     while row + LANES <= len(q):
-        _sweep(tree, wide, q[row:], v[row:], p[row:], beta[row:])
+        _sweep(linkage, wide, q[row:], v[row:], p[row:], beta[row:])
         row += LANES
     while row < len(q):
-        _sweep(tree, narrow, q[row:], v[row:], p[row:], beta[row:])
+        _sweep(linkage, narrow, q[row:], v[row:], p[row:], beta[row:])
         row += 1
 
 
 @compiled
-def _sweep(tree: Tree, work: Records, q: Array, v: Array, p: Array, beta: Array) -> None:
+def _sweep(linkage: Linkage, work: Records, q: Array, v: Array, p: Array, beta: Array) -> None:
     """Write p and beta of as many samples as there are lanes, the first ones."""
-    links, floating = tree.links, v.shape[1] >= len(tree.links)
-    _start(tree, work[0], floating, q, v)
+    links, floating = linkage.links, v.shape[1] >= len(linkage.links)
+    _start(linkage, work[0], floating, q, v)
     for k in range(1, len(links)):
         _go_out(links[k], work[k], work[links[k].parent], q[:, k - len(links)], v[:, k - len(links)])
     for k in range(len(links) - 1, 0, -1):
@@ -84,22 +84,22 @@ def _sweep(tree: Tree, work: Records, q: Array, v: Array, p: Array, beta: Array)
         _tell(links[k], work[k], v[:, column], p[:, column], beta[:, column])
         _go_back(links[k], work[k], work[links[k].parent])
     if floating:
-        _tell_base(tree, work[0], p, beta)
+        _tell_base(linkage, work[0], p, beta)
 
 
 @compiled
-def _start(tree: Tree, base: Any, floating: bool, q: Array, v: Array) -> None:
+def _start(linkage: Linkage, base: Any, floating: bool, q: Array, v: Array) -> None:
     """Set the state of the base, at rest in world axes where it is fixed."""
     for lane in range(base.cosine.shape[0]):
         put(base.velocity, lane, (0.0, 0.0, 0.0))
         put(base.omega, lane, (0.0, 0.0, 0.0))
-        put(base.gravity, lane, vector(tree.gravity))
+        put(base.gravity, lane, vector(linkage.gravity))
         if floating:
             turn_base(q[lane], base.rotation, lane)
             put(base.velocity, lane, into(base.rotation, lane, vector(v[lane])))
             put(base.omega, lane, vector(v[lane, 3:]))
-            put(base.gravity, lane, into(base.rotation, lane, vector(tree.gravity)))
-        _carry(tree.links[0], base, lane)
+            put(base.gravity, lane, into(base.rotation, lane, vector(linkage.gravity)))
+        _carry(linkage.links[0], base, lane)
 
 
 @compiled
@@ -158,11 +158,11 @@ def _go_back(link: Any, own: Any, parent: Any) -> None:
 
 
 @compiled
-def _tell_base(tree: Tree, base: Any, p: Array, beta: Array) -> None:
+def _tell_base(linkage: Linkage, base: Any, p: Array, beta: Array) -> None:
     """Write p and beta of a floating base: of its translation, and of its ball by (d)."""
     for lane in range(base.cosine.shape[0]):
         momentum, spin = out_of(base.rotation, lane, at(base.momentum, lane)), at(base.spin, lane)
-        weight, rate = times(tree.links[0].behind, vector(tree.gravity)), _rate(base, lane)
+        weight, rate = times(linkage.links[0].behind, vector(linkage.gravity)), _rate(base, lane)
         for i in range(3):
             p[lane, i], p[lane, 3 + i] = momentum[i], spin[i]
             beta[lane, i], beta[lane, 3 + i] = weight[i], rate[i]

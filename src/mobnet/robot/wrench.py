@@ -12,7 +12,7 @@ from mobnet.core.arrays import Array, rows_of
 from mobnet.core.compiled import compiled
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.robot.nominal import NominalModel
-from mobnet.robot.tree import Tree, turn, turn_base
+from mobnet.robot.linkage import Linkage, turn, turn_base
 from mobnet.robot.triples import add, cross, dot, out_of, product, vector
 
 
@@ -53,24 +53,24 @@ def feet_torque(nominal: NominalModel, q: NDArray[Any], wrenches: Mapping[str, N
     tau, positions = np.zeros((*samples, model.nv)), rows_of("q", q, samples, model.nq)
     for side, wrench in wrenches.items():
         frame, loads = model.frames[_frame(nominal, side)], rows_of(f"the {side} wrench", wrench, samples, 6)
-        link = len(nominal.tree.links) - model.njoints + frame.parentJoint
+        link = len(nominal.linkage.links) - model.njoints + frame.parentJoint
         axes, point = np.ascontiguousarray(frame.placement.rotation), np.array(frame.placement.translation)
-        _pull(nominal.tree, link, axes, point, positions, loads, tau.reshape(-1, model.nv))
+        _pull(nominal.linkage, link, axes, point, positions, loads, tau.reshape(-1, model.nv))
     return tau
 
 
 @compiled(allocating=True)
-def _pull(tree: Tree, link: int, axes: Array, point: Array, q: Array, wrench: Array, tau: Array) -> None:
+def _pull(linkage: Linkage, link: int, axes: Array, point: Array, q: Array, wrench: Array, tau: Array) -> None:
     """Add J^T F of wrenches (T, 6) at a point of a link, in the axes of its sensor (3, 3), to tau (T, nv).
 
     A joint takes the share of the moment about its axis and passes the wrench on to its parent.
     """
-    rotation, floating = np.empty((3, 3, 1)), tau.shape[1] >= len(tree.links)
+    rotation, floating = np.empty((3, 3, 1)), tau.shape[1] >= len(linkage.links)
     for row in range(len(q)):
         force, k = product(axes, vector(wrench[row])), link
         moment = add(product(axes, vector(wrench[row, 3:])), cross(vector(point), force))
         while k > 0:
-            carrier, column = tree.links[k], k - len(tree.links)
+            carrier, column = linkage.links[k], k - len(linkage.links)
             tau[row, column] += dot(vector(carrier.axis), moment)
             turn(carrier, math.cos(q[row, column]), math.sin(q[row, column]), rotation, 0)
             force = out_of(rotation, 0, force)

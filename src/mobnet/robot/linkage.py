@@ -31,7 +31,7 @@ LINK = np.dtype(
 )
 
 
-class Tree(NamedTuple):
+class Linkage(NamedTuple):
     """Links and gravity.
 
     Attributes:
@@ -43,7 +43,7 @@ class Tree(NamedTuple):
     gravity: Array
 
 
-def tree_of(model: pin.Model) -> Tree:
+def linkage_of(model: pin.Model) -> Linkage:
     """Return the constants of a model of hinges on a base that is fixed, or floats as `NominalModel` has it."""
     root = ROOT_JOINTS if model.nv >= model.njoints else 0
     links, data = np.zeros(model.njoints - root, LINK), model.createData()
@@ -58,7 +58,7 @@ def tree_of(model: pin.Model) -> Tree:
     links["behind"] = links["mass"]
     for link in links[:0:-1]:
         links["behind"][link["parent"]] += link["behind"]
-    return Tree(links, np.array(model.gravity.linear))
+    return Linkage(links, np.array(model.gravity.linear))
 
 
 def _place(model: pin.Model, data: pin.Data, joint: int, link: Any) -> None:
