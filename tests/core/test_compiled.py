@@ -28,6 +28,13 @@ TELL = """import sys
 from mobnet.control.caller import g
 print(g(1.0), sum(g.stats.cache_hits.values()))
 """
+FIRST = """import logging, sys
+logging.basicConfig(level=logging.INFO, stream=sys.stdout, format="%(message)s")
+import numpy as np
+from mobnet.control.geometry import clip, dead
+clip(0.0, 0.0, 1.0)
+dead(0.0, 1.0)
+"""
 
 
 def test_code_divides_by_zero_as_numpy_does() -> None:
@@ -64,6 +71,15 @@ def test_cached_code_follows_the_functions_that_it_calls(tmp_path: Path) -> None
         (package / "control/called.py").write_text(text)
         told.append(subprocess.check_output([sys.executable, "-c", TELL], env=environment, text=True).split())
     assert told == [["4.0", "0"], ["6.0", "0"], ["6.0", "1"]]
+
+
+def test_only_the_process_that_compiles_says_so_once(tmp_path: Path) -> None:
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    first, second = (
+        subprocess.check_output([sys.executable, "-c", FIRST], env=environment, text=True).splitlines() for _ in "ab"
+    )
+    line = f"compiling code for this processor, which may take a minute, once: it is kept in {tmp_path}"
+    assert (first, second) == ([line], [])
 
 
 wide = on_stack(2, 3, 4)

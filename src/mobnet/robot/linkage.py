@@ -45,7 +45,7 @@ class Linkage(NamedTuple):
 
 def linkage_of(model: pin.Model) -> Linkage:
     """Return the constants of a model of hinges on a base that is fixed, or floats as `NominalModel` has it."""
-    root = ROOT_JOINTS if model.nv >= model.njoints else 0
+    root = ROOT_JOINTS if model.nv >= model.njoints else 0  # the joint of the base: its six velocities are of two
     links, data = np.zeros(model.njoints - root, LINK), model.createData()
     pin.computeJointJacobians(model, data, pin.neutral(model))
     for link, body in zip(links, model.inertias[root:], strict=True):

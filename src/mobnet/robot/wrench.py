@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array, rows_of
 from mobnet.core.compiled import compiled
 from mobnet.core.errors import ConfigError, not_accepted
-from mobnet.robot.nominal import NominalModel
 from mobnet.robot.linkage import Linkage, turn, turn_base
+from mobnet.robot.nominal import NominalModel
 from mobnet.robot.triples import add, cross, dot, out_of, product, vector
 
 
