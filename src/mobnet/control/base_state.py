@@ -3,10 +3,10 @@
 Encoders and IMU are all that is read: no force of the feet and no plan.
 """
 
-from mobnet.control.compiled import compiled, vector3
 from mobnet.control.geometry import cross, rotate
 from mobnet.control.walker import Walker
 from mobnet.core.arrays import Array
+from mobnet.core.compiled import compiled, vector3
 
 
 @compiled

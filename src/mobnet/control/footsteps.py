@@ -7,10 +7,10 @@ World axes, metres. The equations (W5) to (W12) are derived in docs/notes/0019-w
 
 import numpy as np
 
-from mobnet.control.compiled import compiled
 from mobnet.control.geometry import clip
 from mobnet.control.parameters import STEP_X, STEP_Y, TURN, State, WalkingParameters
 from mobnet.core.arrays import Array
+from mobnet.core.compiled import compiled
 
 
 @compiled

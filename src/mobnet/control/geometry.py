@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from mobnet.control.compiled import compiled
 from mobnet.core.arrays import Array
+from mobnet.core.compiled import compiled
 
 
 @compiled

@@ -6,12 +6,12 @@ equations (W21) to (W29) are derived in docs/notes/0019-walking-controller.md.
 
 import numpy as np
 
-from mobnet.control.compiled import compiled
 from mobnet.control.footsteps import decay
 from mobnet.control.geometry import clip, smoothstep, wrap
 from mobnet.control.parameters import DURATION, State, WalkingParameters
 from mobnet.control.walker import Walker, foot_yaw, vertical_force
 from mobnet.core.arrays import Array
+from mobnet.core.compiled import compiled
 
 
 @compiled

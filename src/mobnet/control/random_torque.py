@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.control.compiled import compiled
 from mobnet.core.arrays import Array
+from mobnet.core.compiled import compiled
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
 from mobnet.settings.data import RandomTorque

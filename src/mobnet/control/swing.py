@@ -5,9 +5,9 @@ The equations (W31) to (W34) are derived in docs/notes/0019-walking-controller.m
 
 import numpy as np
 
-from mobnet.control.compiled import compiled
 from mobnet.control.geometry import rise, rise_slope, wrap, yaw_roll_pitch_matrix
 from mobnet.control.parameters import FOOT_HEIGHT, State, WalkingParameters
+from mobnet.core.compiled import compiled
 
 
 @compiled

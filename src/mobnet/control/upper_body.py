@@ -2,8 +2,8 @@
 
 from typing import NamedTuple
 
-from mobnet.control.compiled import compiled
 from mobnet.core.arrays import Array
+from mobnet.core.compiled import compiled
 
 
 class UpperBody(NamedTuple):

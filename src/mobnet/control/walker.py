@@ -5,11 +5,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.control.compiled import compiled
 from mobnet.control.kinematics import Pose, Tree, empty_pose, tree_of
 from mobnet.control.leg_ik import LegGeometry
 from mobnet.control.parameters import WalkingParameters, walking_parameters
 from mobnet.core.arrays import Array
+from mobnet.core.compiled import compiled
 from mobnet.robot.description import SIDES, WalkingRobot
 from mobnet.settings.walking import Walking
 

@@ -8,7 +8,6 @@ docs/notes/0019-walking-controller.md.
 import numpy as np
 
 from mobnet.control.balance import adapt_duration, adapt_foothold, ground_force, measure_dcm
-from mobnet.control.compiled import compiled
 from mobnet.control.footsteps import plan_steps, reference
 from mobnet.control.kinematics import update
 from mobnet.control.parameters import State
@@ -25,6 +24,7 @@ from mobnet.control.swing import swing_foot
 from mobnet.control.walker import Walker, foot_yaw, move_wrenches
 from mobnet.control.whole_body import leg_reference, posture_torque, stance_torque, swing_torque
 from mobnet.core.arrays import Array
+from mobnet.core.compiled import compiled
 
 
 @compiled

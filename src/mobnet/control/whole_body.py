@@ -7,12 +7,12 @@ Stance legs transmit the force to the ground, the swing leg and the upper body f
 
 import numpy as np
 
-from mobnet.control.compiled import compiled, matrix3, vector3
 from mobnet.control.geometry import clip, cross, dead, solve, triple, yaw_roll_pitch_matrix
 from mobnet.control.leg_ik import leg_ik
 from mobnet.control.parameters import SIDES, State
 from mobnet.control.walker import Walker
 from mobnet.core.arrays import Array
+from mobnet.core.compiled import compiled, matrix3, vector3
 
 LEFT_SIDE, RIGHT_SIDE = SIDES
 LEG_JOINTS = 6

@@ -4,6 +4,7 @@ Bounds are physical and wide, so that the log of a real robot passes and a wrong
 position, velocity and torque come from the robot's table. `docs/robots.md` describes them.
 """
 
+import functools
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
@@ -71,9 +72,15 @@ RULES: Mapping[str, Rule] = {  # pattern of names -> what is accepted; the first
 }
 
 
+@functools.cache
+def _general_rule(name: str) -> Rule:
+    """Return what is accepted of a column of any robot."""
+    return next((rule for pattern, rule in RULES.items() if re.fullmatch(pattern, name)), Rule(()))
+
+
 def rule_of(name: str, layout: JointLayout | None = None) -> Rule:
     """Return what is accepted of a column; anything finite of one that this project does not know."""
-    rule = next((rule for pattern, rule in RULES.items() if re.fullmatch(pattern, name)), Rule(()))
+    rule = _general_rule(name)
     signal, _, joint = name.partition(".")
     if layout is None or joint not in layout.names:
         return rule

@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.control.compiled import compiled
 from mobnet.core.arrays import Array
+from mobnet.core.compiled import compiled
 
 
 class Chain(NamedTuple):

@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.control.compiled import compiled
 from mobnet.core.arrays import Array
+from mobnet.core.compiled import compiled
 from mobnet.detection.leg import Leg, foot_load
 from mobnet.settings import detection as settings
 

@@ -3,7 +3,6 @@
 from typing import Any
 
 import numpy as np
-import scipy  # its parts are imported where they are used first: the workflow imports kinds before it starts
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
@@ -32,5 +31,9 @@ def low_pass(x: NDArray[Any], gain_hz: float, rate_hz: float) -> Array:
 
 
 def filtered(x: Array, pole: float) -> Array:
-    """Return y_k = pole y_{k-1} + (1 - pole) x_k along time, (T, ...)."""
-    return np.asarray(scipy.signal.lfilter([1 - pole], [1, -pole], x, axis=0))
+    """Return y_k = pole y_{k-1} + (1 - pole) x_k along time, (T, ...), y_{-1} = 0."""
+    from mobnet.estimation.first_order import decay  # numba: the workflow imports kinds before it starts
+
+    y = np.array(x, dtype=np.float64, order="C")
+    decay(y.reshape(-1), max(y[:1].size, 1), pole)
+    return y

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.control.compiled import compiled
+from mobnet.core.compiled import compiled
 
 Array = NDArray[np.float32]
 Products = NDArray[Any]  # float32, or bfloat16 as its bits in uint16

@@ -9,7 +9,8 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from mobnet.core.arrays import Array
+from mobnet.core.arrays import Array, rows_of
+from mobnet.robot.momentum import sweep
 from mobnet.robot.nominal import NominalModel
 
 
@@ -53,19 +54,15 @@ def momentum_and_beta(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -
     """Return p = M v of (4) [kg m/s], [kg m^2/s] and C^T v - g of (6) [N], [N m], both (..., nv).
 
     Positions (..., nq) and velocities (..., nv) [m/s], [rad/s] are of any float type and memory order.
+
+    Raises:
+        DataError: their shapes do not fit the model or each other.
     """
-    model, data, nv = nominal.model, nominal.data, nominal.model.nv
-    positions = nominal.positions(q).reshape(-1, model.nq)
-    velocities = _float64(v).reshape(-1, nv)
-    # rnea(q, 0, v) = M v + g is cheaper than M itself
-    p, result, still = np.empty_like(velocities), np.empty_like(velocities), np.zeros(nv)
-    rnea, weight, matrix = pin.rnea, pin.computeGeneralizedGravity, pin.computeCoriolisMatrix
-    for k, (position, velocity) in enumerate(zip(positions, velocities, strict=True)):
-        matrix(model, data, position, velocity).T.dot(velocity, out=result[k])
-        load = weight(model, data, position)
-        result[k] -= load
-        np.subtract(rnea(model, data, position, still, velocity), load, out=p[k])
-    return p.reshape(np.shape(v)), result.reshape(np.shape(v))
+    nv, samples = nominal.model.nv, np.shape(v)[:-1]
+    rows = rows_of("q", q, samples, nominal.model.nq), rows_of("v", v, samples, nv)
+    p, result = np.empty((*samples, nv)), np.empty((*samples, nv))
+    sweep(nominal.linkage, *rows, p.reshape(-1, nv), result.reshape(-1, nv))
+    return p, result
 
 
 def _float64(array: NDArray[Any]) -> Array:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.frames import to_pinocchio
+from mobnet.robot.linkage import linkage_of
 from mobnet.settings.parts import BodyRow, JointRow
 
 ALIGNED = {(1.0, 0.0, 0.0): pin.JointModelRX, (0.0, 1.0, 0.0): pin.JointModelRY, (0.0, 0.0, 1.0): pin.JointModelRZ}
@@ -26,6 +27,7 @@ class NominalModel:
         model: Pinocchio's model; nv generalized velocities in the order of `JointLayout`.
         data: its work space; one model belongs to one thread.
         foot_frames: side -> frame of the foot's force/torque sensor.
+        linkage: its constants for compiled code.
     """
 
     def __init__(self, robot: RobotDescription, mass_ratio: float = 1.0, gravity_m_s2: float | None = None) -> None:
@@ -46,6 +48,7 @@ class NominalModel:
             if robot.sole is not None
         }
         self.data = self.model.createData()
+        self.linkage = linkage_of(self.model)
 
     def positions(self, q: NDArray[Any]) -> NDArray[np.float64]:
         """Return generalized positions (..., nq) [m], [-], [rad] of a recording as Pinocchio takes them, row by row."""

@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.control.compiled import compiled
 from mobnet.core.arrays import Array
+from mobnet.core.compiled import compiled
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.surrogate import Surrogate
 

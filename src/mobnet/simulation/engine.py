@@ -6,7 +6,6 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.control.compiled import compiled
 from mobnet.control.geometry import clip
 from mobnet.control.parameters import State
 from mobnet.control.random_torque import Exploration, advance_random_torque
@@ -15,6 +14,7 @@ from mobnet.control.walker import Walker
 from mobnet.control.walking import walk
 from mobnet.control.whole_body import LEG_JOINTS
 from mobnet.core.arrays import Array
+from mobnet.core.compiled import compiled
 from mobnet.simulation.drives import Drives, drive
 from mobnet.simulation.faults import Faults, perceive
 from mobnet.simulation.friction import Friction, friction_torque

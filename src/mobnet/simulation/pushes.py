@@ -10,9 +10,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.control.compiled import compiled
 from mobnet.control.parameters import State
 from mobnet.core.arrays import Array
+from mobnet.core.compiled import compiled
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Direction, Phase, Push, Sines

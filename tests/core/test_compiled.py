@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from numba.core.errors import NumbaError
 
-from mobnet.control.compiled import cache_folder, compiled, matrix3, on_stack, vector3
 from mobnet.control.geometry import multiply
 from mobnet.core.code import SOURCE, code_hash
+from mobnet.core.compiled import cache_folder, compiled, matrix3, on_stack, vector3
 
-CALLED = """from mobnet.control.compiled import compiled
+CALLED = """from mobnet.core.compiled import compiled
 
 
 @compiled
@@ -27,6 +27,13 @@ CALLER = CALLER.replace("def f", "def g")
 TELL = """import sys
 from mobnet.control.caller import g
 print(g(1.0), sum(g.stats.cache_hits.values()))
+"""
+FIRST = """import logging, sys
+logging.basicConfig(level=logging.INFO, stream=sys.stdout, format="%(message)s")
+import numpy as np
+from mobnet.control.geometry import clip, dead
+clip(0.0, 0.0, 1.0)
+dead(0.0, 1.0)
 """
 
 
@@ -54,7 +61,7 @@ def test_cache_lies_in_a_folder_named_after_the_hash_and_numba_s_settings_stay()
 def test_cached_code_follows_the_functions_that_it_calls(tmp_path: Path) -> None:
     """The caller's own file stays; what it calls gets another number, then a comment."""
     package = tmp_path / "mobnet"
-    for name in ("__init__", "core/__init__", "core/code", "core/errors", "control/__init__", "control/compiled"):
+    for name in ("__init__", "core/__init__", "core/code", "core/errors", "core/compiled", "control/__init__"):
         (package / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(SOURCE / f"mobnet/{name}.py", package / f"{name}.py")
     (package / "control/caller.py").write_text(CALLER)
@@ -64,6 +71,15 @@ def test_cached_code_follows_the_functions_that_it_calls(tmp_path: Path) -> None
         (package / "control/called.py").write_text(text)
         told.append(subprocess.check_output([sys.executable, "-c", TELL], env=environment, text=True).split())
     assert told == [["4.0", "0"], ["6.0", "0"], ["6.0", "1"]]
+
+
+def test_only_the_process_that_compiles_says_so_once(tmp_path: Path) -> None:
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    first, second = (
+        subprocess.check_output([sys.executable, "-c", FIRST], env=environment, text=True).splitlines() for _ in "ab"
+    )
+    line = f"compiling code for this processor, which may take a minute, once: it is kept in {tmp_path}"
+    assert (first, second) == ([line], [])
 
 
 wide = on_stack(2, 3, 4)

@@ -8,10 +8,14 @@ To tell whether cached machine code is stale, numba looks only at the file of th
 functions it calls. The cache of each module therefore lives in a folder named after the hash of the module's code with
 all that it imports (`mobnet.core.code`), so that an edit of a called function is noticed, and one of a comment in its
 file is not.
+
+The first process that needs a function compiles it, which takes up to half a minute for the plant's loop, and says so;
+those that find it in the cache say nothing.
 """
 
 import contextlib
 import functools
+import logging
 import math
 from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
@@ -22,12 +26,34 @@ import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
+from numba.core import event as events
 from numba.extending import intrinsic
 from numba.np.arrayobj import populate_array
 
 from mobnet.core.code import ROOT, code_hash
 
 ITEM = np.dtype(np.float64).itemsize  # bytes
+log = logging.getLogger(__name__)
+
+
+class FirstCompilation(events.Listener):
+    """Logs that a process compiles, at its first compilation."""
+
+    def __init__(self) -> None:
+        """Wait for it."""
+        self.told = False
+
+    def on_start(self, event: events.Event) -> None:
+        """Say it once: functions that a function calls are compiled with it."""
+        if not self.told:
+            self.told = True
+            log.info("compiling code for this processor, which may take a minute, once: it is kept in %s", cache_root())
+
+    def on_end(self, event: events.Event) -> None:
+        """Say nothing."""
+
+
+events.register("numba:compile", FirstCompilation())
 
 
 def compiled(
@@ -48,7 +74,12 @@ def compiled(
 @functools.cache
 def cache_folder(file: str) -> Path:
     """Return the folder for the machine code of a source file's functions."""
-    return Path(numba.config.CACHE_DIR or ROOT / ".cache" / "numba") / code_hash(Path(file))
+    return cache_root() / code_hash(Path(file))
+
+
+def cache_root() -> Path:
+    """Return the folder of all machine code."""
+    return Path(numba.config.CACHE_DIR or ROOT / ".cache" / "numba")
 
 
 @contextlib.contextmanager

@@ -1,0 +1,14 @@
+"""The recursion of the low-pass, compiled."""
+
+from mobnet.core.arrays import Array
+from mobnet.core.compiled import compiled
+
+
+@compiled
+def decay(x: Array, width: int, pole: float) -> None:
+    """Replace samples of `width` numbers each, one after another in x, by y_k = pole y_{k-1} + (1 - pole) x_k."""
+    for i in range(min(width, len(x))):
+        x[i] = (1.0 - pole) * x[i]
+    for start in range(width, len(x), width):
+        for i in range(start, start + width):
+            x[i] = (1.0 - pole) * x[i] + pole * x[i - width]

@@ -1,0 +1,34 @@
+"""After the warm-up nothing is left to compile for the jobs of another scenario, level and robot."""
+
+import numpy as np
+import pytest
+
+from mobnet.core.columns import COMMAND, FEET, recording_width
+from mobnet.core.recording import Sensed
+from mobnet.estimation.first_order import decay
+from mobnet.estimation.observe import observer_of
+from mobnet.plan.jobs import walk_settings
+from mobnet.robot.description import describe
+from mobnet.robot.momentum import sweep
+from mobnet.settings.settings import Settings
+from mobnet.simulation import engine
+from mobnet.simulation.simulator import Simulator
+from mobnet.warm import warm
+
+
+@pytest.mark.slow
+@pytest.mark.sim
+def test_the_jobs_find_everything_compiled(settings: Settings) -> None:
+    warm(walk_settings(settings, "forward_walk", "ideal"), settings.detection)
+    functions = engine.run, sweep, decay
+    before = [list(function.signatures) for function in functions]
+    assert all(before)
+    simulator = Simulator(walk_settings(settings, "robot_walk", "robot_1"), seed=3)
+    simulator.start()
+    simulator.run(np.zeros((5, recording_width(simulator.robot.layout)), dtype=np.float32))
+    layout = describe(settings.robot).layout
+    widths = (layout.nq, layout.nv, 3, layout.nu, layout.nu, len(FEET), len(COMMAND), len(FEET))
+    rows = np.ones((20, sum(widths)), dtype=np.float32)  # a recording is read as views of one array
+    sensed = Sensed(*np.split(rows, np.cumsum(widths)[:-1], axis=1))
+    observer_of(simulator.robot, settings.levels["robot_1"], 9.81, 50.0, 500.0).residual(sensed)
+    assert [list(function.signatures) for function in functions] == before
