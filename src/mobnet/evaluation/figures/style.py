@@ -67,6 +67,7 @@ PALETTE = (
     Look("#56B4E9", (0, (8, 2)), "....", "s"),
     Look("black", (0, (1, 1)), "----", "X"),
     Look("0.45", (0, (4, 1, 1, 1)), "||||", "p"),
+    Look("#F0E442", (0, (3, 2)), "oooo", "*"),
 )
 METHODS = ("MOB-Net", "MOB", "MOB-Net-Single", "FTS-e2e", "MOB-fric-BPF", "MOB-fric")
 # method -> that whose look it shares, because no figure has both
@@ -76,7 +77,7 @@ LOOKS: Mapping[str, Look] = {
     **dict(zip(METHODS, PALETTE, strict=False)),
     **dict(zip(KINDS, PALETTE, strict=False)),
     **{name: PALETTE[METHODS.index(other)] for name, other in BASELINES.items()},
-    "MOB-Net-Single-2X": Look("#F0E442", (0, (3, 2)), "oooo", "*"),
+    "MOB-Net-Single-2X": PALETTE[-1],
     "truth": Look("black", (0, (1, 1)), width=1.1, order=3.0),  # on top of all
     "target": Look("0.72", width=2.0, order=1.0),  # wide, below all
 }
@@ -109,7 +110,8 @@ def entitle(axis: Axes, k: int, title: str) -> None:
 def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, last: str = "", **look: float) -> None:
     """Put one legend of everything drawn above the panels, each label as it is drawn first and `last` at the end.
 
-    A row has so many columns at most, or all entries; `look` has other lengths of Matplotlib's legend [font size].
+    A row has so many columns at most, or all entries, and fewer where it would be wider than the figure; `look` has other
+    lengths of Matplotlib's legend [font size].
     """
     found: dict[str, Any] = {}
     for axis in axes:
@@ -118,8 +120,12 @@ def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, las
     if last in found:
         found[last] = found.pop(last)
     look = {"handlelength": 1.8, "columnspacing": 0.9, "handletextpad": 0.4, **look}
-    ncols = max(1, min(columns or len(found), len(found)))
-    figure.legend(found.values(), found.keys(), loc="outside upper center", ncols=ncols, frameon=False, **look)
+    most = max(1, min(columns or len(found), len(found)))
+    for ncols in (most, *(-(-len(found) // rows) for rows in range(-(-len(found) // most) + 1, len(found) + 1))):
+        key = figure.legend(found.values(), found.keys(), loc="outside upper center", ncols=ncols, frameon=False, **look)
+        if ncols == 1 or key.get_window_extent().width <= figure.bbox.width:
+            return
+        key.remove()
 
 
 def save_figure(figure: Figure, stem: Path) -> None:

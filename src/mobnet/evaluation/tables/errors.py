@@ -20,7 +20,8 @@ from mobnet.settings.published import Floor, PublishedTable
 OURS, PAPER = ("ours", "ours, simulated"), ("paper", "paper, robot")  # where they simulated, and where they measured
 RAW_LABEL = "raw truth"  # of the line of errors against it
 ERROR = "rmse"  # how metrics begin that are such errors
-PART = "\\par\\medskip\n"  # between the parts of a table that is wider than a page
+# Between the parts of a table that is wider than a page; a paper may define this as the end of one float and another's start.
+PART = "\\providecommand{\\tablepart}{\\par\\medskip}\\tablepart\n"
 
 
 @dataclass(frozen=True)
