@@ -1,6 +1,4 @@
-"""The paper builds where TeX exists and fits its pages, says what is missing where it does not, and never changes on its
-own.
-"""
+"""The paper builds and fits its pages where TeX exists, says what is missing elsewhere, never changes on its own."""
 
 import csv
 import json
@@ -68,7 +66,7 @@ def text_of_uncertainty() -> tuple[list[str], list[list[str]], int, str]:
     ]
     robots = dict.fromkeys(row[2] for row in records if row[2].startswith("robot"))
     header, lines = text_of(records, list(robots))
-    return header, [line for line in lines if not isinstance(line, str)], 4, ""
+    return header, [list(line) for line in lines if not isinstance(line, str)], 4, ""
 
 
 def write_tex(name: str, settings: Settings, out: Path) -> None:
@@ -91,7 +89,8 @@ def in_parts(header: list[str], lines: list[list[str]], left: int, parts: Sequen
     """Return the parts of a table that is wider than a page, the ends of an interval one below the other."""
     names, texts = [head.split(" [")[0] for head in header], []
     stacked = [
-        [*line[: left - 1], f"{line[left - 1]} {end}".strip(), *(cell.strip("[]").split(", ")[-k] for cell in line[left:])]
+        [*line[: left - 1], f"{line[left - 1]} {end}".strip(),
+         *(cell.strip("[]").split(", ")[-k] for cell in line[left:])]
         for line in lines for k, end in (((2, "from"), (1, "to")) if line[left - 1].endswith("%") else ((1, ""),))
     ]  # fmt: skip
     for first, end in pairwise([left, *map(names.index, parts), len(header)]):

@@ -3,6 +3,7 @@
 import logging
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from math import ceil
 from pathlib import Path
 from typing import Any
 
@@ -110,8 +111,8 @@ def entitle(axis: Axes, k: int, title: str) -> None:
 def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, last: str = "", **look: float) -> None:
     """Put one legend of everything drawn above the panels, each label as it is drawn first and `last` at the end.
 
-    A row has so many columns at most, or all entries, and fewer where it would be wider than the figure; `look` has other
-    lengths of Matplotlib's legend [font size].
+    A row has so many columns at most, or all entries, and fewer where it would be wider than the figure; `look` has
+    other lengths of Matplotlib's legend [font size].
     """
     found: dict[str, Any] = {}
     for axis in axes:
@@ -121,8 +122,10 @@ def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, las
         found[last] = found.pop(last)
     look = {"handlelength": 1.8, "columnspacing": 0.9, "handletextpad": 0.4, **look}
     most = max(1, min(columns or len(found), len(found)))
-    for ncols in (most, *(-(-len(found) // rows) for rows in range(-(-len(found) // most) + 1, len(found) + 1))):
-        key = figure.legend(found.values(), found.keys(), loc="outside upper center", ncols=ncols, frameon=False, **look)
+    fewer = (ceil(len(found) / rows) for rows in range(ceil(len(found) / most) + 1, len(found) + 1))
+    place: dict[str, Any] = {"loc": "outside upper center", "frameon": False}
+    for ncols in (most, *fewer):  # the width is known once it is laid out
+        key = figure.legend(found.values(), found.keys(), ncols=ncols, **place, **look)
         if ncols == 1 or key.get_window_extent().width <= figure.bbox.width:
             return
         key.remove()

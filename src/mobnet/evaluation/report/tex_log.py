@@ -14,7 +14,7 @@ LARGE = re.compile(
 def page_faults(log: str) -> list[str]:
     """Return what runs off its page or column by more than OVERFULL_PT [pt], and the labels that are defined twice.
 
-    What is too large is followed by the file of TeX that was read last: the table at fault, unless the fault is in prose.
+    What is too large is followed by the file of TeX that was read last: the table at fault, unless it is in prose.
     `log` is that of one run, with lines that TeX did not break.
     """
     faults, last = [], "main file"

@@ -20,7 +20,7 @@ from mobnet.settings.published import Floor, PublishedTable
 OURS, PAPER = ("ours", "ours, simulated"), ("paper", "paper, robot")  # where they simulated, and where they measured
 RAW_LABEL = "raw truth"  # of the line of errors against it
 ERROR = "rmse"  # how metrics begin that are such errors
-# Between the parts of a table that is wider than a page; a paper may define this as the end of one float and another's start.
+# Between the parts of a table that is wider than a page; a paper may define it to end a float and begin another.
 PART = "\\providecommand{\\tablepart}{\\par\\medskip}\\tablepart\n"
 
 
