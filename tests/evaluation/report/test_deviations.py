@@ -13,7 +13,8 @@ DOC, MAIN = REPO / "docs/deviations.md", REPO / "paper/main.tex"
 PUBLISHED_LOAD_SHARE = 0.166  # friction over the transmitted torque of a harmonic drive (note 0028)
 CHOICES = {  # that a reader of the paper's text would not expect
     "Robot of sections 5.2 to 7", "Results on the robot", "Learning for the robot",
-    "Push on the hand, Table 8 and Figure 12", "Collisions, Table 9", "Acceleration of the pelvis", "Output for the spread", "Number format", "Epoch that is kept",
+    "Push on the hand, Table 8 and Figure 12", "Collisions, Table 9",
+    "Acceleration of the pelvis", "Output for the spread", "Number format", "Epoch that is kept",
 }  # fmt: skip
 
 

@@ -123,10 +123,9 @@ def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, las
     look = {"handlelength": 1.8, "columnspacing": 0.9, "handletextpad": 0.4, **look}
     most = max(1, min(columns or len(found), len(found)))
     fewer = (ceil(len(found) / rows) for rows in range(ceil(len(found) / most) + 1, len(found) + 1))
-    place: dict[str, Any] = {"loc": "outside upper center", "frameon": False}
-    for ncols in (most, *fewer):  # the width is known once it is laid out
-        key = figure.legend(found.values(), found.keys(), ncols=ncols, **place, **look)
-        if ncols == 1 or key.get_window_extent().width <= figure.bbox.width:
+    for n in (most, *fewer):  # the width is known once it is laid out
+        key = figure.legend(found.values(), found.keys(), loc="outside upper center", ncols=n, frameon=False, **look)
+        if n == 1 or key.get_window_extent().width <= figure.bbox.width:
             return
         key.remove()
 
