@@ -28,6 +28,8 @@ TEX_SPECIAL = {
 MINUS = re.compile(r"(?<![\w-])-(?=\d)")
 RULE = r"\midrule"
 GAP = r"\addlinespace"
+# Between the parts of a table that is wider than a page; a paper may define it to end a float and begin another.
+PART = "\\providecommand{\\tablepart}{\\par\\medskip}\\tablepart\n"
 
 Line = Sequence[str] | str  # cells of a row, or a rule or a gap between rows
 
