@@ -120,7 +120,7 @@ def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, las
             found.setdefault(label, handle)
     if last in found:
         found[last] = found.pop(last)
-    look = {"handlelength": 1.8, "columnspacing": 0.9, "handletextpad": 0.4, **look}
+    look = {"handlelength": 1.8, "columnspacing": 0.9, "handletextpad": 0.4, "borderpad": 0.0, **look}
     most = max(1, min(columns or len(found), len(found)))
     fewer = (ceil(len(found) / rows) for rows in range(ceil(len(found) / most) + 1, len(found) + 1))
     for n in (most, *fewer):  # the width is known once it is laid out
