@@ -1,6 +1,7 @@
 """The command: what it makes, and one line for what it does not accept."""
 
 import logging
+import re
 from pathlib import Path
 
 import matplotlib.image
@@ -96,3 +97,10 @@ def test_one_line_names_what_is_not_accepted(words: list[str], message: str, cap
     assert caplog.messages[0].startswith("error: ")
     assert message in caplog.messages[0]
     assert "\n" not in caplog.messages[0]
+
+
+def test_what_the_readme_draws_is_written_where_git_does_not_look() -> None:
+    drawn = re.findall(r"--(?:video|picture) (\S+)", (ROOT / "README.md").read_text())
+    assert drawn
+    assert all(name.startswith("results/") for name in drawn)
+    assert "/results/" in (ROOT / ".gitignore").read_text().splitlines()

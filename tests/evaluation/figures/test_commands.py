@@ -19,6 +19,14 @@ def test_bars_are_as_high_as_their_share_and_do_not_overlap() -> None:
     assert all(end <= start + 1e-12 for (_, end), (start, _) in pairwise(spans))
 
 
+def test_as_many_sets_as_the_configuration_has_are_told_apart_and_their_legend_is_not_cut(settings: Settings) -> None:
+    counts = {name: np.array([2, 8]) for name in settings.training_sets}
+    figure = draw_bars([Bars("step x [m]", np.array([0.0, 1.0, 2.0]), counts)])
+    (key,) = figure.legends
+    assert key.get_window_extent().width <= figure.bbox.width
+    assert len({bar.get_facecolor() for bar in figure.axes[0].patches}) == len(counts)
+
+
 def test_numbers_are_the_golden_ones(
     tmp_path: Path, settings: Settings, evaluation: Evaluation, data_sets: dict[str, list[Path]]
 ) -> None:

@@ -58,3 +58,13 @@ def test_bars_are_a_push_each_and_tell_average_and_increase() -> None:
     assert bars.groups == ["1", AVERAGE]
     assert bars.bars == {"MOB": [pushes["1"], pushes[AVERAGE]]}
     assert bars.notes == {"MOB": ["", "2.0 (\N{MINUS SIGN}1.0)"]}
+
+
+def test_upright_notes_end_below_the_title_also_above_the_highest_bar() -> None:
+    """A push of each test, as at the smoke scale."""
+    errors = {name: {AVERAGE: Number(19.0 + k), INCREASE: Number(-11.0)} for k, name in enumerate(("MOB", "MOB-Net"))}
+    figure = draw_pushes([PushGroup("test", group(1.0).panels, errors, "errors")] * 2, "LL3", 2, 90)
+    figure.draw_without_rendering()
+    notes = [(text, axis) for axis in figure.axes for text in axis.texts if text.get_text()]
+    assert [text.get_text() for text, _ in notes] == [f"{k}.0 (\N{MINUS SIGN}11.0)" for k in (19, 20)] * 2
+    assert all(text.get_window_extent().y1 <= axis.bbox.y1 for text, axis in notes)

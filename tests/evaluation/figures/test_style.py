@@ -2,9 +2,11 @@
 
 from itertools import combinations
 
+import matplotlib as mpl
 import pytest
+from matplotlib.figure import Figure
 
-from mobnet.evaluation.figures.style import LOOKS, PALETTE, Look, looks
+from mobnet.evaluation.figures.style import LOOKS, PAGE_INCH, PALETTE, STYLE, Look, legend, looks
 from mobnet.settings.settings import Settings
 
 
@@ -37,3 +39,18 @@ def test_a_method_keeps_its_look_beside_whatever_else_is_drawn(others: list[str]
 
 def test_more_than_there_are_looks_begin_anew() -> None:
     assert looks(str(k) for k in range(len(PALETTE) + 1))[str(len(PALETTE))] == PALETTE[0]
+
+
+@pytest.mark.parametrize(("entries", "rows"), [(1, 1), (4, 1), (9, 2), (30, 6)])
+def test_a_legend_takes_as_many_rows_as_its_figure_is_wide(entries: int, rows: int) -> None:
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(PAGE_INCH, 4.0), layout="constrained")
+        axis = figure.subplots()
+        for k in range(entries):
+            axis.plot([0, 1], label=f"robot_walk_plain {k}")
+        legend(figure, [axis])
+    figure.draw_without_rendering()
+    (key,) = figure.legends
+    assert key.get_window_extent().width <= figure.bbox.width
+    assert [text.get_text() for text in key.get_texts()] == [f"robot_walk_plain {k}" for k in range(entries)]
+    assert len({round(text.get_window_extent().y0) for text in key.get_texts()}) == rows

@@ -6,8 +6,16 @@ import pytest
 
 from mobnet.core.errors import DataError
 from mobnet.evaluation.report.deviations import deviations, markdown_rows, tex_text
+from mobnet.settings.settings import Settings
 
-DOC = Path(__file__).parents[3] / "docs/deviations.md"
+REPO = Path(__file__).parents[3]
+DOC, MAIN = REPO / "docs/deviations.md", REPO / "paper/main.tex"
+PUBLISHED_LOAD_SHARE = 0.166  # friction over the transmitted torque of a harmonic drive (note 0028)
+CHOICES = {  # that a reader of the paper's text would not expect
+    "Robot of sections 5.2 to 7", "Results on the robot", "Learning for the robot",
+    "Push on the hand, Table 8 and Figure 12", "Collisions, Table 9",
+    "Acceleration of the pelvis", "Output for the spread", "Number format", "Epoch that is kept",
+}  # fmt: skip
 
 
 def test_every_row_of_the_document_reaches_the_paper_in_order(tmp_path: Path) -> None:
@@ -34,3 +42,29 @@ def test_a_table_that_does_not_fit_is_refused(text: str, says: str) -> None:
 def test_a_missing_document_is_named(tmp_path: Path) -> None:
     with pytest.raises(DataError, match=r"none\.md: file is missing"):
         deviations(tmp_path / "none.md", tmp_path / "d.tex")
+
+
+def test_choices_about_robots_and_networks_have_a_row() -> None:
+    assert {row[0] for row in markdown_rows(DOC.read_text(), "d")} >= CHOICES
+
+
+def test_terrains_are_told_as_they_are_walked(settings: Settings) -> None:
+    terrains = {name: set(scenario.terrain) for name, scenario in settings.scenarios.items()}
+    assert (terrains["random_walk"], terrains["walk_test"]) == ({"checks"}, {"checks"})
+    assert terrains["robot_walk"] == {"plates", "slope", "flat"}
+    (row,) = (row for row in markdown_rows(DOC.read_text(), "d") if row[0] == "Terrain")
+    assert "The legs of the surrogate robots learn on plates, a slope and flat ground" in row[3]
+    text = " ".join(MAIN.read_text().split())
+    assert "surrogate robots learn from walks over plates of 10\\,mm, a slope of 3$^\\circ$ and flat ground" in text
+
+
+def test_numbers_of_sentences_are_those_of_the_configuration(settings: Settings) -> None:
+    text = " ".join(MAIN.read_text().split())
+    force_n = settings.pushes["right_hand"].force_n
+    assert force_n
+    low, high = force_n
+    assert rf"random forces of {low:g} to {high:g}\,N push the right hand" in text
+    limbs, spread = settings.surrogate.limbs.values(), settings.surrogate.drive.spread
+    largest = (1.0 + spread) * max(share for limb in limbs for share in limb.load_share)
+    assert f"up to {largest / PUBLISHED_LOAD_SHARE:.1f}~times the published one" in text
+    assert f"up to {largest / PUBLISHED_LOAD_SHARE:.1f} times a published one" in DOC.read_text()

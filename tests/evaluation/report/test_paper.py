@@ -1,25 +1,34 @@
-"""The paper builds where TeX exists, says what is missing where it does not, and never changes on its own."""
+"""The paper builds and fits its pages where TeX exists, says what is missing elsewhere, never changes on its own."""
 
 import csv
 import json
+import re
+from collections.abc import Callable, Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+import made_detections
 import pytest
+from csv_files import read_table
 from matplotlib.figure import Figure
 
 from mobnet.core.errors import DataError
 from mobnet.evaluation.report.deviations import deviations
 from mobnet.evaluation.report.numbers import numbers
 from mobnet.evaluation.report.paper import PACKAGES, PaperError, copy_sources, missing_packages, paper
-from mobnet.evaluation.tables.claims import CAPTION
-from mobnet.evaluation.tables.layout import long_table, text_table
+from mobnet.evaluation.tables import claims, methods
+from mobnet.evaluation.tables.layout import PART, long_table, note_tex, text_table
+from mobnet.evaluation.tables.uncertainty import text_of
 from mobnet.plan.products import Folders, Products
 from mobnet.plan.runs import Files
 from mobnet.settings.data import Recordings
 from mobnet.settings.settings import Settings
 
 REPO = Path(__file__).parents[3]
+GOLDEN, PUBLISHED = REPO / "tests/golden", REPO / "docs/results"
+DETECTION = ("table_09", "table_13", "false_alarms", "smallest_force", "links")
+SHOWN = 4  # columns of another table whose text nobody published yet
 SOURCE = r"""\documentclass{article}
 \pdfinfoomitdate=1 \pdftrailerid{} \providecommand{\tables}{../tables}
 \begin{document}\input{\tables/table_05}\end{document}
@@ -38,13 +47,57 @@ def source(tmp_path: Path) -> Path:
     return tmp_path / "paper/main.tex"
 
 
-def write_tex(table: Path, out: Path) -> None:
-    """Write the first rows of a golden table as TeX, the claims with their caption."""
-    header, *rows = csv.reader(table.read_text().splitlines())
-    if table.stem == "claims":
-        out.write_text(long_table("l" * len(header), CAPTION, header, rows))
+def text_of_table(name: str) -> tuple[list[str], list[list[str]], int, str]:
+    """Return head, lines, columns flush left and note of a published table, or of the first of a golden one's."""
+    path = PUBLISHED / f"{name}.md"
+    if not path.is_file():
+        header, *rows = csv.reader((GOLDEN / f"{name}.csv").read_text().splitlines())
+        return header[:SHOWN], [row[:SHOWN] for row in rows[:5]], SHOWN, ""
+    lines = path.read_text().splitlines()
+    rows = [re.split(r" ?(?<!\\)\| ?", line)[1:-1] for line in lines if line.startswith("|")]
+    header, marks, *cells = [[cell.replace(r"\|", "|") for cell in row] for row in rows]
+    return header, cells, marks.count("---"), " ".join(line for line in lines if line and not line.startswith("|"))
+
+
+def text_of_uncertainty() -> tuple[list[str], list[list[str]], int, str]:
+    """Return the same of the published sizes of the uncertainty torque, laid out as they are now."""
+    records: list[Any] = [
+        (row.limb, row.joint, row.set, row.value, row.unit, row.published, row.ratio, row.within)
+        for row in read_table(PUBLISHED / "uncertainty.csv")
+    ]
+    robots = dict.fromkeys(row[2] for row in records if row[2].startswith("robot"))
+    header, lines = text_of(records, list(robots))
+    return header, [list(line) for line in lines if not isinstance(line, str)], 4, ""
+
+
+def write_tex(name: str, settings: Settings, out: Path) -> None:
+    """Write a table as TeX of about the size that the one of the default scale has."""
+    header, lines, left, note = text_of_uncertainty() if name == "uncertainty" else text_of_table(name)
+    align = "l" * left + "r" * (len(header) - left)
+    parts = getattr(settings.evaluation.tables.get(name), "parts", ())
+    if name == "claims":
+        tex = long_table(claims.COLUMNS, claims.CAPTION, header[:-1], [line[:-1] for line in lines])
+    elif name == "methods":
+        tex = long_table(align, methods.CAPTION, header, lines)
+    elif parts:
+        tex = in_parts(header, lines, left, parts)
     else:
-        out.write_text(text_table("l" * len(header), header, rows[:5]))
+        tex = text_table(align, header, lines)
+    out.write_text(tex + (note_tex(note) if note else ""))
+
+
+def in_parts(header: list[str], lines: list[list[str]], left: int, parts: Sequence[str]) -> str:
+    """Return the parts of a table that is wider than a page, the ends of an interval one below the other."""
+    names, texts = [head.split(" [")[0] for head in header], []
+    stacked = [
+        [*line[: left - 1], f"{line[left - 1]} {end}".strip(),
+         *(cell.strip("[]").split(", ")[-k] for cell in line[left:])]
+        for line in lines for k, end in (((2, "from"), (1, "to")) if line[left - 1].endswith("%") else ((1, ""),))
+    ]  # fmt: skip
+    for first, end in pairwise([left, *map(names.index, parts), len(header)]):
+        cut = [[*line[:left], *line[first:end]] for line in (header, *stacked)]
+        texts.append(text_table("l" * left + "r" * (end - first), cut[0], cut[1:]))
+    return PART.join(texts)
 
 
 def build(source: Path) -> Any:
@@ -76,18 +129,35 @@ def test_with_tex_equal_input_gives_equal_bytes(source: Path) -> None:
     assert once.startswith(b"%PDF")
 
 
+@pytest.fixture
+def write_detection(
+    tmp_path: Path, make_table: Callable[..., Path], settings: Settings, monkeypatch: pytest.MonkeyPatch
+) -> Callable[[], None]:
+    """Write the tables of detection, with a made-up number for each detector of the configuration."""
+
+    def write() -> None:
+        for name in settings.detection.detectors:
+            monkeypatch.setitem(made_detections.FOUND, name, 0.75)
+            monkeypatch.setitem(made_detections.DELAY_S, name, 0.123)
+        for name in DETECTION:
+            make_table(name, detections=made_detections.write_detections(tmp_path / "detection"))
+
+    return write
+
+
 @with_tex
-def test_the_paper_itself_builds_from_the_golden_tables(tmp_path: Path, claims_csv: Path, settings: Settings) -> None:
-    """Every figure is the same picture."""
+def test_the_paper_itself_builds_from_the_golden_tables(
+    tmp_path: Path, claims_csv: Path, summary_csv: Path, settings: Settings, write_detection: Callable[[], None]
+) -> None:
+    """And fits its pages with tables as large as the published ones; every figure is the same picture."""
     folders = Folders(tmp_path, tmp_path, tmp_path, tmp_path / "out", tmp_path / "MANIFEST.sha256")
     products = Products(settings, Files(settings, tmp_path), folders, with_pdf=True)
-    golden = REPO / "tests/golden"
     deviations(REPO / "docs/deviations.md", tmp_path / "deviations.tex")
-    train, table = Recordings(shards=1, shard_s=60.0), golden / "table_05.csv"
-    numbers(settings.scale, settings.rates, settings.sizes, train, [table], claims_csv, tmp_path / "numbers.tex")
-    (tmp_path / "compute.tex").write_text(text_table("lr", ["Stage", "Jobs"], [["collect", "1"]]))
-    for name in products.table_names:
-        write_tex(golden / f"{name}.csv", tmp_path / f"{name}.tex")
+    train, sizes = Recordings(shards=1, shard_s=60.0), (settings.scale, settings.rates, settings.sizes, settings.fleet)
+    numbers(*sizes, train, [GOLDEN / "table_05.csv"], claims_csv, summary_csv, tmp_path / "numbers.tex")
+    write_detection()
+    for name in {*products.table_names, "compute"}.difference(DETECTION):
+        write_tex(name, settings, tmp_path / f"{name}.tex")
     tables = [tmp_path / f"{name}.tex" for name in (*products.table_names, "numbers", "deviations", "compute")]
     figures = [tmp_path / f"{name}.pdf" for name in products.figure_names]
     for path in figures:
@@ -95,6 +165,24 @@ def test_the_paper_itself_builds_from_the_golden_tables(tmp_path: Path, claims_c
     main, references = REPO / "paper/main.tex", REPO / "paper/refs.bib"
     paper(settings.scale, main, references, tables, figures, tmp_path / "out/build.json")
     assert (tmp_path / "out/main.pdf").stat().st_size > 50_000
+
+
+@with_tex
+def test_what_runs_off_its_page_or_has_a_label_twice_is_named_and_leaves_no_pdf(source: Path) -> None:
+    """Each once; what is hardly seen is no fault."""
+    document = r"\begin{document}\section{a}\label{a}\section{b}\label{a}\input{\tables/table_05}\end{document}"
+    source.write_text(re.sub(r"\\begin\{doc.*", lambda _: document, SOURCE))
+    wide, high = r"\noindent\rule{\dimexpr\linewidth+%spt}{1pt}\par", r"\begin{table}\rule{1pt}{1200pt}\end{table}"
+    (source.parents[1] / "tables/table_05.tex").write_text("\n".join([wide % 300, wide % 4, high]))
+    with pytest.raises(PaperError) as failure:
+        build(source)
+    (line,) = str(failure.value).splitlines()
+    assert [re.sub(r"\d[\d.]*pt", "", fault) for fault in line.partition("pages: ")[2].split("; ")] == [
+        "Label `a' multiply defined",
+        r"Overfull \hbox ( too wide) in paragraph at lines 1--1 (after tables/table_05.tex)",
+        "Float too large for page by  on input line 3 (after tables/table_05.tex)",
+    ]
+    assert not (source.parents[1] / "out").exists()
 
 
 @with_tex

@@ -32,10 +32,11 @@ def test_markdown_rows_have_the_same_cells_and_rules_are_left_out() -> None:
     assert lines == ["| a | b |", "| --- | ---: |", "| x\\|y | 1 |", "| z | 2 |"]
 
 
-def test_a_long_table_repeats_its_header_and_ends_each_page_with_a_rule() -> None:
+def test_a_long_table_has_its_caption_once_repeats_its_header_and_ends_each_page_with_a_rule() -> None:
     lines = long_table("lr", r"\caption{c}", ["a_1", "b"], [["50 %", "1"], r"\multicolumn{2}{l}{why} \\"]).splitlines()
+    head = [r"\toprule", r"a\_1 & b \\", RULE]
     assert lines == [
-        r"\begin{longtable}{lr}", r"\caption{c} \\", r"\toprule", r"a\_1 & b \\", RULE, r"\endhead", r"\bottomrule",
+        r"\begin{longtable}{lr}", r"\caption{c} \\", *head, r"\endfirsthead", *head, r"\endhead", r"\bottomrule",
         r"\endfoot", r"50 \% & 1 \\", r"\multicolumn{2}{l}{why} \\", r"\end{longtable}",
     ]  # fmt: skip
 

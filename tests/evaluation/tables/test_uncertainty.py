@@ -9,7 +9,7 @@ from csv_files import check_golden, read_table
 
 from mobnet.core.store import read_array, write_array
 from mobnet.evaluation.tables.layout import note_tex
-from mobnet.evaluation.tables.uncertainty import target_std, verdict
+from mobnet.evaluation.tables.uncertainty import OUTSIDE, target_std, verdict
 from mobnet.settings.settings import Settings
 
 
@@ -59,6 +59,25 @@ def test_each_surrogate_robot_has_its_rows_and_bounds(
     assert [row.joint for row in own] == [f"LL{i}" for i in range(1, 7)]
     low, high = settings.evaluation.uncertainty.robot_ratio
     assert [row.within for row in own] == ["yes" if low <= row.ratio <= high else "no" for row in own]
+
+
+def test_a_line_is_a_joint_with_a_size_and_a_marked_ratio_of_every_plant(
+    make_table: Callable[..., Path], settings: Settings, data_sets: dict[str, list[Path]]
+) -> None:
+    """So that the table fits a page with three robots."""
+    sets = {name: [stem.with_name(f"{stem.name}_residual") for stem in stems] for name, stems in data_sets.items()}
+    networks = {limb: settings.networks[limb] for limb in ("LL", "W")}
+    bounds = settings.evaluation.uncertainty.model_copy(update={"ratio": {"LL": (0.0, 1.5)}})
+    robots = {"robot_1": {"walk": sets["walk"]}}
+    table = make_table("uncertainty", settings=bounds, networks=networks, sets=sets, robots=robots)
+    lines = table.with_suffix(".md").read_text().splitlines()
+    assert lines[0] == "| Limb | Joint | Set | Unit | Paper | section 5.1 | ratio | robot 1 | ratio |"
+    rows = {(row.joint, row.set): row for row in read_table(table)}
+    one, robot = rows["LL1", "walk"], rows["LL1", "robot_1"]
+    sizes = f"{one.value:.1f} | {one.ratio:.2f}{OUTSIDE} | {robot.value:.1f} | {robot.ratio:.2f}{OUTSIDE} |"
+    assert lines[2] == f"| LL | LL1 | walk | N m | 9.7 | {sizes}"  # twice as large as the robot's
+    assert lines[3].count(OUTSIDE) == 1  # 0.42 of it, within the plant's bounds
+    assert lines[8].endswith(f"{rows['W1', 'motion'].value:.1f} | {rows['W1', 'motion'].ratio:.2f} | - | - |")
 
 
 def test_bounds_are_closed_and_a_missing_number_is_no_verdict() -> None:

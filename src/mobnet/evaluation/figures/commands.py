@@ -17,7 +17,7 @@ from mobnet.evaluation.number.files import write_csv
 from mobnet.settings.data import Commands
 from mobnet.settings.evaluation import CommandsFigure
 
-BARS_INCH = 1.9  # height
+BARS_INCH = 2.1  # height, with two rows of the legend
 LABELS = ("step x [m]", "step y [m]", "turn [deg]", "duration [s]", "foot height [m]")
 
 

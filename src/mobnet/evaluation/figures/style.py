@@ -3,6 +3,7 @@
 import logging
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from math import ceil
 from pathlib import Path
 from typing import Any
 
@@ -67,6 +68,7 @@ PALETTE = (
     Look("#56B4E9", (0, (8, 2)), "....", "s"),
     Look("black", (0, (1, 1)), "----", "X"),
     Look("0.45", (0, (4, 1, 1, 1)), "||||", "p"),
+    Look("#F0E442", (0, (3, 2)), "oooo", "*"),
 )
 METHODS = ("MOB-Net", "MOB", "MOB-Net-Single", "FTS-e2e", "MOB-fric-BPF", "MOB-fric")
 # method -> that whose look it shares, because no figure has both
@@ -76,7 +78,7 @@ LOOKS: Mapping[str, Look] = {
     **dict(zip(METHODS, PALETTE, strict=False)),
     **dict(zip(KINDS, PALETTE, strict=False)),
     **{name: PALETTE[METHODS.index(other)] for name, other in BASELINES.items()},
-    "MOB-Net-Single-2X": Look("#F0E442", (0, (3, 2)), "oooo", "*"),
+    "MOB-Net-Single-2X": PALETTE[-1],
     "truth": Look("black", (0, (1, 1)), width=1.1, order=3.0),  # on top of all
     "target": Look("0.72", width=2.0, order=1.0),  # wide, below all
 }
@@ -109,7 +111,8 @@ def entitle(axis: Axes, k: int, title: str) -> None:
 def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, last: str = "", **look: float) -> None:
     """Put one legend of everything drawn above the panels, each label as it is drawn first and `last` at the end.
 
-    A row has so many columns at most, or all entries; `look` has other lengths of Matplotlib's legend [font size].
+    A row has so many columns at most, or all entries, and fewer where it would be wider than the figure; `look` has
+    other lengths of Matplotlib's legend [font size].
     """
     found: dict[str, Any] = {}
     for axis in axes:
@@ -117,9 +120,14 @@ def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, las
             found.setdefault(label, handle)
     if last in found:
         found[last] = found.pop(last)
-    look = {"handlelength": 1.8, "columnspacing": 0.9, "handletextpad": 0.4, **look}
-    ncols = max(1, min(columns or len(found), len(found)))
-    figure.legend(found.values(), found.keys(), loc="outside upper center", ncols=ncols, frameon=False, **look)
+    look = {"handlelength": 1.8, "columnspacing": 0.9, "handletextpad": 0.4, "borderpad": 0.0, **look}
+    most = max(1, min(columns or len(found), len(found)))
+    fewer = (ceil(len(found) / rows) for rows in range(ceil(len(found) / most) + 1, len(found) + 1))
+    for n in (most, *fewer):  # the width is known once it is laid out
+        key = figure.legend(found.values(), found.keys(), loc="outside upper center", ncols=n, frameon=False, **look)
+        if n == 1 or key.get_window_extent().width <= figure.bbox.width:
+            return
+        key.remove()
 
 
 def save_figure(figure: Figure, stem: Path) -> None:

@@ -5,16 +5,18 @@ from pathlib import Path
 
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_text, write_text
-from mobnet.evaluation.tables.layout import tex_escape, tex_table
+from mobnet.evaluation.tables.layout import GAP, long_tex_table, tex_escape
 
-WIDTHS = (0.13, 0.25, 0.24, 0.30)  # shares of the text width, one a column
+WIDTHS = (0.12, 0.25, 0.25, 0.32)  # shares of the text width, one a column
+CAPTION = r"\deviationscaption"  # the paper's
 
 
 def deviations(markdown: Path, out: Path) -> None:
-    """Write the table of a Markdown file, which must be as wide as the paper's, as a TeX tabular."""
+    """Write the table of a Markdown file, which must be as wide as the paper's, as a TeX longtable."""
     header, *rows = markdown_rows(read_text(markdown), str(markdown))
     columns = "".join(rf">{{\raggedright\arraybackslash}}p{{{width}\textwidth}}" for width in WIDTHS)
-    write_text(out, tex_table(columns, list(map(tex_text, header)), [list(map(tex_text, row)) for row in rows]))
+    lines = [line for row in rows for line in (GAP, list(map(tex_text, row)))]
+    write_text(out, long_tex_table(columns, CAPTION, list(map(tex_text, header)), lines[1:]))
 
 
 def markdown_rows(text: str, name: str) -> list[list[str]]:

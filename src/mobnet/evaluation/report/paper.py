@@ -10,6 +10,7 @@ from pathlib import Path
 
 from mobnet.core.errors import DataError, MobnetError
 from mobnet.core.files import atomic_path, check_room, write_json
+from mobnet.evaluation.report.tex_log import page_faults
 
 log = logging.getLogger(__name__)
 
@@ -22,11 +23,12 @@ NEEDED = {  # file that TeX must find -> Debian package that holds it
 PACKAGES = ("texlive-latex-recommended", "texlive-publishers", "texlive-fonts-recommended", "latexmk")
 TABLES, FIGURES = "tables", "figures"  # folders beside the copy of the paper that TeX reads
 LOG_LINES = 15
+LINE = "10000"  # characters after which TeX breaks a line of its log
 EPOCH = "0"  # date of the PDF unless SOURCE_DATE_EPOCH says another: equal input gives equal bytes
 
 
 class PaperError(MobnetError):
-    """TeX is installed but could not set the paper."""
+    """TeX is installed but could not set the paper, or set it so that it does not fit its pages."""
 
 
 def paper(scale: str, main: Path, references: Path, tables: Sequence[Path], figures: Sequence[Path], out: Path) -> None:
@@ -36,7 +38,8 @@ def paper(scale: str, main: Path, references: Path, tables: Sequence[Path], figu
     the paper inputs, figures PDF files.
 
     Raises:
-        PaperError: TeX failed; the message holds the end of its log.
+        PaperError: TeX failed, and the message holds the end of its log; or something runs off its page or column, or a
+            label is defined twice, and the message names each.
     """
     pdf, missing = out.with_name(f"{main.stem}.pdf"), missing_packages()
     pdf.unlink(missing_ok=True)
@@ -76,15 +79,19 @@ def copy_sources(sources: Mapping[str, Sequence[Path]], folder: Path) -> None:
 
 
 def compile_pdf(source: Path, out: Path) -> None:
-    """Run latexmk in the source's folder and write the PDF."""
+    """Run latexmk in the source's folder and write the PDF, if everything fits its pages."""
+    fixed = {"SOURCE_DATE_EPOCH": os.environ.get("SOURCE_DATE_EPOCH", EPOCH), "max_print_line": LINE}
     run = subprocess.run(
         latexmk_command(source.name), cwd=source.parent, capture_output=True, text=True, errors="replace", check=False,
-        stdin=subprocess.DEVNULL, env={**os.environ, "SOURCE_DATE_EPOCH": os.environ.get("SOURCE_DATE_EPOCH", EPOCH)},
+        stdin=subprocess.DEVNULL, env={**os.environ, **fixed},
     )  # fmt: skip
     if run.returncode != 0:
         check_room(source.parent)
         lines = [line for line in run.stdout.splitlines() if line.strip()]
         raise PaperError(f"{out}: latexmk ended with {run.returncode}:\n" + "\n".join(lines[-LOG_LINES:]))
+    faults = page_faults(source.with_suffix(".log").read_text(encoding="utf-8", errors="replace"))
+    if faults:
+        raise PaperError(f"{out}: the paper does not fit its pages: {'; '.join(faults)}")
     with atomic_path(out) as temporary:
         shutil.copy(source.with_suffix(".pdf"), temporary)
 

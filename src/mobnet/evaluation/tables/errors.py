@@ -13,14 +13,13 @@ from mobnet.evaluation.measure.scores import AVERAGE
 from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.number import Number, number_text, published_row
 from mobnet.evaluation.number.rows import read_scores
-from mobnet.evaluation.tables.layout import Line, Table, in_blocks, text_table, write_table
+from mobnet.evaluation.tables.layout import PART, Line, Table, in_blocks, text_table, write_table
 from mobnet.settings.evaluation import ErrorTable, Statistics
 from mobnet.settings.published import Floor, PublishedTable
 
 OURS, PAPER = ("ours", "ours, simulated"), ("paper", "paper, robot")  # where they simulated, and where they measured
 RAW_LABEL = "raw truth"  # of the line of errors against it
 ERROR = "rmse"  # how metrics begin that are such errors
-PART = "\\par\\medskip\n"  # between the parts of a table that is wider than a page
 
 
 @dataclass(frozen=True)

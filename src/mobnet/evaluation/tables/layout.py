@@ -28,6 +28,8 @@ TEX_SPECIAL = {
 MINUS = re.compile(r"(?<![\w-])-(?=\d)")
 RULE = r"\midrule"
 GAP = r"\addlinespace"
+# Between the parts of a table that is wider than a page; a paper may define it to end a float and begin another.
+PART = "\\providecommand{\\tablepart}{\\par\\medskip}\\tablepart\n"
 
 Line = Sequence[str] | str  # cells of a row, or a rule or a gap between rows
 
@@ -127,13 +129,20 @@ def text_table(columns: str, header: Sequence[str], lines: Sequence[Line]) -> st
 
 
 def long_table(columns: str, caption: str, header: Sequence[str], lines: Sequence[Line]) -> str:
-    """Return a longtable environment of plain text: it breaks across pages, repeats its header and holds its caption.
+    """Return a longtable environment of plain text: it breaks across pages, and each of them repeats its header.
 
-    `columns` and `caption` are TeX, and so are lines that are no cells.
+    `columns` and `caption` are TeX, and so are lines that are no cells. The caption stands once: it defines a label.
     """
-    head = [r"\toprule", tex_row(list(map(tex_escape, header))), RULE, r"\endhead", r"\bottomrule", r"\endfoot"]
-    body = [line if isinstance(line, str) else tex_row(list(map(tex_escape, line))) for line in lines]
-    return "\n".join([rf"\begin{{longtable}}{{{columns}}}", rf"{caption} \\", *head, *body, r"\end{longtable}"]) + "\n"
+    escaped = [line if isinstance(line, str) else list(map(tex_escape, line)) for line in lines]
+    return long_tex_table(columns, caption, list(map(tex_escape, header)), escaped)
+
+
+def long_tex_table(columns: str, caption: str, header: Sequence[str], lines: Sequence[Line]) -> str:
+    """Return a longtable environment of TeX cells, as `long_table` does of plain text."""
+    head = [r"\toprule", tex_row(header), RULE]
+    parts = [rf"\begin{{longtable}}{{{columns}}}", rf"{caption} \\", *head, r"\endfirsthead", *head, r"\endhead"]
+    body = [line if isinstance(line, str) else tex_row(line) for line in lines]
+    return "\n".join([*parts, r"\bottomrule", r"\endfoot", *body, r"\end{longtable}"]) + "\n"
 
 
 def tex_row(cells: Sequence[str]) -> str:

@@ -17,7 +17,7 @@ from mobnet.evaluation.measure.detected import (
 )
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.number import number_text, published_row
-from mobnet.evaluation.tables.layout import RULE, Line, Table, text_table, write_table
+from mobnet.evaluation.tables.layout import PART, RULE, Line, Table, text_table, write_table
 from mobnet.settings.detected import DetectorTable
 from mobnet.settings.detection import Detection
 from mobnet.settings.evaluation import Statistics
@@ -63,7 +63,7 @@ def table_09(
     ends = len(leading) + len(found)
     cut = [[line if isinstance(line, str) else line[:ends] for line in lines],
            [line if isinstance(line, str) else [*line[: len(leading)], *line[ends:]] for line in lines]]  # fmt: skip
-    tex = "\n\\par\\medskip\n".join(
+    tex = PART.join(
         text_table("lll" + "r" * (len(head) - len(leading)), head, own) for head, own in zip(parts, cut, strict=True)
     )
     table = Table(DETECTION, rows, [*leading, *found, *delays], lines, left=len(leading), note=note)

@@ -10,12 +10,14 @@ from mobnet.core.columns import RESIDUAL, UNCERTAINTY, named
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import label_of, read_array
 from mobnet.evaluation.number.number import number_text
-from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
+from mobnet.evaluation.tables.layout import Line, Table, in_blocks, write_table
 from mobnet.settings.evaluation import Uncertainty
 from mobnet.settings.networks import NetworkRow
 from mobnet.settings.published import PublishedUncertainty
 
-HEADER = ["Limb", "Joint", "Set", "Unit", "Simulated", "Robot", "Ratio", "In bounds"]
+PLANT = "section 5.1"  # head of the column of its plant
+OUTSIDE = "*"  # behind a ratio that lies outside of its bounds
+Record = tuple[str, str, str, float, str, float | None, float | None, str]  # a row of UNCERTAINTY
 
 
 def uncertainty(
@@ -26,23 +28,43 @@ def uncertainty(
 
     `sets` has the residuals of each training set, `robots` those of each surrogate robot's own sets of the same names.
     """
-    records, blocks = [], []
+    records: list[Record] = []
     for limb in (name for name in networks if name in layout.groups):  # not those that hold several
         name, joints = networks[limb].data, layout.limb(limb)
         known = published.std.get(limb, [None] * len(joints))
         owners = {name: (sets[name], settings.ratio.get(limb))}
         owners |= {robot: (own[name], settings.robot_ratio) for robot, own in robots.items() if name in own}
         for owner, (stems, bounds) in owners.items():
-            values, lines = target_std(stems, joints).tolist(), []
-            for joint, value, theirs in zip(joints, values, known, strict=True):
+            for joint, value, theirs in zip(joints, target_std(stems, joints).tolist(), known, strict=True):
                 ratio, unit = None if theirs is None else value / theirs, layout.unit(joint)
-                within = verdict(ratio, bounds)
-                records.append((limb, joint, owner, value, unit, theirs, ratio, within))
-                texts = number_text(value, 1), number_text(theirs, 1), number_text(ratio)
-                lines.append([joint, "" if lines else owner.replace("_", " "), unit, *texts, within])
-            blocks.append(([limb], lines))
-    table = Table(UNCERTAINTY, records, HEADER, in_blocks(blocks), left=4, align="llllrrrl", note=published.note)
+                records.append((limb, joint, owner, value, unit, theirs, ratio, verdict(ratio, bounds)))
+    header, lines = text_of(records, list(robots))
+    table = Table(UNCERTAINTY, records, header, lines, left=4, note=published.note)
     write_table(table_dir / "uncertainty", table)
+
+
+def text_of(records: Sequence[Record], robots: Sequence[str]) -> tuple[list[str], list[Line]]:
+    """Return head and lines of the text: a line is a joint, and each plant has its size [N m, N] and its ratio [-]."""
+    owners = (PLANT, *robots)
+    header = ["Limb", "Joint", "Set", "Unit", "Paper"]
+    header += [text for owner in owners for text in (owner.replace("_", " "), "ratio")]
+    rows: dict[str, dict[str, Record]] = {}
+    for record in records:
+        owner = record[2] if record[2] in robots else PLANT
+        rows.setdefault(record[1], {})[owner] = record
+    blocks: dict[str, list[list[str]]] = {}
+    for joint, own in rows.items():
+        limb, _, name, _, unit, published, *_ = own[PLANT]
+        cells = [text for owner in owners for text in (size_texts(own[owner]) if owner in own else ("-", "-"))]
+        line = [joint, name.replace("_", " "), unit, number_text(published, 1), *cells]
+        blocks.setdefault(limb, []).append(line)
+    return header, in_blocks(([limb], lines) for limb, lines in blocks.items())
+
+
+def size_texts(record: Record) -> tuple[str, str]:
+    """Return the texts of a size [N m, N] and of its ratio [-] to the robot's, marked where it is out of bounds."""
+    *_, value, _, _, ratio, within = record
+    return number_text(value, 1), number_text(ratio) + (OUTSIDE if within == "no" else "")
 
 
 def target_std(stems: Sequence[Path], joints: Sequence[str]) -> NDArray[np.float64]:

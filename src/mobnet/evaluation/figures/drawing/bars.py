@@ -16,7 +16,7 @@ from mobnet.evaluation.number.number import Number
 
 BAR_SHARE = 0.8  # of the distance between two groups of bars
 NOTE_POINTS = 6.0  # size of a note
-NOTE_ROOM = {0: 0.15, 90: 0.6}  # angle of notes [deg] -> room for them above the highest bar, as a share of it
+NOTE_ROOM = {0: 0.15, 90: 1.0}  # angle of notes [deg] -> room for them above the highest bar, as a share of it
 PAPER = {"marker": "D", "markersize": 3.5, "color": "white", "markeredgecolor": "black", "markeredgewidth": 0.8}
 
 
