@@ -25,6 +25,8 @@ from mobnet.core.columns import (
     recording_columns,
     residual_columns,
 )
+from mobnet.core.detections import FILES as DETECTION_FILES
+from mobnet.core.detections import columns_of
 from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse
 from mobnet.core.files import METRICS, RUN, read_json, read_text
 from mobnet.core.joints import JointLayout
@@ -34,7 +36,7 @@ from mobnet.core.store import ARRAY, NOTE, check_rate, file_of, read_pieces
 from mobnet.estimation.kinds.friction import FrictionNote, read_friction
 from mobnet.estimation.methods import method_problems
 from mobnet.evaluation.measure.trainings import TrainingNote, read_training, read_training_note
-from mobnet.evaluation.number.rows import read_epochs, read_scores
+from mobnet.evaluation.number.rows import read_detections, read_epochs, read_scores
 from mobnet.evaluation.report.accounts import AccountNote, read_account
 from mobnet.learning.deployed.limbs import LimbNetworks, check_limb
 from mobnet.learning.deployed.networks import deployed
@@ -50,9 +52,10 @@ from mobnet.settings.settings import Settings
 ENDINGS = (ARRAY, NOTE, ".csv", ".safetensors", ".yaml")
 KINDS = (
     "a recording, residual, estimate or motion (.parquet with its .json), weights.safetensors, run.json, metrics.csv, "
-    "scores, a fit, an account of a job, a file of configs, a robot's table, a folder of these"
+    "scores, what detectors find, a fit, an account of a job, a file of configs, a robot's table, a folder of these"
 )
 NOTES = (ArrayNote, TrainingNote, AccountNote, FrictionNote)
+HALF = 0.5  # of the columns of a kind, which a file of rows has to pass to be one
 REPORT_S = 5.0  # between two lines of progress
 log = logging.getLogger(__name__)
 
@@ -199,13 +202,18 @@ def _training(folder: Path) -> str:
 
 
 def _rows(path: Path) -> str:
-    """Check a file of rows: epochs of a training, or scores."""
+    """Check a file of rows: epochs of a training, scores, or what detectors find."""
     held = set(read_text(path).partition("\n")[0].strip().split(","))
-    if path.name == METRICS or len(held & set(EPOCHS)) > len(held & set(SCORES)):
+    kinds = {"epochs": EPOCHS, "scores": SCORES, **{name: columns_of(name) for name in DETECTION_FILES}}
+    shares = {name: len(held.intersection(columns)) / len(columns) for name, columns in kinds.items()}
+    kind = max(shares, key=lambda name: shares[name])
+    if path.name == METRICS or (kind == "epochs" and shares[kind]):
         return _training(path.parent) if (path.parent / RUN).exists() else f"{len(read_epochs(path))} epochs"
-    if len(held & set(SCORES)) > len(SCORES) / 2:
+    if shares[kind] <= HALF:
+        raise UnknownKindError(path, "columns", sorted(held))
+    if kind == "scores":
         return f"scores, {len(read_scores(path))} rows"
-    raise UnknownKindError(path, "columns", sorted(held))
+    return f"{kind} of detectors, {len(read_detections(path, kind))} rows"
 
 
 def _network(path: Path, against: Against) -> str:
