@@ -30,7 +30,8 @@ def test_the_metrics_of_the_golden_tables_have_their_units() -> None:
 @pytest.mark.parametrize(
     ("name", "unit"),
     [("rmse_push_2_raw", "N m"), ("roughness", "N m/s"), ("gain_0.5hz", "-"), ("phase_2hz", "deg"),
-     ("held_swing_3", "-"), ("std_part_4", "N m"), ("cover_stance", "-"), ("acf_10ms", "-"), ("excursion", "ms"), ("free_share", "-")],
+     ("held_swing_3", "-"), ("std_part_4", "N m"), ("cover_stance", "-"), ("acf_10ms", "-"),
+     ("excursion", "ms"), ("free_share", "-")],
 )  # fmt: skip
 def test_a_metric_has_one_kind_and_one_unit(name: str, unit: str) -> None:
     assert sum(re.fullmatch(kind.names, name) is not None for kind in METRIC_KINDS) == 1
