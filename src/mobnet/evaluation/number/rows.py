@@ -53,7 +53,7 @@ def read_detections(path: Path, name: str) -> list[Any]:
 def _detection_faults(rows: Sequence[Any]) -> Iterator[Fault]:
     """Yield numbers below zero, empty names, unknown parts, and ends of times or intervals that come before starts."""
     for k, row in enumerate(rows):
-        values = vars(row)
+        values: dict[str, Any] = vars(row)
         for name, value in values.items():
             if value == "" and name not in UNNAMED:
                 yield k, name, value, "a name"
