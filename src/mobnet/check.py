@@ -6,6 +6,7 @@ Readers of jobs ask for the same contract; here all columns of a file are looked
 import argparse
 import functools
 import logging
+import math
 import sys
 import time
 from collections.abc import Sequence
@@ -25,8 +26,10 @@ from mobnet.core.columns import (
     recording_columns,
     residual_columns,
 )
+from mobnet.core.detections import FILES as DETECTION_FILES
+from mobnet.core.detections import columns_of
 from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse
-from mobnet.core.files import METRICS, RUN, read_json, read_text
+from mobnet.core.files import METRICS, RUN, check_regular, read_json, read_text
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import ArrayNote, read_array_note, read_note
 from mobnet.core.recording import Sensed, Truth
@@ -34,7 +37,7 @@ from mobnet.core.store import ARRAY, NOTE, check_rate, file_of, read_pieces
 from mobnet.estimation.kinds.friction import FrictionNote, read_friction
 from mobnet.estimation.methods import method_problems
 from mobnet.evaluation.measure.trainings import TrainingNote, read_training, read_training_note
-from mobnet.evaluation.number.rows import read_epochs, read_scores
+from mobnet.evaluation.number.rows import read_detections, read_epochs, read_scores
 from mobnet.evaluation.report.accounts import AccountNote, read_account
 from mobnet.learning.deployed.limbs import LimbNetworks, check_limb
 from mobnet.learning.deployed.networks import deployed
@@ -50,9 +53,10 @@ from mobnet.settings.settings import Settings
 ENDINGS = (ARRAY, NOTE, ".csv", ".safetensors", ".yaml")
 KINDS = (
     "a recording, residual, estimate or motion (.parquet with its .json), weights.safetensors, run.json, metrics.csv, "
-    "scores, a fit, an account of a job, a file of configs, a robot's table, a folder of these"
+    "scores, what detectors find, a fit, an account of a job, a file of configs, a robot's table, a folder of these"
 )
 NOTES = (ArrayNote, TrainingNote, AccountNote, FrictionNote)
+HALF = 0.5  # of the columns of a kind, which a file of rows has to pass to be one
 REPORT_S = 5.0  # between two lines of progress
 log = logging.getLogger(__name__)
 
@@ -116,6 +120,9 @@ def check(path: Path, against: Against) -> str:
 
 def _kind(path: Path, against: Against) -> str:
     """Return what a file is by itself, in a few words."""
+    if path.is_dir():
+        raise UnknownKindError(path, "folder without any of these", path.name)
+    check_regular(path)
     if path.suffix == ".safetensors":
         return _network(path, against)
     if path.suffix == ".yaml":
@@ -199,13 +206,18 @@ def _training(folder: Path) -> str:
 
 
 def _rows(path: Path) -> str:
-    """Check a file of rows: epochs of a training, or scores."""
+    """Check a file of rows: epochs of a training, scores, or what detectors find."""
     held = set(read_text(path).partition("\n")[0].strip().split(","))
-    if path.name == METRICS or len(held & set(EPOCHS)) > len(held & set(SCORES)):
+    kinds = {"epochs": EPOCHS, "scores": SCORES, **{name: columns_of(name) for name in DETECTION_FILES}}
+    shares = {name: len(held.intersection(columns)) / len(columns) for name, columns in kinds.items()}
+    kind = max(shares, key=lambda name: shares[name])
+    if path.name == METRICS or (kind == "epochs" and shares[kind]):
         return _training(path.parent) if (path.parent / RUN).exists() else f"{len(read_epochs(path))} epochs"
-    if len(held & set(SCORES)) > len(SCORES) / 2:
+    if shares[kind] <= HALF:
+        raise UnknownKindError(path, "columns", sorted(held))
+    if kind == "scores":
         return f"scores, {len(read_scores(path))} rows"
-    raise UnknownKindError(path, "columns", sorted(held))
+    return f"{kind} of detectors, {len(read_detections(path, kind))} rows"
 
 
 def _network(path: Path, against: Against) -> str:
@@ -230,9 +242,10 @@ def _configuration(path: Path) -> str:
 
 def files_of(path: Path) -> list[Path]:
     """Return the files that a word stands for: of a folder, all that may be of a known kind; of an array, its note."""
-    if path.is_dir() and path.suffix not in ENDINGS:
-        inside = (file for file in sorted(path.rglob("*")) if file.suffix in ENDINGS)
-        return [file for file in inside if not (file.suffix == ARRAY and file.with_suffix(NOTE).exists())]
+    if path.is_dir():
+        inside = (file for file in sorted(path.rglob("*")) if file.suffix in ENDINGS and not file.is_dir())
+        found = [file for file in inside if not (file.suffix == ARRAY and file.with_suffix(NOTE).exists())]
+        return found or [path]
     ends = [ending for ending in (NOTE, ARRAY) if path.with_name(path.name + ending).exists()]
     return [path if path.exists() or not ends else path.with_name(path.name + ends[0])]
 
@@ -250,6 +263,9 @@ def checked(file: Path, against: Against, asked: bool) -> bool:
     except MobnetError as error:
         log.info("%s", error)
         return False
+    except OSError as error:
+        log.info("%s: cannot be read: %s; accepted: a file that you may read", file, error.strerror)
+        return False
     return True
 
 
@@ -260,13 +276,18 @@ def main(words: list[str]) -> int:
     parser.add_argument("--robot", type=Path, help="the robot's table, if it is not that of configs")
     parser.add_argument("--rate", type=float, metavar="HZ", help=f"samples per second, if not that of {CONFIGS.name}")
     options = parser.parse_args(words)
+    if options.rate is not None and not 0.0 < options.rate < math.inf:
+        parser.error(not_accepted("--rate", options.rate, ["a number above 0"]))
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
     against = Against(options.robot, options.rate)
-    found = {file: file in options.files for word in options.files for file in files_of(word)}
+    try:
+        found = {file: file in options.files for word in options.files for file in files_of(word)}
+    except OSError as error:
+        parser.error(f"FILE: {error.filename}: {error.strerror}; accepted: files that you may read")
     wrong = sum(not checked(file, against, asked) for file, asked in found.items())
     if len(found) != 1:
         log.info("%d files, %d of them not accepted", len(found), wrong)
-    return 1 if wrong or not found else 0
+    return 1 if wrong else 0
 
 
 if __name__ == "__main__":

@@ -105,7 +105,7 @@ def test_a_stopped_setup_is_begun_again(
     assert stubs == ["venv", "install cpu"]
     told = capsys.readouterr().err
     assert "environment.lock has changed" in told
-    assert "GB of disk (" in told
+    assert "2.9 GB of disk, or 6.4 GB where no index offers torch's CPU build (" in told
     assert "of memory and 1 to 4 minutes" in told
 
 

@@ -33,7 +33,7 @@ def test_trials_are_targets_of_their_own(command: str) -> None:
     assert parse([command, "--config", "scale=smoke"])[::2] == (command, [command, "--config", "scale=smoke"])
 
 
-@pytest.mark.parametrize("word", ["1x=3", "=3", "observer.gain_hz=50", "a b=1"])
+@pytest.mark.parametrize("word", ["1x=3", "=3", "x=3", "observer.gain_hz=50", "a b=1"])
 def test_a_replaced_value_has_the_name_of_a_key(word: str) -> None:
     with pytest.raises(CommandError, match=f"--config: '{word}' is not accepted; accepted: KEY=VALUE"):
         in_order(["all", "--config", "scale=smoke", word])

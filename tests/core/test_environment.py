@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from mobnet.core.code import ROOT
 from mobnet.core.environment import CACHES, child_environment, fault_of_place, quieten
 
 
@@ -61,6 +62,53 @@ def test_importing_changes_nothing(tmp_path: Path) -> None:
     """All modules: no variable, no setting, no log, no file but in the caches of other packages."""
     environment = {**os.environ, **child_environment(tmp_path)}
     subprocess.run([sys.executable, "-B", "-c", IMPORT_ALL], check=True, env=environment)
+
+
+DRAWN = """
+from mobnet.simulation import __main__ as command
+command._look = lambda _: 0
+command.main([])
+import matplotlib.font_manager
+"""
+CALLED = {
+    "a picture": ["-c", DRAWN],
+    "check": ["-m", "mobnet.check", "README.md"],
+    "calibrate": ["-m", "mobnet.detection.calibrate", "--recording", "x", "--estimate", "x"],
+    "compare": ["-m", "mobnet.evaluation.report.snapshot", "compare"],
+    "cost": ["-m", "mobnet.evaluation.report.cost", "--config", "scale=smoke"],
+    "schema": ["-m", "mobnet.settings"],
+}
+
+
+@pytest.fixture
+def home(tmp_path: Path) -> dict[str, str]:
+    """Variables of a user with a fresh home, who says nothing about caches."""
+    kept = {name: value for name, value in os.environ.items() if name not in CACHES}
+    (tmp_path / "home").mkdir()
+    return {**kept, "HOME": str(tmp_path / "home")}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", CALLED)
+def test_a_command_that_is_called_directly_writes_nothing_at_home(name: str, home: dict[str, str]) -> None:
+    subprocess.run([sys.executable, *CALLED[name]], cwd=ROOT, env=home, check=False, capture_output=True)
+    assert os.listdir(home["HOME"]) == []
+
+
+def test_a_set_up_writes_nothing_at_home_where_rust_is_installed(home: dict[str, str], tmp_path: Path) -> None:
+    """The proxy of `rustup`, which pip asks for its version, makes its home."""
+    proxy = tmp_path / "bin" / "rustc"
+    proxy.parent.mkdir()
+    proxy.write_text('#!/bin/sh\nmkdir -p "${RUSTUP_HOME:-$HOME/.rustup}/seen"\n')
+    proxy.chmod(0o755)
+    variables = {**home, **child_environment(tmp_path), "PATH": f"{proxy.parent}{os.pathsep}{home['PATH']}"}
+    asked = "from pip._internal.network.session import user_agent; user_agent()"
+    python = getattr(sys, "_base_executable", sys.executable)
+    done = subprocess.run([python, "-c", asked], env=variables, check=False, capture_output=True, text=True)
+    if "No module named 'pip'" in done.stderr:
+        subprocess.run(["rustc"], env=variables, check=True)
+    assert (tmp_path / ".cache" / "rustup" / "seen").is_dir()
+    assert os.listdir(home["HOME"]) == []
 
 
 def test_module_needs_the_standard_library_only() -> None:

@@ -59,6 +59,11 @@ def constant(torque: np.ndarray) -> None:
     torque[:, 2] = 7.0
 
 
+def saturated(torque: np.ndarray) -> None:
+    """Let no joint show more than a half of the swings reach."""
+    np.minimum(torque, np.array([1.0, 4.0, 3.0, 2.0, 1.5, 0.5]), out=torque)
+
+
 def spoil(stem: str) -> None:
     """Lose a sample of an estimate, as the log of another program may."""
     path, note = Path(f"{stem}.parquet"), Path(f"{stem}.json")
@@ -75,13 +80,18 @@ def spoil(stem: str) -> None:
     [
         (40, "", "swings in all recordings: 40 is not accepted; accepted: 200 or more, some minutes of walking"),
         (SWINGS, "constant", "column 'tau_ext.LL3': every number: 7.0 is not accepted; accepted: numbers that change"),
+        (
+            SWINGS,
+            "saturated",
+            "above 1 times their scales: 0 is not accepted; accepted: 1 or more, those of an",
+        ),
         (SWINGS, "missing", "column 'tau_ext.LL5', row 1234: nan is not accepted; accepted: "),
     ],
 )
 def test_a_walk_that_calibrates_nothing_is_one_line_and_no_threshold(
     write: Write, caplog: pytest.LogCaptureFixture, swings: int, fault: str, text: str
 ) -> None:
-    words = write(swings, constant if fault == "constant" else None)
+    words = write(swings, {"constant": constant, "saturated": saturated}.get(fault))
     if fault == "missing":
         spoil(words[-1])
     assert main(words) == 1
@@ -94,7 +104,9 @@ def test_a_walk_that_calibrates_nothing_is_one_line_and_no_threshold(
     ("words", "text"),
     [
         (["--leg", "W"], "leg of 6 joints: 'W' is not accepted; accepted: "),
-        (["--rate", "0"], "--rate: 0.0 is not accepted; accepted: a number above 0"),
+        (["--rate", "0"], "--rate: 0.0 is not accepted; accepted: a number from 1e-06"),
+        (["--rate", "inf"], "--rate: inf is not accepted; accepted: a number from 1e-06"),
+        (["--rate", "nan"], "--rate: nan is not accepted; accepted: a number from 1e-06"),
         (["--estimate", "more"], "--estimate: 2 is not accepted; accepted: 1, one for each --recording"),
     ],
 )

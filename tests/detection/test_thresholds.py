@@ -85,12 +85,31 @@ def test_a_wanted_rate_that_is_common_is_met_without_going_beyond_what_was_seen(
     [
         (np.arange(1.0, 50.0), 1.0, "swings: 49 is not accepted; accepted: 200 or more"),
         (np.ones(300), 1.0, "largest values: 1.0 is not accepted; accepted: numbers that change"),
+        (
+            np.minimum(np.arange(1.0, 301.0), 240.0),
+            1.0,
+            "above 240 times their scales: 0 is not accepted; accepted: 1 or",
+        ),
+        (
+            np.minimum(np.arange(1.0, 301.0), 280.0),
+            1.0,
+            "above 270 times their scales: 10 is not accepted; accepted: 15 or",
+        ),
         (np.arange(1.0, 301.0), 500.0, "rate: '500 per hour' is not accepted; accepted: below 108"),
     ],
 )
 def test_what_gives_no_threshold_is_told(largest: np.ndarray, rate: float, text: str, settings: Settings) -> None:
     with pytest.raises(DataError, match=text):
         calibrate(largest, range(len(largest)), 1000.0, rate, settings.detection.thresholds)
+
+
+def test_a_walk_drawn_anew_without_its_rare_swings_expects_no_alarm(numbers: Thresholds) -> None:
+    """All swings that exceed a value that many share may lie in one episode, which a walk drawn anew may miss."""
+    episodes, rng = np.repeat(np.arange(15), 58), np.random.default_rng(0)
+    largest = np.minimum(rng.lognormal(0.0, 0.3, SWINGS), 1.3)
+    largest[episodes == 3] += np.abs(rng.normal(size=58))
+    found = calibrate(largest, episodes.tolist(), DURATION_S, 1.0, numbers)
+    assert 0.0 == found.low <= found.rate_per_h <= found.high < np.inf
 
 
 def test_expected_counts_reach_over_both_what_is_unknown_and_chance() -> None:

@@ -13,13 +13,17 @@ from safetensors.numpy import save_file
 from mobnet.agreement import check_agreement
 from mobnet.core.columns import Score, torque_columns
 from mobnet.core.errors import DataError
+from mobnet.core.metrics import unit_of_metric
 from mobnet.core.store import file_of, read_array, write_array
 from mobnet.estimation.kinds.friction import Options, fitted_joints
+from mobnet.evaluation.measure.changed import FLAGGED, FREE, KNOWN
 from mobnet.evaluation.measure.scores import limb_values
+from mobnet.evaluation.measure.spread import COVER
 from mobnet.evaluation.number.files import write_csv
 from mobnet.learning.deployed.weights import NOTE, shapes
 from mobnet.learning.features import limb_inputs
 from mobnet.plan.runs import Files
+from mobnet.settings.load import load_settings
 
 
 def refused(path: Path, files: Files) -> str:
@@ -241,16 +245,32 @@ def test_friction_that_does_not_fall_with_the_speed_is_a_sound_fit(files: Files)
     check_agreement([written(files.results / "fits" / "MOB-fric.json", note)], files)
 
 
-def scores_of(files: Files) -> list[Score]:
-    """Return the errors of every run of a test, on all joints that it estimates."""
-    layout, settings = files.settings.layout, files.settings
-    values = {joint: 1.0 + k for k, joint in enumerate(layout.names)}
-    held = {run.method: settings.estimated(run.method, run.scenario, run.level) for run in files.runs_of(SCENARIO)}
+def scores_of(files: Files, scenario: str = SCENARIO, metric: str = "rmse", size: float = 1.0) -> list[Score]:
+    """Return a metric of every run of a test, from a size on, on all joints that it estimates."""
+    layout, settings, runs = files.settings.layout, files.settings, files.runs_of(scenario)
+    values = {joint: size * (1.0 + k) for k, joint in enumerate(layout.names)}
     return [
-        Score(SCENARIO, run.level, run.method, run.network_seed, run.test_seed, limb, joint, "rmse", value, unit)
-        for run in files.runs_of(SCENARIO)
-        for limb, joint, value, unit in limb_values(layout, {joint: values[joint] for joint in held[run.method]})
+        Score(scenario, run.level, run.method, run.network_seed, run.test_seed, limb, joint, metric, value, own)
+        for run in runs
+        for held in [settings.estimated(run.method, run.scenario, run.level)]
+        for limb, joint, value, unit in limb_values(layout, {joint: values[joint] for joint in held})
+        for own in [unit_of_metric(metric, unit)]
+        if limb not in run.repeated
     ]
+
+
+def test_every_metric_that_is_measured_is_a_sound_row(tmp_path: Path) -> None:
+    """The shares of changed robots were in no list of names."""
+    files = Files(load_settings(overrides={"scale": "smoke"}), tmp_path)
+    rows = scores_of(files, "changed_walk") + [
+        row for metric in (KNOWN, FREE, FLAGGED) for row in scores_of(files, "changed_walk", metric, 0.01)
+    ]
+    path = files.scores(["changed_walk"])["changed_walk"]
+    write_csv(path, list(vars(rows[0])), [tuple(vars(row).values()) for row in rows])
+    check_agreement([path], files)
+    rows += scores_of(files, "changed_walk", COVER, 0.01)
+    write_csv(path, list(vars(rows[0])), [tuple(vars(row).values()) for row in rows])
+    assert "metric cover: test of section sigma: 'changed_walk' is not accepted" in refused(path, files)
 
 
 SCORES: dict[str, tuple[int, dict[str, Any], str]] = {

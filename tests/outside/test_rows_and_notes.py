@@ -7,9 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from made_detections import write_detections
 from tests.outside.conftest import AGAINST, refusal_of
 
 from mobnet.check import check
+from mobnet.core.detections import FILES as DETECTION_FILES
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.estimation.kinds.friction import read_friction
@@ -277,3 +279,32 @@ def test_an_account_that_breaks_the_contract_is_refused(key: str, value: Any, tm
     with pytest.raises(DataError, match=rf"x\.json: {key}: .* is not accepted; accepted: "):
         read_account(path)
     assert f"{key}: " in refusal_of(path)
+
+
+@pytest.mark.parametrize("name", DETECTION_FILES)
+def test_what_detectors_find_is_accepted_and_refused_by_its_contract(name: str, tmp_path: Path) -> None:
+    path = write_detections(tmp_path)["robot_1"][name]
+    rows = path.read_text().splitlines()
+    assert check(path, AGAINST) == f"{name} of detectors, {len(rows) - 1} rows"
+    path.write_text("\n".join([rows[0], rows[1].replace("LL", ""), *rows[2:]]))
+    assert "csv:2: leg: '' is not accepted; accepted: a name" in refusal_of(path)
+    path.write_text("\n".join([rows[0], rows[1][: rows[1].rindex(",")], *rows[2:]]))
+    assert "csv:2: line is cut off" in refusal_of(path)
+
+
+DETECTIONS = {
+    "below zero": ("collisions", ("0.4\n", "-0.4\n"), "swing_share: -0.4 is not accepted; accepted: 0 or more"),
+    "ends early": ("collisions", (",2.078,", ",1.0,"), "start_s: 2.0 is not accepted; accepted: at most end_s, 1.0"),
+    "interval": ("promises", (",300\n", ",1\n"), "low: 12.0 is not accepted; accepted: at most high, 1.0"),
+    "part": ("swings", (",calibration,", ",somewhere,"), "part: 'somewhere' is not accepted; accepted: calibration"),
+    "text": ("thresholds", (",1.5,", ",much,"), "value: 'much' is not accepted"),
+}
+
+
+@pytest.mark.parametrize("name", DETECTIONS)
+def test_rows_of_detectors_that_break_the_contract_are_refused(name: str, tmp_path: Path) -> None:
+    file, (old, new), says = DETECTIONS[name]
+    path = write_detections(tmp_path)["robot_1"][file]
+    assert old in path.read_text()
+    path.write_text(path.read_text().replace(old, new))
+    assert f"csv:2: {says}" in refusal_of(path)

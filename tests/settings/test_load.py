@@ -8,13 +8,13 @@ import pytest
 import yaml
 
 from mobnet.core.errors import ConfigError
-from mobnet.settings.load import CONFIGS, load_settings
+from mobnet.settings.load import CONFIGS, PARTS, load_settings
 from mobnet.settings.reading import read_yaml
 from mobnet.settings.settings import Settings
 
 ACCEPTED = "is not accepted; accepted: "
 EXPECTED = "(key is missing; accepted: |None is not accepted; accepted: the path of a YAML file)"
-MISSING = ("config.seed", "config.robot", "data.pushes", "tests.tests", "scales.scales")
+MISSING = tuple(f"{part}.{section}" for part, sections in PARTS.items() for section in sections)
 OF_A_PUSH, SETS = ("pause_s", "force_n", "point", "direction"), ("walk", "walk_plain", "motion")
 
 
@@ -118,7 +118,7 @@ def test_the_rows_of_a_table_are_run_and_printed_and_have_windows(settings: Sett
 @pytest.mark.parametrize(
     ("place", "message"),
     [
-        *((place, rf"{place.split('.')[1]}: {EXPECTED}") for place in MISSING),
+        *((place, rf"/{place.replace('.', '.yaml:1: ', 1)}: {EXPECTED}") for place in MISSING),
         # a push without a pause and without times would never end
         *((f"data.pushes.torso.{key}", r"data\.yaml:\d+: pushes\.torso: .*; accepted: `p") for key in OF_A_PUSH),
         *((f"data.training_sets.{name}.sizes.smoke", rf"\.{name}\.sizes: no scale smoke is not acc") for name in SETS),
@@ -140,3 +140,24 @@ def test_a_section_that_stands_in_two_files_is_refused(folder: Path) -> None:
         file.write("\nobserver: {gain_hz: 100.0}\n")
     with pytest.raises(ConfigError, match=r"methods\.yaml:\d+: observer: stands in .*walking\.yaml too, which"):
         load_settings(folder)
+
+
+def test_every_section_is_known_to_stand_in_its_file() -> None:
+    found = {part: tuple(read_yaml(CONFIGS / f"{part}.yaml")) for part in PARTS}
+    assert found == {part: tuple(sections) for part, sections in PARTS.items()}
+
+
+CHAIN = "".join(f" - &a{k} [{f'*a{k - 1}' if k else 1}]\n" for k in range(5000))
+DEEP = {
+    "a few hundred levels": (f"x: {'[' * 400}{']' * 400}", "more than 100 levels at \\["),
+    "more than the C library takes": (f"x: {'[' * 200_000}", "more than 100 levels at \\["),
+    "aliases": (f"x: 1\nx:\n{CHAIN}y: *a4999\n", "aliases nested too deep are not accepted"),
+}
+
+
+@pytest.mark.parametrize("name", DEEP)
+def test_deep_nesting_is_one_line(name: str, tmp_path: Path) -> None:
+    text, says = DEEP[name]
+    (tmp_path / "x.yaml").write_text(text)
+    with pytest.raises(ConfigError, match=rf"x.yaml:1: top level: .*({says})"):
+        read_yaml(tmp_path / "x.yaml")

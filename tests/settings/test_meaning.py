@@ -323,16 +323,22 @@ def test_a_run_refuses_within_seconds_in_one_line(words: list[str], line: str) -
 def test_a_configuration_file_for_snakemake_is_refused(tmp_path: Path) -> None:
     """Snakemake's own reader runs code; `./reproduce` replaces it."""
     code = "__use_yte__: true\nx: ?open('ran', 'w')\n"
-    path = tmp_path / "more.yaml"
-    for text, message in (
-        ("scale: smoke\n", "--configfile: "),
-        (code, f"{path}: "),
+    path = tmp_path / "config.yaml"
+    deep = f"x: {'[' * 20_000}"
+    for text, words, message in (
+        ("scale: smoke\n", ["--configfile", str(path)], "--configfile: "),
+        (code, [f"--configfiles={path}"], "--configfile: "),
+        (code, ["--configf", "missing.yaml"], "--configfile: missing.yaml "),
+        (code, ["--configfile"], "--configfile: nothing "),
+        (code, ["--profile", str(tmp_path)], f"{path}: "),
+        (deep, ["--profile", str(tmp_path)], f"{path}: "),
     ):
         path.write_text(text)
-        run = [sys.executable, "-m", "mobnet.core.run", "-n", "--configfile", str(path)]
+        run = [sys.executable, "-m", "mobnet.core.run", "-n", *words]
         done = subprocess.run(run, cwd=ROOT, capture_output=True, text=True, check=False)
         assert done.returncode == 1
         assert any(line.startswith(message) and "accepted: " in line for line in done.stderr.splitlines())
+        assert "Traceback" not in done.stderr
     assert not (ROOT / "ran").exists()
 
 

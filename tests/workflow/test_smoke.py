@@ -145,6 +145,16 @@ def test_verify_names_every_file_in_which_a_byte_is_flipped_and_no_other(unbroke
     assert sorted(line.split(": hash ")[0] for line in done.stdout.splitlines() if ": hash " in line) == flipped
 
 
+def test_every_row_of_scores_and_of_detectors_passes_a_check(unbroken: Path) -> None:
+    results = unbroken / "results" / "smoke"
+    folders = [results / "scores", *results.glob("**/detection")]
+    words = [sys.executable, str(unbroken / "reproduce"), "check", *map(str, folders)]
+    done = subprocess.run(words, cwd=unbroken, check=False, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
+    files = [line for line in done.stdout.splitlines() if ": ok: " in line]
+    assert len(files) == sum(len(list(folder.iterdir())) for folder in folders)
+
+
 def test_compute_counts_every_job_before_it(unbroken: Path) -> None:
     rows = (unbroken / "results" / "smoke" / "compute.csv").read_text().splitlines()
     after = {"compute", "paper", "pages", "manifest"}

@@ -15,7 +15,7 @@ from mobnet.core.counts import by_kind
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
 from mobnet.core.lock import job_prefix
-from mobnet.core.run import start_jobs
+from mobnet.core.run import refuse_configfiles, start_jobs
 from mobnet.estimation.methods import method_problems
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.plan.disk import check_places, check_space
@@ -24,7 +24,7 @@ from mobnet.plan.plan import make_plan
 from mobnet.plan.precision import record_precision, with_precision
 from mobnet.plan.products import shown
 from mobnet.plan.texts import text_problems
-from mobnet.settings.load import load_settings, refuse_configfiles
+from mobnet.settings.load import load_settings
 
 ROOT, STARTED_S = Path(workflow.basedir), time.time()
 quieten(ROOT)

@@ -1,27 +1,26 @@
 """Rows of scores, and fits without networks, against their places and the configuration."""
 
+import math
 import re
 from collections.abc import Iterable, Iterator
 from itertools import groupby
-from math import isclose
 from pathlib import Path
 from typing import Any
 
 from mobnet.agreement.said import differences
 from mobnet.core.columns import Score
 from mobnet.core.errors import not_accepted
+from mobnet.core.metrics import METRIC, kind_of_metric, unit_of_metric
 from mobnet.core.notes import read_note
 from mobnet.estimation.kinds.friction import FrictionNote, JointNote, Options, fitted_joints
 from mobnet.evaluation.measure.scores import AVERAGE, ERROR
 from mobnet.evaluation.number.rows import read_scores
 from mobnet.plan.runs import Files, Run
-from mobnet.settings.checks.results import Results, metric_unit
-from mobnet.settings.evaluation import METRIC
+from mobnet.settings.checks.results import Results
 
 PRINTED = 1e-4  # relative error of numbers with six digits, and of their mean
 RUN_FIELDS = ("level", "method", "network_seed", "test_seed")  # of a score
 RISING = "static"  # term that is zero for all joints of a robot whose friction does not fall with the speed
-BOUNDS = {"cover": (0.0, 1.0), "acf": (-1.0, 1.0)}  # beginning of a metric -> what shares and correlations can be
 
 
 def fit_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[str]:
@@ -72,7 +71,7 @@ def score_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[s
                 yield not_accepted(f"line {line}: {name}", getattr(row, name), accepted)
         yield from (f"line {line}: {fault}" for fault in _row_faults(row, files))
     results = Results(files.settings)
-    for metric in sorted({row.metric for row in rows}):
+    for metric in sorted({row.metric for row in rows if re.fullmatch(METRIC, row.metric)}):
         if text := results.not_scored(scenario, metric):
             yield f"metric {metric}: {text}"
     limbs: dict[tuple[Any, ...], set[str]] = {key: set() for key in runs}
@@ -101,19 +100,20 @@ def _row_faults(row: Score, files: Files) -> Iterator[str]:
     """Yield what is wrong with the names and the unit of a score."""
     layout = files.settings.layout
     if not re.fullmatch(METRIC, row.metric):
-        yield not_accepted("metric", row.metric, ["a name of `mobnet.evaluation.measure`"])
+        yield not_accepted("metric", row.metric, ["a name of `mobnet.core.metrics`"])
+        return
     joints = layout.groups.get(row.limb)
     if joints is None:
         yield not_accepted("limb", row.limb, layout.groups)
     elif row.joint not in (*joints, AVERAGE):
         yield not_accepted("joint", row.joint, [*joints, AVERAGE])
     else:
-        units = {metric_unit(row.metric, layout.unit(joint)) for joint in joints if row.joint in (joint, AVERAGE)}
+        units = {unit_of_metric(row.metric, layout.unit(joint)) for joint in joints if row.joint in (joint, AVERAGE)}
         if row.unit not in units:
             yield not_accepted("unit", row.unit, units)
-    for beginning, (low, high) in BOUNDS.items():
-        if row.metric.startswith(beginning) and not low <= row.value <= high:
-            yield not_accepted(f"value of {row.metric}", row.value, [f"{low:g} to {high:g}"])
+    low, high = kind_of_metric(row.metric).ends or (-math.inf, math.inf)
+    if not low <= row.value <= high:
+        yield not_accepted(f"value of {row.metric}", row.value, [f"{low:g} to {high:g}"])
 
 
 def _average_faults(rows: Iterable[Score], files: Files) -> Iterator[str]:
@@ -136,5 +136,5 @@ def _average_faults(rows: Iterable[Score], files: Files) -> Iterator[str]:
         if AVERAGE not in values:
             yield f"{where}: {AVERAGE!r} is missing; accepted: {mean:.6g}, the mean of its joints"
         average = values.get(AVERAGE, mean)
-        if joints and unit in ("N", "N m") and not isclose(average, mean, rel_tol=PRINTED, abs_tol=PRINTED**2):
+        if joints and unit in ("N", "N m") and not math.isclose(average, mean, rel_tol=PRINTED, abs_tol=PRINTED**2):
             yield not_accepted(f"{where}: {AVERAGE}", average, [f"{mean:.6g}, the mean of its joints"])

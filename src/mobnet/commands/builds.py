@@ -45,8 +45,11 @@ def check_disk(root: Path, build: str) -> None:
         raise CommandError(f"{root}: {in_gb(free)} free, {in_gb(needed)} needed while packages are unpacked; make room")
 
 
-def costs(root: Path, build: str) -> str:
-    """Return what a set-up takes."""
+def costs(root: Path, build: str, *, is_asked: bool) -> str:
+    """Return what a set-up takes; nobody has asked yet whether an index offers the build for CPUs."""
     free = in_gb(shutil.disk_usage(root).free)
     disk, minutes = in_gb(BUILDS[build].disk), BUILDS[build].minutes
+    if build == "cpu" and not is_asked:
+        disk += f" of disk, or {in_gb(BUILDS['cuda'].disk)} where no index offers torch's CPU build"
+        return f"{disk} ({free} free), {MEMORY} of memory and {minutes}"
     return f"{disk} of disk ({free} free), {MEMORY} of memory and {minutes}"

@@ -4,9 +4,12 @@ import re
 from pathlib import Path
 
 # Read by sh: go on in the Python beside this file, without the packages that other software names, as ROS does in every
-# shell. Read by Python: a text that is not used.
+# shell, and with caches beside the environment, as Snakemake makes one before it reads the Snakefile. Read by Python: a
+# text that is not used.
 HEADER = """#!/bin/sh
-'''unset' PYTHONPATH PYTHONHOME; exec "$(dirname -- "$(realpath -- "$0")")/python" "$0" "$@"
+'''unset' PYTHONPATH PYTHONHOME; caches="$(dirname -- "$(realpath -- "$0")")/../../.cache"
+export XDG_CACHE_HOME="${XDG_CACHE_HOME:-$caches/xdg}" MPLCONFIGDIR="${MPLCONFIGDIR:-$caches/matplotlib}"
+exec "$(dirname -- "$(realpath -- "$0")")/python" "$0" "$@"
 ' '''
 """
 OTHER_HEADERS = re.compile(r"#!.*python.*\n|#!/bin/sh\n'''exec'.*\n' '''\n")

@@ -48,7 +48,8 @@ def wait_for(handle: int) -> None:
 def make(root: Path, fault: str, build: str | None) -> None:
     """Make `.venv` anew; its stamp comes last, so that a set-up that was stopped is begun again."""
     venv, chosen = root / ".venv", build or installed_build(root) or wanted_build()
-    say(f"{fault}: .venv is made from environment.lock; this takes {costs(root, chosen)}, once")
+    needed = costs(root, chosen, is_asked=build is not None)
+    say(f"{fault}: .venv is made from environment.lock; this takes {needed}, once")
     (venv / STAMP).unlink(missing_ok=True)
     remove(venv)
     remove(root / LOG)

@@ -35,6 +35,7 @@ OWN = {"clean", "setup"}  # commands with options of their own
 TARGETS = {"all": "all", "report": "all", "tuning": "tuning", "lengths": "lengths"}  # command -> rule of the workflow
 HELP = {"-h", "--help"}
 CONFIG = {"-C", "--config"}
+KEY = re.compile(r"[a-zA-Z_]\w+")  # as Snakemake takes it: of two signs or more
 
 
 class Words(NamedTuple):
@@ -108,7 +109,7 @@ def in_order(words: Sequence[str]) -> list[str]:
     others: list[str] = []
     taking = False
     for word in words:
-        if taking and "=" in word and not word.startswith("-") and not word.partition("=")[0].isidentifier():
+        if taking and "=" in word and not word.startswith("-") and not KEY.fullmatch(word.partition("=")[0]):
             raise CommandError(f"--config: {word!r} is not accepted; accepted: KEY=VALUE, a key of configs")
         swallowed = taking and not word.startswith("-") and "=" not in word
         (targets if swallowed else others).append(word)

@@ -113,6 +113,7 @@ class CurvePoint:
     delay_sum_s: float
 
 
+UNNAMED = ("signal", "link", "direction")  # texts that are empty where a detector finds nothing
 CALIBRATION, HELD_OUT, UNPUSHED = PARTS = ("calibration", "held out", "unpushed")  # values of `part`
 LARGEST, COLLISION = "largest", "collision"  # values of `kind`: by the paper's rule, and for one false alarm an hour
 FILES: Mapping[str, type[Any]] = {  # name of a file of detectors -> its rows

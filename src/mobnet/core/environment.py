@@ -23,6 +23,7 @@ CACHES = {
     "WANDB_CONFIG_DIR": "wandb/config",
     "WANDB_DATA_DIR": "wandb/data",
     "TEXMFVAR": "texmf",
+    "RUSTUP_HOME": "rustup",  # pip asks `rustc` for its version, which then makes its home
     "TMPDIR": "tmp",
 }
 FIXED = {

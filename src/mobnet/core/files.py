@@ -94,6 +94,17 @@ def write_json(path: Path, value: Mapping[str, object]) -> None:
     write_text(path, json.dumps(value, indent=1) + "\n")
 
 
+def check_regular(path: Path) -> None:
+    """Check that what stands at a path, if anything does, is a file: reading a pipe or a device may never end.
+
+    Raises:
+        DataError: it is something else.
+    """
+    if path.exists() and not path.is_file():
+        what = "a folder" if path.is_dir() else "a pipe or a device"
+        raise DataError(f"{path}: {what} is not accepted; accepted: a file")
+
+
 def read_text(path: Path) -> str:
     """Read a text file, UTF-8.
 
@@ -101,6 +112,7 @@ def read_text(path: Path) -> str:
         DataError: it is missing, cannot be read or is no text.
     """
     try:
+        check_regular(path)
         return path.read_text(encoding="utf-8")
     except FileNotFoundError:
         raise DataError(f"{path}: file is missing; accepted: a text file") from None

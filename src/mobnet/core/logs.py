@@ -17,6 +17,7 @@ from pathlib import Path
 
 from mobnet.core.errors import DataError, MobnetError
 from mobnet.core.files import REFUSALS, refusal, write_json
+from mobnet.core.provenance import UNKNOWN, commit
 
 log = logging.getLogger(__name__)
 
@@ -32,7 +33,8 @@ class Account:
 
     `job` is the name of its log below the folder of logs, of which the first part is that of its rule. Start and end
     are in seconds since 1970, UTC; `wall_s` is by a clock that nobody sets. Processor time and peak memory include the
-    children that it waited for. `succeeded` is False where it failed or was interrupted.
+    children that it waited for. `succeeded` is False where it failed or was interrupted; `commit` is that of the code,
+    as results note it.
     """
 
     job: str
@@ -42,6 +44,7 @@ class Account:
     cpu_s: float
     peak_mib: float
     succeeded: bool
+    commit: str = UNKNOWN
 
 
 @contextlib.contextmanager
@@ -109,6 +112,7 @@ def accounted(log_path: Path) -> Iterator[None]:
     account, below = log_path.with_suffix(".json"), log_path.with_suffix("").parts
     with contextlib.suppress(OSError):
         account.unlink(missing_ok=True)
+    made_by = commit()
     name = "/".join(below[below.index(LOGS) + 1 :] if LOGS in below else below[-1:])
     start_s, begin, used_s, succeeded = time.time(), time.monotonic(), cpu_s(), False
     try:
@@ -116,7 +120,7 @@ def accounted(log_path: Path) -> Iterator[None]:
         succeeded = True
     finally:
         wall_s, used_s = time.monotonic() - begin, cpu_s() - used_s
-        told = Account(name, start_s, time.time(), wall_s, used_s, peak_mib(), succeeded)
+        told = Account(name, start_s, time.time(), wall_s, used_s, peak_mib(), succeeded, made_by)
         rounded = {key: round(value, 3) for key, value in asdict(told).items() if isinstance(value, float)}
         with contextlib.suppress(DataError):  # on a full disk
             write_json(account, asdict(told) | rounded)

@@ -7,12 +7,14 @@ import atexit
 import contextlib
 import logging
 import os
+import re
 import shlex
 import shutil
 import signal
 import sys
 import tempfile
 import time
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import TextIO, cast
@@ -22,13 +24,14 @@ import yaml
 
 from mobnet.core.code import ROOT
 from mobnet.core.environment import LONGEST_TEMPORARY
-from mobnet.core.errors import MobnetError
+from mobnet.core.errors import ConfigError, MobnetError, misfit
 from mobnet.core.files import check_room
 from mobnet.core.lock import begin_run, scratch, sweep
 from mobnet.core.provenance import UNKNOWN, commit
 
 USE_CODE = "__use_yte__"
 WRITTEN = (".snakemake", ".cache")  # below the project, by Snakemake itself and by packages
+CONFIGFILE = re.compile("--configf(?:i(?:l(?:es?)?)?)?(?:=(.+))?", re.DOTALL)
 STOPPED = "stopped; the same command goes on from here"
 LONGEST_S, PAUSE_S = 3.0, 0.02  # that killed processes may take to end, and between two looks at them
 
@@ -115,18 +118,39 @@ def cancel_jobs(number: int) -> None:
 def plain_yaml(stream: TextIO, **_: object) -> object:
     """Read a YAML file as plain values; `__use_yte__` and tags of Python end the run before anything of it runs."""
     try:
-        values = yaml.load(stream, yaml.CSafeLoader)
-    except yaml.YAMLError as error:
+        values = yaml.safe_load(stream)  # by Python, in which deep nesting is an error and not the end of the process
+    except (yaml.YAMLError, RecursionError) as error:
         sys.exit(f"{stream.name}: {' '.join(str(error).split())}; accepted: plain YAML")
     if isinstance(values, dict) and USE_CODE in values:
         sys.exit(f"{stream.name}: key {USE_CODE!r} is not accepted; accepted: plain YAML, without code")
     return cast("object", values)
 
 
+def configfiles(words: Sequence[str]) -> list[str]:
+    """Return the files that Snakemake's words give in place of the configuration; short forms are names too."""
+    parts = zip(map(CONFIGFILE.fullmatch, words), [*words[1:], "nothing"], strict=True)
+    return [found[1] or value for found, value in parts if found]
+
+
+def refuse_configfiles(paths: Sequence[object]) -> None:
+    """Check that Snakemake is given no configuration file: its reader runs code that stands in one.
+
+    Raises:
+        ConfigError: there is one.
+    """
+    if paths:
+        accepted = "--config key=value, and the files in configs/"
+        raise ConfigError(f"--configfile: {misfit(', '.join(map(str, paths)), accepted)}")
+
+
 def main() -> None:
     """Run snakemake; `reproduce` blocked Ctrl-C until here, so that it is never a traceback."""
     prepare(ROOT)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+    try:
+        refuse_configfiles(configfiles(sys.argv[1:]))
+    except MobnetError as error:
+        sys.exit(str(error))
     import yte
     from snakemake.cli import main as snakemake
 

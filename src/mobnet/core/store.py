@@ -21,7 +21,7 @@ from mobnet.core.code import SHORT
 from mobnet.core.columns import EXTERNAL_LP, LABEL_LP, Column
 from mobnet.core.contract import Values, column_faults
 from mobnet.core.errors import DataError, not_accepted, refuse, refuse_lines
-from mobnet.core.files import atomic_path, write_json
+from mobnet.core.files import atomic_path, check_regular, write_json
 from mobnet.core.joints import JointLayout
 from mobnet.core.motion import Motion
 from mobnet.core.notes import check_array_note, note_differences, read_array_note
@@ -191,6 +191,7 @@ def read_pieces(
         DataError: as `read_array`.
     """
     path = file_of(stem, ARRAY)
+    check_regular(path)
     whole = sum(end - start for start, end in note["segments"]) == note["rows"]
     values, motion = Values(names, layout, whole), Motion(names, note["segments"], note["rate_hz"])
     try:

@@ -6,6 +6,7 @@ collision must have at each point of the leg to be found.
 """
 
 import logging
+import math
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -34,6 +35,7 @@ from mobnet.settings.robot import RobotTable
 log = logging.getLogger(__name__)
 CONTACT_S = 0.078  # of the collisions of section 5.3: the filters leave a part of a hit that is so short
 POSES = 200  # of swings, at which forces are looked at
+LEAST_RATE = 1e-6  # wanted false alarms [1/h]
 SHARE = 0.95  # of the poses in which the smallest force is enough
 
 
@@ -88,7 +90,7 @@ def thresholds_of(
     """Return the thresholds of the joints (6,) [N m] for a wanted rate of false alarms [1/h], and what to expect.
 
     Raises:
-        DataError: there are too few swings, or the rate is above what the fitted tail holds.
+        DataError: there are too few swings, they do not differ, or the rate is above what the fitted tail holds.
     """
     heights = np.concatenate([held(quiet, detection) for quiet in quiets])
     if len(heights) < detection.thresholds.least_swings:
@@ -153,8 +155,8 @@ def main(words: list[str]) -> int:
         if len(options.recording) != len(options.estimate):
             count = len(options.recording)
             raise DataError(not_accepted("--estimate", len(options.estimate), [f"{count}, one for each --recording"]))
-        if not options.rate > 0:
-            raise DataError(not_accepted("--rate", options.rate, ["a number above 0"]))
+        if not LEAST_RATE <= options.rate < math.inf:
+            raise DataError(not_accepted("--rate", options.rate, [f"a number from {LEAST_RATE:g}, one in a century"]))
         settings = load_settings()
         table = load_section(options.robot, RobotTable) if options.robot else settings.robot
         robot, detection = describe(table), settings.detection

@@ -20,6 +20,7 @@ from mobnet.settings.detection import Thresholds
 
 HOUR_S = 3600.0
 SHAPES = (-0.5, 0.5)  # of the law, between which its moments can be trusted
+DIFFER = 0.5  # of the swings in the tail, which have to have largest values of their own
 SEED = 0  # of the resampled walks
 
 
@@ -57,9 +58,11 @@ class Calibrated:
 
 
 def fit_tail(largest: Array, share: float) -> Tail:
-    """Return the tail of the largest values of swings (k,): that of a share of them."""
+    """Return the tail of the largest values of swings (k,): that of a share of them, empty where none lies above."""
     level = float(np.quantile(largest, 1.0 - share))
     over = np.sort(largest[largest > level] - level)
+    if not len(over):  # a walk drawn anew, whose largest value many swings share
+        return Tail(level, 0.0, 1.0, 0.0)
     return Tail(level, len(over) / len(largest), *_moments(over))
 
 
@@ -84,7 +87,7 @@ def calibrate(
         settings: least number of swings, share of the tail, resamples and confidence.
 
     Raises:
-        DataError: there are too few swings, or the rate is more than the tail holds.
+        DataError: there are too few swings, they do not differ, or the rate is more than the tail holds.
     """
     if len(largest) < settings.least_swings:
         raise DataError(not_accepted("swings", len(largest), [f"{settings.least_swings} or more"]))
@@ -96,6 +99,7 @@ def calibrate(
         most = settings.tail_share * per_h
         raise DataError(not_accepted("rate", f"{rate_per_h:g} per hour", [f"below {most:.0f}, the tail of the swings"]))
     tail = fit_tail(largest, settings.tail_share)
+    _check_tail(largest[largest > tail.level], tail.level)
     factor = tail.size(share)
     rng = np.random.default_rng(SEED)
     numbers = np.asarray(episodes)
@@ -103,6 +107,19 @@ def calibrate(
     rates = [_resampled(largest, groups, tail, factor, settings, rng) * per_h for _ in range(settings.resamples)]
     low, high = np.quantile(rates, [(1.0 - settings.confidence) / 2.0, (1.0 + settings.confidence) / 2.0])
     return Calibrated(factor, tail.above(factor) * per_h, float(low), float(high))
+
+
+def _check_tail(above: Array, level: float) -> None:
+    """Check that the largest values above a level (k,) are some, and differ: an estimate that saturates has one value.
+
+    Raises:
+        DataError: a law cannot be fitted to them.
+    """
+    differ, wanted = len(np.unique(above)), max(DIFFER * len(above), 1.0)
+    if differ < wanted:
+        what = f"different largest values above {level:.3g} times their scales"
+        accepted = [f"{wanted:.0f} or more, those of an estimate that does not saturate"]
+        raise DataError(not_accepted(what, differ, accepted))
 
 
 def _resampled(

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mobnet.core.files import WEIGHTS
+from mobnet.core.metrics import SECTIONS
 from mobnet.core.stage import Stage
 from mobnet.plan.call import Call, Job
 from mobnet.plan.detection import numbers_of, walks_of
@@ -199,9 +200,7 @@ def scoring(settings: Settings, scenario: str) -> Scoring:
     """Return what is measured on the runs of a test: the sections of the products that show it."""
     evaluation = settings.evaluation
     sections = {
-        name: getattr(evaluation, name)
-        for name in ("peaks", "bode", "drift", "phases", "sigma", "changed")
-        if scenario in _tests_in(getattr(evaluation, name))
+        name: getattr(evaluation, name) for name in SECTIONS if scenario in _tests_in(getattr(evaluation, name))
     }
     pushes = [settings.pushes[name] for name in settings.scenarios[scenario].pushes]
     shared = {

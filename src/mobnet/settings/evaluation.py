@@ -4,6 +4,7 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field
 
+from mobnet.core.metrics import METRIC
 from mobnet.settings import base
 from mobnet.settings.base import Section
 from mobnet.settings.detected import (
@@ -17,15 +18,7 @@ from mobnet.settings.detected import (
     SmallestForce,
 )
 
-PART = "swing|touch_down|stance|stuck|moving"  # parts of a walk
-NUMBER = "[1-9][0-9]*"
-METRIC = "|".join([
-    "rmse(_raw|_label)?", "r_rmse", "roughness", "rmse_pushed(_raw)?", f"rmse_push_{NUMBER}(_raw)?",
-    f"(rmse|std|cover)_({PART})",
-    "(peak_ratio|rise_delay)(_observer)?", r"(gain|phase)_[0-9]+(\.[0-9]+)?hz", f"held_(swing|stance)(_{NUMBER})?",
-    "std", "cover", "(std|cover)_(pushed|calm)", f"(rmse|std|cover)_part_{NUMBER}", "excursion", f"acf_{NUMBER}ms",
-])  # fmt: skip
-Metric = Annotated[str, Field(pattern=rf"^({METRIC})$")]  # the modules of evaluation.measure say what each one is
+Metric = Annotated[str, Field(pattern=rf"^({METRIC})$")]
 LimbsOrJoints = base.Distinct[base.LimbOrJointName]
 Texts = Annotated[tuple[base.Text, ...], AfterValidator(base.distinct)]
 

@@ -3,14 +3,14 @@
 Reading and checking run in the workflow's own process: a job receives values, so a check's code is part of no result.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from pydantic import ValidationError
 
-from mobnet.core.errors import ConfigError, misfit
+from mobnet.core.errors import ConfigError
 from mobnet.settings.base import Section
 from mobnet.settings.checks.robot import robot_problems
 from mobnet.settings.checks.sections import inconsistencies, refused_changes, unknown_names
@@ -22,20 +22,22 @@ from mobnet.settings.settings import Settings
 
 ROOT = Path(__file__).parents[3]
 CONFIGS = ROOT / "configs"
-PARTS = (
-    "config",
-    "plant",
-    "surrogate",
-    "walking",
-    "data",
-    "networks",
-    "methods",
-    "tests",
-    "trials",
-    "detection",
-    "evaluation",
-    "scales",
-)
+PARTS: Mapping[str, tuple[str, ...]] = {  # file -> the sections that stand in it
+    "config": ("scale", "seed", "robot", "published", "claims"),
+    "plant": ("rates", "plant", "levels"),
+    "surrogate": ("surrogate", "fleet"),
+    "walking": ("walking",),
+    "data": (
+        "terrain", "commands", "random_torque", "motions", "pushes", "scenarios", "training_sets", "recording",
+    ),
+    "networks": ("networks", "learning"),
+    "methods": ("observer", "methods", "sweeps"),
+    "tests": ("development", "tests", "estimated_limbs"),
+    "trials": ("trials",),
+    "detection": ("detection",),
+    "evaluation": ("evaluation",),
+    "scales": ("scales",),
+}  # fmt: skip
 NAMED_FILES = ("robot", "published", "claims")  # sections that stand in files which config.yaml names
 WITH_NULLS = ("published", "claims")  # null: the paper prints no number; a range has no bound
 Kind = TypeVar("Kind", bound=Section)
@@ -45,7 +47,10 @@ Check = Callable[[Settings], Iterable[Problem]]
 
 @dataclass(frozen=True)
 class Sources:
-    """Where values come from: the file of each section, and overrides, whose values replace those of files."""
+    """Where values come from: the file of each section, and overrides, whose values replace those of files.
+
+    A section that is missing has the file in which it should stand.
+    """
 
     main: Document
     files: Mapping[str, Document]
@@ -93,7 +98,8 @@ def load_settings(
     odd: list[Problem] = []
     own = cast("dict[str, Any]", read_override(overrides or {}, (), odd))
     values = _laid_over({key: files[key].values[key] for key in files}, own)
-    sources = Sources(documents[0], files, own)
+    homes = {section: document for document in documents for section in PARTS[document.path.stem]}
+    sources = Sources(documents[0], {**homes, **files}, own)
     for section in NAMED_FILES:
         path = folder.parent / values[section] if isinstance(values.get(section), str) else None
         if path is None or not path.is_file():
@@ -108,7 +114,7 @@ def load_settings(
         raise ConfigError(_lines(faults))
     # the sections of those files now stand in them, and an override of their paths is none of their values
     inner = {key: value for key, value in own.items() if key not in NAMED_FILES}
-    return _checked(values, Sources(documents[0], files, inner), further)
+    return _checked(values, Sources(documents[0], {**homes, **files}, inner), further)
 
 
 def _read(folder: Path) -> tuple[list[Document], dict[str, Document], list[str]]:
@@ -126,17 +132,6 @@ def _read(folder: Path) -> tuple[list[Document], dict[str, Document], list[str]]
     if not all(document.is_readable for document in documents):  # only then are all sections there
         raise ConfigError(_lines(fault for document in documents for fault in document.faults))
     return documents, files, faults
-
-
-def refuse_configfiles(paths: Sequence[Path]) -> None:
-    """Check that Snakemake was given no configuration file: its reader runs code that stands in one.
-
-    Raises:
-        ConfigError: there is one.
-    """
-    if paths:
-        accepted = "--config key=value, and the files in configs/"
-        raise ConfigError(f"--configfile: {misfit(', '.join(map(str, paths)), accepted)}")
 
 
 def load_section(path: Path, kind: type[Kind]) -> Kind:

@@ -12,12 +12,15 @@ from typing import Any, NamedTuple, cast
 
 import yaml
 
-from mobnet.core.errors import ConfigError
+from mobnet.core.errors import ConfigError, DataError
+from mobnet.core.files import check_regular
 
 Place = tuple[str | int, ...]
 TAG = "tag:yaml.org,2002:"
 MERGE = f"{TAG}merge"
 LARGEST = 100_000  # values, aliases written out: a few lines of nested aliases can stand for billions
+SHOWN = 40  # characters of a word
+DEEPEST = 100  # levels of a file
 Node = Any  # of PyYAML, which has no types
 LIBRARY: Any = yaml
 
@@ -57,7 +60,7 @@ class Document:
         self._nulls, self._root = nulls, self._composed()
         self._read: dict[int, tuple[Any, int]] = {}  # nodes that an alias may name again, with their sizes
         if isinstance(self._root, yaml.MappingNode):
-            self.values = self._value(self._root, ())[0]
+            self.values = self._whole(self._root)
         elif not self.faults:
             self._refuse(1, (), "a list, a text or nothing is not accepted; accepted: a mapping of keys to values")
 
@@ -87,12 +90,24 @@ class Document:
         """Return one line about a place: file, line, key and text."""
         return f"{self.path}:{line or self.line(place)}: {dotted(place)}: {text}"
 
+    def _whole(self, root: Node) -> dict[str, Any]:
+        """Return the value of the whole file; chains of aliases may nest deeper than the text."""
+        try:
+            return self._value(root, ())[0]
+        except RecursionError:
+            self._refuse(1, (), f"aliases nested too deep are not accepted; accepted: {DEEPEST} levels or fewer")
+            return {}
+
     def _composed(self) -> Node | None:
         """Return the file's nodes; None if it has none."""
         text = ""
         try:
+            check_regular(self.path)
             text = self.path.read_text(encoding="utf-8")
+            _check_depth(text)
             return LIBRARY.compose(text, LIBRARY.CSafeLoader)
+        except DataError as error:
+            self.faults.append(str(error))
         except OSError as error:
             what = "file is missing" if isinstance(error, FileNotFoundError) else error.strerror
             self.faults.append(f"{self.path}: {what}; accepted: a YAML file")
@@ -166,6 +181,15 @@ class Document:
         return value
 
 
+def _check_depth(text: str) -> None:
+    """Check that nothing is nested deeper than the C library composes: some 100 000 levels end the process."""
+    depth = 0
+    for event in LIBRARY.parse(text, LIBRARY.CSafeLoader):
+        depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+        if depth > DEEPEST:
+            raise yaml.MarkedYAMLError(problem=f"more than {DEEPEST} levels at", problem_mark=event.start_mark)
+
+
 def read_yaml(path: Path, *, nulls: bool = False) -> dict[str, Any]:
     """Read a YAML mapping; a ConfigError has a line for each fault."""
     document = Document(path, nulls=nulls)
@@ -219,9 +243,9 @@ def dotted(place: Place) -> str:
 
 
 def _token(text: str, mark: Any) -> str:
-    """Return the word of a text at which a mark stands."""
+    """Return the word of a text at which a mark stands, cut where it is long."""
     rest: str = "\n".join(text.splitlines()[mark.line : mark.line + 1])[mark.column :]
-    return rest.partition(" ")[0]
+    return rest.partition(" ")[0][:SHOWN]
 
 
 def _line(node: Node) -> int:

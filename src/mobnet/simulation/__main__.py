@@ -12,6 +12,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from mobnet.control.upper_body import UpperBody
+from mobnet.core.code import ROOT
+from mobnet.core.environment import quieten
 from mobnet.core.errors import ConfigError, DrawingError, MobnetError, not_accepted
 from mobnet.plan.jobs import walk_settings
 from mobnet.settings.checks.sections import accepted_names
@@ -37,6 +39,7 @@ draw without one. A robot that falls ends the walk; the exit code is then 1."""
 
 def main(words: list[str] | None = None) -> int:
     """Simulate, show or draw as asked, report steps and falls; return the exit code."""
+    quieten(ROOT)
     options = _parse(words)
     logging.basicConfig(level=logging.INFO, format="%(message)s")
     try:

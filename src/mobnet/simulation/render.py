@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-import matplotlib.image
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +37,8 @@ def save_picture(robot: RobotDescription, terrain: Terrain, q: NDArray[Any], pat
     """Draw the robot at q (nq,) [m, rad] into a PNG, as a whole or not at all; DrawingError where it cannot."""
     (pixels,) = draw_frames(picture_model(robot, terrain), [q])
     with atomic_path(path) as temporary:
+        import matplotlib.image  # here: importing it writes a list of fonts into its cache
+
         matplotlib.image.imsave(temporary, pixels, format="png", pil_kwargs={"optimize": True})
 
 

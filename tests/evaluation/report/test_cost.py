@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from mobnet.core.errors import ConfigError
 from mobnet.core.files import write_json
-from mobnet.evaluation.report.cost import main
+from mobnet.evaluation.report.cost import main, overrides
 from mobnet.evaluation.report.rates import RATES
 from mobnet.plan.plan import make_plan
 from mobnet.settings.load import load_settings
@@ -76,3 +77,10 @@ def test_without_rates_one_line_says_so(told: Told) -> None:
     RATES.unlink()
     assert main([]) == 1
     assert told().startswith(f"{RATES}: file is missing")
+
+
+@pytest.mark.parametrize("value", ["[1", "[" * 4000, "{a: b: c}"])
+def test_a_value_that_is_no_yaml_is_one_line(value: str) -> None:
+    with pytest.raises(ConfigError, match=r"--config: .*; accepted: a value in plain YAML") as told:
+        overrides([f"seed={value}"])
+    assert len(str(told.value).splitlines()) == 1

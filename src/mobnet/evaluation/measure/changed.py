@@ -29,12 +29,12 @@ def knowledge(
         return
     error, count = pair.estimate.astype(np.float64) - pair.truth, len(pair.joints)
     covered = np.abs(error) <= half_width(share) * std
-    yield Measured(KNOWN, np.concatenate(parts(covered, pair.spans)).mean(axis=0), "-")
+    yield Measured(KNOWN, np.concatenate(parts(covered, pair.spans)).mean(axis=0))
     swing = scene.planned(pair.joints[0])
     free = hanging(swing, pair.spans, pair.rate_hz, (settings.lift_off_s, settings.landing_s))
     rows = round(settings.window_s * pair.rate_hz)
     shares = shares_inside(pair.estimate, std, free, pair.spans, rows, share)
     shares = shares[~np.isnan(shares)]
     if len(shares):
-        yield Measured(FREE, np.full(count, shares.mean()), "-", average_only=True)
-        yield Measured(FLAGGED, np.full(count, (shares < settings.least_share).mean()), "-", average_only=True)
+        yield Measured(FREE, np.full(count, shares.mean()), average_only=True)
+        yield Measured(FLAGGED, np.full(count, (shares < settings.least_share).mean()), average_only=True)

@@ -35,7 +35,7 @@ def holding(pair: Pair, scene: Scene, settings: Drift) -> Measures:
         parts |= {HELD_BIN.format(name, k + 1): inside & (since // width == k) for k in range(bins)}
         for metric, rows in parts.items():
             share = share_shown(shown.behind[rows], rest[rows])
-            yield Measured(metric, np.full(len(pair.joints), share), "-", True)
+            yield Measured(metric, np.full(len(pair.joints), share), average_only=True)
 
 
 def share_shown(push: NDArray[np.float64], error: NDArray[np.float64]) -> float:

@@ -10,12 +10,11 @@ from numpy.typing import NDArray
 class Measured(NamedTuple):
     """A metric of n joints; nan where it is not defined, which makes no row.
 
-    Braces in the unit stand for that of the joint. Where only the average counts, joints get no rows of their own.
+    Its unit is that of `mobnet.core.metrics`. Where only the average counts, joints get no rows of their own.
     """
 
     metric: str
     values: NDArray[np.float64]
-    unit: str = "{}"
     average_only: bool = False
 
 

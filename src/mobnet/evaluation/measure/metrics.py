@@ -47,10 +47,10 @@ def roughness(signal: NDArray[Any], spans: Spans, rate_hz: float) -> NDArray[np.
 
 Measure = Callable[[NDArray[Any], NDArray[Any], Spans, float], NDArray[np.float64]]
 
-METRICS: Mapping[str, tuple[Measure, str]] = {  # name -> (estimate, truth, spans, rate -> (n,)), unit of a joint's
-    "rmse": (lambda estimate, truth, spans, rate_hz: rmse(estimate, truth, spans), "{}"),
-    "roughness": (lambda estimate, truth, spans, rate_hz: roughness(estimate, spans, rate_hz), "{}/s"),
-    "r_rmse": (lambda estimate, truth, spans, rate_hz: relative_rmse(estimate, truth, spans), "%"),
+METRICS: Mapping[str, Measure] = {  # name -> (estimate, truth, spans, rate -> (n,))
+    "rmse": lambda estimate, truth, spans, rate_hz: rmse(estimate, truth, spans),
+    "roughness": lambda estimate, truth, spans, rate_hz: roughness(estimate, spans, rate_hz),
+    "r_rmse": lambda estimate, truth, spans, rate_hz: relative_rmse(estimate, truth, spans),
 }
 PUSHED, PUSH = "rmse_pushed", "rmse_push_{}"  # `rmse` of all windows around pushes, and of the window of each
 RAW = "_raw"  # ending of an error against the external torque itself, before the low-pass

@@ -31,8 +31,8 @@ def push_measures(pair: Pair, scene: Scene, settings: Peaks) -> Measures:
     windows = list(push_rows(scene.pushed, pair.spans, settings, pair.rate_hz))
     for suffix, signal in (("", shown.estimate), (OBSERVER, shown.behind)):
         found = [rises(shown.push[rows], signal[rows], settings.turned_share, motors) for rows in windows]
-        for metric, k, scale, unit in ((PEAK, 0, 1.0, "-"), (DELAY, 1, MS / pair.rate_hz, "ms")):
-            yield Measured(metric + suffix, medians([each[k] for each in found], len(pair.joints)) * scale, unit)
+        for metric, k, scale in ((PEAK, 0, 1.0), (DELAY, 1, MS / pair.rate_hz)):
+            yield Measured(metric + suffix, medians([each[k] for each in found], len(pair.joints)) * scale)
 
 
 def push_rows(pushed: NDArray[np.bool_], spans: Spans, settings: Peaks, rate_hz: float) -> Iterator[slice]:

@@ -32,8 +32,8 @@ def responses(pair: Pair, scene: Scene, lines: Lines, bands_hz: Sequence[float])
                 place, (start, end) = pair.joints.index(joint), max(spans, key=lambda span: span[1] - span[0])
                 signals = shown.push[start:end, place], shown.estimate[start:end, place]
                 found[place] = transfer(*signals, frequencies[k], pair.rate_hz)
-        yield Measured(GAIN.format(band_hz), np.abs(found), "-")
-        yield Measured(PHASE.format(band_hz), np.angle(found, deg=True), "deg")
+        yield Measured(GAIN.format(band_hz), np.abs(found))
+        yield Measured(PHASE.format(band_hz), np.angle(found, deg=True))
 
 
 def transfer(injected: NDArray[np.float64], shown: NDArray[np.float64], frequency_hz: float, rate_hz: float) -> complex:

@@ -11,6 +11,7 @@ import numpy as np
 
 from mobnet.core.columns import SCORES, Score
 from mobnet.core.joints import JointLayout
+from mobnet.core.metrics import unit_of_metric
 from mobnet.evaluation.measure.changed import knowledge
 from mobnet.evaluation.measure.estimates import Pair, read_pair, read_std
 from mobnet.evaluation.measure.holding import holding
@@ -56,10 +57,10 @@ def score_run(layout: JointLayout, run: Run, asked: Scoring, scene: Scene | None
     names = run.scenario, run.level, run.method, run.network_seed, run.test_seed
     rows: list[Score] = []
     for part, measures in measured(pair, scene or Scene(run.recording, layout, asked.touch_down_s), asked):
-        for metric, numbers, pattern, average_only in measures:
+        for metric, numbers, average_only in measures:
             values = dict(zip(part.joints, numbers.tolist(), strict=True))
             rows += [
-                Score(*names, limb, joint, metric, value, pattern.format(unit))
+                Score(*names, limb, joint, metric, value, unit_of_metric(metric, unit))
                 for limb, joint, value, unit in limb_values(layout, {k: v for k, v in values.items() if not isnan(v)})
                 if limb not in run.repeated and (joint == AVERAGE or not average_only)
             ]
@@ -89,8 +90,8 @@ def errors(pair: Pair, scene: Scene, window: Window | None) -> Measures:
 
     Those against the raw truth and against the label of foot sensors have endings of their own.
     """
-    for metric, (measure, pattern) in METRICS.items():
-        yield Measured(metric, measure(pair.estimate, pair.truth, pair.spans, pair.rate_hz), pattern)
+    for metric, measure in METRICS.items():
+        yield Measured(metric, measure(pair.estimate, pair.truth, pair.spans, pair.rate_hz))
     raw = scene.external[:, scene.layout.columns(pair.joints)]
     yield Measured(ERROR + RAW, rmse(pair.estimate, raw, pair.spans))
     if pair.label is not None:

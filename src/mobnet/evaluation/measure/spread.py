@@ -37,17 +37,17 @@ def spreads(pair: Pair, std: NDArray[np.float32] | None, masks: Masks, share: fl
     sigma = std.astype(np.float64)
     for name, mask in {"": inside, **{f"_{name}": held for name, held in masks.items()}}.items():
         yield Measured(STD + name, masked_mean(sigma, mask))
-        yield Measured(COVER + name, masked_mean(covered, mask), "-")
+        yield Measured(COVER + name, masked_mean(covered, mask))
     rank = ranks(std, inside, settings.parts)
     for k in range(settings.parts):
         mask = rank == k
         yield Measured(f"{STD}_part_{k + 1}", masked_mean(sigma, mask), average_only=True)
         yield Measured(f"rmse_part_{k + 1}", np.sqrt(masked_mean(error**2, mask)), average_only=True)
-        yield Measured(f"{COVER}_part_{k + 1}", masked_mean(covered, mask), "-", True)
+        yield Measured(f"{COVER}_part_{k + 1}", masked_mean(covered, mask), average_only=True)
     memory = autocorrelation(ratio, pair.spans, round(settings.longest_s * pair.rate_hz))
     for lag_ms in settings.lags_ms:
-        yield Measured(MEMORY.format(lag_ms), memory[round(lag_ms * pair.rate_hz / MS)], "-", True)
-    yield Measured(EXCURSION, first_below(memory, float(FALLEN)) * MS / pair.rate_hz, "ms")
+        yield Measured(MEMORY.format(lag_ms), memory[round(lag_ms * pair.rate_hz / MS)], average_only=True)
+    yield Measured(EXCURSION, first_below(memory, float(FALLEN)) * MS / pair.rate_hz)
 
 
 def ranks(std: NDArray[np.float32], inside: NDArray[np.bool_], count: int) -> NDArray[np.intp]:

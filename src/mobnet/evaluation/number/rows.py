@@ -1,16 +1,19 @@
-"""Files of rows that jobs hand on: errors of runs, and epochs of trainings."""
+"""Files of rows that jobs hand on: errors of runs, epochs of trainings, and what detectors find."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import fields
 from operator import attrgetter
 from pathlib import Path
+from typing import Any
 
 from mobnet.core.columns import Epoch, Score
+from mobnet.core.detections import FILES, PARTS, UNNAMED
+from mobnet.core.metrics import UNITS
 from mobnet.evaluation.number.files import read_rows, refuse_rows
 
-UNITS = ("N", "N m", "N/s", "N m/s", "%", "-", "ms", "deg")  # of a score
 SIGNED = ("-", "ms", "deg")  # units of numbers that may be below zero
 KEY = attrgetter(*(field.name for field in fields(Score) if field.name != "value"))  # what names a score, unit last
+ENDS = (("start_s", "end_s"), ("low", "high"), ("found", "collisions"))  # of rows of detectors, smaller one first
 Fault = tuple[int, str, object, str]  # number of a row, column, value, accepted
 
 
@@ -34,6 +37,33 @@ def read_epochs(path: Path) -> tuple[Epoch, ...]:
     rows = read_rows(path, Epoch)
     refuse_rows(path, _epoch_faults(rows))
     return tuple(rows)
+
+
+def read_detections(path: Path, name: str) -> list[Any]:
+    """Read the rows of a file of a robot's detectors, one of `core.detections.FILES` by its name.
+
+    Raises:
+        DataError: the file is missing or damaged, or a row is not accepted; one line for each fault.
+    """
+    rows = read_rows(path, FILES[name])
+    refuse_rows(path, _detection_faults(rows))
+    return rows
+
+
+def _detection_faults(rows: Sequence[Any]) -> Iterator[Fault]:
+    """Yield numbers below zero, empty names, unknown parts, and ends of times or intervals that come before starts."""
+    for k, row in enumerate(rows):
+        values: dict[str, Any] = vars(row)
+        for name, value in values.items():
+            if value == "" and name not in UNNAMED:
+                yield k, name, value, "a name"
+            if isinstance(value, int | float) and value < 0:
+                yield k, name, value, "0 or more"
+        if values.get("part", PARTS[0]) not in PARTS:
+            yield k, "part", row.part, ", ".join(PARTS)
+        for low, high in ENDS:
+            if low in values and values[low] > values[high]:
+                yield k, low, values[low], f"at most {high}, {values[high]}"
 
 
 def _score_faults(rows: Sequence[Score]) -> Iterator[Fault]:

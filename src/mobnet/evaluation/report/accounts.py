@@ -7,6 +7,7 @@ from pydantic import ConfigDict
 from mobnet.core.errors import not_accepted, refuse
 from mobnet.core.logs import Account
 from mobnet.core.notes import Note, NotNegative, Text, read_note
+from mobnet.core.provenance import UNKNOWN
 
 
 class AccountNote(Note):
@@ -21,6 +22,7 @@ class AccountNote(Note):
     cpu_s: NotNegative
     peak_mib: NotNegative
     succeeded: bool
+    commit: Text = UNKNOWN
 
 
 def read_account(path: Path) -> Account:

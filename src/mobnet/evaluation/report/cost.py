@@ -77,7 +77,10 @@ def overrides(words: Sequence[str]) -> dict[str, Any]:
     for word, (key, sign, _) in zip(words, parts, strict=True):
         if not (key and sign):
             raise ConfigError(f"--config: {word!r} is not accepted; accepted: KEY=VALUE, a key of configs")
-    return {key: yaml.safe_load(value) for key, _, value in parts}
+    try:
+        return {key: yaml.safe_load(value) for key, _, value in parts}
+    except (yaml.YAMLError, RecursionError) as error:
+        raise ConfigError(f"--config: {' '.join(str(error).split())}; accepted: a value in plain YAML") from None
 
 
 def main(words: Sequence[str]) -> int:

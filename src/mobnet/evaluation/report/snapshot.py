@@ -7,6 +7,7 @@ import argparse
 import gzip
 import logging
 import shutil
+import subprocess
 import sys
 from collections.abc import Iterator, Mapping
 from itertools import zip_longest
@@ -14,10 +15,10 @@ from pathlib import Path
 
 from mobnet.core.errors import DataError, MobnetError
 from mobnet.core.files import atomic_path, read_json, read_text, write_json, write_text
+from mobnet.core.logs import LOGS
 from mobnet.core.provenance import CHANGED, UNKNOWN, commit, provenance
 from mobnet.evaluation.number.files import read_texts
 from mobnet.evaluation.report.accounts import read_account
-from mobnet.evaluation.report.compute import pauses
 from mobnet.evaluation.report.manifest import differences, file_hash
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.evaluation.report.rates import RATES, measured
@@ -30,6 +31,7 @@ log = logging.getLogger(__name__)
 TABLES, FIGURES, SNAPSHOT = Path("tables"), Path("figures"), Path("docs/results")
 RESULTS, MANIFEST = Path("results/default"), Path("results/MANIFEST.sha256")
 COMPUTE = RESULTS / "compute.md"
+UP_TO_DATE = "Nothing to be done"  # by which Snakemake says that no job would run
 DRAWN = "figures"  # folder of the snapshot with the CSVs of figures, compressed
 NOTED = ("recordings", "motions", "networks")  # folders of results whose notes name the commit that made them
 README, HEADLINES = Path("README.md"), ("table_05", "claims_summary")  # tables that the README shows
@@ -41,26 +43,50 @@ KEYS = (  # columns that name a row; the others are results
 Rows = dict[tuple[str, ...], dict[str, str]]
 
 
-def check_run(results: Path, manifest: Path, pause_s: float) -> None:
-    """Check that results are those of one clean, uninterrupted run of the present commit.
+def check_run(results: Path, manifest: Path) -> None:
+    """Check that results are those of the present commit, whether or not the run was stopped and went on.
 
     Raises:
-        DataError: one line for each fault: tracked files were changed, another commit made a result, a job came after
-            a pause longer than `pause_s` [s], or a file is not as the run wrote it.
+        DataError: one line for each fault: tracked files were changed, another commit ran a job or made a file, or a
+            file is not as the run wrote it.
     """
     head, faults = commit(), differences(manifest)
     if head == UNKNOWN or head.endswith(CHANGED):
         faults.append(f"commit {head}: is not accepted; accepted: a checkout without changed files")
-    notes = [note for folder in NOTED for note in sorted(results.glob(f"**/{folder}/**/*.json"))]
-    made = {note: read_json(note).get("provenance", {}).get("commit", UNKNOWN) for note in notes}
-    faults += [
-        f"{note}: commit {found} is not accepted; accepted: {head}" for note, found in made.items() if found != head
-    ]
-    jobs = [read_account(path) for path in sorted((results / "logs").rglob("*.json"))]
-    accepted = f"accepted: one run, without a pause above {pause_s:g} s"
-    faults += [f"{results}: no job ran for {pause:.0f} s; {accepted}" for pause in pauses(jobs, pause_s)]
+    made = made_by(results)
+    for found in sorted(set(made.values()) - {head}):
+        first, *others = [path for path, name in made.items() if name == found]
+        beside = f" ({len(others)} further files)" if others else ""
+        faults.append(f"{first}: commit {found} is not accepted; accepted: {head}{beside}")
     if faults:
         raise DataError("\n".join(faults))
+
+
+def made_by(results: Path) -> dict[Path, str]:
+    """Return the accounts of jobs and the notes of files in results -> the commit that they name."""
+    accounts = {path: read_account(path).commit for path in sorted((results / LOGS).rglob("*.json"))}
+    notes = [note for folder in NOTED for note in sorted(results.glob(f"**/{folder}/**/*.json"))]
+    return accounts | {note: read_json(note).get("provenance", {}).get("commit", UNKNOWN) for note in notes}
+
+
+def check_fingerprints(*words: str) -> None:
+    """Check by a dry run that no job would run again: arguments, code and inputs of each are as they were.
+
+    Args:
+        words: targets and options of the run.
+
+    Raises:
+        DataError: a job would run again, or nobody can say.
+    """
+    run = [sys.executable, "-m", "mobnet.core.run", "--cores", "1", "-n", *words]
+    done = subprocess.run(run, capture_output=True, text=True, check=False)
+    told = [line for line in (done.stdout + done.stderr).splitlines() if line.strip()]
+    if done.returncode:
+        raise DataError(f"{' '.join(words)}: cannot be planned: {told[-1].strip() if told else done.returncode}")
+    if not any(UP_TO_DATE in line for line in told):
+        count = next((line.split()[-1] for line in told if line.startswith("total ")), "some")
+        text = f"{count} jobs would run again, which is not accepted; accepted: what this configuration and code make"
+        raise DataError(f"{' '.join(words)}: {text}")
 
 
 def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Path, out: Path) -> None:
@@ -156,7 +182,8 @@ def main(words: list[str]) -> int:
     try:
         if options.command == "snapshot":
             settings = load_settings()
-            check_run(RESULTS, options.manifest, settings.evaluation.compute.pause_s)
+            check_run(RESULTS, options.manifest)
+            check_fingerprints("all")
             write_snapshot(settings, TABLES, FIGURES, COMPUTE, SNAPSHOT)
             plan = make_plan(settings, with_pdf=not missing_packages())
             jobs = map(read_account, sorted((RESULTS / "logs").rglob("*.json")))

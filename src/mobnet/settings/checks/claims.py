@@ -6,8 +6,9 @@ from string import Formatter
 from typing import get_args
 
 from mobnet.core.errors import misfit, not_accepted
+from mobnet.core.metrics import unit_of_metric
 from mobnet.settings.checks.quoted import quoted_problems
-from mobnet.settings.checks.results import Results, metric_unit
+from mobnet.settings.checks.results import Results
 from mobnet.settings.claims import Bounds, Cell, Claim, MadeNumber, TrainingMetric
 from mobnet.settings.reading import Place
 
@@ -104,7 +105,7 @@ def _units(results: Results, cell: Cell) -> set[str]:
     if _is_training(cell):
         return {"N m" if metrics_of(cell) == ("validation RMSE",) else "-"}
     units = {results.layout.unit(joint) for joint in results.joints_of_cell(cell)}
-    return {metric_unit(metric, unit) for metric in metrics_of(cell) for unit in units}
+    return {unit_of_metric(metric, unit) for metric in metrics_of(cell) for unit in units}
 
 
 def _unit_problems(results: Results, claim: Claim) -> Iterator[Problem]:

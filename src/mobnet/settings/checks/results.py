@@ -1,6 +1,5 @@
 """What the configuration will have results of: runs, scores, estimated joints, trainings and pushes."""
 
-import re
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -8,6 +7,7 @@ from functools import cached_property
 from mobnet.core.columns import CALIBRATION, COVERAGE, DETECTION, ERRORS, KINDS, LATENCY, METHODS
 from mobnet.core.errors import not_accepted
 from mobnet.core.joints import JointLayout, right_of, with_image
+from mobnet.core.metrics import kind_of_metric
 from mobnet.settings.checks.robot import joints_above
 from mobnet.settings.claims import Cell
 from mobnet.settings.evaluation import Mean
@@ -20,26 +20,6 @@ TABLES = {  # that are no entry of `tables` -> their columns
     "methods": METHODS,
 }  # fmt: skip
 PUSHED, PUSH, RAW = "rmse_pushed", "rmse_push_", "_raw"  # metrics of windows around pushes, against the raw truth
-ASKED = {  # section -> metrics that are measured on its tests alone
-    "peaks": r"(peak_ratio|rise_delay).*",
-    "bode": r"(gain|phase)_.*",
-    "drift": r"held_.*",
-    "phases": r"rmse_(swing|touch_down|stance|stuck|moving)",
-    "sigma": r"(std|cover|acf|excursion|rmse_part).*",
-    "changed": r"(known|free|flagged)_share",
-}
-UNITS = {  # metrics that are no error of a joint -> unit, made of that of the joint
-    r"roughness": "{}/s",
-    r"r_rmse": "%",
-    r"(peak_ratio|gain|held|cover|acf|known|free|flagged).*": "-",
-    r"(rise_delay|excursion).*": "ms",
-    r"phase_.*": "deg",
-}
-
-
-def metric_unit(metric: str, unit: str) -> str:
-    """Return the unit of a metric of joints whose torques have a unit."""
-    return next((own for pattern, own in UNITS.items() if re.fullmatch(pattern, metric)), "{}").format(unit)
 
 
 @dataclass(frozen=True)
@@ -92,10 +72,9 @@ class Results:
         windows = self.settings.evaluation.windows
         if metric.startswith(PUSHED[:9]) and scenario not in windows:
             return not_accepted("test with a window around pushes", scenario, windows)
-        for section, pattern in ASKED.items():
-            tests = self._tests_of(section)
-            if re.fullmatch(pattern, metric) and scenario not in tests:
-                return not_accepted(f"test of section {section}", scenario, tests)
+        section = kind_of_metric(metric).section
+        if section and scenario not in (tests := self._tests_of(section)):
+            return not_accepted(f"test of section {section}", scenario, tests)
         timed = [self.settings.pushes[name].at_s for name in self.settings.scenarios[scenario].pushes]
         if metric.startswith(PUSH) and None not in timed:
             count = sum(len(times) for times in timed if times)

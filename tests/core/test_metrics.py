@@ -1,0 +1,50 @@
+"""Every metric has one kind, which says its unit and its range."""
+
+import csv
+import re
+from pathlib import Path
+
+import pytest
+
+from mobnet.core.errors import ConfigError
+from mobnet.core.metrics import METRIC, METRIC_KINDS, SECTIONS, UNITS, kind_of_metric, unit_of_metric
+from mobnet.settings.evaluation import Scoring
+
+GOLDEN = Path(__file__).parents[1] / "golden"
+MADE = ("factor", "gone", "share", "skill")  # by tables, of metrics
+
+
+def golden_metrics() -> set[tuple[str, str]]:
+    """Return metric and unit of the rows of the golden tables that name both."""
+    tables = (csv.DictReader(path.read_text().splitlines()) for path in GOLDEN.glob("*.csv"))
+    rows = [row for table in tables for row in table if {"metric", "unit"} <= row.keys()]
+    return {(name, row["unit"]) for row in rows for name in row["metric"].split("+") if name not in MADE}
+
+
+def test_the_metrics_of_the_golden_tables_have_their_units() -> None:
+    found = golden_metrics()
+    assert {"rmse", "r_rmse", "known_share", "rise_delay"} <= {metric for metric, _ in found}
+    assert all(unit in {unit_of_metric(metric, joint) for joint in ("N", "N m")} for metric, unit in found)
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [("rmse_push_2_raw", "N m"), ("roughness", "N m/s"), ("gain_0.5hz", "-"), ("phase_2hz", "deg"),
+     ("held_swing_3", "-"), ("std_part_4", "N m"), ("cover_stance", "-"), ("acf_10ms", "-"),
+     ("excursion", "ms"), ("free_share", "-")],
+)  # fmt: skip
+def test_a_metric_has_one_kind_and_one_unit(name: str, unit: str) -> None:
+    assert sum(re.fullmatch(kind.names, name) is not None for kind in METRIC_KINDS) == 1
+    assert re.fullmatch(METRIC, name)
+    assert unit_of_metric(name, "N m") == unit
+    assert unit in UNITS
+
+
+@pytest.mark.parametrize("name", ["rmse_push_0", "share", "acf_ms", "rmse_part_", ""])
+def test_another_name_is_refused(name: str) -> None:
+    with pytest.raises(ConfigError, match=f"metric: {name!r} is not accepted; accepted: "):
+        kind_of_metric(name)
+
+
+def test_what_asks_for_metrics_is_a_section_of_scoring() -> None:
+    assert set(SECTIONS) <= Scoring.model_fields.keys()

@@ -1,0 +1,98 @@
+"""A run that was killed and went on is one run: the same bytes, and results of one commit, which a snapshot accepts."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from .conftest import PARTS
+
+TARGET = "results/smoke/residuals/forward_walk/ideal/s101.parquet"
+ARRAYS = ("recordings", "residuals")
+LONGEST_S = 120.0
+CHECK = """
+import sys
+from pathlib import Path
+from mobnet.core.errors import DataError
+from mobnet.evaluation.report.manifest import is_listed, manifest
+from mobnet.evaluation.report.snapshot import check_fingerprints, check_run
+
+results = Path("results/smoke")
+made = [path for path in results.rglob("*") if path.is_file() and is_listed(path.relative_to(results))]
+listed = Path("listed.sha256")
+manifest(made, [], listed)
+try:
+    check_run(results, listed)
+    check_fingerprints(*sys.argv[1:])
+except DataError as error:
+    sys.exit(str(error))
+"""
+
+pytestmark = [pytest.mark.slow, pytest.mark.sim]
+
+
+def start(folder: Path) -> subprocess.Popen[bytes]:
+    """Start the run of the target in a process group of its own."""
+    words = [sys.executable, str(folder / "reproduce"), TARGET, "--cores", "1"]
+    with (folder / "out.log").open("ab") as out:
+        return subprocess.Popen(words, cwd=folder, stdout=out, stderr=out, start_new_session=True)
+
+
+def kill_when(run: subprocess.Popen[bytes], began: Path) -> None:
+    """Kill a run with all its processes as soon as a file is there."""
+    end = time.monotonic() + LONGEST_S
+    while not began.exists() and time.monotonic() < end:
+        time.sleep(0.02)
+    assert began.exists()
+    os.killpg(run.pid, signal.SIGKILL)
+    run.wait()
+
+
+def arrays(folder: Path) -> dict[str, bytes]:
+    """Return the content of the recordings and residuals."""
+    places = [folder / "results" / "smoke" / kind for kind in ARRAYS]
+    return {str(path): path.read_bytes() for place in places for path in place.rglob("*") if path.is_file()}
+
+
+def git(folder: Path, *words: str) -> None:
+    """Run git with a made-up author."""
+    author = ("-c", "user.name=Somebody", "-c", "user.email=somebody@example.org", "-c", "commit.gpgsign=false")
+    subprocess.run(["git", *author, *words], cwd=folder, check=True, capture_output=True)
+
+
+def refusal(folder: Path, *changes: str) -> str:
+    """Return why the results are not those of the commit and of a configuration; nothing if they are."""
+    python, changed = str(folder / ".venv" / "bin" / "python"), ("--config", "scale=smoke", *changes)
+    words = [python, "-c", CHECK, TARGET, *changed]
+    done = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
+    assert "Traceback" not in done.stderr
+    return done.stderr.strip()
+
+
+def test_a_killed_run_that_went_on_is_one_run(make_project: Callable[..., Path]) -> None:
+    folder = make_project("stopped")
+    git(folder, "init", "--quiet")
+    git(folder, "add", *PARTS)
+    git(folder, "commit", "--quiet", "-m", "all")
+    log = folder / "results" / "smoke" / "logs" / "collect_tests" / "forward_walk-ideal.log"
+    kill_when(start(folder), log)
+    assert not (folder / TARGET).exists()
+    assert start(folder).wait() == 0, (folder / "out.log").read_text()
+    resumed = arrays(folder)
+    assert refusal(folder) == ""
+    for path in map(Path, resumed):
+        path.unlink()
+    assert start(folder).wait() == 0
+    assert arrays(folder) == resumed
+    assert "jobs would run again, which is not accepted" in refusal(folder, "observer={gain_hz: 50}")
+    (folder / "docs" / "map.md").write_text("changed\n")
+    assert "-changed: is not accepted; accepted: a checkout without changed files" in refusal(folder)
+    git(folder, "commit", "--quiet", "--all", "-m", "another")
+    (line,) = refusal(folder).splitlines()
+    assert line.startswith("results/smoke/logs/collect_tests/forward_walk-ideal.json: commit ")
+    assert "further files" in line
