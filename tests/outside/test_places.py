@@ -245,10 +245,11 @@ def scores_of(files: Files) -> list[Score]:
     """Return the errors of every run of a test, on all joints that it estimates."""
     layout, settings = files.settings.layout, files.settings
     values = {joint: 1.0 + k for k, joint in enumerate(layout.names)}
-    held = {run.method: settings.estimated(run.method, run.scenario, run.level) for run in files.runs_of(SCENARIO)}
+    runs = files.runs_of(SCENARIO, LEVEL)
+    held = {run.method: settings.estimated(run.method, run.scenario, run.level) for run in runs}
     return [
         Score(SCENARIO, run.level, run.method, run.network_seed, run.test_seed, limb, joint, "rmse", value, unit)
-        for run in files.runs_of(SCENARIO)
+        for run in runs
         for limb, joint, value, unit in limb_values(layout, {joint: values[joint] for joint in held[run.method]})
     ]
 
@@ -274,7 +275,7 @@ SCORES: dict[str, tuple[int, dict[str, Any], str]] = {
 @pytest.mark.parametrize("name", SCORES)
 def test_rows_that_are_not_of_the_test_are_refused(name: str, files: Files) -> None:
     line, change, says = SCORES[name]
-    path, rows = files.scores([SCENARIO])[SCENARIO], [tuple(vars(row).values()) for row in scores_of(files)]
+    (path,), rows = files.scores([(SCENARIO, LEVEL)]), [tuple(vars(row).values()) for row in scores_of(files)]
     names = list(vars(scores_of(files)[0]))
     write_csv(path, names, rows)
     check_agreement([path], files)
@@ -284,7 +285,7 @@ def test_rows_that_are_not_of_the_test_are_refused(name: str, files: Files) -> N
 
 
 def test_a_run_or_a_joint_without_an_error_is_refused(files: Files) -> None:
-    path, rows = files.scores([SCENARIO])[SCENARIO], [tuple(vars(row).values()) for row in scores_of(files)]
+    (path,), rows = files.scores([(SCENARIO, LEVEL)]), [tuple(vars(row).values()) for row in scores_of(files)]
     names = list(vars(scores_of(files)[0]))
     method = rows[0][2]
     write_csv(path, names, [row for row in rows if row[2] != method])

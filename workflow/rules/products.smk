@@ -1,4 +1,4 @@
-# Scores of all runs of a test; then every table, figure and text of the plan, each by a rule of its own name, and the
+# Scores of all runs of a test at a level; then every table, figure and text of the plan, each by a rule of its own name, and the
 # trials, which `all` does not ask for.
 
 
@@ -6,9 +6,9 @@ rule score:
     input:
         lambda w: job("score", w).inputs,
     output:
-        ensure(f"{PLAN.folders.results}/scores/{{scenario}}.csv", non_empty=True),
+        ensure(f"{PLAN.folders.results}/scores/{{scenario}}/{{level}}.csv", non_empty=True),
     log:
-        f"{LOGS}/score/{{scenario}}.log",
+        f"{LOGS}/score/{{scenario}}-{{level}}.log",
     group:
         "scores"
     threads: 1

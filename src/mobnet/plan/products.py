@@ -85,8 +85,8 @@ class Products:
         owners = (self.files, *self.files.robots.values())
         places = [(files, place) for files in owners for place in files.recorded()]
         arrays = [files.array(kind, *place) for files, place in places for kind in ("recordings", "residuals")]
-        scenarios = self.settings.tests
-        runs = [run for scenario in scenarios for run in self.files.runs_of(scenario)]
+        tests = self.settings.tests.items()
+        runs = [run for scenario, levels in tests for level in levels for run in self.files.runs_of(scenario, level)]
         arrays += [run.estimate for run in runs]
         arrays += [stem for files, (scenario, _, seed) in places for stem in files.motion(scenario, seed)]
         pairs = [f"{stem}{ending}" for stem in dict.fromkeys(arrays) for ending in (ARRAY, ".json")]
@@ -100,7 +100,7 @@ class Products:
             for path in files.fit(method)
         )
         found = [str(path) for own in owners if level_of_detectors(own) for path in detection_files(own).values()]
-        return [*pairs, *trained, *fits, *found, *map(str, self.files.scores(self.files.scored_tests).values())]
+        return [*pairs, *trained, *fits, *found, *map(str, self.files.scores(self.files.scored))]
 
     def _tables_and_figures(self) -> Iterator[Product]:
         """Yield all tables and figures."""

@@ -66,9 +66,9 @@ def _behind(plan: Plan, path: Path) -> Iterator[Work]:
             longest = max(files.settings.test_s(name) for name in files.settings.detection_walks)
             yield Work(f"detect/{own}all", "detect", {SECONDS: walked}, longest * len(files.test_seeds))
         case "scores", _:
-            runs = plan.files.runs_of(path.stem)
+            runs = plan.files.runs_of(path.parent.name, path.stem)
             seconds = sum(plan.settings.test_s(run.scenario) for run in runs)
-            yield Work(f"score/{path.stem}", "score", {SECONDS: seconds}, 0.0)
+            yield Work(f"score/{path.parent.name}-{path.stem}", "score", {SECONDS: seconds}, 0.0)
         case _:
             return
 
