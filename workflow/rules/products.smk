@@ -9,6 +9,8 @@ rule score:
         ensure(f"{PLAN.folders.results}/scores/{{scenario}}/{{level}}.csv", non_empty=True),
     log:
         f"{LOGS}/score/{{scenario}}-{{level}}.log",
+    wildcard_constraints:
+        level="|".join(dict.fromkeys(level for levels in SETTINGS.tests.values() for level in levels)),
     group:
         "scores"
     threads: 1
