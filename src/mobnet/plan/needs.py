@@ -93,20 +93,24 @@ def _fine_tuning(files: Files) -> Needs:
 
 def _kinds(files: Files) -> Needs:
     """Return the trained networks of Figure 17 and of its variants."""
-    figure, variants = files.settings.evaluation.figure_17, files.settings.evaluation.kinds.variants
-    folders = files.network_folders((*figure.methods, *variants), figure.limb, figure.level)
-    return {"folders": folders, "figure_17": figure}
+    return {"folders": _folders_of_kinds(files), "figure_17": files.settings.evaluation.figure_17}
+
+
+def _folders_of_kinds(files: Files) -> tuple[Path, ...]:
+    """Return the trained networks of Figure 17, then those of its variants."""
+    figure, table = files.settings.evaluation.figure_17, files.settings.evaluation.kinds
+    return (
+        *files.network_folders(figure.methods, figure.limb, figure.level),
+        *files.network_folders(table.variants, figure.limb, table.level),
+    )
 
 
 def _claims(files: Files) -> Needs:
     """Return the scores that claims name, and the trainings of the kinds and sizes of the left leg's networks."""
-    evaluation = files.settings.evaluation
-    methods = (*evaluation.figure_17.methods, *evaluation.kinds.variants)
-    kinds = files.network_folders(methods, evaluation.figure_17.limb, evaluation.figure_17.level)
     sizes = [folder for size in files.swept_sizes() for folder in size.folders]
     made = [number for claim in files.settings.claims.values() for number in (claim, *claim.numbers.values())]
     named = [(cell.scenario, cell.level) for each in made for cell in each.cells if cell.scenario and cell.level]
-    return {"scores": files.scores(named), "folders": tuple(dict.fromkeys([*kinds, *sizes]))}
+    return {"scores": files.scores(named), "folders": tuple(dict.fromkeys([*_folders_of_kinds(files), *sizes]))}
 
 
 def _latency(files: Files) -> Needs:

@@ -242,7 +242,9 @@ class Files:
         ]
         kinds, sizes, timed = evaluation.figure_17, evaluation.figure_20, evaluation.latency.method
         if self.has(kinds.level):
-            pairs += [(method, kinds.limb) for method in (*kinds.methods, *evaluation.kinds.variants)]
+            pairs += [(method, kinds.limb) for method in kinds.methods]
+        if self.has(evaluation.kinds.level):
+            pairs += [(method, kinds.limb) for method in evaluation.kinds.variants]
         if self.has(sizes.level):
             swept = [(key, base) for key in (sizes.parameters, sizes.samples) for base in settings.sweeps[key].of]
             pairs += [
