@@ -42,6 +42,16 @@ def rng() -> np.random.Generator:
 
 
 @pytest.fixture(scope="session")
+def settings(settings: Settings) -> Settings:
+    """The configuration with detectors on the plant of section 5.1 too, so that both kinds of levels are shown."""
+    both = {"levels": ("all_uncertainty", "robots")}
+    names = ("table_09", "table_13", "false_alarms", "smallest_force", "links", "figure_14")
+    shown = {name: getattr(settings.evaluation, name).model_copy(update=both) for name in names}
+    whole = {"detection": settings.detection.model_copy(update=both)}
+    return settings.model_copy(update={**whole, "evaluation": settings.evaluation.model_copy(update=shown)})
+
+
+@pytest.fixture(scope="session")
 def evaluation(settings: Settings) -> Evaluation:
     """Tables and figures of made-up runs: few draws, joints and times that they have."""
     whole, methods = settings.evaluation, {"methods": ("MOB", "MOB-Net")}
