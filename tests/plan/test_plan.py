@@ -15,7 +15,7 @@ from mobnet.plan.runs import SweptSize, files_in
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
-SCALES = ("smoke", "default", "paper")
+SCALES = ("smoke", "quick", "default", "paper")
 SOURCES = ("paper/main", "paper/refs", "docs", "src", "workflow")  # files of the repository that products read
 
 
