@@ -72,6 +72,14 @@ def test_scales_never_share_a_file_and_the_main_one_stands_where_a_reader_looks(
     assert not [name for name in made(without_tex) if name.endswith("main.pdf")]
 
 
+def test_quick_makes_every_product_with_one_robot_and_one_network_of_each(plans: dict[str, Plan]) -> None:
+    quick = plans["quick"]
+    assert [product.name for product in quick.products] == [product.name for product in plans["default"].products]
+    assert list(quick.files.robots) == ["robot_1"]
+    owners = (quick.files, *quick.files.robots.values())
+    assert {len(own.network_seeds(*network)) for own in owners for network in own.learned} == {1}
+
+
 def test_training_and_test_recordings_are_disjoint(plans: dict[str, Plan]) -> None:
     files = plans["default"].files
     train, test = files.training("recordings", "walk"), files.tests("forward_walk", "all_uncertainty")

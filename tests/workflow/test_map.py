@@ -126,3 +126,13 @@ def test_every_table_and_figure_of_ours_begins_with_the_question_that_it_answers
         assert not empty, name
         assert first, name
         assert first[0].endswith("?"), name
+
+
+def test_the_readme_says_what_each_scale_takes() -> None:
+    """Time, core-hours, memory and disk."""
+    lines = [
+        [cell.strip() for cell in line.strip("|").split("|")] for line in (ROOT / "README.md").read_text().splitlines()
+    ]
+    rows = {cells[0].strip("`"): cells[2:] for cells in lines if cells[0].strip("`") in MAIN.scales}
+    assert list(rows) == list(MAIN.scales)
+    assert all(len(numbers) == 4 and all(re.match(r"\d", number) for number in numbers) for numbers in rows.values())
