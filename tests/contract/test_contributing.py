@@ -33,8 +33,7 @@ products = {product.name: product for product in plan.products}
 for call in (products[name].job.call for name in names):
     for folder in (plan.folders.tables, plan.folders.figures, Path("tested")):
         folder.mkdir(parents=True, exist_ok=True)
-    scores = {test: golden / "scores.csv" for test in call.arguments["scores"]}
-    replace(call, arguments={**call.arguments, "scores": scores}).run()
+    replace(call, arguments={**call.arguments, "scores": [golden / "scores.csv"]}).run()
 spec = importlib.util.spec_from_file_location("example", example)
 module = importlib.util.module_from_spec(spec)
 module.__file__ = str(golden.parent / example.removeprefix("tests/"))
@@ -144,7 +143,7 @@ def test_the_new_product_reads_the_scores_and_writes_its_files(
     name: str, files: list[str], told: dict[str, Any], copy: Path
 ) -> None:
     inputs, outputs = told["products"][name]
-    assert inputs == ["results/smoke/scores/forward_walk.csv"]
+    assert inputs == ["results/smoke/scores/forward_walk/all_uncertainty.csv"]
     assert outputs == files
     assert all((copy / file).stat().st_size > 0 for file in files)
     assert set(told["products"]["paper"][0]) >= {file for file in files if file.endswith((".tex", ".pdf"))}

@@ -42,6 +42,16 @@ def rng() -> np.random.Generator:
 
 
 @pytest.fixture(scope="session")
+def settings(settings: Settings) -> Settings:
+    """The configuration with detectors on the plant of section 5.1 too, so that both kinds of levels are shown."""
+    both = {"levels": ("all_uncertainty", "robots")}
+    names = ("table_09", "table_13", "false_alarms", "smallest_force", "links", "figure_14")
+    shown = {name: getattr(settings.evaluation, name).model_copy(update=both) for name in names}
+    whole = {"detection": settings.detection.model_copy(update=both)}
+    return settings.model_copy(update={**whole, "evaluation": settings.evaluation.model_copy(update=shown)})
+
+
+@pytest.fixture(scope="session")
 def evaluation(settings: Settings) -> Evaluation:
     """Tables and figures of made-up runs: few draws, joints and times that they have."""
     whole, methods = settings.evaluation, {"methods": ("MOB", "MOB-Net")}
@@ -151,16 +161,16 @@ def make_table(tmp_path: Path, settings: Settings, evaluation: Evaluation) -> Ca
 
 
 @pytest.fixture
-def write_table_scores(tmp_path: Path, layout: JointLayout, evaluation: Evaluation) -> Callable[..., dict[str, Path]]:
-    """Write the scores that a table needs: write_table_scores(name, *metrics) -> scenario -> CSV."""
+def write_table_scores(tmp_path: Path, layout: JointLayout, evaluation: Evaluation) -> Callable[..., list[Path]]:
+    """Write the scores that a table needs: write_table_scores(name, *metrics) -> CSV files, one of each test."""
 
-    def write(name: str, *metrics: str) -> dict[str, Path]:
+    def write(name: str, *metrics: str) -> list[Path]:
+        found: list[Path] = []
         rows = evaluation.tables[name].rows
-        found = {}
-        for scenario in dict.fromkeys(row.scenario for row in rows):
-            found[scenario] = tmp_path / f"{name}_{scenario}.csv"
-            own = [row for row in rows if row.scenario == scenario]
-            write_rows(found[scenario], table_scores(layout, own, metrics))
+        for shown in dict.fromkeys((row.scenario, row.level) for row in rows):
+            found.append(tmp_path / f"{name}_{'_'.join(shown)}.csv")
+            own = [row for row in rows if (row.scenario, row.level) == shown]
+            write_rows(found[-1], table_scores(layout, own, metrics))
         return found
 
     return write
@@ -184,15 +194,15 @@ def measured_scores(layout: JointLayout, tests: Iterable[Any], metrics: Mapping[
 
 
 @pytest.fixture
-def write_measured(tmp_path: Path, layout: JointLayout) -> Callable[..., dict[str, Path]]:
-    """Write scores of some tests: write_measured(tests, {metric: (value, unit)}) -> scenario -> CSV."""
+def write_measured(tmp_path: Path, layout: JointLayout) -> Callable[..., list[Path]]:
+    """Write scores of some tests: write_measured(tests, {metric: (value, unit)}) -> CSV files, one of each test."""
 
-    def write(tests: Iterable[Any], metrics: Mapping[str, tuple[float, str]]) -> dict[str, Path]:
-        rows, found = measured_scores(layout, tests, metrics), {}
+    def write(tests: Iterable[Any], metrics: Mapping[str, tuple[float, str]]) -> list[Path]:
+        rows, found = measured_scores(layout, tests, metrics), list[Path]()
         for scenario in dict.fromkeys(row.scenario for row in rows):
-            found[scenario] = tmp_path / f"measured_{scenario}.csv"
+            found.append(tmp_path / f"measured_{scenario}.csv")
             own = dict.fromkeys(row for row in rows if row.scenario == scenario)
-            write_rows(found[scenario], list(own))
+            write_rows(found[-1], list(own))
         return found
 
     return write

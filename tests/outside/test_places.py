@@ -245,9 +245,11 @@ def test_friction_that_does_not_fall_with_the_speed_is_a_sound_fit(files: Files)
     check_agreement([written(files.results / "fits" / "MOB-fric.json", note)], files)
 
 
-def scores_of(files: Files, scenario: str = SCENARIO, metric: str = "rmse", size: float = 1.0) -> list[Score]:
-    """Return a metric of every run of a test, from a size on, on all joints that it estimates."""
-    layout, settings, runs = files.settings.layout, files.settings, files.runs_of(scenario)
+def scores_of(
+    files: Files, scenario: str = SCENARIO, level: str = LEVEL, metric: str = "rmse", size: float = 1.0
+) -> list[Score]:
+    """Return a metric of every run of a test at a level, from a size on, on all joints that it estimates."""
+    layout, settings, runs = files.settings.layout, files.settings, files.runs_of(scenario, level)
     values = {joint: size * (1.0 + k) for k, joint in enumerate(layout.names)}
     return [
         Score(scenario, run.level, run.method, run.network_seed, run.test_seed, limb, joint, metric, value, own)
@@ -261,14 +263,14 @@ def scores_of(files: Files, scenario: str = SCENARIO, metric: str = "rmse", size
 
 def test_every_metric_that_is_measured_is_a_sound_row(tmp_path: Path) -> None:
     """The shares of changed robots were in no list of names."""
-    files = Files(load_settings(overrides={"scale": "smoke"}), tmp_path)
-    rows = scores_of(files, "changed_walk") + [
-        row for metric in (KNOWN, FREE, FLAGGED) for row in scores_of(files, "changed_walk", metric, 0.01)
+    files, place = Files(load_settings(overrides={"scale": "smoke"}), tmp_path), ("changed_walk", "robots")
+    rows = scores_of(files, *place) + [
+        row for metric in (KNOWN, FREE, FLAGGED) for row in scores_of(files, *place, metric, 0.01)
     ]
-    path = files.scores(["changed_walk"])["changed_walk"]
+    (path,) = files.scores([place])
     write_csv(path, list(vars(rows[0])), [tuple(vars(row).values()) for row in rows])
     check_agreement([path], files)
-    rows += scores_of(files, "changed_walk", COVER, 0.01)
+    rows += scores_of(files, *place, COVER, 0.01)
     write_csv(path, list(vars(rows[0])), [tuple(vars(row).values()) for row in rows])
     assert "metric cover: test of section sigma: 'changed_walk' is not accepted" in refused(path, files)
 
@@ -294,7 +296,7 @@ SCORES: dict[str, tuple[int, dict[str, Any], str]] = {
 @pytest.mark.parametrize("name", SCORES)
 def test_rows_that_are_not_of_the_test_are_refused(name: str, files: Files) -> None:
     line, change, says = SCORES[name]
-    path, rows = files.scores([SCENARIO])[SCENARIO], [tuple(vars(row).values()) for row in scores_of(files)]
+    (path,), rows = files.scores([(SCENARIO, LEVEL)]), [tuple(vars(row).values()) for row in scores_of(files)]
     names = list(vars(scores_of(files)[0]))
     write_csv(path, names, rows)
     check_agreement([path], files)
@@ -304,7 +306,7 @@ def test_rows_that_are_not_of_the_test_are_refused(name: str, files: Files) -> N
 
 
 def test_a_run_or_a_joint_without_an_error_is_refused(files: Files) -> None:
-    path, rows = files.scores([SCENARIO])[SCENARIO], [tuple(vars(row).values()) for row in scores_of(files)]
+    (path,), rows = files.scores([(SCENARIO, LEVEL)]), [tuple(vars(row).values()) for row in scores_of(files)]
     names = list(vars(scores_of(files)[0]))
     method = rows[0][2]
     write_csv(path, names, [row for row in rows if row[2] != method])

@@ -106,8 +106,8 @@ def test_names_of_networks_differ_and_motions_are_shared(plan: Plan) -> None:
 
 
 def test_every_run_of_a_test_is_scored_and_stored(plan: Plan) -> None:
-    """One file of scores has all levels of a test; all that its runs read is made."""
-    read = maker(plan, "scores/walk_test.csv").job.inputs
+    """A file of scores has all robots of a level; all that its runs read is made."""
+    read = maker(plan, "scores/walk_test/robots.csv").job.inputs
     assert {Path(name).relative_to(RESULTS).parts[0] for name in read} >= set(ROBOTS)
     assert set(read) <= set(plan.stored)
 

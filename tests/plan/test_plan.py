@@ -19,7 +19,7 @@ from mobnet.plan.steps import Step
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
-SCALES = ("smoke", "default", "paper")
+SCALES = ("smoke", "quick", "default", "paper")
 SOURCES = ("paper/main", "paper/refs", "docs", "src", "workflow")  # files of the repository that products read
 
 
@@ -74,6 +74,14 @@ def test_scales_never_share_a_file_and_the_main_one_stands_where_a_reader_looks(
     assert {"tables/smoke/table_05.tex", "results/smoke/paper/main.pdf"} <= set(made(plans["smoke"]))
     without_tex = make_plan(plans["smoke"].settings, with_pdf=False)
     assert not [name for name in made(without_tex) if name.endswith("main.pdf")]
+
+
+def test_quick_makes_every_product_with_one_robot_and_one_network_of_each(plans: dict[str, Plan]) -> None:
+    quick = plans["quick"]
+    assert [product.name for product in quick.products] == [product.name for product in plans["default"].products]
+    assert list(quick.files.robots) == ["robot_1"]
+    owners = (quick.files, *quick.files.robots.values())
+    assert {len(own.network_seeds(*network)) for own in owners for network in own.learned} == {1}
 
 
 def test_training_and_test_recordings_are_disjoint(plans: dict[str, Plan]) -> None:
@@ -251,12 +259,33 @@ def test_scores_and_runs_follow_from_the_section_of_a_product(plan: Plan) -> Non
     figure, rows, panels = settings.figure_06, settings.methods, settings.figure_18
     assert needs_of(plan.files, "figure_06", figure, ["runs", "seed"]) == {"runs": plan.files.first_runs(figure)}
     for name, section, tests in (
-        ("figure_06", figure, [figure.scenario]), ("methods", rows, [row.scenario for row in rows]),
-        ("figure_18", panels, panels.panels),
-    ):  # fmt: skip
-        assert needs_of(plan.files, name, section, ["scores"]) == {"scores": plan.files.scores(tests)}
+        ("figure_06", figure, [(figure.scenario, figure.level)]),
+        ("methods", rows, [(row.scenario, row.level) for row in rows]),
+        ("figure_18", panels, [(test, panels.level) for test in panels.panels]),
+        ("fine_tuning", settings.fine_tuning.tests, [("changed_walk", "robots_other"), ("changed_walk", "robots")]),
+    ):
+        own = needs_of(plan.files, "any other", section, ["scores"])["scores"]
+        assert own == plan.files.scores(tests), name
+        assert len(own) == len(set(tests)), name
     with pytest.raises(ConfigError, match=r"bins: its section lacks .*'Steps' object has no"):
         needs_of(plan.files, "bins", settings.steps, ["runs"])
+
+
+def behind(plan: Plan, target: str) -> set[str]:
+    """Return every file that the jobs of a product and of its scores read."""
+    product = next(one for one in plan.products if one.name == target)
+    scored = dict(zip(map(str, plan.files.scores(plan.files.scored)), plan.files.scored, strict=True))
+    return {read for name in product.job.inputs for read in plan.jobs[""].score(*scored[name]).inputs}
+
+
+def test_a_table_needs_the_levels_that_it_shows_alone(plans: dict[str, Plan]) -> None:
+    """Table 6 shows the plant of section 5.1, Table 8 the same test on surrogate robots."""
+    for plan in plans.values():
+        owners = [
+            {plan.files.owner_of(Path(name))[0].robot for name in behind(plan, table)}
+            for table in ("table_06", "table_08")
+        ]
+        assert owners == [{""}, set(plan.files.robots)]
 
 
 def test_a_caption_is_optional() -> None:

@@ -30,7 +30,7 @@ def folder(tmp_path: Path) -> Path:
     return shutil.copytree(CONFIGS, tmp_path / "configs")
 
 
-@pytest.mark.parametrize("scale", ["smoke", "default", "paper"])
+@pytest.mark.parametrize("scale", ["smoke", "quick", "default", "paper"])
 def test_every_scale_is_accepted(scale: str) -> None:
     assert load_settings(overrides={"scale": scale}).scale == scale
 
@@ -59,7 +59,7 @@ def test_every_scale_is_accepted(scale: str) -> None:
         ("methods.LSTM.learning.foo", 1, "methods.LSTM.learning.foo: key: 'foo' is not accepted; accepted: batch_"),
         ("methods.LSTM.network.spectral", True, "methods.LSTM.network: spectral: true is not accepted for a cell LSTM"),
         ("methods.MOB.limbs", ["LL"], "methods.MOB: `target` or `limbs` alone is not accepted"),
-        ("scale", "huge", f"scale: scale: 'huge' {ACCEPTED}default, paper, smoke"),
+        ("scale", "huge", f"scale: scale: 'huge' {ACCEPTED}default, paper, quick, smoke"),
         ("methods.MOB-Net.limbs", ["LL", "tail"], f"methods.MOB-Net.limbs.1: network: 'tail' {ACCEPTED}LA, LL"),
         ("methods.MOB-fric.fitted", ["tail"], f"methods.MOB-fric.fitted.0: network: 'tail' {ACCEPTED}LA, LL"),
         ("methods.MOB-fric-BPF.of", "magic", f"MOB-fric-BPF.of: method that runs.*: 'magic' {ACCEPTED}"),

@@ -11,7 +11,7 @@ from mobnet.settings.load import load_settings
 
 from .conftest import Snakemake
 
-SCALES = ("smoke", "default", "paper")
+SCALES = ("smoke", "quick", "default", "paper")
 
 
 @pytest.mark.parametrize("scale", SCALES)

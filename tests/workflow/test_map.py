@@ -2,12 +2,14 @@
 
 import re
 from functools import reduce
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import pytest
 
 from mobnet.core.code import start_of
 from mobnet.plan.plan import make_plan
+from mobnet.plan.products import CAPTIONS
 from mobnet.settings.load import load_settings
 
 from .conftest import ROOT
@@ -107,3 +109,30 @@ def test_no_numbered_table_or_figure_is_an_orphan(outputs: dict[str, str]) -> No
     assert numbered(item.file for item in MADE) == numbered(outputs) == configured
     text = (ROOT / "paper/main.tex").read_text()
     assert [name for name in configured if name not in text] == []
+
+
+def test_every_table_and_figure_of_ours_begins_with_the_question_that_it_answers(outputs: dict[str, str]) -> None:
+    """What is not the paper's has to answer one; its caption is the one place that asks it."""
+    places = {".md": "tables", ".png": "figures"}
+    ours = {
+        f"{folder}/{Path(file).stem}"
+        for file in outputs
+        if (folder := places.get(Path(file).suffix)) and not NUMBERED.fullmatch(Path(file).stem)
+    }
+    assert {"tables/compute", "tables/claims", "figures/bode"} <= ours
+    for name in sorted(ours):
+        _, empty, *lines = (ROOT / CAPTIONS / f"{name}.rst").read_text(encoding="utf-8").splitlines()
+        first = re.match(r"[^.:?]+[.:?]", " ".join(lines))
+        assert not empty, name
+        assert first, name
+        assert first[0].endswith("?"), name
+
+
+def test_the_readme_says_what_each_scale_takes() -> None:
+    """Time, core-hours, memory and disk."""
+    lines = [
+        [cell.strip() for cell in line.strip("|").split("|")] for line in (ROOT / "README.md").read_text().splitlines()
+    ]
+    rows = {cells[0].strip("`"): cells[2:] for cells in lines if cells[0].strip("`") in MAIN.scales}
+    assert list(rows) == list(MAIN.scales)
+    assert all(len(numbers) == 4 and all(re.match(r"\d", number) for number in numbers) for numbers in rows.values())

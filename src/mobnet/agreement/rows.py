@@ -57,12 +57,12 @@ def _fitted_faults(joint: str, row: JointNote, options: Options) -> Iterator[str
 
 
 def score_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[str]:
-    """Yield in what the rows of scores are not those of a test's runs."""
-    scenario = path.stem
-    if scenario not in files.settings.tests:
+    """Yield in what the rows of scores are not those of a test's runs at a level."""
+    scenario, level = path.parent.name, path.stem
+    if level not in files.settings.tests.get(scenario, {}):
         return
     rows = read_scores(path)
-    runs = {(run.level, run.method, run.network_seed, run.test_seed): run for run in files.runs_of(scenario)}
+    runs = {(run.level, run.method, run.network_seed, run.test_seed): run for run in files.runs_of(scenario, level)}
     known = {name: sorted({str(key[k]) for key in runs}) for k, name in enumerate(RUN_FIELDS)}
     known["scenario"] = [scenario]
     for line, row in enumerate(rows, start=2):

@@ -22,14 +22,15 @@ COMMANDS = {
     "report": "make everything, then report.html: every table and figure with its caption, in one file",
     "compare": "print what differs between docs/results and the fresh tables",
     "snapshot": "store the fresh tables and figures as docs/results",
-    "cost": "print what a run will cost: jobs, core-hours, memory, disk; --config scale=paper for another scale",
+    "cost": "print what a run will cost: jobs, core-hours, memory, disk; --config scale=quick for another scale",
     "bench": "run the benchmarks; prints ratios taken in one run; further words are names of benchmarks",
     "clean": "remove results, tables, figures and paper outputs after a question; --all: environment and caches too",
     "setup": "make .venv from environment.lock and stop; --cpu or --cuda: which build of torch",
 }
 EXAMPLES = """
   ./reproduce all -n                     show what would run
-  ./reproduce all --config scale=smoke   the same line in minutes
+  ./reproduce all --config scale=smoke   the same line in minutes; its numbers mean nothing
+  ./reproduce all --config scale=quick   every table and figure in about an hour, with shorter walks and trainings
   ./reproduce tables/table_05.tex        make one file and what it needs; tables/smoke/table_05.tex at that scale"""
 OWN = {"clean", "setup"}  # commands with options of their own
 TARGETS = {"all": "all", "report": "all", "tuning": "tuning", "lengths": "lengths"}  # command -> rule of the workflow

@@ -122,8 +122,7 @@ def train_on(data: LimbData, job: Job, out: Path, state: Path, start: Path | Non
     The folder `out` gets `weights.safetensors`, `metrics.csv` and, last, `run.json`; nothing before the training is
     done. The folder `state` gets a checkpoint and `metrics.csv` at each epoch; a killed training goes on from there to
     the same weights. The checkpoint is deleted when the training is done; `time.json` stays. A fine-tuning begins with
-    the weights of the
-    file `start`.
+    the weights of the file `start`.
 
     Raises:
         DataError: the data are too short.

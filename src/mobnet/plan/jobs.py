@@ -11,10 +11,9 @@ from mobnet.plan.call import Call, Job
 from mobnet.plan.detection import numbers_of, walks_of
 from mobnet.plan.parts import MethodRun, Repetition, Shard
 from mobnet.plan.runs import Files, NetworkName, files_in
-from mobnet.settings.base import Section
 from mobnet.settings.data import Terrain
 from mobnet.settings.evaluation import Scoring
-from mobnet.settings.names import uses
+from mobnet.settings.names import shown_in
 from mobnet.settings.settings import Settings, WalkSettings
 
 KINDS = "mobnet.estimation.kinds"  # modules that a method names as its kind
@@ -140,10 +139,10 @@ class Jobs:
             joints=self.settings.estimated(method, scenario, level),
         )
 
-    def score(self, scenario: str) -> Job:
-        """Return the errors of every run of a test, and what else products ask for."""
-        runs, out = self.files.runs_of(scenario), self.files.scores([scenario])[scenario]
-        asked = scoring(self.settings, scenario)
+    def score(self, scenario: str, level: str) -> Job:
+        """Return the errors of every run of a test at a level, and what else products ask for."""
+        runs, (out,) = self.files.runs_of(scenario, level), self.files.scores([(scenario, level)])
+        asked = scoring(self.settings, scenario, level)
         arguments = {"layout": self.settings.layout, "runs": runs, "asked": asked, "out": out}
         read = [[run.residual, run.estimate, run.recording] for run in runs]
         return Job(Call("mobnet.evaluation.measure.scores:score", arguments), _read(read))
@@ -196,11 +195,11 @@ class Jobs:
         return self.files.training("recordings", name), self.files.training("residuals", name)
 
 
-def scoring(settings: Settings, scenario: str) -> Scoring:
-    """Return what is measured on the runs of a test: the sections of the products that show it."""
+def scoring(settings: Settings, scenario: str, level: str) -> Scoring:
+    """Return what is measured on the runs of a test at a level: the sections of the products that show it."""
     evaluation = settings.evaluation
     sections = {
-        name: getattr(evaluation, name) for name in SECTIONS if scenario in _tests_in(getattr(evaluation, name))
+        name: getattr(evaluation, name) for name in SECTIONS if (scenario, level) in shown_in(getattr(evaluation, name))
     }
     pushes = [settings.pushes[name] for name in settings.scenarios[scenario].pushes]
     shared = {
@@ -211,11 +210,6 @@ def scoring(settings: Settings, scenario: str) -> Scoring:
         "lines": {push.joint: push.sines.frequency_hz for push in pushes if push.joint and push.sines},
     }
     return Scoring.model_validate({**sections, **shared})
-
-
-def _tests_in(section: Section) -> set[str]:
-    """Return the tests that a section names."""
-    return {name for _, kind, name in uses(section, type(section)) if kind == "test"}
 
 
 def walk_settings(settings: Settings, scenario: str, level: str) -> WalkSettings:

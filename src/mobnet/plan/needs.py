@@ -2,16 +2,15 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 from mobnet.core.errors import ConfigError
 from mobnet.plan.detection import all_detections
 from mobnet.plan.runs import Files
 from mobnet.settings.evaluation import Runs
-from mobnet.settings.names import uses
+from mobnet.settings.names import shown_in
 
 Needs = Mapping[str, object]
-TESTS = ("test", "test with a window around pushes")  # kinds of names in a section
 
 
 def needs_of(files: Files, name: str, section: Any, parameters: Iterable[str]) -> Needs:
@@ -28,11 +27,9 @@ def needs_of(files: Files, name: str, section: Any, parameters: Iterable[str]) -
         raise ConfigError(f"{name}: its section lacks what a function of it asks for: {error}") from None
 
 
-def _scores(files: Files, section: Any) -> Mapping[str, Path]:
-    """Return the scores of the tests that a section, or a tuple of them, names."""
-    parts = cast("tuple[Any, ...]", section if isinstance(section, tuple) else (section,))
-    named = [test for part in parts for _, kind, test in uses(part, type(part)) if kind in TESTS]
-    return files.scores(dict.fromkeys(named))
+def _scores(files: Files, section: Any) -> tuple[Path, ...]:
+    """Return the scores of the tests that a section, or a tuple of them, names, at the levels that it names."""
+    return files.scores(shown_in(section))
 
 
 def _folders(files: Files, section: Any) -> tuple[Path, ...]:
@@ -96,18 +93,24 @@ def _fine_tuning(files: Files) -> Needs:
 
 def _kinds(files: Files) -> Needs:
     """Return the trained networks of Figure 17 and of its variants."""
-    figure, variants = files.settings.evaluation.figure_17, files.settings.evaluation.kinds.variants
-    folders = files.network_folders((*figure.methods, *variants), figure.limb, figure.level)
-    return {"folders": folders, "figure_17": figure}
+    return {"folders": _folders_of_kinds(files), "figure_17": files.settings.evaluation.figure_17}
+
+
+def _folders_of_kinds(files: Files) -> tuple[Path, ...]:
+    """Return the trained networks of Figure 17, then those of its variants."""
+    figure, table = files.settings.evaluation.figure_17, files.settings.evaluation.kinds
+    return (
+        *files.network_folders(figure.methods, figure.limb, figure.level),
+        *files.network_folders(table.variants, figure.limb, table.level),
+    )
 
 
 def _claims(files: Files) -> Needs:
-    """Return the scores of every test, and the trainings of the kinds and sizes of the left leg's networks."""
-    evaluation = files.settings.evaluation
-    methods = (*evaluation.figure_17.methods, *evaluation.kinds.variants)
-    kinds = files.network_folders(methods, evaluation.figure_17.limb, evaluation.figure_17.level)
+    """Return the scores that claims name, and the trainings of the kinds and sizes of the left leg's networks."""
     sizes = [folder for size in files.swept_sizes() for folder in size.folders]
-    return {"scores": files.scores(files.scored_tests), "folders": tuple(dict.fromkeys([*kinds, *sizes]))}
+    made = [number for claim in files.settings.claims.values() for number in (claim, *claim.numbers.values())]
+    named = [(cell.scenario, cell.level) for each in made for cell in each.cells if cell.scenario and cell.level]
+    return {"scores": files.scores(named), "folders": tuple(dict.fromkeys([*_folders_of_kinds(files), *sizes]))}
 
 
 def _latency(files: Files) -> Needs:

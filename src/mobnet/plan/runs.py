@@ -8,10 +8,10 @@ from typing import NamedTuple, cast
 
 from mobnet.core.files import METRICS, RUN, WEIGHTS
 from mobnet.settings.data import Recordings
-from mobnet.settings.evaluation import Evaluation, Runs
+from mobnet.settings.evaluation import Runs
 from mobnet.settings.fleet import as_robot, level_of, levels_of
 from mobnet.settings.methods import Method
-from mobnet.settings.names import uses
+from mobnet.settings.names import shown_in
 from mobnet.settings.settings import Settings, swept_name
 
 # Recordings and motions of development and of training count from these seeds; those of tests, from their scale's
@@ -260,7 +260,9 @@ class Files:
         ]
         kinds, sizes, timed = evaluation.figure_17, evaluation.figure_20, evaluation.latency.method
         if self.has(kinds.level):
-            pairs += [(method, kinds.limb) for method in (*kinds.methods, *evaluation.kinds.variants)]
+            pairs += [(method, kinds.limb) for method in kinds.methods]
+        if self.has(evaluation.kinds.level):
+            pairs += [(method, kinds.limb) for method in evaluation.kinds.variants]
         if self.has(sizes.level):
             swept = [(key, base) for key in (sizes.parameters, sizes.samples) for base in settings.sweeps[key].of]
             pairs += [
@@ -356,21 +358,20 @@ class Files:
         """Return the runs of a test that a figure of one recording shows: first network or robot, first recording."""
         return tuple(self.runs(test.scenario, test.level, [method])[0] for method in test.methods)
 
-    def runs_of(self, scenario: str) -> tuple[Run, ...]:
-        """Return every run of a test."""
-        levels = self.settings.tests[scenario]
-        return tuple(run for level, methods in levels.items() for run in self.runs(scenario, level, methods))
+    def runs_of(self, scenario: str, level: str) -> tuple[Run, ...]:
+        """Return every run of a test at a level."""
+        return self.runs(scenario, level, self.settings.tests[scenario][level])
 
     @property
-    def scored_tests(self) -> tuple[str, ...]:
-        """The tests whose errors are scored: all but those of detectors, unless a product shows them."""
-        shown = {name for _, kind, name in uses(self.settings.evaluation, Evaluation) if kind == "test"}
-        walks = self.settings.detection_walks
-        return tuple(name for name in self.settings.tests if name in shown or name not in walks)
+    def scored(self) -> tuple[tuple[str, str], ...]:
+        """The tests and levels whose errors are scored: all but those of detectors, unless a product shows them."""
+        shown, walks = set(shown_in(self.settings.evaluation)), self.settings.detection_walks
+        pairs = ((scenario, level) for scenario, levels in self.settings.tests.items() for level in levels)
+        return tuple(pair for pair in pairs if pair in shown or pair[0] not in walks)
 
-    def scores(self, scenarios: Iterable[str]) -> dict[str, Path]:
-        """Return the files of scores of some tests."""
-        return {name: self.results / "scores" / f"{name}.csv" for name in scenarios}
+    def scores(self, shown: Iterable[tuple[str, str]]) -> tuple[Path, ...]:
+        """Return the files of scores of some tests, each at a level; each file once."""
+        return tuple(self.results / "scores" / scenario / f"{level}.csv" for scenario, level in dict.fromkeys(shown))
 
     def swept_sizes(self) -> tuple[SweptSize, ...]:
         """Return the sizes of Figure 20; the network of all data is that of Table 1's size."""

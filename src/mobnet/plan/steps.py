@@ -40,7 +40,7 @@ def all_steps(files: Files) -> Iterator[Step]:
         yield from _trainings(own, own.own_networks)
         yield from _estimates(own)
         yield from _detectors(own)
-    yield from (_score(files, scenario) for scenario in files.scored_tests)
+    yield from (_score(files, scenario, level) for scenario, level in files.scored)
 
 
 def trial_steps(files: Files) -> Iterator[Step]:
@@ -120,11 +120,12 @@ def _detectors(files: Files) -> Iterator[Step]:
         yield Step(Work(account, "detect", *detected(files)), job, outputs)
 
 
-def _score(files: Files, scenario: str) -> Step:
-    """Return the scores of a test."""
-    seconds = sum(files.settings.test_s(run.scenario) for run in files.runs_of(scenario))
-    work = Work(f"score/{scenario}", "score", {SECONDS: seconds}, 0.0)
-    return Step(work, Jobs(files.settings, files).score(scenario), (str(files.scores([scenario])[scenario]),))
+def _score(files: Files, scenario: str, level: str) -> Step:
+    """Return the scores of a test at a level."""
+    seconds = files.settings.test_s(scenario) * len(files.runs_of(scenario, level))
+    work = Work(f"score/{scenario}-{level}", "score", {SECONDS: seconds}, 0.0)
+    job, outputs = Jobs(files.settings, files).score(scenario, level), files.scores([(scenario, level)])
+    return Step(work, job, tuple(map(str, outputs)))
 
 
 def _account(kind: str, files: Files, name: str) -> str:

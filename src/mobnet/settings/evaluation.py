@@ -164,8 +164,9 @@ class Figure17(Section):
 
 
 class Kinds(Section):
-    """The table of kinds of networks: variants below those of Figure 17."""
+    """The table of kinds of networks: variants below those of Figure 17, trained at a level of their own."""
 
+    level: base.LevelName
     variants: Annotated[tuple[base.MethodName, ...], AfterValidator(base.distinct)]
 
 

@@ -37,8 +37,7 @@ def as_robot(settings: Settings, robot: str) -> Settings:
         for name, row in lengths.items()
     }
     test = settings.sizes.test.model_copy(update={"shards": settings.sizes.fleet_shards or settings.sizes.test.shards})
-    durations = {**settings.sizes.durations_s, **settings.sizes.fleet_durations_s}
-    sizes = settings.sizes.model_copy(update={"experiments": experiments, "test": test, "durations_s": durations})
+    sizes = settings.sizes.model_copy(update={"experiments": experiments, "test": test})
     changed: dict[str, Any] = {
         "levels": {**settings.levels, **levels},
         "training_sets": sets,

@@ -26,9 +26,8 @@ class Scale(Section):
 
     `durations_s` gives the duration [s] of tests whose recordings are longer or shorter than the others; `robots` has
     the experiments that take another length on the robots of the fleet, each of which trains one network, `fleet`
-    how many of these robots there are, the first ones, `fleet_shards` how many recordings of each test each of them
-    makes, and `fleet_durations_s` the durations [s] of those that are longer or shorter than elsewhere; all of them, as
-    many and as long as elsewhere, without these.
+    how many of these robots there are, the first ones, and `fleet_shards` how many recordings of each test each of
+    them makes; all of them, and as many as elsewhere, without these.
     """
 
     test: TestRecordings
@@ -38,7 +37,6 @@ class Scale(Section):
     robots: dict[LowerName, Length] = {}
     fleet: Annotated[Count, Field(le=100)] | None = None
     fleet_shards: Annotated[Count, Field(le=100)] | None = None
-    fleet_durations_s: dict[TestName, RecordingSeconds] = {}
     least_swings: Annotated[Count, Field(le=100_000)] | None = None
     batch_size: Annotated[Count, Field(le=4096)] | None = None
     stream_s: Annotated[Positive, Field(ge=0.05, le=600)] | None = None

@@ -17,21 +17,21 @@ ERRORS = {0.0: 4.0, 25.0: 3.0, 50.0: 2.0, 100.0: 2.5}
 
 
 @pytest.fixture
-def scores(write_limb_scores: Callable[..., Path]) -> dict[str, Path]:
+def scores(write_limb_scores: Callable[..., Path]) -> list[Path]:
     """Scores of both tests; those of the collisions are of windows around pushes, and twice as large."""
     means = {method: ERRORS[torque] for method, torque in AMPLITUDES.items()}
-    paths = {name: write_limb_scores(name, means) for name in ("walk_test", "knee_swing")}
+    walked, hit = (write_limb_scores(name, means) for name in ("walk_test", "knee_swing"))
     rows = [
         Score(**{**vars(row), "metric": "rmse_pushed", "value": 2 * row.value})
-        for row in read_rows(paths["knee_swing"], Score)
+        for row in read_rows(hit, Score)
         if row.metric == "rmse"
     ]
-    write_rows(paths["knee_swing"], rows)
-    return paths
+    write_rows(hit, rows)
+    return [walked, hit]
 
 
 def test_it_shows_errors_and_shares_in_the_order_of_the_torque(
-    tmp_path: Path, evaluation: Evaluation, layout: JointLayout, scores: dict[str, Path], explored: Path
+    tmp_path: Path, evaluation: Evaluation, layout: JointLayout, scores: list[Path], explored: Path
 ) -> None:
     training = {method: [explored, explored] for method in AMPLITUDES}
     section = evaluation.amplitude
@@ -54,7 +54,7 @@ def test_recordings_with_too_few_steps_have_no_share(
     tmp_path: Path,
     evaluation: Evaluation,
     layout: JointLayout,
-    scores: dict[str, Path],
+    scores: list[Path],
     data_sets: dict[str, list[Path]],
 ) -> None:
     training = dict.fromkeys(AMPLITUDES, data_sets["walk"])

@@ -25,7 +25,7 @@ Draw = Callable[[dict[str, object], dict[str, Path]], None]
 def draw(tmp_path: Path, settings: Settings, evaluation: Evaluation) -> Draw:
     """Return a function of (changes of the section, scores) that writes the figure."""
 
-    def write(changes: dict[str, object], scores: dict[str, Path]) -> None:
+    def write(changes: dict[str, object], scores: list[Path]) -> None:
         section = evaluation.figure_18.model_copy(update={"level": "all_uncertainty", **changes})
         figure_18(section, settings.layout, evaluation.statistics, scores, tmp_path / "out")
 
@@ -35,7 +35,7 @@ def draw(tmp_path: Path, settings: Settings, evaluation: Evaluation) -> Draw:
 @pytest.fixture
 def bars(tmp_path: Path, draw: Draw, write_limb_scores: Write) -> list[SimpleNamespace]:
     """The bars of made-up scores."""
-    draw({}, {name: write_limb_scores(name, MEANS) for name in ("motion_test", "hand_wrench")})
+    draw({}, [write_limb_scores(name, MEANS) for name in ("motion_test", "hand_wrench")])
     check_golden(tmp_path / "out/figure_18.csv")
     return read_table(tmp_path / "out/figure_18.csv")
 
@@ -57,7 +57,7 @@ def test_limbs_count_by_their_joints(tmp_path: Path, draw: Draw, write_limb_scor
     waist = [row for row in rows if row.limb == "W"]
     tripled = [Score(**{**vars(row), "value": 3 * row.value}) for row in waist]
     write_rows(path, [row for row in rows if row.limb != "W"] + tripled)
-    draw({"methods": ("MOB-Net",), "panels": {"motion_test": "ID"}}, {"motion_test": path})
+    draw({"methods": ("MOB-Net",), "panels": {"motion_test": "ID"}}, [path])
     found = {(bar.limb, bar.joint): bar.rmse_nm for bar in read_table(tmp_path / "out/figure_18.csv")}
     assert found[UPPER_BODY, "avg"] == pytest.approx((3 * 3.0 + 8 * 1.0) / 11, rel=1e-5)  # six digits stand in the file
     assert found["W", "avg"] == pytest.approx(3.0)
@@ -71,7 +71,7 @@ def test_panel_holds_a_group_a_limb_and_a_bar_a_method() -> None:
 
 
 def test_a_missing_method_is_named(tmp_path: Path, draw: Draw, write_limb_scores: Write) -> None:
-    scores = {name: write_limb_scores(name, {"MOB-Net": 1.0}) for name in ("motion_test", "hand_wrench")}
+    scores = [write_limb_scores(name, {"MOB-Net": 1.0}) for name in ("motion_test", "hand_wrench")]
     with pytest.raises(DataError, match="MOB-Net-Single"):
         draw({}, scores)
     assert not (tmp_path / "out").exists()

@@ -27,16 +27,16 @@ def runs(walk: Walk) -> list[Run]:
 
 
 @pytest.fixture
-def scores(write_push_scores: Callable[..., Path]) -> dict[str, Path]:
+def scores(write_push_scores: Callable[..., Path]) -> list[Path]:
     """Scores of two pushes of each test: the two methods come nearer to each other from test to test."""
-    return {name: write_push_scores(name, {"MOB": 20.0 - k, "MOB-Net": 3.0 + k}) for k, name in enumerate(TESTS)}
+    return [write_push_scores(name, {"MOB": 20.0 - k, "MOB-Net": 3.0 + k}) for k, name in enumerate(TESTS)]
 
 
 @pytest.fixture
 def draw(settings: Settings, evaluation: Evaluation, tmp_path: Path) -> Draw:
     """Return a function of (figure, its section, runs, scores) that writes the figure."""
 
-    def write(figure: Callable[..., None], section: Figure06 | Figure10, runs: object, scores: dict[str, Path]) -> None:
+    def write(figure: Callable[..., None], section: Figure06 | Figure10, runs: object, scores: list[Path]) -> None:
         printed, statistics = settings.published.tables[figure.__name__], evaluation.statistics
         figure(section, printed, settings.layout, statistics, runs, scores, tmp_path)
 
@@ -57,7 +57,7 @@ def test_every_push_has_a_panel_that_starts_before_it(
 
 
 def test_figure_06_shows_the_first_push_and_errors_beside_the_printed_ones(
-    tmp_path: Path, runs: list[Run], evaluation: Evaluation, draw: Draw, scores: dict[str, Path]
+    tmp_path: Path, runs: list[Run], evaluation: Evaluation, draw: Draw, scores: list[Path]
 ) -> None:
     draw(figure_06, evaluation.figure_06, runs, scores)
     assert (tmp_path / "figure_06.pdf").read_bytes().startswith(b"%PDF")
@@ -68,7 +68,7 @@ def test_figure_06_shows_the_first_push_and_errors_beside_the_printed_ones(
 
 
 def test_figure_10_shows_both_tests(
-    tmp_path: Path, runs: list[Run], evaluation: Evaluation, draw: Draw, scores: dict[str, Path]
+    tmp_path: Path, runs: list[Run], evaluation: Evaluation, draw: Draw, scores: list[Path]
 ) -> None:
     titles = ("swing knee", "support knee")
     draw(figure_10, evaluation.figure_10, dict.fromkeys(titles, runs), scores)
@@ -84,7 +84,7 @@ def test_a_recording_too_short_for_pushes_gives_an_empty_figure(
     tmp_path: Path, walk: Walk, evaluation: Evaluation, draw: Draw, write_push_scores: Callable[..., Path]
 ) -> None:
     tests = {"swing knee": evaluation.figure_10.tests["swing knee"]}
-    scores = {name: write_push_scores(name, {"MOB": 20.0, "MOB-Net": 4.0}, 0) for name in ("knee_swing", "walk_test")}
+    scores = [write_push_scores(name, {"MOB": 20.0, "MOB-Net": 4.0}, 0) for name in ("knee_swing", "walk_test")]
     calm = {"swing knee": [walk(2.0, calm=True)]}
     draw(figure_10, evaluation.figure_10.model_copy(update={"tests": tests}), calm, scores)
     assert (tmp_path / "figure_10.pdf").read_bytes().startswith(b"%PDF")

@@ -28,7 +28,7 @@ def test_it_shows_every_line_of_a_changed_robot_at_every_number_of_seconds(
     write_rows(path, rows)
     title, test = next(iter(evaluation.fine_tuning.tests.items()))
     section = evaluation.fine_tuning.model_copy(update={"tests": {title: test}})
-    fine_tuning(section, SECONDS, evaluation.statistics, {"changed_walk": path}, tmp_path / "out")
+    fine_tuning(section, SECONDS, evaluation.statistics, [path], tmp_path / "out")
     check_golden(tmp_path / "out/fine_tuning.csv")
     shown = {(row.line, row.seconds): row.value for row in read_table(tmp_path / "out/fine_tuning.csv")}
     expected = {(BEFORE, 10): 5.4, (BEFORE, 60): 5.4, (KNOWN, 10): 3.0, (KNOWN, 60): 3.0}

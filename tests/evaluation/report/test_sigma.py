@@ -30,7 +30,7 @@ def made(
     """Table and figure of two tests, one unlike the training data."""
     tests, against = {"walking": LIKE, "knee hit": UNLIKE}, {"knee hit": "walking"}
     section = evaluation.sigma.model_copy(update={"tests": tests, "against": against, "parts": 4, "lags_ms": (10, 100)})
-    scores = write_measured([LIKE], ALIKE) | write_measured([UNLIKE], OTHER)
+    scores = [*write_measured([LIKE], ALIKE), *write_measured([UNLIKE], OTHER)]
     sigma(section, settings.learning, settings.layout, evaluation.statistics, scores, tmp_path,
           tmp_path / "figures")  # fmt: skip
     return tmp_path

@@ -88,7 +88,7 @@ def judge(
         tables = {"coverage": write_coverage(tmp_path / "coverage.csv"), "latency": tmp_path / "latency.csv"}
         write_csv(tables["latency"], LATENCY, [(MET, 1.0, 0.7, 1.0, "-")])
         tables["table_09"] = make_table("table_09", tmp_path, detections=write_detections(tmp_path / "detection"))
-        table = make_table("claims", claims=some, scores={"all": scores}, folders=folders, tables=tables)
+        table = make_table("claims", claims=some, scores=[scores], folders=folders, tables=tables)
         return {row.claim: row for row in read_table(table)}
 
     return made
@@ -153,5 +153,5 @@ def test_claims_are_the_golden_ones(
     claims = {name: Claim.model_validate(entry) for name, entry in entries.items()}
     tables = {"coverage": tmp_path / "coverage.csv"}
     write_csv(tables["coverage"], ["joint", "ratio", "low", "high"], [("LL1", 0.9, 0.8, 1.1)])
-    scores = {"all": GOLDEN / "scores.csv"}
+    scores = [GOLDEN / "scores.csv"]
     check_golden(make_table("claims", claims=claims, scores=scores, folders=folders, tables=tables))

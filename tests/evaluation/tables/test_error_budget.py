@@ -24,7 +24,7 @@ def made(make_table: Make, write_budget_scores: Make) -> Made:
     """Write the table for some factors and a joint that is cut: made(factors, cut="", folder) -> its cells."""
 
     def cells(factors: dict[str, float], cut: str = "", **folder: Path) -> Cells:
-        table = make_table("error_budget", scores={"motion_test": write_budget_scores(factors, cut)}, **folder)
+        table = make_table("error_budget", scores=[write_budget_scores(factors, cut)], **folder)
         return {(cell.joint, cell.level, cell.metric): cell for cell in read_table(table)}
 
     return cells

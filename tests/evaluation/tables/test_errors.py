@@ -27,7 +27,7 @@ def table_05(tmp_path: Path, make_table: Make) -> Callable[[list[Score]], Path]:
 
     def made(scores: list[Score]) -> Path:
         write_rows(tmp_path / "scores.csv", scores)
-        return make_table("table_05", tmp_path / "out", scores={"forward_walk": tmp_path / "scores.csv"})
+        return make_table("table_05", tmp_path / "out", scores=[tmp_path / "scores.csv"])
 
     return made
 
@@ -77,12 +77,12 @@ def test_another_order_of_scores_makes_the_same_table(table_05: Make, make_score
 
 
 def test_table_05_is_the_golden_one(make_table: Make) -> None:
-    check_golden(make_table("table_05", scores={"forward_walk": GOLDEN / "scores.csv"}))
+    check_golden(make_table("table_05", scores=[GOLDEN / "scores.csv"]))
 
 
 @pytest.mark.parametrize("name", ["table_06", "table_07", "table_08", "table_10", "table_11"])
 def test_tables_of_errors_are_the_golden_ones(
-    name: str, make_table: Make, write_table_scores: Callable[..., dict[str, Path]]
+    name: str, make_table: Make, write_table_scores: Callable[..., list[Path]]
 ) -> None:
     errors = ["rmse", "rmse_pushed", *(f"rmse_push_{k}" for k in range(1, 5))]
     raw = [f"{metric}_raw" for metric in errors]
@@ -90,7 +90,7 @@ def test_tables_of_errors_are_the_golden_ones(
 
 
 def test_table_06_averages_joints_and_scores_hand_loads_while_they_act(
-    make_table: Make, write_table_scores: Callable[..., dict[str, Path]]
+    make_table: Make, write_table_scores: Callable[..., list[Path]]
 ) -> None:
     table = make_table("table_06", scores=write_table_scores("table_06", "rmse", "rmse_pushed"))
     cells = {(c.scenario, c.level, c.method, c.joint): c for c in read_table(table)}
@@ -107,7 +107,7 @@ def test_table_06_averages_joints_and_scores_hand_loads_while_they_act(
 
 
 def test_table_11_has_a_column_a_push_and_averages_them(
-    make_table: Make, write_table_scores: Callable[..., dict[str, Path]]
+    make_table: Make, write_table_scores: Callable[..., list[Path]]
 ) -> None:
     names = [f"rmse_push_{k}" for k in range(1, 5)]
     table = make_table("table_11", scores=write_table_scores("table_11", *names))
@@ -118,13 +118,13 @@ def test_table_11_has_a_column_a_push_and_averages_them(
 
 
 def test_a_run_too_short_for_a_push_leaves_a_dash_where_a_missing_run_is_refused(
-    make_table: Make, write_table_scores: Callable[..., dict[str, Path]]
+    make_table: Make, write_table_scores: Callable[..., list[Path]]
 ) -> None:
     scores = write_table_scores("table_11", "rmse", "rmse_push_1")
     first, *others = [cell.value for cell in read_table(make_table("table_11", scores=scores))][:5]
     assert first is not None
     assert others == [None] * 4
-    write_rows(scores["knee_swing"], [])
+    write_rows(scores[0], [])
     with pytest.raises(DataError, match="knee_swing"):
         make_table("table_11", scores=scores)
 

@@ -25,9 +25,8 @@ ROWS = (
 @pytest.fixture
 def table(make_table: Make, write_limb_scores: Make) -> Path:
     """The overview of made-up scores."""
-    return make_table(
-        "methods", settings=ROWS, scores={row.scenario: write_limb_scores(row.scenario, MEANS) for row in ROWS}
-    )
+    scenarios = dict.fromkeys(row.scenario for row in ROWS)
+    return make_table("methods", settings=ROWS, scores=[write_limb_scores(name, MEANS) for name in scenarios])
 
 
 def cells(line: str) -> list[str]:
@@ -60,7 +59,7 @@ def test_the_raw_truth_stands_beside_and_skill_is_what_is_gained_over_nothing(ta
 
 
 def test_where_the_truth_is_zero_there_is_no_skill(make_table: Make, write_limb_scores: Make) -> None:
-    scores = {"walk_test": write_limb_scores("walk_test", {"zero": 0.0, "MOB": 9.0})}
+    scores = [write_limb_scores("walk_test", {"zero": 0.0, "MOB": 9.0})]
     test = ROWS[0].model_copy(update={"methods": ("zero", "MOB")})
     table = make_table("methods", settings=[test], scores=scores)
     assert "skill" not in {row.metric for row in read_table(table)}
@@ -85,7 +84,7 @@ def test_a_scenario_at_two_levels_is_two_tests(make_table: Make, write_limb_scor
     write_rows(path, [*rows, *(replace(row, level="ideal", value=row.value / 9) for row in rows)])
     change = {"columns": {"LL": ("avg",)}, "methods": ("MOB",)}
     tests = [ROWS[0].model_copy(update={**change, "level": level}) for level in ("all_uncertainty", "ideal")]
-    table = make_table("methods", settings=tests, scores={"walk_test": path})
+    table = make_table("methods", settings=tests, scores=[path])
     lines = [cells(line) for line in table.with_suffix(".md").read_text().splitlines()]
     assert [line for line in lines[2:] if line[2] == "RMSE"] == [
         ["walk test, all uncertainty", "MOB", "RMSE", "9.00"], ["walk test, ideal", "MOB", "RMSE", "1.00"],

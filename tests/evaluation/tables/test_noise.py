@@ -30,7 +30,7 @@ def table(tmp_path: Path, settings: Settings, layout: JointLayout, make_table: C
             rows.append(Score(*run, "rmse", value, layout.unit(joint)))
     write_rows(tmp_path / "forward_walk.csv", rows)
     tables = {name: printed[name] for name in section.paper}
-    return make_table("noise", scores={"forward_walk": tmp_path / "forward_walk.csv"}, printed=tables)
+    return make_table("noise", scores=[tmp_path / "forward_walk.csv"], printed=tables)
 
 
 def test_a_reading_that_is_too_quiet_is_as_far_off_as_one_that_is_too_loud(table: Path) -> None:

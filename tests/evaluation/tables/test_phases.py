@@ -18,12 +18,12 @@ METRICS = {"rmse": (2.0, "N m"), **{f"rmse_{part}": (2.0 + k, "N m") for k, part
 def test_parts_stand_side_by_side_and_what_a_limb_lacks_is_a_dash(
     make_table: Callable[..., Path], evaluation: Evaluation, write_measured: Callable[..., dict[str, Path]]
 ) -> None:
-    scores = write_measured([TEST], METRICS)
+    (path,) = write_measured([TEST], METRICS)
     legs_alone = ("rmse_swing", "rmse_touch_down", "rmse_stance")
-    rows = [row for row in read_rows(scores["walk_test"], Score) if row.limb == "LL" or row.metric not in legs_alone]
-    write_rows(scores["walk_test"], rows)
+    rows = [row for row in read_rows(path, Score) if row.limb == "LL" or row.metric not in legs_alone]
+    write_rows(path, rows)
     settings = evaluation.phases.model_copy(update={"tests": (TEST,)})
-    table = make_table("phases", settings=settings, scores=scores)
+    table = make_table("phases", settings=settings, scores=[path])
     lines = table.with_suffix(".md").read_text().splitlines()
     assert lines[0] == "| Test | Limb | Method | all | swing | touch-down | stance | stuck | moving |"
     assert lines[2] == "| walk test | LL | zero | 2.00 | 3.00 | 4.00 | 5.00 | 6.00 | 7.00 |"

@@ -19,7 +19,7 @@ MS = 1e3
 
 
 def amplitude(
-    settings: Amplitude, layout: JointLayout, statistics: Statistics, scores: Mapping[str, Path],
+    settings: Amplitude, layout: JointLayout, statistics: Statistics, scores: Sequence[Path],
     amplitudes: Mapping[str, float], training: Mapping[str, Sequence[Path]], figure_dir: Path,
 ) -> None:  # fmt: skip
     """Write the figure as PDF, PNG and CSV: RMSE [N m] of tests over the largest random torque [N m] of the training.
@@ -27,10 +27,10 @@ def amplitude(
     The last panel has the share [-] of a random torque that is left in the desired torque some time after its step,
     the mean over a leg's joints; `amplitudes` and `training` are those of each method.
     """
-    panels, rows = [], []
+    read, panels, rows = read_scores(*scores), [], []
     for title, test in settings.tests.items():
-        own, methods = read_scores(scores[test.scenario]), sorted(test.methods, key=lambda name: amplitudes[name])
-        errors = [number_of(own, [wanted_of(test, name)], statistics) for name in methods]
+        methods = sorted(test.methods, key=lambda name: amplitudes[name])
+        errors = [number_of(read, [wanted_of(test, name)], statistics) for name in methods]
         panels.append(panel_of(title, "RMSE [N m]", [amplitudes[name] for name in methods], errors))
         of = test.scenario, test.level
         rows += [

@@ -1,6 +1,6 @@
 """How much of a push that lasts an estimate shows, over the time since it began, in swing and stance."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from pathlib import Path
 
 from mobnet.core.columns import DRIFT
@@ -18,10 +18,10 @@ Held = dict[float, Number]  # time [s] -> share of the push [-]
 
 
 def drift(
-    settings: Drift, statistics: Statistics, scores: Mapping[str, Path], figure_dir: Path
+    settings: Drift, statistics: Statistics, scores: Sequence[Path], figure_dir: Path
 ) -> None:  # fmt: skip
     """Write the share of long pushes [-] that each method shows over time [s], as PDF, PNG and CSV."""
-    lookup = read_lookup(scores.values(), statistics)
+    lookup = read_lookup(scores, statistics)
     panels: list[LinePanel] = []
     rows: list[tuple[Field, ...]] = []
     for title, test in settings.tests.items():

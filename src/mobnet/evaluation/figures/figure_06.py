@@ -1,6 +1,6 @@
 """Figure 6: estimates around a step of torque on a swinging hip, and their errors in the windows that are scored."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from mobnet.core.joints import JointLayout
@@ -17,13 +17,13 @@ from mobnet.settings.published import PublishedTable
 
 def figure_06(
     settings: Figure06, published: PublishedTable, layout: JointLayout, statistics: Statistics,
-    runs: Sequence[Run], scores: Mapping[str, Path], figure_dir: Path,
+    runs: Sequence[Run], scores: Sequence[Path], figure_dir: Path,
 ) -> None:  # fmt: skip
     """Write Figure 6, a step of torque on a swinging hip [N m]: curves around the first, errors in all windows.
 
     The runs are one of each method, all of one recording.
     """
-    joint, rows = settings.joint, read_scores(scores[settings.scenario])
+    joint, rows = settings.joint, read_scores(*scores)
     errors: PushErrors = {}
     for method in settings.methods:
         wanted = wanted_of(layout, settings, method, joint, PUSHED)

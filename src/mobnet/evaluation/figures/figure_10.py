@@ -16,14 +16,13 @@ ROBOT = "paper (robot)"  # name of numbers that the paper measured on its robot
 
 def figure_10(
     settings: Figure10, published: PublishedTable, layout: JointLayout, statistics: Statistics,
-    runs: Mapping[str, Sequence[Run]], scores: Mapping[str, Path], figure_dir: Path,
+    runs: Mapping[str, Sequence[Run]], scores: Sequence[Path], figure_dir: Path,
 ) -> None:  # fmt: skip
     """Write Figure 10, pushes on the knee of a leg in the air and on the ground [N m]: curves and errors of each.
 
     The title of a test leads to its runs, one of each method and all of one recording.
     """
-    rows = [row for path in scores.values() for row in read_scores(path)]
-    groups = []
+    rows, groups = read_scores(*scores), list[PushGroup]()
     for title, test in settings.tests.items():
         errors = collision_errors(layout, settings, test, published, rows, statistics)
         panels = read_pushes(layout, settings, runs[title], f"{title} {{}}")

@@ -1,6 +1,6 @@
 """Figure 18: one network for each limb against one network for the whole body, errors of the upper body."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from mobnet.core.columns import LIMB_ERRORS
@@ -20,16 +20,16 @@ Errors = dict[tuple[str, str], Number]  # limb or UPPER_BODY, joint or AVERAGE -
 
 
 def figure_18(
-    settings: Figure18, layout: JointLayout, statistics: Statistics, scores: Mapping[str, Path],
+    settings: Figure18, layout: JointLayout, statistics: Statistics, scores: Sequence[Path],
     figure_dir: Path,
 ) -> None:  # fmt: skip
     """Write Figure 18, mean RMSE [N m] over the joints of the upper body and of its limbs, as PDF, PNG and CSV."""
-    rows, panels = [], []
+    read, rows, panels = read_scores(*scores), [], []
     for scenario, title in settings.panels.items():
-        own, errors = read_scores(scores[scenario]), {}
+        errors = {}
         for method in settings.methods:
             wanted = wanted_of(settings, layout, scenario, method)
-            errors[method] = {place: number_of(own, of, statistics) for place, of in wanted.items()}
+            errors[method] = {place: number_of(read, of, statistics) for place, of in wanted.items()}
         panels.append(panel_of(title, errors))
         rows += [
             (scenario, method, *place, *error.with_ends, *error.spread)

@@ -1,6 +1,6 @@
 """Fine-tuning to a changed robot (section 8.2): error over the seconds of new data."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from mobnet.core.columns import TUNED
@@ -17,17 +17,17 @@ X_LABEL, Y_LABEL = "new data [s]", "RMSE [N m]"
 
 
 def fine_tuning(
-    settings: FineTuning, seconds: Sequence[int], statistics: Statistics, scores: Mapping[str, Path], figure_dir: Path
+    settings: FineTuning, seconds: Sequence[int], statistics: Statistics, scores: Sequence[Path], figure_dir: Path
 ) -> None:
     """Write the figure as PDF, PNG and CSV: RMSE [N m] of networks on changed robots over their new data [s].
 
     Beside it stand, at every place, the networks before and those that learned from the robot's own walks.
     """
-    panels, rows = [], []
+    read, panels, rows = read_scores(*scores), [], []
     for title, test in settings.tests.items():
-        own, lines = read_scores(scores[test.scenario]), []
+        lines = []
         for label, shown in shown_of(settings, seconds, test).items():
-            errors = [number_of(own, [wanted], statistics) for wanted in shown]
+            errors = [number_of(read, [wanted], statistics) for wanted in shown]
             lines.append(Line(label, seconds, errors))
             rows += [
                 (title, label, time, wanted.scenario, wanted.level, wanted.method, wanted.joint,

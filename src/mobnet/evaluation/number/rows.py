@@ -17,15 +17,18 @@ ENDS = (("start_s", "end_s"), ("low", "high"), ("found", "collisions"))  # of ro
 Fault = tuple[int, str, object, str]  # number of a row, column, value, accepted
 
 
-def read_scores(path: Path) -> list[Score]:
-    """Read errors of runs.
+def read_scores(*paths: Path) -> list[Score]:
+    """Read errors of runs from files, one for each test and level, one file after another.
 
     Raises:
-        DataError: the file is missing or damaged, or a row is not accepted; one line for each fault.
+        DataError: a file is missing or damaged, or a row is not accepted; one line for each fault.
     """
-    rows = read_rows(path, Score)
-    refuse_rows(path, _score_faults(rows))
-    return rows
+    found: list[Score] = []
+    for path in paths:
+        rows = read_rows(path, Score)
+        refuse_rows(path, _score_faults(rows))
+        found += rows
+    return found
 
 
 def read_epochs(path: Path) -> tuple[Epoch, ...]:

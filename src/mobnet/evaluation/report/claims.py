@@ -18,7 +18,7 @@ log = logging.getLogger(__name__)
 
 def claims(
     claims: Mapping[str, Claim], statistics: Statistics, methods: Mapping[str, Method], layout: JointLayout,
-    scores: Mapping[str, Path], folders: Sequence[Path], tables: Mapping[str, Path], table_dir: Path, figure_dir: Path,
+    scores: Sequence[Path], folders: Sequence[Path], tables: Mapping[str, Path], table_dir: Path, figure_dir: Path,
 ) -> None:  # fmt: skip
     """Judge every claim; write claims.csv, .tex and .md and the figure. A claim that fails is a result, not an error.
 
@@ -28,7 +28,7 @@ def claims(
     """
     rows = list(rows_of(claims))
     cells = [cell for row in rows for made in (row.claim, *row.claim.numbers.values()) for cell in made.cells]
-    results = read_results(layout, scores.values(), folders, cells, tables)
+    results = read_results(layout, scores, folders, cells, tables)
     judged = [judge(row, results, statistics, methods) for row in rows]
     claim_table(judged, statistics.confidence, table_dir)
     forest(judged, statistics.confidence, figure_dir)

@@ -18,7 +18,9 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed, Truth
 from mobnet.evaluation.tables.layout import markdown_table
 from mobnet.plan.runs import FIRST_DEVELOPMENT_SEED, FIRST_TRAINING_SEED
+from mobnet.settings.data import Recordings
 from mobnet.settings.load import load_settings
+from mobnet.settings.scales import Scale
 from mobnet.settings.settings import Settings
 
 CARD = Path("docs/data.md")
@@ -142,16 +144,23 @@ def sizes(settings: Settings) -> str:
         for scale, entry in settings.scales.items()
         for names, part in (
             *(((n, row.scenario, row.level), row.sizes[scale]) for n, row in settings.training_sets.items()),
-            (("test", "each test", "as its table asks"), entry.test),
-            *(
-                (("test", name, "as its table asks"), entry.test.model_copy(update={"shard_s": duration}))
-                for name, duration in entry.durations_s.items()
-            ),
+            *tests(settings, entry),
         )
     ]
     rows = [[*names, str(part.shards), f"{part.shards * part.shard_s / MINUTE_S:g}"] for names, part in sets]
     header = ["scale", "set", "scenario", "level", "recordings", "minutes"]
     return "\n## Sets\n\n" + markdown_table(header, rows, left=4)
+
+
+def tests(settings: Settings, entry: Scale) -> Iterator[tuple[tuple[str, str, str], Recordings]]:
+    """Yield set, scenario and level of the tests of a scale, each with its size; a robot's may be fewer recordings."""
+    asked, own = "as its table asks", entry.test.model_copy(update={"shards": entry.fleet_shards or entry.test.shards})
+    yield ("test", "each test", asked), entry.test
+    yield ("test", "each test of a robot", asked), own
+    plants = settings.levels.keys() - set(settings.fleet.robots)
+    for name, duration in entry.durations_s.items():
+        row = entry.test if plants.intersection(settings.tests[name]) else own
+        yield ("test", name, asked), row.model_copy(update={"shard_s": duration})
 
 
 def drawn(settings: Settings) -> Iterator[str]:

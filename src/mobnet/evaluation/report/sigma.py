@@ -1,6 +1,6 @@
 """Table and figure of the standard deviations in parts of a walk: both are made from the same scores."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from pathlib import Path
 
 from mobnet.core.joints import JointLayout
@@ -13,9 +13,9 @@ from mobnet.settings.networks import Learning
 
 def sigma(
     settings: Sigma, learning: Learning, layout: JointLayout, statistics: Statistics,
-    scores: Mapping[str, Path], table_dir: Path, figure_dir: Path,
+    scores: Sequence[Path], table_dir: Path, figure_dir: Path,
 ) -> None:  # fmt: skip
     """Write sigma.csv, .tex and .md, and sigma.pdf, .png and .csv."""
-    lookup, share = read_lookup(scores.values(), statistics), learning.calibration_share
+    lookup, share = read_lookup(scores, statistics), learning.calibration_share
     sigma_table(settings, layout, lookup, share, table_dir)
     sigma_figure(settings, lookup, share, figure_dir)

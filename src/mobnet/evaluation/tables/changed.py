@@ -1,6 +1,6 @@
 """Table of robots that networks do not know: errors, and what a check of the free swings says of them."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from pathlib import Path
 
 from mobnet.core.columns import METHODS
@@ -16,11 +16,11 @@ SHARES = (KNOWN, FREE, FLAGGED)
 
 
 def changed(
-    settings: Changed, learning: Learning, layout: JointLayout, statistics: Statistics, scores: Mapping[str, Path],
+    settings: Changed, learning: Learning, layout: JointLayout, statistics: Statistics, scores: Sequence[Path],
     table_dir: Path,
 ) -> None:  # fmt: skip
     """Write changed.csv, with every joint and intervals, and changed.tex and .md: means over the joints of a limb."""
-    lookup = read_lookup(scores.values(), statistics)
+    lookup = read_lookup(scores, statistics)
     tests = settings.tests.items()
     records = [row for _, test in tests for row in measured_rows(lookup, layout, test, test.limbs, [ERROR, *SHARES])]
     blocks = [

@@ -24,14 +24,14 @@ Cells = Mapping[tuple[str, str, str, str], Number]  # scenario, level, method, M
 
 
 def error_budget(
-    settings: ErrorBudget, statistics: Statistics, layout: JointLayout, scores: Mapping[str, Path],
+    settings: ErrorBudget, statistics: Statistics, layout: JointLayout, scores: Sequence[Path],
     table_dir: Path,
 ) -> None:  # fmt: skip
     """Write error_budget.csv, .tex and .md: RMSE [N m] of joints with one source of error off, and the share [%] gone.
 
     The first test of `settings` has every source on.
     """
-    rows = [row for path in scores.values() for row in read_scores(path)]
+    rows = read_scores(*scores)
     parts = columns_of(layout, settings.joints)
     budgets = {part: cells_of(part, settings.tests, rows, statistics) for part in parts}
     records = [

@@ -61,7 +61,7 @@ class Look:
 
 def errors(
     settings: ErrorTable, name: str, statistics: Statistics, layout: JointLayout,
-    published: PublishedTable | None, scores: Mapping[str, Path], table_dir: Path,
+    published: PublishedTable | None, scores: Sequence[Path], table_dir: Path,
 ) -> None:  # fmt: skip
     """Write a table of errors by test, method and joint [N m], as CSV, TeX and Markdown.
 
@@ -70,13 +70,12 @@ def errors(
         ConfigError: a column is not well formed.
     """
     columns = columns_of(layout, settings.columns)
-    read = {scenario: read_scores(path) for scenario, path in scores.items()}
-    rows = []
+    read, rows = read_scores(*scores), list[TableRow]()
     for test in settings.rows:
         for method in (*test.methods, *test.further):
             run = test.scenario, test.level, method
             printed = published_row(published, test.paper, method) if published and test.paper else {}
-            own = [score for score in read[test.scenario] if (score.scenario, score.level, score.method) == run]
+            own = [score for score in read if (score.scenario, score.level, score.method) == run]
             numbers, raw = (
                 {
                     column: cell_of(column, run, test.metric, own, statistics, paper.get(column.name), ending)

@@ -19,15 +19,13 @@ Place = tuple[str, str]  # limb and joint, or its average
 Row = tuple[int, str, str]  # number of the test, method, metric or SKILL
 
 
-def methods(
-    settings: Sequence[MethodsRow], statistics: Statistics, scores: Mapping[str, Path], table_dir: Path
-) -> None:
+def methods(settings: Sequence[MethodsRow], statistics: Statistics, scores: Sequence[Path], table_dir: Path) -> None:
     """Write methods.csv, .tex and .md: RMSE [N m] of every method, and skill, a column a joint or a limb's average.
 
     The error is against the low-passed truth, as the paper's, and against the raw one. The skill is 1 - RMSE / rms of
     the low-passed truth, whose root mean square is the RMSE of estimating nothing.
     """
-    lookup = read_lookup(scores.values(), statistics)
+    lookup = read_lookup(scores, statistics)
     places = list(
         dict.fromkeys((limb, joint) for test in settings for limb in test.columns for joint in test.columns[limb])
     )

@@ -24,21 +24,20 @@ Readings = Mapping[str, tuple[Sequence[Number], Mapping[str, Number]]]  # label 
 
 def noise(
     settings: NoiseTable, statistics: Statistics, layout: JointLayout, printed: Mapping[str, PublishedTable],
-    scores: Mapping[str, Path], table_dir: Path,
+    scores: Sequence[Path], table_dir: Path,
 ) -> None:  # fmt: skip
     """Write noise.csv, .tex and .md: RMSE [N m] of each joint by reading, V1..V3 [N], and each reading's factors [-].
 
     Raises:
         DataError: a run that the table needs is missing.
     """
-    read = {scenario: read_scores(path) for scenario, path in scores.items()}
-    columns, readings, records = columns_of(layout, settings.joints), {}, []
+    read, columns, readings, records = read_scores(*scores), columns_of(layout, settings.joints), {}, []
     for test in settings.tests:
         run = test.scenario, test.level, test.methods[0]
         paper = {name: value for table, place in settings.paper.items()
                  for name, value in published_row(printed[table], place, run[2]).items()}  # fmt: skip
         wanted = [Wanted(run[0], limb, *run[1:], joint) for column in columns for limb, joint in column.joints]
-        errors = [number_of(read[run[0]], [one], statistics, published=paper.get(one.joint)) for one in wanted]
+        errors = [number_of(read, [one], statistics, published=paper.get(one.joint)) for one in wanted]
         readings[test.label] = errors, factors(columns, errors)
         named = [*((one.joint, METRIC) for one in wanted), *((limb, FACTOR) for limb in readings[test.label][1])]
         numbers = [*errors, *readings[test.label][1].values()]

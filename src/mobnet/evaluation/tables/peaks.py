@@ -1,6 +1,6 @@
 """Table of pushes: how high an estimate rises over the true peak, and how late."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from pathlib import Path
 
 from mobnet.core.columns import METHODS
@@ -15,14 +15,14 @@ REFERENCE = "low-pass of (11)"  # what a residual without any error would show
 
 
 def peaks(
-    settings: Peaks, layout: JointLayout, statistics: Statistics, scores: Mapping[str, Path], table_dir: Path
+    settings: Peaks, layout: JointLayout, statistics: Statistics, scores: Sequence[Path], table_dir: Path
 ) -> None:
     """Write peaks.csv, with every joint, and peaks.tex and .md: peak ratio [-] and delay [ms] under pushes by method.
 
     A number is the mean over walks and networks of the median over the pushes of a walk; in the texts also the mean
     over the joints of a limb that the pushes turn.
     """
-    lookup = read_lookup(scores.values(), statistics)
+    lookup = read_lookup(scores, statistics)
     metrics = [name + suffix for suffix in ("", OBSERVER) for name in (PEAK, DELAY)]
     records = [row for test in settings.tests for row in measured_rows(lookup, layout, test, test.limbs, metrics)]
     blocks = [(labels_of(test, limb), lines_of(lookup, test, limb)) for test in settings.tests for limb in test.limbs]

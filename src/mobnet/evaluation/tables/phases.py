@@ -1,6 +1,6 @@
 """Table of errors in parts of a walk: by phase of the leg's gait, and of joints that are stuck or move."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from pathlib import Path
 
 from mobnet.core.columns import METHODS
@@ -16,11 +16,11 @@ PARTS = {SWINGING: "swing", TOUCH_DOWN: "touch-down", STANCE: "stance", STUCK: "
 
 
 def phases(
-    settings: Phases, layout: JointLayout, statistics: Statistics, scores: Mapping[str, Path],
+    settings: Phases, layout: JointLayout, statistics: Statistics, scores: Sequence[Path],
     table_dir: Path,
 ) -> None:  # fmt: skip
     """Write phases.csv, with every joint and intervals, and phases.tex and .md: RMSE [N m] in parts of a walk."""
-    lookup = read_lookup(scores.values(), statistics)
+    lookup = read_lookup(scores, statistics)
     metrics = [WHOLE, *(f"{WHOLE}_{part}" for part in PARTS)]
     records = [row for test in settings.tests for row in measured_rows(lookup, layout, test, test.limbs, metrics)]
     blocks = [

@@ -55,9 +55,8 @@ def _length_problems(settings: Settings, scale: Scale) -> Iterator[Problem]:
     """Yield durations of recordings that are no whole number of samples."""
     rate, name = settings.rates.data_hz, settings.scale
     sizes: dict[Place, float] = {("scales", name, "test", "shard_s"): scale.test.shard_s}
-    for key in ("durations_s", "fleet_durations_s"):
-        for test, duration in getattr(scale, key).items():
-            sizes["scales", name, key, test] = duration
+    for test, duration in scale.durations_s.items():
+        sizes["scales", name, "durations_s", test] = duration
     for key, row in settings.training_sets.items():
         sizes["training_sets", key, "sizes", name, "shard_s"] = row.sizes[name].shard_s
     for place, value in sizes.items():
