@@ -213,7 +213,7 @@ def test_scores_and_runs_follow_from_the_section_of_a_product(plan: Plan) -> Non
         ("figure_18", panels, [(test, panels.level) for test in panels.panels]),
         ("fine_tuning", settings.fine_tuning.tests, [("changed_walk", "robots_other"), ("changed_walk", "robots")]),
     ):
-        own = needs_of(plan.files, "any other", section, ["scores"])["scores"]
+        own: Any = needs_of(plan.files, "any other", section, ["scores"])["scores"]
         assert own == plan.files.scores(tests), name
         assert len(own) == len(set(tests)), name
     with pytest.raises(ConfigError, match=r"bins: its section lacks .*'Steps' object has no"):
