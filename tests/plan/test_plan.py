@@ -264,7 +264,7 @@ def test_scores_and_runs_follow_from_the_section_of_a_product(plan: Plan) -> Non
         ("figure_18", panels, [(test, panels.level) for test in panels.panels]),
         ("fine_tuning", settings.fine_tuning.tests, [("changed_walk", "robots_other"), ("changed_walk", "robots")]),
     ):
-        own = needs_of(plan.files, "any other", section, ["scores"])["scores"]
+        own: Any = needs_of(plan.files, "any other", section, ["scores"])["scores"]
         assert own == plan.files.scores(tests), name
         assert len(own) == len(set(tests)), name
     with pytest.raises(ConfigError, match=r"bins: its section lacks .*'Steps' object has no"):
@@ -274,8 +274,8 @@ def test_scores_and_runs_follow_from_the_section_of_a_product(plan: Plan) -> Non
 def behind(plan: Plan, target: str) -> set[str]:
     """Return every file that the jobs of a product and of its scores read."""
     product = next(one for one in plan.products if one.name == target)
-    scored = dict(zip(map(str, plan.files.scores(plan.files.scored)), plan.files.scored, strict=True))
-    return {read for name in product.job.inputs for read in plan.jobs[""].score(*scored[name]).inputs}
+    reads = {output: step.job.inputs for step in plan.steps for output in step.outputs}
+    return {read for name in product.job.inputs for read in reads[name]}
 
 
 def test_a_table_needs_the_levels_that_it_shows_alone(plans: dict[str, Plan]) -> None:

@@ -33,8 +33,8 @@ def shown_in(value: object) -> Iterator[tuple[str, str]]:
             yield from shown_in(item)
     elif isinstance(value, Section):
         named = list(uses(value, type(value)))
-        own = product(*([name for _, kind, name in named if kind in kinds] for kinds in (TESTS, ("level",))))
-        yield from list(shown_in(tuple(vars(value).values()))) or own
+        tests, levels = ([name for _, kind, name in named if kind in kinds] for kinds in (TESTS, ("level",)))
+        yield from list(shown_in(tuple(vars(value).values()))) or product(tests, levels)
 
 
 def uses(value: Any, kind: Any, place: Place = ()) -> Iterator[Use]:

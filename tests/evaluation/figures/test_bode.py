@@ -18,7 +18,7 @@ METRICS = {"gain_0.5hz": (0.9, "-"), "phase_0.5hz": (-5.0, "deg"), "gain_2hz": (
 
 def test_numbers_stand_at_the_frequency_that_is_injected_on_their_joint(
     tmp_path: Path, settings: Settings, evaluation: Evaluation, layout: JointLayout,
-    write_measured: Callable[..., dict[str, Path]],
+    write_measured: Callable[..., list[Path]],
 ) -> None:  # fmt: skip
     section = evaluation.bode.model_copy(update={"methods": ("MOB", "MOB-Net")})
     test = LimbRuns(scenario=section.scenario, level=section.level, methods=section.methods, limbs=(section.limb,))

@@ -12,7 +12,7 @@ from mobnet.settings.settings import Settings
 
 
 def test_bins_stand_at_the_middle_of_their_time_and_those_without_a_phase_are_left_out(
-    tmp_path: Path, settings: Settings, evaluation: Evaluation, write_measured: Callable[..., dict[str, Path]]
+    tmp_path: Path, settings: Settings, evaluation: Evaluation, write_measured: Callable[..., list[Path]]
 ) -> None:
     name, test = next(iter(evaluation.drift.tests.items()))
     test = test.model_copy(update={"methods": ("MOB", "MOB-Net")})

@@ -18,7 +18,7 @@ from mobnet.settings.settings import Settings
 
 MEANS = {"MOB-Net": 2.0, "MOB-Net-Single": 2.5}
 Write = Callable[..., Path]
-Draw = Callable[[dict[str, object], dict[str, Path]], None]
+Draw = Callable[[dict[str, object], list[Path]], None]
 
 
 @pytest.fixture

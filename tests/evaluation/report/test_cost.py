@@ -8,12 +8,15 @@ import pytest
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.files import write_json
-from mobnet.evaluation.report.cost import main, overrides
-from mobnet.evaluation.report.rates import RATES
+from mobnet.core.notes import read_note
+from mobnet.evaluation.report.compute import WHOLE
+from mobnet.evaluation.report.cost import costs, main, overrides
+from mobnet.evaluation.report.rates import RATES, RatesNote
 from mobnet.plan.plan import make_plan
 from mobnet.settings.load import load_settings
 
 HOUR_S = 3600.0
+REPO = Path(__file__).parents[3]
 Told = Callable[[], str]
 
 
@@ -57,6 +60,14 @@ def test_each_larger_scale_costs_more(told: Told) -> None:
         assert main(["-C", f"scale={scale}"]) == 0
         found.append(float(told().split("| all jobs |")[1].split("|")[1]))
     assert found == sorted(set(found))
+
+
+def test_quick_fits_into_its_hour_by_the_published_rates() -> None:
+    """75 minutes on two cores, some of which a run does not use; detection has no rate yet."""
+    plan = make_plan(load_settings(overrides={"scale": "quick"}), with_pdf=False)
+    jobs, cpu_s, _ = costs(plan.work, read_note(REPO / RATES, RatesNote).kinds)[WHOLE]
+    assert jobs > len(plan.work) - len(plan.products)
+    assert cpu_s < 2.3 * HOUR_S
 
 
 @pytest.mark.parametrize(

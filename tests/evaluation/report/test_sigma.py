@@ -24,9 +24,7 @@ OTHER = {"std": (2.0, "N m"), "std_pushed": (6.0, "N m"), "rmse_pushed": (12.0, 
 
 
 @pytest.fixture
-def made(
-    tmp_path: Path, settings: Settings, evaluation: Evaluation, write_measured: Callable[..., dict[str, Path]]
-) -> Path:
+def made(tmp_path: Path, settings: Settings, evaluation: Evaluation, write_measured: Callable[..., list[Path]]) -> Path:
     """Table and figure of two tests, one unlike the training data."""
     tests, against = {"walking": LIKE, "knee hit": UNLIKE}, {"knee hit": "walking"}
     section = evaluation.sigma.model_copy(update={"tests": tests, "against": against, "parts": 4, "lags_ms": (10, 100)})

@@ -17,7 +17,7 @@ METRICS = {
 
 
 def test_shares_stand_beside_errors_and_a_method_without_deviations_has_dashes(
-    make_table: Callable[..., Path], evaluation: Evaluation, write_measured: Callable[..., dict[str, Path]]
+    make_table: Callable[..., Path], evaluation: Evaluation, write_measured: Callable[..., list[Path]]
 ) -> None:
     tests = {
         title: LimbRuns(scenario="changed_walk", level=level, methods=("MOB", "MOB-Net"), limbs=("LL",))

@@ -17,7 +17,7 @@ METRICS = {
 
 
 @pytest.fixture
-def table(make_table: Make, evaluation: Evaluation, write_measured: Callable[..., dict[str, Path]]) -> Path:
+def table(make_table: Make, evaluation: Evaluation, write_measured: Callable[..., list[Path]]) -> Path:
     """The table of one test of two methods."""
     settings = evaluation.peaks.model_copy(update={"tests": (TEST,)})
     return make_table("peaks", settings=settings, scores=write_measured([TEST], METRICS))
@@ -43,7 +43,7 @@ def test_the_low_pass_alone_stands_above_the_methods(table: Path) -> None:
 
 
 def test_a_test_that_is_too_short_for_a_push_has_dashes(
-    make_table: Make, evaluation: Evaluation, write_measured: Callable[..., dict[str, Path]]
+    make_table: Make, evaluation: Evaluation, write_measured: Callable[..., list[Path]]
 ) -> None:
     settings = evaluation.peaks.model_copy(update={"tests": (TEST,)})
     table = make_table("peaks", settings=settings, scores=write_measured([TEST], {"rmse": (1.0, "N m")}))

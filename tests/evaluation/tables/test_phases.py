@@ -16,7 +16,7 @@ METRICS = {"rmse": (2.0, "N m"), **{f"rmse_{part}": (2.0 + k, "N m") for k, part
 
 
 def test_parts_stand_side_by_side_and_what_a_limb_lacks_is_a_dash(
-    make_table: Callable[..., Path], evaluation: Evaluation, write_measured: Callable[..., dict[str, Path]]
+    make_table: Callable[..., Path], evaluation: Evaluation, write_measured: Callable[..., list[Path]]
 ) -> None:
     (path,) = write_measured([TEST], METRICS)
     legs_alone = ("rmse_swing", "rmse_touch_down", "rmse_stance")

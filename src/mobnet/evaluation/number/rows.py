@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import fields
 from operator import attrgetter
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from mobnet.core.columns import Epoch, Score
 from mobnet.core.detections import FILES, PARTS, UNNAMED
@@ -56,7 +56,7 @@ def read_detections(path: Path, name: str) -> list[Any]:
 def _detection_faults(rows: Sequence[Any]) -> Iterator[Fault]:
     """Yield numbers below zero, empty names, unknown parts, and ends of times or intervals that come before starts."""
     for k, row in enumerate(rows):
-        values: dict[str, Any] = vars(row)
+        values = cast("dict[str, Any]", vars(row))
         for name, value in values.items():
             if value == "" and name not in UNNAMED:
                 yield k, name, value, "a name"
