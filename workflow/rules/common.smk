@@ -5,7 +5,7 @@ import sys
 import time
 from pathlib import Path
 
-from mobnet.core.cluster import failed_jobs
+from mobnet.core.cluster import LIMITED, failed_jobs
 from mobnet.core.detections import FILES as DETECTION_FILES
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
@@ -76,7 +76,8 @@ onstart:
 
 onerror:
     if not workflow.local_exec:
-        for line in failed_jobs(ROOT, STARTED_S):
+        had = {job.rule.name: {name: job.resources.get(name) for name in LIMITED} for job in workflow.dag.needrun_jobs()}
+        for line in failed_jobs(ROOT, STARTED_S, had):
             sys.stderr.write(f"{line}\n")
 
 
