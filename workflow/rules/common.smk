@@ -5,12 +5,12 @@ import sys
 import time
 from pathlib import Path
 
-from mobnet.core.cluster import LIMITED, failed_jobs
+from mobnet.core.cluster import LIMITED, failed_jobs, warm_cache
 from mobnet.core.detections import FILES as DETECTION_FILES
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
 from mobnet.core.lock import job_prefix
-from mobnet.core.run import start_jobs
+from mobnet.core.run import is_stopped, start_jobs
 from mobnet.estimation.methods import method_problems
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.plan.disk import check_places, check_space
@@ -70,12 +70,14 @@ onstart:
         read = {str(path) for job in workflow.dag.needrun_jobs() for path in job.input}
         # rows of scores are many: a check looks at all of them, a job at those that it shows
         check_agreement((Path(name) for name in sorted(read - made) if not name.endswith(".csv")), PLAN.files)
+        if not workflow.local_exec:
+            warm_cache(ROOT)
     except MobnetError as error:
         sys.exit(str(error))
 
 
 onerror:
-    if not workflow.local_exec:
+    if not workflow.local_exec and not is_stopped():
         had = {job.rule.name: {name: job.resources.get(name) for name in LIMITED} for job in workflow.dag.needrun_jobs()}
         for line in failed_jobs(ROOT, STARTED_S, had):
             sys.stderr.write(f"{line}\n")

@@ -1,10 +1,13 @@
-"""What a SLURM cluster says of jobs that failed: one line each, from the logs that the executor leaves.
+"""What a run does for a SLURM cluster: it compiles once for all nodes, and tells of each job that failed in one line.
 
 The executor writes a log for each attempt, in a folder for each job or for all jobs of a group. Such a log begins with
 Snakemake's command, which names the job in `--target-jobs`; a block of lines follows for each rule that begins.
 """
 
 import re
+import shlex
+import subprocess
+import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
@@ -30,6 +33,15 @@ MEMORY, TIME = Limit("mem_mb", "ended by SLURM above its", "MB"), Limit("runtime
 LIMITS = {"memory limit": MEMORY, "oom_kill": MEMORY, "oom-kill": MEMORY, "TIME LIMIT": TIME}  # by SLURM's words
 LIMITED = tuple(dict.fromkeys(limit.resource for limit in LIMITS.values()))
 Had = Mapping[str, Mapping[str, int]]  # rule -> resource -> what its jobs asked for
+
+
+def warm_cache(root: Path) -> None:
+    """Compile here what jobs run, so that the nodes, if they have this processor, find it in the cache.
+
+    A fault is told by the process that compiles, and by the jobs if they meet it too.
+    """
+    python = shlex.split(sys.executable)[0]  # common.smk quotes it for snakemake
+    subprocess.run([python, "-m", "mobnet.warm"], cwd=root, check=False)
 
 
 def failed_jobs(root: Path, since_s: float, had: Had) -> Iterator[str]:
@@ -58,7 +70,7 @@ def failed_in(text: str) -> re.Match[str] | None:
     """Return the block of the rule that Snakemake says has failed, or of the last one that began and did not end."""
     finished = FINISHED.findall(text)
     begun = [match for match in BEGUN.finditer(text) if told(match, "jobid") not in finished]
-    return next(iter([*FAILED.finditer(text)][:1] or begun[-1:]), None)
+    return next(FAILED.finditer(text), begun[-1] if begun else None)
 
 
 def went_on(own: Path, log: Path) -> bool:
