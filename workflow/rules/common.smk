@@ -1,14 +1,17 @@
 """What the rules share: the checked configuration, the plan that follows from it, and what each rule depends on."""
 
+import os
 import shlex
 import sys
 import time
+from importlib.metadata import version
 from pathlib import Path
 
 from mobnet.core.cluster import LIMITED, failed_jobs, warm_cache
 from mobnet.core.detections import FILES as DETECTION_FILES
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
+from mobnet.core.gpus import gpus_seen
 from mobnet.core.lock import job_prefix
 from mobnet.core.run import is_stopped, start_jobs
 from mobnet.estimation.methods import method_problems
@@ -50,6 +53,11 @@ LOGS = PLAN.folders.results / "logs"
 OWN = f"{PLAN.folders.results}/{{robot}}"  # folder of what each robot of the fleet has, and the plant of section 5.1
 # Patterns of the wildcard `robot` (Snakemake takes an empty one for none), and whose number of test recordings each has.
 PLANT, ROBOTS = "()", "|".join(f"{name}/" for name in SETTINGS.fleet.robots)
+# Jobs that use a GPU wait for those of this machine; on a cluster they ask for one by --set-resources train:gpu=1.
+GPUS = gpus_seen(version("torch"), os.environ) if workflow.nodes is None else 0
+GPU = min(GPUS, 1)  # what such a job asks for
+if GPUS and "gpu" not in workflow.global_resources:
+    workflow.register_resource("gpu", GPUS)
 OF_PLANT, OF_ROBOTS = PLAN.files, next(iter(PLAN.files.robots.values()), PLAN.files)
 
 
@@ -78,7 +86,10 @@ onstart:
 
 onerror:
     if not workflow.local_exec and not is_stopped():
-        had = {job.rule.name: {name: job.resources.get(name) for name in LIMITED} for job in workflow.dag.needrun_jobs()}
+        had = {
+            job.rule.name: {name: job.resources.get(name) for name in LIMITED}
+            for job in workflow.dag.needrun_jobs()
+        }
         for line in failed_jobs(ROOT, STARTED_S, had):
             sys.stderr.write(f"{line}\n")
 

@@ -40,6 +40,7 @@ rule train:
     resources:
         mem_mb=growing(6000),
         runtime=30,
+        gpu=GPU,
     params:
         call=lambda w: job("train", w).call,
         given=lambda w: job("train", w).given,

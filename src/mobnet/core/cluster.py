@@ -41,7 +41,7 @@ def warm_cache(root: Path) -> None:
     A fault is told by the process that compiles, and by the jobs if they meet it too.
     """
     python = shlex.split(sys.executable)[0]  # common.smk quotes it for snakemake
-    subprocess.run([python, "-m", "mobnet.warm"], cwd=root, check=False)
+    subprocess.run([python, "workflow/scripts/warm.py"], cwd=root, check=False)
 
 
 def failed_jobs(root: Path, since_s: float, had: Had) -> Iterator[str]:
