@@ -93,7 +93,7 @@ class Results:
         if metric.startswith(PUSHED[:9]) and scenario not in windows:
             return not_accepted("test with a window around pushes", scenario, windows)
         for section, pattern in ASKED.items():
-            tests = self._tests_of(section)
+            tests = self._tests[section]
             if re.fullmatch(pattern, metric) and scenario not in tests:
                 return not_accepted(f"test of section {section}", scenario, tests)
         timed = [self.settings.pushes[name].at_s for name in self.settings.scenarios[scenario].pushes]
@@ -103,10 +103,14 @@ class Results:
                 return not_accepted("metric", metric, [f"{PUSH}{k + 1}" for k in range(count)])
         return ""
 
-    def _tests_of(self, section: str) -> list[str]:
-        """Return the tests that a section of the evaluation names."""
-        found = getattr(self.settings.evaluation, section)
-        return sorted({name for _, kind, name in uses(found, type(found)) if kind == "test"})
+    @cached_property
+    def _tests(self) -> dict[str, list[str]]:
+        """The tests that each section of the evaluation with metrics of its own names."""
+        found = {section: getattr(self.settings.evaluation, section) for section in ASKED}
+        return {
+            section: sorted({name for _, kind, name in uses(value, type(value)) if kind == "test"})
+            for section, value in found.items()
+        }
 
     def not_estimated(self, method: str, scenario: str, level: str, joints: Collection[str]) -> str:
         """Return what is wrong with a method where these joints of a test are shown: it estimates some limbs alone."""
