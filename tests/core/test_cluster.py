@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.core.cluster import LOGS, failed_jobs
+from mobnet.core.cluster import FEW, LOGS, failed_jobs, warm_cache
 
 HAD = {"train": {"mem_mb": 100, "runtime": 30}}
 HEADER = "  Command: python -m snakemake --target-jobs {job} --allowed-rules train --cores 2 --attempt {attempt}\n"
@@ -103,3 +103,13 @@ def test_a_job_that_succeeded_when_it_was_sent_again_is_not_told(tmp_path: Path)
     assert len(told_of(tmp_path, text)) == 1
     os.utime(own, (2, 2))
     assert told_of(tmp_path, text) == []
+
+
+def test_code_is_compiled_before_many_jobs_and_not_before_few(tmp_path: Path) -> None:
+    script = tmp_path / "workflow" / "scripts" / "warm.py"
+    script.parent.mkdir(parents=True)
+    script.write_text("from pathlib import Path\nPath('compiled').touch()\n")
+    warm_cache(tmp_path, FEW)
+    assert not (tmp_path / "compiled").exists()
+    warm_cache(tmp_path, FEW + 1)
+    assert (tmp_path / "compiled").exists()

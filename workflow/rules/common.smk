@@ -79,7 +79,7 @@ onstart:
         # rows of scores are many: a check looks at all of them, a job at those that it shows
         check_agreement((Path(name) for name in sorted(read - made) if not name.endswith(".csv")), PLAN.files)
         if not workflow.local_exec:
-            warm_cache(ROOT)
+            warm_cache(ROOT, jobs=len(list(workflow.dag.needrun_jobs())))
     except MobnetError as error:
         sys.exit(str(error))
 

@@ -15,6 +15,7 @@ from typing import NamedTuple
 from mobnet.core.logs import LOGS as OWN_LOGS
 
 LOGS = Path(".snakemake") / "slurm_logs"  # of jobs that failed: rule_NAME or group_NAMES / wildcards / NUMBER.log
+FEW = 10  # jobs of a run, which compile for themselves
 ATTEMPTED = re.compile(r"--target-jobs (.+?) --allowed-rules")
 BEGUN = re.compile(r"^(?:local)?rule (?P<rule>\w+):\n(?P<told>(?: {4}.*\n)*)", re.MULTILINE)
 FAILED = re.compile(r"^Error in rule (?P<rule>\w+):?.*\n(?P<told>(?: {4}.*\n)*)", re.MULTILINE)
@@ -35,11 +36,13 @@ LIMITED = tuple(dict.fromkeys(limit.resource for limit in LIMITS.values()))
 Had = Mapping[str, Mapping[str, int]]  # rule -> resource -> what its jobs asked for
 
 
-def warm_cache(root: Path) -> None:
+def warm_cache(root: Path, jobs: int) -> None:
     """Compile here what jobs run, so that the nodes, if they have this processor, find it in the cache.
 
-    A fault is told by the process that compiles, and by the jobs if they meet it too.
+    A run of few jobs leaves it to them. A fault is told by the process that compiles, and by the jobs if they meet it.
     """
+    if jobs <= FEW:
+        return
     python = shlex.split(sys.executable)[0]  # common.smk quotes it for snakemake
     subprocess.run([python, "workflow/scripts/warm.py"], cwd=root, check=False)
 
