@@ -5,31 +5,111 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.core.cluster import LOGS, failed_jobs, reason
+from mobnet.core.cluster import FEW, LOGS, failed_jobs, warm_cache
+
+HAD = {"train": {"mem_mb": 100, "runtime": 30}}
+HEADER = "  Command: python -m snakemake --target-jobs {job} --allowed-rules train --cores 2 --attempt {attempt}\n"
+BEGUN = """
+[Wed Nov 25 03:24:21 2026]
+localrule {rule}:
+    input: results/smoke/recordings/x.parquet
+    log: results/smoke/logs/{log}.log
+    jobid: {number}
+    reason: Forced execution
+    resources: tmpdir=<TBD>, mem_mb=12000, runtime=30
+"""
+FAILED = """Error in rule {rule}:
+    message: None
+    jobid: {number}
+    log: results/smoke/logs/{log}.log (check log file(s) for error details)
+"""
+OVER = "slurmstepd: error: Exceeded job memory limit\n"
+
+
+def told_of(root: Path, *texts: str, place: str = "rule_train/_MOB-Net_LL_0", since_s: float = 0.0) -> list[str]:
+    """Return what is told of logs of one folder, each a second after the one before it."""
+    for number, text in enumerate(texts, start=1):
+        path = root / LOGS / place / f"{number}.log"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        os.utime(path, (number, number))
+    return [line.replace(str(root), "") for line in failed_jobs(root, since_s, HAD)]
 
 
 @pytest.mark.parametrize(
     ("text", "why"),
     [
-        ("17:11:11 INFO epoch 1\nslurmstepd: error: Exceeded job memory limit\n", "RULE:mem_mb=MB"),
-        ("slurmstepd: error: *** JOB 6 CANCELLED AT x DUE TO TIME LIMIT ***\n", "RULE:runtime=MINUTES"),
-        ("slurmstepd: error: Detected 1 oom_kill event in StepId=6.batch.\n", "RULE:mem_mb=MB"),
-        ("12:00:00 ERROR results/: no room is left\n", "results/: no room is left"),
-        ("12:00:00 ERROR results/x.parquet: file is missing\nError in rule observe:\n", "results/x.parquet: file is"),
+        (f"17:11:11 INFO epoch 1\n{OVER}", "above its 100 MB; give it more with --set-resources train:mem_mb=200"),
+        ("error: *** JOB 6 CANCELLED AT x DUE TO TIME LIMIT ***\n", "after its 30 min; give it more with --set-"),
+        ("slurmstepd: error: Detected 1 oom_kill event in StepId=6.batch.\n", "--set-resources train:mem_mb=200 (log"),
+        ("12:00:00 ERROR results/: no room is left\n", "results/: no room is left (log"),
+        ("12:00:00 ERROR results/x.parquet: file is missing\nError in rule train:\n", "results/x.parquet: file is"),
         ("bash: python: command not found\n\n", "bash: python: command not found"),
-        ("", "no word of why"),
     ],
 )
-def test_the_reason_is_told_with_a_remedy_where_there_is_one(text: str, why: str) -> None:
-    assert why in reason(text)
-    assert "\n" not in reason(text)
+def test_the_reason_is_told_with_a_remedy_where_there_is_one(tmp_path: Path, text: str, why: str) -> None:
+    (told,) = told_of(tmp_path, BEGUN.format(rule="train", log="train/MOB-Net-LL-s0", number=0) + text)
+    assert told.startswith("train")
+    assert why in told
+    assert "\n" not in told
+
+
+def test_a_job_that_ended_before_snakemake_began_is_named_by_its_place(tmp_path: Path) -> None:
+    (told,) = told_of(tmp_path, OVER)
+    assert told.startswith("train (MOB-Net_LL_0): ended by SLURM above its 100 MB; give it more with")
+
+
+def test_a_job_without_a_word_is_told(tmp_path: Path) -> None:
+    (told,) = told_of(tmp_path, "")
+    assert told.startswith("train (MOB-Net_LL_0): no word of why (log: ")
+
+
+def test_a_rule_without_a_known_limit_is_told_what_to_set(tmp_path: Path) -> None:
+    (told,) = told_of(tmp_path, OVER, place="rule_table_05")
+    assert told.startswith(
+        "table_05: ended by SLURM above its limit; give it more with --set-resources table_05:mem_mb=MB"
+    )
+
+
+def test_of_a_group_the_job_is_named_that_did_not_end(tmp_path: Path) -> None:
+    text = BEGUN.format(rule="collect", log="collect/s1", number=3) + "Finished jobid: 3 (Rule: collect)\n"
+    text += BEGUN.format(rule="train", log="train/robot_1/MOB-Net-LL-s0", number=4) + OVER
+    (told,) = told_of(tmp_path, text, place="group_walks")
+    assert told.startswith("train (robot_1/MOB-Net-LL-s0): ended by SLURM above its 100 MB")
+
+
+def test_of_a_group_the_job_is_named_that_snakemake_names(tmp_path: Path) -> None:
+    text = "".join(BEGUN.format(rule="fit", log=f"fit/{name}", number=k) for k, name in enumerate(("a", "b")))
+    text += "12:00:00 ERROR a.parquet: file is missing\n" + FAILED.format(rule="fit", log="fit/a", number=0)
+    (told,) = told_of(tmp_path, text, place="group_fits")
+    assert told.startswith("fit (a): a.parquet: file is missing (log: ")
 
 
 def test_only_the_last_attempt_of_jobs_of_this_run_counts(tmp_path: Path) -> None:
-    for name, time_s in {"rule_train/LL_0/1": 50, "rule_train/LL_0/2": 60, "rule_fit/x/3": 5}.items():
-        path = tmp_path / LOGS / f"{name}.log"
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(f"attempt {path.stem}\n")
-        os.utime(path, (time_s, time_s))
-    (told,) = failed_jobs(tmp_path, 10.0)
-    assert told.startswith("rule_train/LL_0: attempt 2 (log: ")
+    texts = [HEADER.format(job=f"train:limb={limb}", attempt=attempt) for attempt in (1, 2) for limb in ("LL", "RL")]
+    old, *new = told_of(tmp_path, *texts, place="group_networks")
+    assert "3.log" in old
+    assert len(new) == 1
+    assert "4.log" in new[0]
+    assert told_of(tmp_path, *texts, place="group_networks", since_s=5.0) == []
+
+
+def test_a_job_that_succeeded_when_it_was_sent_again_is_not_told(tmp_path: Path) -> None:
+    own = tmp_path / "results" / "smoke" / "logs" / "train" / "MOB-Net-LL-s0.log"
+    text = BEGUN.format(rule="train", log="train/MOB-Net-LL-s0", number=0) + OVER
+    own.parent.mkdir(parents=True)
+    own.touch()
+    os.utime(own, (1, 1))
+    assert len(told_of(tmp_path, text)) == 1
+    os.utime(own, (2, 2))
+    assert told_of(tmp_path, text) == []
+
+
+def test_code_is_compiled_before_many_jobs_and_not_before_few(tmp_path: Path) -> None:
+    script = tmp_path / "workflow" / "scripts" / "warm.py"
+    script.parent.mkdir(parents=True)
+    script.write_text("from pathlib import Path\nPath('compiled').touch()\n")
+    warm_cache(tmp_path, FEW)
+    assert not (tmp_path / "compiled").exists()
+    warm_cache(tmp_path, FEW + 1)
+    assert (tmp_path / "compiled").exists()

@@ -15,7 +15,6 @@ import pytest
 
 DAEMONS = ("slurmctld", "slurmd")
 PROGRAMS = ("munged", *DAEMONS, "unshare", "nsenter")
-PORTS = (17817, 17818)  # of slurmctld and slurmd, where a cluster of this machine has none
 READY_S, STEP_S = 30.0, 0.2
 CONFIGURATION = """
 ClusterName=test
@@ -97,7 +96,7 @@ def cluster_in(folder: Path) -> Iterator[Cluster]:
     (folder / "munge" / "key").write_bytes(os.urandom(1024))
     (folder / "munge" / "key").chmod(0o400)
     memory_mb = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2**20 * 9 // 10
-    text = CONFIGURATION.format(node=socket.gethostname(), folder=folder, ports=PORTS, memory_mb=memory_mb)
+    text = CONFIGURATION.format(node=socket.gethostname(), folder=folder, ports=free_ports(), memory_mb=memory_mb)
     (folder / "etc" / "slurm.conf").write_text(text)
     words = ["unshare", "--mount", "--pid", "--fork", "--kill-child", "--mount-proc", "bash", "-c"]
     with subprocess.Popen([*words, START.format(folder=folder)]) as holder:
@@ -112,6 +111,14 @@ def cluster_in(folder: Path) -> Iterator[Cluster]:
             yield cluster
         finally:
             holder.kill()
+
+
+def free_ports() -> tuple[int, int]:
+    """Return ports for slurmctld and slurmd that nobody uses, such as another cluster of this machine."""
+    with socket.socket() as first, socket.socket() as second:
+        for one in (first, second):
+            one.bind(("", 0))
+        return first.getsockname()[1], second.getsockname()[1]
 
 
 def wait_for(is_so: Callable[[], bool], longest_s: float = READY_S) -> None:

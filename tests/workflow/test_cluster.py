@@ -119,15 +119,17 @@ def test_ctrl_c_empties_the_queue(cluster: Cluster, project: Path) -> None:
     wait_for_training(cluster, project)
     cluster.ask("pkill", "-INT", "-f", "mobnet.core.run")
     assert ended(run, cluster, project) != 0
-    assert told(project).count("stopped; the same command goes on from here") == 1
+    said = told(project)
+    assert said.count("stopped; the same command goes on from here") == 1
+    assert f"train ({NETWORK.name}): " not in said
 
 
 def test_a_job_over_its_memory_is_named_with_a_remedy(cluster: Cluster, project: Path) -> None:
-    run = start(cluster, project, *TARGETS, "--set-resources", "train:mem_mb=100")
+    run = start(cluster, project, *TARGETS, "--set-resources", "train:mem_mb=500")
     assert ended(run, cluster, project) != 0
-    said = [line for line in told(project).splitlines() if "--set-resources RULE:mem_mb=" in line]
-    assert len(said) == 1
-    assert said[0].startswith("rule_train/")
+    said = [line.split(" (log: ")[0] for line in told(project).splitlines() if "--set-resources" in line]
+    limit = "ended by SLURM above its 500 MB; give it more with --set-resources train:mem_mb=1000"
+    assert said == [f"train ({NETWORK.name}): {limit}"]
 
 
 def test_a_full_disk_is_told_in_one_line(cluster: Cluster, project: Path) -> None:

@@ -40,6 +40,15 @@ LOST = (
     "tables/smoke",
     "figures/smoke",
 )
+FIGURES = ("figures/smoke/drift.csv", "figures/smoke/amplitude.csv")
+LOST_ON_CLUSTER = (  # jobs of most kinds run again
+    "results/smoke/recordings/foot_hold",
+    "results/smoke/robot_1/recordings/robot_walk_25",
+    "results/smoke/robot_1/networks/MOB-Net-25-LL-s101",
+    "results/smoke/scores/foot_hold.csv",
+    *FIGURES,
+)
+WHOLE_CLUSTER, LONGER = "MOBNET_WHOLE_CLUSTER", 1.5  # asks for the whole line on a cluster; its time by the local one
 
 pytestmark = [pytest.mark.slow, pytest.mark.sim]
 
@@ -255,28 +264,63 @@ def test_damaged_recording_stops_with_one_line_and_nothing_half_written(
     assert not (folder / target).exists()
 
 
+def run_on_cluster(folder: Path, place: Path, *targets: str) -> float:
+    """Make targets of a project on a cluster of this machine, whose files go to a place; return how long it took [s].
+
+    At this scale trainings take seconds, so that they go into the queue together too.
+    """
+    groups = ("motions=20", "walks=25", "fits=10", "networks=33", "estimates=120", "scores=20", "tables=100")
+    words = ["--profile", "workflow/profiles/slurm", "--cores", "1", "--groups", "train=networks"]
+    command = [sys.executable, str(folder / "reproduce"), *targets, *SMOKE, *words, "--group-components", *groups]
+    with cluster_in(place) as cluster, (folder / "out.log").open("w") as out:
+        before = time.monotonic()
+        done = subprocess.run(cluster.words(*command), cwd=folder, stdout=out, stderr=out, check=False)
+    assert done.returncode == 0, told(folder)
+    return time.monotonic() - before
+
+
+def copy_with_results(make_project: Callable[..., Path], unbroken: Path, name: str, lost: tuple[str, ...]) -> Path:
+    """Return a copy of a project with its results, of which some are lost."""
+    folder = make_project(name, unbroken)
+    for part in MADE:
+        shutil.copytree(unbroken / part, folder / part, symlinks=True, dirs_exist_ok=True)
+    for place in lost:
+        shutil.rmtree(folder / place) if (folder / place).is_dir() else (folder / place).unlink()
+    return folder
+
+
+def numbers_below(place: Path) -> dict[str, bytes]:
+    """Return the content of a file, or of all files of a folder but notes, which tell when and where they were made."""
+    found = place.rglob("*") if place.is_dir() else [place]
+    return {path.name: path.read_bytes() for path in found if path.is_file() and path.suffix != ".json"}
+
+
 def test_a_cluster_makes_the_same_files(
     unbroken: Path, make_project: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory
 ) -> None:
-    """At this scale trainings take seconds, so that they go into the queue together too."""
-    with cluster_in(tmp_path_factory.mktemp("cluster")) as cluster:
-        folder = make_project("on_cluster", unbroken)
-        groups = ("motions=20", "walks=8", "fits=4", "networks=8", "estimates=20", "scores=20", "tables=100")
-        words = ["--profile", "workflow/profiles/slurm", "--groups", "train=networks", "--group-components", *groups]
-        command = [sys.executable, str(folder / "reproduce"), "all", *words, *SMOKE]
-        with (folder / "out.log").open("w") as out:
-            done = subprocess.run(cluster.words(*command), cwd=folder, stdout=out, stderr=out, check=False)
-        assert done.returncode == 0, told(folder)
+    """Walks of a test and those that a network learns from are lost, and what two figures show of them."""
+    folder = copy_with_results(make_project, unbroken, "on_cluster", LOST_ON_CLUSTER)
+    run_on_cluster(folder, tmp_path_factory.mktemp("cluster"), *FIGURES)
+    for place in LOST_ON_CLUSTER:
+        assert numbers_below(folder / place) == numbers_below(unbroken / place) != {}
+    assert products(folder) == products(unbroken)
+
+
+@pytest.mark.skipif(WHOLE_CLUSTER not in os.environ, reason=f"takes as long as all other tests; set {WHOLE_CLUSTER}=1")
+def test_a_cluster_makes_all_files_in_half_as_much_time_again(
+    unbroken: Path, make_project: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    folder = make_project("all_on_cluster", unbroken)
+    took_s = run_on_cluster(folder, tmp_path_factory.mktemp("cluster"), "all")
     assert products(folder) == products(unbroken)
     assert manifest_of(folder) == manifest_of(unbroken)
+    jobs = [read_account(path) for path in accounts(unbroken)]
+    assert took_s <= LONGER * (max(job.end_s for job in jobs) - min(job.start_s for job in jobs))
 
 
 def test_killed_at_random_moments_ends_with_the_same_tables(unbroken: Path, make_project: Callable[..., Path]) -> None:
-    folder = make_project("killed", unbroken)
-    for part in MADE:
-        shutil.copytree(unbroken / part, folder / part, symlinks=True, dirs_exist_ok=True)
-    for lost in LOST:  # jobs of most kinds run again, in a third of the time of the whole line
-        shutil.rmtree(folder / lost)
+    # jobs of most kinds run again, in a third of the time of the whole line
+    folder = copy_with_results(make_project, unbroken, "killed", LOST)
     moments = random.Random(2023)
     for kill in range(KILLS):
         run = reproduce(folder, "--cores", "1")

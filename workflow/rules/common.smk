@@ -1,21 +1,24 @@
 """What the rules share: the checked configuration, the plan that follows from it, and what each rule depends on."""
 
+import os
 import re
 import shlex
 import sys
 import time
+from importlib.metadata import version
 from pathlib import Path
 from typing import NamedTuple
 
 from snakemake.logging import logger as snakemake_logger
 from snakemake.resources import Resources
 
-from mobnet.core.cluster import failed_jobs
+from mobnet.core.cluster import LIMITED, failed_jobs, warm_cache
 from mobnet.core.counts import by_kind
 from mobnet.core.environment import quieten
 from mobnet.core.errors import MobnetError
+from mobnet.core.gpus import gpus_seen
 from mobnet.core.lock import job_prefix
-from mobnet.core.run import refuse_configfiles, start_jobs
+from mobnet.core.run import is_stopped, refuse_configfiles, start_jobs
 from mobnet.estimation.methods import method_problems
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.plan.disk import check_places, check_space
@@ -51,6 +54,10 @@ except MobnetError as error:
 
 config["scale"] = SETTINGS.scale  # the report names it
 LOGS = PLAN.folders.results / "logs"
+# Jobs that use a GPU wait for those of this machine; on a cluster they ask for one by --set-resources train:gpu=1.
+GPUS = gpus_seen(version("torch"), os.environ) if workflow.nodes is None else 0
+if GPUS and "gpu" not in workflow.global_resources:
+    workflow.register_resource("gpu", GPUS)
 
 
 onstart:
@@ -70,23 +77,30 @@ onstart:
         read = {str(path) for job in workflow.dag.needrun_jobs() for path in job.input}
         # rows of scores are many: a check looks at all of them, a job at those that it shows
         check_agreement((Path(name) for name in sorted(read - made) if not name.endswith(".csv")), PLAN.files)
+        if not workflow.local_exec:
+            warm_cache(ROOT, jobs=len(list(workflow.dag.needrun_jobs())))
     except MobnetError as error:
         sys.exit(str(error))
 
 
 onerror:
-    if not workflow.local_exec:
-        for line in failed_jobs(ROOT, STARTED_S):
+    if not workflow.local_exec and not is_stopped():
+        had = {
+            job.rule.name: {name: job.resources.get(name) for name in LIMITED}
+            for job in workflow.dag.needrun_jobs()
+        }
+        for line in failed_jobs(ROOT, STARTED_S, had):
             sys.stderr.write(f"{line}\n")
 
 
 class Kind(NamedTuple):
-    """What rules of a kind have in common: their group on a cluster, priority, memory [MB] and time [min]."""
+    """What rules of a kind have in common: their group on a cluster, priority, memory [MB], time [min] and GPUs."""
 
     group: str
     priority: int
     mem_mb: int
     runtime: int
+    gpus: int = 0
 
 
 def rule_of(step):

@@ -19,6 +19,6 @@ for product in (*PLAN.products, *PLAN.trials):
             runtime=10,
         params:
             call=product.job.call,
-            given=product.job.given,
+            given=lambda w, made=product.job: made.given,  # each start of a job on a cluster would hash all code
         script:
             "../scripts/call.py"

@@ -1,13 +1,14 @@
 # The steps of the plan: motions of the upper body, recordings with what the observer makes of them, fits, networks,
 # estimates, detectors, scores. A rule each, since no two have the same number of files; its name is that of its log.
 # Memory [MB] and time [min] of each kind are those of the default scale, doubled. On a cluster, jobs of a group go into
-# its queue together.
+# its queue together. What a job reads and gets is worked out when it is asked for: each start of a job on a cluster
+# reads these rules.
 
 KINDS = {
     "motion": Kind("motions", priority=30, mem_mb=500, runtime=20),
     "collect": Kind("walks", priority=20, mem_mb=2400, runtime=30),
     "fit": Kind("fits", priority=10, mem_mb=4000, runtime=10),
-    "train": Kind("networks", priority=10, mem_mb=6000, runtime=60),
+    "train": Kind("networks", priority=10, mem_mb=6000, runtime=60, gpus=min(GPUS, 1)),
     "estimate": Kind("estimates", priority=0, mem_mb=4000, runtime=30),
     "detect": Kind("scores", priority=0, mem_mb=3000, runtime=20),
     "score": Kind("scores", priority=0, mem_mb=500, runtime=5),
@@ -19,7 +20,7 @@ for name, step in STEPS.items():
         name:
             name
         input:
-            step.job.inputs,
+            lambda w, step=step: step.job.inputs,
         output:
             ensure(step.outputs, non_empty=True),
         log:
@@ -31,8 +32,9 @@ for name, step in STEPS.items():
         resources:
             mem_mb=growing(KINDS[step.work.kind].mem_mb),
             runtime=KINDS[step.work.kind].runtime,
+            gpu=KINDS[step.work.kind].gpus,
         params:
-            call=step.job.call,
-            given=step.job.given,
+            call=lambda w, step=step: step.job.call,
+            given=lambda w, step=step: step.job.given,
         script:
             "../scripts/call.py"

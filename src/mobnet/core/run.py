@@ -115,6 +115,11 @@ def cancel_jobs(number: int) -> None:
     raise KeyboardInterrupt
 
 
+def is_stopped() -> bool:
+    """Return whether Ctrl-C has ended this run, which then ignores it: jobs that it cancelled have not failed."""
+    return signal.getsignal(signal.SIGINT) is signal.SIG_IGN
+
+
 def plain_yaml(stream: TextIO, **_: object) -> object:
     """Read a YAML file as plain values; `__use_yte__` and tags of Python end the run before anything of it runs."""
     try:

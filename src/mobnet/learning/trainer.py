@@ -17,6 +17,7 @@ from mobnet.learning import checkpoint
 from mobnet.learning.calibration import Calibration, calibrate, predict
 from mobnet.learning.checkpoint import CHECKPOINT, Progress, write_metrics
 from mobnet.learning.dataset import LimbData, Scale, scale_of
+from mobnet.learning.device import own_device
 from mobnet.learning.job import Job
 from mobnet.learning.losses import CHOSEN_BY, objective_of
 from mobnet.learning.model import build_network, seeded
@@ -41,7 +42,7 @@ class Trainer:
             DataError: the network that it starts from is damaged, or another one.
         """
         self.job = job
-        self.device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
+        self.device = own_device()
         first = read_start(start, job, data) if start else None
         self.fingerprint = job.fingerprint(data.digest + (first.digest if first else ""), self.device)
         network, learning = job.training.network, job.training.learning

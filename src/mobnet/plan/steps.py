@@ -6,6 +6,7 @@ and what several read is read once. It is short enough that steps keep all cores
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property, partial
 from itertools import groupby
 from pathlib import Path
 from typing import TypeVar
@@ -24,11 +25,16 @@ Item = TypeVar("Item")
 
 @dataclass(frozen=True)
 class Step:
-    """What one rule makes: its job, the files, and how much it has to do; `work.job` names its log and its account."""
+    """What one rule makes: the files, how much there is to do, and the job; `work.job` names its log and its account."""
 
     work: Work
-    job: Job
     outputs: tuple[str, ...]
+    make_job: Callable[[], Job]
+
+    @cached_property
+    def job(self) -> Job:
+        """The job, whose hash of all the code behind it takes its time."""
+        return self.make_job()
 
 
 def all_steps(files: Files) -> Iterator[Step]:
@@ -60,9 +66,9 @@ def _motions(files: Files) -> Iterator[Step]:
         for part in _parts(seeds, lambda seed, name=motion: files.motion_s(name, seed), PART_S):
             account = f"motion/{motion}-s{part[0]}"
             amounts = {SECONDS: sum(files.motion_s(motion, seed) for seed in part), "motion": len(part)}
-            job = Jobs(files.settings, files).motions(account, motion, part)
+            job = partial(Jobs(files.settings, files).motions, account, motion, part)
             arrays = [files.motion_place(motion, seed) for seed in part]
-            yield Step(Work(account, "motion", amounts, 0.0), job, _both(arrays))
+            yield Step(Work(account, "motion", amounts, 0.0), _both(arrays), job)
 
 
 def _walks(files: Files, recorded: Iterable[Place]) -> Iterator[Step]:
@@ -73,15 +79,15 @@ def _walks(files: Files, recorded: Iterable[Place]) -> Iterator[Step]:
     for (scenario, level, _), seeds in sets.items():
         for part in _parts(seeds, lambda seed, name=scenario: files.duration_s([name], seed), PART_S):
             account = _account("collect", files, f"{scenario}-{level}-s{part[0]}")
-            job = Jobs(files.settings, files).collect(account, scenario, level, part)
+            job = partial(Jobs(files.settings, files).collect, account, scenario, level, part)
             arrays = [files.array(kind, scenario, level, seed) for seed in part for kind in ("recordings", "residuals")]
-            yield Step(Work(account, "collect", *walked(files, scenario, part)), job, _both(arrays))
+            yield Step(Work(account, "collect", *walked(files, scenario, part)), _both(arrays), job)
 
 
 def _fit(files: Files, method: str) -> Step:
     """Return the fit of a method."""
-    account, job = _account("fit", files, method), Jobs(files.settings, files).fit(method)
-    return Step(Work(account, "fit", *fitted(files, method)), job, tuple(map(str, files.fit(method))))
+    account, job = _account("fit", files, method), partial(Jobs(files.settings, files).fit, method)
+    return Step(Work(account, "fit", *fitted(files, method)), tuple(map(str, files.fit(method))), job)
 
 
 def _trainings(files: Files, networks: Iterable[NetworkName]) -> Iterator[Step]:
@@ -97,9 +103,9 @@ def _trainings(files: Files, networks: Iterable[NetworkName]) -> Iterator[Step]:
         for part in _parts(list(alike), lambda name: steps_of(files, name), PART_STEPS):
             folders = [files.network(*name) for name in part]
             account = _account("train", files, folders[0].name)
-            job = Jobs(files.settings, files).train(account, part)
+            job = partial(Jobs(files.settings, files).train, account, part)
             outputs = tuple(f"{folder}/{name}" for folder in folders for name in (WEIGHTS, METRICS, RUN))
-            yield Step(Work(account, "train", *trained(files, part)), job, outputs)
+            yield Step(Work(account, "train", *trained(files, part)), outputs, job)
 
 
 def _estimates(files: Files) -> Iterator[Step]:
@@ -107,25 +113,25 @@ def _estimates(files: Files) -> Iterator[Step]:
     for scenario, levels in files.settings.tests.items():
         for level in filter(files.has, levels):
             account = _account("estimate", files, f"{scenario}-{level}")
-            job = Jobs(files.settings, files).estimate(account, scenario, level)
+            job = partial(Jobs(files.settings, files).estimate, account, scenario, level)
             outputs = _both(run.estimate for run in files.runs(scenario, level, levels[level]))
-            yield Step(Work(account, "estimate", *estimated(files, scenario, level)), job, outputs)
+            yield Step(Work(account, "estimate", *estimated(files, scenario, level)), outputs, job)
 
 
 def _detectors(files: Files) -> Iterator[Step]:
     """Yield the trial of the detectors of the plant of section 5.1, or of a robot, if there are some."""
     if level_of_detectors(files):
-        account, job = _account("detect", files, "all"), Jobs(files.settings, files).detect()
         outputs = tuple(map(str, detection_files(files).values()))
-        yield Step(Work(account, "detect", *detected(files)), job, outputs)
+        work = Work(_account("detect", files, "all"), "detect", *detected(files))
+        yield Step(work, outputs, Jobs(files.settings, files).detect)
 
 
 def _score(files: Files, scenario: str, level: str) -> Step:
     """Return the scores of a test at a level."""
     seconds = files.settings.test_s(scenario) * len(files.runs_of(scenario, level))
     work = Work(f"score/{scenario}-{level}", "score", {SECONDS: seconds}, 0.0)
-    job, outputs = Jobs(files.settings, files).score(scenario, level), files.scores([(scenario, level)])
-    return Step(work, job, tuple(map(str, outputs)))
+    outputs = tuple(map(str, files.scores([(scenario, level)])))
+    return Step(work, outputs, partial(Jobs(files.settings, files).score, scenario, level))
 
 
 def _account(kind: str, files: Files, name: str) -> str:

@@ -1,0 +1,12 @@
+"""Compile what many jobs run, once, before a cluster's jobs begin: with any scenario and level, for the code is one."""
+
+import logging
+
+from mobnet.plan.jobs import walk_settings
+from mobnet.settings.load import load_settings
+from mobnet.warm import warm
+
+logging.basicConfig(format="%(message)s")
+logging.getLogger("mobnet.warm").setLevel(logging.INFO)
+settings = load_settings()
+warm(walk_settings(settings, next(iter(settings.scenarios)), next(iter(settings.levels))), settings.detection)
