@@ -83,7 +83,7 @@ def went_on(own: Path, log: Path) -> bool:
 
 
 def named(log: str) -> tuple[str, str]:
-    """Return the kind of a job and its name, those of its own log: `logs/train/robot_1/NAME.log`, `logs/table_05.log`."""
+    """Return the kind of a job and its name, from its own log: `logs/train/robot_1/NAME.log`, `logs/table_05.log`."""
     kind, _, name = log.removesuffix(".log").rpartition(f"/{OWN_LOGS}/")[2].partition("/")
     return kind, name
 

@@ -25,7 +25,7 @@ Item = TypeVar("Item")
 
 @dataclass(frozen=True)
 class Step:
-    """What one rule makes: the files, how much there is to do, and the job; `work.job` names its log and its account."""
+    """What one rule makes: how much there is to do, the files, and the job; `work.job` names log and account."""
 
     work: Work
     outputs: tuple[str, ...]
