@@ -1,9 +1,8 @@
 """The GRU of Table 1 on a CPU, forward and back through time: it computes what `torch.nn.GRU` does, in less time.
 
-Per step only two products forward, one back and the compiled loops over the gates remain, on memory that stays in the
-cache; the gradients of the weights are one large product each, after the loop. All products but those of the inputs are
-in float32, or in bfloat16 from float32 weights and into float32 gates and states (docs/notes/0014). Gates and weights
-are laid out as `torch.nn.GRU` documents them: reset, update, new.
+The loops over time are compiled (`gates`); the gradients of the weights are one large product each, after them. All
+products but those of the inputs are in float32, or in bfloat16 from float32 weights into float32 gates and states
+(docs/notes/0014). Gates and weights are laid out as `torch.nn.GRU` documents them: reset, update, new.
 """
 
 from typing import Any
@@ -13,7 +12,8 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor, nn
 
-from mobnet.learning.gates import step_backward, step_forward
+from mobnet.learning.gates import go_back, go_forward
+from mobnet.learning.tiles import PADDED, lay_left
 
 
 class FusedGru(torch.autograd.Function):
@@ -22,43 +22,39 @@ class FusedGru(torch.autograd.Function):
     @staticmethod
     def forward(ctx: Any, x: Tensor, state: Tensor, precision: torch.dtype, *weights: Tensor) -> Tensor:
         """Return the states (h, B, H) after each of the inputs (h, B, n_in), from a state (B, H), unitless."""
-        steps, lanes, hidden = len(x), *state.shape
         w_in, w_state, b_in, b_state = (weight.detach() for weight in weights)
-        bias = torch.cat([b_in, b_state[2 * hidden :]])
-        bias[: 2 * hidden] += b_state[: 2 * hidden]
-        inputs, w_state = x.detach(), w_state.to(precision)
-        sums, recurrent = torch.empty(lanes, 3 * hidden), torch.empty(lanes, 3 * hidden, dtype=precision)
-        gates = torch.empty(steps, lanes, 4 * hidden).numpy()
-        states = torch.empty(steps + 1, lanes, hidden)
-        rounded = torch.empty(steps + 1, lanes, hidden, dtype=precision)
-        states[0] = rounded[0] = state.detach()
-        found, given, fed, low = states.numpy(), sums.numpy(), memory(recurrent), memory(rounded)
-        for k, (new, before) in enumerate(zip(inputs.unbind(), rounded[:-1].unbind(), strict=True)):
-            product(new, w_in.T, out=sums)  # in float32: rounded inputs would cost likelihood
-            product(before, w_state.T, out=recurrent)
-            step_forward(given, fed, bias.numpy(), found[k], gates[k], found[k + 1], low[k + 1])
-        ctx.kept = inputs, w_state, gates, found, rounded[:-1]
-        return states[1:]
+        steps, (lanes, hidden), padded = len(x), state.shape, up(len(state))
+        w_state = w_state.roll(hidden, 0)  # inner, reset, update
+        bias = torch.cat([b_state[2 * hidden :], b_in])
+        bias[hidden : 3 * hidden] += b_state[: 2 * hidden]
+        x, inputs = with_ones(x.detach(), padded), torch.zeros(x.shape[2], steps, padded)
+        inputs[..., :lanes] = x[:, :lanes, : len(inputs)].permute(2, 0, 1)
+        states, gates = torch.zeros(steps + 1, hidden, padded), torch.empty(steps, 4, hidden * padded)
+        states[0, :, :lanes] = state.detach().T
+        arrays = (tensor.numpy() for tensor in (inputs, w_in, bias, gates, states.flatten(1)))
+        go_forward(left_factor(w_state, precision), room(hidden, padded, precision), *arrays)
+        h = with_ones(states.transpose(1, 2), padded)
+        ctx.inputs, ctx.kept = len(inputs), (x, w_state, gates, states, h, precision)
+        return h[1:, :lanes, :hidden]
 
     @staticmethod
     def backward(ctx: Any, *gradients: Tensor) -> tuple[Tensor | None, ...]:
         """Return the gradients of the weights from that of the states (h, B, H), unitless."""
-        inputs, w_state, gates, states, rounded = ctx.kept
-        given = gradients[0].contiguous().numpy()
-        steps, lanes, hidden = given.shape
-        d_sums, d_new = (rounded.new_empty(steps, lanes, width) for width in (3 * hidden, hidden))
-        d_bias, carried = torch.zeros(4 * hidden), torch.zeros(lanes, hidden).numpy()
-        fed = rounded.new_zeros(lanes, hidden)
-        sums, new, after = memory(d_sums), memory(d_new), memory(fed)
-        for k in reversed(range(steps)):
-            step_backward(gates[k], states[k], given[k], after, carried, sums[k], new[k], d_bias.numpy())
-            product(d_sums[k], w_state, out=fed)
-        d_sums, d_new, inputs = d_sums.flatten(0, 1).T, d_new.flatten(0, 1).T, inputs.flatten(0, 1).to(rounded.dtype)
-        d_in = torch.cat([product(d_sums[: 2 * hidden], inputs), product(d_new, inputs)])
-        d_state = product(d_sums, rounded.flatten(0, 1))
-        reset_update, inner, last = d_bias.split([2 * hidden, hidden, hidden])
-        d_biases = torch.cat([reset_update, last]), torch.cat([reset_update, inner])
-        return None, None, None, d_in.float(), d_state.float(), *d_biases
+        x, w_state, gates, states, h, precision = ctx.kept
+        (lanes, hidden), padded = gradients[0].shape[1:], states.shape[2]
+        given, d = torch.zeros_like(states[1:]), torch.zeros_like(states[0])
+        given[..., :lanes] = gradients[0].transpose(1, 2)
+        d_in, d_state = (torch.zeros(3 * hidden, rows.shape[2]) for rows in (x, h))
+        heights = 3 * hidden, padded, padded
+        widths = padded, x.shape[2], h.shape[2]
+        go_back(
+            left_factor(w_state.T, precision), room(padded, 4 * hidden, precision).reshape(4 * hidden, -1),
+            *(room(height, width, precision) for height, width in zip(heights, widths, strict=True)),
+            *(t.numpy() for t in (given.flatten(1), gates, states.flatten(1), x, h, d, torch.empty_like(gates[0]))),
+            d_in.numpy(), d_state.numpy(),
+        )  # fmt: skip
+        d_state, n = d_state.roll(-hidden, 0), ctx.inputs
+        return None, None, None, d_in[:, :n], d_state[:, :hidden], d_in[:, n], d_state[:, hidden]
 
 
 def run_gru(cell: nn.GRU, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
@@ -76,13 +72,27 @@ def run_gru(cell: nn.GRU, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
     return states, states[-1:]
 
 
-def product(a: Tensor, b: Tensor, out: Tensor | None = None) -> Tensor:
-    """Return the product (m, n) of two matrices (m, k) and (k, n) of one format; NumPy is the faster one in float32."""
-    if a.dtype == torch.float32:
-        return torch.from_numpy(np.matmul(a.numpy(), b.numpy(), out=None if out is None else out.numpy()))
-    return torch.mm(a, b, out=out)
+def up(count: int) -> int:
+    """Return the next multiple of `PADDED`."""
+    return count + -count % PADDED
 
 
-def memory(tensor: Tensor) -> NDArray[Any]:
-    """Return a tensor's memory for compiled loops: float32 as it is, bfloat16, which NumPy lacks, as uint16."""
-    return tensor.numpy() if tensor.dtype == torch.float32 else tensor.view(torch.uint16).numpy()
+def with_ones(rows: Tensor, lanes: int) -> Tensor:
+    """Return a copy (h, L, m) of rows (h, B, n), zero but for them and a one after each, for the biases."""
+    copy = torch.zeros(len(rows), lanes, up(rows.shape[2] + 1))
+    copy[:, : rows.shape[1], : rows.shape[2]] = rows
+    copy[..., rows.shape[2]] = 1.0
+    return copy
+
+
+def left_factor(matrix: Tensor, precision: torch.dtype) -> NDArray[Any]:
+    """Return a matrix (m, k) as left factor of `add_product`: float32, or pairs of bfloat16 (m, ceil(k / 2))."""
+    factor = room(matrix.shape[1], len(matrix), precision).reshape(len(matrix), -1)
+    lay_left(matrix.contiguous().numpy(), factor)
+    return factor
+
+
+def room(rows: int, lanes: int, precision: torch.dtype) -> NDArray[Any]:
+    """Return room for a right factor of `add_product` with so many rows: float32, or pairs of bfloat16."""
+    paired = precision != torch.float32
+    return np.empty((-(-rows // 2) if paired else rows, lanes), np.uint32 if paired else np.float32)
