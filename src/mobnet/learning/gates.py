@@ -18,6 +18,17 @@ Array = NDArray[np.float32]
 MATHS = {"contract", "nsz", "arcp"}  # NaN stays NaN
 
 
+def ordered(w_in: Array, w_state: Array, b_in: Array, b_state: Array) -> tuple[Array, Array, Array]:
+    """Return the weights of inputs and state and the bias as the loops take them, of those that torch has.
+
+    They are weight_ih (3 H, n_in) and weight_hh (3 H, H), bias_ih and bias_hh (3 H,): reset, update, new.
+    """
+    n = w_state.shape[1]
+    bias = np.concatenate([b_state[2 * n :], b_in])
+    bias[n : 3 * n] += b_state[: 2 * n]
+    return np.ascontiguousarray(w_in), np.roll(w_state, n, axis=0), bias
+
+
 @compiled(fastmath=MATHS)
 def rational_tanh(x: np.float32) -> np.float32:
     """Return tanh(x), unitless, within a few float32 roundings; loops over it vectorize, which tanh's do not.
@@ -59,13 +70,14 @@ def go_forward(
         inputs: (n_in, h, L).
         w_in: weights of the inputs, reset, update, new (3 H, n_in).
         bias: (4 H,), those of inputs and state added.
-        gates: gets inner, reset, update and new of each step (h, 4, H L).
+        gates: gets inner, reset, update and new of each step (h, 4, H L), or has room for fewer and keeps the last.
         states: has the state before the first step, and gets that after each one (h + 1, H L).
     """
     lanes = inputs.shape[2]
     n = states.shape[1] // lanes
     for k in range(inputs.shape[1]):
-        sums, parts = gates[k].reshape(4 * n, lanes), gates[k]
+        parts = gates[k % len(gates)]
+        sums = parts.reshape(4 * n, lanes)
         for i in range(4 * n):
             sums[i] = bias[i]
         lay_right(states[k].reshape(n, lanes), right)

@@ -10,6 +10,7 @@ column, and so do two columns of the left one: x86 multiplies and adds such pair
 from typing import Any
 
 import llvmlite.binding as llvm
+import numba
 import numpy as np
 from llvmlite import ir
 from numba import types
@@ -20,12 +21,12 @@ from numpy.typing import NDArray
 from mobnet.control.compiled import compiled
 
 Factor = NDArray[Any]  # float32, or uint32 for pairs of bfloat16
-FEATURES = llvm.get_host_cpu_features()
-PAIRS_AT_ONCE = FEATURES.get("avx512bf16", False)
+FEATURES = (numba.config.CPU_FEATURES or llvm.get_host_cpu_features().flatten()).split(",")
+PAIRS_AT_ONCE = "+avx512bf16" in FEATURES
 # A tile, its vectors of the right factor and one number of the left factor fill the registers: 32 with 16 numbers each,
 # or 16 with 8.
 ROWS = 6
-WIDE, VECTORS = (16, 4) if FEATURES.get("avx512f", False) else (8, 2)
+WIDE, VECTORS = (16, 4) if "+avx512f" in FEATURES else (8, 2)
 PADDED = 16  # columns are a multiple of this many
 FLOATS, WORDS = (ir.VectorType(kind, WIDE) for kind in (ir.FloatType(), ir.IntType(32)))
 WORD = np.dtype(np.uint32)
@@ -43,15 +44,15 @@ PAIRS = ir.VectorType(_Bfloat(), 2 * WIDE)
 
 
 def _fused(builder: Any, a: Any, b: Any, total: Any) -> Any:
-    """Return total + a * b, rounded once."""
+    """Return total + a * b, rounded once where the processor can."""
     kind = ir.FunctionType(FLOATS, [FLOATS] * 3)
-    name = f"llvm.fma.v{WIDE}f32"
+    name = f"llvm.fmuladd.v{WIDE}f32"
     return builder.call(cgutils.get_or_insert_function(builder.module, kind, name), [a, b, total])
 
 
-def _fused_pairs(builder: Any, a: Any, b: Any, total: Any, at_once: bool = PAIRS_AT_ONCE) -> Any:
+def _fused_pairs(builder: Any, a: Any, b: Any, total: Any) -> Any:
     """Return total + a * b summed over each pair of bfloat16 numbers."""
-    if at_once:
+    if PAIRS_AT_ONCE:
         kind = ir.FunctionType(FLOATS, [FLOATS, PAIRS, PAIRS])
         call = cgutils.get_or_insert_function(builder.module, kind, f"llvm.x86.avx512bf16.dpbf16ps.{32 * WIDE}")
         return builder.call(call, [total, builder.bitcast(a, PAIRS), builder.bitcast(b, PAIRS)])
@@ -71,7 +72,8 @@ def _at(builder: Any, array: Any, row: Any, column: Any, kind: Any) -> Any:
 def _spread(builder: Any, number: Any) -> Any:
     """Return a vector of the same number."""
     zero = ir.Constant(ir.VectorType(ir.IntType(32), WIDE), None)
-    first = builder.insert_element(ir.Constant(ir.VectorType(number.type, WIDE), ir.Undefined), number, zero.type.element(0))
+    nothing = ir.Constant(ir.VectorType(number.type, WIDE), ir.Undefined)
+    first = builder.insert_element(nothing, number, ir.IntType(32)(0))
     return builder.shuffle_vector(first, first, zero)
 
 
@@ -83,10 +85,10 @@ def _tile(rows: int, vectors: int) -> Any:
 
         def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
             *arrays, i, j = args
-            out, left, right = (context.make_array(k)(context, builder, a) for k, a in zip(signature.args, arrays))
-            down, along = [builder.add(i, i.type(r)) for r in range(rows)], [
-                builder.add(j, j.type(WIDE * v)) for v in range(vectors)
-            ]
+            kinds = signature.args[:3]
+            out, left, right = (context.make_array(k)(context, builder, a) for k, a in zip(kinds, arrays, strict=True))
+            down = [builder.add(i, i.type(r)) for r in range(rows)]
+            along = [builder.add(j, j.type(v * WIDE)) for v in range(vectors)]
             places = [[_at(builder, out, row, column, FLOATS) for column in along] for row in down]
             sums = [[cgutils.alloca_once_value(builder, builder.load(p, align=4)) for p in row] for row in places]
             with cgutils.for_range(builder, cgutils.unpack_tuple(builder, left.shape)[1]) as loop:
@@ -161,3 +163,25 @@ def lay_right(values: NDArray[np.float32], factor: Factor) -> None:
             row = values[i]
             for j in range(len(laid)):
                 laid[j] = row[j]
+
+
+def up(count: int) -> int:
+    """Return the next multiple of `PADDED`."""
+    return count + -count % PADDED
+
+
+def room(rows: int, columns: int, paired: bool) -> Factor:
+    """Return room for a right factor (rows, columns): float32, or pairs of bfloat16."""
+    return np.empty((-(-rows // 2), columns), np.uint32) if paired else np.empty((rows, columns), np.float32)
+
+
+def left_room(rows: int, columns: int, paired: bool) -> Factor:
+    """Return room for a left factor (rows, columns): float32, or pairs of bfloat16."""
+    return np.empty((rows, -(-columns // 2)), np.uint32) if paired else np.empty((rows, columns), np.float32)
+
+
+def left_factor(matrix: NDArray[np.float32], paired: bool) -> Factor:
+    """Return a matrix (m, k) as left factor: float32, or pairs of bfloat16 (m, ceil(k / 2))."""
+    factor = left_room(*matrix.shape, paired)
+    lay_left(np.ascontiguousarray(matrix), factor)
+    return factor
