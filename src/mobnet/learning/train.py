@@ -14,6 +14,7 @@ from safetensors.torch import save as to_bytes
 from mobnet.core.files import METRICS, RUN, WEIGHTS, atomic_path, write_json
 from mobnet.core.joints import JointLayout
 from mobnet.core.provenance import provenance
+from mobnet.core.threads import one_thread
 from mobnet.learning.calibration import Calibration
 from mobnet.learning.checkpoint import CHECKPOINT, Progress, write_metrics
 from mobnet.learning.dataset import Known, LimbData, load_limb_data
@@ -54,7 +55,7 @@ def train(
         DataError: a recording or a residual is damaged or too short.
         TrainingError: the loss diverged, where `learning.may_diverge` does not allow it.
     """
-    torch.set_num_threads(1)  # more are slower beside another training, and give other weights
+    one_thread()
     job = Job(training, seed, root_seed)
     data = load_limb_data(
         layout, training.network, training.target, recordings, residuals, rate_hz, training.held_out, known,
