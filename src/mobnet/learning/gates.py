@@ -1,8 +1,8 @@
 """The GRU over a stretch of time, forward and back, as compiled loops (Cho et al. 2014, as `torch.nn.GRU` has it).
 
-Units are rows and lanes are columns, so that a vector instruction takes lanes, of which there are `PADDED` times as many
-as needed at most, and no unit is left over. The four rows of a unit's gates are in the order inner (the new gate's
-recurrent part), reset, update, new: the state's products reach the first three, the inputs' the last three.
+Units are rows and lanes are columns, their number a multiple of `PADDED`, so that a vector instruction takes lanes and
+no unit is left over. The gates are in the order inner (the new gate's recurrent part), reset, update, new: the state's
+products reach the first three, those of the inputs the last three.
 
 Each loop over numbers writes one array: with more of them the compiler cannot show that they do not overlap, and does
 not vectorize.
@@ -33,8 +33,8 @@ def ordered(w_in: Array, w_state: Array, b_in: Array, b_state: Array) -> tuple[A
 def rational_tanh(x: np.float32) -> np.float32:
     """Return tanh(x), unitless, within a few float32 roundings; loops over it vectorize, which tanh's do not.
 
-    tanh(x / 2) by the seventh convergent of Lambert's continued fraction, x / (1 + x^2 / (3 + x^2 / (5 + ...))) = u / q,
-    then the double of the argument: tanh(2 y) = 2 t / (1 + t^2), which needs one division for t = u / q.
+    tanh(x / 2) by the seventh convergent of Lambert's continued fraction, x / (1 + x^2 / (3 + x^2 / (5 + ...))), then
+    the double of the argument: tanh(2 y) = 2 t / (1 + t^2), which for t = u / q needs one division.
     """
     x = min(np.float32(9.0), max(np.float32(-9.0), x)) if x == x else x  # tanh(9) rounds to 1; NaN passes
     y = np.float32(0.5) * x
@@ -59,8 +59,17 @@ def open_gates(inner: Array, reset: Array, update: Array, new: Array, last: Arra
 
 
 @compiled
+def turn(values: Array, turned: Array) -> None:
+    """Write a matrix (n, L) with rows as columns (L, m), m at least n."""
+    for i in range(len(values)):
+        row = values[i]
+        for j in range(len(row)):
+            turned[j, i] = row[j]
+
+
+@compiled
 def go_forward(
-    w_state: Factor, right: Factor, inputs: Array, w_in: Array, bias: Array, gates: Array, states: Array
+    w_state: Factor, right: Factor, inputs: Array, w_in: Array, bias: Array, gates: Array, states: Array, h: Array
 ) -> None:
     """Run a GRU over a stretch of time; L lanes, a multiple of `PADDED`, all unitless.
 
@@ -72,6 +81,7 @@ def go_forward(
         bias: (4 H,), those of inputs and state added.
         gates: gets inner, reset, update and new of each step (h, 4, H L), or has room for fewer and keeps the last.
         states: has the state before the first step, and gets that after each one (h + 1, H L).
+        h: gets all of these with lanes as rows (h + 1, L, m), m at least H.
     """
     lanes = inputs.shape[2]
     n = states.shape[1] // lanes
@@ -80,10 +90,13 @@ def go_forward(
         sums = parts.reshape(4 * n, lanes)
         for i in range(4 * n):
             sums[i] = bias[i]
-        lay_right(states[k].reshape(n, lanes), right)
+        state = states[k].reshape(n, lanes)
+        turn(state, h[k])
+        lay_right(state, right)
         add_product(sums[n:], w_in, inputs[:, k])
         add_product(sums[: 3 * n], w_state, right)
         open_gates(parts[0], parts[1], parts[2], parts[3], states[k], states[k + 1])
+    turn(states[len(states) - 1].reshape(n, lanes), h[len(h) - 1])
 
 
 @compiled(fastmath=MATHS)
@@ -121,22 +134,23 @@ def go_back(
         right: room for the first three of them (3 H, L) as right factor.
         x_right: room for the inputs of a step (L, n) as right factor.
         h_right: room for the state before it (L, m) as right factor.
-        given: gradient of the state after each step, as an output (h, H L).
+        given: gradient of the state after each step, as an output (h, B, H).
         gates: as `go_forward` left them (h, 4, H L).
         states: as `go_forward` left them (h + 1, H L).
-        x: inputs with lanes as rows (h, L, n).
-        h: states with lanes as rows (h + 1, L, m).
+        x: inputs with lanes as rows (h, L, n), a one after each.
+        h: states with lanes as rows (h + 1, L, m), a one after each.
         d: zero; gets the gradient of the state before the first step (H, L).
         d_gates: room for the gradients of a step's sums (4, H L).
-        d_in: zero; gets the products of reset, update, new with `x` (3 H, n).
+        d_in: zero; gets the products of reset, update, new with `x` (3 H, n): gradients of weights and, last, biases.
         d_state: zero; gets the products of inner, reset, update with `h` (3 H, m).
     """
     n, lanes = d.shape
     flat = d.reshape(d.size)
     for k in range(len(given) - 1, -1, -1):
         output, g = given[k], gates[k]
-        for j in range(d.size):
-            flat[j] += output[j]
+        for i in range(n):
+            for j in range(len(output)):
+                d[i, j] += output[j, i]
         close_gates(g[0], g[1], g[2], g[3], states[k], flat, d_gates[0], d_gates[1], d_gates[2], d_gates[3])
         lay_left(d_gates.reshape(1, d_gates.size), left.reshape(1, left.size))
         lay_right(d_gates[:3].reshape(3 * n, lanes), right)

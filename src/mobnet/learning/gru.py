@@ -26,9 +26,9 @@ class FusedGru(torch.autograd.Function):
         states, gates = x.new_zeros(steps + 1, hidden, up(lanes)), x.new_empty(steps, 4, hidden * up(lanes))
         states[0, :, :lanes] = state.detach().T
         arrays = w_in, bias, gates.numpy(), states.flatten(1).numpy()
+        h = with_ones(x.new_empty(steps + 1, lanes, 0), hidden)
         columns = x[..., :inputs].permute(2, 0, 1).contiguous().numpy()
-        go_forward(left_factor(w_state, paired), room(hidden, up(lanes), paired), columns, *arrays)
-        h = with_ones(states.transpose(1, 2), hidden)
+        go_forward(left_factor(w_state, paired), room(hidden, up(lanes), paired), columns, *arrays, h.numpy())
         ctx.inputs, ctx.kept = inputs, (x, w_state, gates, states, h, paired)
         return h[1:, :lanes, :hidden]
 
@@ -36,12 +36,11 @@ class FusedGru(torch.autograd.Function):
     def backward(ctx: Any, *gradients: Tensor) -> tuple[Tensor | None, ...]:
         """Return the gradients of the weights from that of the states (h, B, H), unitless."""
         x, w_state, gates, states, h, paired = ctx.kept
-        (lanes, hidden), padded = gradients[0].shape[1:], states.shape[2]
-        given, d = torch.zeros_like(states[1:]), torch.zeros_like(states[0])
-        given[..., :lanes] = gradients[0].transpose(1, 2)
+        given, d = gradients[0].contiguous(), torch.zeros_like(states[0])
+        hidden, padded = d.shape
         d_in, d_state = (torch.zeros(3 * hidden, rows.shape[2]) for rows in (x, h))
         sizes = (3 * hidden, padded), (padded, x.shape[2]), (padded, h.shape[2])
-        tensors = given.flatten(1), gates, states.flatten(1), x, h, d, torch.empty_like(gates[0]), d_in, d_state
+        tensors = given, gates, states.flatten(1), x, h, d, torch.empty_like(gates[0]), d_in, d_state
         go_back(
             left_factor(w_state.T, paired), left_room(4 * hidden, padded, paired),
             *(room(*size, paired) for size in sizes), *(tensor.numpy() for tensor in tensors),
@@ -66,8 +65,8 @@ def run_gru(cell: nn.GRU, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
 
 
 def with_ones(rows: Tensor, width: int) -> Tensor:
-    """Return a copy (h, L, m) of rows (h, B, width), a one after each, for the biases, and zero elsewhere."""
+    """Return a copy (h, L, m) of rows (h, B, n) in a given width, a one after it, for the biases, and zero elsewhere."""
     copy = torch.zeros(len(rows), up(rows.shape[1]), up(width + 1))
-    copy[:, : rows.shape[1], :width] = rows
+    copy[:, : rows.shape[1], : rows.shape[2]] = rows
     copy[..., width] = 1.0
     return copy

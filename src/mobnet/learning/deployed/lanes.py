@@ -53,6 +53,7 @@ def gru_states(weights: Sequence[Array], state: Array, inputs: Array) -> tuple[A
     gates = np.empty((1, 4, hidden * up(lanes)), np.float32)
     states = np.zeros((steps + 1, hidden, up(lanes)), np.float32)
     states[0, :, :lanes] = state[0].T
-    go_forward(w_state, room(hidden, up(lanes), False), columns, w_in, bias, gates, states.reshape(steps + 1, -1))
-    found = states[..., :lanes].transpose(0, 2, 1)
-    return found[-1:], np.ascontiguousarray(found[1:])
+    found = np.empty((steps + 1, up(lanes), hidden), np.float32)
+    flat = states.reshape(steps + 1, -1)
+    go_forward(w_state, room(hidden, up(lanes), False), columns, w_in, bias, gates, flat, found)
+    return found[-1:, :lanes], found[1:, :lanes]
