@@ -88,28 +88,28 @@ def _speed(epoch: Callable[[], object], rows: int) -> float:
 def _products(job: Job, inputs: int, precision: torch.dtype) -> Callable[[], object]:
     """Return the matrix products of an epoch's GRU alone, by NumPy in float32 and by torch in bfloat16.
 
-    Those of the inputs are in float32 in any case. Factors are always the same, and so stay in the cache.
+    Those of the inputs are in float32 in any case. As in a training, each step has its own left factor.
     """
     hidden, lanes, steps = job.training.network.hidden, job.training.learning.batch_size, job.horizon
     shapes = [
-        (3 * hidden, inputs, lanes, torch.float32, steps),
-        (3 * hidden, hidden, lanes, precision, steps),
-        (hidden, 3 * hidden, lanes, precision, steps),
-        (3 * hidden, steps * lanes, inputs, precision, 1),  # gradients of weights
-        (3 * hidden, steps * lanes, hidden, precision, 1),
+        (steps, lanes, inputs, 3 * hidden, torch.float32),
+        (steps, lanes, hidden, 3 * hidden, precision),
+        (steps, lanes, 3 * hidden, hidden, precision),
+        (1, 3 * hidden, steps * lanes, inputs, precision),  # gradients of weights
+        (1, 3 * hidden, steps * lanes, hidden, precision),
     ]
     factors = [
-        (torch.randn(m, k).to(kind), torch.randn(k, n).to(kind), torch.empty(m, n, dtype=kind), calls)
-        for m, k, n, kind, calls in shapes
+        (torch.randn(calls, m, k).to(kind), torch.randn(k, n).to(kind), torch.empty(m, n, dtype=kind))
+        for calls, m, k, n, kind in shapes
     ]
 
     def epoch() -> None:
-        for a, b, out, calls in factors * UPDATES:
-            for _ in range(calls):
-                if a.dtype == torch.float32:
-                    np.matmul(a.numpy(), b.numpy(), out=out.numpy())
+        for lefts, right, out in factors * UPDATES:
+            for left in lefts:
+                if left.dtype == torch.float32:
+                    np.matmul(left.numpy(), right.numpy(), out=out.numpy())
                 else:
-                    torch.mm(a, b, out=out)
+                    torch.mm(left, right, out=out)
 
     return epoch
 
@@ -131,7 +131,7 @@ def _on_gpu(job: Job, network: LimbNetwork, inputs: Tensor, targets: Tensor) -> 
 
 def _ours(job: Job, network: LimbNetwork, inputs: Tensor, targets: Tensor) -> Callable[[], object]:
     """Return one epoch as this package trains."""
-    optimizer = torch.optim.Adam(network.parameters(), lr=job.rate(0))
+    optimizer = torch.optim.Adam(network.parameters(), lr=job.rate(0), fused=True)
     samples, horizon, learning = Samples(inputs, targets), job.horizon, job.training.learning
     rng = np.random.default_rng(0)
 

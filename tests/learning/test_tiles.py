@@ -68,4 +68,4 @@ def test_columns_are_filled_up() -> None:
 
 
 if __name__ == "__main__":
-    print(tiles.WIDE, tiles.PAIRS_AT_ONCE, *(worst(shape, paired) for shape in SHAPES for paired in (False, True)))
+    print(tiles.WIDE, tiles.PAIRS_AT_ONCE, *(worst(shape, paired) for shape in SHAPES for paired in (False, True)))  # noqa: T201

@@ -65,7 +65,7 @@ def run_gru(cell: nn.GRU, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
 
 
 def with_ones(rows: Tensor, width: int) -> Tensor:
-    """Return a copy (h, L, m) of rows (h, B, n) in a given width, a one after it, for the biases, and zero elsewhere."""
+    """Return a copy (h, L, m) of rows (h, B, n), a one after so many columns, for the biases, and zero elsewhere."""
     copy = torch.zeros(len(rows), up(rows.shape[1]), up(width + 1))
     copy[:, : rows.shape[1], : rows.shape[2]] = rows
     copy[..., width] = 1.0

@@ -58,7 +58,8 @@ def _fused_pairs(builder: Any, a: Any, b: Any, total: Any) -> Any:
         return builder.call(call, [total, builder.bitcast(a, PAIRS), builder.bitcast(b, PAIRS)])
     for operate, number in ((builder.shl, LOWER), (builder.and_, UPPER)):
         same = ir.Constant(WORDS, [number] * WIDE)
-        total = _fused(builder, *(builder.bitcast(operate(word, same), FLOATS) for word in (a, b)), total)
+        one, other = (builder.bitcast(operate(word, same), FLOATS) for word in (a, b))
+        total = _fused(builder, one, other, total)
     return total
 
 
@@ -182,6 +183,7 @@ def left_room(rows: int, columns: int, paired: bool) -> Factor:
 
 def left_factor(matrix: NDArray[np.float32], paired: bool) -> Factor:
     """Return a matrix (m, k) as left factor: float32, or pairs of bfloat16 (m, ceil(k / 2))."""
-    factor = left_room(*matrix.shape, paired)
+    rows, columns = matrix.shape
+    factor = left_room(rows, columns, paired)
     lay_left(np.ascontiguousarray(matrix), factor)
     return factor
