@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 from mobnet.core.files import atomic_path
+from mobnet.core.threads import one_thread
 
 NAMES = ("collect_speed", "observer_speed", "train_speed", "step_latency", "estimate_speed")
 LONG = ("collect_growth", "collect_hour", "torque_amplitude", "walk_quality")  # minutes each
@@ -31,6 +32,7 @@ def main() -> int:
     for name in set(options.names) - {*NAMES, *LONG}:
         parser.error(f"NAME: {name!r} is not accepted; accepted: {accepted}")
     rows: list[Row] = []
+    one_thread()
     for name in options.names or NAMES:
         print(f"running {name}", file=sys.stderr, flush=True)
         rows += [{"benchmark": name, **row} for row in importlib.import_module(f"benchmarks.{name}").main()]

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from mobnet.core.columns import COMMAND, FEET
 from mobnet.core.joints import NQ_BASE, JointLayout
 from mobnet.core.recording import Sensed
+from mobnet.core.threads import one_thread
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observe import observer_of
 from mobnet.learning.deployed.limbs import LimbNetworks
@@ -33,7 +34,7 @@ Tick = Callable[[Sensed], None]
 
 def main() -> list[Row]:
     """Return a row for the networks alone and one for a whole tick: microseconds (p50, p99) and ticks above 1 ms."""
-    torch.set_num_threads(1)
+    one_thread()
     settings = load_settings(overrides={"scale": "default"})
     layout, level = settings.layout, settings.levels["all_uncertainty"]
     six = six_trainings(settings)

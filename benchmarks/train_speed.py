@@ -1,9 +1,11 @@
 """Training speed of the leg network in float32 and bfloat16: streams with carried state against nn.GRU on a DataLoader.
 
 All train GRU[30,150]-Linear[150,12] of Table 1 by (22) at the configuration's batch size, in one thread, in turns.
+Times are of the processor.
 """
 
 import statistics
+import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -13,6 +15,7 @@ import torch
 from torch import Tensor, nn
 from torch.utils.data import DataLoader, TensorDataset
 
+from mobnet.core.threads import one_thread
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.job import PRECISIONS, Job
 from mobnet.learning.losses import gaussian_loss
@@ -23,15 +26,17 @@ from mobnet.plan.precision import with_precision
 from mobnet.settings.load import load_settings
 
 UPDATES, ROUNDS = 40, 5  # updates in a turn, turns
-BAR = 2.0  # times nn.GRU + DataLoader
+BAR = 2.8  # times nn.GRU + DataLoader
+OF_PRODUCTS = 0.7  # of the speed of the products alone
 
 
 def main() -> list[dict[str, float | str]]:
     """Return a row for each number format of the products: thousand time steps per second, and the median ratio.
 
-    The format that this CPU trains in has to keep the bar.
+    The format that this CPU trains in has to keep the bars: against nn.GRU, and against the products of a training
+    alone, as libraries compute them. A GPU, where there is one, has a row of its own.
     """
-    torch.set_num_threads(1)
+    one_thread()
     settings = with_precision(load_settings(overrides={"scale": "default"}), Path("results") / "default")
     job = Job(settings.training("MOB-Net", "LL"), 0, settings.seed)
     leg, learning = job.training.network, job.training.learning
@@ -44,31 +49,89 @@ def main() -> list[dict[str, float | str]]:
         built.precision = precision
         return built
 
-    ours = [_ours(job, network(precision), *data) for precision in PRECISIONS.values()]
-    epochs = [*ours, _theirs(job, network(torch.float32), *data)]
+    formats = PRECISIONS.values()
+    epochs = [_ours(job, network(precision), *data) for precision in formats]
+    epochs += [_products(job, sizes[0], precision) for precision in formats]
+    epochs.append(_theirs(job, network(torch.float32), *data))
     turns = [[_speed(epoch, len(data[0])) for epoch in epochs] for _ in range(ROUNDS + 1)][1:]  # the first one compiles
-    speeds = [statistics.median(column) / 1e3 for column in zip(*turns, strict=True)]
     rows = []
     for k, name in enumerate(PRECISIONS):
-        ratios = [turn[k] / turn[-1] for turn in turns]
-        rows.append({"name": f"training, leg network in {name}, against nn.GRU + DataLoader", "ours": speeds[k],
-                     "reference": speeds[-1], "unit": "1000 time steps/s", "ratio": statistics.median(ratios),
-                     "ratio_min": min(ratios)})  # fmt: skip
-        if name == learning.precision:
-            rows[-1]["bar"] = BAR
-    return rows
+        what, kept = f"training, leg network in {name}, against ", name == learning.precision
+        rows.append(_row(what + "nn.GRU + DataLoader", turns, k, -1, BAR if kept else None))
+        rows.append(_row(what + "its products alone", turns, k, len(formats) + k, OF_PRODUCTS if kept else None))
+    return rows + _on_gpu(job, network(torch.float32), *data)
+
+
+def _row(name: str, turns: list[list[float]], ours: int, reference: int, bar: float | None) -> dict[str, float | str]:
+    """Return the row of two columns of the turns, time steps per second."""
+    ratios = [turn[ours] / turn[reference] for turn in turns]
+    speeds = {
+        who: statistics.median(turn[k] for turn in turns) / 1e3 for who, k in (("ours", ours), ("reference", reference))
+    }
+    row = {
+        "name": name,
+        **speeds,
+        "unit": "1000 time steps/s",
+        "ratio": statistics.median(ratios),
+        "ratio_min": min(ratios),
+    }
+    return row if bar is None else {**row, "bar": bar}
 
 
 def _speed(epoch: Callable[[], object], rows: int) -> float:
-    """Return time steps per second of one epoch over some rows."""
-    started = time.perf_counter()
+    """Return time steps per second of processor time of one epoch over some rows."""
+    started = time.process_time()
     epoch()
-    return rows / (time.perf_counter() - started)
+    return rows / (time.process_time() - started)
+
+
+def _products(job: Job, inputs: int, precision: torch.dtype) -> Callable[[], object]:
+    """Return the matrix products of an epoch's GRU alone, by NumPy in float32 and by torch in bfloat16.
+
+    Those of the inputs are in float32 in any case. As in a training, each step has its own left factor.
+    """
+    hidden, lanes, steps = job.training.network.hidden, job.training.learning.batch_size, job.horizon
+    shapes = [
+        (steps, lanes, inputs, 3 * hidden, torch.float32),
+        (steps, lanes, hidden, 3 * hidden, precision),
+        (steps, lanes, 3 * hidden, hidden, precision),
+        (1, 3 * hidden, steps * lanes, inputs, precision),  # gradients of weights
+        (1, 3 * hidden, steps * lanes, hidden, precision),
+    ]
+    factors = [
+        (torch.randn(calls, m, k).to(kind), torch.randn(k, n).to(kind), torch.empty(m, n, dtype=kind))
+        for calls, m, k, n, kind in shapes
+    ]
+
+    def epoch() -> None:
+        for lefts, right, out in factors * UPDATES:
+            for left in lefts:
+                if left.dtype == torch.float32:
+                    np.matmul(left.numpy(), right.numpy(), out=out.numpy())
+                else:
+                    torch.mm(left, right, out=out)
+
+    return epoch
+
+
+def _on_gpu(job: Job, network: LimbNetwork, inputs: Tensor, targets: Tensor) -> list[dict[str, float | str]]:
+    """Return the row of a GPU, by wall time; without one say so."""
+    if not torch.cuda.is_available():
+        print("no GPU here: the speed of a training on one is not measured", file=sys.stderr)
+        return []
+    epoch, speeds = _ours(job, network.cuda(), inputs.cuda(), targets.cuda()), []
+    for _ in range(ROUNDS + 1):
+        started = time.perf_counter()
+        epoch()
+        torch.cuda.synchronize()
+        speeds.append(len(inputs) / (time.perf_counter() - started) / 1e3)
+    name = f"training, leg network on {torch.cuda.get_device_name()}"
+    return [{"name": name, "ours": statistics.median(speeds[1:]), "unit": "1000 time steps/s"}]
 
 
 def _ours(job: Job, network: LimbNetwork, inputs: Tensor, targets: Tensor) -> Callable[[], object]:
     """Return one epoch as this package trains."""
-    optimizer = torch.optim.Adam(network.parameters(), lr=job.rate(0))
+    optimizer = torch.optim.Adam(network.parameters(), lr=job.rate(0), fused=True)
     samples, horizon, learning = Samples(inputs, targets), job.horizon, job.training.learning
     rng = np.random.default_rng(0)
 
@@ -102,4 +165,4 @@ def _theirs(job: Job, network: LimbNetwork, inputs: Tensor, targets: Tensor) -> 
 
 if __name__ == "__main__":
     for row in main():
-        print("{name}: {ours:.1f} against {reference:.1f} {unit}, ratio {ratio:.2f}".format(**row))
+        print(row)

@@ -4,7 +4,7 @@ import pytest
 import torch
 from torch import Tensor, nn
 
-from mobnet.learning.gru import memory, product, run_gru
+from mobnet.learning.gru import run_gru
 
 STEPS, LANES, INPUTS, HIDDEN = 50, 5, 30, 24
 Stretch = tuple[Tensor, Tensor]
@@ -121,24 +121,6 @@ def test_the_way_back_can_be_gone_twice(cell: nn.GRU, stretch: Stretch, precisio
     first = torch.autograd.grad(loss, list(cell.parameters()), retain_graph=True)
     second = torch.autograd.grad(loss, list(cell.parameters()))
     assert all(torch.equal(a, b) for a, b in zip(first, second, strict=True))
-
-
-def test_products_are_those_of_the_rounded_factors(precision: torch.dtype) -> None:
-    generator = torch.Generator().manual_seed(0)
-    a, b = (torch.randn(shape, generator=generator).to(precision) for shape in ((7, 40), (5, 40)))
-    expected = (a.double() @ b.double().T).float()
-    found, given = product(a, b.T), torch.empty(7, 5, dtype=precision)
-    product(a, b.T, out=given)
-    unit = torch.finfo(precision).eps
-    assert found.dtype == precision
-    assert torch.equal(found, given)
-    torch.testing.assert_close(found.float(), expected, rtol=unit, atol=10 * torch.finfo(torch.float32).eps)
-
-
-def test_memory_is_the_tensors_own(precision: torch.dtype) -> None:
-    tensor = torch.ones(3, dtype=precision)
-    memory(tensor)[1] = 0
-    assert tensor.tolist() == [1.0, 0.0, 1.0]
 
 
 @pytest.mark.gpu

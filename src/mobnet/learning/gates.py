@@ -1,18 +1,32 @@
-"""One time step of the GRU's gates, forward and back, as compiled loops (Cho et al. 2014, as `torch.nn.GRU` has it).
+"""The GRU over a stretch of time, forward and back, as compiled loops (Cho et al. 2014, as `torch.nn.GRU` has it).
 
-Each loop writes one array: with more of them the compiler cannot show that they do not overlap, and does not vectorize.
+Units are rows and lanes are columns, their number a multiple of `PADDED`, so that a vector instruction takes lanes and
+no unit is left over. The gates are in the order inner (the new gate's recurrent part), reset, update, new: the state's
+products reach the first three, those of the inputs the last three.
+
+Each loop over numbers writes one array: with more of them the compiler cannot show that they do not overlap, and does
+not vectorize.
 """
-
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.compiled import compiled
+from mobnet.learning.tiles import Factor, add_product, lay_left, lay_right
 
 Array = NDArray[np.float32]
-Products = NDArray[Any]  # float32, or bfloat16 as its bits in uint16
 MATHS = {"contract", "nsz", "arcp"}  # NaN stays NaN
+
+
+def ordered(w_in: Array, w_state: Array, b_in: Array, b_state: Array) -> tuple[Array, Array, Array]:
+    """Return the weights of inputs and state and the bias as the loops take them, of those that torch has.
+
+    They are weight_ih (3 H, n_in) and weight_hh (3 H, H), bias_ih and bias_hh (3 H,): reset, update, new.
+    """
+    n = w_state.shape[1]
+    bias = np.concatenate([b_state[2 * n :], b_in])
+    bias[n : 3 * n] += b_state[: 2 * n]
+    return np.ascontiguousarray(w_in), np.roll(w_state, n, axis=0), bias
 
 
 @compiled(fastmath=MATHS)
@@ -20,99 +34,128 @@ def rational_tanh(x: np.float32) -> np.float32:
     """Return tanh(x), unitless, within a few float32 roundings; loops over it vectorize, which tanh's do not.
 
     tanh(x / 2) by the seventh convergent of Lambert's continued fraction, x / (1 + x^2 / (3 + x^2 / (5 + ...))), then
-    the double of the argument: tanh(2 y) = 2 t / (1 + t^2).
+    the double of the argument: tanh(2 y) = 2 t / (1 + t^2), which for t = u / q needs one division.
     """
     x = min(np.float32(9.0), max(np.float32(-9.0), x)) if x == x else x  # tanh(9) rounds to 1; NaN passes
     y = np.float32(0.5) * x
     s = y * y
-    p = np.float32(135135) + s * (np.float32(17325) + s * (np.float32(378) + s))
+    u = y * (np.float32(135135) + s * (np.float32(17325) + s * (np.float32(378) + s)))
     q = np.float32(135135) + s * (np.float32(62370) + s * (np.float32(3150) + s * np.float32(28)))
-    t = y * p / q
-    return (t + t) / (np.float32(1.0) + t * t)
+    return (u + u) * q / (q * q + u * u)
 
 
 @compiled(fastmath=MATHS)
-def read(array: Products, j: int) -> np.float32:
-    """Return an element of an array (n,) of either format, unitless: bfloat16 is the upper half of a float32."""
-    if array.itemsize == 2:
-        return np.uint32(np.uint32(array[j]) << np.uint32(16)).view(np.float32)
-    return np.float32(array[j])
-
-
-@compiled(fastmath=MATHS)
-def write(array: Products, j: int, value: np.float32) -> None:
-    """Set an element of an array (n,) of either format, unitless, rounded to the nearest, ties to even."""
-    if array.itemsize == 2:
-        word = np.float32(value).view(np.uint32)
-        even = (word >> np.uint32(16)) & np.uint32(1)
-        array[j] = np.uint16((word + np.uint32(0x7FFF) + even) >> np.uint32(16))
-    else:
-        array[j] = value
-
-
-@compiled(fastmath=MATHS)
-def step_forward(
-    inputs: Array, recurrent: Products, bias: Array, before: Array, gates: Array, after: Array, rounded: Products
-) -> None:
-    """Open the gates and write the next state (B, H), unitless, as it is and `rounded` to the products' format.
-
-    The inputs' and the state's (`recurrent`) shares of the gates' sums are (B, 3 H): reset, update, new. `bias` has
-    their biases and that of the new gate's recurrent part (4 H,); `gates` gets the same four (B, 4 H).
-    """
+def open_gates(inner: Array, reset: Array, update: Array, new: Array, last: Array, state: Array) -> None:
+    """Turn the sums of gates (n,) into the gates, and write the next state (n,), unitless."""
     half = np.float32(0.5)
-    n = before.shape[1]
-    for i in range(before.shape[0]):
-        x, h, x_new, h_new = inputs[i], recurrent[i], inputs[i, 2 * n :], recurrent[i, 2 * n :]
-        opened, update, new, inner = gates[i, : 2 * n], gates[i, n : 2 * n], gates[i, 2 * n : 3 * n], gates[i, 3 * n :]
-        last, state, low = before[i], after[i], rounded[i]
-        for j in range(2 * n):
-            opened[j] = half + half * rational_tanh(half * (x[j] + read(h, j) + bias[j]))
-        for j in range(n):
-            inner[j] = read(h_new, j) + bias[3 * n + j]
-        for j in range(n):
-            new[j] = rational_tanh(x_new[j] + bias[2 * n + j] + opened[j] * inner[j])
-        for j in range(n):
-            state[j] = new[j] + update[j] * (last[j] - new[j])
-        for j in range(n):
-            write(low, j, state[j])
+    for j in range(len(reset)):
+        reset[j] = half + half * rational_tanh(half * reset[j])
+    for j in range(len(update)):
+        update[j] = half + half * rational_tanh(half * update[j])
+    for j in range(len(new)):
+        new[j] = rational_tanh(new[j] + reset[j] * inner[j])
+    for j in range(len(state)):
+        state[j] = new[j] + update[j] * (last[j] - new[j])
 
 
-@compiled(fastmath=MATHS)
-def step_backward(
-    gates: Array, before: Array, given: Array, fed: Products, carried: Array, d_sums: Products, d_new: Products,
-    d_bias: Array,
-) -> None:  # fmt: skip
-    """Take the gradient (B, H), unitless, of a state back through one step with the gates (B, 4 H) of `step_forward`.
+@compiled
+def turn(values: Array, turned: Array) -> None:
+    """Write a matrix (n, L) with rows as columns (L, m), m at least n."""
+    for i in range(len(values)):
+        row = values[i]
+        for j in range(len(row)):
+            turned[j, i] = row[j]
+
+
+@compiled
+def go_forward(
+    w_state: Factor, right: Factor, inputs: Array, w_in: Array, bias: Array, gates: Array, states: Array, h: Array
+) -> None:
+    """Run a GRU over a stretch of time; L lanes, a multiple of `PADDED`, all unitless.
 
     Args:
-        gates: reset, update, new and the new gate's recurrent part (B, 4 H).
-        before: state before the step (B, H).
-        given: gradient of the state after the step, as an output (B, H).
-        fed: what reaches that state through the products of the step after (B, H).
-        carried: what reaches it past them (B, H); overwritten by the same for the state before.
-        d_sums: gets the gradient of the recurrent sums (B, 3 H).
-        d_new: gets the gradient of the new gate's input sum (B, H).
-        d_bias: the gradients of the biases (4 H,) are added here: reset, update, the new gate's recurrent part, new.
+        w_state: weights of the state, inner, reset, update (3 H, H), as left factor.
+        right: room for a state as right factor.
+        inputs: (n_in, h, L).
+        w_in: weights of the inputs, reset, update, new (3 H, n_in).
+        bias: (4 H,), those of inputs and state added.
+        gates: gets inner, reset, update and new of each step (h, 4, H L), or has room for fewer and keeps the last.
+        states: has the state before the first step, and gets that after each one (h + 1, H L).
+        h: gets all of these with lanes as rows (h + 1, L, m), m at least H.
+    """
+    lanes = inputs.shape[2]
+    n = states.shape[1] // lanes
+    for k in range(inputs.shape[1]):
+        parts = gates[k % len(gates)]
+        sums = parts.reshape(4 * n, lanes)
+        for i in range(4 * n):
+            sums[i] = bias[i]
+        state = states[k].reshape(n, lanes)
+        turn(state, h[k])
+        lay_right(state, right)
+        add_product(sums[n:], w_in, inputs[:, k])
+        add_product(sums[: 3 * n], w_state, right)
+        open_gates(parts[0], parts[1], parts[2], parts[3], states[k], states[k + 1])
+    turn(states[len(states) - 1].reshape(n, lanes), h[len(h) - 1])
+
+
+@compiled(fastmath=MATHS)
+def close_gates(
+    inner: Array, reset: Array, update: Array, new: Array, last: Array, d: Array,
+    d_inner: Array, d_reset: Array, d_update: Array, d_new: Array,
+) -> None:  # fmt: skip
+    """Take the gradient `d` (n,) of a state, unitless, back through its gates: to their sums, and past them to `last`.
+
+    What reaches the state before the step past the gates is left in `d`.
     """
     one = np.float32(1.0)
-    n = before.shape[1]
-    for i in range(before.shape[0]):
-        reset, update, new, inner = gates[i, :n], gates[i, n : 2 * n], gates[i, 2 * n : 3 * n], gates[i, 3 * n :]
-        d, last, direct, through = carried[i], before[i], given[i], fed[i]
-        d_all, d_update, d_inner, d_last = d_sums[i], d_sums[i, n : 2 * n], d_sums[i, 2 * n :], d_new[i]
-        for j in range(n):
-            d[j] += direct[j] + read(through, j)
-        for j in range(n):
-            write(d_update, j, d[j] * (last[j] - new[j]) * update[j] * (one - update[j]))
-        for j in range(n):
-            write(d_last, j, d[j] * (one - update[j]) * (one - new[j] * new[j]))
-        for j in range(n):
-            write(d_all, j, read(d_last, j) * inner[j] * reset[j] * (one - reset[j]))
-        for j in range(n):
-            write(d_inner, j, read(d_last, j) * reset[j])
-        for j in range(n):
-            d[j] *= update[j]
-        for j in range(3 * n):
-            d_bias[j] += read(d_all, j)
-        for j in range(n):
-            d_bias[3 * n + j] += read(d_last, j)
+    for j in range(len(d)):
+        d_update[j] = d[j] * (last[j] - new[j]) * update[j] * (one - update[j])
+    for j in range(len(d)):
+        d_new[j] = d[j] * (one - update[j]) * (one - new[j] * new[j])
+    for j in range(len(d)):
+        d_reset[j] = d_new[j] * inner[j] * reset[j] * (one - reset[j])
+    for j in range(len(d)):
+        d_inner[j] = d_new[j] * reset[j]
+    for j in range(len(d)):
+        d[j] *= update[j]
+
+
+@compiled
+def go_back(
+    w_state: Factor, left: Factor, right: Factor, x_right: Factor, h_right: Factor, given: Array, gates: Array,
+    states: Array, x: Array, h: Array, d: Array, d_gates: Array, d_in: Array, d_state: Array,
+) -> None:  # fmt: skip
+    """Take the gradients of the states back through `go_forward`, to the weights; all unitless.
+
+    Args:
+        w_state: transposed weights of the state, inner, reset, update (H, 3 H), as left factor.
+        left: room for `d_gates` (4 H, L) as left factor.
+        right: room for the first three of them (3 H, L) as right factor.
+        x_right: room for the inputs of a step (L, n) as right factor.
+        h_right: room for the state before it (L, m) as right factor.
+        given: gradient of the state after each step, as an output (h, B, H).
+        gates: as `go_forward` left them (h, 4, H L).
+        states: as `go_forward` left them (h + 1, H L).
+        x: inputs with lanes as rows (h, L, n), a one after each.
+        h: states with lanes as rows (h + 1, L, m), a one after each.
+        d: zero; gets the gradient of the state before the first step (H, L).
+        d_gates: room for the gradients of a step's sums (4, H L).
+        d_in: zero; gets the products of reset, update, new with `x` (3 H, n): gradients of weights and, last, biases.
+        d_state: zero; gets the products of inner, reset, update with `h` (3 H, m).
+    """
+    n, lanes = d.shape
+    flat = d.reshape(d.size)
+    for k in range(len(given) - 1, -1, -1):
+        output, g = given[k], gates[k]
+        for i in range(n):
+            for j in range(len(output)):
+                d[i, j] += output[j, i]
+        close_gates(g[0], g[1], g[2], g[3], states[k], flat, d_gates[0], d_gates[1], d_gates[2], d_gates[3])
+        lay_left(d_gates.reshape(1, d_gates.size), left.reshape(1, left.size))
+        lay_right(d_gates[:3].reshape(3 * n, lanes), right)
+        lay_right(x[k], x_right)
+        lay_right(h[k], h_right)
+        add_product(d, w_state, right)
+        add_product(d_in, left[n:], x_right)
+        add_product(d_state, left[: 3 * n], h_right)

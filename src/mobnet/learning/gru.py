@@ -1,19 +1,17 @@
 """The GRU of Table 1 on a CPU, forward and back through time: it computes what `torch.nn.GRU` does, in less time.
 
-Per step only two products forward, one back and the compiled loops over the gates remain, on memory that stays in the
-cache; the gradients of the weights are one large product each, after the loop. All products but those of the inputs are
-in float32, or in bfloat16 from float32 weights and into float32 gates and states (docs/notes/0014). Gates and weights
-are laid out as `torch.nn.GRU` documents them: reset, update, new.
+The loops over time are compiled (`gates`); the gradients of the weights are one large product each, after them. All
+products but those of the inputs are in float32, or in bfloat16 from float32 weights into float32 gates and states
+(docs/notes/0014). Gates and weights are laid out as `torch.nn.GRU` documents them: reset, update, new.
 """
 
 from typing import Any
 
-import numpy as np
 import torch
-from numpy.typing import NDArray
 from torch import Tensor, nn
 
-from mobnet.learning.gates import step_backward, step_forward
+from mobnet.learning.gates import go_back, go_forward, ordered
+from mobnet.learning.tiles import left_factor, left_room, room, up
 
 
 class FusedGru(torch.autograd.Function):
@@ -22,43 +20,33 @@ class FusedGru(torch.autograd.Function):
     @staticmethod
     def forward(ctx: Any, x: Tensor, state: Tensor, precision: torch.dtype, *weights: Tensor) -> Tensor:
         """Return the states (h, B, H) after each of the inputs (h, B, n_in), from a state (B, H), unitless."""
-        steps, lanes, hidden = len(x), *state.shape
-        w_in, w_state, b_in, b_state = (weight.detach() for weight in weights)
-        bias = torch.cat([b_in, b_state[2 * hidden :]])
-        bias[: 2 * hidden] += b_state[: 2 * hidden]
-        inputs, w_state = x.detach(), w_state.to(precision)
-        sums, recurrent = torch.empty(lanes, 3 * hidden), torch.empty(lanes, 3 * hidden, dtype=precision)
-        gates = torch.empty(steps, lanes, 4 * hidden).numpy()
-        states = torch.empty(steps + 1, lanes, hidden)
-        rounded = torch.empty(steps + 1, lanes, hidden, dtype=precision)
-        states[0] = rounded[0] = state.detach()
-        found, given, fed, low = states.numpy(), sums.numpy(), memory(recurrent), memory(rounded)
-        for k, (new, before) in enumerate(zip(inputs.unbind(), rounded[:-1].unbind(), strict=True)):
-            product(new, w_in.T, out=sums)  # in float32: rounded inputs would cost likelihood
-            product(before, w_state.T, out=recurrent)
-            step_forward(given, fed, bias.numpy(), found[k], gates[k], found[k + 1], low[k + 1])
-        ctx.kept = inputs, w_state, gates, found, rounded[:-1]
-        return states[1:]
+        steps, (lanes, hidden), paired = len(x), state.shape, precision == torch.bfloat16
+        w_in, w_state, bias = ordered(*(weight.detach().numpy() for weight in weights))
+        x = with_ones(x.detach(), inputs := x.shape[2])
+        states, gates = x.new_zeros(steps + 1, hidden, up(lanes)), x.new_empty(steps, 4, hidden * up(lanes))
+        states[0, :, :lanes] = state.detach().T
+        arrays = w_in, bias, gates.numpy(), states.flatten(1).numpy()
+        h = with_ones(x.new_empty(steps + 1, lanes, 0), hidden)
+        columns = x[..., :inputs].permute(2, 0, 1).contiguous().numpy()
+        go_forward(left_factor(w_state, paired), room(hidden, up(lanes), paired), columns, *arrays, h.numpy())
+        ctx.inputs, ctx.kept = inputs, (x, w_state, gates, states, h, paired)
+        return h[1:, :lanes, :hidden]
 
     @staticmethod
     def backward(ctx: Any, *gradients: Tensor) -> tuple[Tensor | None, ...]:
         """Return the gradients of the weights from that of the states (h, B, H), unitless."""
-        inputs, w_state, gates, states, rounded = ctx.kept
-        given = gradients[0].contiguous().numpy()
-        steps, lanes, hidden = given.shape
-        d_sums, d_new = (rounded.new_empty(steps, lanes, width) for width in (3 * hidden, hidden))
-        d_bias, carried = torch.zeros(4 * hidden), torch.zeros(lanes, hidden).numpy()
-        fed = rounded.new_zeros(lanes, hidden)
-        sums, new, after = memory(d_sums), memory(d_new), memory(fed)
-        for k in reversed(range(steps)):
-            step_backward(gates[k], states[k], given[k], after, carried, sums[k], new[k], d_bias.numpy())
-            product(d_sums[k], w_state, out=fed)
-        d_sums, d_new, inputs = d_sums.flatten(0, 1).T, d_new.flatten(0, 1).T, inputs.flatten(0, 1).to(rounded.dtype)
-        d_in = torch.cat([product(d_sums[: 2 * hidden], inputs), product(d_new, inputs)])
-        d_state = product(d_sums, rounded.flatten(0, 1))
-        reset_update, inner, last = d_bias.split([2 * hidden, hidden, hidden])
-        d_biases = torch.cat([reset_update, last]), torch.cat([reset_update, inner])
-        return None, None, None, d_in.float(), d_state.float(), *d_biases
+        x, w_state, gates, states, h, paired = ctx.kept
+        given, d = gradients[0].contiguous(), torch.zeros_like(states[0])
+        hidden, padded = d.shape
+        d_in, d_state = (torch.zeros(3 * hidden, rows.shape[2]) for rows in (x, h))
+        sizes = (3 * hidden, padded), (padded, x.shape[2]), (padded, h.shape[2])
+        tensors = given, gates, states.flatten(1), x, h, d, torch.empty_like(gates[0]), d_in, d_state
+        go_back(
+            left_factor(w_state.T, paired), left_room(4 * hidden, padded, paired),
+            *(room(*size, paired) for size in sizes), *(tensor.numpy() for tensor in tensors),
+        )  # fmt: skip
+        d_state, n = d_state.roll(-hidden, 0), ctx.inputs
+        return None, None, None, d_in[:, :n], d_state[:, :hidden], d_in[:, n], d_state[:, hidden]
 
 
 def run_gru(cell: nn.GRU, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
@@ -76,13 +64,9 @@ def run_gru(cell: nn.GRU, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
     return states, states[-1:]
 
 
-def product(a: Tensor, b: Tensor, out: Tensor | None = None) -> Tensor:
-    """Return the product (m, n) of two matrices (m, k) and (k, n) of one format; NumPy is the faster one in float32."""
-    if a.dtype == torch.float32:
-        return torch.from_numpy(np.matmul(a.numpy(), b.numpy(), out=None if out is None else out.numpy()))
-    return torch.mm(a, b, out=out)
-
-
-def memory(tensor: Tensor) -> NDArray[Any]:
-    """Return a tensor's memory for compiled loops: float32 as it is, bfloat16, which NumPy lacks, as uint16."""
-    return tensor.numpy() if tensor.dtype == torch.float32 else tensor.view(torch.uint16).numpy()
+def with_ones(rows: Tensor, width: int) -> Tensor:
+    """Return a copy (h, L, m) of rows (h, B, n), a one after so many columns, for the biases, and zero elsewhere."""
+    copy = torch.zeros(len(rows), up(rows.shape[1]), up(width + 1))
+    copy[:, : rows.shape[1], : rows.shape[2]] = rows
+    copy[..., width] = 1.0
+    return copy

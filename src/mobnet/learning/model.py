@@ -9,6 +9,7 @@ from torch import Tensor, nn
 from torch.nn.utils import parametrize
 from torch.nn.utils.parametrizations import spectral_norm
 
+from mobnet.core.threads import one_thread
 from mobnet.learning.cells import CellModule, build_cell
 from mobnet.settings.networks import Cell
 
@@ -25,6 +26,7 @@ class LimbNetwork(nn.Module):
     def __init__(self, cell: CellModule, joints: int, std_min: float) -> None:
         """Put a linear layer with torch's default initial weights on a cell; `std_min` is z-scored."""
         super().__init__()
+        one_thread()
         self.cell: CellModule = cell
         with warnings.catch_warnings():  # torch warns that a layer without inputs has no weights to start from
             warnings.filterwarnings("ignore", "Initializing zero-element tensors")

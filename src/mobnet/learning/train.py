@@ -16,6 +16,7 @@ from mobnet.core.files import METRICS, RUN, TIME, WEIGHTS, atomic_path, write_js
 from mobnet.core.joints import JointLayout
 from mobnet.core.provenance import provenance
 from mobnet.core.stage import Stage
+from mobnet.core.threads import one_thread
 from mobnet.learning.calibration import Calibration
 from mobnet.learning.checkpoint import CHECKPOINT, Progress, write_metrics
 from mobnet.learning.dataset import Known, LimbData, load_limb_data
@@ -128,7 +129,7 @@ def train_on(data: LimbData, job: Job, out: Path, state: Path, start: Path | Non
         DataError: the data are too short.
         TrainingError: the loss diverged, where `learning.may_diverge` does not allow it.
     """
-    torch.set_num_threads(1)  # more are slower beside another training, and give other weights
+    one_thread()
     trainer = Trainer(job, data, start)
     done = trainer.run(state)
     calibration = trainer.calibrate(done)

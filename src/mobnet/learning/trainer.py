@@ -64,7 +64,7 @@ class Trainer:
         if first:
             self.network.load_state_dict(first.weights)
         parameters, betas = self.network.parameters(), learning.optimizer_betas
-        self._optimizer = torch.optim.Adam(parameters, lr=job.rate(0), betas=betas)
+        self._optimizer = torch.optim.Adam(parameters, lr=job.rate(0), betas=betas, fused=True)
 
     @property
     def samples(self) -> int:

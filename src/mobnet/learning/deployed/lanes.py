@@ -12,7 +12,8 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.learning.gates import step_forward
+from mobnet.learning.gates import go_forward, ordered
+from mobnet.learning.tiles import room, up
 
 Array = NDArray[np.float32]
 State = TypeVar("State", bound=Any)  # an array or a tensor; lanes are its second axis
@@ -45,16 +46,14 @@ def gru_states(weights: Sequence[Array], state: Array, inputs: Array) -> tuple[A
 
     Weights are those that torch names weight_ih (3 H, n_in), weight_hh (3 H, H), bias_ih (3 H,) and bias_hh (3 H,).
     """
-    w_in, w_state, b_in, b_state = weights
-    steps, lanes, hidden = len(inputs), *state.shape[1:]
-    bias = np.concatenate([b_in, b_state[2 * hidden :]])
-    bias[: 2 * hidden] += b_state[: 2 * hidden]
-    given = inputs @ w_in.T
-    transposed = np.ascontiguousarray(w_state.T)  # a product of few lanes is several times faster in this order
-    fed, gates = np.empty((lanes, 3 * hidden), np.float32), np.empty((lanes, 4 * hidden), np.float32)
-    states, unused = np.empty((steps + 1, lanes, hidden), np.float32), np.empty((lanes, hidden), np.float32)
-    states[0] = state[0]
-    for k in range(steps):
-        np.matmul(states[k], transposed, out=fed)
-        step_forward(given[k], fed, bias, states[k], gates, states[k + 1], unused)
-    return states[-1:], states[1:]
+    w_in, w_state, bias = ordered(*weights)
+    steps, (lanes, hidden) = len(inputs), state.shape[1:]
+    columns = np.zeros((inputs.shape[2], steps, up(lanes)), np.float32)
+    columns[..., :lanes] = inputs.transpose(2, 0, 1)
+    gates = np.empty((1, 4, hidden * up(lanes)), np.float32)
+    states = np.zeros((steps + 1, hidden, up(lanes)), np.float32)
+    states[0, :, :lanes] = state[0].T
+    found = np.empty((steps + 1, up(lanes), hidden), np.float32)
+    flat = states.reshape(steps + 1, -1)
+    go_forward(w_state, room(hidden, up(lanes), False), columns, w_in, bias, gates, flat, found)
+    return found[-1:, :lanes], found[1:, :lanes]

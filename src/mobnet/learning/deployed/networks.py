@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.files import WEIGHTS
+from mobnet.core.threads import one_thread
 from mobnet.learning.deployed.weights import GRU_TENSORS, Z_SCORES, WeightsNote, read_weights, std_scale_of
 from mobnet.settings.networks import CellKind
 
@@ -47,6 +48,7 @@ class Deployed(ABC):
         Tensors are `cell.*`, `head.*`, `input.mean|std` (n_in,), `target.mean|std` (n,) [N, N m] and, perhaps,
         `std.scale` (n,); `std_min`, the smallest standard deviation, is z-scored.
         """
+        one_thread()
         self.limb, self.joints, self.input_names = limb, joints, input_names
         self.std_min = np.float32(std_min)
         self._input_mean, self._input_std, self._target_mean, self._target_std = (
