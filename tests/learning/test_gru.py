@@ -62,7 +62,7 @@ def test_gradients_are_those_of_torch(cell: nn.GRU, stretch: Stretch) -> None:
 
 
 def test_bfloat16_is_within_its_rounding_of_float32(cell: nn.GRU, stretch: Stretch) -> None:
-    """What enters and leaves a product is rounded by at most 1/256 of it; half of that is left in the gradients.
+    """What enters a product is rounded by at most 1/256 of it; half of that is left in the gradients.
 
     Inputs, gates and states stay exact: rounded too, as by torch's own autocast, they put states off by .4 %.
     """

@@ -43,13 +43,13 @@ def test_every_rule_says_what_it_needs_of_the_machine(snakemake: Snakemake) -> N
 
 
 def test_resources_are_asked_for_by_the_kind_of_a_rule_or_by_its_name(snakemake: Snakemake) -> None:
-    given = ("train:mem_mb=777", "train_MOB_Net_LL_s0:mem_mb=888")
+    given = ("train:mem_mb=777", "train_FTS_e2e_LL_s0:mem_mb=888")
     done = snakemake("-n", "--forceall", "--quiet", "host", "--config", "scale=smoke", "--set-resources", *given)
     asked = dict(
         re.findall(r"rule (\w+):\n(?:(?!.*rule ).*\n)*?.*resources: .*mem_mb=(\d+)", done.stdout + done.stderr)
     )
     trained = {name: memory for name, memory in asked.items() if name.startswith("train_")}
-    assert trained.pop("train_MOB_Net_LL_s0") == "888"
+    assert trained.pop("train_FTS_e2e_LL_s0") == "888"
     assert set(trained.values()) == {"777"}
     assert asked["fit_MOB_fric"] not in ("777", "888")
 

@@ -1,8 +1,8 @@
 """The GRU of Table 1 on a CPU, forward and back through time: it computes what `torch.nn.GRU` does, in less time.
 
-The loops over time are compiled (`gates`); the gradients of the weights are one large product each, after them. All
-products but those of the inputs are in float32, or in bfloat16 from float32 weights into float32 gates and states
-(docs/notes/0014). Gates and weights are laid out as `torch.nn.GRU` documents them: reset, update, new.
+The loops over time are compiled with all their products (`gates`, `tiles`). Those with the state and those of the
+gradients are in float32, or in bfloat16 from float32 weights into float32 gates, states and gradients
+(docs/notes/0014). Weights are laid out as `torch.nn.GRU` documents them: reset, update, new.
 """
 
 from typing import Any

@@ -1,7 +1,7 @@
 """One repetition of a training: random numbers, learning rates, number format, and a hash of what makes its weights.
 
 The number format is that of a GRU's matrix products: float32, or bfloat16 with float32's range and 8 bits. Weights,
-gates and states stay float32; only what goes into a product and comes out of it is rounded.
+gates and states stay float32, and so do sums; only what goes into a product is rounded.
 """
 
 import hashlib
