@@ -1,6 +1,5 @@
 """The plan names each file once, gives each job what its function takes and no more, and misses nothing."""
 
-import re
 from collections import Counter
 from itertools import groupby
 from pathlib import Path
@@ -199,7 +198,7 @@ def test_all_recordings_of_a_test_are_estimated_by_one_job_and_each_has_its_file
 def test_steps_have_rules_of_their_own_and_are_few(plans: dict[str, Plan], scale: str) -> None:
     """A rule's name is that of its account, with an underscore for every other sign."""
     steps = [*plans[scale].steps, *plans[scale].trial_steps]
-    names = [re.sub(r"\W", "_", step.work.job) for step in steps] + [p.name for p in plans[scale].products]
+    names = [step.rule for step in steps] + [product.name for product in plans[scale].products]
     assert len(set(names)) == len(names)
     assert len(plans[scale].steps) + len(plans[scale].products) <= 500
 

@@ -1,6 +1,8 @@
 """The workflow can be planned at every scale, and a bad configuration stops it with one line."""
 
 import re
+import subprocess
+import sys
 from collections.abc import Callable
 
 import pytest
@@ -9,7 +11,7 @@ from mobnet.evaluation.report.paper import missing_packages
 from mobnet.plan.plan import make_plan
 from mobnet.settings.load import load_settings
 
-from .conftest import Snakemake
+from .conftest import ROOT, Snakemake
 
 SCALES = ("smoke", "quick", "default", "paper")
 
@@ -52,6 +54,17 @@ def test_resources_are_asked_for_by_the_kind_of_a_rule_or_by_its_name(snakemake:
     assert trained.pop("train_FTS_e2e_LL_s0") == "888"
     assert set(trained.values()) == {"777"}
     assert asked["fit_MOB_fric"] not in ("777", "888")
+
+
+def test_what_is_out_of_date_of_a_target_is_priced(snakemake: Snakemake) -> None:
+    """As many jobs as a dry run counts; all of them where nothing is made yet."""
+    target = ("tables/smoke/table_06.tex", "--config", "scale=smoke")
+    planned = snakemake("-n", "--quiet", "host", *target)
+    listed = re.findall(r"^ *(?:local)?rule (\w+):$", planned.stdout + planned.stderr, re.MULTILINE)
+    words = (sys.executable, "-m", "mobnet.evaluation.report.cost", *target)
+    told = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    assert len(listed) > 0
+    assert f"| all jobs | {len(listed)} |" in told
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,6 @@
 """What the rules share: the checked configuration, the plan that follows from it, and what each rule depends on."""
 
 import os
-import re
 import shlex
 import sys
 import time
@@ -103,12 +102,7 @@ class Kind(NamedTuple):
     gpus: int = 0
 
 
-def rule_of(step):
-    """Return the name of a step's rule, that of its account."""
-    return re.sub(r"\W", "_", step.work.job)
-
-
-STEPS = {rule_of(step): step for step in (*PLAN.steps, *PLAN.trial_steps)}
+STEPS = {step.rule: step for step in (*PLAN.steps, *PLAN.trial_steps)}
 asked = workflow.resource_settings.overwrite_resources
 snakemake_logger.addFilter(by_kind({name: step.work.kind for name, step in STEPS.items()}))
 for name, step in STEPS.items():  # `--set-resources train:mem_mb=8000` means every rule of the kind

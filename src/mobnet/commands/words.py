@@ -22,7 +22,7 @@ COMMANDS = {
     "report": "make everything, then report.html: every table and figure with its caption, in one file",
     "compare": "print what differs between docs/results and the fresh tables",
     "snapshot": "store the fresh tables and figures as docs/results",
-    "cost": "print what a run will cost: jobs, core-hours, memory, disk; --config scale=quick for another scale",
+    "cost": "print what a run will cost: jobs, core-hours, memory, disk; with targets: what is out of date of them",
     "bench": "run the benchmarks; prints ratios taken in one run; further words are names of benchmarks",
     "clean": "remove results, tables, figures and paper outputs after a question; --all: environment and caches too",
     "setup": "make .venv from environment.lock and stop; --cpu or --cuda: which build of torch",

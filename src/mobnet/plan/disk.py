@@ -55,9 +55,8 @@ def check_space(plan: Plan, outputs: Iterable[str]) -> None:
             )
 
 
-def whole_bytes(plan: Plan) -> int:
-    """Return about how many bytes everything that a plan makes will have."""
-    names = {*plan.stored, *(name for product in plan.products for name in product.outputs)}
+def bytes_of(plan: Plan, names: Iterable[str]) -> int:
+    """Return about how many bytes files of a plan will have."""
     return sum(expected_bytes(plan, Path(name)) for name in names)
 
 

@@ -33,9 +33,15 @@ class Plan:
         return tuple(name for step in self.steps for name in step.outputs)
 
     @property
+    def rules(self) -> dict[str, tuple[Work, tuple[str, ...]]]:
+        """Rule -> the work of its job, and the files that it makes; not those of the trials."""
+        steps = {step.rule: (step.work, step.outputs) for step in self.steps}
+        return {**steps, **{product.name: (self._work_of(product), product.outputs) for product in self.products}}
+
+    @property
     def work(self) -> tuple[Work, ...]:
         """The work of every job but the trials'."""
-        return (*(step.work for step in self.steps), *map(self._work_of, self.products))
+        return tuple(work for work, _ in self.rules.values())
 
     def _work_of(self, product: Product) -> Work:
         """Return the work of a product: the duration of all recordings, residuals and estimates that it reads [s]."""

@@ -4,6 +4,7 @@ A step makes several things of one kind, as far as they belong together: each st
 and what several read is read once. It is short enough that steps keep all cores of a machine, or nodes, busy.
 """
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
@@ -30,6 +31,11 @@ class Step:
     work: Work
     outputs: tuple[str, ...]
     make_job: Callable[[], Job]
+
+    @property
+    def rule(self) -> str:
+        """Name of its rule, that of its account."""
+        return re.sub(r"\W", "_", self.work.job)
 
     @cached_property
     def job(self) -> Job:

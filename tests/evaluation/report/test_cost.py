@@ -1,7 +1,8 @@
 """`./reproduce cost` prices every job of a scale, and says what it cannot price."""
 
 import logging
-from collections.abc import Callable
+import subprocess
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pytest
@@ -95,3 +96,36 @@ def test_a_value_that_is_no_yaml_is_one_line(value: str) -> None:
     with pytest.raises(ConfigError, match=r"--config: .*; accepted: a value in plain YAML") as told:
         overrides([f"seed={value}"])
     assert len(str(told.value).splitlines()) == 1
+
+
+def test_with_targets_only_what_is_out_of_date_is_priced(told: Told, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[tuple[str, ...]] = []
+
+    def dry_run(words: Sequence[str], **_: object) -> subprocess.CompletedProcess[str]:
+        asked.append(tuple(words))
+        return subprocess.CompletedProcess(
+            words, 0, "    rule collect_forward_walk_ideal_s101:\n    rule table_05:\n", ""
+        )
+
+    monkeypatch.setattr(subprocess, "run", dry_run)
+    assert main(["tables/smoke/table_05.tex", "--config", "scale=smoke"]) == 0
+    assert f"| all jobs | 2 | {72 / HOUR_S:.2f} | 500 |" in told()
+    assert asked[-1][-4:] == ("--config", "scale=smoke", "--", "tables/smoke/table_05.tex")
+
+
+def test_a_target_that_nobody_makes_is_one_line(told: Told, monkeypatch: pytest.MonkeyPatch) -> None:
+    def dry_run(words: Sequence[str], **_: object) -> subprocess.CompletedProcess[str]:
+        return subprocess.CompletedProcess(
+            words, 1, "", "MissingRuleException:\nNo rule to produce tables/table_99.tex\n\n"
+        )
+
+    monkeypatch.setattr(subprocess, "run", dry_run)
+    assert main(["tables/table_99.tex"]) == 1
+    assert told() == "No rule to produce tables/table_99.tex"
+
+
+def test_rates_of_jobs_that_are_gone_are_told(told: Told, rates: dict[str, object]) -> None:
+    kinds = dict(rates["kinds"]) | {"observe": {"cpu_s": {"job": 1.0}, "peak_mib": {"job": 1.0}}}  # type: ignore[call-overload]
+    write_json(RATES, {**rates, "kinds": kinds})
+    assert main(["--config", "scale=smoke"]) == 0
+    assert told().endswith("its jobs were cut in another way, so that prices are rough: observe")

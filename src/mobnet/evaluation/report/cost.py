@@ -1,9 +1,15 @@
-"""What a run of the workflow will cost, priced by the rates of the published one: `./reproduce cost`."""
+"""What a run of the workflow will cost, priced by the rates of the published one: `./reproduce cost`.
+
+Without targets it prices a run from nothing; with some, what a run of them would start now: `./reproduce cost all`
+after an edit, or `./reproduce cost tables/table_06.tex`.
+"""
 
 import argparse
 import logging
+import re
+import subprocess
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from typing import Any
 
 import yaml
@@ -14,7 +20,7 @@ from mobnet.evaluation.report.compute import HOUR_S, STAGES, WHOLE, stage_of
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.evaluation.report.rates import RATES, Kind, RatesNote, price
 from mobnet.evaluation.tables.layout import markdown_table
-from mobnet.plan.disk import whole_bytes
+from mobnet.plan.disk import bytes_of
 from mobnet.plan.plan import Plan, make_plan
 from mobnet.plan.work import Work
 from mobnet.settings.load import load_settings
@@ -23,6 +29,7 @@ log = logging.getLogger(__name__)
 
 HEADER = ("stage", "jobs", "core-hours", "memory [MiB]")
 GIB, PERCENT = 2**30, 100.0
+RULE = re.compile(r"^ *(?:local)?rule (\w+):$", re.MULTILINE)  # of a job that a dry run lists
 Cost = tuple[int, float, float]  # jobs, processor time [s], largest peak of the memory [MiB]
 
 
@@ -38,9 +45,10 @@ def costs(works: Iterable[Work], kinds: dict[str, Kind]) -> dict[str, Cost]:
     return {stage: cost for stage, cost in found.items() if cost[0]}
 
 
-def report(plan: Plan, rates: RatesNote) -> str:
-    """Return the price of a plan as text: a row for each stage, the disk, and what has no rate."""
-    works = plan.work
+def report(plan: Plan, rates: RatesNote, rules: Collection[str]) -> str:
+    """Return the price of some rules of a plan as text: a row for each stage, the disk, and what has no rate."""
+    chosen = [made for rule, made in plan.rules.items() if rule in rules]
+    works, files = [work for work, _ in chosen], [name for _, outputs in chosen for name in outputs]
     found = costs(works, rates.kinds)
     rows = [[stage, str(n), f"{cpu_s / HOUR_S:.2f}", f"{mib:.0f}"] for stage, (n, cpu_s, mib) in found.items()]
     unknown = sorted({work.kind for work in works} - {*rates.kinds})
@@ -48,23 +56,41 @@ def report(plan: Plan, rates: RatesNote) -> str:
         f"scale {plan.settings.scale}, priced as on this processor: {rates.processor}",
         "",
         markdown_table(HEADER, rows),
-        f"disk: {whole_bytes(plan) / GIB:.1f} GiB; time: the core-hours over the number of cores",
+        f"disk: {bytes_of(plan, files) / GIB:.1f} GiB; time: the core-hours over the number of cores",
         "GPU-hours: none, as no training on a GPU has been measured",
     ]
     lines += [f"without a rate, and not counted: {', '.join(unknown)}"] if unknown else []
     return "\n".join(lines)
 
 
+def out_of_date(targets: Sequence[str], config: Sequence[str]) -> frozenset[str]:
+    """Return the rules that a run of targets would start now, as a dry run of Snakemake lists them.
+
+    Raises:
+        ConfigError: a target or a value of the configuration is not accepted.
+    """
+    given = ["--config", *config] if config else []
+    words = [sys.executable, "-m", "snakemake", "-n", "--quiet", "host", *given, "--", *targets]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    told = done.stdout + done.stderr
+    if done.returncode:
+        raise ConfigError(next((line for line in reversed(told.splitlines()) if line.strip()), "snakemake failed"))
+    return frozenset(RULE.findall(told))
+
+
 def check(rates: RatesNote, with_pdf: bool) -> str:
     """Return how the rates price the run to which they are fitted."""
     plan = make_plan(load_settings(overrides={"scale": rates.scale}), with_pdf=with_pdf)
     _, cpu_s, peak_mib = costs(plan.work, rates.kinds)[WHOLE]
+    gone = sorted({*rates.kinds} - {work.kind for work in plan.work})
     pairs = {"core-hours": (cpu_s / HOUR_S, rates.core_h, 2), "MiB": (peak_mib, rates.peak_mib, 0)}
     told = [
         f"{priced:.{digits}f} {unit} where it took {took:.{digits}f} ({PERCENT * (priced / took - 1):+.0f} %)"
         for unit, (priced, took, digits) in pairs.items()
     ]
-    return f"the published run of scale {rates.scale}, to which the rates are fitted: {', '.join(told)}"
+    lines = [f"the published run of scale {rates.scale}, to which the rates are fitted: {', '.join(told)}"]
+    lines += [f"its jobs were cut in another way, so that prices are rough: {', '.join(gone)}"] if gone else []
+    return "\n".join(lines)
 
 
 def overrides(words: Sequence[str]) -> dict[str, Any]:
@@ -86,6 +112,7 @@ def overrides(words: Sequence[str]) -> dict[str, Any]:
 def main(words: Sequence[str]) -> int:
     """Print what a run will cost; return the exit status."""
     parser = argparse.ArgumentParser(prog="./reproduce cost", description=__doc__)
+    parser.add_argument("targets", nargs="*", metavar="TARGET", help="what a run of these would start now (or `all`)")
     parser.add_argument("--config", "-C", nargs="+", default=[], metavar="KEY=VALUE", help="as of ./reproduce all")
     options = parser.parse_args(words)
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
@@ -93,7 +120,8 @@ def main(words: Sequence[str]) -> int:
     try:
         rates = read_note(RATES, RatesNote)
         plan = make_plan(load_settings(overrides=overrides(options.config)), with_pdf=with_pdf)
-        log.info("%s\n%s", report(plan, rates), check(rates, with_pdf))
+        rules = out_of_date(options.targets, options.config) if options.targets else plan.rules
+        log.info("%s\n%s", report(plan, rates, rules), check(rates, with_pdf))
     except MobnetError as error:
         log.error("%s", error)
         return 1
