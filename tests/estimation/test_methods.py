@@ -97,5 +97,5 @@ def test_an_estimate_does_not_depend_on_how_networks_are_trained(settings: Setti
     files = {file.relative_to(SOURCE) for source in reached(starts) for file in source.files}
     learning = {file.stem for file in files if "learning" in file.parts} - {"__init__"}
     run = {"features", "limbs", "lanes", "networks", "weights", "module_network"}
-    assert learning == run | {"model", "cells", "gru", "gates"}
+    assert learning == run | {"model", "cells", "gru", "gates", "tiles"}
     assert not {file.stem for file in files} & {"friction", "band_pass", "regression"}

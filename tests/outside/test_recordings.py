@@ -26,9 +26,11 @@ from mobnet.core.columns import recording_columns, recording_width
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Truth, read_sensed
+from mobnet.core.stage import Stage
 from mobnet.core.store import read_array, write_array
 from mobnet.estimation.estimate import estimate
 from mobnet.learning.dataset import load_limb_data
+from mobnet.plan.parts import MethodRun
 from mobnet.settings.settings import Settings
 
 ROWS, WIDTH = 1200, recording_width(AGAINST.layout)
@@ -335,20 +337,17 @@ def test_a_residual_of_another_recording_trains_no_network(
 def test_networks_and_observers_take_recordings_of_the_configured_rate_alone(copied: Path, settings: Settings) -> None:
     changed_note(copied / "recording", key("rate_hz", 900.0))
     level, gravity = settings.levels["all_uncertainty"], settings.plant.gravity_m_s2
-    methods = {"MOB": settings.method("MOB")}
+    runs = [MethodRun("MOB", {"MOB": settings.method("MOB")}, {}, None, (copied / "out",))]
     with pytest.raises(DataError, match=r"rate_hz: 900.0 is not accepted; accepted: 1000, `rates.data_hz`"):
         estimate(
             settings.robot,
             level,
             gravity,
             settings.observer,
-            "MOB",
-            methods,
-            {},
-            None,
+            runs,
             [copied / "recording"],
             [copied / "residual"],
-            [copied / "out"],
+            Stage(copied / "stage", "given"),
             RATE_HZ,
         )
     with pytest.raises(DataError, match=r"rate_hz: 900\.0 is not accepted"):

@@ -104,7 +104,7 @@ def test_a_run_note_that_breaks_the_contract_is_refused(name: str, training: Pat
     note = json.loads((training / "run.json").read_text())
     change(note)
     (training / "run.json").write_text(json.dumps(note))
-    for read in (lambda: read_training(training), lambda: read_training_run(training, training)):
+    for read in (lambda: read_training(training), lambda: read_training_run(training)):
         with pytest.raises(DataError, match=says):
             read()
     assert re.search(says, refusal_of(training / "run.json"))

@@ -142,5 +142,5 @@ def test_a_file_that_holds_no_mapping_is_named(tmp_path: Path, content: bytes | 
         path.write_bytes(content)
     with pytest.raises(ConfigError, match=message):
         read_yaml(path)
-    with pytest.raises(ConfigError, match="Is a directory; accepted: a YAML file"):
+    with pytest.raises(ConfigError, match="a folder is not accepted; accepted: a file"):
         read_yaml(tmp_path)

@@ -16,6 +16,7 @@ PROFILE = ("--profile", "workflow/profiles/slurm", "--latency-wait", "5")
 NETWORK = Path("results/smoke/networks/MOB-Net-LL-s0")
 TARGETS = tuple(str(NETWORK / name) for name in (WEIGHTS, METRICS, RUN))
 COLLECTED = "results/smoke/recordings/random_walk/all_uncertainty/s1000.parquet"
+JOB = "FTS-e2e-LL-s0"  # the first network of the job that trains this one: they learn from the same recordings
 LONGEST_S = 300.0
 
 pytestmark = [pytest.mark.slow, pytest.mark.sim]
@@ -61,7 +62,7 @@ def told(folder: Path) -> str:
 
 def wait_for_training(cluster: Cluster, folder: Path) -> str:
     """Wait until a training runs; return the number of its job."""
-    log = folder / "results" / "smoke" / "logs" / "train" / f"{NETWORK.name}.log"
+    log = folder / "results" / "smoke" / "logs" / "train" / f"{JOB}.log"
     wait_for(lambda: log.exists() and "epoch" in log.read_text(), LONGEST_S)
     return next(job for job, state in cluster.jobs() if state == "RUNNING")
 
@@ -121,7 +122,7 @@ def test_ctrl_c_empties_the_queue(cluster: Cluster, project: Path) -> None:
     assert ended(run, cluster, project) != 0
     said = told(project)
     assert said.count("stopped; the same command goes on from here") == 1
-    assert f"train ({NETWORK.name}): " not in said
+    assert f"train ({JOB}): " not in said
 
 
 def test_a_job_over_its_memory_is_named_with_a_remedy(cluster: Cluster, project: Path) -> None:
@@ -129,7 +130,7 @@ def test_a_job_over_its_memory_is_named_with_a_remedy(cluster: Cluster, project:
     assert ended(run, cluster, project) != 0
     said = [line.split(" (log: ")[0] for line in told(project).splitlines() if "--set-resources" in line]
     limit = "ended by SLURM above its 500 MB; give it more with --set-resources train:mem_mb=1000"
-    assert said == [f"train ({NETWORK.name}): {limit}"]
+    assert said == [f"train ({JOB}): {limit}"]
 
 
 def test_a_full_disk_is_told_in_one_line(cluster: Cluster, project: Path) -> None:

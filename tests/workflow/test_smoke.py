@@ -161,7 +161,7 @@ def test_every_row_of_scores_and_of_detectors_passes_a_check(unbroken: Path) -> 
     done = subprocess.run(words, cwd=unbroken, check=False, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout
     files = [line for line in done.stdout.splitlines() if ": ok: " in line]
-    assert len(files) == sum(len(list(folder.iterdir())) for folder in folders)
+    assert len(files) == sum(len(list(folder.rglob("*.csv"))) for folder in folders)
 
 
 def test_compute_counts_every_job_before_it(unbroken: Path) -> None:
@@ -251,12 +251,10 @@ def test_damaged_recording_stops_with_one_line_and_nothing_half_written(
 ) -> None:
     folder = make_project("damaged", unbroken)
     place = Path("results") / "smoke" / "recordings" / "forward_walk" / "ideal"
-    (folder / place).mkdir(parents=True)
-    for ending in ("json", "parquet"):
-        content = (unbroken / place / f"s101.{ending}").read_bytes()
-        (folder / place / f"s101.{ending}").write_bytes(
-            content[: len(content) // 2] if ending == "parquet" else content
-        )
+    for made in (place, Path("results") / "smoke" / "residuals" / "forward_walk" / "ideal"):
+        shutil.copytree(unbroken / made, folder / made)
+    whole = (unbroken / place / "s101.parquet").read_bytes()
+    (folder / place / "s101.parquet").write_bytes(whole[: len(whole) // 2])
     target = "results/smoke/estimates/MOB/n0/forward_walk/ideal/s101.parquet"
     done = snakemake(*SMOKE, "--rerun-triggers", "mtime", "--", target, folder=folder)
     assert done.returncode != 0

@@ -79,7 +79,7 @@ def test_a_killed_run_that_went_on_is_one_run(make_project: Callable[..., Path])
     git(folder, "init", "--quiet")
     git(folder, "add", *PARTS)
     git(folder, "commit", "--quiet", "-m", "all")
-    log = folder / "results" / "smoke" / "logs" / "collect_tests" / "forward_walk-ideal.log"
+    log = folder / "results" / "smoke" / "logs" / "collect" / "forward_walk-ideal-s101.log"
     kill_when(start(folder), log)
     assert not (folder / TARGET).exists()
     assert start(folder).wait() == 0, (folder / "out.log").read_text()
@@ -94,5 +94,5 @@ def test_a_killed_run_that_went_on_is_one_run(make_project: Callable[..., Path])
     assert "-changed: is not accepted; accepted: a checkout without changed files" in refusal(folder)
     git(folder, "commit", "--quiet", "--all", "-m", "another")
     (line,) = refusal(folder).splitlines()
-    assert line.startswith("results/smoke/logs/collect_tests/forward_walk-ideal.json: commit ")
+    assert line.startswith("results/smoke/logs/collect/forward_walk-ideal-s101.json: commit ")
     assert "further files" in line

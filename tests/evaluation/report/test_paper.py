@@ -151,7 +151,7 @@ def test_the_paper_itself_builds_from_the_golden_tables(
 ) -> None:
     """And fits its pages with tables as large as the published ones; every figure is the same picture."""
     folders = Folders(tmp_path, tmp_path, tmp_path, tmp_path / "out", tmp_path / "MANIFEST.sha256")
-    products = Products(settings, Files(settings, tmp_path), folders, with_pdf=True)
+    products = Products(settings, Files(settings, tmp_path), folders, with_pdf=True, stored=())
     deviations(REPO / "docs/deviations.md", tmp_path / "deviations.tex")
     train, sizes = Recordings(shards=1, shard_s=60.0), (settings.scale, settings.rates, settings.sizes, settings.fleet)
     numbers(*sizes, train, [GOLDEN / "table_05.csv"], claims_csv, summary_csv, tmp_path / "numbers.tex")
