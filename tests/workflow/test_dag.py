@@ -58,10 +58,10 @@ def test_resources_are_asked_for_by_the_kind_of_a_rule_or_by_its_name(snakemake:
 
 def test_what_is_out_of_date_of_a_target_is_priced(snakemake: Snakemake) -> None:
     """As many jobs as a dry run counts; all of them where nothing is made yet."""
-    target = ("tables/smoke/table_06.tex", "--config", "scale=smoke")
-    planned = snakemake("-n", "--quiet", "host", *target)
+    target, smoke = "tables/smoke/table_06.tex", ("--config", "scale=smoke")
+    planned = snakemake("-n", "--quiet", "host", *smoke, "--", target)
     listed = re.findall(r"^ *(?:local)?rule (\w+):$", planned.stdout + planned.stderr, re.MULTILINE)
-    words = (sys.executable, "-m", "mobnet.evaluation.report.cost", *target)
+    words = (sys.executable, "-m", "mobnet.evaluation.report.cost", target, *smoke)
     told = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=True).stdout
     assert len(listed) > 0
     assert f"| all jobs | {len(listed)} |" in told
