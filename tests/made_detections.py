@@ -22,6 +22,7 @@ from mobnet.core.detections import (
 )
 from mobnet.evaluation.measure.detected import CELLS
 from mobnet.evaluation.number.files import write_csv
+from mobnet.settings.settings import Settings
 
 LEVELS = ("all_uncertainty", "robot_1")
 FOUND = {"MOB-Net-OR": 1.0, "MOB-Net-sigma": 0.5, "MOB": 0.0}  # detector -> share of the collisions it finds
@@ -30,6 +31,15 @@ EACH, SWINGS = 4, 100  # collisions of a cell, and swings of each part
 HOURS, SEED = 0.1, 101
 TERRAINS = ("checks", "flat")
 Detections = Mapping[str, Mapping[str, Path]]
+
+
+def on_both_plants(settings: Settings) -> Settings:
+    """Return a configuration with detectors on the plant of section 5.1 too, so that both kinds of levels are shown."""
+    both = {"levels": ("all_uncertainty", "robots")}
+    names = ("table_09", "table_13", "false_alarms", "smallest_force", "links", "figure_14")
+    shown = {name: getattr(settings.evaluation, name).model_copy(update=both) for name in names}
+    whole = {"detection": settings.detection.model_copy(update=both)}
+    return settings.model_copy(update={**whole, "evaluation": settings.evaluation.model_copy(update=shown)})
 
 
 def write_detections(folder: Path, levels: Sequence[str] = LEVELS) -> Detections:

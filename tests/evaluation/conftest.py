@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from csv_files import write_rows
+from made_detections import on_both_plants
 from made_notes import training_note
 
 from mobnet.core.columns import FEET, Epoch, Score, residual_columns, torque_columns
@@ -43,12 +44,8 @@ def rng() -> np.random.Generator:
 
 @pytest.fixture(scope="session")
 def settings(settings: Settings) -> Settings:
-    """The configuration with detectors on the plant of section 5.1 too, so that both kinds of levels are shown."""
-    both = {"levels": ("all_uncertainty", "robots")}
-    names = ("table_09", "table_13", "false_alarms", "smallest_force", "links", "figure_14")
-    shown = {name: getattr(settings.evaluation, name).model_copy(update=both) for name in names}
-    whole = {"detection": settings.detection.model_copy(update=both)}
-    return settings.model_copy(update={**whole, "evaluation": settings.evaluation.model_copy(update=shown)})
+    """The configuration with detectors on the plant of section 5.1 too."""
+    return on_both_plants(settings)
 
 
 @pytest.fixture(scope="session")

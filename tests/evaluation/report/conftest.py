@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from made_detections import on_both_plants
 from made_notes import training_note
 
 from mobnet.core.columns import VERDICTS
@@ -21,8 +22,8 @@ HEAD = "epoch,train_loss,validation_loss,validation_rmse,rate,gradient_norm"
 
 @pytest.fixture(scope="session")
 def settings() -> Settings:
-    """The configuration at its default scale."""
-    return load_settings(overrides={"scale": "default"})
+    """The configuration at its default scale; what tables are made from is made once, for other tests too."""
+    return on_both_plants(load_settings(overrides={"scale": "default"}))
 
 
 @pytest.fixture(scope="session")
