@@ -19,9 +19,9 @@ from benchmarks.jobs import Cost, run
 
 from mobnet.core.columns import COMMAND
 from mobnet.core.files import read_json
-from mobnet.evaluation.measure.steps import KEYS, UNITS, bin_edges, bin_of, read_steps
-from mobnet.evaluation.measure.upper_body import upper_body
-from mobnet.evaluation.tables.data import commanded
+from mobnet.evaluation.measure.data.steps import KEYS, UNITS, bin_edges, bin_of, read_steps
+from mobnet.evaluation.measure.data.upper_body import upper_body
+from mobnet.evaluation.tables.further.data import commanded
 from mobnet.plan.runs import FIRST_TRAINING_SEED
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel

@@ -20,7 +20,7 @@ from mobnet.core.detections import (
     Threshold,
     columns_of,
 )
-from mobnet.evaluation.measure.detected import CELLS
+from mobnet.evaluation.measure.detection.results import CELLS
 from mobnet.evaluation.number.files import write_csv
 from mobnet.settings.settings import Settings
 

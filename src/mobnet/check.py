@@ -36,7 +36,7 @@ from mobnet.core.recording import Sensed, Truth
 from mobnet.core.store import ARRAY, NOTE, check_rate, file_of, read_pieces
 from mobnet.estimation.kinds.friction import FrictionNote, read_friction
 from mobnet.estimation.methods import method_problems
-from mobnet.evaluation.measure.trainings import TrainingNote, read_training, read_training_note
+from mobnet.evaluation.measure.learning.trainings import TrainingNote, read_training, read_training_note
 from mobnet.evaluation.number.rows import read_detections, read_epochs, read_scores
 from mobnet.evaluation.report.accounts import AccountNote, read_account
 from mobnet.learning.deployed.limbs import LimbNetworks, check_limb

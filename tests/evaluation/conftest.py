@@ -17,8 +17,9 @@ from mobnet.core.files import write_json
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Recording, Sensed, Truth, read_recording, write_recording
 from mobnet.core.store import write_array
-from mobnet.evaluation.measure.results import listed
+from mobnet.evaluation.measure.claims.cells import listed
 from mobnet.plan.call import call_of
+from mobnet.plan.products import ERRORS, modules_in
 from mobnet.plan.runs import Run
 from mobnet.settings.claims import Cell, Claim
 from mobnet.settings.evaluation import CalibrationTest, ErrorRow, Evaluation
@@ -143,15 +144,15 @@ def make_table(tmp_path: Path, settings: Settings, evaluation: Evaluation) -> Ca
     """Write a table as its rule does: make_table(name, folder=tmp_path, **needs and other settings) -> its CSV."""
 
     def make(name: str, folder: Path = tmp_path, **changes: Any) -> Path:
-        module = "tables.errors:errors" if name in evaluation.tables else f"tables.{name}:{name}"
-        module = "report.claims:claims" if name == "claims" else module
+        module = modules_in("report" if name == "claims" else "tables").get(name)
+        function = ERRORS if name in evaluation.tables else f"{module}:{name}"
         printed = settings.published.tables.get(name) or getattr(settings.published, name, None)
         section = evaluation.tables.get(name) or getattr(evaluation, name, None)
         own = {"name": name, "settings": section, "published": printed, "layout": settings.layout, "table_dir": folder}
         own |= {"figure_dir": folder / "figures", "tables": {}}
         shared = {"statistics": evaluation.statistics, "figure_17": evaluation.figure_17}
         known = {**dict(settings), **shared, **own, **changes}
-        call_of(f"mobnet.evaluation.{module}", known).run()
+        call_of(function, known).run()
         return folder / f"{name}.csv"
 
     return make

@@ -17,7 +17,7 @@ from tests.outside.conftest import told
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import read_recording
-from mobnet.evaluation.measure.trainings import read_training
+from mobnet.evaluation.measure.learning.trainings import read_training
 from mobnet.evaluation.number.rows import read_scores
 
 FEW = settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))

@@ -16,9 +16,9 @@ from mobnet.core.errors import DataError
 from mobnet.core.metrics import unit_of_metric
 from mobnet.core.store import file_of, read_array, write_array
 from mobnet.estimation.kinds.friction import Options, fitted_joints
-from mobnet.evaluation.measure.changed import FLAGGED, FREE, KNOWN
-from mobnet.evaluation.measure.scores import limb_values
-from mobnet.evaluation.measure.spread import COVER
+from mobnet.evaluation.measure.estimates.changed import FLAGGED, FREE, KNOWN
+from mobnet.evaluation.measure.estimates.scores import limb_values
+from mobnet.evaluation.measure.estimates.sigma import COVER
 from mobnet.evaluation.number.files import write_csv
 from mobnet.learning.deployed.weights import NOTE, shapes
 from mobnet.learning.features import limb_inputs

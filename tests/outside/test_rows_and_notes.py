@@ -15,7 +15,7 @@ from mobnet.core.detections import FILES as DETECTION_FILES
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.estimation.kinds.friction import read_friction
-from mobnet.evaluation.measure.trainings import read_training
+from mobnet.evaluation.measure.learning.trainings import read_training
 from mobnet.evaluation.number.rows import read_scores
 from mobnet.evaluation.report.accounts import read_account
 from mobnet.evaluation.report.runs_page import read_training_run

@@ -11,7 +11,7 @@ from mobnet.core.contract import rule_of
 from mobnet.core.errors import not_accepted
 from mobnet.core.files import METRICS, RUN, WEIGHTS
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.measure.trainings import TrainingNote, read_training_note
+from mobnet.evaluation.measure.learning.trainings import TrainingNote, read_training_note
 from mobnet.evaluation.number.rows import read_epochs
 from mobnet.learning.deployed.weights import STD_SCALE, Z_SCORES, Array, read_weights, shapes
 from mobnet.learning.features import limb_inputs

@@ -13,7 +13,7 @@ from mobnet.core.errors import not_accepted
 from mobnet.core.metrics import METRIC, kind_of_metric, unit_of_metric
 from mobnet.core.notes import read_note
 from mobnet.estimation.kinds.friction import FrictionNote, JointNote, Options, fitted_joints
-from mobnet.evaluation.measure.scores import AVERAGE, ERROR
+from mobnet.evaluation.measure.estimates.scores import AVERAGE, ERROR
 from mobnet.evaluation.number.rows import read_scores
 from mobnet.plan.runs import Files, Run
 from mobnet.settings.checks.results import Results

@@ -145,7 +145,7 @@ class Jobs:
         asked = scoring(self.settings, scenario, level)
         arguments = {"layout": self.settings.layout, "runs": runs, "asked": asked, "out": out}
         read = [[run.residual, run.estimate, run.recording] for run in runs]
-        return Job(Call("mobnet.evaluation.measure.scores:score", arguments), _read(read))
+        return Job(Call("mobnet.evaluation.measure.estimates.scores:score", arguments), _read(read))
 
     def detect(self) -> Job:
         """Return the calibration and the trial of the detectors of a robot, or of the plant of section 5.1."""
@@ -157,7 +157,7 @@ class Jobs:
             "walks": walks,
             "out": self.files.results / "detection",
         }
-        return Job(Call("mobnet.evaluation.measure.detections:detect", arguments), _read(walks))
+        return Job(Call("mobnet.evaluation.measure.detection.trial:detect", arguments), _read(walks))
 
     def _staged(
         self,

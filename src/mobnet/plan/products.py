@@ -1,8 +1,8 @@
 """Every table, figure and text: what makes it, what it needs and what it writes."""
 
+import functools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 
 from mobnet.core.code import start_of
@@ -13,6 +13,8 @@ from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.settings import Settings
 
 EVALUATION = "mobnet.evaluation"
+PARTS = ("paper", "further")  # folders of tables and figures: what the paper has, and what is added to it
+ERRORS = f"{EVALUATION}.tables.paper.errors:errors"  # makes every entry of `tables`
 TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their rules: the code hash reads Python only
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "png", "csv")  # endings of a table's and of a figure's files
 CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`
@@ -87,7 +89,7 @@ class Products:
             outputs += [self.folders.tables / f"{name}.{ending}" for ending in TABLE if name in tables]
             floor = "tables" if name not in figures else "figures" if name not in tables else "report"
             is_entry = name in self.settings.evaluation.tables
-            function = f"{EVALUATION}.tables.errors:errors" if is_entry else f"{EVALUATION}.{floor}.{name}:{name}"
+            function = ERRORS if is_entry else f"{modules_in(floor)[name]}:{name}"
             asked = [parameter for some in parameters(function) for parameter in some]
             needs = needs_of(self.files, name, self._own(name).get("settings"), asked)
             yield self._product(name, function, {**needs, **self._tables_of(name)}, outputs)
@@ -152,7 +154,7 @@ class Products:
         files = dict.fromkeys(map(str, files_in(read)))
         return Product(name, Job(call, tuple(files)), tuple(map(str, outputs)))
 
-    @cached_property
+    @functools.cached_property
     def _shared(self) -> dict[str, object]:
         """Return what any product may ask for: sections of the configuration, the robot's joints, folders."""
         evaluation = self.settings.evaluation
@@ -193,5 +195,12 @@ def shown(file: str) -> Shown | None:
 
 def _made_in(floor: str) -> list[str]:
     """Return the sections of the configuration that have a module of their name in a folder of `evaluation`."""
-    modules = {path.stem for path in start_of(f"{EVALUATION}.{floor}").parent.glob("*.py")}
+    modules = modules_in(floor)
     return [name for name in (*Evaluation.model_fields, *CLAIMED) if name in modules]
+
+
+@functools.cache
+def modules_in(floor: str) -> dict[str, str]:
+    """Return name -> dotted name of the modules in a folder of `evaluation`, and in the folders of its products."""
+    folders = [f"{EVALUATION}.{floor}"] + [f"{EVALUATION}.{floor}.{part}" for part in PARTS if floor != "report"]
+    return {path.stem: f"{folder}.{path.stem}" for folder in folders for path in start_of(folder).parent.glob("*.py")}

@@ -42,7 +42,7 @@ def _product(settings: Settings, files: Files, out: Path, trials: Iterable[Trial
     weights = [folder / WEIGHTS for one in tried for folder in one.networks.values()]
     inputs = dict.fromkeys(map(str, files_in([recordings, residuals, list(tried), weights])))
     kinds = dict.fromkeys(f"{KINDS}.{row.kind}" for one in tried for row in one.methods.values())
-    call = Call("mobnet.evaluation.tables.trials:trials", arguments)
+    call = Call("mobnet.evaluation.tables.further.trials:trials", arguments)
     return Product(out.name, Job(call, tuple(inputs), tuple(kinds)), tuple(f"{out}.{ending}" for ending in TABLE))
 
 

@@ -8,7 +8,7 @@ from csv_files import check_golden, read_table, write_rows
 
 from mobnet.core.columns import Score
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.figures.amplitude import amplitude
+from mobnet.evaluation.figures.further.amplitude import amplitude
 from mobnet.evaluation.number.files import read_rows
 from mobnet.settings.evaluation import Evaluation
 

@@ -8,7 +8,7 @@ import pytest
 from csv_files import check_golden, read_table
 
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.figures.bode import REFERENCE, Answer, bode, draw_bode
+from mobnet.evaluation.figures.further.bode import REFERENCE, Answer, bode, draw_bode
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.evaluation import Evaluation, LimbRuns
 from mobnet.settings.settings import Settings

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mobnet.evaluation.figures.calibration import Curve, ReliabilityPanel, curve_rows, draw_reliability
+from mobnet.evaluation.figures.further.calibration import Curve, ReliabilityPanel, curve_rows, draw_reliability
 
 NOMINAL = np.array([0.25, 0.5, 0.75])
 

@@ -7,9 +7,16 @@ from typing import Any
 import pytest
 
 from mobnet.core.columns import FOREST, VERDICTS
-from mobnet.evaluation.figures.claims import BEYOND_BOUND, OVER_PAPER, beyond_bound, columns_of, forest, over_paper
-from mobnet.evaluation.measure.bounds import ranges_of
-from mobnet.evaluation.measure.claims import Judged, rows_of, score_of, verdict_of
+from mobnet.evaluation.figures.further.claims import (
+    BEYOND_BOUND,
+    OVER_PAPER,
+    beyond_bound,
+    columns_of,
+    forest,
+    over_paper,
+)
+from mobnet.evaluation.measure.claims.bounds import ranges_of
+from mobnet.evaluation.measure.claims.verdicts import Judged, rows_of, score_of, verdict_of
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.settings import Settings
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 from csv_files import check_golden
 
-from mobnet.evaluation.figures.commands import Bars, commands, draw_bars
+from mobnet.evaluation.figures.further.commands import Bars, commands, draw_bars
 from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.settings import Settings
 

@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mobnet.evaluation.compare.curves import Curve, Panel
 from mobnet.evaluation.figures.drawing.curves import draw_panels, write_panels
 from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, save_figure
-from mobnet.evaluation.measure.curves import Curve, Panel
 
 TIME = np.arange(140) / 100.0
 TRUTH = 40.0 * np.sin(4.5 * TIME)

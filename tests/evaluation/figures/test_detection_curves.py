@@ -7,7 +7,7 @@ import pytest
 from csv_files import check_golden, read_table
 from made_detections import write_detections
 
-from mobnet.evaluation.figures.detection_curves import area_of, detection_curves
+from mobnet.evaluation.figures.further.detection_curves import area_of, detection_curves
 from mobnet.settings.settings import Settings
 
 

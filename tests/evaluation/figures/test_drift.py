@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from csv_files import check_golden, read_table
 
-from mobnet.evaluation.figures.drift import drift
+from mobnet.evaluation.figures.further.drift import drift
 from mobnet.settings.evaluation import Evaluation, LimbRuns
 from mobnet.settings.settings import Settings
 

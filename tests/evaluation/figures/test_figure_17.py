@@ -9,8 +9,8 @@ import pytest
 from csv_files import check_golden, read_table
 
 from mobnet.core.errors import DataError
-from mobnet.evaluation.figures.figure_17 import curve, figure_17
-from mobnet.evaluation.measure.trainings import read_trainings
+from mobnet.evaluation.figures.paper.figure_17 import curve, figure_17
+from mobnet.evaluation.measure.learning.trainings import read_trainings
 
 Write = Callable[..., Path]
 

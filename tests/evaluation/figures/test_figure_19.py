@@ -11,9 +11,9 @@ from mobnet.core.columns import FEET
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
-from mobnet.evaluation.figures.figure_19 import Cloud, draw_clouds, figure_19, range_of, read_dots
-from mobnet.evaluation.measure.conditional import gait_phase
-from mobnet.evaluation.measure.windows import Pushed, evenly
+from mobnet.evaluation.compare.windows import Pushed, evenly
+from mobnet.evaluation.figures.paper.figure_19 import Cloud, draw_clouds, figure_19, range_of, read_dots
+from mobnet.evaluation.measure.data.conditional import gait_phase
 from mobnet.settings.evaluation import Coverage, Evaluation
 
 Sets = dict[str, list[Path]]

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from csv_files import check_golden, read_table
 
-from mobnet.evaluation.figures.figure_20 import figure_20, growth_line, sizes_of
+from mobnet.evaluation.figures.paper.figure_20 import figure_20, growth_line, sizes_of
 from mobnet.evaluation.number.number import Number
 from mobnet.plan.runs import SweptSize
 

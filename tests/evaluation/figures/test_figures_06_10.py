@@ -8,9 +8,9 @@ import pytest
 from csv_files import check_golden, read_table
 
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.figures.figure_06 import figure_06
-from mobnet.evaluation.figures.figure_10 import figure_10
-from mobnet.evaluation.measure.pushes import read_pushes
+from mobnet.evaluation.figures.paper.figure_06 import figure_06
+from mobnet.evaluation.figures.paper.figure_10 import figure_10
+from mobnet.evaluation.measure.estimates.pushes import read_pushes
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import Evaluation, Figure06, Figure10
 from mobnet.settings.settings import Settings

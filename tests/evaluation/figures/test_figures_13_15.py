@@ -14,9 +14,9 @@ from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.evaluation.figures.drawing.robot import hull_of, lowest, projection, surface_of
-from mobnet.evaluation.figures.figure_13 import figure_13
-from mobnet.evaluation.figures.figure_14 import figure_14
-from mobnet.evaluation.figures.figure_15 import figure_15
+from mobnet.evaluation.figures.paper.figure_13 import figure_13
+from mobnet.evaluation.figures.paper.figure_14 import figure_14
+from mobnet.evaluation.figures.paper.figure_15 import figure_15
 from mobnet.robot.description import WalkingRobot
 from mobnet.settings.settings import Settings
 

@@ -8,10 +8,10 @@ import pytest
 from csv_files import check_golden, read_table
 
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.figures.figure_05 import figure_05, read_panel
-from mobnet.evaluation.figures.figure_07 import figure_07
-from mobnet.evaluation.figures.figure_08 import figure_08
-from mobnet.evaluation.figures.figure_09 import figure_09
+from mobnet.evaluation.figures.paper.figure_05 import figure_05, read_panel
+from mobnet.evaluation.figures.paper.figure_07 import figure_07
+from mobnet.evaluation.figures.paper.figure_08 import figure_08
+from mobnet.evaluation.figures.paper.figure_09 import figure_09
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import Evaluation
 

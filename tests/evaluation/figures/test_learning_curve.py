@@ -6,7 +6,7 @@ from pathlib import Path
 from csv_files import read_table
 
 from mobnet.core.columns import TRIALS, TrialError
-from mobnet.evaluation.figures.learning_curve import curve_of, learning_curve
+from mobnet.evaluation.figures.further.learning_curve import curve_of, learning_curve
 from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.evaluation import LearningCurve

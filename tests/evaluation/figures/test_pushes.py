@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from mobnet.evaluation.compare.curves import Curve, Panel
 from mobnet.evaluation.figures.drawing.pushes import PushGroup, draw_pushes
 from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH
-from mobnet.evaluation.measure.curves import Curve, Panel
-from mobnet.evaluation.measure.pushes import AVERAGE, INCREASE
+from mobnet.evaluation.measure.estimates.pushes import AVERAGE, INCREASE
 from mobnet.evaluation.number.number import Number
 
 TIME = np.linspace(-0.1, 0.2, 31)

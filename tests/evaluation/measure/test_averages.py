@@ -4,7 +4,7 @@ import pytest
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.measure.averages import Column, columns_of
+from mobnet.evaluation.number.averages import Column, columns_of
 from mobnet.settings.evaluation import Mean
 
 

@@ -6,8 +6,8 @@ import pytest
 import yaml
 from csv_files import GOLDEN
 
-from mobnet.evaluation.measure.bounds import apart, common, range_text, ranges_of, within
-from mobnet.evaluation.measure.claims import rows_of
+from mobnet.evaluation.measure.claims.bounds import apart, common, range_text, ranges_of, within
+from mobnet.evaluation.measure.claims.verdicts import rows_of
 from mobnet.settings.claims import Bounds, Claim
 from mobnet.settings.settings import Settings
 

@@ -10,7 +10,7 @@ from made_notes import training_note
 
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.measure.calibration import VALIDATION, Grid, grid_of, held_out, in_tests, limb_columns
+from mobnet.evaluation.measure.learning.calibration import VALIDATION, Grid, grid_of, held_out, in_tests, limb_columns
 from mobnet.learning.calibration import calibrate
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import CalibrationTest, Evaluation

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mobnet.evaluation.measure.changed import FLAGGED, FREE, KNOWN, knowledge
-from mobnet.evaluation.measure.estimates import Pair
+from mobnet.evaluation.compare.pair import Pair
+from mobnet.evaluation.measure.estimates.changed import FLAGGED, FREE, KNOWN, knowledge
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import Evaluation
 

@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 
 from mobnet.core.columns import SCORED, VERDICTS
-from mobnet.evaluation.measure.bounds import Ranges
-from mobnet.evaluation.measure.claims import cause_of, rows_of, score_of, verdict_of, worst
-from mobnet.evaluation.measure.results import Results
+from mobnet.evaluation.measure.claims.bounds import Ranges
+from mobnet.evaluation.measure.claims.cells import Results
+from mobnet.evaluation.measure.claims.verdicts import cause_of, rows_of, score_of, verdict_of, worst
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.claims import Claim
 from mobnet.settings.evaluation import Statistics

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.measure.coverage import (
+from mobnet.evaluation.measure.data.coverage import (
     ALL,
     AREA,
     BEYOND,
@@ -21,7 +21,7 @@ from mobnet.evaluation.measure.coverage import (
     visited,
     widths,
 )
-from mobnet.evaluation.measure.samples import equal_sets, read_blocks, refer, scale_of
+from mobnet.evaluation.measure.data.samples import equal_sets, read_blocks, refer, scale_of
 from mobnet.learning.features import limb_inputs
 from mobnet.settings.evaluation import CoverageTest, Evaluation
 from mobnet.settings.settings import Settings

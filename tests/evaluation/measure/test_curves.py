@@ -8,7 +8,7 @@ import pytest
 from mobnet.core.columns import foot_of
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.measure.curves import Curves, gait_cycle, read_curves, read_cycle
+from mobnet.evaluation.compare.curves import Curves, gait_cycle, read_curves, read_cycle
 from mobnet.plan.runs import Run
 
 Walk = Callable[..., Run]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mobnet.evaluation.measure.holding import calm_rows, rows_since, share_shown
+from mobnet.evaluation.measure.estimates.drift import calm_rows, rows_since, share_shown
 
 
 @pytest.mark.parametrize("share", [0.0, 0.4, 1.0, 1.3])

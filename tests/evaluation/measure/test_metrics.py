@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mobnet.evaluation.measure.metrics import METRICS, Spans, relative_rmse, rmse, roughness
+from mobnet.evaluation.compare.errors import METRICS, Spans, relative_rmse, rmse, roughness
 
 
 def whole(signal: np.ndarray) -> Spans:

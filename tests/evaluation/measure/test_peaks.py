@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mobnet.estimation.low_pass import low_pass
-from mobnet.evaluation.measure.peaks import first_above, medians, push_rows, rises
+from mobnet.evaluation.measure.estimates.peaks import first_above, medians, push_rows, rises
 from mobnet.settings.evaluation import LimbRuns, Peaks
 
 TEST = LimbRuns(scenario="knee_swing", level="ideal", methods=("MOB",), limbs=("LL",))

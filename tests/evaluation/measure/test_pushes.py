@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mobnet.core.columns import Score
-from mobnet.evaluation.measure.pushes import AVERAGE, INCREASE, PushErrors, collision_errors, push_metrics
+from mobnet.evaluation.measure.estimates.pushes import AVERAGE, INCREASE, PushErrors, collision_errors, push_metrics
 from mobnet.evaluation.number.files import read_rows
 from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.settings import Settings

@@ -10,7 +10,7 @@ from csv_files import write_rows
 from mobnet.core.columns import Score
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.measure.results import Results, read_results
+from mobnet.evaluation.measure.claims.cells import Results, read_results
 from mobnet.settings.claims import Cell
 
 WALK = Cell(scenario="walk", level="ideal", method="MOB")

@@ -11,7 +11,7 @@ from mobnet.core.columns import Score, residual_columns, torque_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array, write_array
-from mobnet.evaluation.measure.scores import limb_values, score, score_run
+from mobnet.evaluation.measure.estimates.scores import limb_values, score, score_run
 from mobnet.evaluation.number.files import read_rows
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import Scoring, Window

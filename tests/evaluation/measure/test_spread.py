@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from mobnet.evaluation.measure.spread import autocorrelation, first_below, ranks
-from mobnet.evaluation.measure.strata import masked_mean
+from mobnet.evaluation.measure.estimates.phases import masked_mean
+from mobnet.evaluation.measure.estimates.sigma import autocorrelation, first_below, ranks
 
 
 def test_memory_of_a_first_order_process_is_its_pole(rng: np.random.Generator) -> None:

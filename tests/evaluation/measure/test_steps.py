@@ -8,7 +8,7 @@ import pytest
 
 from mobnet.core.errors import DataError
 from mobnet.core.joints import NQ_BASE, JointLayout
-from mobnet.evaluation.measure.steps import Steps, ankle_places, measure, read_steps, step_bounds
+from mobnet.evaluation.measure.data.steps import Steps, ankle_places, measure, read_steps, step_bounds
 from mobnet.plan.runs import Run
 from mobnet.robot.nominal import NominalModel
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from mobnet.core.errors import DataError
-from mobnet.evaluation.measure.trainings import read_training, read_trainings, sound
+from mobnet.evaluation.measure.learning.trainings import read_training, read_trainings, sound
 
 Write = Callable[..., Path]
 

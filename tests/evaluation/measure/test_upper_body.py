@@ -7,7 +7,7 @@ import pytest
 
 from mobnet.core.joints import NQ_BASE
 from mobnet.core.store import read_array
-from mobnet.evaluation.measure.upper_body import hand_speeds, upper_body
+from mobnet.evaluation.measure.data.upper_body import hand_speeds, upper_body
 from mobnet.robot.nominal import NominalModel
 
 

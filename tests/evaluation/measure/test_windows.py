@@ -9,7 +9,7 @@ from mobnet.core.columns import recording_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import write_array
-from mobnet.evaluation.measure.windows import Pushed, blocks_of, evenly, flagged_spans, push_windows, pushed_of
+from mobnet.evaluation.compare.windows import Pushed, blocks_of, evenly, flagged_spans, push_windows, pushed_of
 from mobnet.settings.evaluation import CoverageTest, Evaluation
 
 PUSHED = Pushed("LL3", 5.0, 0.02)

@@ -12,7 +12,7 @@ from made_detections import on_both_plants
 from made_notes import training_note
 
 from mobnet.core.columns import VERDICTS
-from mobnet.evaluation.tables.claims_summary import claims_summary
+from mobnet.evaluation.tables.further.claims_summary import claims_summary
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 

@@ -17,9 +17,9 @@ from mobnet.core.errors import DataError
 from mobnet.evaluation.report.deviations import deviations
 from mobnet.evaluation.report.numbers import numbers
 from mobnet.evaluation.report.paper import PACKAGES, PaperError, copy_sources, missing_packages, paper
-from mobnet.evaluation.tables import claims, methods
+from mobnet.evaluation.tables.further import claims, methods
+from mobnet.evaluation.tables.further.uncertainty import text_of
 from mobnet.evaluation.tables.layout import PART, long_table, note_tex, text_table
-from mobnet.evaluation.tables.uncertainty import text_of
 from mobnet.plan.products import Folders, Products
 from mobnet.plan.runs import Files
 from mobnet.settings.data import Recordings

@@ -11,13 +11,13 @@ from csv_files import GOLDEN, check_golden, read_table
 from made_detections import write_detections
 
 from mobnet.core.columns import COVERAGE, LATENCY, VERDICTS
-from mobnet.evaluation.measure.claims import rows_of
-from mobnet.evaluation.measure.results import listed
+from mobnet.evaluation.measure.claims.cells import listed
+from mobnet.evaluation.measure.claims.verdicts import rows_of
 from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.intervals import RunGrid
 from mobnet.evaluation.number.number import published_row
 from mobnet.evaluation.number.quantities import QUANTITIES
-from mobnet.evaluation.tables.latency import MET
+from mobnet.evaluation.tables.further.latency import MET
 from mobnet.settings.claims import Cell, Claim
 from mobnet.settings.evaluation import Statistics
 from mobnet.settings.published import Published, PublishedTable

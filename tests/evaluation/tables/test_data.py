@@ -10,8 +10,8 @@ from csv_files import check_golden, read_table
 
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json, write_json
-from mobnet.evaluation.measure.steps import Steps
-from mobnet.evaluation.tables.data import commanded, extent
+from mobnet.evaluation.measure.data.steps import Steps
+from mobnet.evaluation.tables.further.data import commanded, extent
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.settings import Settings
 

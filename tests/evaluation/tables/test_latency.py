@@ -7,7 +7,7 @@ import pytest
 from csv_files import read_table
 
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.tables import latency
+from mobnet.evaluation.tables.further import latency
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.plant import Rates

@@ -8,7 +8,7 @@ from csv_files import check_golden, read_table, write_rows
 
 from mobnet.core.columns import Score
 from mobnet.evaluation.number.files import read_rows
-from mobnet.evaluation.tables.phases import PARTS
+from mobnet.evaluation.tables.further.phases import PARTS
 from mobnet.settings.evaluation import Evaluation, LimbRuns
 
 TEST = LimbRuns(scenario="walk_test", level="all_uncertainty", methods=("zero", "MOB"), limbs=("LL", "W"))

@@ -8,7 +8,7 @@ import pytest
 from csv_files import check_golden, read_table
 from made_detections import write_detections
 
-from mobnet.evaluation.measure.smallest import smallest_force
+from mobnet.evaluation.measure.detection.smallest_force import smallest_force
 from mobnet.settings.settings import Settings
 
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from csv_files import check_golden, read_table
 
-from mobnet.evaluation.figures.commands import commands
-from mobnet.evaluation.measure.steps import Steps, bin_edges, bin_of, in_degrees
-from mobnet.evaluation.tables.steps import Followed, followed
+from mobnet.evaluation.figures.further.commands import commands
+from mobnet.evaluation.measure.data.steps import Steps, bin_edges, bin_of, in_degrees
+from mobnet.evaluation.tables.further.steps import Followed, followed
 from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.settings import Settings
 

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from csv_files import check_golden, read_table
 
-from mobnet.evaluation.tables.table_01 import tex_symbols
+from mobnet.evaluation.tables.paper.table_01 import tex_symbols
 from mobnet.settings.settings import Settings
 
 

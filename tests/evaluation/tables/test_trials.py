@@ -11,7 +11,7 @@ from csv_files import read_table
 
 from mobnet.core.recording import Recording
 from mobnet.core.store import read_array
-from mobnet.evaluation.tables.trials import is_best, trials
+from mobnet.evaluation.tables.further.trials import is_best, trials
 from mobnet.plan.runs import Tried
 from mobnet.settings.settings import Settings
 from mobnet.settings.trials import tuned

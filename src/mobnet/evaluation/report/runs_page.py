@@ -11,7 +11,7 @@ from typing import Any
 
 from mobnet.core.columns import Epoch
 from mobnet.core.files import METRICS, RUN, TIME, read_json, write_text
-from mobnet.evaluation.measure.trainings import Training, read_training
+from mobnet.evaluation.measure.learning.trainings import Training, read_training
 from mobnet.evaluation.report.charts import Chart, line_chart
 from mobnet.evaluation.report.html import rendered
 

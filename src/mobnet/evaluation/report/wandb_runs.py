@@ -12,7 +12,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from mobnet.core.files import PARTIAL, RUN, check_room, read_json
-from mobnet.evaluation.measure.trainings import read_training
+from mobnet.evaluation.measure.learning.trainings import read_training
 
 SETTINGS = ("name", "method", "limb", "seed", "target", "settings", "fingerprint", "provenance")  # keys of run.json
 # `wandb leet` lists only folders whose names start with `run-` and have a date before the run's identifier. Of a name

@@ -12,9 +12,9 @@ from pathlib import Path
 
 from mobnet.core.files import write_text
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.measure.lookup import AVERAGE, Lookup
 from mobnet.evaluation.number.files import Field, write_csv
 from mobnet.evaluation.number.grid import Wanted
+from mobnet.evaluation.number.lookup import AVERAGE, Lookup
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.evaluation import Runs
 

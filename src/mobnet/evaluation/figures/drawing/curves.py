@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from mobnet.evaluation.compare.curves import Panel
 from mobnet.evaluation.figures.style import (
     COLUMN_INCH,
     PAGE_INCH,
@@ -19,7 +20,6 @@ from mobnet.evaluation.figures.style import (
     looks,
     save_figure,
 )  # fmt: skip
-from mobnet.evaluation.measure.curves import Panel
 from mobnet.evaluation.number.files import Field, write_csv
 
 FLAGS: Mapping[str, tuple[float, Mapping[str, Any]]] = {  # name -> lower edge of its mark [of the height], its look

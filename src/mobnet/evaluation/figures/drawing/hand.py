@@ -5,8 +5,8 @@ from pathlib import Path
 
 from mobnet.core.columns import PUSHED
 from mobnet.core.joints import JointLayout
+from mobnet.evaluation.compare.curves import read_curves
 from mobnet.evaluation.figures.drawing.curves import draw_panels, save_panels
-from mobnet.evaluation.measure.curves import read_curves
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import HandFigure
 

@@ -10,11 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mobnet.core.columns import PUSH_ERRORS
+from mobnet.evaluation.compare.curves import Panel
 from mobnet.evaluation.figures.drawing.bars import BarPanel, draw_bar_panel
 from mobnet.evaluation.figures.drawing.curves import LEGEND_INCH, draw_panel, write_panels
 from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, STYLE, entitle, legend, save_figure
-from mobnet.evaluation.measure.curves import Panel
-from mobnet.evaluation.measure.pushes import INCREASE, PushErrors
+from mobnet.evaluation.measure.estimates.pushes import INCREASE, PushErrors
 from mobnet.evaluation.number.files import write_csv
 
 MINUS = "\N{MINUS SIGN}"

@@ -1,0 +1,150 @@
+"""What lower and higher thresholds do: collisions and delays over false alarms; and found shares over the force."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import StrMethodFormatter
+
+from mobnet.core.detections import COLLISION, HELD_OUT, CurvePoint, FreeSwing, Promise
+from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, entitle, legend, looks, save_figure
+from mobnet.evaluation.measure.detection.results import (
+    MS,
+    Detections,
+    Try,
+    alarms_in,
+    hours_per_swing,
+    mean_of,
+    owners,
+    rows_of,
+    share_of,
+    tries_of,
+)
+from mobnet.evaluation.number.files import write_csv
+from mobnet.evaluation.number.number import Number
+from mobnet.settings.detected import DetectionCurves
+from mobnet.settings.detection import Detection
+from mobnet.settings.evaluation import Statistics
+
+COLUMNS = ("panel", "level", "detector", "x", "value", "low", "high", "count", "unit")
+FOUND, DELAY, FORCE, AREA = "found collisions", "delay", "found by force", "area"
+LABELS = {
+    FOUND: ("false alarms of a leg [1/h]", "found share [-]"),
+    DELAY: ("false alarms of a leg [1/h]", "delay [ms]"),
+    FORCE: ("largest force [N]", "found share [-]"),
+}
+HEIGHT_INCH = 2.5
+RATE_MOST = 1000.0  # false alarms in an hour above which nobody detects
+RATE_FLOOR = 0.3  # false alarms in an hour below which a rate is drawn here: none was counted
+
+
+@dataclass(frozen=True)
+class Course:
+    """A line of a panel: numbers (n,) over x (n,), each made of so many collisions."""
+
+    panel: str
+    detector: str
+    x: Sequence[float]
+    numbers: Sequence[Number]
+    counts: Sequence[int]
+
+
+def detection_curves(
+    settings: DetectionCurves, detection: Detection, statistics: Statistics, detections: Detections, figure_dir: Path
+) -> None:
+    """Write detection_curves.pdf, .png and .csv, which has the area under the curve of found collisions too.
+
+    The area is the probability that a collision's largest signal lies above that of a swing which nothing pushes, with
+    the interval of Hanley and McNeil (1982, Radiology 143).
+    """
+    names, leg = owners(detections, settings.level, detection.levels), settings.leg
+    points = [row for _, row in rows_of(detections, names, "curves", CurvePoint) if row.leg == leg]
+    promises = [row for _, row in rows_of(detections, names, "promises", Promise) if row.leg == leg]
+    swings = [row for _, row in rows_of(detections, names, "swings", FreeSwing)
+              if (row.leg, row.scenario, row.part) == (leg, detection.random, HELD_OUT)]  # fmt: skip
+    hits = tries_of(detections, names, detection.collisions, leg, COLLISION)
+    sweep = tries_of(detections, names, detection.sweep, leg, settings.kind)
+    courses, rows = list[Course](), []
+    for name in (name for name in settings.detectors if name in hits):
+        quiet = [row for row in swings if row.detector == name]
+        hours = len(quiet) * hours_per_swing([row for row in promises if row.detector == name])
+        own = [row for row in points if row.detector == name]
+        courses += [*_over_rates(name, own, quiet, hours, statistics),
+                    _over_force(name, sweep[name], settings.force_bins, statistics)]  # fmt: skip
+        hit = np.array([one.detected.ratio for one in hits[name]])
+        area = area_of(hit, np.array([row.ratio for row in quiet]), statistics)
+        rows.append((AREA, settings.level, name, None, *area.with_ends, len(hits[name]), "-"))
+    for one in courses:
+        unit = "ms" if one.panel == DELAY else "-"
+        rows += [(one.panel, settings.level, one.detector, x, *number.with_ends, count, unit)
+                 for x, number, count in zip(one.x, one.numbers, one.counts, strict=True)]  # fmt: skip
+    write_csv(figure_dir / "detection_curves.csv", COLUMNS, rows)
+    save_figure(draw_courses(courses), figure_dir / "detection_curves")
+
+
+def _over_rates(
+    name: str, points: Sequence[CurvePoint], quiet: Sequence[FreeSwing], hours: float, statistics: Statistics
+) -> list[Course]:  # fmt: skip
+    """Return the found share and the mean delay [ms] at multiples of the thresholds, over the false alarms [1/h]."""
+    factors = sorted({row.factor for row in points})
+    factors = [factor for factor in factors if alarms_in(quiet, factor) <= RATE_MOST * hours]
+    quiet_at = next((k for k, factor in enumerate(factors) if not alarms_in(quiet, factor)), len(factors))
+    factors = factors[: quiet_at + 1]  # higher thresholds only find less
+    rates, shares, delays, counts = list[float](), list[Number](), list[Number](), list[int]()
+    for factor in factors:
+        own = [row for row in points if row.factor == factor]
+        found, count = sum(row.found for row in own), sum(row.collisions for row in own)
+        rates.append(alarms_in(quiet, factor) / hours if hours else 0.0)
+        shares.append(share_of([True] * found + [False] * (count - found), statistics))
+        late = MS * sum(row.delay_sum_s for row in own) / found if found else None
+        delays.append(Number(late, unit="ms"))
+        counts.append(count)
+    return [Course(FOUND, name, rates, shares, counts), Course(DELAY, name, rates, delays, counts)]
+
+
+def _over_force(name: str, tries: Sequence[Try], bins: int, statistics: Statistics) -> Course:
+    """Return the found share in bins of the largest force with as many collisions each, over their mean force [N]."""
+    ordered = sorted(tries, key=lambda one: one.collision.force_n)
+    parts = [list(part) for part in np.array_split(np.array(ordered, dtype=object), bins) if len(part)]
+    x = [mean_of([one.collision.force_n for one in part], statistics, "N").value or 0.0 for part in parts]
+    shares = [share_of([one.detected.delay_s is not None for one in part], statistics) for part in parts]
+    return Course(FORCE, name, x, shares, [len(part) for part in parts])
+
+
+def area_of(hits: np.ndarray, quiet: np.ndarray, statistics: Statistics) -> Number:
+    """Return the area under the curve of collisions (n,) against swings that nothing pushes (m,) [-]."""
+    if not len(hits) or not len(quiet):
+        return Number(None)
+    from scipy.stats import norm, rankdata  # here, as it takes a second to import
+
+    n, m = len(hits), len(quiet)
+    area = float((rankdata(np.concatenate([hits, quiet]))[:n].sum() - n * (n + 1) / 2) / (n * m))
+    one, two = area / (2 - area), 2 * area**2 / (1 + area)
+    variance = (area * (1 - area) + (n - 1) * (one - area**2) + (m - 1) * (two - area**2)) / (n * m)
+    reach = float(norm.ppf((1.0 + statistics.confidence) / 2.0)) * max(variance, 0.0) ** 0.5
+    return Number(area, max(area - reach, 0.0), min(area + reach, 1.0))
+
+
+def draw_courses(courses: Sequence[Course]) -> Figure:
+    """Draw the three panels side by side."""
+    styles = looks(one.detector for one in courses)
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(PAGE_INCH, HEIGHT_INCH), layout="constrained")
+        axes: Mapping[str, Axes] = dict(zip(LABELS, figure.subplots(1, len(LABELS)), strict=True))
+        for k, (panel, axis) in enumerate(axes.items()):
+            for one in (one for one in courses if one.panel == panel):
+                look = styles[one.detector]
+                values = [np.nan if number.value is None else number.value for number in one.numbers]
+                x = np.maximum(one.x, RATE_FLOOR) if panel != FORCE else np.asarray(one.x)
+                axis.plot(x, values, label=one.detector, marker=look.marker if panel == FORCE else "", markersize=3,
+                          **look.line)  # fmt: skip
+            axis.set(xlabel=LABELS[panel][0], ylabel=LABELS[panel][1], xscale="log")
+            axis.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+            axis.set_ylim(0.0, None if panel == DELAY else 1.05)
+            entitle(axis, k, panel)
+        legend(figure, list(axes.values()))
+    return figure

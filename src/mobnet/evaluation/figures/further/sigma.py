@@ -1,0 +1,120 @@
+"""Standard deviations by their own size, and how long an error stays: coverage, error over sigma, autocorrelation."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodFormatter
+
+from mobnet.core.columns import SIGMA
+from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, Look, entitle, legend, looks, save_figure
+from mobnet.evaluation.measure.estimates.sigma import COVER, MEMORY, STD
+from mobnet.evaluation.number.files import Field, write_csv
+from mobnet.evaluation.number.lookup import Lookup
+from mobnet.evaluation.number.number import Number
+from mobnet.settings.evaluation import LimbRuns, Sigma
+
+COVERAGE, ERROR, CORRELATION = "coverage", "error over sigma", "autocorrelation"
+LABELS = {
+    COVERAGE: ("part of the samples by size of sigma", "covered share [-]"),
+    ERROR: ("mean predicted sigma [N m]", "RMSE [N m]"),
+    CORRELATION: ("lag [ms]", "autocorrelation [-]"),
+}
+HEIGHT_INCH = 2.4
+GUIDE = {"color": "0.7", "linewidth": 0.6, "linestyle": "-", "zorder": 0}  # where sigma would be true
+
+
+@dataclass(frozen=True)
+class Course:
+    """A line of a panel: numbers (n,) of a limb of a method in a test, over x (n,) [units of LABELS]."""
+
+    panel: str
+    test: str
+    method: str
+    limb: str
+    x: Sequence[float]
+    numbers: Sequence[Number]
+
+    @property
+    def label(self) -> str:
+        """Name in the legend."""
+        return f"{self.method}, {self.limb}"
+
+    def rows(self) -> Iterator[tuple[Field, ...]]:
+        """Yield the rows of sigma.csv."""
+        for x, number in zip(self.x, self.numbers, strict=True):
+            yield self.panel, self.test, self.method, self.limb, float(x), *number.with_ends, *number.spread
+
+
+def sigma_figure(settings: Sigma, lookup: Lookup, share: float, figure_dir: Path) -> None:
+    """Write coverage of a nominal share [-], error [N m] and autocorrelation [-] of tests like the training data."""
+    known = {title: test for title, test in settings.tests.items() if title not in settings.against}
+    courses = [
+        course
+        for title, test in known.items() for method in test.methods for limb in test.limbs
+        for course in courses_of(settings, lookup, (title, test), method, limb)
+    ]  # fmt: skip
+    write_csv(figure_dir / "sigma.csv", SIGMA, [row for course in courses for row in course.rows()])
+    save_figure(draw_sigma(courses, share), figure_dir / "sigma")
+
+
+def courses_of(
+    settings: Sigma, lookup: Lookup, titled: tuple[str, LimbRuns], method: str, limb: str
+) -> Iterator[Course]:  # fmt: skip
+    """Yield the lines of a limb of a method in a test, those whose numbers are all there."""
+    title, test = titled
+
+    def numbers(pattern: str, keys: Sequence[int]) -> list[Number]:
+        return [lookup.average(test, method, limb, pattern.format(key)) for key in keys]
+
+    parts = list(range(1, settings.parts + 1))
+    sizes = numbers(STD + "_part_{}", parts)
+    found = {
+        COVERAGE: (parts, numbers(COVER + "_part_{}", parts)),
+        ERROR: ([number.value or 0.0 for number in sizes], numbers("rmse_part_{}", parts)),
+        CORRELATION: (settings.lags_ms, numbers(MEMORY, settings.lags_ms)),
+    }
+    for panel, (x, own) in found.items():
+        if all(number.value is not None for number in (*sizes, *own)):
+            yield Course(panel, title, method, limb, x, own)
+
+
+def draw_sigma(courses: Sequence[Course], share: float) -> Figure:
+    """Draw the three panels side by side; thin grey lines show where a sigma that is true would be."""
+    styles = looks(course.label for course in courses)
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(PAGE_INCH, HEIGHT_INCH), layout="constrained")
+        axes: dict[str, Axes] = dict(zip(LABELS, figure.subplots(1, len(LABELS)), strict=True))
+        for k, (panel, axis) in enumerate(axes.items()):
+            for course in courses:
+                if course.panel == panel:
+                    _draw(axis, course, styles[course.label])
+            axis.set(xlabel=LABELS[panel][0], ylabel=LABELS[panel][1])
+            entitle(axis, k, panel)
+        axes[COVERAGE].axhline(share, **GUIDE)
+        sizes = [x for course in courses if course.panel == ERROR for x in course.x]
+        axes[ERROR].plot(sizes, sizes, **GUIDE)
+        axes[ERROR].set(xscale="log", yscale="log")
+        axes[CORRELATION].set_xscale("log")
+        axes[COVERAGE].xaxis.set_major_locator(MaxNLocator(integer=True))
+        scales = {axes[ERROR].xaxis: (1, 2, 5), axes[ERROR].yaxis: (1, 2, 5), axes[CORRELATION].xaxis: (1,)}
+        for scale, steps in scales.items():
+            scale.set_major_locator(LogLocator(subs=steps))
+            scale.set_major_formatter(StrMethodFormatter("{x:g}"))
+            scale.set_minor_formatter(NullFormatter())
+        axes[CORRELATION].axhline(0.0, **GUIDE)
+        legend(figure, list(axes.values()))
+    return figure
+
+
+def _draw(axis: Axes, course: Course, look: Look) -> None:
+    """Draw a line and the band of its intervals."""
+    ends = [(n.value, n.value if n.low is None else n.low, n.value if n.high is None else n.high)
+            for n in course.numbers]  # fmt: skip
+    mean, low, high = np.array(ends, dtype=np.float64).T
+    axis.plot(course.x, mean, label=course.label, marker=look.marker, markersize=2.5, **look.line)
+    axis.fill_between(course.x, low, high, color=look.colour, alpha=0.18, linewidth=0.0)

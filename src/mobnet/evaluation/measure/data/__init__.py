@@ -1,0 +1,1 @@
+"""What is measured on training sets and tests: steps, motions, torques, coverage."""

@@ -1,0 +1,1 @@
+"""What is measured on estimates of the external torque: the scores."""

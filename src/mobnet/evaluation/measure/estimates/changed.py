@@ -1,0 +1,40 @@
+"""Whether networks know the robot that they run on: what their standard deviations cover, and what a check says."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.estimation.consistency import shares_inside
+from mobnet.evaluation.compare.errors import parts
+from mobnet.evaluation.compare.pair import Pair
+from mobnet.evaluation.compare.scene import Scene
+from mobnet.evaluation.compare.values import Measured, Measures
+from mobnet.learning.gaussian import half_width
+from mobnet.learning.swings import hanging
+from mobnet.settings.evaluation import Changed
+
+KNOWN, FREE, FLAGGED = "known_share", "free_share", "flagged_share"
+
+
+def knowledge(
+    pair: Pair, std: NDArray[np.float32] | None, scene: Scene, share: float, settings: Changed
+) -> Measures:  # fmt: skip
+    """Yield what the standard deviations (T, n) [N m] of a leg's joints say of a robot, shares [-].
+
+    `known_share`: errors within the central interval of a nominal share, which only the truth tells. `free_share`:
+    estimates within it where the plan has the leg in the air, which a robot can see. `flagged_share`: windows of which
+    the check says that these networks do not know this robot. Of an estimate without standard deviations there is
+    nothing to tell.
+    """
+    if std is None:
+        return
+    error, count = pair.estimate.astype(np.float64) - pair.truth, len(pair.joints)
+    covered = np.abs(error) <= half_width(share) * std
+    yield Measured(KNOWN, np.concatenate(parts(covered, pair.spans)).mean(axis=0))
+    swing = scene.planned(pair.joints[0])
+    free = hanging(swing, pair.spans, pair.rate_hz, (settings.lift_off_s, settings.landing_s))
+    rows = round(settings.window_s * pair.rate_hz)
+    shares = shares_inside(pair.estimate, std, free, pair.spans, rows, share)
+    shares = shares[~np.isnan(shares)]
+    if len(shares):
+        yield Measured(FREE, np.full(count, shares.mean()), average_only=True)
+        yield Measured(FLAGGED, np.full(count, (shares < settings.least_share).mean()), average_only=True)

@@ -1,0 +1,79 @@
+"""Errors of variants of methods on the development walks."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from mobnet.core.arrays import Array
+from mobnet.core.columns import EXTERNAL_LP, named
+from mobnet.core.store import read_array
+from mobnet.estimation.estimate import Observed, rate_of, read_observed, run_segments
+from mobnet.estimation.methods import build_estimator
+from mobnet.estimation.recipe import Recipe
+from mobnet.evaluation.compare.errors import rmse
+from mobnet.evaluation.measure.learning.trainings import Training, read_training
+from mobnet.plan.runs import Tried
+from mobnet.robot.description import describe
+from mobnet.settings.methods import Observer
+from mobnet.settings.plant import Level
+from mobnet.settings.robot import RobotTable
+
+
+@dataclass(frozen=True)
+class Known:
+    """What every estimator knows: the robot, how wrong its model is, gravity [m/s^2] and the observer's settings."""
+
+    robot: RobotTable
+    level: Level
+    gravity_m_s2: float
+    observer: Observer
+
+
+@dataclass(frozen=True)
+class Walks:
+    """Recordings that were observed, and the true torque of n joints behind the low-pass, (T_i, n) [N m]."""
+
+    joints: Sequence[str]
+    read: Sequence[Observed]
+    truths: Sequence[Array]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A variant with the training of its network, if it has one, and its RMSE by walk and joint (w, n) [N m]."""
+
+    tried: Tried
+    training: Training | None
+    errors: Array
+
+    @property
+    def average(self) -> float:
+        """Mean over walks and joints [N m], by which variants are chosen."""
+        return float(self.errors.mean())
+
+
+def read_walks(
+    known: Known, joints: Sequence[str], recordings: Sequence[Path], residuals: Sequence[Path], rate_hz: float
+) -> Walks:
+    """Read the walks on which methods are chosen, all at a rate [Hz]."""
+    layout = describe(known.robot).layout
+    read = [read_observed(layout, *pair, rate_hz) for pair in zip(recordings, residuals, strict=True)]
+    truths = [read_array(residual, named(EXTERNAL_LP, joints))[0].astype(np.float64) for residual in residuals]
+    return Walks(joints, read, truths)
+
+
+def outcome_of(tried: Tried, known: Known, walks: Walks) -> Outcome:
+    """Run a variant on all walks side by side."""
+    given = known.robot, known.level, known.gravity_m_s2, known.observer
+    recipe = Recipe(tried.name, tried.methods, *given, rate_of(walks.read), tried.networks, tried.fitted)
+    estimator = build_estimator(recipe)
+    columns = [estimator.joints.index(joint) for joint in walks.joints]
+    results = run_segments(estimator, walks.read)
+    errors = [
+        rmse(result.tau_ext[:, columns], truth, one.recording.segments)
+        for result, truth, one in zip(results, walks.truths, walks.read, strict=True)
+    ]
+    folder = next(iter(tried.networks.values()), None)
+    return Outcome(tried, read_training(folder) if folder else None, np.array(errors))

@@ -1,0 +1,87 @@
+"""Table of the kinds of networks (section 6.1): losses, errors and sizes, beside the paper's order.
+
+The time that a training takes is in the page of runs: tables come out the same each time.
+"""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from mobnet.core.columns import KINDS
+from mobnet.evaluation.measure.learning.trainings import MEASURES, Training, read_trainings, sound
+from mobnet.evaluation.number.intervals import RunGrid, summarise
+from mobnet.evaluation.number.number import Number, number_text
+from mobnet.evaluation.tables.layout import GAP, RULE, Line, Table, with_intervals, write_table
+from mobnet.settings.evaluation import Figure17, Kinds, Statistics
+from mobnet.settings.published import PublishedKinds
+
+ORDERED_BY = "validation loss"
+HEADER = ["Order", "Paper", "Network", "Parameters", "Paper", "Runs", "Val. loss", "RMSE [N m]",
+          "On windows", "Train. loss, end", "Val. loss, end"]  # fmt: skip
+LEFT = 3  # columns of text
+
+Traits = Mapping[str, Number]  # `order`, `parameters`, `runs`, `diverged` or a name of `MEASURES` -> of a kind
+
+
+def kinds(
+    settings: Kinds, figure_17: Figure17, statistics: Statistics, published: PublishedKinds,
+    folders: Sequence[Path], table_dir: Path,
+) -> None:  # fmt: skip
+    """Write kinds.csv, .tex and .md: mean over runs of loss (22) [-] and RMSE [N m], best kind first.
+
+    Our own variants stand below the kinds of Figure 17, which are the paper's.
+    """
+    found, papers, variants = read_trainings(folders), figure_17.methods, settings.variants
+    measured = {method: measures_of(found[method], statistics) for method in (*papers, *variants)}
+    shown = sorted(papers, key=lambda method: _order(measured[method][ORDERED_BY]))
+    ranks = {name: k for k, name in enumerate([name for name in shown if name in published.order], start=1)}
+    traits = {
+        method: {**counts(found[method], ranks.get(method), method, published), **measured[method]}
+        for method in (*shown, *variants)
+    }
+    records = [
+        (method, quantity, *number.with_ends, *number.spread, number.unit, number.published)
+        for method, own in traits.items() for quantity, number in own.items()
+    ]  # fmt: skip
+    lines = kind_lines(traits, variants, statistics.confidence)
+    align = "rrl" + "r" * (len(HEADER) - LEFT)
+    write_table(table_dir / "kinds", Table(KINDS, records, HEADER, lines, LEFT, align))
+
+
+def measures_of(trainings: Sequence[Training], statistics: Statistics) -> Traits:
+    """Return the measures of the trainings that did not diverge [-, N m], without a number if all did."""
+    good = sound(trainings)
+    grids = {name: RunGrid(np.array([[measure(run)] for run in good])) for name, (measure, _) in MEASURES.items()}
+    if not good:
+        return {name: Number(None, unit=unit) for name, (_, unit) in MEASURES.items()}
+    return {name: summarise([grid], statistics, unit=MEASURES[name][1]) for name, grid in grids.items()}
+
+
+def _order(loss: Number) -> float:
+    """Return what kinds are ordered by: the mean validation loss; kinds that always diverged come last."""
+    return float("inf") if loss.value is None else loss.value
+
+
+def counts(trainings: Sequence[Training], rank: int | None, method: str, published: PublishedKinds) -> Traits:
+    """Return what is counted of a kind; `rank` is its place among the kinds that the paper orders, None for others."""
+    return {
+        "order": Number(rank, published=published.order.get(method)),
+        "parameters": Number(trainings[0].parameters, published=published.parameters.get(method)),
+        "runs": Number(len(trainings)),
+        "diverged": Number(len(trainings) - len(sound(trainings))),
+    }
+
+
+def kind_lines(traits: Mapping[str, Traits], variants: Sequence[str], confidence: float) -> list[Line]:
+    """Return the rows of text, two a kind where there are intervals, a rule above our own variants."""
+    lines: list[Line] = []
+    for method, own in traits.items():
+        if lines:
+            lines.append(RULE if method in variants[:1] else GAP)
+        order, size, runs, diverged = (own[name] for name in ("order", "parameters", "runs", "diverged"))
+        ranks = [order.text(0), number_text(order.published, 0)]
+        sizes = [size.text(0), number_text(size.published, 0)]
+        count = runs.text(0) + (f", {diverged.text(0)} diverged" if diverged.value else "")
+        lines += with_intervals([*ranks, method, *sizes, count], [own[name] for name in MEASURES], confidence)
+    return lines

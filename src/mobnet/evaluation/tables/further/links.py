@@ -1,0 +1,47 @@
+"""Which link a collision hits and from where, as detectors name it at their alarm: a confusion matrix."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from mobnet.core.columns import DETECTION
+from mobnet.evaluation.measure.detection.results import ALL, CELLS, Detections, owners, share_of, tries_of
+from mobnet.evaluation.number.files import Field
+from mobnet.evaluation.tables.layout import Line, Table, in_blocks, write_table
+from mobnet.settings.detected import Links
+from mobnet.settings.detection import Detection
+from mobnet.settings.evaluation import Statistics
+
+NAMED, RIGHT_LINK, RIGHT_CELL = "named", "right_link", "right_cell"
+
+
+def links(
+    settings: Links, detection: Detection, statistics: Statistics, detections: Detections, table_dir: Path
+) -> None:  # fmt: skip
+    """Write links.csv, .tex and .md: collisions that are found, by what they hit and what the detector names.
+
+    The last columns are the shares of those whose link, and whose link and direction, it names [-].
+    """
+    rows: list[Sequence[Field]] = []
+    blocks: list[tuple[list[str], list[list[str]]]] = []
+    for level in settings.levels:
+        names = owners(detections, level, settings.levels)
+        tries = tries_of(detections, names, detection.collisions, settings.leg, settings.kind)
+        for name in (name for name in settings.detectors if name in tries):
+            lines: list[list[str]] = []
+            for cell in (*CELLS, ALL):
+                own = [one for one in tries[name] if cell in (one.cell, ALL) and one.detected.delay_s is not None]
+                counts = [sum(one.named == other for one in own) for other in CELLS]
+                right = {
+                    RIGHT_LINK: share_of([one.detected.link == one.collision.link for one in own], statistics),
+                    RIGHT_CELL: share_of([one.named == one.cell for one in own], statistics),
+                }
+                place = level, name, settings.leg, settings.kind, cell
+                rows += [(*place, f"{NAMED} {other}", count, None, None, len(own), "-", None)
+                         for other, count in zip(CELLS, counts, strict=True)]  # fmt: skip
+                rows += [(*place, key, *number.with_ends, len(own), "-", None) for key, number in right.items()]
+                shares = [number.text() for number in right.values()]
+                lines.append([cell, *map(str, counts), *shares, right[RIGHT_LINK].interval()])
+            blocks.append(([level.replace("_", " "), name], lines))
+    header = ["Level", "Detector", "Hit", *CELLS, "link", "link and side", f"{statistics.confidence:.0%} (link)"]
+    found: list[Line] = in_blocks(blocks)
+    write_table(table_dir / "links", Table(DETECTION, rows, header, found, left=3))

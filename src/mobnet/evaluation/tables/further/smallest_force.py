@@ -1,0 +1,55 @@
+"""The smallest force that detectors find, by what is hit from where."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from mobnet.core.columns import DETECTION
+from mobnet.evaluation.measure.detection.results import CELLS, Detections, owners, tries_of
+from mobnet.evaluation.measure.detection.smallest_force import smallest_force as force_of
+from mobnet.evaluation.number.files import Field
+from mobnet.evaluation.number.number import Number
+from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
+from mobnet.settings.detected import SmallestForce
+from mobnet.settings.detection import Detection
+from mobnet.settings.evaluation import Statistics
+
+QUANTITY = "smallest_force"
+
+
+def smallest_force(
+    settings: SmallestForce, detection: Detection, statistics: Statistics, detections: Detections, table_dir: Path
+) -> None:
+    """Write smallest_force.csv, .tex and .md: the largest force [N] that a collision must have to be found.
+
+    It is that of which the share of section `smallest_force` is found, by detector, rule of thresholds and cell.
+    """
+    rows: list[Sequence[Field]] = []
+    blocks: list[tuple[list[str], list[list[str]]]] = []
+    for level in settings.levels:
+        names = owners(detections, level, settings.levels)
+        for kind in settings.kinds:
+            tries, lines = tries_of(detections, names, detection.sweep, settings.leg, kind), list[list[str]]()
+            for name in (name for name in settings.detectors if name in tries):
+                texts: list[str] = []
+                for cell in CELLS:
+                    own = [one for one in tries[name] if one.cell == cell]
+                    force = np.array([one.collision.force_n for one in own])
+                    found = np.array([one.detected.delay_s is not None for one in own], dtype=np.float64)
+                    number = force_of(force, found, settings, statistics) if len(own) else Number(None, unit="N")
+                    place = level, name, settings.leg, kind, cell, QUANTITY
+                    rows.append((*place, *number.with_ends, len(own), number.unit, None))
+                    texts.append(_text(number))
+                lines.append([name, *texts])
+            if lines:
+                blocks.append(([level.replace("_", " "), kind], lines))
+    header = ["Level", "Rule", "Detector", *(f"{cell} [N]" for cell in CELLS)]
+    write_table(table_dir / "smallest_force", Table(DETECTION, rows, header, in_blocks(blocks, nested=True), left=3))
+
+
+def _text(number: Number) -> str:
+    """Return a force with its interval as text; where it lies beyond all that were tried, beyond which of them."""
+    if number.value is None:
+        return f"< {number.low:.0f}" if number.low is not None else f"> {number.high:.0f}" if number.high else "-"
+    return f"{number.text(0)} {number.interval(0)}"

@@ -1,0 +1,160 @@
+"""Table 9: collisions of a leg that detectors find, and how late."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+from mobnet.core.columns import DETECTION
+from mobnet.evaluation.measure.detection.results import (
+    ALL,
+    CELLS,
+    MS,
+    Detections,
+    Try,
+    mean_of,
+    owners,
+    share_of,
+    tries_of,
+)
+from mobnet.evaluation.number.files import Field
+from mobnet.evaluation.number.number import number_text, published_row
+from mobnet.evaluation.tables.layout import PART, RULE, Line, Table, text_table, write_table
+from mobnet.settings.detected import DetectorTable
+from mobnet.settings.detection import Detection
+from mobnet.settings.evaluation import Statistics
+from mobnet.settings.published import PublishedTable
+
+FOUND, DELAY, ONSET, PERFECT = "found", "delay", "delay_onset", "perfect_delay"
+DETECTED, DELAY_MS = "detected", "delay_ms"  # places of the paper's numbers
+TRIED = 10  # collisions of each cell in the paper
+SHORT = {cell: " ".join(word[0].upper() for word in cell.split()) for cell in CELLS}
+
+
+def table_09(
+    settings: DetectorTable, detection: Detection, statistics: Statistics, published: PublishedTable,
+    detections: Detections, table_dir: Path,
+) -> None:  # fmt: skip
+    """Write table_09.csv, .tex and .md: found collisions with Wilson's interval, and delays [ms].
+
+    A delay is the mean of a cell over the collisions that are found; of all together it is that of the cells, as the
+    paper's, and beside it that over all found collisions. `perfect` is the delay of an estimate without error at the
+    same thresholds, on the same collisions.
+    """
+    rows: list[Sequence[Field]] = []
+    lines: list[Line] = []
+    taus: list[str] = []
+    for level in settings.levels:
+        names = owners(detections, level, settings.levels)
+        tries = tries_of(detections, names, detection.collisions, settings.leg, settings.kind)
+        shown = {name: tries[name] for name in settings.detectors if name in tries}
+        lines += [RULE] if lines else []
+        for name, own in shown.items():
+            rows += _rows(level, name, settings, own, statistics, published)
+            lines += _lines(level, name, own, statistics, published)
+        taus.append(f"{order_text(shown, published)} ({level.replace('_', ' ')})")
+    cells = [SHORT[cell] for cell in CELLS]
+    leading = ["Level", "Detector", ""]
+    found = [*cells, "all", f"{statistics.confidence:.0%}"]
+    delays = [*(f"{cell} [ms]" for cell in cells), "cells", "found", "perfect", "from onset"]
+    note = (
+        "F, A, K: foot, ankle, knee; F, S: front, side. "
+        f"Kendall's tau of the order of the found totals against the paper's: {', '.join(taus)}."
+    )
+    parts = [leading + head for head in (found, delays)]
+    ends = len(leading) + len(found)
+    cut = [[line if isinstance(line, str) else line[:ends] for line in lines],
+           [line if isinstance(line, str) else [*line[: len(leading)], *line[ends:]] for line in lines]]  # fmt: skip
+    tex = PART.join(
+        text_table("lll" + "r" * (len(head) - len(leading)), head, own) for head, own in zip(parts, cut, strict=True)
+    )
+    table = Table(DETECTION, rows, [*leading, *found, *delays], lines, left=len(leading), note=note)
+    write_table(table_dir / "table_09", table, tex)
+
+
+def order_text(shown: Mapping[str, Sequence[Try]], published: PublishedTable) -> str:
+    """Return Kendall's tau of the detectors' totals against the paper's, as text."""
+    from scipy.stats import kendalltau  # here, as it takes a second to import
+
+    totals = {name: row[ALL] for name in shown if (row := published_row(published, DETECTED, name))}
+    ours = [sum(one.detected.delay_s is not None for one in shown[name]) / len(shown[name]) for name in totals]
+    return number_text(float(kendalltau(ours, list(totals.values())).statistic) if len(ours) > 1 else None)
+
+
+def _in_cells(tries: Sequence[Try]) -> dict[str, list[Try]]:
+    """Return the collisions of each cell."""
+    return {cell: [one for one in tries if one.cell == cell] for cell in CELLS}
+
+
+def _delays(tries: Sequence[Try]) -> list[float]:
+    """Return the delays of the collisions that were found [ms]."""
+    return [MS * one.detected.delay_s for one in tries if one.detected.delay_s is not None]
+
+
+def _onset_delays(tries: Sequence[Try]) -> list[float]:
+    """Return the delays from when the force exceeds that of the second definition of a beginning [ms]."""
+    return [
+        MS * (one.detected.delay_s - (one.collision.onset_s - one.collision.start_s))
+        for one in tries
+        if one.detected.delay_s is not None and one.collision.onset_s is not None
+    ]
+
+
+def _perfect_delays(tries: Sequence[Try]) -> list[float]:
+    """Return the delays of an estimate without error [ms], of the collisions that were found."""
+    return [
+        MS * one.detected.perfect_s
+        for one in tries
+        if one.detected.delay_s is not None and one.detected.perfect_s is not None
+    ]
+
+
+def _rows(
+    level: str, name: str, settings: DetectorTable, tries: Sequence[Try], statistics: Statistics,
+    published: PublishedTable,
+) -> Iterator[Sequence[Field]]:  # fmt: skip
+    """Yield the rows of CSV of a detector."""
+    printed = {place: published_row(published, place, name) for place in (DETECTED, DELAY_MS)}
+    for cell, own in {**_in_cells(tries), ALL: list(tries)}.items():
+        place = level, name, settings.leg, settings.kind, cell
+        count = TRIED * (len(CELLS) if cell == ALL else 1)
+        of_paper = printed[DETECTED].get(cell)
+        found = share_of([one.detected.delay_s is not None for one in own], statistics)
+        share = None if of_paper is None else of_paper / count
+        yield (*place, FOUND, *found.with_ends, len(own), "-", share)
+        numbers = {DELAY: _delays(own), ONSET: _onset_delays(own), PERFECT: _perfect_delays(own)}
+        for quantity, values in numbers.items():
+            number = mean_of(values, statistics, "ms")
+            paper = printed[DELAY_MS].get(cell) if quantity == DELAY and cell != ALL else None
+            yield (*place, quantity, *number.with_ends, len(values), "ms", paper)
+    cells = [mean for own in _in_cells(tries).values() if (mean := mean_of(_delays(own), statistics, "ms").value)]
+    average = sum(cells) / len(cells) if cells else None
+    yield (level, name, settings.leg, settings.kind, "cells", DELAY, average, None, None, len(cells), "ms",
+           printed[DELAY_MS].get(ALL))  # fmt: skip
+
+
+def _lines(
+    level: str, name: str, tries: Sequence[Try], statistics: Statistics, published: PublishedTable
+) -> Iterator[Line]:  # fmt: skip
+    """Yield what a detector finds in each cell and how late, and below it what the paper prints."""
+    in_cells = _in_cells(tries)
+    counts = [str(sum(one.detected.delay_s is not None for one in own)) for own in in_cells.values()]
+    total = share_of([one.detected.delay_s is not None for one in tries], statistics)
+    all_found = f"{len(_delays(tries))}/{len(tries)}"
+    means = [_mean(_delays(own)) for own in in_cells.values()]
+    known = [mean for mean in means if mean is not None]
+    further = [_mean(known), *(_mean(own(tries)) for own in (_delays, _perfect_delays, _onset_delays))]
+    delays = [number_text(mean, 1) for mean in (*means, *further)]
+    yield [level.replace("_", " "), name, "ours", *counts, all_found, total.interval(), *delays]
+    printed, late = (published_row(published, place, name) for place in (DETECTED, DELAY_MS))
+    if printed and late:
+        weighted = [(printed[cell] or 0.0, late[cell]) for cell in CELLS]
+        found = sum(count for count, _ in weighted)
+        mean = sum(count * (delay or 0.0) for count, delay in weighted) / found if found else None
+        numbers = [number_text(printed[cell], 0) for cell in CELLS]
+        total_text = f"{number_text(printed[ALL], 0)}/{TRIED * len(CELLS)}"
+        paper = [number_text(late[cell], 1) for cell in (*CELLS, ALL)]
+        yield ["", "", "paper", *numbers, total_text, "", *paper, number_text(mean, 1), "", ""]
+
+
+def _mean(values: Sequence[float]) -> float | None:
+    """Return the mean of values; None of none."""
+    return sum(values) / len(values) if values else None

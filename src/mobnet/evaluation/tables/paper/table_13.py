@@ -1,0 +1,52 @@
+"""Table 13: thresholds of a leg's joints by the paper's rule, for each detector."""
+
+from collections import defaultdict
+from pathlib import Path
+
+from mobnet.core.columns import DETECTION
+from mobnet.core.detections import Threshold
+from mobnet.core.joints import JointLayout
+from mobnet.evaluation.measure.detection.results import Detections, owners, rows_of
+from mobnet.evaluation.number.files import Field
+from mobnet.evaluation.number.number import number_text, published_row
+from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
+from mobnet.settings.detected import DetectorTable
+from mobnet.settings.published import PublishedTable
+
+THRESHOLD = "threshold_nm"  # place of the paper's numbers
+QUANTITY = "threshold"
+
+
+def table_13(
+    settings: DetectorTable, layout: JointLayout, published: PublishedTable, detections: Detections, table_dir: Path
+) -> None:
+    """Write table_13.csv, .tex and .md: thresholds [N m], means over the robots of a level with the least and the most.
+
+    The CSV has the thresholds of all detectors of both legs and by all rules.
+    """
+    rows: list[tuple[Field, ...]] = []
+    blocks: list[tuple[list[str], list[list[str]]]] = []
+    joints = layout.limb(settings.leg)
+    for level in settings.levels:
+        names = owners(detections, level, settings.levels)
+        found: dict[tuple[str, ...], list[Threshold]] = defaultdict(list)
+        for _, row in rows_of(detections, names, "thresholds", Threshold):
+            found[row.detector, row.leg, row.kind, f"{row.signal} {row.phase}"].append(row)
+        means = {key: sum(row.value for row in own) / len(own) for key, own in found.items()}
+        for key, own in found.items():
+            values = [row.value for row in own]
+            paper = published_row(published, THRESHOLD, key[0]).get(own[0].signal.partition(".")[2])
+            is_shown = key[1:3] == (settings.leg, settings.kind)
+            ends = min(values), max(values), len(values)
+            rows.append((level, *key, QUANTITY, means[key], *ends, own[0].unit, paper if is_shown else None))
+        lines: list[list[str]] = []
+        for name in settings.detectors:
+            own = [means.get((name, settings.leg, settings.kind, f"{kind}.{joint} 1"))
+                   for joint in joints for kind in ("mean", "std")
+                   if (name, settings.leg, settings.kind, f"{kind}.{joint} 1") in means]  # fmt: skip
+            lines.append([name, "ours", *(number_text(value) for value in own)])
+            if printed := published_row(published, THRESHOLD, name):
+                lines.append(["", "paper", *(number_text(printed[joint]) for joint in joints)])
+        blocks.append(([level.replace("_", " ")], lines))
+    header = ["Level", "Detector", "", *(f"{joint} [N m]" for joint in joints)]
+    write_table(table_dir / "table_13", Table(DETECTION, rows, header, in_blocks(blocks), left=3))
