@@ -1,4 +1,4 @@
-"""Every metric has one kind, which says its unit and its range."""
+"""Every metric is declared once, with its unit and its range."""
 
 import csv
 import re
@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from mobnet.core.errors import ConfigError
-from mobnet.core.metrics import METRIC, METRIC_KINDS, SECTIONS, UNITS, kind_of_metric, unit_of_metric
-from mobnet.settings.evaluation import Scoring
+from mobnet.core.metrics import METRIC, METRICS, SECTIONS, metric_of, unit_of_metric
+from mobnet.settings.evaluation import Evaluation
 
 GOLDEN = Path(__file__).parents[1] / "golden"
 MADE = ("factor", "gone", "share", "skill")  # by tables, of metrics
@@ -33,18 +33,18 @@ def test_the_metrics_of_the_golden_tables_have_their_units() -> None:
      ("held_swing_3", "-"), ("std_part_4", "N m"), ("cover_stance", "-"), ("acf_10ms", "-"),
      ("excursion", "ms"), ("free_share", "-")],
 )  # fmt: skip
-def test_a_metric_has_one_kind_and_one_unit(name: str, unit: str) -> None:
-    assert sum(re.fullmatch(kind.names, name) is not None for kind in METRIC_KINDS) == 1
+def test_a_metric_is_declared_once_and_has_one_unit(name: str, unit: str) -> None:
+    assert sum(re.fullmatch(kind.names, name) is not None for kind in METRICS) == 1
     assert re.fullmatch(METRIC, name)
     assert unit_of_metric(name, "N m") == unit
-    assert unit in UNITS
+    assert unit in metric_of(name).units
 
 
 @pytest.mark.parametrize("name", ["rmse_push_0", "share", "acf_ms", "rmse_part_", ""])
 def test_another_name_is_refused(name: str) -> None:
     with pytest.raises(ConfigError, match=f"metric: {name!r} is not accepted; accepted: "):
-        kind_of_metric(name)
+        metric_of(name)
 
 
-def test_what_asks_for_metrics_is_a_section_of_scoring() -> None:
-    assert set(SECTIONS) <= Scoring.model_fields.keys()
+def test_what_asks_for_metrics_is_a_section_of_the_evaluation() -> None:
+    assert set(SECTIONS) <= Evaluation.model_fields.keys()

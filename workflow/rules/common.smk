@@ -19,6 +19,7 @@ from mobnet.core.gpus import gpus_seen
 from mobnet.core.lock import job_prefix
 from mobnet.core.run import is_stopped, refuse_configfiles, start_jobs
 from mobnet.estimation.methods import method_problems
+from mobnet.evaluation.measure.numbers import measure_problems
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.plan.disk import check_places, check_space
 from mobnet.plan.places import check_scale
@@ -34,8 +35,9 @@ shell.prefix(job_prefix(ROOT))
 
 
 def what_other_packages_know(settings):
-    """Yield what kinds of methods and the paper's text do not accept."""
+    """Yield what kinds of methods, modules of measures and the paper's text do not accept."""
     yield from method_problems(settings)
+    yield from measure_problems(settings)
     yield from text_problems(settings, ROOT / "paper" / "main.tex")
 
 

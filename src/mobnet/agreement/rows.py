@@ -10,10 +10,11 @@ from typing import Any
 from mobnet.agreement.said import differences
 from mobnet.core.columns import Score
 from mobnet.core.errors import not_accepted
-from mobnet.core.metrics import METRIC, kind_of_metric, unit_of_metric
+from mobnet.core.metrics import METRIC, unit_of_metric
 from mobnet.core.notes import read_note
 from mobnet.estimation.kinds.friction import FrictionNote, JointNote, Options, fitted_joints
-from mobnet.evaluation.measure.estimates.scores import AVERAGE, ERROR
+from mobnet.evaluation.measure.estimates.run_errors import ERROR
+from mobnet.evaluation.measure.estimates.scores import AVERAGE
 from mobnet.evaluation.number.rows import read_scores
 from mobnet.plan.runs import Files, Run
 from mobnet.settings.checks.results import Results
@@ -111,9 +112,6 @@ def _row_faults(row: Score, files: Files) -> Iterator[str]:
         units = {unit_of_metric(row.metric, layout.unit(joint)) for joint in joints if row.joint in (joint, AVERAGE)}
         if row.unit not in units:
             yield not_accepted("unit", row.unit, units)
-    low, high = kind_of_metric(row.metric).ends or (-math.inf, math.inf)
-    if not low <= row.value <= high:
-        yield not_accepted(f"value of {row.metric}", row.value, [f"{low:g} to {high:g}"])
 
 
 def _average_faults(rows: Iterable[Score], files: Files) -> Iterator[str]:

@@ -1,72 +1,84 @@
-"""The metrics of scores: each has its names, its unit, its range and who asks for it here, and nowhere else.
+"""The metrics of scores, each declared beside the code that measures it and nowhere else.
 
-The modules of `mobnet.evaluation.measure` say what each one is. The configuration accepts these names, a score gets
-its unit from here, and a file of scores from outside is compared with both.
+A module of `mobnet.evaluation.measure.estimates` has the name of its section of the evaluation and declares `METRICS`;
+those of `run_errors` are measured on every test. Here they are read, not imported: the configuration accepts these
+names before anything is computed, a score gets its unit from here, and files of scores are compared with both.
 """
 
+import ast
 import re
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
 
 from mobnet.core.errors import ConfigError, not_accepted
 
-PART = "swing|touch_down|stance|stuck|moving"  # parts of a walk
-NUMBER = "[1-9][0-9]*"
+MEASURES = Path(__file__).parents[1] / "evaluation" / "measure" / "estimates"
+ALWAYS = "run_errors"  # the module whose metrics are measured on every test
 JOINT_UNITS = ("N", "N m")  # of the torques of joints: V1..V3, and all others
-SHARE, CORRELATION = (0.0, 1.0), (-1.0, 1.0)
 
 
 @dataclass(frozen=True)
-class MetricKind:
-    """Metrics that are measured alike.
+class Metric:
+    """Metrics that are measured alike; their declaration holds literals alone.
 
     Attributes:
         names: pattern of their names.
         unit: their unit; braces stand for that of the joint.
-        section: section of the evaluation on whose tests alone they are measured; empty: on every test.
-        ends: smallest and largest value that there can be, where both are known [unit].
+        low: smallest value that there can be [unit]; None: no bound.
+        high: largest value that there can be [unit]; None: no bound.
+        section: section of the evaluation on whose tests alone they are measured, which is the name of their module;
+            empty: on every test.
     """
 
     names: str
     unit: str = "{}"
+    low: float | None = 0.0
+    high: float | None = None
     section: str = ""
-    ends: tuple[float, float] | None = None
+
+    @property
+    def units(self) -> tuple[str, ...]:
+        """Every unit that a score of it may have."""
+        return tuple(dict.fromkeys(map(self.unit.format, JOINT_UNITS)))
 
 
-METRIC_KINDS = (
-    MetricKind("rmse(_raw|_label)?"),
-    MetricKind("r_rmse", "%"),
-    MetricKind("roughness", "{}/s"),
-    MetricKind(f"rmse_(pushed|push_{NUMBER})(_raw)?"),
-    MetricKind("peak_ratio(_observer)?", "-", "peaks"),
-    MetricKind("rise_delay(_observer)?", "ms", "peaks"),
-    MetricKind(r"gain_[0-9]+(\.[0-9]+)?hz", "-", "bode"),
-    MetricKind(r"phase_[0-9]+(\.[0-9]+)?hz", "deg", "bode"),
-    MetricKind(f"held_(swing|stance)(_{NUMBER})?", "-", "drift"),
-    MetricKind(f"rmse_({PART})", section="phases"),
-    MetricKind(f"rmse_part_{NUMBER}", section="sigma"),
-    MetricKind(f"std(_({PART}|pushed|calm|part_{NUMBER}))?", section="sigma"),
-    MetricKind(f"cover(_({PART}|pushed|calm|part_{NUMBER}))?", "-", "sigma", SHARE),
-    MetricKind("excursion", "ms", "sigma"),
-    MetricKind(f"acf_{NUMBER}ms", "-", "sigma", CORRELATION),
-    MetricKind("(known|free|flagged)_share", "-", "changed", SHARE),
-)
-METRIC = "|".join(f"({kind.names})" for kind in METRIC_KINDS)  # pattern of every name
-SECTIONS = tuple(dict.fromkeys(kind.section for kind in METRIC_KINDS if kind.section))
-UNITS = tuple(dict.fromkeys(kind.unit.format(unit) for kind in METRIC_KINDS for unit in JOINT_UNITS))  # of a score
+def declared() -> Iterator[Metric]:
+    """Yield the metrics of all modules of measures."""
+    for path in sorted(MEASURES.glob("*.py")):
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "METRICS":
+                section = "" if path.stem == ALWAYS else path.stem
+                yield from (replace(metric, section=section) for metric in _metrics(node.value))
 
 
-def kind_of_metric(name: str) -> MetricKind:
-    """Return the kind of a metric.
+def _metrics(value: ast.expr) -> Iterator[Metric]:
+    """Yield the metrics of a tuple of declarations."""
+    calls = value.elts if isinstance(value, ast.Tuple) else ()
+    for call in (call for call in calls if isinstance(call, ast.Call)):
+        named = {word.arg: ast.literal_eval(word.value) for word in call.keywords if word.arg}
+        yield Metric(*map(ast.literal_eval, call.args), **named)
+
+
+METRICS = tuple(declared())
+METRIC = "|".join(f"({metric.names})" for metric in METRICS)  # pattern of every name
+SECTIONS = tuple(dict.fromkeys(metric.section for metric in METRICS if metric.section))
+
+
+@cache
+def metric_of(name: str) -> Metric:
+    """Return the metric of a name.
 
     Raises:
         ConfigError: no metric has this name.
     """
-    for kind in METRIC_KINDS:
-        if re.fullmatch(kind.names, name):
-            return kind
-    raise ConfigError(not_accepted("metric", name, (kind.names for kind in METRIC_KINDS)))
+    for metric in METRICS:
+        if re.fullmatch(metric.names, name):
+            return metric
+    raise ConfigError(not_accepted("metric", name, (metric.names for metric in METRICS)))
 
 
 def unit_of_metric(name: str, unit: str) -> str:
     """Return the unit of a metric of a joint whose torque has a unit."""
-    return kind_of_metric(name).unit.format(unit)
+    return metric_of(name).unit.format(unit)

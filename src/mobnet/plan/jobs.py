@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mobnet.core.files import WEIGHTS
-from mobnet.core.metrics import SECTIONS
 from mobnet.core.stage import Stage
 from mobnet.plan.call import Call, Job
 from mobnet.plan.detection import numbers_of, walks_of
@@ -17,6 +16,7 @@ from mobnet.settings.names import shown_in
 from mobnet.settings.settings import Settings, WalkSettings
 
 KINDS = "mobnet.estimation.kinds"  # modules that a method names as its kind
+MEASURES = "mobnet.evaluation.measure.estimates"  # modules that sections of the evaluation name
 
 
 @dataclass(frozen=True)
@@ -145,7 +145,8 @@ class Jobs:
         asked = scoring(self.settings, scenario, level)
         arguments = {"layout": self.settings.layout, "runs": runs, "asked": asked, "out": out}
         read = [[run.residual, run.estimate, run.recording] for run in runs]
-        return Job(Call("mobnet.evaluation.measure.estimates.scores:score", arguments), _read(read))
+        modules = tuple(f"{MEASURES}.{name}" for name in asked.sections)
+        return Job(Call(f"{MEASURES}.scores:score", arguments), _read(read), modules)
 
     def detect(self) -> Job:
         """Return the calibration and the trial of the detectors of a robot, or of the plant of section 5.1."""
@@ -198,9 +199,7 @@ class Jobs:
 def scoring(settings: Settings, scenario: str, level: str) -> Scoring:
     """Return what is measured on the runs of a test at a level: the sections of the products that show it."""
     evaluation = settings.evaluation
-    sections = {
-        name: getattr(evaluation, name) for name in SECTIONS if (scenario, level) in shown_in(getattr(evaluation, name))
-    }
+    sections = {name: own for name, own in evaluation.measured.items() if (scenario, level) in shown_in(own)}
     pushes = [settings.pushes[name] for name in settings.scenarios[scenario].pushes]
     shared = {
         "window": evaluation.windows.get(scenario),
@@ -209,7 +208,7 @@ def scoring(settings: Settings, scenario: str, level: str) -> Scoring:
         "cover_share": settings.learning.calibration_share,
         "lines": {push.joint: push.sines.frequency_hz for push in pushes if push.joint and push.sines},
     }
-    return Scoring.model_validate({**sections, **shared})
+    return Scoring.model_validate({"sections": sections, **shared})
 
 
 def walk_settings(settings: Settings, scenario: str, level: str) -> WalkSettings:

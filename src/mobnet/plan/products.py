@@ -14,7 +14,7 @@ from mobnet.settings.settings import Settings
 
 EVALUATION = "mobnet.evaluation"
 PARTS = ("paper", "further")  # folders of tables and figures: what the paper has, and what is added to it
-ERRORS = f"{EVALUATION}.tables.paper.errors:errors"  # makes every entry of `tables`
+ERRORS = f"{EVALUATION}.tables.paper.error_table:error_table"  # makes every entry of `tables`
 TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their rules: the code hash reads Python only
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "png", "csv")  # endings of a table's and of a figure's files
 CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field
 
-from mobnet.core.metrics import METRIC
+from mobnet.core.metrics import METRIC, SECTIONS
 from mobnet.settings import base
 from mobnet.settings.base import Section
 from mobnet.settings.detected import (
@@ -351,19 +351,21 @@ class Changed(Section):
     tests: Annotated[dict[base.Text, LimbRuns], Field(min_length=1)]
 
 
+class Measure(Section):
+    """A measure without a product of its own: the `Options` of the module of its name, and where it is taken."""
+
+    options: base.Change = {}
+    tests: base.Some[LimbRuns]
+
+
 class Scoring(Section):
-    """What is measured on the runs of one test besides errors: what no product asks for is None.
+    """What is measured on the runs of one test besides errors: a window around pushes, and sections by name.
 
     `lines` are the injected frequencies [Hz] of each joint, `cover_share` the nominal share of covered errors.
     """
 
     window: Window | None = None
-    peaks: Peaks | None = None
-    bode: Bode | None = None
-    drift: Drift | None = None
-    phases: Phases | None = None
-    sigma: Sigma | None = None
-    changed: Changed | None = None
+    sections: dict[str, Section] = {}
     touch_down_s: float = 0.0
     stuck_rad_s: float = 0.0
     cover_share: float = 0.0
@@ -449,6 +451,7 @@ class Evaluation(Section):
     phases: Phases
     sigma: Sigma
     changed: Changed
+    measures: dict[base.LowerName, Measure] = {}
     table_09: DetectorTable
     table_13: DetectorTable
     false_alarms: AlarmTable
@@ -464,3 +467,9 @@ class Evaluation(Section):
     uncertainty: Uncertainty
     latency: Latency
     compute: Compute
+
+    @property
+    def measured(self) -> dict[str, Section]:
+        """The sections that ask for metrics of their own, in order: those of products, then `measures`."""
+        found: dict[str, Section] = {name: getattr(self, name) for name in type(self).model_fields if name in SECTIONS}
+        return {**found, **self.measures}

@@ -10,14 +10,23 @@ import pytest
 from mobnet.core.columns import Score, residual_columns, torque_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
+from mobnet.core.metrics import METRICS, SECTIONS, metric_of
+from mobnet.core.recording import read_recording, write_recording
 from mobnet.core.store import read_array, write_array
+from mobnet.evaluation.compare.scene import Scene
 from mobnet.evaluation.measure.estimates.scores import limb_values, score, score_run
 from mobnet.evaluation.number.files import read_rows
+from mobnet.evaluation.number.rows import read_scores
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import Scoring, Window
+from mobnet.settings.evaluation import Bode, Evaluation, LimbRuns, Runs, Scoring, Window
 
 Walk = Callable[..., Run]
 RATE = {"rate_hz": 100.0}
+
+
+def rows_of(layout: JointLayout, run: Run, asked: Scoring) -> list[Score]:
+    """Return the scores of a run."""
+    return score_run(run, Scene(run.recording, layout, asked))
 
 
 def values_of(rows: list[Score], metric: str) -> list[float]:
@@ -32,7 +41,7 @@ def around(before_s: float, after_s: float) -> Scoring:
 
 def test_constant_error_is_scored_as_that_constant_in_every_joint(walk: Walk, layout: JointLayout) -> None:
     """A closed form."""
-    rows = score_run(layout, walk(-3.0), Scoring())
+    rows = rows_of(layout, walk(-3.0), Scoring())
     assert [row.joint for row in rows if row.metric == "rmse"] == [*layout.limb("LL"), "avg"]
     assert values_of(rows, "rmse") == pytest.approx([3.0] * 7, rel=1e-5)
     named = {(row.limb, row.unit, row.scenario, row.method) for row in rows if row.metric == "rmse"}
@@ -42,18 +51,18 @@ def test_constant_error_is_scored_as_that_constant_in_every_joint(walk: Walk, la
 def test_an_error_against_the_label_stands_beside_that_against_the_truth(walk: Walk, layout: JointLayout) -> None:
     """Where foot sensors label a recording: their error adds to that of the estimate."""
     run = walk(-3.0)
-    assert not values_of(score_run(layout, run, Scoring()), "rmse_label")
+    assert not values_of(rows_of(layout, run, Scoring()), "rmse_label")
     array, meta = read_array(run.residual)
     labelled = np.concatenate([array, array[:, layout.nv :] + 1.0], axis=1)
     write_array(run.residual, labelled, residual_columns(layout, labelled=True), RATE, meta["segments"])
-    rows = score_run(layout, run, Scoring())
+    rows = rows_of(layout, run, Scoring())
     assert values_of(rows, "rmse") == pytest.approx([3.0] * 7, rel=1e-5)
     assert values_of(rows, "rmse_label") == pytest.approx([4.0] * 7, rel=1e-5)
 
 
 def test_a_constant_error_does_not_change_the_roughness(walk: Walk, layout: JointLayout) -> None:
     """Invariant under an offset of the estimate."""
-    one, two = (values_of(score_run(layout, walk(error), Scoring()), "roughness") for error in (0.5, 4.0))
+    one, two = (values_of(rows_of(layout, walk(error), Scoring()), "roughness") for error in (0.5, 4.0))
     assert one == pytest.approx(two, rel=1e-4)
 
 
@@ -73,8 +82,8 @@ def test_order_of_rows_is_that_of_the_runs(tmp_path: Path, walk: Walk, layout: J
 
 def test_a_limb_whose_network_has_run_under_an_earlier_seed_counts_once(walk: Walk, layout: JointLayout) -> None:
     first, again = walk(1.0), replace(walk(1.0), network_seed=1, repeated=("LL",))
-    assert {row.limb for row in score_run(layout, first, Scoring())} == {"LL"}
-    assert not score_run(layout, again, Scoring())
+    assert {row.limb for row in rows_of(layout, first, Scoring())} == {"LL"}
+    assert not rows_of(layout, again, Scoring())
 
 
 def test_files_that_do_not_belong_together_are_refused(tmp_path: Path, walk: Walk, layout: JointLayout) -> None:
@@ -89,7 +98,7 @@ def test_files_that_do_not_belong_together_are_refused(tmp_path: Path, walk: Wal
         (replace(run, residual=stem), r"column 'tau_ext_lp\.LL1' is missing"),
     ):
         with pytest.raises(DataError, match=says):
-            score_run(layout, changed, Scoring())
+            rows_of(layout, changed, Scoring())
 
 
 def test_pushes_are_scored_each_and_together(tmp_path: Path, walk: Walk, layout: JointLayout) -> None:
@@ -102,18 +111,18 @@ def test_pushes_are_scored_each_and_together(tmp_path: Path, walk: Walk, layout:
     truth, _ = read_array(run.residual, ["tau_ext_lp.LL3"])
     write_array(tmp_path / "e", truth + error[:, None], [("tau_ext.LL3", "N m", "joint")], RATE)
     run = replace(run, recording=tmp_path / "recording", estimate=tmp_path / "e")
-    scored = score_run(layout, run, around(0.0, 0.0))
+    scored = rows_of(layout, run, around(0.0, 0.0))
     values = {row.metric: row.value for row in scored if row.joint == "LL3"}
     assert values["rmse_raw"] == pytest.approx(np.sqrt(np.mean((truth[:, 0] + error) ** 2)), rel=1e-5)
     expected = {"rmse_push_1": 1.0, "rmse_push_2": 3.0, "rmse_pushed": 7.0**0.5, "rmse": (280 / 560) ** 0.5}
     assert {name: values[name] for name in expected} == pytest.approx(expected, rel=1e-5)
-    wide = score_run(layout, run, around(0.1, 0.2))
+    wide = rows_of(layout, run, around(0.1, 0.2))
     assert values_of(wide, "rmse_push_1")[0] == pytest.approx(0.5, rel=1e-5)
 
 
 def test_without_a_push_or_a_window_there_is_no_row_of_pushes(walk: Walk, layout: JointLayout) -> None:
     for run, asked in ((walk(2.0, calm=True), around(0.1, 0.2)), (walk(2.0), Scoring())):
-        assert {row.metric for row in score_run(layout, run, asked)} == {"rmse", "rmse_raw", "roughness", "r_rmse"}
+        assert {row.metric for row in rows_of(layout, run, asked)} == {"rmse", "rmse_raw", "roughness", "r_rmse"}
 
 
 def test_relative_error_is_a_percentage_and_left_out_where_there_is_no_torque(
@@ -123,8 +132,33 @@ def test_relative_error_is_a_percentage_and_left_out_where_there_is_no_torque(
     residual, _ = read_array(walk(3.0).residual, names)
     residual[:, 2] = 0.0
     write_array(tmp_path / "r", residual, [(name, "N m", "joint") for name in names], RATE)
-    scored = score_run(layout, replace(walk(3.0), residual=tmp_path / "r"), Scoring())
+    scored = rows_of(layout, replace(walk(3.0), residual=tmp_path / "r"), Scoring())
     rows = [row for row in scored if row.metric == "r_rmse"]
     assert [row.joint for row in rows] == ["LL1", "LL2", "LL4", "LL5", "LL6", "avg"]
     assert {row.unit for row in rows} == {"%"}
     assert rows[0].value == pytest.approx(300.0 / np.abs(residual[:, 0]).max(), rel=1e-5)
+
+
+def test_every_metric_that_a_run_can_write_passes_the_reader(
+    tmp_path: Path, walk: Walk, layout: JointLayout, evaluation: Evaluation
+) -> None:
+    """All sections ask for one walk that is pushed, labelled and has standard deviations: no metric is left out."""
+    test = {"scenario": "forward_walk", "level": "all_uncertainty", "methods": ("MOB-Net",)}
+    limbs, drift = {"tests": (LimbRuns(**test, limbs=("LL",)),)}, {"tests": {"it": Runs(**test)}}
+    own = {name: drift if name == "drift" else limbs for name in SECTIONS if name != "bode"}
+    sections = {name: getattr(evaluation, name).model_copy(update=shown) for name, shown in own.items()}
+    sections["changed"] = sections["changed"].model_copy(update={"window_s": 2.0})
+    sections["bode"] = Bode(**test, limb="LL", bands_hz=(0.5, 2.0))
+    window = Window(before_s=0.1, after_s=0.2)
+    numbers = {"touch_down_s": 0.1, "stuck_rad_s": 0.1, "cover_share": 0.68, "lines": {"LL3": (0.5, 2.0)}}
+    run = walk(-3.0, steps=8, std=2.0)
+    walked = read_recording(run.recording, layout)
+    pushed = replace(walked.truth, tau_push=20.0 * walked.truth.pushed * np.ones(layout.nv))
+    write_recording(run.recording, replace(walked, truth=pushed), layout)
+    array, meta = read_array(run.residual)
+    labelled = np.concatenate([array, array[:, layout.nv :] + 1.0], axis=1)
+    columns = residual_columns(layout, labelled=True)
+    write_array(run.residual, labelled, columns, {**RATE, "gain_hz": 20.0}, meta["segments"])
+    score(layout, [run], Scoring(window=window, sections=sections, **numbers), tmp_path / "scores.csv")
+    written = {metric_of(row.metric) for row in read_scores(tmp_path / "scores.csv")}
+    assert [metric.names for metric in METRICS if metric not in written] == []

@@ -12,7 +12,7 @@ from mobnet.core.errors import DataError
 from mobnet.evaluation.number.averages import Column
 from mobnet.evaluation.number.number import Number, published_row, published_value
 from mobnet.evaluation.tables.layout import GAP, RULE
-from mobnet.evaluation.tables.paper.errors import Look, TableRow, table_lines, write_error_table
+from mobnet.evaluation.tables.paper.error_table import Look, TableRow, table_lines, write_error_table
 from mobnet.settings.evaluation import ErrorTable
 from mobnet.settings.published import Floor
 from mobnet.settings.settings import Settings

@@ -11,8 +11,8 @@ from mobnet.core.columns import RESIDUAL, SWING, foot_of, named
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
-from mobnet.evaluation.compare.errors import Spans
 from mobnet.evaluation.compare.pair import read_pair, read_std
+from mobnet.evaluation.compare.rmse import Spans
 from mobnet.evaluation.compare.windows import FLAG
 from mobnet.plan.runs import Run
 

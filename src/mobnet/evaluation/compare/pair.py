@@ -14,7 +14,7 @@ from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import note_differences, read_array_note
 from mobnet.core.store import NOTE, file_of, label_of, read_array, spans_and_rate
-from mobnet.evaluation.compare.errors import Spans
+from mobnet.evaluation.compare.rmse import Spans
 from mobnet.plan.runs import Run
 
 

@@ -15,6 +15,7 @@ from mobnet.core.notes import read_array_note
 from mobnet.core.store import NOTE, file_of, read_array
 from mobnet.estimation.low_pass import low_pass
 from mobnet.evaluation.compare.pair import Pair
+from mobnet.settings.evaluation import Scoring
 
 SWINGING, TOUCH_DOWN, STANCE = "swing", "touch_down", "stance"  # phases of a leg
 FLAG = 0.5  # a stored flag above this is 1
@@ -22,11 +23,11 @@ FLAG = 0.5  # a stored flag above this is 1
 
 @dataclass(frozen=True)
 class Scene:
-    """A recording; each property reads its columns once. Touch-downs last some time [s]."""
+    """A recording, and what is asked of it; each property reads its columns once."""
 
     stem: Path
     layout: JointLayout
-    touch_down_s: float = 0.0
+    asked: Scoring
 
     @cached_property
     def external(self) -> NDArray[np.float32]:
@@ -53,7 +54,7 @@ class Scene:
     def phases(self) -> dict[str, NDArray[np.bool_]]:
         """Phase -> whether each joint's own leg is in it (T, nv); a joint of no leg is in none."""
         note = read_array_note(file_of(self.stem, NOTE))
-        rows, spans = round(self.touch_down_s * note["rate_hz"]), note["segments"]
+        rows, spans = round(self.asked.touch_down_s * note["rate_hz"]), note["segments"]
         found = {name: np.zeros((note["rows"], self.layout.nv), dtype=bool) for name in (SWINGING, TOUCH_DOWN, STANCE)}
         for side, limb in self.layout.legs.items():
             foot = next(name for name in FEET if name.startswith(side))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mobnet.core.columns import CONTACT, EXTERNAL, FEET, PUSHED, SWING
 from mobnet.core.errors import DataError
 from mobnet.core.store import read_array
-from mobnet.evaluation.compare.errors import Spans
+from mobnet.evaluation.compare.rmse import Spans
 from mobnet.settings.evaluation import Coverage, CoverageTest
 
 FLAG = 0.5  # a stored flag above this is 1

@@ -8,10 +8,10 @@ from typing import Any, cast
 
 from mobnet.core.columns import Epoch, Score
 from mobnet.core.detections import FILES, PARTS, UNNAMED
-from mobnet.core.metrics import UNITS
+from mobnet.core.errors import ConfigError
+from mobnet.core.metrics import metric_of
 from mobnet.evaluation.number.files import read_rows, refuse_rows
 
-SIGNED = ("-", "ms", "deg")  # units of numbers that may be below zero
 KEY = attrgetter(*(field.name for field in fields(Score) if field.name != "value"))  # what names a score, unit last
 ENDS = (("start_s", "end_s"), ("low", "high"), ("found", "collisions"))  # of rows of detectors, smaller one first
 Fault = tuple[int, str, object, str]  # number of a row, column, value, accepted
@@ -70,21 +70,30 @@ def _detection_faults(rows: Sequence[Any]) -> Iterator[Fault]:
 
 
 def _score_faults(rows: Sequence[Score]) -> Iterator[Fault]:
-    """Yield numbers below zero, empty names, unknown units and rows that occur twice."""
+    """Yield seeds below zero, empty names, what its metric does not allow of a row, and rows that occur twice."""
     seen: dict[tuple[object, ...], int] = {}
     for k, row in enumerate(rows):
-        for name, low in (("network_seed", 0), ("test_seed", 0), ("value", 0.0)):
-            if getattr(row, name) < low and not (name == "value" and row.unit in SIGNED):
+        for name in ("network_seed", "test_seed"):
+            if getattr(row, name) < 0:
                 yield k, name, getattr(row, name), "0 or more"
-        for name in ("scenario", "level", "method", "limb", "joint", "metric"):
+        for name in ("scenario", "level", "method", "limb", "joint"):
             if not getattr(row, name):
                 yield k, name, "", "a name"
-        if row.unit not in UNITS:
-            yield k, "unit", row.unit, ", ".join(UNITS)
+        try:
+            metric = metric_of(row.metric)
+        except ConfigError:
+            yield k, "metric", row.metric, "a name that a module of measures declares, such as rmse"
+            continue
+        if row.unit not in metric.units:
+            yield k, "unit", row.unit, ", ".join(metric.units)
+        if metric.low is not None and row.value < metric.low:
+            yield k, "value", row.value, f"{metric.low:g} or more"
+        if metric.high is not None and row.value > metric.high:
+            yield k, "value", row.value, f"{metric.high:g} or less"
         key = KEY(row)
         first = seen.setdefault(key, k)
         # a limb with forces and torques has two means of what has no unit of a joint, such as %
-        if first != k and not (row.joint == "avg" and row.unit in ("%", *SIGNED)):
+        if first != k and not (row.joint == "avg" and len(metric.units) == 1):
             yield k, "row", ", ".join(map(str, key[:-1])), f"once; it stands in line {first + 2} already"
 
 

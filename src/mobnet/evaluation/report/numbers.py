@@ -5,7 +5,7 @@ from pathlib import Path
 
 from mobnet.core.columns import CLAIMED
 from mobnet.core.files import write_text
-from mobnet.evaluation.compare.errors import RAW
+from mobnet.evaluation.compare.rmse import RAW
 from mobnet.evaluation.number.files import read_numbers, read_texts
 from mobnet.evaluation.number.number import Number, number_text
 from mobnet.evaluation.tables.layout import tex_escape

@@ -7,7 +7,7 @@ from functools import cached_property
 from mobnet.core.columns import CALIBRATION, COVERAGE, DETECTION, ERRORS, KINDS, LATENCY, METHODS
 from mobnet.core.errors import not_accepted
 from mobnet.core.joints import JointLayout, right_of, with_image
-from mobnet.core.metrics import SECTIONS, kind_of_metric
+from mobnet.core.metrics import metric_of
 from mobnet.settings.checks.robot import joints_above
 from mobnet.settings.claims import Cell
 from mobnet.settings.evaluation import Mean
@@ -72,8 +72,8 @@ class Results:
         windows = self.settings.evaluation.windows
         if metric.startswith(PUSHED[:9]) and scenario not in windows:
             return not_accepted("test with a window around pushes", scenario, windows)
-        section = kind_of_metric(metric).section
-        if section and scenario not in (tests := self._tests[section]):
+        section = metric_of(metric).section
+        if section and scenario not in (tests := self._tests.get(section, [])):
             return not_accepted(f"test of section {section}", scenario, tests)
         timed = [self.settings.pushes[name].at_s for name in self.settings.scenarios[scenario].pushes]
         if metric.startswith(PUSH) and None not in timed:
@@ -85,10 +85,9 @@ class Results:
     @cached_property
     def _tests(self) -> dict[str, list[str]]:
         """The tests that each section of the evaluation with metrics of its own names."""
-        found = {section: getattr(self.settings.evaluation, section) for section in SECTIONS}
         return {
             section: sorted({name for _, kind, name in uses(value, type(value)) if kind == "test"})
-            for section, value in found.items()
+            for section, value in self.settings.evaluation.measured.items()
         }
 
     def not_estimated(self, method: str, scenario: str, level: str, joints: Collection[str]) -> str:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.compare.errors import PUSHED
+from mobnet.evaluation.compare.rmse import PUSHED
 from mobnet.evaluation.figures.drawing.pushes import PushGroup, save_pushes
 from mobnet.evaluation.measure.estimates.pushes import ALL, PushErrors, read_pushes, wanted_of
 from mobnet.evaluation.number.grid import number_of

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.compare.curves import read_cycle
-from mobnet.evaluation.compare.errors import rmse
+from mobnet.evaluation.compare.rmse import rmse
 from mobnet.evaluation.figures.drawing.curves import draw_leg, save_panels
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import GaitFigure

@@ -14,7 +14,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.evaluation.compare.errors import Spans
+from mobnet.evaluation.compare.rmse import Spans
 
 HALF = 0.5  # phase at which a leg touches down
 

@@ -16,7 +16,7 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import DESIRED, FEET, RANDOM, SWING, named
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
-from mobnet.evaluation.compare.errors import Spans
+from mobnet.evaluation.compare.rmse import Spans
 from mobnet.evaluation.compare.windows import FLAG
 
 BEFORE, SETTLED = 2, 1  # samples before a step that must be still, and after it until its mean is the new torque's

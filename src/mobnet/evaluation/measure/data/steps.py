@@ -16,7 +16,7 @@ from mobnet.core.columns import FEET, recording_columns
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
-from mobnet.evaluation.compare.errors import Spans
+from mobnet.evaluation.compare.rmse import Spans
 from mobnet.evaluation.compare.windows import FLAG
 from mobnet.robot.description import SIDES
 from mobnet.robot.frames import to_pinocchio

@@ -1,22 +1,25 @@
 """Gain and phase of an estimate: its answer to sines that are injected as torques of joints."""
 
-from collections.abc import Mapping, Sequence
-
 import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
+from mobnet.core.metrics import Metric
 from mobnet.estimation.low_pass import exact_pole
 from mobnet.evaluation.compare.pair import Pair
 from mobnet.evaluation.compare.scene import Scene, shown_pushes
 from mobnet.evaluation.compare.values import Measured, Measures
 from mobnet.evaluation.compare.windows import flagged_spans
+from mobnet.settings.evaluation import Bode
 
 GAIN, PHASE = "gain_{:g}hz", "phase_{:g}hz"  # with the frequency after which a band of lines is named
-Lines = Mapping[str, Sequence[float]]  # joint -> frequencies of its lines [Hz], one in each band
+METRICS = (
+    Metric(r"gain_[0-9]+(\.[0-9]+)?hz", "-"),
+    Metric(r"phase_[0-9]+(\.[0-9]+)?hz", "deg", low=-180.0, high=180.0),
+)
 
 
-def responses(pair: Pair, scene: Scene, lines: Lines, bands_hz: Sequence[float]) -> Measures:
+def measure(pair: Pair, scene: Scene, settings: Bode) -> Measures:
     """Yield gain [-] and phase [deg] of each joint at its line of each band: `gain_2hz`, `phase_2hz` and so on.
 
     The transfer function is the cross-spectrum of the injected torque and of what the estimate shows of it, over the
@@ -25,9 +28,9 @@ def responses(pair: Pair, scene: Scene, lines: Lines, bands_hz: Sequence[float])
     """
     shown = shown_pushes(pair, scene)
     spans = flagged_spans(scene.pushed, pair.spans, 0)
-    for k, band_hz in enumerate(bands_hz):
+    for k, band_hz in enumerate(settings.bands_hz):
         found = np.full(len(pair.joints), np.nan, dtype=complex)
-        for joint, frequencies in lines.items():
+        for joint, frequencies in scene.asked.lines.items():
             if spans and joint in pair.joints:
                 place, (start, end) = pair.joints.index(joint), max(spans, key=lambda span: span[1] - span[0])
                 signals = shown.push[start:end, place], shown.estimate[start:end, place]

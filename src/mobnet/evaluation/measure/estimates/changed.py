@@ -3,9 +3,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.core.metrics import Metric
 from mobnet.estimation.consistency import shares_inside
-from mobnet.evaluation.compare.errors import parts
-from mobnet.evaluation.compare.pair import Pair
+from mobnet.evaluation.compare.pair import Pair, read_std
+from mobnet.evaluation.compare.rmse import parts
 from mobnet.evaluation.compare.scene import Scene
 from mobnet.evaluation.compare.values import Measured, Measures
 from mobnet.learning.gaussian import half_width
@@ -13,6 +14,12 @@ from mobnet.learning.swings import hanging
 from mobnet.settings.evaluation import Changed
 
 KNOWN, FREE, FLAGGED = "known_share", "free_share", "flagged_share"
+METRICS = (Metric("(known|free|flagged)_share", "-", high=1.0),)
+
+
+def measure(pair: Pair, scene: Scene, settings: Changed) -> Measures:
+    """Yield what the standard deviations of a run say of the robot, shares [-]; nothing where it has none."""
+    return knowledge(pair, read_std(pair.run, pair.joints), scene, scene.asked.cover_share, settings)
 
 
 def knowledge(

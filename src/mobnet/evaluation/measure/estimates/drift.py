@@ -3,8 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.evaluation.compare.errors import Spans
+from mobnet.core.metrics import Metric
 from mobnet.evaluation.compare.pair import Pair
+from mobnet.evaluation.compare.rmse import Spans
 from mobnet.evaluation.compare.scene import STANCE, SWINGING, Scene, shown_pushes
 from mobnet.evaluation.compare.values import Measured, Measures
 from mobnet.evaluation.compare.windows import flagged_spans
@@ -12,9 +13,10 @@ from mobnet.settings.evaluation import Drift
 
 HELD = "held_{}"  # phase: over the whole push
 HELD_BIN = "held_{}_{}"  # phase and number of a bin of time, from 1 on
+METRICS = (Metric("held_(swing|stance)(_[1-9][0-9]*)?", "-", low=None),)
 
 
-def holding(pair: Pair, scene: Scene, settings: Drift) -> Measures:
+def measure(pair: Pair, scene: Scene, settings: Drift) -> Measures:
     """Yield the share [-] of long pushes that an estimate of a leg shows, by phase and by time since the push began.
 
     With the push p behind the observer's low-pass and the error e of the estimate less its mean in this phase while

@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.evaluation.compare.errors import Spans
+from mobnet.core.metrics import Metric
 from mobnet.evaluation.compare.pair import Pair
+from mobnet.evaluation.compare.rmse import Spans
 from mobnet.evaluation.compare.scene import Scene, shown_pushes
 from mobnet.evaluation.compare.values import Measured, Measures
 from mobnet.evaluation.compare.windows import flagged_spans
@@ -17,9 +18,10 @@ PEAK, DELAY = "peak_ratio", "rise_delay"
 OBSERVER = "_observer"  # the same of the push behind the observer's low-pass: what a perfect residual would show
 HALF = 0.5  # of the true peak, where the rise is timed
 MS = 1000.0
+METRICS = (Metric("peak_ratio(_observer)?", "-", low=None), Metric("rise_delay(_observer)?", "ms", low=None))
 
 
-def push_measures(pair: Pair, scene: Scene, settings: Peaks) -> Measures:
+def measure(pair: Pair, scene: Scene, settings: Peaks) -> Measures:
     """Yield the medians over the pushes of a recording: `peak_ratio` [-] and `rise_delay` [ms], and the observer's.
 
     For each push, the largest change of what the estimate shows of it, over the largest torque of the push; and the

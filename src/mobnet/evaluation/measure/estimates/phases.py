@@ -1,52 +1,19 @@
 """Errors in parts of a walk: by phase of the leg's gait, and by whether the joint is stuck or moves."""
 
-from collections.abc import Mapping
-
 import numpy as np
-from numpy.typing import NDArray
 
-from mobnet.core.arrays import Array
+from mobnet.core.metrics import Metric
+from mobnet.evaluation.compare.masks import masked_mean, parts_of
 from mobnet.evaluation.compare.pair import Pair
 from mobnet.evaluation.compare.scene import Scene
 from mobnet.evaluation.compare.values import Measured, Measures
+from mobnet.settings.evaluation import Phases
 
-STUCK, MOVING = "stuck", "moving"
-PUSHED, CALM = "pushed", "calm"
-Masks = Mapping[str, NDArray[np.bool_]]  # part of a walk -> whether each joint is in it (T, n)
-
-
-def parts_of(pair: Pair, scene: Scene, stuck_rad_s: float) -> dict[str, NDArray[np.bool_]]:
-    """Return the parts of a walk, (T, n) each: phases of the own leg, and joints slower than a speed [rad/s] or not.
-
-    Rows outside of the spans of the estimate are in none.
-    """
-    places = scene.layout.columns(pair.joints)
-    speed = scene.speed[:, places]
-    found = {name: held[:, places] for name, held in scene.phases.items()}
-    found |= {STUCK: speed < stuck_rad_s, MOVING: speed >= stuck_rad_s}
-    inside = np.zeros(len(speed), dtype=bool)
-    for start, end in pair.spans:
-        inside[start:end] = True
-    return {name: held & inside[:, None] for name, held in found.items()}
+METRICS = (Metric("rmse_(swing|touch_down|stance|stuck|moving)"),)
 
 
-def push_parts(pair: Pair, scene: Scene) -> dict[str, NDArray[np.bool_]]:
-    """Return where a push acts and where none does, (T, n) each; nothing where the scenario has no pushes."""
-    if not scene.pushed.any():
-        return {}
-    held = np.repeat(scene.pushed[:, None], len(pair.joints), axis=1)
-    return {PUSHED: held, CALM: ~held}
-
-
-def masked_mean(values: NDArray[np.float64], mask: NDArray[np.bool_]) -> Array:
-    """Return the mean of each column (n,) of values (T, n) over the rows of its mask (T, n); nan where it has none."""
-    count = mask.sum(axis=0)
-    total = np.einsum("tn,tn->n", values, mask)
-    return np.where(count > 0, total / np.maximum(count, 1), np.nan)
-
-
-def stratified(pair: Pair, masks: Masks) -> Measures:
+def measure(pair: Pair, scene: Scene, settings: Phases) -> Measures:
     """Yield the root-mean-square error of each joint (n,) [N m], V1..V3 [N], in each part of a walk: `rmse_<part>`."""
     squares = (pair.estimate.astype(np.float64) - pair.truth) ** 2
-    for name, mask in masks.items():
+    for name, mask in parts_of(pair, scene).items():
         yield Measured(f"rmse_{name}", np.sqrt(masked_mean(squares, mask)))

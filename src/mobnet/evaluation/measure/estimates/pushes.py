@@ -7,7 +7,7 @@ import numpy as np
 from mobnet.core.columns import PUSHED, SWING, Score, foot_of
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.compare.curves import Panel, read_curves
-from mobnet.evaluation.compare.errors import PUSH
+from mobnet.evaluation.compare.rmse import PUSH
 from mobnet.evaluation.compare.windows import push_windows
 from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.intervals import Formula

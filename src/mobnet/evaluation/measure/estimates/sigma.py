@@ -6,10 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.evaluation.compare.errors import Spans, parts
-from mobnet.evaluation.compare.pair import Pair
+from mobnet.core.metrics import Metric
+from mobnet.evaluation.compare.masks import Masks, masked_mean, parts_of, push_parts
+from mobnet.evaluation.compare.pair import Pair, read_std
+from mobnet.evaluation.compare.rmse import Spans, parts
+from mobnet.evaluation.compare.scene import Scene
 from mobnet.evaluation.compare.values import Measured, Measures
-from mobnet.evaluation.measure.estimates.phases import Masks, masked_mean
 from mobnet.learning.gaussian import half_width
 from mobnet.settings.evaluation import Sigma
 
@@ -17,6 +19,19 @@ STD, COVER = "std", "cover"  # mean standard deviation [N m], V1..V3 [N], and sh
 EXCURSION, MEMORY = "excursion", "acf_{:g}ms"
 FALLEN = np.exp(-1.0)  # correlation below which an excursion has ended
 MS = 1000.0
+METRICS = (
+    Metric("rmse_part_[1-9][0-9]*"),
+    Metric("std(_(swing|touch_down|stance|stuck|moving|pushed|calm|part_[1-9][0-9]*))?"),
+    Metric("cover(_(swing|touch_down|stance|stuck|moving|pushed|calm|part_[1-9][0-9]*))?", "-", high=1.0),
+    Metric("excursion", "ms"),
+    Metric("acf_[1-9][0-9]*ms", "-", low=-1.0, high=1.0),
+)
+
+
+def measure(pair: Pair, scene: Scene, settings: Sigma) -> Measures:
+    """Yield what the standard deviations of a run are worth, by phase, speed and pushes too; nothing without any."""
+    masks = {**parts_of(pair, scene), **push_parts(pair, scene)}
+    return spreads(pair, read_std(pair.run, pair.joints), masks, scene.asked.cover_share, settings)
 
 
 def spreads(pair: Pair, std: NDArray[np.float32] | None, masks: Masks, share: float, settings: Sigma) -> Measures:

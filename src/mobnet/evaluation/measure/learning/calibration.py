@@ -19,8 +19,8 @@ from mobnet.core.files import RUN
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
 from mobnet.core.store import NOTE, file_of
-from mobnet.evaluation.compare.errors import Spans, parts
 from mobnet.evaluation.compare.pair import read_pair, read_std
+from mobnet.evaluation.compare.rmse import Spans, parts
 from mobnet.evaluation.compare.windows import pushed_of
 from mobnet.evaluation.measure.learning.trainings import read_training_note
 from mobnet.learning.gaussian import Fit, fit_of

@@ -12,7 +12,7 @@ from mobnet.core.store import read_array
 from mobnet.estimation.estimate import Observed, rate_of, read_observed, run_segments
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe
-from mobnet.evaluation.compare.errors import rmse
+from mobnet.evaluation.compare.rmse import rmse
 from mobnet.evaluation.measure.learning.trainings import Training, read_training
 from mobnet.plan.runs import Tried
 from mobnet.robot.description import describe

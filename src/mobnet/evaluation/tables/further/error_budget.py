@@ -8,7 +8,7 @@ import numpy as np
 
 from mobnet.core.columns import ERRORS, Score
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.compare.errors import PERCENT
+from mobnet.evaluation.compare.rmse import PERCENT
 from mobnet.evaluation.number.averages import Column, columns_of
 from mobnet.evaluation.number.grid import Wanted, run_grid
 from mobnet.evaluation.number.intervals import Array, Formula, RunGrid, summarise

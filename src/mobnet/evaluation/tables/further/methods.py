@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from mobnet.core.columns import METHODS
-from mobnet.evaluation.compare.errors import RAW
+from mobnet.evaluation.compare.rmse import RAW
 from mobnet.evaluation.number.grid import Wanted
 from mobnet.evaluation.number.lookup import AVERAGE, Lookup, read_lookup
 from mobnet.evaluation.number.number import Number

@@ -1,6 +1,5 @@
-"""What is measured on an estimated torque."""
+"""Errors of an estimated torque: RMSE, relative RMSE and roughness."""
 
-from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -45,13 +44,6 @@ def roughness(signal: NDArray[Any], spans: Spans, rate_hz: float) -> NDArray[np.
     return np.sqrt(np.mean(np.concatenate(steps) ** 2, axis=0)) * rate_hz
 
 
-Measure = Callable[[NDArray[Any], NDArray[Any], Spans, float], NDArray[np.float64]]
-
-METRICS: Mapping[str, Measure] = {  # name -> (estimate, truth, spans, rate -> (n,))
-    "rmse": lambda estimate, truth, spans, rate_hz: rmse(estimate, truth, spans),
-    "roughness": lambda estimate, truth, spans, rate_hz: roughness(estimate, spans, rate_hz),
-    "r_rmse": lambda estimate, truth, spans, rate_hz: relative_rmse(estimate, truth, spans),
-}
 PUSHED, PUSH = "rmse_pushed", "rmse_push_{}"  # `rmse` of all windows around pushes, and of the window of each
 RAW = "_raw"  # ending of an error against the external torque itself, before the low-pass
 LABELLED = "_label"  # ending of an error against what foot sensors say of the external torque, (15)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from mobnet.core.columns import ERRORS, Score
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.compare.errors import RAW
+from mobnet.evaluation.compare.rmse import RAW
 from mobnet.evaluation.measure.estimates.scores import AVERAGE
 from mobnet.evaluation.number.averages import Column, columns_of
 from mobnet.evaluation.number.grid import Wanted, number_of
@@ -59,7 +59,7 @@ class Look:
     confidence: float
 
 
-def errors(
+def error_table(
     settings: ErrorTable, name: str, statistics: Statistics, layout: JointLayout,
     published: PublishedTable | None, scores: Sequence[Path], table_dir: Path,
 ) -> None:  # fmt: skip
