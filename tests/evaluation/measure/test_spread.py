@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mobnet.evaluation.measure.estimates.phases import masked_mean
+from mobnet.evaluation.compare.masks import masked_mean
 from mobnet.evaluation.measure.estimates.sigma import autocorrelation, first_below, ranks
 
 

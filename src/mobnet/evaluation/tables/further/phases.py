@@ -5,8 +5,8 @@ from pathlib import Path
 
 from mobnet.core.columns import METHODS
 from mobnet.core.joints import JointLayout
+from mobnet.evaluation.compare.masks import MOVING, STUCK
 from mobnet.evaluation.compare.scene import STANCE, SWINGING, TOUCH_DOWN
-from mobnet.evaluation.measure.estimates.phases import MOVING, STUCK
 from mobnet.evaluation.number.lookup import read_lookup
 from mobnet.evaluation.tables.layout import Table, in_blocks, measured_rows, write_table
 from mobnet.settings.evaluation import Phases, Statistics

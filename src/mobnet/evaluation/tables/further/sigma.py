@@ -5,8 +5,8 @@ from pathlib import Path
 
 from mobnet.core.columns import METHODS
 from mobnet.core.joints import JointLayout
+from mobnet.evaluation.compare.masks import MOVING, PUSHED, STUCK
 from mobnet.evaluation.compare.scene import STANCE, SWINGING, TOUCH_DOWN
-from mobnet.evaluation.measure.estimates.phases import MOVING, PUSHED, STUCK
 from mobnet.evaluation.measure.estimates.sigma import COVER, EXCURSION, STD
 from mobnet.evaluation.number.grid import Wanted
 from mobnet.evaluation.number.intervals import RATIO
