@@ -12,6 +12,8 @@ from typing import Any, NamedTuple
 import pytest
 import yaml
 
+from .test_newcomer import NAME, example
+
 ROOT = Path(__file__).parents[2]
 DATA, EVALUATION = "configs/data.yaml", "configs/evaluation.yaml"
 BLOCK = re.compile(
@@ -23,6 +25,15 @@ SCRIPT = """
 import importlib.util, json, sys
 from dataclasses import replace
 from pathlib import Path
+
+import numpy as np
+
+from mobnet.core.metrics import metric_of
+from mobnet.evaluation.compare.pair import Pair
+from mobnet.evaluation.compare.scene import Scene
+from mobnet.evaluation.measure.estimates import run_errors
+from mobnet.evaluation.measure.estimates.scores import measured
+from mobnet.evaluation.measure.numbers import measure_problems
 from mobnet.plan.plan import make_plan
 from mobnet.settings.load import load_settings
 
@@ -40,7 +51,20 @@ module.__file__ = str(golden.parent / example.removeprefix("tests/"))
 spec.loader.exec_module(module)
 for name in [name for name in vars(module) if name.startswith("test_")]:
     getattr(module, name)(settings, Path("tested"))
+score = next(step.job for step in plan.steps if "scores/forward_walk/all_uncertainty" in step.outputs[0])
+run = next(run for run in score.call.arguments["runs"] if run.method == "MOB")
+pair = Pair(run, ("LL1", "LL2"), np.full((200, 2), [3.0, 4.0]), np.ones((200, 2)), ((0, 200),), 100.0)
+asked = score.call.arguments["asked"]
+asked = asked.model_copy(update={"sections": {"bias": asked.sections["bias"]}})
+scene = Scene(run.recording, settings.layout, asked)
+run_errors.measure = lambda *_: iter(())
+_, (_, measures) = measured(pair, scene)
+WRONG = {"evaluation": {"measures": {"bias": {"options": {"after_s": -1.0}}}}}
 print(json.dumps({
+    "bias": [(metric, values.tolist(), metric_of(metric).units) for metric, values, _ in measures],
+    "modules": score.modules,
+    "methods_of_table_07": products["table_07"].job.call.arguments["settings"].rows[0].further,
+    "refused": list(measure_problems(load_settings(Path("configs"), {"scale": "smoke", **WRONG}))),
     "stored": plan.stored,
     "recorded": next(
         step.job.call.arguments["duration_s"] for step in plan.steps if "/plates_walk/" in step.outputs[0]
@@ -70,7 +94,8 @@ def blocks(title: str) -> list[Block]:
 
 SCENARIO = blocks("Add a scenario and a training set")
 ERRORS = blocks("Add a table of errors")
-FIGURE = blocks("Add any other table or figure")
+MEASURE = blocks("Add a measure")
+FIGURE = blocks("Add a figure")
 
 
 def apply(block: Block, folder: Path) -> None:
@@ -95,9 +120,22 @@ def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
         shutil.copytree(ROOT / part, folder / part, ignore=shutil.ignore_patterns("__pycache__"))
     for name in ("environment.lock", "pyproject.toml"):
         shutil.copy2(ROOT / name, folder / name)
-    for block in (*SCENARIO, *ERRORS, *FIGURE):
+    for block in (*SCENARIO, *ERRORS, *MEASURE, *FIGURE):
         apply(block, folder)
+    show_in_table_07(folder)
     return folder
+
+
+def show_in_table_07(folder: Path) -> None:
+    """Add the method of the guide: its file, its row, and one word in a row of Table 7."""
+    (folder / "src/mobnet/estimation/kinds/dead_band.py").write_text(example("python"))
+    row = "".join(f"  {line}\n" for line in example("yaml").splitlines())
+    apply(Block("configs/methods.yaml", "below", "methods:", row), folder)
+    path = folder / EVALUATION
+    before, after = path.read_text().split("    table_07:\n")
+    path.write_text(before + "    table_07:\n" + after.replace("further: [", f"further: [{NAME}, ", 1))
+    path = folder / "configs/tests.yaml"
+    path.write_text(path.read_text().replace("  walk_test:\n    robots: [", f"  walk_test:\n    robots: [{NAME}, "))
 
 
 @pytest.fixture(scope="module")
@@ -116,14 +154,35 @@ def test_a_scenario_and_a_training_set_are_a_row_each() -> None:
     assert [list(yaml.safe_load(block.text)) for block in SCENARIO] == [["plates_walk"], ["plates"]]
 
 
+def test_one_word_shows_a_new_method_in_table_07_and_runs_it(told: dict[str, Any]) -> None:
+    estimates = [file for file in told["stored"] if f"/estimates/{NAME}/" in file]
+    assert estimates
+    assert all("/walk_test/" in file for file in estimates)
+    assert NAME in told["methods_of_table_07"]
+
+
 def test_a_table_of_errors_is_an_entry() -> None:
     (block,) = ERRORS
     assert block.file == EVALUATION
     assert list(yaml.safe_load(block.text)) == ["roughness"]
 
 
-def test_another_figure_is_five_files_or_fewer() -> None:
-    assert len({block.file for block in FIGURE}) <= 5
+def test_a_measure_is_one_file_and_one_section() -> None:
+    module, section = MEASURE
+    assert Path(module.file).parent == Path("src/mobnet/evaluation/measure/estimates")
+    assert section.file == EVALUATION
+
+
+def test_a_figure_is_three_files_beside_its_test() -> None:
+    assert len({block.file for block in FIGURE if not block.file.startswith("tests/")}) == 3
+
+
+def test_the_measure_is_taken_where_its_entry_says(told: dict[str, Any]) -> None:
+    assert told["bias"] == [["bias", [2.0, 3.0], ["N", "N m"]]]
+    assert told["modules"][-1] == "mobnet.evaluation.measure.estimates.bias"
+    ((place, text),) = told["refused"]
+    assert place == ["evaluation", "measures", "bias", "options", "after_s"]
+    assert text == "-1.0 is not accepted; accepted: a number from 0"
 
 
 def test_the_training_set_is_recorded(told: dict[str, Any]) -> None:
@@ -150,7 +209,7 @@ def test_the_new_product_reads_the_scores_and_writes_its_files(
 
 
 def test_what_is_copied_from_the_guide_is_in_the_house_style(copy: Path) -> None:
-    files = [block.file for block in FIGURE if block.file.endswith(".py")]
+    files = [block.file for block in (*MEASURE, *FIGURE) if block.file.endswith(".py")]
     for check in (["check", "--no-cache"], ["format", "--check"]):
         command = [sys.executable, "-m", "ruff", *check, *files]
         done = subprocess.run(command, cwd=copy, capture_output=True, text=True, check=False)

@@ -9,7 +9,7 @@ import pytest
 
 from mobnet.core.code import start_of
 from mobnet.plan.plan import make_plan
-from mobnet.plan.products import CAPTIONS
+from mobnet.plan.products import CAPTIONS, Product
 from mobnet.settings.load import load_settings
 
 from .conftest import ROOT
@@ -27,6 +27,7 @@ class Item(NamedTuple):
     paper: str
     shows: str
     rule: str
+    made_by: str
     file: str
     test: str
     state: str
@@ -53,10 +54,21 @@ MADE = [item for item in ITEMS if item.rule != "-"]
 
 
 @pytest.fixture(scope="module")
-def outputs() -> dict[str, str]:
-    """File -> rule of every product at the main scale."""
-    products = make_plan(MAIN, with_pdf=True).products
+def products() -> list[Product]:
+    """Every product at the main scale."""
+    return list(make_plan(MAIN, with_pdf=True).products)
+
+
+@pytest.fixture(scope="module")
+def outputs(products: list[Product]) -> dict[str, str]:
+    """File -> rule of every product."""
     return {name: product.name for product in products for name in product.outputs}
+
+
+def test_the_map_names_the_function_that_a_rule_calls(products: list[Product]) -> None:
+    """So two files lead from Table 7 to its code: the map and the module."""
+    made = {product.name: product.job.call.function for product in products}
+    assert [(item.rule, item.made_by) for item in MADE if item.made_by != made[item.rule]] == []
 
 
 def numbered(names: Any) -> set[str]:
@@ -78,7 +90,7 @@ def test_an_item_is_made_or_an_input_or_to_do(item: Item, outputs: dict[str, str
         assert found(item.state.removeprefix("input: `"))
         assert (ROOT / item.file).is_file()
     else:
-        assert item[2:] == ("-", "-", "-", "to do")
+        assert item[2:] == ("-", "-", "-", "-", "to do")
 
 
 @pytest.mark.parametrize("system", SYSTEMS, ids=[system.paper for system in SYSTEMS])

@@ -73,7 +73,8 @@ class Products:
     def figure_names(self) -> list[str]:
         """Names of all figures; one that shows data of the project is left out where these are not there yet."""
         kept = {"learning_curve": Path(self.settings.evaluation.learning_curve.data)}
-        return [name for name in _made_in("figures") if name not in kept or kept[name].is_file()]
+        made = [*_made_in("figures"), *self.settings.evaluation.figures]
+        return [name for name in made if name not in kept or kept[name].is_file()]
 
     def all(self) -> list[Product]:
         """Return every product, each after those that it needs."""
@@ -173,7 +174,7 @@ class Products:
         The chosen scale may replace the start of a gait cycle [s] that the section names.
         """
         evaluation, published = self.settings.evaluation, self.settings.published
-        section = evaluation.tables.get(name) or getattr(evaluation, name, None)
+        section = {**evaluation.tables, **evaluation.figures}.get(name) or getattr(evaluation, name, None)
         printed = published.tables.get(name) or getattr(published, name, None)
         shortened = self.settings.sizes.figure_start_s
         start_s = getattr(section, "start_s", None) if shortened is None else shortened

@@ -452,6 +452,7 @@ class Evaluation(Section):
     sigma: Sigma
     changed: Changed
     measures: dict[base.LowerName, Measure] = {}
+    figures: dict[base.LowerName, LimbRuns] = {}
     table_09: DetectorTable
     table_13: DetectorTable
     false_alarms: AlarmTable
