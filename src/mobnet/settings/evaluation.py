@@ -29,7 +29,7 @@ class Statistics(Section):
     confidence: base.Real = Field(ge=0.5, lt=1)
 
 
-class Window(Section):
+class PushWindow(Section):
     """Time around each push of a test that its push metrics look at."""
 
     before_s: base.NotNegative = Field(le=10)
@@ -125,7 +125,7 @@ class Figure05(Section):
     panels: Annotated[dict[base.LevelName, base.MethodNames], Field(min_length=1)]
 
 
-class Figure06(PushedRuns, Window):
+class Figure06(PushedRuns, PushWindow):
     """Figure 6: a step of torque on a swinging hip."""
 
     joint: base.MotorName
@@ -147,7 +147,7 @@ class GaitFigure(Runs):
     start_s: base.NotNegative = Field(le=3600)
 
 
-class Figure10(Window):
+class Figure10(PushWindow):
     """Figure 10: knee collisions; errors are increases over the walk that nothing pushes."""
 
     joint: base.MotorName
@@ -275,7 +275,7 @@ class CalibrationTest(CoverageTest):
     limbs: base.Distinct[base.LimbName]
 
 
-class Calibration(Section):
+class CalibrationTable(Section):
     """How far the networks' standard deviations can be trusted; nominal shares are those of section `learning`."""
 
     tolerance: base.Real = Field(ge=0.001, le=0.5)
@@ -364,7 +364,7 @@ class Scoring(Section):
     `lines` are the injected frequencies [Hz] of each joint, `cover_share` the nominal share of covered errors.
     """
 
-    window: Window | None = None
+    window: PushWindow | None = None
     sections: dict[str, Section] = {}
     touch_down_s: float = 0.0
     stuck_rad_s: float = 0.0
@@ -422,7 +422,7 @@ class Evaluation(Section):
     """All tables and figures."""
 
     statistics: Statistics
-    windows: dict[base.TestName, Window]
+    windows: dict[base.TestName, PushWindow]
     table_01: Table01
     tables: dict[base.LowerName, ErrorTable]
     error_budget: ErrorBudget
@@ -444,7 +444,7 @@ class Evaluation(Section):
     amplitude: Amplitude
     fine_tuning: FineTuning
     coverage: Coverage
-    calibration: Calibration
+    calibration: CalibrationTable
     peaks: Peaks
     bode: Bode
     drift: Drift

@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from mobnet.evaluation.figures.further.calibration import Curve, ReliabilityPanel, curve_rows, draw_reliability
+from mobnet.evaluation.figures.further.calibration import CoverageCurve, ReliabilityPanel, curve_rows, draw_reliability
 
 NOMINAL = np.array([0.25, 0.5, 0.75])
 
 
 def panel(method: str, title: str, *limbs: str) -> ReliabilityPanel:
     """A panel of made-up curves, each limb with its own."""
-    curves = [Curve(limb, NOMINAL, NOMINAL - 0.1 * len(limb), NOMINAL + 0.01 * len(title)) for limb in limbs]
+    curves = [CoverageCurve(limb, NOMINAL, NOMINAL - 0.1 * len(limb), NOMINAL + 0.01 * len(title)) for limb in limbs]
     return ReliabilityPanel(method, title, curves)
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mobnet.evaluation.compare.curves import Curve, Panel
+from mobnet.evaluation.compare.curves import Panel, TorqueCurve
 from mobnet.evaluation.figures.drawing.curves import draw_panels, write_panels
 from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, save_figure
 
@@ -20,7 +20,7 @@ def panels() -> list[Panel]:
     """Four panels of a made-up cycle of 1.4 s."""
     methods = (("MOB", 1.0), ("MOB", 15.0), ("MOB-Net", 1.5), ("FTS-e2e", 2.5))
     return [
-        Panel(f"{m}, {i}", TIME, [Curve("truth", TRUTH), Curve(m, TRUTH + e)], SWING)
+        Panel(f"{m}, {i}", TIME, [TorqueCurve("truth", TRUTH), TorqueCurve(m, TRUTH + e)], SWING)
         for i, (m, e) in enumerate(methods)
     ]
 
@@ -48,7 +48,7 @@ def test_a_flag_is_marked_where_it_holds_and_not_named_where_it_never_does(panel
 
 def test_a_band_is_a_standard_deviation_wide_on_both_sides() -> None:
     std = np.linspace(1.0, 2.0, len(TIME))
-    panel = Panel("band", TIME, [Curve("MOB-Net", TRUTH, std)], {})
+    panel = Panel("band", TIME, [TorqueCurve("MOB-Net", TRUTH, std)], {})
     (band,) = draw_panels([panel], "time [s]", "torque [N m]").axes[0].collections
     edges = band.get_paths()[0].vertices
     for side in (-1, 1):
@@ -58,7 +58,7 @@ def test_a_band_is_a_standard_deviation_wide_on_both_sides() -> None:
 
 @pytest.mark.parametrize("one_scale", [True, False])
 def test_scales_are_one_where_wanted_and_the_axes_name_their_units(panels: list[Panel], one_scale: bool) -> None:
-    wider = Panel("wide", TIME, [Curve("truth", 10.0 * TRUTH)], {})
+    wider = Panel("wide", TIME, [TorqueCurve("truth", 10.0 * TRUTH)], {})
     figure = draw_panels([*panels, wider], "time [s]", "torque of LL3 [N m]", one_scale=one_scale)
     assert (len({axis.get_ylim() for axis in figure.axes}) == 1) is one_scale
     assert (figure.get_supxlabel(), figure.get_supylabel()) == ("time [s]", "torque of LL3 [N m]")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mobnet.evaluation.compare.curves import Curve, Panel
+from mobnet.evaluation.compare.curves import Panel, TorqueCurve
 from mobnet.evaluation.figures.drawing.pushes import PushGroup, draw_pushes
 from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH
 from mobnet.evaluation.measure.estimates.pushes import AVERAGE, INCREASE
@@ -15,7 +15,7 @@ ERRORS = {"MOB": {"avg": Number(3.0, 2.0, 4.0)}}
 
 def group(*sizes: float) -> PushGroup:
     """Return a group of a push for each size."""
-    curves = [[Curve("truth", size * np.sin(TIME)), Curve("MOB", size * np.cos(TIME))] for size in sizes]
+    curves = [[TorqueCurve("truth", size * np.sin(TIME)), TorqueCurve("MOB", size * np.cos(TIME))] for size in sizes]
     panels = [Panel(f"push {k}", TIME, own, {"push": TIME > 0.0}) for k, own in enumerate(curves)]
     return PushGroup("test", panels, ERRORS, "errors")
 

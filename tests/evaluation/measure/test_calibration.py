@@ -10,7 +10,14 @@ from made_notes import training_note
 
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.measure.learning.calibration import VALIDATION, Grid, grid_of, held_out, in_tests, limb_columns
+from mobnet.evaluation.measure.learning.calibration import (
+    VALIDATION,
+    CoverageGrid,
+    grid_of,
+    held_out,
+    in_tests,
+    limb_columns,
+)
 from mobnet.learning.calibration import calibrate
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import CalibrationTest, Evaluation
@@ -21,12 +28,14 @@ Make = Callable[..., Test]
 
 
 @pytest.fixture
-def measure(layout: JointLayout, evaluation: Evaluation) -> Callable[[Test], list[Grid]]:
+def measure(layout: JointLayout, evaluation: Evaluation) -> Callable[[Test], list[CoverageGrid]]:
     """Return a function that measures one test."""
     return lambda made: in_tests(layout, evaluation.coverage, made[:1], made[1:], SHARES)
 
 
-def test_the_right_factor_gives_nominal_coverage(measure: Callable[[Test], list[Grid]], predicted: Make) -> None:
+def test_the_right_factor_gives_nominal_coverage(
+    measure: Callable[[Test], list[CoverageGrid]], predicted: Make
+) -> None:
     (grid,) = measure(predicted(seed=1, scale=2.0))
     assert (grid.test, grid.method, grid.limb, grid.unit) == ("walk_test", "MOB-Net", "LL", "N m")
     assert grid.values.shape == (1, 1, 2, 4)
@@ -37,13 +46,13 @@ def test_the_right_factor_gives_nominal_coverage(measure: Callable[[Test], list[
 
 
 def test_an_estimate_without_factors_is_the_same_before_and_after(
-    measure: Callable[[Test], list[Grid]], predicted: Make
+    measure: Callable[[Test], list[CoverageGrid]], predicted: Make
 ) -> None:
     before, after = measure(predicted(seed=1, scale=None))[0].values[0, 0]
     np.testing.assert_array_equal(before, after)
 
 
-def test_only_samples_around_pushes_count(measure: Callable[[Test], list[Grid]], predicted: Make) -> None:
+def test_only_samples_around_pushes_count(measure: Callable[[Test], list[CoverageGrid]], predicted: Make) -> None:
     """Errors there are ten times larger than predicted."""
     (everything,), (pushed,) = (measure(predicted(seed=1, pushed=joint)) for joint in (None, "LL3"))
     assert (everything.case, pushed.case) == ("walk test", "knee swing, pushed")

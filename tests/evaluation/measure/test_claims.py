@@ -9,7 +9,7 @@ import pytest
 
 from mobnet.core.columns import SCORED, VERDICTS
 from mobnet.evaluation.measure.claims.bounds import Ranges
-from mobnet.evaluation.measure.claims.cells import Results
+from mobnet.evaluation.measure.claims.cells import Evidence
 from mobnet.evaluation.measure.claims.verdicts import cause_of, rows_of, score_of, verdict_of, worst
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.claims import Claim
@@ -93,7 +93,7 @@ def test_a_cause_has_its_numbers_in_their_places_and_a_dash_where_there_is_none(
         {"joint": "LL1", "ratio": "0.5", "low": "", "high": ""},
         {"joint": "LL2", "ratio": "", "low": "", "high": ""},
     ]
-    results = Results(settings.layout, {}, {}, {}, {"coverage": rows})
+    results = Evidence(settings.layout, {}, {}, {}, {"coverage": rows})
     numbers: dict[str, Any] = {
         name: {"quantity": "value", "cells": [{"table": "coverage", "where": {"joint": joint}, "column": "ratio"}]}
         for name, joint in (("some", "LL1"), ("none", "LL2"), ("gone", "LL3"))

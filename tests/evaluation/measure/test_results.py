@@ -10,14 +10,14 @@ from csv_files import write_rows
 from mobnet.core.columns import Score
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.measure.claims.cells import Results, read_results
+from mobnet.evaluation.measure.claims.cells import Evidence, read_results
 from mobnet.settings.claims import Cell
 
 WALK = Cell(scenario="walk", level="ideal", method="MOB")
 
 
 @pytest.fixture
-def results(tmp_path: Path, layout: JointLayout, write_training: Callable[..., Path]) -> Results:
+def results(tmp_path: Path, layout: JointLayout, write_training: Callable[..., Path]) -> Evidence:
     """Two tests of one method, its errors 1, 2 and 3 at the waist, and two kinds of trainings, one all diverged."""
     rows = [
         Score("walk", "ideal", "MOB", 0, test, limb, joint, metric, factor * value * test, "N m")
@@ -44,7 +44,7 @@ def results(tmp_path: Path, layout: JointLayout, write_training: Callable[..., P
     ],
 )
 def test_a_number_is_the_mean_over_joints_and_metrics(
-    results: Results, joint: str, metric: str | None, first_test: float
+    results: Evidence, joint: str, metric: str | None, first_test: float
 ) -> None:
     cell = WALK.model_copy(update={"joint": joint, "metric": metric})
     grids = results.grids(cell)
@@ -53,12 +53,12 @@ def test_a_number_is_the_mean_over_joints_and_metrics(
     assert {grid.method for grid in grids} == {"MOB"}
 
 
-def test_a_training_is_a_network_on_one_test(results: Results) -> None:
+def test_a_training_is_a_network_on_one_test(results: Evidence) -> None:
     (grid,) = results.grids(Cell(method="GRU", metric="validation loss")) or []
     np.testing.assert_allclose(grid.values, [[-4.0], [-5.0]])
 
 
-def test_all_trainings_count_among_those_that_may_diverge(results: Results) -> None:
+def test_all_trainings_count_among_those_that_may_diverge(results: Evidence) -> None:
     """The share of divergence is the one measure of trainings that diverged."""
     (grid,) = results.grids(Cell(method="MLP", metric="diverged")) or []
     np.testing.assert_allclose(grid.values, [[1.0]])
@@ -68,7 +68,7 @@ def test_all_trainings_count_among_those_that_may_diverge(results: Results) -> N
     "cell",
     [WALK.model_copy(update={"joint": "W1", "metric": "rmse_push_9"}), Cell(method="MLP", metric="validation loss")],
 )
-def test_a_push_that_never_came_and_trainings_that_all_diverged_have_no_number(results: Results, cell: Cell) -> None:
+def test_a_push_that_never_came_and_trainings_that_all_diverged_have_no_number(results: Evidence, cell: Cell) -> None:
     assert results.grids(cell) is None
 
 
@@ -84,7 +84,7 @@ def test_a_push_that_never_came_and_trainings_that_all_diverged_have_no_number(r
     ],
 )
 def test_a_run_that_should_be_there_is_named(
-    results: Results, changes: dict[str, object], error: type[Exception], says: str
+    results: Evidence, changes: dict[str, object], error: type[Exception], says: str
 ) -> None:
     with pytest.raises(error, match=says):
         results.grids(WALK.model_copy(update=changes))

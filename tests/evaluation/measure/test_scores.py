@@ -18,7 +18,7 @@ from mobnet.evaluation.measure.estimates.scores import limb_values, score, score
 from mobnet.evaluation.number.files import read_rows
 from mobnet.evaluation.number.rows import read_scores
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import Bode, Evaluation, LimbRuns, Runs, Scoring, Window
+from mobnet.settings.evaluation import Bode, Evaluation, LimbRuns, PushWindow, Runs, Scoring
 
 Walk = Callable[..., Run]
 RATE = {"rate_hz": 100.0}
@@ -36,7 +36,7 @@ def values_of(rows: list[Score], metric: str) -> list[float]:
 
 def around(before_s: float, after_s: float) -> Scoring:
     """Return a window around pushes, and nothing else that is asked for."""
-    return Scoring(window=Window(before_s=before_s, after_s=after_s))
+    return Scoring(window=PushWindow(before_s=before_s, after_s=after_s))
 
 
 def test_constant_error_is_scored_as_that_constant_in_every_joint(walk: Walk, layout: JointLayout) -> None:
@@ -149,7 +149,7 @@ def test_every_metric_that_a_run_can_write_passes_the_reader(
     sections = {name: getattr(evaluation, name).model_copy(update=shown) for name, shown in own.items()}
     sections["changed"] = sections["changed"].model_copy(update={"window_s": 2.0})
     sections["bode"] = Bode(**test, limb="LL", bands_hz=(0.5, 2.0))
-    window = Window(before_s=0.1, after_s=0.2)
+    window = PushWindow(before_s=0.1, after_s=0.2)
     numbers = {"touch_down_s": 0.1, "stuck_rad_s": 0.1, "cover_share": 0.68, "lines": {"LL3": (0.5, 2.0)}}
     run = walk(-3.0, steps=8, std=2.0)
     walked = read_recording(run.recording, layout)

@@ -8,7 +8,7 @@ import pytest
 
 from mobnet.core.errors import DataError
 from mobnet.core.joints import NQ_BASE, JointLayout
-from mobnet.evaluation.measure.data.steps import Steps, ankle_places, measure, read_steps, step_bounds
+from mobnet.evaluation.measure.data.steps import WalkedSteps, ankle_places, measure, read_steps, step_bounds
 from mobnet.plan.runs import Run
 from mobnet.robot.nominal import NominalModel
 
@@ -87,7 +87,7 @@ def test_a_step_is_invariant_to_where_the_robot_is_and_faces(nominal: NominalMod
 
 def test_the_foot_on_the_side_stepped_to_leads() -> None:
     commanded = np.array([[0.0, 0.1, -20.0, 0.7, 0.05], [0.1, 0.1, -20.0, 0.7, 0.05], [0.0, 0.0, 0.0, 0.7, 0.05]])
-    steps = Steps(np.array([0, 1, 0]), commanded, np.zeros(3), np.zeros((3, 40)))
+    steps = WalkedSteps(np.array([0, 1, 0]), commanded, np.zeros(3), np.zeros((3, 40)))
     assert steps.follows(0).tolist() == [False, True, False]
     assert steps.follows(1).tolist() == [True, False, False]
     assert steps.follows(2).tolist() == [False, True, False]

@@ -10,7 +10,7 @@ from csv_files import check_golden, read_table
 from made_notes import training_note
 
 from mobnet.evaluation.figures.further.calibration import nominal_points
-from mobnet.evaluation.measure.learning.calibration import Grid
+from mobnet.evaluation.measure.learning.calibration import CoverageGrid
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.report.calibration import calibration
 from mobnet.evaluation.tables.further.calibration import COVERAGE, CRPS, verdict
@@ -55,7 +55,7 @@ def test_the_bar_is_judged_without_collision_only(made: Path) -> None:
     assert {line[1].strip(): line[-2].strip() for line in lines} == {
         "validation, robots": "yes", "walk test": "yes", "knee swing, pushed": "",
     }  # fmt: skip
-    grid = Grid("walk_test", "ideal", "", "MOB-Net", "LL", "N m", np.zeros(0))
+    grid = CoverageGrid("walk_test", "ideal", "", "MOB-Net", "LL", "N m", np.zeros(0))
     assert [verdict(grid, Number(bar), 0.68, 0.05) for bar in (0.64, 0.74)] == ["yes", "no"]
 
 

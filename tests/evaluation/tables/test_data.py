@@ -10,7 +10,7 @@ from csv_files import check_golden, read_table
 
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json, write_json
-from mobnet.evaluation.measure.data.steps import Steps
+from mobnet.evaluation.measure.data.steps import WalkedSteps
 from mobnet.evaluation.tables.further.data import commanded, extent
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.settings import Settings
@@ -70,7 +70,7 @@ def test_clearance_is_the_smallest_that_was_noted(tmp_path: Path, data_sets: Set
 def test_a_command_never_given_has_no_ratio(
     monkeypatch: pytest.MonkeyPatch, settings: Settings, nominal: NominalModel, data_sets: Sets
 ) -> None:
-    monkeypatch.setattr(Steps, "follows", lambda self, column: np.full(len(self), column != 2))
+    monkeypatch.setattr(WalkedSteps, "follows", lambda self, column: np.full(len(self), column != 2))
     found = commanded(settings.commands, settings.walking.foot_spacing_m, data_sets["walk"][:1], nominal)
     assert [part for quantity, part, _, _ in found if "over" in quantity] == ["step_x", "step_y"]
 

@@ -12,7 +12,7 @@ from mobnet.core.errors import DataError
 from mobnet.evaluation.number.averages import Column
 from mobnet.evaluation.number.number import Number, published_row, published_value
 from mobnet.evaluation.tables.layout import GAP, RULE
-from mobnet.evaluation.tables.paper.error_table import Look, TableRow, table_lines, write_error_table
+from mobnet.evaluation.tables.paper.error_table import TableLook, TableRow, table_lines, write_error_table
 from mobnet.settings.evaluation import ErrorTable
 from mobnet.settings.published import Floor
 from mobnet.settings.settings import Settings
@@ -138,7 +138,7 @@ def test_tables_of_the_repository_label_every_row_and_find_its_printed_numbers(s
 
 
 TABLE = ErrorTable.model_construct(header=("Set", "Level"))
-LOOK = Look(TABLE, False, None, 0.95)
+LOOK = TableLook(TABLE, False, None, 0.95)
 
 
 def row(labels: tuple[str, ...], method: str = "MOB", *, value: float | None = 2.0, level: str = "ideal") -> TableRow:
@@ -150,7 +150,7 @@ def row(labels: tuple[str, ...], method: str = "MOB", *, value: float | None = 2
     return TableRow(labels, ("walk", level, method), "rmse", numbers)
 
 
-def text(folder: Path, ending: str, rows: list[TableRow], look: Look) -> str:
+def text(folder: Path, ending: str, rows: list[TableRow], look: TableLook) -> str:
     """Return a table's text."""
     write_error_table(folder / "t", rows, look)
     return (folder / f"t.{ending}").read_text()

@@ -8,7 +8,7 @@ import pytest
 from csv_files import check_golden, read_table
 
 from mobnet.evaluation.figures.further.commands import commands
-from mobnet.evaluation.measure.data.steps import Steps, bin_edges, bin_of, in_degrees
+from mobnet.evaluation.measure.data.steps import WalkedSteps, bin_edges, bin_of, in_degrees
 from mobnet.evaluation.tables.further.steps import Followed, followed
 from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.settings import Settings
@@ -21,7 +21,7 @@ def followed_x(settings: Settings, wanted: list[float], factor: float = 1.0) -> 
     commanded = np.tile([0.0, 0.0, 0.0, 0.7, 0.05], (len(wanted), 1))
     commanded[:, 0] = wanted
     measured = commanded[:, :4] * [factor, 1.0, 1.0, 1.0]
-    steps = Steps(np.zeros(len(wanted), dtype=np.intp), commanded, measured[:, 3], np.zeros((len(wanted), 0)))
+    steps = WalkedSteps(np.zeros(len(wanted), dtype=np.intp), commanded, measured[:, 3], np.zeros((len(wanted), 0)))
     return list(followed(steps, measured, 0, bin_edges(settings.commands, 0, 3), 0.15))
 
 

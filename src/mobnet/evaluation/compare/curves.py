@@ -20,7 +20,7 @@ TRUTH, TARGET = "truth", "target"  # labels: tau_e, and what is learned of the u
 
 
 @dataclass(frozen=True)
-class Curve:
+class TorqueCurve:
     """A line over time (T,) [N m], V1..V3 [N], perhaps with a band of its standard deviation (T,) around it."""
 
     label: str
@@ -34,7 +34,7 @@ class Panel:
 
     title: str
     time: NDArray[Any]
-    curves: Sequence[Curve]
+    curves: Sequence[TorqueCurve]
     flags: Mapping[str, NDArray[Any]]
 
 
@@ -62,10 +62,10 @@ class Curves:
         """
         k = self.joints.index(joint)
         estimates = [
-            Curve(method, values[rows, k], self._std(method, rows, k) if band else None)
+            TorqueCurve(method, values[rows, k], self._std(method, rows, k) if band else None)
             for method, values in self.estimates.items()
         ]
-        return self._panel(title, rows, zero, [Curve(TRUTH, self.truth[rows, k]), *estimates])
+        return self._panel(title, rows, zero, [TorqueCurve(TRUTH, self.truth[rows, k]), *estimates])
 
     def uncertainty_panel(self, title: str, joint: str, rows: slice, *, zero: int = 0) -> Panel:
         """Return a panel of a joint's uncertainty torque, r - tau_e of (15), and of its predictions [N m].
@@ -75,17 +75,17 @@ class Curves:
         k = self.joints.index(joint)
         residual = self.residual[rows, k]
         predictions = [
-            Curve(method, residual - values[rows, k], self._std(method, rows, k))
+            TorqueCurve(method, residual - values[rows, k], self._std(method, rows, k))
             for method, values in self.estimates.items()
         ]
-        return self._panel(title, rows, zero, [Curve(TARGET, residual - self.truth[rows, k]), *predictions])
+        return self._panel(title, rows, zero, [TorqueCurve(TARGET, residual - self.truth[rows, k]), *predictions])
 
     def _std(self, method: str, rows: slice, k: int) -> NDArray[Any] | None:
         """Return the standard deviation of the k-th joint that a method predicts (T,) [N m], V1..V3 [N]."""
         std = self.stds[method]
         return None if std is None else std[rows, k]
 
-    def _panel(self, title: str, rows: slice, zero: int, curves: Sequence[Curve]) -> Panel:
+    def _panel(self, title: str, rows: slice, zero: int, curves: Sequence[TorqueCurve]) -> Panel:
         """Return a panel with time [s] and flags of some rows."""
         time = (np.arange(len(self.truth))[rows] - zero) / self.rate_hz
         return Panel(title, time, curves, {name: flags[rows] for name, flags in self.flags.items()})

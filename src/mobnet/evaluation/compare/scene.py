@@ -100,7 +100,7 @@ def gait_phases(
 
 
 @dataclass(frozen=True)
-class Shown:
+class ShownPushes:
     """Pushes (T, n) [N m], V1..V3 [N], as they are, behind the observer's low-pass, and as an estimate shows them.
 
     An estimate shows what is left of it without all other external torque behind the low-pass: `behind` plus its error.
@@ -111,9 +111,9 @@ class Shown:
     estimate: NDArray[Any]
 
 
-def shown_pushes(pair: Pair, scene: Scene) -> Shown:
+def shown_pushes(pair: Pair, scene: Scene) -> ShownPushes:
     """Return the pushes of a run's recording, and what its estimate shows of them."""
     gain_hz = read_array_note(file_of(pair.run.residual, NOTE))["gain_hz"]
     behind = scene.behind(gain_hz, pair.joints)
     error = pair.estimate.astype(np.float64) - pair.truth
-    return Shown(scene.pushes[:, scene.layout.columns(pair.joints)], behind, behind + error)
+    return ShownPushes(scene.pushes[:, scene.layout.columns(pair.joints)], behind, behind + error)

@@ -8,12 +8,12 @@ from mobnet.evaluation.figures.further.calibration import nominal_points, panels
 from mobnet.evaluation.measure.learning.calibration import held_out, in_tests
 from mobnet.evaluation.tables.further.calibration import trust_table
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import Calibration, Coverage, Statistics
+from mobnet.settings.evaluation import CalibrationTable, Coverage, Statistics
 from mobnet.settings.networks import Learning
 
 
 def calibration(
-    settings: Calibration, learning: Learning, coverage: Coverage, layout: JointLayout, statistics: Statistics,
+    settings: CalibrationTable, learning: Learning, coverage: Coverage, layout: JointLayout, statistics: Statistics,
     folders: Mapping[str, Sequence[Path]], runs: Sequence[Sequence[Run]], table_dir: Path, figure_dir: Path,
 ) -> None:  # fmt: skip
     """Write calibration.csv, .tex and .md, and the reliability diagram as calibration.pdf, .png and .csv.

@@ -11,7 +11,7 @@ from typing import Any
 
 from mobnet.core.columns import Epoch
 from mobnet.core.files import METRICS, RUN, TIME, read_json, write_text
-from mobnet.evaluation.measure.learning.trainings import Training, read_training
+from mobnet.evaluation.measure.learning.trainings import TrainedNetwork, read_training
 from mobnet.evaluation.report.charts import Chart, line_chart
 from mobnet.evaluation.report.html import rendered
 
@@ -22,7 +22,7 @@ MISSING = "–"
 
 
 @dataclass(frozen=True)
-class TrainingRun(Training):
+class TrainingRun(TrainedNetwork):
     """One training.
 
     Attributes:
@@ -110,7 +110,7 @@ def flattened(name: str, value: Any) -> Iterator[tuple[str, str]]:
 
 
 @dataclass(frozen=True)
-class Column:
+class RunColumn:
     """A column of the table.
 
     Attributes:
@@ -132,21 +132,21 @@ class Column:
 
 
 COLUMNS = (
-    Column("name", "name"),
-    Column("method", "method"),
-    Column("limb", "limb"),
-    Column("seed", "seed", layout="d"),
-    Column("cell", "cell"),
-    Column("parameters", "parameters", layout=",d"),
-    Column("samples", "samples", layout=",d"),
-    Column("epoch_count", "epochs", layout="d"),
-    Column("best_epoch", "best epoch", layout="d"),
-    Column("loss", "best validation loss", layout=".3f"),
-    Column("rmse", "RMSE", "N m", ".2f"),
-    Column("seconds", "time", "s", ".1f"),
-    Column("device", "device"),
-    Column("precision", "precision"),
-    Column("state", "state"),
+    RunColumn("name", "name"),
+    RunColumn("method", "method"),
+    RunColumn("limb", "limb"),
+    RunColumn("seed", "seed", layout="d"),
+    RunColumn("cell", "cell"),
+    RunColumn("parameters", "parameters", layout=",d"),
+    RunColumn("samples", "samples", layout=",d"),
+    RunColumn("epoch_count", "epochs", layout="d"),
+    RunColumn("best_epoch", "best epoch", layout="d"),
+    RunColumn("loss", "best validation loss", layout=".3f"),
+    RunColumn("rmse", "RMSE", "N m", ".2f"),
+    RunColumn("seconds", "time", "s", ".1f"),
+    RunColumn("device", "device"),
+    RunColumn("precision", "precision"),
+    RunColumn("state", "state"),
 )
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.columns import RELIABILITY
 from mobnet.evaluation.figures.style import STYLE, Look, legend, looks, save_figure
-from mobnet.evaluation.measure.learning.calibration import Grid
+from mobnet.evaluation.measure.learning.calibration import CoverageGrid
 from mobnet.evaluation.number.files import write_csv
 
 PANEL_INCH, LEGEND_INCH = 1.8, 0.4  # side of a panel, height of the legend above all
@@ -24,7 +24,7 @@ IN_DISTRIBUTION = "in distribution"
 
 
 @dataclass(frozen=True)
-class Curve:
+class CoverageCurve:
     """Coverage of one limb over nominal shares (p,): observed with sigma as learned (p,) and scaled (p,)."""
 
     label: str
@@ -39,7 +39,7 @@ class ReliabilityPanel:
 
     method: str
     title: str
-    curves: Sequence[Curve]
+    curves: Sequence[CoverageCurve]
 
 
 def draw_reliability(panels: Sequence[ReliabilityPanel]) -> Figure:
@@ -97,16 +97,16 @@ def nominal_points(count: int) -> list[float]:
 
 
 def panels_of(
-    grids: Sequence[Grid], methods: Sequence[str], skipped: int, points: Sequence[float]
+    grids: Sequence[CoverageGrid], methods: Sequence[str], skipped: int, points: Sequence[float]
 ) -> list[ReliabilityPanel]:
     """Return the panels of the figure: for each method one of all collision-free tests, then one of each collision.
 
     In the grids, the coverage of the nominal points (p,) follows that of the table's levels, `skipped` in number.
     """
-    panels: dict[tuple[str, str], list[Curve]] = {}
+    panels: dict[tuple[str, str], list[CoverageCurve]] = {}
     for grid in sorted(grids, key=lambda grid: methods.index(grid.method)):
         title = grid.case if grid.pushed else IN_DISTRIBUTION
         observed = grid.values[..., skipped:-2].mean(axis=(0, 1))
-        curve = Curve(grid.limb + (f" [{grid.unit}]" if grid.limb == "V" else ""), np.array(points), *observed)
+        curve = CoverageCurve(grid.limb + (f" [{grid.unit}]" if grid.limb == "V" else ""), np.array(points), *observed)
         panels.setdefault((grid.method, title), []).append(curve)
     return [ReliabilityPanel(*key, curves) for key, curves in panels.items()]

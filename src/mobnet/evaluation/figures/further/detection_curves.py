@@ -43,7 +43,7 @@ RATE_FLOOR = 0.3  # false alarms in an hour below which a rate is drawn here: no
 
 
 @dataclass(frozen=True)
-class Course:
+class DetectorLine:
     """A line of a panel: numbers (n,) over x (n,), each made of so many collisions."""
 
     panel: str
@@ -68,7 +68,7 @@ def detection_curves(
               if (row.leg, row.scenario, row.part) == (leg, detection.random, HELD_OUT)]  # fmt: skip
     hits = tries_of(detections, names, detection.collisions, leg, COLLISION)
     sweep = tries_of(detections, names, detection.sweep, leg, settings.kind)
-    courses, rows = list[Course](), []
+    courses, rows = list[DetectorLine](), []
     for name in (name for name in settings.detectors if name in hits):
         quiet = [row for row in swings if row.detector == name]
         hours = len(quiet) * hours_per_swing([row for row in promises if row.detector == name])
@@ -88,7 +88,7 @@ def detection_curves(
 
 def _over_rates(
     name: str, points: Sequence[CurvePoint], quiet: Sequence[FreeSwing], hours: float, statistics: Statistics
-) -> list[Course]:  # fmt: skip
+) -> list[DetectorLine]:  # fmt: skip
     """Return the found share and the mean delay [ms] at multiples of the thresholds, over the false alarms [1/h]."""
     factors = sorted({row.factor for row in points})
     factors = [factor for factor in factors if alarms_in(quiet, factor) <= RATE_MOST * hours]
@@ -103,16 +103,16 @@ def _over_rates(
         late = MS * sum(row.delay_sum_s for row in own) / found if found else None
         delays.append(Number(late, unit="ms"))
         counts.append(count)
-    return [Course(FOUND, name, rates, shares, counts), Course(DELAY, name, rates, delays, counts)]
+    return [DetectorLine(FOUND, name, rates, shares, counts), DetectorLine(DELAY, name, rates, delays, counts)]
 
 
-def _over_force(name: str, tries: Sequence[Try], bins: int, statistics: Statistics) -> Course:
+def _over_force(name: str, tries: Sequence[Try], bins: int, statistics: Statistics) -> DetectorLine:
     """Return the found share in bins of the largest force with as many collisions each, over their mean force [N]."""
     ordered = sorted(tries, key=lambda one: one.collision.force_n)
     parts = [list(part) for part in np.array_split(np.array(ordered, dtype=object), bins) if len(part)]
     x = [mean_of([one.collision.force_n for one in part], statistics, "N").value or 0.0 for part in parts]
     shares = [share_of([one.detected.delay_s is not None for one in part], statistics) for part in parts]
-    return Course(FORCE, name, x, shares, [len(part) for part in parts])
+    return DetectorLine(FORCE, name, x, shares, [len(part) for part in parts])
 
 
 def area_of(hits: np.ndarray, quiet: np.ndarray, statistics: Statistics) -> Number:
@@ -129,7 +129,7 @@ def area_of(hits: np.ndarray, quiet: np.ndarray, statistics: Statistics) -> Numb
     return Number(area, max(area - reach, 0.0), min(area + reach, 1.0))
 
 
-def draw_courses(courses: Sequence[Course]) -> Figure:
+def draw_courses(courses: Sequence[DetectorLine]) -> Figure:
     """Draw the three panels side by side."""
     styles = looks(one.detector for one in courses)
     with mpl.rc_context(STYLE):

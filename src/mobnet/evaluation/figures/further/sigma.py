@@ -29,7 +29,7 @@ GUIDE = {"color": "0.7", "linewidth": 0.6, "linestyle": "-", "zorder": 0}  # whe
 
 
 @dataclass(frozen=True)
-class Course:
+class SigmaLine:
     """A line of a panel: numbers (n,) of a limb of a method in a test, over x (n,) [units of LABELS]."""
 
     panel: str
@@ -64,7 +64,7 @@ def sigma_figure(settings: Sigma, lookup: Lookup, share: float, figure_dir: Path
 
 def courses_of(
     settings: Sigma, lookup: Lookup, titled: tuple[str, LimbRuns], method: str, limb: str
-) -> Iterator[Course]:  # fmt: skip
+) -> Iterator[SigmaLine]:  # fmt: skip
     """Yield the lines of a limb of a method in a test, those whose numbers are all there."""
     title, test = titled
 
@@ -80,10 +80,10 @@ def courses_of(
     }
     for panel, (x, own) in found.items():
         if all(number.value is not None for number in (*sizes, *own)):
-            yield Course(panel, title, method, limb, x, own)
+            yield SigmaLine(panel, title, method, limb, x, own)
 
 
-def draw_sigma(courses: Sequence[Course], share: float) -> Figure:
+def draw_sigma(courses: Sequence[SigmaLine], share: float) -> Figure:
     """Draw the three panels side by side; thin grey lines show where a sigma that is true would be."""
     styles = looks(course.label for course in courses)
     with mpl.rc_context(STYLE):
@@ -111,7 +111,7 @@ def draw_sigma(courses: Sequence[Course], share: float) -> Figure:
     return figure
 
 
-def _draw(axis: Axes, course: Course, look: Look) -> None:
+def _draw(axis: Axes, course: SigmaLine, look: Look) -> None:
     """Draw a line and the band of its intervals."""
     ends = [(n.value, n.value if n.low is None else n.low, n.value if n.high is None else n.high)
             for n in course.numbers]  # fmt: skip

@@ -24,7 +24,7 @@ HEIGHT_INCH = 2.3
 
 
 @dataclass(frozen=True)
-class Course:
+class CollisionCourse:
     """A collision over time (n,) [s] from its beginning: standard deviations (n,) and thresholds [N m] by method."""
 
     title: str
@@ -63,7 +63,7 @@ def figure_15(
 def _course(
     settings: Figure15, detection: Detection, layout: JointLayout, collisions: Sequence[Collision], cell: str,
     recordings: Sequence[Path], estimates: Mapping[str, Sequence[Path]], thresholds: Mapping[str, float],
-) -> Course:  # fmt: skip
+) -> CollisionCourse:  # fmt: skip
     """Return the first collision of a cell over time."""
     hit = next(row for row in collisions if (row.scenario, row.leg) == (detection.collisions, settings.leg)
                and f"{row.link} {row.direction}" == cell)  # fmt: skip
@@ -77,10 +77,10 @@ def _course(
         for method in settings.detectors
     }
     time = (np.arange(len(array))[rows] - start) / rate
-    return Course(cell, time, stds, thresholds, np.linalg.norm(array[rows, :3], axis=1), array[rows, 3])
+    return CollisionCourse(cell, time, stds, thresholds, np.linalg.norm(array[rows, :3], axis=1), array[rows, 3])
 
 
-def draw_courses(courses: Sequence[Course], joint: str) -> Figure:
+def draw_courses(courses: Sequence[CollisionCourse], joint: str) -> Figure:
     """Draw a panel for each collision: standard deviations, thresholds dotted, and the force behind them."""
     methods = list(courses[0].stds)
     styles = looks(methods)

@@ -9,7 +9,7 @@ from mobnet.core.columns import LOSSES
 from mobnet.core.errors import DataError
 from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from mobnet.evaluation.figures.style import save_figure
-from mobnet.evaluation.measure.learning.trainings import Training, read_trainings, sound
+from mobnet.evaluation.measure.learning.trainings import TrainedNetwork, read_trainings, sound
 from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.single import extremes
 
@@ -33,7 +33,7 @@ def figure_17(folders: Sequence[Path], figure_dir: Path) -> None:
     save_figure(draw_lines(panels), figure_dir / "figure_17")
 
 
-def curve(label: str, trainings: Sequence[Training], field: str) -> Line:
+def curve(label: str, trainings: Sequence[TrainedNetwork], field: str) -> Line:
     """Return a number of every epoch, the field of `columns.Epoch`: mean, lowest and highest of some runs.
 
     Raises:

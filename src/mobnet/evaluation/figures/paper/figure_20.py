@@ -9,7 +9,7 @@ import numpy as np
 from mobnet.core.columns import SIZES
 from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from mobnet.evaluation.figures.style import save_figure
-from mobnet.evaluation.measure.learning.trainings import Training, read_trainings, sound
+from mobnet.evaluation.measure.learning.trainings import TrainedNetwork, read_trainings, sound
 from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.single import extremes
@@ -30,7 +30,7 @@ class Size:
 
     panel: str
     base: str
-    training: Training
+    training: TrainedNetwork
     loss: Number
     rmse: Number
 
@@ -64,7 +64,7 @@ def sizes_of(swept: SweptSize) -> list[Size]:
     return [size_of(swept.panel, swept.base, kept) for kept in found if kept]
 
 
-def size_of(panel: str, base: str, trainings: Sequence[Training]) -> Size:
+def size_of(panel: str, base: str, trainings: Sequence[TrainedNetwork]) -> Size:
     """Return one place of the figure, loss and RMSE [N m], from its runs."""
     kept = [training.kept for training in trainings]
     loss, rmse = extremes(np.array([(epoch.validation_loss, epoch.validation_rmse) for epoch in kept]))

@@ -11,7 +11,7 @@ import numpy as np
 from mobnet.core.columns import Score
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.measure.learning.trainings import MEASURES, Training, read_trainings, sound
+from mobnet.evaluation.measure.learning.trainings import MEASURES, TrainedNetwork, read_trainings, sound
 from mobnet.evaluation.number.averages import column_of, members
 from mobnet.evaluation.number.files import read_texts
 from mobnet.evaluation.number.grid import Wanted, run_grid
@@ -30,13 +30,13 @@ WITH_ENDS = ("value", "ratio", "after", *ENDS)  # columns that have an interval
 
 
 @dataclass(frozen=True)
-class Results:
+class Evidence:
     """Scores by what they are of, metrics scored by scenario, level and method, trainings by method, rows of tables."""
 
     layout: JointLayout
     scores: Mapping[Wanted, Sequence[Score]]
     metrics: Mapping[tuple[str, ...], set[str]]
-    trainings: Mapping[str, Sequence[Training]]
+    trainings: Mapping[str, Sequence[TrainedNetwork]]
     tables: Mapping[str, Sequence[Mapping[str, str]]] = field(default_factory=dict)
 
     def grids(self, cell: Cell) -> list[RunGrid] | None:
@@ -120,7 +120,7 @@ class Results:
 def read_results(
     layout: JointLayout, scores: Iterable[Path], folders: Iterable[Path], cells: Sequence[Cell],
     tables: Mapping[str, Path] | None = None,
-) -> Results:  # fmt: skip
+) -> Evidence:  # fmt: skip
     """Read the results that cells name: of scores, of folders of one limb's trained networks, and of tables."""
     asked = {(cell.scenario, cell.level, cell.method, name) for cell in cells for name in listed(cell.metric or METRIC)}
     found: dict[Wanted, list[Score]] = defaultdict(list)
@@ -130,7 +130,7 @@ def read_results(
         if (row.scenario, row.level, row.method, row.metric) in asked:
             found[Wanted(row.scenario, row.limb, row.level, row.method, row.joint, row.metric)].append(row)
     rows = {name: read_texts(path) for name, path in (tables or {}).items()}
-    return Results(layout, found, metrics, read_trainings(folders), rows)
+    return Evidence(layout, found, metrics, read_trainings(folders), rows)
 
 
 def listed(names: str | Sequence[str]) -> list[str]:

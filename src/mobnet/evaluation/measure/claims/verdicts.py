@@ -15,7 +15,7 @@ from typing import get_args
 
 from mobnet.core.columns import LEARNED, OBSERVER, SIGN_ONLY, VERDICTS
 from mobnet.evaluation.measure.claims.bounds import Ranges, apart, ranges_of, within
-from mobnet.evaluation.measure.claims.cells import Results, listed
+from mobnet.evaluation.measure.claims.cells import Evidence, listed
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.quantities import QUANTITIES
 from mobnet.settings.claims import Claim, MadeNumber, TrainingMetric
@@ -80,7 +80,7 @@ def rows_of(claims: Mapping[str, Claim]) -> Iterator[Row]:
             yield Row(f"{name}-{joint}", statement, claim.model_copy(update=own), joint)
 
 
-def judge(row: Row, results: Results, statistics: Statistics, methods: Mapping[str, Method]) -> Judged:
+def judge(row: Row, results: Evidence, statistics: Statistics, methods: Mapping[str, Method]) -> Judged:
     """Return our number for a claim with its interval, and the verdict."""
     claim, ranges = row.claim, ranges_of(row.claim)
     ours = replace(made_number(claim, results, statistics, claim.unit), published=claim.published)
@@ -89,7 +89,7 @@ def judge(row: Row, results: Results, statistics: Statistics, methods: Mapping[s
     return Judged(row, score_of(claim, methods), ours, ranges, verdict, cause)
 
 
-def made_number(made: MadeNumber, results: Results, statistics: Statistics, unit: str = "-") -> Number:
+def made_number(made: MadeNumber, results: Evidence, statistics: Statistics, unit: str = "-") -> Number:
     """Return what cells make, with its interval [unit]; no number where a cell has none."""
     first = made.cells[0]
     if made.quantity == "value" and first.table and results.is_one(first):
@@ -125,7 +125,7 @@ def score_of(claim: Claim, methods: Mapping[str, Method]) -> str:
     return LEARNED if trained or any(method.limbs for method in named) else OBSERVER
 
 
-def cause_of(claim: Claim, results: Results, statistics: Statistics) -> str:
+def cause_of(claim: Claim, results: Evidence, statistics: Statistics) -> str:
     """Return the text of a cause with its numbers in their places."""
     found = {name: made_number(made, results, statistics).value for name, made in claim.numbers.items()}
     return claim.cause.format_map({name: Missing() if value is None else value for name, value in found.items()})

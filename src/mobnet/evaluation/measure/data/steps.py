@@ -47,7 +47,7 @@ def ankle_places(nominal: NominalModel, q: NDArray[Any]) -> tuple[Array, Array]:
 
 
 @dataclass(frozen=True)
-class Steps:
+class WalkedSteps:
     """Steps, each from one touch-down to the next, of the other foot: 0 where the left one moved, 1 the right one (N,).
 
     Commanded are step x, step y [m], turn [deg], duration [s] and foot height [m] (N, 5), Table 2. The time they took
@@ -81,20 +81,20 @@ class Steps:
         return in_degrees(np.concatenate([moved, self.duration_s[:, None]], axis=1))
 
 
-def read_steps(stems: Sequence[Path], layout: JointLayout) -> Steps:
+def read_steps(stems: Sequence[Path], layout: JointLayout) -> WalkedSteps:
     """Return the steps of recordings, one after another; only the columns needed are read.
 
     Raises:
         DataError: a file or a column is missing, or no step is made.
     """
     found = [_steps_of(stem, layout) for stem in stems]
-    steps = Steps(*(np.concatenate([vars(one)[field.name] for one in found]) for field in fields(Steps)))
+    steps = WalkedSteps(*(np.concatenate([vars(one)[field.name] for one in found]) for field in fields(WalkedSteps)))
     if not len(steps):
         raise DataError(f"{', '.join(map(str, stems))}: no step is made in these recordings")
     return steps
 
 
-def _steps_of(stem: Path, layout: JointLayout) -> Steps:
+def _steps_of(stem: Path, layout: JointLayout) -> WalkedSteps:
     """Return the steps of one recording."""
     columns = recording_columns(layout)
     names = [name for field in ("q", "swing", "command") for name, _, _ in columns[field]]
@@ -102,7 +102,7 @@ def _steps_of(stem: Path, layout: JointLayout) -> Steps:
     q, swing, command = np.split(array, [layout.nq, layout.nq + len(FEET)], axis=1)
     bounds = np.array(list(step_bounds(swing > FLAG, command, meta["segments"])), dtype=np.intp).reshape(-1, 3)
     first, last, foot = bounds.T
-    return Steps(foot, in_degrees(command[last - 1].astype(float)), (last - first) / meta["rate_hz"], q[last])
+    return WalkedSteps(foot, in_degrees(command[last - 1].astype(float)), (last - first) / meta["rate_hz"], q[last])
 
 
 def step_bounds(swing: NDArray[np.bool_], command: NDArray[Any], segments: Spans) -> Iterator[tuple[int, int, int]]:

@@ -35,7 +35,7 @@ STAGES = ("before", "after")  # of the scaling; also keys of a training's note
 
 
 @dataclass(frozen=True)
-class Grid:
+class CoverageGrid:
     """Measures of one limb of a method in one test, or in VALIDATION, at one level.
 
     Where only samples around pushes count, `pushed` is the joint that is pushed, else it is empty. Values are means
@@ -73,7 +73,7 @@ def numbers_of(fit: Fit, columns: Sequence[int]) -> Array:
     return np.array([*fit.coverage[:, columns].mean(axis=1), fit.nll[columns].mean(), fit.crps[columns].mean()])
 
 
-def held_out(layout: JointLayout, folders: Mapping[str, Sequence[Path]], shares: Sequence[float]) -> list[Grid]:
+def held_out(layout: JointLayout, folders: Mapping[str, Sequence[Path]], shares: Sequence[float]) -> list[CoverageGrid]:
     """Return what trainings noted of their validation data, (networks, 1, 2, k + 2), those that diverged left out.
 
     The trained networks are given by the level that they learned at.
@@ -97,18 +97,20 @@ def held_out(layout: JointLayout, folders: Mapping[str, Sequence[Path]], shares:
         for (limb, unit), columns in limb_columns(layout, measured.joints).items():
             cell = np.array([numbers_of(fit, columns) for fit in fits])
             found.setdefault((level, (note.method, limb, unit)), []).append(cell)
-    return [Grid(VALIDATION, level, "", *key, np.array(cells)[:, None]) for (level, key), cells in found.items()]
+    return [
+        CoverageGrid(VALIDATION, level, "", *key, np.array(cells)[:, None]) for (level, key), cells in found.items()
+    ]
 
 
 def in_tests(
     layout: JointLayout, coverage: Coverage, tests: Sequence[CalibrationTest], runs: Sequence[Sequence[Run]],
     shares: Sequence[float],
-) -> list[Grid]:  # fmt: skip
+) -> list[CoverageGrid]:  # fmt: skip
     """Return what the runs of each test show of their standard deviations, (networks, tests, 2, k + 2) each.
 
     The shares (k,) are nominal; the section of coverage says what counts as a push.
     """
-    grids: list[Grid] = []
+    grids: list[CoverageGrid] = []
     for test, own in zip(tests, runs, strict=True):
         pushed, cells = pushed_of(test, coverage), defaultdict[Key, dict[tuple[int, int], Array]](dict)
         for run in own:
@@ -119,7 +121,7 @@ def in_tests(
         if not cells:
             log.warning("%s: no push or no such limb in its %d runs", test.scenario, len(own))
         head = test.scenario, test.level, test.pushed or ""
-        grids += [Grid(*head, *key, grid_of(found)) for key, found in cells.items()]
+        grids += [CoverageGrid(*head, *key, grid_of(found)) for key, found in cells.items()]
     return grids
 
 

@@ -18,7 +18,7 @@ from mobnet.core.notes import Count, Index, Names, Note, NotNegative, Positive, 
 from mobnet.evaluation.number.rows import read_epochs
 from mobnet.settings.networks import CellKind
 
-MEASURES: Mapping[str, tuple[Callable[[Training], float], str]] = {  # name -> (of a training, unit)
+MEASURES: Mapping[str, tuple[Callable[[TrainedNetwork], float], str]] = {  # name -> (of a training, unit)
     "validation loss": (lambda training: training.kept.validation_loss, "-"),
     "validation RMSE": (lambda training: training.kept.validation_rmse, "N m"),
     "validation loss on windows": (lambda training: training.windows_loss, "-"),
@@ -105,7 +105,7 @@ class TrainingNote(Note):
 
 
 @dataclass(frozen=True)
-class Training:
+class TrainedNetwork:
     """One trained network, with its parameters (column `Network Size` of Table 1).
 
     The samples are those learned from, without those held out; an epoch has `epoch_samples` of them. A training that
@@ -140,7 +140,7 @@ class Training:
         return min(self.epochs, key=attrgetter(self.chosen_by))
 
 
-def read_training(folder: Path) -> Training:
+def read_training(folder: Path) -> TrainedNetwork:
     """Read a network's folder.
 
     Raises:
@@ -148,7 +148,7 @@ def read_training(folder: Path) -> Training:
     """
     note, epochs = read_training_note(folder), read_epochs(folder / METRICS)
     refuse(folder, _disagreements(note, epochs))
-    return Training(
+    return TrainedNetwork(
         note.method, note.seed, note.parameters, note.samples, note.diverged, note.on_windows.loss, note.chosen_by,
         note.settings.epoch_samples or note.samples, epochs,
     )  # fmt: skip
@@ -204,15 +204,15 @@ def _calibration_faults(noted: NotedCalibration) -> Iterator[str]:
                 yield not_accepted(f"calibration.{when}.coverage", list(contained), accepted)
 
 
-def read_trainings(folders: Iterable[Path]) -> dict[str, list[Training]]:
+def read_trainings(folders: Iterable[Path]) -> dict[str, list[TrainedNetwork]]:
     """Return method -> its trainings, in the order given."""
-    found: dict[str, list[Training]] = {}
+    found: dict[str, list[TrainedNetwork]] = {}
     for folder in folders:
         training = read_training(folder)
         found.setdefault(training.method, []).append(training)
     return found
 
 
-def sound(trainings: Sequence[Training]) -> list[Training]:
+def sound(trainings: Sequence[TrainedNetwork]) -> list[TrainedNetwork]:
     """Return the trainings that did not diverge."""
     return [training for training in trainings if not training.diverged]

@@ -13,7 +13,7 @@ from mobnet.estimation.estimate import Observed, rate_of, read_observed, run_seg
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe
 from mobnet.evaluation.compare.rmse import rmse
-from mobnet.evaluation.measure.learning.trainings import Training, read_training
+from mobnet.evaluation.measure.learning.trainings import TrainedNetwork, read_training
 from mobnet.plan.runs import Tried
 from mobnet.robot.description import describe
 from mobnet.settings.methods import Observer
@@ -45,7 +45,7 @@ class Outcome:
     """A variant with the training of its network, if it has one, and its RMSE by walk and joint (w, n) [N m]."""
 
     tried: Tried
-    training: Training | None
+    training: TrainedNetwork | None
     errors: Array
 
     @property

@@ -4,11 +4,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from mobnet.core.columns import CALIBRATION
-from mobnet.evaluation.measure.learning.calibration import STAGES, Grid
+from mobnet.evaluation.measure.learning.calibration import STAGES, CoverageGrid
 from mobnet.evaluation.number.intervals import RunGrid, summarise
 from mobnet.evaluation.number.number import Number, interval_text
 from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
-from mobnet.settings.evaluation import Calibration, Statistics
+from mobnet.settings.evaluation import CalibrationTable, Statistics
 from mobnet.settings.networks import Learning
 
 COVERAGE, NLL, CRPS = "coverage", "nll", "crps"
@@ -17,7 +17,11 @@ Trust = Mapping[tuple[str, float | None], tuple[Number, Number]]  # measure, nom
 
 
 def trust_table(
-    settings: Calibration, learning: Learning, statistics: Statistics, grids: Sequence[Grid], table_dir: Path
+    settings: CalibrationTable,
+    learning: Learning,
+    statistics: Statistics,
+    grids: Sequence[CoverageGrid],
+    table_dir: Path,
 ) -> None:
     """Write calibration.csv, .tex and .md of held-out data and tests; texts hold the methods of `settings` only."""
     trusts = [(grid, trust_of(grid, learning.calibration_levels, statistics)) for grid in grids]
@@ -37,7 +41,7 @@ def trust_table(
     write_table(table_dir / "calibration", Table(CALIBRATION, records, header, lines, left=3, align=align))
 
 
-def trust_of(grid: Grid, levels: Sequence[float], statistics: Statistics) -> Trust:
+def trust_of(grid: CoverageGrid, levels: Sequence[float], statistics: Statistics) -> Trust:
     """Return the measures of a limb's runs with their intervals: coverage of nominal shares, then NLL and CRPS."""
     measures = [*((COVERAGE, level, k) for k, level in enumerate(levels)), (NLL, None, -2), (CRPS, None, -1)]
     found = {}
@@ -48,7 +52,7 @@ def trust_of(grid: Grid, levels: Sequence[float], statistics: Statistics) -> Tru
     return found
 
 
-def table_header(settings: Calibration, learning: Learning, confidence: float) -> list[str]:
+def table_header(settings: CalibrationTable, learning: Learning, confidence: float) -> list[str]:
     """Return the header: coverage of the bar's share as learned, of each level scaled, then NLL [nats] and CRPS."""
     share = f"{learning.calibration_share:.0%}"
     return [
@@ -58,7 +62,7 @@ def table_header(settings: Calibration, learning: Learning, confidence: float) -
     ]  # fmt: skip
 
 
-def limb_texts(grid: Grid, trust: Trust, settings: Calibration, learning: Learning) -> list[str]:
+def limb_texts(grid: CoverageGrid, trust: Trust, settings: CalibrationTable, learning: Learning) -> list[str]:
     """Return the numbers of a limb as texts: coverage in %, NLL [nats], CRPS with its unit, and the bar's verdict."""
     learned, bar = trust[COVERAGE, learning.calibration_share]
     scaled = [trust[COVERAGE, level][1] for level in learning.calibration_levels]
@@ -71,7 +75,7 @@ def limb_texts(grid: Grid, trust: Trust, settings: Calibration, learning: Learni
     ]  # fmt: skip
 
 
-def verdict(grid: Grid, bar: Number, share: float, tolerance: float) -> str:
+def verdict(grid: CoverageGrid, bar: Number, share: float, tolerance: float) -> str:
     """Return whether the scaled coverage lies near its nominal share, `yes` or `no`; nothing for a collision."""
     if grid.pushed or bar.value is None:
         return ""

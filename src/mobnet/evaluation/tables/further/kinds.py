@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from mobnet.core.columns import KINDS
-from mobnet.evaluation.measure.learning.trainings import MEASURES, Training, read_trainings, sound
+from mobnet.evaluation.measure.learning.trainings import MEASURES, TrainedNetwork, read_trainings, sound
 from mobnet.evaluation.number.intervals import RunGrid, summarise
 from mobnet.evaluation.number.number import Number, number_text
 from mobnet.evaluation.tables.layout import GAP, RULE, Line, Table, with_intervals, write_table
@@ -49,7 +49,7 @@ def kinds(
     write_table(table_dir / "kinds", Table(KINDS, records, HEADER, lines, LEFT, align))
 
 
-def measures_of(trainings: Sequence[Training], statistics: Statistics) -> Traits:
+def measures_of(trainings: Sequence[TrainedNetwork], statistics: Statistics) -> Traits:
     """Return the measures of the trainings that did not diverge [-, N m], without a number if all did."""
     good = sound(trainings)
     grids = {name: RunGrid(np.array([[measure(run)] for run in good])) for name, (measure, _) in MEASURES.items()}
@@ -63,7 +63,7 @@ def _order(loss: Number) -> float:
     return float("inf") if loss.value is None else loss.value
 
 
-def counts(trainings: Sequence[Training], rank: int | None, method: str, published: PublishedKinds) -> Traits:
+def counts(trainings: Sequence[TrainedNetwork], rank: int | None, method: str, published: PublishedKinds) -> Traits:
     """Return what is counted of a kind; `rank` is its place among the kinds that the paper orders, None for others."""
     return {
         "order": Number(rank, published=published.order.get(method)),

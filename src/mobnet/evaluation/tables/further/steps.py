@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from mobnet.core.columns import COMMAND, STEPS
-from mobnet.evaluation.measure.data.steps import UNITS, Array, Steps, bin_edges, bin_of, read_steps
+from mobnet.evaluation.measure.data.steps import UNITS, Array, WalkedSteps, bin_edges, bin_of, read_steps
 from mobnet.evaluation.number.number import number_text
 from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
 from mobnet.robot.description import describe
@@ -74,7 +74,7 @@ def steps(
     write_table(table_dir / "steps", Table(STEPS, records, HEADER, lines, left=2))
 
 
-def followed(found: Steps, measured: Array, column: int, edges: Array, tolerance: float) -> Iterator[Followed]:
+def followed(found: WalkedSteps, measured: Array, column: int, edges: Array, tolerance: float) -> Iterator[Followed]:
     """Yield the rows of one command in one set, empty bins left out.
 
     Args:

@@ -44,7 +44,7 @@ class TableRow:
 
 
 @dataclass(frozen=True)
-class Look:
+class TableLook:
     """How a table is laid out.
 
     Attributes:
@@ -86,10 +86,10 @@ def error_table(
             known = {column: number for column, number in raw.items() if number.value is not None}
             rows.append(TableRow(test.labels, run, test.metric, numbers, known, method in test.further))
     robot, floor = (published.robot, published.floor) if published else (False, None)
-    write_error_table(table_dir / name, rows, Look(settings, robot, floor, statistics.confidence))
+    write_error_table(table_dir / name, rows, TableLook(settings, robot, floor, statistics.confidence))
 
 
-def write_error_table(stem: Path, rows: Sequence[TableRow], look: Look) -> None:
+def write_error_table(stem: Path, rows: Sequence[TableRow], look: TableLook) -> None:
     """Write a table of errors; in TeX one that is wider than a page becomes some, one below the other."""
     records = [
         (*row.run, column.name, "+".join(name + ending for name in column.metrics or (row.metric,)),
@@ -134,7 +134,7 @@ def is_error(metrics: Sequence[str]) -> bool:
     return all(name.startswith(ERROR) for name in metrics)
 
 
-def header_of(row: TableRow, look: Look) -> list[str]:
+def header_of(row: TableRow, look: TableLook) -> list[str]:
     """Return the heads of the columns; where torques [N m] and forces stand side by side, forces have their unit."""
     units = {column.name: number.unit for column, number in row.numbers.items()}
     mixed = len(set(units.values())) > 1
@@ -142,7 +142,7 @@ def header_of(row: TableRow, look: Look) -> list[str]:
     return [*look.settings.header, "Method", "", *heads]
 
 
-def table_lines(rows: Sequence[TableRow], look: Look, stacked: bool = False) -> list[Line]:
+def table_lines(rows: Sequence[TableRow], look: TableLook, stacked: bool = False) -> list[Line]:
     """Return the lines of text [N m], row by row; a rule stands where the first label changes.
 
     `stacked`: whether the ends of an interval stand one below the other.
@@ -155,7 +155,7 @@ def table_lines(rows: Sequence[TableRow], look: Look, stacked: bool = False) -> 
     return in_blocks(blocks, nested=True)
 
 
-def row_lines(row: TableRow, over: TableRow | None, look: Look, stacked: bool) -> list[list[str]]:
+def row_lines(row: TableRow, over: TableRow | None, look: TableLook, stacked: bool) -> list[list[str]]:
     """Return a method's lines [N m]: ours, its interval, ours against the raw truth, and the paper's, if it has any."""
     ours, share = list(row.numbers.values()), f"{look.confidence:.0%}"
     lines = [[OURS[look.robot], *with_increase(row, over, "value")]]
