@@ -33,7 +33,7 @@ from mobnet.evaluation.compare.pair import Pair
 from mobnet.evaluation.compare.scene import Scene
 from mobnet.evaluation.measure.estimates import run_errors
 from mobnet.evaluation.measure.estimates.scores import measured
-from mobnet.evaluation.measure.numbers import measure_problems
+from mobnet.evaluation.measure.registry import measure_problems
 from mobnet.plan.plan import make_plan
 from mobnet.settings.load import load_settings
 

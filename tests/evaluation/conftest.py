@@ -19,7 +19,7 @@ from mobnet.core.recording import Recording, Sensed, Truth, read_recording, writ
 from mobnet.core.store import write_array
 from mobnet.evaluation.measure.claims.cells import listed
 from mobnet.plan.call import call_of
-from mobnet.plan.products import ERRORS, modules_in
+from mobnet.plan.products import ERRORS, functions
 from mobnet.plan.runs import Run
 from mobnet.settings.claims import Cell, Claim
 from mobnet.settings.evaluation import CalibrationTest, ErrorRow, Evaluation
@@ -144,8 +144,7 @@ def make_table(tmp_path: Path, settings: Settings, evaluation: Evaluation) -> Ca
     """Write a table as its rule does: make_table(name, folder=tmp_path, **needs and other settings) -> its CSV."""
 
     def make(name: str, folder: Path = tmp_path, **changes: Any) -> Path:
-        module = modules_in("report" if name == "claims" else "tables").get(name)
-        function = ERRORS if name in evaluation.tables else f"{module}:{name}"
+        function = ERRORS if name in evaluation.tables else functions()[name]
         printed = settings.published.tables.get(name) or getattr(settings.published, name, None)
         section = evaluation.tables.get(name) or getattr(evaluation, name, None)
         own = {"name": name, "settings": section, "published": printed, "layout": settings.layout, "table_dir": folder}

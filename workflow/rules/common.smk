@@ -19,7 +19,7 @@ from mobnet.core.gpus import gpus_seen
 from mobnet.core.lock import job_prefix
 from mobnet.core.run import is_stopped, refuse_configfiles, start_jobs
 from mobnet.estimation.methods import method_problems
-from mobnet.evaluation.measure.numbers import measure_problems
+from mobnet.evaluation.measure.registry import measure_problems
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.plan.disk import check_places, check_space
 from mobnet.plan.places import check_scale

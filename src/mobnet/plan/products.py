@@ -13,7 +13,7 @@ from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.settings import Settings
 
 EVALUATION = "mobnet.evaluation"
-PARTS = ("paper", "further")  # folders of tables and figures: what the paper has, and what is added to it
+PLACES = (*(f"{kind}.{part}" for kind in ("tables", "figures") for part in ("paper", "further")), "report")
 ERRORS = f"{EVALUATION}.tables.paper.error_table:error_table"  # makes every entry of `tables`
 TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their rules: the code hash reads Python only
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "png", "csv")  # endings of a table's and of a figure's files
@@ -67,13 +67,13 @@ class Products:
     @property
     def table_names(self) -> list[str]:
         """Names of all tables."""
-        return [*self.settings.evaluation.tables, *_made_in("tables")]
+        return [*self.settings.evaluation.tables, *_made_with("table_dir")]
 
     @property
     def figure_names(self) -> list[str]:
         """Names of all figures; one that shows data of the project is left out where these are not there yet."""
         kept = {"learning_curve": Path(self.settings.evaluation.learning_curve.data)}
-        made = [*_made_in("figures"), *self.settings.evaluation.figures]
+        made = [*_made_with("figure_dir"), *self.settings.evaluation.figures]
         return [name for name in made if name not in kept or kept[name].is_file()]
 
     def all(self) -> list[Product]:
@@ -88,9 +88,7 @@ class Products:
             outputs = [self.folders.figures / f"{name}.{ending}" for ending in FIGURE if name in figures]
             outputs += [self.folders.figures / f"{name}_bars.csv"] if name in BARS else []
             outputs += [self.folders.tables / f"{name}.{ending}" for ending in TABLE if name in tables]
-            floor = "tables" if name not in figures else "figures" if name not in tables else "report"
-            is_entry = name in self.settings.evaluation.tables
-            function = ERRORS if is_entry else f"{modules_in(floor)[name]}:{name}"
+            function = ERRORS if name in self.settings.evaluation.tables else functions()[name]
             asked = [parameter for some in parameters(function) for parameter in some]
             needs = needs_of(self.files, name, self._own(name).get("settings"), asked)
             yield self._product(name, function, {**needs, **self._tables_of(name)}, outputs)
@@ -194,14 +192,15 @@ def shown(file: str) -> Shown | None:
     return Shown(heading, caption.read_text(encoding="utf-8").splitlines()[0], caption)
 
 
-def _made_in(floor: str) -> list[str]:
-    """Return the sections of the configuration that have a module of their name in a folder of `evaluation`."""
-    modules = modules_in(floor)
-    return [name for name in (*Evaluation.model_fields, *CLAIMED) if name in modules]
+def _made_with(folder: str) -> list[str]:
+    """Return the sections of the configuration whose function of their name writes into `table_dir` or `figure_dir`."""
+    found = [name for name in (*Evaluation.model_fields, *CLAIMED) if name in functions()]
+    return [name for name in found if any(folder in some for some in parameters(functions()[name]))]
 
 
 @functools.cache
-def modules_in(floor: str) -> dict[str, str]:
-    """Return name -> dotted name of the modules in a folder of `evaluation`, and in the folders of its products."""
-    folders = [f"{EVALUATION}.{floor}"] + [f"{EVALUATION}.{floor}.{part}" for part in PARTS if floor != "report"]
-    return {path.stem: f"{folder}.{path.stem}" for folder in folders for path in start_of(folder).parent.glob("*.py")}
+def functions() -> dict[str, str]:
+    """Return the function `module:name` of each module of tables, of figures and of what is both."""
+    folders = [f"{EVALUATION}.{place}" for place in PLACES]
+    found = {path.stem: folder for folder in folders for path in start_of(folder).parent.glob("[a-z]*.py")}
+    return {name: f"{folder}.{name}:{name}" for name, folder in found.items()}

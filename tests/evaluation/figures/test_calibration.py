@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mobnet.evaluation.figures.further.calibration import CoverageCurve, ReliabilityPanel, curve_rows, draw_reliability
+from mobnet.evaluation.figures.further.reliability import CoverageCurve, ReliabilityPanel, curve_rows, draw_reliability
 
 NOMINAL = np.array([0.25, 0.5, 0.75])
 

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from mobnet.core.columns import FOREST, VERDICTS
-from mobnet.evaluation.figures.further.claims import (
+from mobnet.evaluation.figures.further.forest import (
     BEYOND_BOUND,
     OVER_PAPER,
     beyond_bound,

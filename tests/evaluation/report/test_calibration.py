@@ -9,11 +9,11 @@ import pytest
 from csv_files import check_golden, read_table
 from made_notes import training_note
 
-from mobnet.evaluation.figures.further.calibration import nominal_points
+from mobnet.evaluation.figures.further.reliability import nominal_points
 from mobnet.evaluation.measure.learning.calibration import CoverageGrid
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.report.calibration import calibration
-from mobnet.evaluation.tables.further.calibration import COVERAGE, CRPS, verdict
+from mobnet.evaluation.tables.further.calibration_table import COVERAGE, CRPS, verdict
 from mobnet.learning.calibration import calibrate
 from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.settings import Settings

@@ -17,7 +17,7 @@ from mobnet.core.errors import DataError
 from mobnet.evaluation.report.deviations import deviations
 from mobnet.evaluation.report.numbers import numbers
 from mobnet.evaluation.report.paper import PACKAGES, PaperError, copy_sources, missing_packages, paper
-from mobnet.evaluation.tables.further import claims, methods
+from mobnet.evaluation.tables.further import claims_table, methods
 from mobnet.evaluation.tables.further.uncertainty import text_of
 from mobnet.evaluation.tables.layout import PART, long_table, note_tex, text_table
 from mobnet.plan.products import Folders, Products
@@ -76,7 +76,7 @@ def write_tex(name: str, settings: Settings, out: Path) -> None:
     align = "l" * left + "r" * (len(header) - left)
     parts = getattr(settings.evaluation.tables.get(name), "parts", ())
     if name == "claims":
-        tex = long_table(claims.COLUMNS, claims.CAPTION, header[:-1], [line[:-1] for line in lines])
+        tex = long_table(claims_table.COLUMNS, claims_table.CAPTION, header[:-1], [line[:-1] for line in lines])
     elif name == "methods":
         tex = long_table(align, methods.CAPTION, header, lines)
     elif parts:

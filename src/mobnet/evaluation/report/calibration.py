@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.figures.further.calibration import nominal_points, panels_of, reliability
+from mobnet.evaluation.figures.further.reliability import nominal_points, panels_of, reliability
 from mobnet.evaluation.measure.learning.calibration import held_out, in_tests
-from mobnet.evaluation.tables.further.calibration import trust_table
+from mobnet.evaluation.tables.further.calibration_table import trust_table
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import CalibrationTable, Coverage, Statistics
 from mobnet.settings.networks import Learning

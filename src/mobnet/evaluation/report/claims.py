@@ -5,10 +5,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.figures.further.claims import forest
+from mobnet.evaluation.figures.further.forest import forest
 from mobnet.evaluation.measure.claims.cells import read_results
 from mobnet.evaluation.measure.claims.verdicts import judge, rows_of
-from mobnet.evaluation.tables.further.claims import claim_table
+from mobnet.evaluation.tables.further.claims_table import claim_table
 from mobnet.settings.claims import Claim
 from mobnet.settings.evaluation import Statistics
 from mobnet.settings.methods import Method

@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.figures.further.sigma import sigma_figure
+from mobnet.evaluation.figures.further.sigma_courses import sigma_figure
 from mobnet.evaluation.number.lookup import read_lookup
-from mobnet.evaluation.tables.further.sigma import sigma_table
+from mobnet.evaluation.tables.further.sigma_table import sigma_table
 from mobnet.settings.evaluation import Sigma, Statistics
 from mobnet.settings.networks import Learning
 

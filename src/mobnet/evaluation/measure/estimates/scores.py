@@ -16,7 +16,7 @@ from mobnet.evaluation.compare.pair import Pair, read_pair
 from mobnet.evaluation.compare.scene import Scene
 from mobnet.evaluation.compare.values import Measures
 from mobnet.evaluation.measure.estimates import run_errors
-from mobnet.evaluation.measure.numbers import module_of, numbers_of
+from mobnet.evaluation.measure.registry import module_of, numbers_of
 from mobnet.evaluation.number.files import write_csv
 from mobnet.plan.runs import Run
 from mobnet.settings.base import Section
