@@ -38,13 +38,13 @@ from mobnet.estimation.kinds.friction import FrictionNote, read_friction
 from mobnet.estimation.methods import method_problems
 from mobnet.evaluation.measure.trainings import TrainingNote, read_training, read_training_note
 from mobnet.evaluation.number.rows import read_detections, read_epochs, read_scores
-from mobnet.evaluation.report.accounts import AccountNote, read_account
 from mobnet.learning.deployed.limbs import LimbNetworks, check_limb
 from mobnet.learning.deployed.networks import deployed
 from mobnet.learning.deployed.weights import read_weights
 from mobnet.plan.places import scale_of
 from mobnet.plan.precision import with_precision
 from mobnet.plan.runs import Files
+from mobnet.running.accounts import AccountNote, read_account
 from mobnet.settings.load import CONFIGS, load_section, load_settings
 from mobnet.settings.reading import read_yaml
 from mobnet.settings.robot import RobotTable

@@ -17,8 +17,8 @@ from mobnet.core.joints import JointLayout
 from mobnet.estimation.kinds.friction import read_friction
 from mobnet.evaluation.measure.trainings import read_training
 from mobnet.evaluation.number.rows import read_scores
-from mobnet.evaluation.report.accounts import read_account
 from mobnet.evaluation.report.runs_page import read_training_run
+from mobnet.running.accounts import read_account
 
 KEYS = (
     "name",

@@ -15,11 +15,11 @@ from pathlib import Path
 import pytest
 from browser import Browser, with_browser
 
-from mobnet.evaluation.report.accounts import read_account
 from mobnet.evaluation.report.compute import HOUR_S, WHOLE
 from mobnet.evaluation.report.cost import costs
 from mobnet.evaluation.report.rates import measured
 from mobnet.plan.plan import Plan, make_plan
+from mobnet.running.accounts import read_account
 from mobnet.settings.load import load_settings
 
 from .clicks import choose, explain, show, text_of_frame

@@ -11,13 +11,13 @@ from typing import NamedTuple
 from snakemake.logging import logger as snakemake_logger
 from snakemake.resources import Resources
 
-from mobnet.core.cluster import LIMITED, failed_jobs, warm_cache
-from mobnet.core.counts import by_kind
-from mobnet.core.environment import quieten
+from mobnet.running.cluster import LIMITED, failed_jobs, warm_cache
+from mobnet.running.counts import by_kind
+from mobnet.running.environment import quieten
 from mobnet.core.errors import MobnetError
-from mobnet.core.gpus import gpus_seen
-from mobnet.core.lock import job_prefix
-from mobnet.core.run import is_stopped, refuse_configfiles, start_jobs
+from mobnet.running.gpus import gpus_seen
+from mobnet.running.lock import job_prefix
+from mobnet.running.run import is_stopped, refuse_configfiles, start_jobs
 from mobnet.estimation.methods import method_problems
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.plan.disk import check_places, check_space

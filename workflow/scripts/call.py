@@ -1,6 +1,6 @@
 """Every rule: the call that the plan (mobnet.plan) makes for it."""
 
-from mobnet.core.logs import job
+from mobnet.running.logs import job
 
 with job(snakemake.log[0]):
     snakemake.params.call.run()

@@ -6,11 +6,11 @@ from pathlib import Path
 
 from mobnet.core.files import WEIGHTS
 from mobnet.core.metrics import SECTIONS
-from mobnet.core.stage import Stage
 from mobnet.plan.call import Call, Job
 from mobnet.plan.detection import numbers_of, walks_of
 from mobnet.plan.parts import MethodRun, Repetition, Shard
 from mobnet.plan.runs import Files, NetworkName, files_in
+from mobnet.running.stage import Stage
 from mobnet.settings.data import Terrain
 from mobnet.settings.evaluation import Scoring
 from mobnet.settings.names import shown_in

@@ -8,7 +8,6 @@ import pytest
 
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json, write_json
-from mobnet.core.logs import Account
 from mobnet.evaluation.report.manifest import manifest
 from mobnet.evaluation.report.snapshot import (
     HEADLINES,
@@ -21,6 +20,7 @@ from mobnet.evaluation.report.snapshot import (
     with_headline,
     write_snapshot,
 )
+from mobnet.running.logs import Account
 from mobnet.settings.load import load_settings
 
 REPO = Path(__file__).parents[3]

@@ -17,7 +17,7 @@ from pathlib import Path
 
 from mobnet.core.errors import DataError, MobnetError
 from mobnet.core.files import REFUSALS, refusal, write_json
-from mobnet.core.provenance import UNKNOWN, commit
+from mobnet.running.provenance import UNKNOWN, commit
 
 log = logging.getLogger(__name__)
 

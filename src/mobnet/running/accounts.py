@@ -5,9 +5,9 @@ from pathlib import Path
 from pydantic import ConfigDict
 
 from mobnet.core.errors import not_accepted, refuse
-from mobnet.core.logs import Account
 from mobnet.core.notes import Note, NotNegative, Text, read_note
-from mobnet.core.provenance import UNKNOWN
+from mobnet.running.logs import Account
+from mobnet.running.provenance import UNKNOWN
 
 
 class AccountNote(Note):

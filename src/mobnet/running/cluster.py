@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from mobnet.core.logs import LOGS as OWN_LOGS
+from mobnet.running.logs import LOGS as OWN_LOGS
 
 LOGS = Path(".snakemake") / "slurm_logs"  # of jobs that failed: rule_NAME or group_NAMES / wildcards / NUMBER.log
 FEW = 10  # jobs of a run, which compile for themselves

@@ -2,7 +2,7 @@
 
 import logging
 
-from mobnet.core.counts import by_kind
+from mobnet.running.counts import by_kind
 
 
 def record_of(message: str, **extra: object) -> logging.LogRecord:

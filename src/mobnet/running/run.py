@@ -1,6 +1,6 @@
 """The main process of the workflow: Ctrl-C ends it and its jobs at once, with one line, from its first moment on.
 
-`./reproduce` starts `python -m mobnet.core.run` in place of `python -m snakemake`, with the same words.
+`./reproduce` starts `python -m mobnet.running.run` in place of `python -m snakemake`, with the same words.
 """
 
 import atexit
@@ -23,11 +23,11 @@ import psutil
 import yaml
 
 from mobnet.core.code import ROOT
-from mobnet.core.environment import LONGEST_TEMPORARY
 from mobnet.core.errors import ConfigError, MobnetError, misfit
 from mobnet.core.files import check_room
-from mobnet.core.lock import begin_run, scratch, sweep
-from mobnet.core.provenance import UNKNOWN, commit
+from mobnet.running.environment import LONGEST_TEMPORARY
+from mobnet.running.lock import begin_run, scratch, sweep
+from mobnet.running.provenance import UNKNOWN, commit
 
 USE_CODE = "__use_yte__"
 WRITTEN = (".snakemake", ".cache")  # below the project, by Snakemake itself and by packages

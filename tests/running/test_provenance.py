@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.core.provenance import commit, provenance
+from mobnet.running.provenance import commit, provenance
 
 
 def test_provenance_names_commit_lock_and_config_and_follows_the_settings() -> None:
@@ -16,7 +16,7 @@ def test_provenance_names_commit_lock_and_config_and_follows_the_settings() -> N
 
 def test_outside_of_git_and_without_a_lock_both_are_unknown(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     commit.cache_clear()
-    monkeypatch.setattr("mobnet.core.provenance.ROOT", Path("/"))
-    monkeypatch.setattr("mobnet.core.provenance.LOCK", tmp_path / "environment.lock")
+    monkeypatch.setattr("mobnet.running.provenance.ROOT", Path("/"))
+    monkeypatch.setattr("mobnet.running.provenance.LOCK", tmp_path / "environment.lock")
     assert provenance({})["commit"] == provenance({})["lock"] == "unknown"
     commit.cache_clear()
