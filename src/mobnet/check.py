@@ -1,6 +1,7 @@
 """Check files from outside before anything reads them: `./reproduce check FILE...` (docs/robots.md).
 
-Readers of jobs ask for the same contract; here all columns of a file are looked at, in the memory of a minute of it.
+Readers of jobs ask for the same contract; here all columns of a file are looked at, in the memory of a minute of it. A
+file below results/ must also be the one that its job makes (`mobnet.running.stamp`).
 """
 
 import argparse
@@ -14,7 +15,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from mobnet.agreement import check_agreement
+from mobnet.core.code import ROOT
 from mobnet.core.columns import (
     EPOCHS,
     EXTERNAL,
@@ -28,7 +29,7 @@ from mobnet.core.columns import (
 )
 from mobnet.core.detections import FILES as DETECTION_FILES
 from mobnet.core.detections import columns_of
-from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse
+from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse, refuse_lines
 from mobnet.core.files import METRICS, RUN, check_regular, read_json, read_text
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import ArrayNote, read_array_note, read_note
@@ -42,10 +43,11 @@ from mobnet.learning.deployed.limbs import LimbNetworks, check_limb
 from mobnet.learning.deployed.networks import deployed
 from mobnet.learning.deployed.weights import read_weights
 from mobnet.plan.places import scale_of
+from mobnet.plan.plan import Plan, make_plan
 from mobnet.plan.precision import with_precision
-from mobnet.plan.runs import Files
+from mobnet.plan.stamped import foreign
 from mobnet.running.accounts import AccountNote, read_account
-from mobnet.settings.load import CONFIGS, load_section, load_settings
+from mobnet.settings.load import load_section, load_settings
 from mobnet.settings.reading import read_yaml
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.settings import Settings
@@ -70,9 +72,10 @@ class UnknownKindError(DataError):
 
 
 @functools.cache
-def settings_of(scale: str) -> Settings:
-    """Return the configuration of a scale."""
-    return with_precision(load_settings(overrides={"scale": scale}), CONFIGS.parent / "results" / scale)
+def plan_of(scale: str) -> Plan:
+    """Return the plan of a scale."""
+    settings = load_settings(overrides={"scale": scale})
+    return make_plan(with_precision(settings, ROOT / "results" / scale), with_pdf=False)
 
 
 @dataclass(frozen=True)
@@ -97,24 +100,18 @@ class Against:
         """Samples per second of recordings [Hz]."""
         return self.rate or self.settings.rates.data_hz
 
-    def check_place(self, path: Path) -> None:
-        """Check that a file of results agrees with its place and the configuration of its scale."""
-        whole, results = path.absolute(), CONFIGS.parent / "results"
-        scale = scale_of(str(whole.relative_to(CONFIGS.parent))) if whole.is_relative_to(results) else None
-        if scale is not None and scale in self.settings.scales:
-            files = Files(settings_of(scale), results / scale)
-            pair = [file_of(whole.with_suffix(""), ending) for ending in (ARRAY, NOTE)]
-            check_agreement(pair if whole in pair else [whole], files, numbers=True)
-
 
 def check(path: Path, against: Against) -> str:
     """Return what a file is, in a few words.
 
     Raises:
-        MobnetError: the file is not accepted, or is not the one that belongs to its place; one line for each fault.
+        MobnetError: the file is not accepted, or is not the one that its job makes; one line for each fault.
     """
     kind = _kind(path, against)
-    against.check_place(path)
+    place = path.absolute()
+    name = str(place.relative_to(ROOT)) if place.is_relative_to(ROOT / "results") else ""
+    if (scale := scale_of(name)) in against.settings.scales:
+        refuse_lines(foreign(plan_of(scale), [name], ROOT))
     return kind
 
 
@@ -274,7 +271,7 @@ def main(words: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="./reproduce check", description="Check files before they are used.")
     parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help=f"accepted: {KINDS}")
     parser.add_argument("--robot", type=Path, help="the robot's table, if it is not that of configs")
-    parser.add_argument("--rate", type=float, metavar="HZ", help=f"samples per second, if not that of {CONFIGS.name}")
+    parser.add_argument("--rate", type=float, metavar="HZ", help="samples per second, if not that of configs")
     options = parser.parse_args(words)
     if options.rate is not None and not 0.0 < options.rate < math.inf:
         parser.error(not_accepted("--rate", options.rate, ["a number above 0"]))

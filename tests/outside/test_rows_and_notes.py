@@ -7,13 +7,17 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 from made_detections import write_detections
 from tests.outside.conftest import AGAINST, refusal_of
 
 from mobnet.check import check
+from mobnet.core.columns import SCORES as SCORES_OF
 from mobnet.core.detections import FILES as DETECTION_FILES
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
+from mobnet.core.metrics import METRIC_KINDS, MetricKind
 from mobnet.estimation.kinds.friction import read_friction
 from mobnet.evaluation.measure.trainings import read_training
 from mobnet.evaluation.number.rows import read_scores
@@ -172,6 +176,10 @@ SCORES = {
     "seed below zero": ((",0,1,", ",-1,1,"), "walk.csv:2: network_seed: -1 is not accepted"),
     "twice": ((",0,2,", ",0,1,"), "walk.csv:4: row: .* is not accepted; accepted: once; it stands in line 2"),
     "unit unknown": (("N m", "Nm"), "walk.csv:2: unit: 'Nm' is not accepted; accepted: N, N m"),
+    "metric unknown": (("rmse", "rmse_push_0"), "walk.csv:2: metric: 'rmse_push_0' is not accepted"),
+    "unit of another metric": (("rmse", "r_rmse"), "walk.csv:2: unit: 'N m' is not accepted; accepted: %"),
+    "share above 1": (("rmse,1.5,N m", "cover,1.5,-"), "walk.csv:2: value of cover: 1.5 is not .*: 0 to 1"),
+    "correlation": (("rmse,1.5,N m", "acf_10ms,-1.5,-"), "walk.csv:2: value of acf_10ms: -1.5 is not .*: -1 to 1"),
     "no joint": (("LL1", ""), "walk.csv:2: joint: '' is not accepted; accepted: a name"),
     "no method": (("MOB", ""), "walk.csv:2: method: '' is not accepted"),
     "a column is gone": (("metric", "measure"), "walk.csv: column 'metric' is missing"),
@@ -192,6 +200,16 @@ def test_scores_that_break_the_contract_are_refused(name: str, scores: Path) -> 
 
 def test_sound_scores_are_accepted(scores: Path) -> None:
     assert check(scores, AGAINST) == "scores, 4 rows"
+
+
+@settings(max_examples=5, deadline=None, suppress_health_check=list(HealthCheck))
+@given(data=st.data())
+@pytest.mark.parametrize("kind", METRIC_KINDS, ids=lambda kind: kind.names)
+def test_every_metric_is_a_sound_row(kind: MetricKind, data: st.DataObject, scores: Path) -> None:
+    """The shares of changed robots were in no list of names once."""
+    name = data.draw(st.from_regex(kind.names.replace("[0-9]*", "[0-9]?"), fullmatch=True))
+    scores.write_text(f"{','.join(SCORES_OF)}\nwalk,ideal,MOB,0,1,LL,LL1,{name},0.5,{kind.unit.format('N m')}\n")
+    assert check(scores, AGAINST) == "scores, 1 rows"
 
 
 def test_a_limb_with_forces_and_torques_has_two_relative_means(scores: Path) -> None:

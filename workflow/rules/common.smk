@@ -10,11 +10,12 @@ from typing import NamedTuple
 
 from snakemake.logging import logger as snakemake_logger
 from snakemake.resources import Resources
+from snakemake.settings.enums import RerunTrigger
 
 from mobnet.running.cluster import LIMITED, failed_jobs, warm_cache
 from mobnet.running.counts import by_kind
 from mobnet.running.environment import quieten
-from mobnet.core.errors import MobnetError
+from mobnet.core.errors import MobnetError, refuse_lines
 from mobnet.running.gpus import gpus_seen
 from mobnet.running.lock import job_prefix
 from mobnet.running.run import is_stopped, refuse_configfiles, start_jobs
@@ -25,6 +26,7 @@ from mobnet.plan.places import check_scale
 from mobnet.plan.plan import make_plan
 from mobnet.plan.precision import record_precision, with_precision
 from mobnet.plan.products import shown
+from mobnet.plan.stamped import foreign
 from mobnet.plan.texts import text_problems
 from mobnet.settings.load import load_settings
 
@@ -60,10 +62,6 @@ if GPUS and "gpu" not in workflow.global_resources:
 
 
 onstart:
-    from mobnet.agreement import (
-        check_agreement,
-    )  # here, as it takes a second that a call without jobs need not wait
-
     if workflow.local_exec:
         # Snakemake 9.27 with a rate limit looks at all ready jobs in every timespan, once for each job that ended: half
         # of a core after 100 jobs. Here the number of cores limits the rate.
@@ -74,8 +72,8 @@ onstart:
         made = {str(path) for job in workflow.dag.needrun_jobs() for path in job.output}
         check_space(PLAN, made)
         read = {str(path) for job in workflow.dag.needrun_jobs() for path in job.input}
-        # rows of scores are many: a check looks at all of them, a job at those that it shows
-        check_agreement((Path(name) for name in sorted(read - made) if not name.endswith(".csv")), PLAN.files)
+        if RerunTrigger.PARAMS in workflow.dag_settings.rerun_triggers:  # else what other code has made is wanted
+            refuse_lines(foreign(PLAN, sorted(read - made)))
         if not workflow.local_exec:
             warm_cache(ROOT, jobs=len(list(workflow.dag.needrun_jobs())))
     except MobnetError as error:

@@ -2,5 +2,6 @@
 
 from mobnet.running.logs import job
 
-with job(snakemake.log[0]):
+with job(snakemake.log[0]) as stamps:
     snakemake.params.call.run()
+    stamps.update(snakemake.params.stamps.write())

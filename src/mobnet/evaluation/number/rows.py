@@ -8,7 +8,8 @@ from typing import Any, cast
 
 from mobnet.core.columns import Epoch, Score
 from mobnet.core.detections import FILES, PARTS, UNNAMED
-from mobnet.core.metrics import UNITS
+from mobnet.core.errors import ConfigError
+from mobnet.core.metrics import JOINT_UNITS, kind_of_metric
 from mobnet.evaluation.number.files import read_rows, refuse_rows
 
 SIGNED = ("-", "ms", "deg")  # units of numbers that may be below zero
@@ -70,7 +71,7 @@ def _detection_faults(rows: Sequence[Any]) -> Iterator[Fault]:
 
 
 def _score_faults(rows: Sequence[Score]) -> Iterator[Fault]:
-    """Yield numbers below zero, empty names, unknown units and rows that occur twice."""
+    """Yield numbers below zero, empty names, unknown metrics and rows that occur twice."""
     seen: dict[tuple[object, ...], int] = {}
     for k, row in enumerate(rows):
         for name, low in (("network_seed", 0), ("test_seed", 0), ("value", 0.0)):
@@ -79,13 +80,27 @@ def _score_faults(rows: Sequence[Score]) -> Iterator[Fault]:
         for name in ("scenario", "level", "method", "limb", "joint", "metric"):
             if not getattr(row, name):
                 yield k, name, "", "a name"
-        if row.unit not in UNITS:
-            yield k, "unit", row.unit, ", ".join(UNITS)
+        yield from ((k, *fault) for fault in _metric_faults(row.metric, row.unit, row.value))
         key = KEY(row)
         first = seen.setdefault(key, k)
         # a limb with forces and torques has two means of what has no unit of a joint, such as %
         if first != k and not (row.joint == "avg" and row.unit in ("%", *SIGNED)):
             yield k, "row", ", ".join(map(str, key[:-1])), f"once; it stands in line {first + 2} already"
+
+
+def _metric_faults(name: str, unit: str, value: float) -> Iterator[tuple[str, object, str]]:
+    """Yield a metric that is unknown, a unit that is not its own, and a value outside of its range."""
+    try:
+        kind = kind_of_metric(name)
+    except ConfigError:
+        yield "metric", name, "a name of mobnet.core.metrics"
+        return
+    units = dict.fromkeys(kind.unit.format(of) for of in JOINT_UNITS)
+    if unit not in units:
+        yield "unit", unit, ", ".join(units)
+    low, high = kind.ends or (value, value)
+    if not low <= value <= high:
+        yield f"value of {name}", value, f"{low:g} to {high:g}"
 
 
 def _epoch_faults(rows: Sequence[Epoch]) -> Iterator[Fault]:
