@@ -188,7 +188,7 @@ def run_note(trainer: Trainer, data: LimbData, done: Progress, calibration: Cali
         "device": trainer.device.type,
         "precision": precision_name(trainer.network.precision),
         "fingerprint": trainer.fingerprint,
-        "provenance": provenance({"seed": job.root_seed, **json_of(training)}),
+        "provenance": provenance(),
     }
 
 

@@ -67,8 +67,7 @@ def make_motion(
     knots = plan(described, motion, reacher, variant, rng, duration_s)
     figures = {"motion": name, "seed": seed, "part": part, "variant": variant, **measured(reacher, motion, knots)}
     log.info("%s: %s", out.name, figures)
-    settings = {"seed": root_seed, "robot": robot.model_dump(mode="json"), "motion": motion.model_dump(mode="json")}
-    meta = {"rate_hz": motion.knot_hz, **figures, "provenance": provenance(settings)}
+    meta = {"rate_hz": motion.knot_hz, **figures, "provenance": provenance()}
     write_array(out, knots, [(f"q_ref.{joint}", "rad", "joint") for joint in described.posture.joints], meta)
 
 

@@ -78,7 +78,7 @@ def collect(settings: WalkSettings, seed: int, duration_s: float, out: Path, mot
             "rate_hz": rate, "scenario": settings.scenario_name, "level": settings.level_name, "seed": seed,
             "falls": course.falls, "terrains": course.terrains, "clearance_min_m": round(watch.nearest, 4),
             "self_collisions": watch.collisions,
-            "provenance": provenance(settings.model_dump(mode="json")),
+            "provenance": provenance(),
         }  # fmt: skip
         writer.close(meta, course.segments)
     speed = duration_s / (time.perf_counter() - started)

@@ -53,7 +53,7 @@ def rewrite(old: str, new: str) -> list[str]:
 def test_snapshot_holds_tables_and_pictures_with_their_origin() -> None:
     names = sorted(path.name for path in STORED.iterdir())
     assert names == ["compute.md", "figure_05.png", "figures", "provenance.json", "table_05.csv", "table_05.md"]
-    assert set(read_json(STORED / "provenance.json")) == {"scale", "commit", "lock", "config"}
+    assert set(read_json(STORED / "provenance.json")) == {"scale", "commit", "lock"}
 
 
 @pytest.mark.usefixtures("stored")

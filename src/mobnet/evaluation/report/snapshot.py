@@ -110,7 +110,7 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Pat
     for source in sorted(figures.glob("*.csv")):
         with atomic_path(out / DRAWN / f"{source.name}.gz") as temporary:
             temporary.write_bytes(gzip.compress(source.read_bytes(), mtime=0))
-    write_json(out / "provenance.json", {"scale": settings.scale, **provenance(settings.model_dump(mode="json"))})
+    write_json(out / "provenance.json", {"scale": settings.scale, **provenance()})
     log.info("%s: %d files", out, len(found))
 
 
