@@ -59,7 +59,7 @@ class Job:
         """What the job reruns on besides its files: its arguments and the code behind it."""
         return self.call.fingerprint + code_hash(self.call.module, *self.modules)
 
-    @property
+    @functools.cached_property
     def stamps(self) -> Stamps:
         """What is stamped on each file, the same however the parts are divided among jobs."""
         shared = {name: value for name, value in self.call.arguments.items() if name not in (*self.parts, STAGE)}
