@@ -7,8 +7,8 @@ from pathlib import Path
 
 sys.path.insert(0, f"{workflow.basedir}/src")  # of this folder, whatever Python reads this file
 
-from mobnet.core.environment import fault_of_process
-from mobnet.core.run import prepare
+from mobnet.running.environment import fault_of_process
+from mobnet.running.run import prepare
 
 if fault := fault_of_process(Path(workflow.basedir)):
     sys.exit(fault)

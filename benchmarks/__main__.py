@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 from mobnet.core.files import atomic_path
-from mobnet.core.threads import one_thread
+from mobnet.running.threads import one_thread
 
 NAMES = ("collect_speed", "observer_speed", "train_speed", "step_latency", "estimate_speed")
 LONG = ("collect_growth", "collect_hour", "torque_amplitude", "walk_quality")  # minutes each

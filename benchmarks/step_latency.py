@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from mobnet.core.columns import COMMAND, FEET
 from mobnet.core.joints import NQ_BASE, JointLayout
 from mobnet.core.recording import Sensed
-from mobnet.core.threads import one_thread
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observe import observer_of
 from mobnet.learning.deployed.limbs import LimbNetworks
@@ -22,6 +21,7 @@ from mobnet.learning.deployed.networks import Network
 from mobnet.learning.features import limb_inputs, signals
 from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.robot.description import describe
+from mobnet.running.threads import one_thread
 from mobnet.settings.load import load_settings
 from mobnet.settings.networks import Training
 from mobnet.settings.settings import Settings

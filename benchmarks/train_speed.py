@@ -15,7 +15,6 @@ import torch
 from torch import Tensor, nn
 from torch.utils.data import DataLoader, TensorDataset
 
-from mobnet.core.threads import one_thread
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.job import PRECISIONS, Job
 from mobnet.learning.losses import gaussian_loss
@@ -23,6 +22,7 @@ from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.learning.optimisation import Samples, train_epoch
 from mobnet.learning.streams import epoch_plan
 from mobnet.plan.precision import with_precision
+from mobnet.running.threads import one_thread
 from mobnet.settings.load import load_settings
 
 UPDATES, ROUNDS = 40, 5  # updates in a turn, turns

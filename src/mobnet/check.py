@@ -1,6 +1,7 @@
 """Check files from outside before anything reads them: `./reproduce check FILE...` (docs/robots.md).
 
-Readers of jobs ask for the same contract; here all columns of a file are looked at, in the memory of a minute of it.
+Readers of jobs ask for the same contract; here all columns of a file are looked at, in the memory of a minute of it. A
+file below results/ must also be the one that its job makes (`mobnet.running.stamp`).
 """
 
 import argparse
@@ -14,7 +15,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from mobnet.agreement import check_agreement
+from mobnet.core.code import ROOT
 from mobnet.core.columns import (
     EPOCHS,
     EXTERNAL,
@@ -28,7 +29,7 @@ from mobnet.core.columns import (
 )
 from mobnet.core.detections import FILES as DETECTION_FILES
 from mobnet.core.detections import columns_of
-from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse
+from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse, refuse_lines
 from mobnet.core.files import METRICS, RUN, check_regular, read_json, read_text
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import ArrayNote, read_array_note, read_note
@@ -38,19 +39,19 @@ from mobnet.estimation.kinds.friction import FrictionNote, read_friction
 from mobnet.estimation.methods import method_problems
 from mobnet.evaluation.measure.learning.trainings import TrainingNote, read_training, read_training_note
 from mobnet.evaluation.number.rows import read_detections, read_epochs, read_scores
-from mobnet.evaluation.report.accounts import AccountNote, read_account
 from mobnet.learning.deployed.limbs import LimbNetworks, check_limb
 from mobnet.learning.deployed.networks import deployed
 from mobnet.learning.deployed.weights import read_weights
 from mobnet.plan.places import scale_of
+from mobnet.plan.plan import Plan, make_plan
 from mobnet.plan.precision import with_precision
-from mobnet.plan.runs import Files
-from mobnet.settings.load import CONFIGS, load_section, load_settings
+from mobnet.plan.stamped import foreign
+from mobnet.running.accounts import AccountNote, read_account
+from mobnet.settings.load import load_section, load_settings
 from mobnet.settings.reading import read_yaml
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.settings import Settings
 
-ENDINGS = (ARRAY, NOTE, ".csv", ".safetensors", ".yaml")
 KINDS = (
     "a recording, residual, estimate or motion (.parquet with its .json), weights.safetensors, run.json, metrics.csv, "
     "scores, what detectors find, a fit, an account of a job, a file of configs, a robot's table, a folder of these"
@@ -70,9 +71,10 @@ class UnknownKindError(DataError):
 
 
 @functools.cache
-def settings_of(scale: str) -> Settings:
-    """Return the configuration of a scale."""
-    return with_precision(load_settings(overrides={"scale": scale}), CONFIGS.parent / "results" / scale)
+def plan_of(scale: str) -> Plan:
+    """Return the plan of a scale."""
+    settings = load_settings(overrides={"scale": scale})
+    return make_plan(with_precision(settings, ROOT / "results" / scale), with_pdf=False)
 
 
 @dataclass(frozen=True)
@@ -97,24 +99,18 @@ class Against:
         """Samples per second of recordings [Hz]."""
         return self.rate or self.settings.rates.data_hz
 
-    def check_place(self, path: Path) -> None:
-        """Check that a file of results agrees with its place and the configuration of its scale."""
-        whole, results = path.absolute(), CONFIGS.parent / "results"
-        scale = scale_of(str(whole.relative_to(CONFIGS.parent))) if whole.is_relative_to(results) else None
-        if scale is not None and scale in self.settings.scales:
-            files = Files(settings_of(scale), results / scale)
-            pair = [file_of(whole.with_suffix(""), ending) for ending in (ARRAY, NOTE)]
-            check_agreement(pair if whole in pair else [whole], files, numbers=True)
-
 
 def check(path: Path, against: Against) -> str:
     """Return what a file is, in a few words.
 
     Raises:
-        MobnetError: the file is not accepted, or is not the one that belongs to its place; one line for each fault.
+        MobnetError: the file is not accepted, or is not the one that its job makes; one line for each fault.
     """
     kind = _kind(path, against)
-    against.check_place(path)
+    place = path.absolute()
+    name = str(place.relative_to(ROOT)) if place.is_relative_to(ROOT / "results") else ""
+    if (scale := scale_of(name)) in against.settings.scales:
+        refuse_lines(foreign(plan_of(scale), [name], ROOT))
     return kind
 
 
@@ -123,30 +119,20 @@ def _kind(path: Path, against: Against) -> str:
     if path.is_dir():
         raise UnknownKindError(path, "folder without any of these", path.name)
     check_regular(path)
-    if path.suffix == ".safetensors":
-        return _network(path, against)
-    if path.suffix == ".yaml":
-        return _configuration(path)
-    if path.suffix == ".csv":
-        return _rows(path)
-    if path.suffix == ARRAY or (path.suffix == NOTE and path.with_suffix(ARRAY).exists()):
-        return _array(path.with_suffix(""), against)
-    if path.suffix == NOTE:
-        return _note(path, against)
-    raise UnknownKindError(path, "file" if path.exists() else "missing file", path.name)
+    is_array = path.suffix == NOTE and path.with_suffix(ARRAY).exists()
+    reader = READERS.get(ARRAY if is_array else path.suffix)
+    if reader is None:
+        raise UnknownKindError(path, "file" if path.exists() else "missing file", path.name)
+    return reader(path, against)
 
 
-def _array(stem: Path, against: Against) -> str:
-    """Check a recording, residual, estimate or motion, whose stem is given."""
-    noted = file_of(stem, NOTE)
-    note = read_array_note(noted)
+def _array(path: Path, against: Against) -> str:
+    """Check a recording, residual, estimate or motion, of whose files one is given."""
+    stem = path.with_suffix("")
+    note, noted = read_array_note(file_of(stem, NOTE)), file_of(stem, NOTE)
     names = [column["name"] for column in note["columns"]]
-    found = kind_of(names, against.layout)
-    if found is None:
-        raise UnknownKindError(noted, "columns", names)
-    kind, needed = found
-    missing = [name for name in needed if name not in names]
-    refuse(noted, [f"columns: {name!r} is missing; accepted: all of a {kind}" for name in missing])
+    kind, needed = kind_of(noted, names, against.layout)
+    refuse(noted, (f"columns: {name!r} is missing; accepted: all of a {kind}" for name in needed if name not in names))
     if kind != "motion":
         check_rate(stem, against.rate_hz)
     told = time.monotonic()
@@ -159,15 +145,13 @@ def _array(stem: Path, against: Against) -> str:
     return f"{kind}, {rows} rows at {rate:g} Hz, {rows / rate:g} s in {parts}, {len(names)} columns"
 
 
-def kind_of(names: Sequence[str], layout: JointLayout) -> tuple[str, list[str]] | None:
-    """Return which kind of array has columns of these names, if any, and the columns that it needs."""
+def kind_of(noted: Path, names: Sequence[str], layout: JointLayout) -> tuple[str, list[str]]:
+    """Return which kind of array has columns of these names, as its note says, and the columns that it needs."""
     held, groups = set(names), recording_columns(layout)
     signals = {name.partition(".")[0] for name in held}
     if {"q", "v"} & signals:
-        fields = [*Sensed.__dataclass_fields__, *Truth.__dataclass_fields__]
-        whole = [field for field in fields if field in Sensed.__dataclass_fields__ or
-                 held & {name for field in Truth.__dataclass_fields__ for name, *_ in groups[field]}]  # fmt: skip
-        return "recording", [name for field in whole for name, *_ in groups[field]]
+        told = [field for field in Truth.__dataclass_fields__ if held & {name for name, *_ in groups[field]}]
+        return "recording", [name for field in (*Sensed.__dataclass_fields__, *told) for name, *_ in groups[field]]
     if RESIDUAL in signals:
         return "residual", [name for name, *_ in residual_columns(layout, LABEL_LP in signals)]
     if EXTERNAL in signals:
@@ -175,38 +159,36 @@ def kind_of(names: Sequence[str], layout: JointLayout) -> tuple[str, list[str]] 
         return "estimate", [name for signal in (EXTERNAL, STD) if signal in signals for name in named(signal, joints)]
     if signals == {"q_ref"}:
         return "motion", [name for name in named("q_ref", layout.actuated) if name in held]
-    return None
+    raise UnknownKindError(noted, "columns", list(names))
 
 
 def _note(path: Path, against: Against) -> str:
-    """Check a JSON file that stands alone."""
+    """Check a JSON file that is no array's."""
     keys = read_json(path).keys()
     kind = max(NOTES, key=lambda note: len(keys & note.model_fields.keys()))
     if path.name != RUN and not keys & kind.model_fields.keys():
         raise UnknownKindError(path, "keys", sorted(keys))
     if kind is TrainingNote or path.name == RUN:
-        return _training(path.parent) if (path.parent / METRICS).exists() else _name(read_training_note(path.parent))
+        return _training(path.parent)
     if kind is AccountNote:
         return f"account of {read_account(path).job}"
     if kind is FrictionNote:
         read_friction(path, against.layout.actuated)
         return f"fit of {len(read_note(path, FrictionNote).joints)} joints"
-    return _array(path.with_suffix(""), against)
-
-
-def _name(note: TrainingNote) -> str:
-    """Return the words for a training."""
-    return f"training {note.name}, {note.settings.epochs} epochs"
+    return _array(path, against)
 
 
 def _training(folder: Path) -> str:
-    """Check note and epochs of a training."""
-    read_training(folder)
-    return _name(read_training_note(folder))
+    """Check the note of a training, and its epochs where they are there."""
+    note = read_training_note(folder)
+    if (folder / METRICS).exists():
+        read_training(folder)
+    return f"training {note.name}, {note.settings.epochs} epochs"
 
 
-def _rows(path: Path) -> str:
+def _rows(path: Path, against: Against) -> str:
     """Check a file of rows: epochs of a training, scores, or what detectors find."""
+    del against  # files of rows name joints of any robot
     held = set(read_text(path).partition("\n")[0].strip().split(","))
     kinds = {"epochs": EPOCHS, "scores": SCORES, **{name: columns_of(name) for name in DETECTION_FILES}}
     shares = {name: len(held.intersection(columns)) / len(columns) for name, columns in kinds.items()}
@@ -228,8 +210,9 @@ def _network(path: Path, against: Against) -> str:
     return f"network of {network.limb}, {len(network.input_names)} inputs, {len(network.joints)} joints"
 
 
-def _configuration(path: Path) -> str:
+def _configuration(path: Path, against: Against) -> str:
     """Check a file of the configuration, with the others of its folder, or a robot's table."""
+    del against  # the file says what is accepted itself
     keys = read_yaml(path, nulls=True).keys()
     if len(keys & RobotTable.model_fields.keys()) > 2:
         return f"robot {load_section(path, RobotTable).name}"
@@ -240,33 +223,35 @@ def _configuration(path: Path) -> str:
     return f"configuration of scale {settings.scale}, with the other files of {folder}"
 
 
+READERS = {ARRAY: _array, NOTE: _note, ".csv": _rows, ".safetensors": _network, ".yaml": _configuration}
+
+
 def files_of(path: Path) -> list[Path]:
     """Return the files that a word stands for: of a folder, all that may be of a known kind; of an array, its note."""
     if path.is_dir():
-        inside = (file for file in sorted(path.rglob("*")) if file.suffix in ENDINGS and not file.is_dir())
+        inside = (file for file in sorted(path.rglob("*")) if file.suffix in READERS and not file.is_dir())
         found = [file for file in inside if not (file.suffix == ARRAY and file.with_suffix(NOTE).exists())]
         return found or [path]
-    ends = [ending for ending in (NOTE, ARRAY) if path.with_name(path.name + ending).exists()]
-    return [path if path.exists() or not ends else path.with_name(path.name + ends[0])]
+    ends = [file_of(path, ending) for ending in (NOTE, ARRAY) if file_of(path, ending).exists()]
+    return [path] if path.exists() or not ends else ends[:1]
 
 
-def checked(file: Path, against: Against, asked: bool) -> bool:
+def accepted(file: Path, against: Against, asked: bool) -> bool:
     """Check a file, print a line for it or one for each fault, and return whether it is accepted.
 
     In a folder, a file of another kind that nobody asked for is left out.
     """
     try:
         log.info("%s: ok: %s", file, check(file, against))
+        return True
     except UnknownKindError as error:
         log.info("%s", error if asked else f"{file}: left out: another kind of file")
         return not asked
     except MobnetError as error:
         log.info("%s", error)
-        return False
     except OSError as error:
         log.info("%s: cannot be read: %s; accepted: a file that you may read", file, error.strerror)
-        return False
-    return True
+    return False
 
 
 def main(words: list[str]) -> int:
@@ -274,7 +259,7 @@ def main(words: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="./reproduce check", description="Check files before they are used.")
     parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help=f"accepted: {KINDS}")
     parser.add_argument("--robot", type=Path, help="the robot's table, if it is not that of configs")
-    parser.add_argument("--rate", type=float, metavar="HZ", help=f"samples per second, if not that of {CONFIGS.name}")
+    parser.add_argument("--rate", type=float, metavar="HZ", help="samples per second, if not that of configs")
     options = parser.parse_args(words)
     if options.rate is not None and not 0.0 < options.rate < math.inf:
         parser.error(not_accepted("--rate", options.rate, ["a number above 0"]))
@@ -284,7 +269,7 @@ def main(words: list[str]) -> int:
         found = {file: file in options.files for word in options.files for file in files_of(word)}
     except OSError as error:
         parser.error(f"FILE: {error.filename}: {error.strerror}; accepted: files that you may read")
-    wrong = sum(not checked(file, against, asked) for file, asked in found.items())
+    wrong = sum(not accepted(file, against, asked) for file, asked in found.items())
     if len(found) != 1:
         log.info("%d files, %d of them not accepted", len(found), wrong)
     return 1 if wrong else 0

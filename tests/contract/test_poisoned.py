@@ -15,12 +15,12 @@ import pytest
 from mobnet.core.columns import EXTERNAL_LP, FEET, SWING, named, recording_columns
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording, Truth, write_recording
-from mobnet.core.stage import Stage
 from mobnet.core.store import footer_hash, read_array
 from mobnet.estimation.estimate import estimate
 from mobnet.estimation.methods import kind_names
 from mobnet.estimation.observe import observe
 from mobnet.plan.parts import MethodRun
+from mobnet.running.stage import Stage
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 

@@ -15,7 +15,6 @@ from mobnet.core.estimator import Estimate
 from mobnet.core.files import WEIGHTS
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
-from mobnet.core.stage import Stage
 from mobnet.core.store import read_array, write_array
 from mobnet.estimation import estimate as estimate_module
 from mobnet.estimation.estimate import Observed, estimate, rate_of, read_observed, run_segments, table_of
@@ -24,6 +23,7 @@ from mobnet.estimation.observe import observe
 from mobnet.estimation.recipe import Recipe
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE, Z_SCORES, std_scales
 from mobnet.plan.parts import MethodRun
+from mobnet.running.stage import Stage
 from mobnet.settings.settings import Settings
 
 Write = Callable[[Path, Recording], tuple[Path, Path]]

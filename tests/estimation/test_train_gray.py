@@ -10,7 +10,6 @@ import pytest
 from made_steps import maker
 
 from mobnet.core.recording import Recording
-from mobnet.core.stage import Stage
 from mobnet.estimation.fitting import write_fit
 from mobnet.estimation.kinds.friction import read_friction
 from mobnet.estimation.methods import build_estimator
@@ -19,6 +18,7 @@ from mobnet.estimation.train_gray import filtered_friction, train_gray
 from mobnet.learning.dataset import load_limb_data
 from mobnet.plan.parts import Repetition
 from mobnet.plan.plan import make_plan
+from mobnet.running.stage import Stage
 from mobnet.settings.settings import Settings
 
 METHOD, LIMB = "MOB-Net-gray", "LL"

@@ -10,7 +10,6 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 from made_notes import training_note
-from made_places import LEVEL, SCENARIO
 
 from mobnet.check import Against, check
 from mobnet.core.columns import Epoch, Score, torque_columns
@@ -19,8 +18,6 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.observe import observe
-from mobnet.plan.runs import Files
-from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
 RATE_HZ = 1000.0
@@ -152,17 +149,3 @@ def scores(tmp_path: Path) -> Path:
     lines = [",".join(map(str, vars(row).values())) for row in rows]
     (tmp_path / "walk.csv").write_text("\n".join([",".join(vars(rows[0])), *lines, ""]))
     return tmp_path / "walk.csv"
-
-
-@pytest.fixture(scope="module")
-def planned() -> Files:
-    """The files of the smoke scale below a folder that each test replaces; its tests have the made-up walk."""
-    walked = {LEVEL: ["zero", "MOB", "MOB-fric", "MOB-fric-load", "MOB-Kalman", "MOB-Net-gray", "MOB-Net", "FTS-e2e"]}
-    sections = {"tests": {SCENARIO: walked}, "estimated_limbs": {SCENARIO: {LEVEL: ["LL", "RL"]}}}
-    return Files(load_settings(overrides={"scale": "smoke", **sections}), Path("results/smoke"))
-
-
-@pytest.fixture
-def files(planned: Files, tmp_path: Path) -> Files:
-    """The files of the smoke scale below a folder of its own."""
-    return Files(planned.settings, tmp_path)

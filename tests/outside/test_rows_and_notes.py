@@ -17,8 +17,8 @@ from mobnet.core.joints import JointLayout
 from mobnet.estimation.kinds.friction import read_friction
 from mobnet.evaluation.measure.learning.trainings import read_training
 from mobnet.evaluation.number.rows import read_scores
-from mobnet.evaluation.report.accounts import read_account
 from mobnet.evaluation.report.runs_page import read_training_run
+from mobnet.running.accounts import read_account
 
 KEYS = (
     "name",
@@ -172,6 +172,10 @@ SCORES = {
     "seed below zero": ((",0,1,", ",-1,1,"), "walk.csv:2: network_seed: -1 is not accepted"),
     "twice": ((",0,2,", ",0,1,"), "walk.csv:4: row: .* is not accepted; accepted: once; it stands in line 2"),
     "unit unknown": (("N m", "Nm"), "walk.csv:2: unit: 'Nm' is not accepted; accepted: N, N m"),
+    "metric unknown": (("rmse", "rmse_push_0"), "walk.csv:2: metric: 'rmse_push_0' is not accepted"),
+    "unit of another metric": (("rmse", "r_rmse"), "walk.csv:2: unit: 'N m' is not accepted; accepted: %"),
+    "share above 1": (("rmse,1.5,N m", "cover,1.5,-"), "walk.csv:2: value of cover: 1.5 is not .*: 0 to 1"),
+    "correlation": (("rmse,1.5,N m", "acf_10ms,-1.5,-"), "walk.csv:2: value of acf_10ms: -1.5 is not .*: -1 to 1"),
     "no joint": (("LL1", ""), "walk.csv:2: joint: '' is not accepted; accepted: a name"),
     "no method": (("MOB", ""), "walk.csv:2: method: '' is not accepted"),
     "a column is gone": (("metric", "measure"), "walk.csv: column 'metric' is missing"),

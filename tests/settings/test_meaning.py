@@ -334,7 +334,7 @@ def test_a_configuration_file_for_snakemake_is_refused(tmp_path: Path) -> None:
         (deep, ["--profile", str(tmp_path)], f"{path}: "),
     ):
         path.write_text(text)
-        run = [sys.executable, "-m", "mobnet.core.run", "-n", *words]
+        run = [sys.executable, "-m", "mobnet.running.run", "-n", *words]
         done = subprocess.run(run, cwd=ROOT, capture_output=True, text=True, check=False)
         assert done.returncode == 1
         assert any(line.startswith(message) and "accepted: " in line for line in done.stderr.splitlines())

@@ -109,7 +109,7 @@ def test_a_controller_that_fails_and_returns_is_waited_for(cluster: Cluster, pro
 def test_a_killed_run_started_again_ends_the_same(cluster: Cluster, project: Path, trained: Path) -> None:
     run = start(cluster, project)
     wait_for_training(cluster, project)
-    cluster.ask("pkill", "-KILL", "-f", "mobnet.core.run")
+    cluster.ask("pkill", "-KILL", "-f", "mobnet.running.run")
     run.wait(LONGEST_S)
     again = start(cluster, project)
     assert_ends_the_same(again, cluster, project, trained)
@@ -118,7 +118,7 @@ def test_a_killed_run_started_again_ends_the_same(cluster: Cluster, project: Pat
 def test_ctrl_c_empties_the_queue(cluster: Cluster, project: Path) -> None:
     run = start(cluster, project)
     wait_for_training(cluster, project)
-    cluster.ask("pkill", "-INT", "-f", "mobnet.core.run")
+    cluster.ask("pkill", "-INT", "-f", "mobnet.running.run")
     assert ended(run, cluster, project) != 0
     said = told(project)
     assert said.count("stopped; the same command goes on from here") == 1

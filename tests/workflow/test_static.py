@@ -1,12 +1,10 @@
 """Format, lint, types, imports and the workflow's own lint."""
 
-import inspect
 import re
 import subprocess
 import sys
 
 import pytest
-from snakemake.scheduling import job_scheduler
 
 from .conftest import ROOT, Snakemake
 
@@ -35,11 +33,3 @@ def test_snakemake_lint_passes(snakemake: Snakemake) -> None:
 def test_no_committed_file_names_a_package_host() -> None:
     for name in ("environment.lock", "cuda.constraints", "reproduce", "pyproject.toml"):
         assert "://" not in (ROOT / name).read_text(), name
-
-
-def test_snakemake_still_has_the_rate_limit_that_the_workflow_switches_off() -> None:
-    """A newer Snakemake that keeps it elsewhere would take half of a core again, without a word."""
-    source = inspect.getsource(job_scheduler)
-    assert "self.job_rate_limiter = (" in source
-    assert "if self.job_rate_limiter is not None:" in source
-    assert "workflow.scheduler.job_rate_limiter = None" in (ROOT / "workflow" / "rules" / "common.smk").read_text()

@@ -1,7 +1,6 @@
 """What the rules share: the checked configuration, the plan that follows from it, and what each rule depends on."""
 
 import os
-import shlex
 import sys
 import time
 from importlib.metadata import version
@@ -9,15 +8,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 from snakemake.logging import logger as snakemake_logger
-from snakemake.resources import Resources
+from snakemake.settings.enums import RerunTrigger
 
-from mobnet.core.cluster import LIMITED, failed_jobs, warm_cache
-from mobnet.core.counts import by_kind
-from mobnet.core.environment import quieten
-from mobnet.core.errors import MobnetError
-from mobnet.core.gpus import gpus_seen
-from mobnet.core.lock import job_prefix
-from mobnet.core.run import is_stopped, refuse_configfiles, start_jobs
+from mobnet.core.errors import MobnetError, refuse_lines
 from mobnet.estimation.methods import method_problems
 from mobnet.evaluation.measure.registry import measure_problems
 from mobnet.evaluation.report.paper import missing_packages
@@ -26,7 +19,14 @@ from mobnet.plan.places import check_scale
 from mobnet.plan.plan import make_plan
 from mobnet.plan.precision import record_precision, with_precision
 from mobnet.plan.products import shown
+from mobnet.plan.stamped import foreign
 from mobnet.plan.texts import text_problems
+from mobnet.running.cluster import LIMITED, failed_jobs, warm_cache
+from mobnet.running.environment import quieten
+from mobnet.running.gpus import gpus_seen
+from mobnet.running.lock import job_prefix
+from mobnet.running.patches import by_kind, drop_rate_limit, quote_python, set_resources_by_kind
+from mobnet.running.run import is_stopped, refuse_configfiles, start_jobs
 from mobnet.settings.load import load_settings
 
 ROOT, STARTED_S = Path(workflow.basedir), time.time()
@@ -41,7 +41,7 @@ def what_other_packages_know(settings):
     yield from text_problems(settings, ROOT / "paper" / "main.tex")
 
 
-sys.executable = shlex.quote(sys.executable)  # snakemake writes it into shell commands as it is
+quote_python()
 
 try:
     refuse_configfiles(workflow.overwrite_configfiles)
@@ -62,22 +62,16 @@ if GPUS and "gpu" not in workflow.global_resources:
 
 
 onstart:
-    from mobnet.agreement import (
-        check_agreement,
-    )  # here, as it takes a second that a call without jobs need not wait
-
     if workflow.local_exec:
-        # Snakemake 9.27 with a rate limit looks at all ready jobs in every timespan, once for each job that ended: half
-        # of a core after 100 jobs. Here the number of cores limits the rate.
-        workflow.scheduler.job_rate_limiter = None
+        drop_rate_limit(workflow)
     try:
         start_jobs(ROOT, are_here=workflow.local_exec)
         record_precision(PLAN.folders.results)
         made = {str(path) for job in workflow.dag.needrun_jobs() for path in job.output}
         check_space(PLAN, made)
         read = {str(path) for job in workflow.dag.needrun_jobs() for path in job.input}
-        # rows of scores are many: a check looks at all of them, a job at those that it shows
-        check_agreement((Path(name) for name in sorted(read - made) if not name.endswith(".csv")), PLAN.files)
+        if RerunTrigger.PARAMS in workflow.dag_settings.rerun_triggers:  # else what other code has made is wanted
+            refuse_lines(foreign(PLAN, sorted(read - made)))
         if not workflow.local_exec:
             warm_cache(ROOT, jobs=len(list(workflow.dag.needrun_jobs())))
     except MobnetError as error:
@@ -105,11 +99,9 @@ class Kind(NamedTuple):
 
 
 STEPS = {step.rule: step for step in (*PLAN.steps, *PLAN.trial_steps)}
-asked = workflow.resource_settings.overwrite_resources
-snakemake_logger.addFilter(by_kind({name: step.work.kind for name, step in STEPS.items()}))
-for name, step in STEPS.items():  # `--set-resources train:mem_mb=8000` means every rule of the kind
-    if step.work.kind in asked:
-        asked[name] = Resources({**asked[step.work.kind], **asked.get(name, {})})
+KINDS_OF_RULES = {name: step.work.kind for name, step in STEPS.items()}
+snakemake_logger.addFilter(by_kind(KINDS_OF_RULES))
+set_resources_by_kind(workflow, KINDS_OF_RULES)
 
 
 def growing(memory_mb):

@@ -20,5 +20,6 @@ for product in (*PLAN.products, *PLAN.trials):
         params:
             call=product.job.call,
             given=lambda w, made=product.job: made.given,  # each start of a job on a cluster would hash all code
+            stamps=product.job.stamps,
         script:
             "../scripts/call.py"

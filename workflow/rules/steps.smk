@@ -36,5 +36,6 @@ for name, step in STEPS.items():
         params:
             call=lambda w, step=step: step.job.call,
             given=lambda w, step=step: step.job.given,
+            stamps=lambda w, step=step: step.job.stamps,
         script:
             "../scripts/call.py"

@@ -1,6 +1,7 @@
 """Every rule: the call that the plan (mobnet.plan) makes for it."""
 
-from mobnet.core.logs import job
+from mobnet.running.logs import job
 
-with job(snakemake.log[0]):
+with job(snakemake.log[0]) as stamps:
     snakemake.params.call.run()
+    stamps.update(snakemake.params.stamps.write())

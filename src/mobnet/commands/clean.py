@@ -7,7 +7,7 @@ from pathlib import Path
 from mobnet.commands.disk import remove, sizes_of
 from mobnet.commands.tell import in_gb, say
 from mobnet.core.errors import CommandError
-from mobnet.core.lock import holder
+from mobnet.running.lock import holder
 
 PRODUCTS = {  # folder -> endings of what it holds besides products
     "tables": ("README.md",),

@@ -11,8 +11,8 @@ from mobnet.commands.clean import clean
 from mobnet.commands.setup import set_up
 from mobnet.commands.tell import say
 from mobnet.commands.words import Words, parse
-from mobnet.core.environment import child_environment, fault_of_place
 from mobnet.core.errors import CommandError, MobnetError
+from mobnet.running.environment import child_environment, fault_of_place
 
 MODULES = {  # command -> the module that `python -m` runs, with words that come first
     "test": ("pytest", "-n", "2", "--dist", "loadfile", "--max-worker-restart", "0"),
@@ -73,4 +73,4 @@ def run_workflow(python: str, words: Sequence[str]) -> int:
     """Become snakemake; Ctrl-C waits until it can be answered."""
     cores = [] if any(re.match(r"(-j|-c|--cores|--jobs)", word) for word in words) else ["--cores", "2"]
     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    os.execv(python, [python, "-m", "mobnet.core.run", *cores, *words])
+    os.execv(python, [python, "-m", "mobnet.running.run", *cores, *words])

@@ -16,7 +16,7 @@ from mobnet.commands.disk import remove, sizes_of
 from mobnet.commands.install import install, make_venv
 from mobnet.commands.tell import in_gb, say
 from mobnet.commands.tools import LOG, Tools
-from mobnet.core.lock import taken
+from mobnet.running.lock import taken
 
 LOCKS = ("environment.lock", "cuda.constraints")
 STAMP = "installed"

@@ -15,7 +15,6 @@ from mobnet.core.files import WEIGHTS
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
 from mobnet.core.recording import SensedRecording, read_sensed
-from mobnet.core.stage import Stage
 from mobnet.core.store import NOTE, check_pair, check_rate, file_of, files_of, read_array, write_array
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.observe import CARRIED
@@ -24,6 +23,7 @@ from mobnet.learning.deployed.weights import std_scales
 from mobnet.plan.parts import MethodRun
 from mobnet.plan.work import TOGETHER_S
 from mobnet.robot.description import describe
+from mobnet.running.stage import Stage
 from mobnet.settings.methods import Observer
 from mobnet.settings.plant import Level
 from mobnet.settings.robot import RobotTable

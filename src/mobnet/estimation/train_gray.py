@@ -8,12 +8,12 @@ import numpy as np
 from mobnet.core.arrays import Array
 from mobnet.core.columns import MOTOR, VELOCITY, named
 from mobnet.core.joints import JointLayout
-from mobnet.core.stage import Stage
 from mobnet.core.store import read_array, spans_and_rate
 from mobnet.estimation.kinds.friction import Friction, read_friction
 from mobnet.estimation.low_pass import low_pass
 from mobnet.learning.train import train_all
 from mobnet.plan.parts import Repetition
+from mobnet.running.stage import Stage
 from mobnet.settings.methods import Observer
 
 

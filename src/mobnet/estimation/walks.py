@@ -4,10 +4,10 @@ import logging
 from collections.abc import Sequence
 from pathlib import Path
 
-from mobnet.core.stage import Stage
 from mobnet.core.store import files_of
 from mobnet.estimation.observe import observe
 from mobnet.plan.parts import Shard
+from mobnet.running.stage import Stage
 from mobnet.settings.methods import Observer
 from mobnet.settings.settings import WalkSettings
 from mobnet.simulation.record import collect

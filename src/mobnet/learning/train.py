@@ -14,9 +14,6 @@ from safetensors.torch import save as to_bytes
 
 from mobnet.core.files import METRICS, RUN, TIME, WEIGHTS, atomic_path, write_json
 from mobnet.core.joints import JointLayout
-from mobnet.core.provenance import provenance
-from mobnet.core.stage import Stage
-from mobnet.core.threads import one_thread
 from mobnet.learning.calibration import Calibration
 from mobnet.learning.checkpoint import CHECKPOINT, Progress, write_metrics
 from mobnet.learning.dataset import Known, LimbData, load_limb_data
@@ -26,6 +23,9 @@ from mobnet.learning.model import parameter_count
 from mobnet.learning.swings import Margins
 from mobnet.learning.trainer import Trainer
 from mobnet.plan.parts import Repetition
+from mobnet.running.provenance import provenance
+from mobnet.running.stage import Stage
+from mobnet.running.threads import one_thread
 from mobnet.settings.base import Section
 from mobnet.settings.networks import Training
 
@@ -188,7 +188,7 @@ def run_note(trainer: Trainer, data: LimbData, done: Progress, calibration: Cali
         "device": trainer.device.type,
         "precision": precision_name(trainer.network.precision),
         "fingerprint": trainer.fingerprint,
-        "provenance": provenance({"seed": job.root_seed, **json_of(training)}),
+        "provenance": provenance(),
     }
 
 

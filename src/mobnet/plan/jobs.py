@@ -1,15 +1,16 @@
 """The jobs behind recordings, networks, estimates and scores: which function, what it gets, what it reads."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from mobnet.core.files import WEIGHTS
-from mobnet.core.stage import Stage
-from mobnet.plan.call import Call, Job
-from mobnet.plan.detection import numbers_of, walks_of
+from mobnet.core.code import code_hash
+from mobnet.core.files import RUN, WEIGHTS
+from mobnet.plan.call import STAGE, Call, Job
+from mobnet.plan.detection import detection_files, numbers_of, walks_of
 from mobnet.plan.parts import MethodRun, Repetition, Shard
-from mobnet.plan.runs import Files, NetworkName, files_in
+from mobnet.plan.runs import NOTE, Files, NetworkName, files_in
+from mobnet.running.stage import Stage
 from mobnet.settings.data import Terrain
 from mobnet.settings.evaluation import Scoring
 from mobnet.settings.names import shown_in
@@ -31,16 +32,20 @@ class Jobs:
 
     def motions(self, name: str, motion: str, seeds: Sequence[int]) -> Job:
         """Return the making of random motions of the upper body."""
+        motions = tuple(
+            (seed, self.files.motion_s(motion, seed), self.files.motion_place(motion, seed)) for seed in seeds
+        )
         arguments = {
             "root_seed": self.settings.seed,
             "robot": self.settings.robot,
             "motion": self.settings.motions[motion],
             "name": motion,
-            "motions": tuple(
-                (seed, self.files.motion_s(motion, seed), self.files.motion_place(motion, seed)) for seed in seeds
-            ),
+            "motions": motions,
         }
-        return self._staged("mobnet.simulation.motion:make_motions", arguments, name, ())
+        own = {f"{out}{NOTE}": (seed, duration_s) for seed, duration_s, out in motions}
+        return self._staged(
+            name, Job(Call("mobnet.simulation.motion:make_motions", arguments), (), (), own, ("motions",))
+        )
 
     def collect(self, name: str, scenario: str, level: str, seeds: Sequence[int]) -> Job:
         """Return recordings of a scenario at a level, and the observer's residuals of them."""
@@ -51,8 +56,11 @@ class Jobs:
             "duration_s": self.files.duration_s([scenario], seeds[0]),
             "shards": shards,
         }
-        motions = [shard.motion for shard in shards]
-        return self._staged("mobnet.estimation.walks:collect_walks", arguments, name, _read(motions))
+        inputs = _read([shard.motion for shard in shards])
+        own = {f"{stem}{NOTE}": shard for shard in shards for stem in (shard.recording, shard.residual)}
+        return self._staged(
+            name, Job(Call("mobnet.estimation.walks:collect_walks", arguments), inputs, (), own, ("shards",))
+        )
 
     def _shard(self, scenario: str, level: str, seed: int) -> Shard:
         """Return one recording of a scenario."""
@@ -70,9 +78,10 @@ class Jobs:
             "method": row,
             "networks": networks,
             "training": training,
-            "out": self.files.results / "fits" / f"{method}.json",
+            "out": (out := self.files.results / "fits" / f"{method}.json"),
         }
-        return Job(Call("mobnet.estimation.fitting:write_fit", arguments), _read(training), self._kinds(method))
+        call, kinds = Call("mobnet.estimation.fitting:write_fit", arguments), self._kinds(method)
+        return Job(call, _read(training), kinds, {str(out): code_hash(*kinds)})
 
     def train(self, name: str, networks: Sequence[NetworkName]) -> Job:
         """Return the trainings of networks that learn from one set of recordings.
@@ -96,11 +105,12 @@ class Jobs:
         inputs = _read([recordings, residuals, fitted, starts])
         if fitted:
             arguments |= {"observer": self.settings.observer, "fitted": fitted[0]}
-            return self._staged("mobnet.estimation.train_gray:train_gray", arguments, name, inputs)
-        if learning.learning.labels == "swing":
+        elif learning.learning.labels == "swing":
             swings = self.settings.evaluation.changed
             arguments |= {"margins": (swings.lift_off_s, swings.landing_s)}
-        return self._staged("mobnet.learning.train:train_all", arguments, name, inputs)
+        function = "mobnet.estimation.train_gray:train_gray" if fitted else "mobnet.learning.train:train_all"
+        own = {f"{repetition.out}/{RUN}": repetition for repetition in repetitions}
+        return self._staged(name, Job(Call(function, arguments), inputs, (), own, ("networks",)))
 
     def _repetition(self, network: NetworkName) -> Repetition:
         """Return the training of a network."""
@@ -126,7 +136,14 @@ class Jobs:
         weights = [folder / WEIGHTS for run in runs for folder in run.networks.values()]
         inputs = _read([recordings, residuals, [run.fitted for run in runs], weights])
         kinds = tuple(dict.fromkeys(kind for method in methods for kind in self._kinds(method)))
-        return self._staged("mobnet.estimation.estimate:estimate", arguments, name, inputs, kinds)
+        each = [(run, repr(replace(run, outs=())), code_hash(*self._kinds(run.method))) for run in runs]
+        own = {
+            f"{out}{NOTE}": (method, code, *pair)
+            for run, method, code in each
+            for out, *pair in zip(run.outs, recordings, residuals, strict=True)
+        }
+        call = Call("mobnet.estimation.estimate:estimate", arguments)
+        return self._staged(name, Job(call, inputs, kinds, own, ("runs", "recordings", "residuals")))
 
     def _run(self, method: str, network_seed: int, scenario: str, level: str) -> MethodRun:
         """Return the run of a method with its networks of a seed on all recordings of a test."""
@@ -146,7 +163,7 @@ class Jobs:
         arguments = {"layout": self.settings.layout, "runs": runs, "asked": asked, "out": out}
         read = [[run.residual, run.estimate, run.recording] for run in runs]
         modules = tuple(f"{MEASURES}.{name}" for name in asked.sections)
-        return Job(Call(f"{MEASURES}.scores:score", arguments), _read(read), modules)
+        return Job(Call(f"{MEASURES}.scores:score", arguments), _read(read), modules, {str(out): ()})
 
     def detect(self) -> Job:
         """Return the calibration and the trial of the detectors of a robot, or of the plant of section 5.1."""
@@ -158,20 +175,13 @@ class Jobs:
             "walks": walks,
             "out": self.files.results / "detection",
         }
-        return Job(Call("mobnet.evaluation.measure.detection.trial:detect", arguments), _read(walks))
+        own = dict.fromkeys(map(str, detection_files(self.files).values()), ())
+        return Job(Call("mobnet.evaluation.measure.detection.trial:detect", arguments), _read(walks), (), own)
 
-    def _staged(
-        self,
-        function: str,
-        arguments: Mapping[str, object],
-        name: str,
-        inputs: tuple[str, ...],
-        modules: tuple[str, ...] = (),
-    ) -> Job:
+    def _staged(self, name: str, job: Job) -> Job:
         """Return a job that keeps its finished parts below `state` until all of them are there."""
-        job = Job(Call(function, arguments), inputs, modules)
-        stage = Stage(self.files.results / "state" / name, job.given, inputs)
-        return Job(Call(function, {**arguments, "stage": stage}), inputs, modules)
+        stage = Stage(self.files.results / "state" / name, job.given, job.inputs)
+        return replace(job, call=Call(job.call.function, {**job.call.arguments, STAGE: stage}))
 
     def _kinds(self, method: str) -> tuple[str, ...]:
         """Return the modules that a method imports by name: its kind and that of the method it runs on."""

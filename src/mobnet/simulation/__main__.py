@@ -13,9 +13,9 @@ from pathlib import Path
 
 from mobnet.control.upper_body import UpperBody
 from mobnet.core.code import ROOT
-from mobnet.core.environment import quieten
 from mobnet.core.errors import ConfigError, DrawingError, MobnetError, not_accepted
 from mobnet.plan.jobs import walk_settings
+from mobnet.running.environment import quieten
 from mobnet.settings.checks.sections import accepted_names
 from mobnet.settings.load import CONFIGS, load_settings
 from mobnet.settings.settings import Settings

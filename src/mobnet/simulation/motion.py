@@ -16,11 +16,11 @@ from scipy.special import erf
 
 from mobnet.core.arrays import Array
 from mobnet.core.errors import SimulationError
-from mobnet.core.provenance import provenance
-from mobnet.core.stage import Stage
 from mobnet.core.store import files_of, write_array
 from mobnet.plan.runs import FIRST_TRAINING_SEED
 from mobnet.robot.description import RobotDescription, describe, for_walking
+from mobnet.running.provenance import provenance
+from mobnet.running.stage import Stage
 from mobnet.settings.data import Motion
 from mobnet.settings.robot import RobotTable
 from mobnet.simulation.reaching import Reacher
@@ -67,8 +67,7 @@ def make_motion(
     knots = plan(described, motion, reacher, variant, rng, duration_s)
     figures = {"motion": name, "seed": seed, "part": part, "variant": variant, **measured(reacher, motion, knots)}
     log.info("%s: %s", out.name, figures)
-    settings = {"seed": root_seed, "robot": robot.model_dump(mode="json"), "motion": motion.model_dump(mode="json")}
-    meta = {"rate_hz": motion.knot_hz, **figures, "provenance": provenance(settings)}
+    meta = {"rate_hz": motion.knot_hz, **figures, "provenance": provenance()}
     write_array(out, knots, [(f"q_ref.{joint}", "rad", "joint") for joint in described.posture.joints], meta)
 
 

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from mobnet.control.upper_body import UpperBody
 from mobnet.core.columns import recording_columns
 from mobnet.core.errors import SimulationError
-from mobnet.core.provenance import provenance
 from mobnet.core.store import array_writer, read_array
+from mobnet.running.provenance import provenance
 from mobnet.settings.data import RecordingSettings
 from mobnet.settings.settings import WalkSettings
 from mobnet.simulation.self_collision import Clearance
@@ -78,7 +78,7 @@ def collect(settings: WalkSettings, seed: int, duration_s: float, out: Path, mot
             "rate_hz": rate, "scenario": settings.scenario_name, "level": settings.level_name, "seed": seed,
             "falls": course.falls, "terrains": course.terrains, "clearance_min_m": round(watch.nearest, 4),
             "self_collisions": watch.collisions,
-            "provenance": provenance(settings.model_dump(mode="json")),
+            "provenance": provenance(),
         }  # fmt: skip
         writer.close(meta, course.segments)
     speed = duration_s / (time.perf_counter() - started)

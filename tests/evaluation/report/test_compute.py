@@ -8,8 +8,8 @@ from csv_files import read_table
 
 from mobnet.core.errors import DataError
 from mobnet.core.files import write_json
-from mobnet.core.logs import Account
 from mobnet.evaluation.report.compute import ELAPSED, STAGES, WHOLE, compute
+from mobnet.running.logs import Account
 from mobnet.settings.evaluation import Compute
 
 JOBS = {  # job -> end [s], wall time [s], CPU time [s], memory [MiB]; two cores, and an hour between two runs

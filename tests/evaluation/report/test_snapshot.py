@@ -8,7 +8,6 @@ import pytest
 
 from mobnet.core.errors import DataError
 from mobnet.core.files import read_json, write_json
-from mobnet.core.logs import Account
 from mobnet.evaluation.report.manifest import manifest
 from mobnet.evaluation.report.snapshot import (
     HEADLINES,
@@ -21,6 +20,7 @@ from mobnet.evaluation.report.snapshot import (
     with_headline,
     write_snapshot,
 )
+from mobnet.running.logs import Account
 from mobnet.settings.load import load_settings
 
 REPO = Path(__file__).parents[3]
@@ -53,7 +53,7 @@ def rewrite(old: str, new: str) -> list[str]:
 def test_snapshot_holds_tables_and_pictures_with_their_origin() -> None:
     names = sorted(path.name for path in STORED.iterdir())
     assert names == ["compute.md", "figure_05.png", "figures", "provenance.json", "table_05.csv", "table_05.md"]
-    assert set(read_json(STORED / "provenance.json")) == {"scale", "commit", "lock", "config"}
+    assert set(read_json(STORED / "provenance.json")) == {"scale", "commit", "lock"}
 
 
 @pytest.mark.usefixtures("stored")

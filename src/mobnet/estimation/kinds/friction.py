@@ -21,7 +21,7 @@ from pydantic import ConfigDict, Field
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError, misfit, not_accepted, refuse
 from mobnet.core.joints import JointLayout
-from mobnet.core.notes import Note, NotNegative, read_note
+from mobnet.core.notes import Note, NotNegative, Text, read_note
 from mobnet.core.notes import Positive as AboveZero
 from mobnet.core.recording import Sensed
 from mobnet.estimation.kinds.residual import ResidualEstimator
@@ -75,6 +75,7 @@ class FrictionNote(Note):
 
     smoothing_rad_s: AboveZero
     joints: dict[str, JointNote]
+    stamp: Text = "-"
 
 
 @dataclass(frozen=True)

@@ -9,10 +9,10 @@ from pathlib import Path
 
 from mobnet.core.columns import COMPUTE
 from mobnet.core.errors import DataError
-from mobnet.core.logs import Account
 from mobnet.evaluation.number.number import Number
-from mobnet.evaluation.report.accounts import read_account
 from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
+from mobnet.running.accounts import read_account
+from mobnet.running.logs import Account
 from mobnet.settings.evaluation import Compute
 
 STAGES = {  # stage -> its rules; those of no stage make tables and figures

@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from scipy.optimize import nnls
 
 from mobnet.core.errors import DataError
-from mobnet.core.logs import Account
 from mobnet.core.notes import Note, NotNegative, Positive, Text
 from mobnet.evaluation.report.compute import HOUR_S
 from mobnet.plan.plan import Plan
 from mobnet.plan.precision import PROCESSOR
 from mobnet.plan.work import Work
+from mobnet.running.logs import Account
 
 RATES = Path("docs/results/rates.json")
 JOB = "job"  # the amount that every job has once: its start

@@ -15,14 +15,14 @@ from pathlib import Path
 
 from mobnet.core.errors import DataError, MobnetError
 from mobnet.core.files import atomic_path, read_json, read_text, write_json, write_text
-from mobnet.core.logs import LOGS
-from mobnet.core.provenance import CHANGED, UNKNOWN, commit, provenance
 from mobnet.evaluation.number.files import read_texts
-from mobnet.evaluation.report.accounts import read_account
 from mobnet.evaluation.report.manifest import differences, file_hash
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.evaluation.report.rates import RATES, measured
 from mobnet.plan.plan import make_plan
+from mobnet.running.accounts import read_account
+from mobnet.running.logs import LOGS
+from mobnet.running.provenance import CHANGED, UNKNOWN, commit, provenance
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
@@ -78,7 +78,7 @@ def check_fingerprints(*words: str) -> None:
     Raises:
         DataError: a job would run again, or nobody can say.
     """
-    run = [sys.executable, "-m", "mobnet.core.run", "--cores", "1", "-n", *words]
+    run = [sys.executable, "-m", "mobnet.running.run", "--cores", "1", "-n", *words]
     done = subprocess.run(run, capture_output=True, text=True, check=False)
     told = [line for line in (done.stdout + done.stderr).splitlines() if line.strip()]
     if done.returncode:
@@ -110,7 +110,7 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Pat
     for source in sorted(figures.glob("*.csv")):
         with atomic_path(out / DRAWN / f"{source.name}.gz") as temporary:
             temporary.write_bytes(gzip.compress(source.read_bytes(), mtime=0))
-    write_json(out / "provenance.json", {"scale": settings.scale, **provenance(settings.model_dump(mode="json"))})
+    write_json(out / "provenance.json", {"scale": settings.scale, **provenance()})
     log.info("%s: %d files", out, len(found))
 
 

@@ -5,14 +5,13 @@ Snakemake's command, which names the job in `--target-jobs`; a block of lines fo
 """
 
 import re
-import shlex
 import subprocess
-import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from mobnet.core.logs import LOGS as OWN_LOGS
+from mobnet.running.logs import LOGS as OWN_LOGS
+from mobnet.running.patches import python
 
 LOGS = Path(".snakemake") / "slurm_logs"  # of jobs that failed: rule_NAME or group_NAMES / wildcards / NUMBER.log
 FEW = 10  # jobs of a run, which compile for themselves
@@ -43,8 +42,7 @@ def warm_cache(root: Path, jobs: int) -> None:
     """
     if jobs <= FEW:
         return
-    python = shlex.split(sys.executable)[0]  # common.smk quotes it for snakemake
-    subprocess.run([python, "workflow/scripts/warm.py"], cwd=root, check=False)
+    subprocess.run([python(), "workflow/scripts/warm.py"], cwd=root, check=False)
 
 
 def failed_jobs(root: Path, since_s: float, had: Had) -> Iterator[str]:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from mobnet.core.code import ROOT
-from mobnet.core.environment import CACHES, child_environment, fault_of_place, quieten
+from mobnet.running.environment import CACHES, child_environment, fault_of_place, quieten
 
 
 def test_caches_lie_inside_the_project_and_each_process_has_one_thread(tmp_path: Path) -> None:
@@ -112,5 +112,5 @@ def test_a_set_up_writes_nothing_at_home_where_rust_is_installed(home: dict[str,
 
 
 def test_module_needs_the_standard_library_only() -> None:
-    code = "import sys; sys.path.insert(0, 'src'); import mobnet.core.environment"
+    code = "import sys; sys.path.insert(0, 'src'); import mobnet.running.environment"
     subprocess.run([sys.executable, "-I", "-S", "-c", code], check=True)

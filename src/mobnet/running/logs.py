@@ -11,13 +11,13 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from mobnet.core.errors import DataError, MobnetError
 from mobnet.core.files import REFUSALS, refusal, write_json
-from mobnet.core.provenance import UNKNOWN, commit
+from mobnet.running.provenance import UNKNOWN, commit
 
 log = logging.getLogger(__name__)
 
@@ -34,7 +34,7 @@ class Account:
     `job` is the name of its log below the folder of logs, of which the first part is that of its rule. Start and end
     are in seconds since 1970, UTC; `wall_s` is by a clock that nobody sets. Processor time and peak memory include the
     children that it waited for. `succeeded` is False where it failed or was interrupted; `commit` is that of the code,
-    as results note it.
+    as results note it, `stamps` those of files of rows that it made (`mobnet.running.stamp`).
     """
 
     job: str
@@ -45,18 +45,21 @@ class Account:
     peak_mib: float
     succeeded: bool
     commit: str = UNKNOWN
+    stamps: Mapping[str, str] = field(default_factory=dict[str, str])
 
 
 @contextlib.contextmanager
-def job(log_file: Path | str) -> Iterator[None]:
+def job(log_file: Path | str) -> Iterator[dict[str, str]]:
     """Log a job to its file and to the terminal, and write its account beside the log, as JSON, when it ends.
+
+    What is yielded takes the stamps of the files of rows.
 
     Raises:
         SystemExit: the job raised a MobnetError, whose message is the last line of the log, or was terminated.
     """
     path = Path(log_file)
-    with terminable(), accounted(path), logged(path):
-        yield
+    with terminable(), accounted(path) as stamps, logged(path):
+        yield stamps
 
 
 @contextlib.contextmanager
@@ -107,8 +110,9 @@ def fullest() -> str:
 
 
 @contextlib.contextmanager
-def accounted(log_path: Path) -> Iterator[None]:
+def accounted(log_path: Path) -> Iterator[dict[str, str]]:
     """Write what happens meanwhile took beside a log; a job that is killed outright leaves no account."""
+    stamps = dict[str, str]()
     account, below = log_path.with_suffix(".json"), log_path.with_suffix("").parts
     with contextlib.suppress(OSError):
         account.unlink(missing_ok=True)
@@ -116,11 +120,11 @@ def accounted(log_path: Path) -> Iterator[None]:
     name = "/".join(below[below.index(LOGS) + 1 :] if LOGS in below else below[-1:])
     start_s, begin, used_s, succeeded = time.time(), time.monotonic(), cpu_s(), False
     try:
-        yield
+        yield stamps
         succeeded = True
     finally:
         wall_s, used_s = time.monotonic() - begin, cpu_s() - used_s
-        told = Account(name, start_s, time.time(), wall_s, used_s, peak_mib(), succeeded, made_by)
+        told = Account(name, start_s, time.time(), wall_s, used_s, peak_mib(), succeeded, made_by, stamps)
         rounded = {key: round(value, 3) for key, value in asdict(told).items() if isinstance(value, float)}
         with contextlib.suppress(DataError):  # on a full disk
             write_json(account, asdict(told) | rounded)

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.core.gpus import claimed, gpus_seen
-from mobnet.core.lock import opened, taken
+from mobnet.running.gpus import claimed, gpus_seen
+from mobnet.running.lock import opened, taken
 
 CUDA, CPU = "2.13.0", "2.13.0+cpu"
 

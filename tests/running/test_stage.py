@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.core.stage import Stage
+from mobnet.running.stage import Stage
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from mobnet.core.cluster import FEW, LOGS, failed_jobs, warm_cache
+from mobnet.running.cluster import FEW, LOGS, failed_jobs, warm_cache
 
 HAD = {"train": {"mem_mb": 100, "runtime": 30}}
 HEADER = "  Command: python -m snakemake --target-jobs {job} --allowed-rules train --cores 2 --attempt {attempt}\n"

@@ -1,23 +1,17 @@
-"""Where a result comes from: code, packages and settings."""
+"""Where a result comes from: code and packages."""
 
 import functools
 import hashlib
-import json
 import subprocess
-from collections.abc import Mapping
 
 from mobnet.core.code import LOCK, ROOT, SHORT
 
 UNKNOWN, CHANGED = "unknown", "-changed"
 
 
-def provenance(settings: Mapping[str, object]) -> dict[str, str]:
-    """Return the origin of a result that depends on settings given as JSON: `commit`, `lock` and `config`.
-
-    The short hash `config` is independent of the order of keys; where git or environment.lock is not there, `unknown`.
-    """
-    written = json.dumps(settings, sort_keys=True).encode()
-    return {"commit": commit(), "lock": lock_hash(), "config": hashlib.sha256(written).hexdigest()[:SHORT]}
+def provenance() -> dict[str, str]:
+    """Return `commit` and `lock` of a result; `unknown` where git or environment.lock is not there."""
+    return {"commit": commit(), "lock": lock_hash()}
 
 
 @functools.cache

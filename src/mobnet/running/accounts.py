@@ -2,12 +2,12 @@
 
 from pathlib import Path
 
-from pydantic import ConfigDict
+from pydantic import ConfigDict, Field
 
 from mobnet.core.errors import not_accepted, refuse
-from mobnet.core.logs import Account
 from mobnet.core.notes import Note, NotNegative, Text, read_note
-from mobnet.core.provenance import UNKNOWN
+from mobnet.running.logs import Account
+from mobnet.running.provenance import UNKNOWN
 
 
 class AccountNote(Note):
@@ -23,6 +23,7 @@ class AccountNote(Note):
     peak_mib: NotNegative
     succeeded: bool
     commit: Text = UNKNOWN
+    stamps: dict[str, Text] = Field(default_factory=dict)
 
 
 def read_account(path: Path) -> Account:

@@ -1,4 +1,4 @@
-"""One thread for matrix products, also in a process that did not inherit it (`mobnet.core.environment`).
+"""One thread for matrix products, also in a process that did not inherit it (`mobnet.running.environment`).
 
 Networks have small matrices: their products take longer in two threads than in one, 36 times longer where a core is
 shared, and give other numbers. Whoever builds a network therefore calls `one_thread`, so that a script of a user's own

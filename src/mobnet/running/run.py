@@ -1,6 +1,6 @@
 """The main process of the workflow: Ctrl-C ends it and its jobs at once, with one line, from its first moment on.
 
-`./reproduce` starts `python -m mobnet.core.run` in place of `python -m snakemake`, with the same words.
+`./reproduce` starts `python -m mobnet.running.run` in place of `python -m snakemake`, with the same words.
 """
 
 import atexit
@@ -8,7 +8,6 @@ import contextlib
 import logging
 import os
 import re
-import shlex
 import shutil
 import signal
 import sys
@@ -17,19 +16,17 @@ import time
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import TextIO, cast
 
 import psutil
-import yaml
 
 from mobnet.core.code import ROOT
-from mobnet.core.environment import LONGEST_TEMPORARY
 from mobnet.core.errors import ConfigError, MobnetError, misfit
 from mobnet.core.files import check_room
-from mobnet.core.lock import begin_run, scratch, sweep
-from mobnet.core.provenance import UNKNOWN, commit
+from mobnet.running.environment import LONGEST_TEMPORARY
+from mobnet.running.lock import begin_run, scratch, sweep
+from mobnet.running.patches import python, refuse_code
+from mobnet.running.provenance import UNKNOWN, commit
 
-USE_CODE = "__use_yte__"
 WRITTEN = (".snakemake", ".cache")  # below the project, by Snakemake itself and by packages
 CONFIGFILE = re.compile("--configf(?:i(?:l(?:es?)?)?)?(?:=(.+))?", re.DOTALL)
 STOPPED = "stopped; the same command goes on from here"
@@ -100,8 +97,7 @@ def start_jobs(root: Path, *, are_here: bool) -> None:
     Where jobs are not run here but by a cluster, Ctrl-C is Snakemake's, which takes them out of the queue.
     """
     if begin_run(root):
-        python = shlex.split(sys.executable)[0]  # common.smk quotes it for snakemake
-        os.execv(python, [python, *sys.orig_argv[1:]])
+        os.execv(python(), [python(), *sys.orig_argv[1:]])
     if commit() == UNKNOWN:
         log.warning("%s: git knows no commit here; results will not say which code made them (commit: unknown)", root)
     stops = partial(stop, root, alone=True) if are_here else cancel_jobs
@@ -118,17 +114,6 @@ def cancel_jobs(number: int) -> None:
 def is_stopped() -> bool:
     """Return whether Ctrl-C has ended this run, which then ignores it: jobs that it cancelled have not failed."""
     return signal.getsignal(signal.SIGINT) is signal.SIG_IGN
-
-
-def plain_yaml(stream: TextIO, **_: object) -> object:
-    """Read a YAML file as plain values; `__use_yte__` and tags of Python end the run before anything of it runs."""
-    try:
-        values = yaml.safe_load(stream)  # by Python, in which deep nesting is an error and not the end of the process
-    except (yaml.YAMLError, RecursionError) as error:
-        sys.exit(f"{stream.name}: {' '.join(str(error).split())}; accepted: plain YAML")
-    if isinstance(values, dict) and USE_CODE in values:
-        sys.exit(f"{stream.name}: key {USE_CODE!r} is not accepted; accepted: plain YAML, without code")
-    return cast("object", values)
 
 
 def configfiles(words: Sequence[str]) -> list[str]:
@@ -156,10 +141,9 @@ def main() -> None:
         refuse_configfiles(configfiles(sys.argv[1:]))
     except MobnetError as error:
         sys.exit(str(error))
-    import yte
     from snakemake.cli import main as snakemake
 
-    yte.process_yaml = plain_yaml  # the reader of Snakemake's profiles and `--configfile`, which runs code
+    refuse_code()
     snakemake()
 
 
