@@ -78,8 +78,8 @@ def spoil(stem: str) -> None:
 @pytest.mark.parametrize(
     ("swings", "fault", "text"),
     [
-        (40, "", "swings in all recordings: 40 is not accepted; accepted: 200 or more, some minutes of walking"),
-        (SWINGS, "constant", "column 'tau_ext.LL3': every number: 7.0 is not accepted; accepted: numbers that change"),
+        (40, "", "swings that calibrate: 40 is not accepted; accepted: 200 or more, some minutes of walking"),
+        (SWINGS, "constant", "walk: signal mean.LL3: every number: 7.0 is not accepted; accepted: numbers that change"),
         (
             SWINGS,
             "saturated",

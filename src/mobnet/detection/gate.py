@@ -34,7 +34,7 @@ class Gate(NamedTuple):
     hold: int  # samples for which it must last
 
 
-def make_gate(numbers: settings.Gate, rate_hz: float) -> Gate:
+def make_gate(numbers: settings.SwingGate, rate_hz: float) -> Gate:
     """Return the gate at a rate of samples [Hz]."""
     lift_off, hold = (max(1, round(time_s * rate_hz)) for time_s in (numbers.lift_off_s, numbers.contact_s))
     upright = float(np.cos(np.deg2rad(numbers.contact_deg)))

@@ -30,12 +30,3 @@ def name_push(torque: NDArray[Any], units: Array, whitening: Array) -> Named:
     forces = np.maximum(expected @ seen / sizes, 0.0)
     best = int(np.argmax(forces**2 * sizes))
     return Named(best, float(forces[best]))
-
-
-def smallest_forces(units: Array, thresholds: Array, attenuation: float) -> Array:
-    """Return the least force of each of k pushes that brings a joint over its threshold (k,) [N].
-
-    Units (k, 6) are as in `name_push`, thresholds (6,) those of the joints [N m]; of a push that lasts as long as a
-    collision, filters leave the share `attenuation`.
-    """
-    return (thresholds / (attenuation * np.maximum(np.abs(units), 1e-9))).min(axis=1)

@@ -90,7 +90,8 @@ def calibrate(
         DataError: there are too few swings, they do not differ, or the rate is more than the tail holds.
     """
     if len(largest) < settings.least_swings:
-        raise DataError(not_accepted("swings", len(largest), [f"{settings.least_swings} or more"]))
+        accepted = [f"{settings.least_swings} or more, some minutes of walking"]
+        raise DataError(not_accepted("swings that calibrate", len(largest), accepted))
     if not np.ptp(largest):
         raise DataError(not_accepted("largest values", float(largest[0]), ["numbers that change from swing to swing"]))
     per_h = len(largest) * HOUR_S / duration_s

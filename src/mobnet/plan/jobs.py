@@ -157,7 +157,7 @@ class Jobs:
             "walks": walks,
             "out": self.files.results / "detection",
         }
-        return Job(Call("mobnet.evaluation.measure.detections:detect", arguments), _read(walks))
+        return Job(Call("mobnet.detection.detect:detect", arguments), _read(walks))
 
     def _staged(
         self,
