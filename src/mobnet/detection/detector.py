@@ -57,6 +57,7 @@ class LegGate:
     @classmethod
     def of(cls, numbers: settings.SwingGate, robot: RobotDescription, limb: str, rate_hz: float) -> "LegGate":
         """Return the gate of a leg at a rate of samples [Hz]; a ConfigError names a limb that is no leg."""
+        # Recordings hold the signals of the feet that the robot has, in the order of FEET.
         leg, sides = make_leg(robot, limb), {name: side for side, name in robot.layout.legs.items()}
         feet = [foot for foot in FEET if foot.removesuffix("_foot") in robot.layout.legs]
         return cls(make_gate(numbers, rate_hz), leg, feet.index(f"{sides[limb]}_foot"))
@@ -80,6 +81,7 @@ class LegGate:
 def run_segments(chain: Chain, signals: Array, gate: GateSignal, segments: Spans) -> Alarm:
     """Run a chain over the signals (T, m) of a recording, each contiguous segment from rest."""
     alarm = Alarm(np.zeros(len(signals)), np.zeros(len(signals), dtype=np.int64))
+    # Between two segments the robot fell or was set anew, so that nothing of one is held in the next.
     for start, end in segments:
         part = GateSignal(gate.watched[start:end], gate.phase[start:end])
         alarm.ratio[start:end], alarm.signal[start:end] = run_over(chain, signals[start:end], part)
@@ -108,6 +110,7 @@ class LegDetector:
         foot, leg = self.gate.foot, self.gate
         q, tau = np.asarray(sample.q, dtype=np.float64), np.asarray(gating, dtype=np.float64)
         swing, landing = float(sample.swing[foot]), float(sample.landing[foot])
+        # The gate has the estimate of one method for all detectors, so that they differ by their signals alone.
         watched = advance_gate(leg.gate, leg.leg, state.gate, q, tau, swing, landing)
         signals = signals_of(self.detector, estimate, self.whitening)
         ratio = advance_chain(self.chain, state.chain, signals, watched, float(state.gate.phase))

@@ -28,18 +28,19 @@ def found_forces(setup: LegSetup, poses: Array, thresholds: Array) -> dict[str, 
 
 
 def smallest_forces(units: Array, thresholds: Array, attenuation: float) -> Array:
-    """Return the least force of each of k pushes that brings a joint over its threshold (k,) [N], (D11).
+    """Return the least force of each of k pushes that brings a joint over its threshold (k,) [N], (D12).
 
     Units (k, 6) are as in `name_push`, thresholds (6,) those of the joints [N m]; of a push that lasts as long as a
     collision, filters leave the share `attenuation`.
     """
+    # The joint that crosses first counts. The floor is for joints that the push does not load.
     return (thresholds / (attenuation * np.maximum(np.abs(units), 1e-9))).min(axis=1)
 
 
 def attenuation(setup: LegSetup) -> float:
     """Return what the filters leave of the peak of a half-sine of a collision's length [-]."""
     count = round(setup.detection.sensitivity.contact_s * setup.rate_hz)
-    # (D10): the low-pass is highest only after the peak of the force, so that the run goes on beyond its end.
+    # (D11): the low-pass is highest only after the peak of the force, so that the run goes on beyond its end.
     hit = np.sin(np.pi * np.arange(2 * count) / count)[:, None] * (np.arange(2 * count) < count)[:, None]
     always = GateSignal(np.ones(len(hit), dtype=bool), np.zeros(len(hit)))
     return float(run_over(setup.chain(np.ones((1, 1))), np.ascontiguousarray(hit), always).ratio.max())

@@ -59,7 +59,7 @@ def _hits(setup: LegSetup, walk: Walk, leg: LegRecording, residual: Path) -> Leg
     # The pose of the first sample serves for the whole collision, in which a leg moves by a few degrees.
     positions = read_sensed(leg.recording, layout).sensed.q[[hit.rows.start for hit in hits]]
     units = [unit_torques(setup.robot, setup.gate.leg, q, points, setup.inward) for q in positions]
-    # (D19): the observer delays what every method estimates, so the true torque of a perfect estimate passes it too.
+    # (D22): the observer delays what every method estimates, so the true torque of a perfect estimate passes it too.
     truth = read_array(residual, named(EXTERNAL_LP, setup.joints))[0].astype(np.float64)
     return LegHits(leg, tuple(every), hits, np.array(units), truth)
 
@@ -138,7 +138,7 @@ def unpushed_rows(
 
 
 def window_of(setup: LegSetup, hit: Hit) -> slice:
-    """Return the rows in which an alarm counts as that of a collision, (D18)."""
+    """Return the rows in which an alarm counts as that of a collision, (D21)."""
     # The filters still rise when a short contact has ended already.
     return slice(hit.rows.start, hit.rows.stop + round(setup.detection.late_s * setup.rate_hz))
 
@@ -147,7 +147,7 @@ def first_alarm(setup: LegSetup, ratio: Array, hit: Hit) -> int | None:
     """Return the row of the first alarm of a collision; None if there is none, or if it was raised before."""
     window = window_of(setup, hit)
     over = ratio[window] > ALARM_RATIO
-    # (D18): an alarm that stands when the collision begins is a false one, and it would have a delay of zero.
+    # (D21): an alarm that stands when the collision begins is a false one, and it would have a delay of zero.
     if not over.any() or (window.start and ratio[window.start - 1] > ALARM_RATIO):
         return None
     return window.start + int(np.argmax(over))
