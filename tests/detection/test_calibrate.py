@@ -24,7 +24,9 @@ Write = Callable[..., list[str]]
 def write(walk: Callable[[int], Sensed], layout: JointLayout, tmp_path: Path) -> Write:
     """A function that writes a walk with an estimate, which a change may spoil, and returns words that name them."""
 
-    def files(swings: int = SWINGS, change: Callable[[np.ndarray], None] | None = None) -> list[str]:
+    def files(
+        swings: int = SWINGS, change: Callable[[np.ndarray], None] | None = None, rate_hz: float = RATE_HZ
+    ) -> list[str]:
         sensed = walk(swings)
         count, truth = len(sensed), unseen(layout, len(sensed))
         joints, rng = layout.limb("LL"), np.random.default_rng(0)
@@ -32,10 +34,11 @@ def write(walk: Callable[[int], Sensed], layout: JointLayout, tmp_path: Path) ->
         torque = sizes[:, None] * np.array([1.0, 4.0, 3.0, 2.0, 1.5, 0.5]) * (1.0 + 0.01 * rng.normal(size=(count, 6)))
         if change:
             change(torque)
-        write_recording(tmp_path / "walk", Recording(sensed, ((0, count),), RATE_HZ, {}, truth), layout)
+        folder = tmp_path / f"{rate_hz:g}"
+        write_recording(folder / "walk", Recording(sensed, ((0, count),), rate_hz, {}, truth), layout)
         columns = torque_columns(layout, ["tau_ext"], joints)
-        write_array(tmp_path / "estimate", torque, columns, {"rate_hz": RATE_HZ})
-        return ["--recording", str(tmp_path / "walk.parquet"), "--estimate", str(tmp_path / "estimate")]
+        write_array(folder / "estimate", torque, columns, {"rate_hz": rate_hz})
+        return ["--recording", str(folder / "walk.parquet"), "--estimate", str(folder / "estimate")]
 
     return files
 
@@ -78,8 +81,9 @@ def spoil(stem: str) -> None:
 @pytest.mark.parametrize(
     ("swings", "fault", "text"),
     [
-        (40, "", "swings in all recordings: 40 is not accepted; accepted: 200 or more, some minutes of walking"),
-        (SWINGS, "constant", "column 'tau_ext.LL3': every number: 7.0 is not accepted; accepted: numbers that change"),
+        (0, "", "swings in which the leg is watched: 'none' is not accepted; accepted: some of those that calibrate"),
+        (40, "", "swings that calibrate: 40 is not accepted; accepted: 200 or more, some minutes of walking"),
+        (SWINGS, "constant", "walk: signal mean.LL3: every number: 7.0 is not accepted; accepted: numbers that change"),
         (
             SWINGS,
             "saturated",
@@ -115,6 +119,11 @@ def test_words_that_fit_nothing_are_told(
 ) -> None:
     assert main([*write(3), *words]) == 1
     assert text in caplog.text
+
+
+def test_recordings_have_one_rate(write: Write, caplog: pytest.LogCaptureFixture) -> None:
+    assert main([*write(3), *write(3, rate_hz=500.0)]) == 1
+    assert "walk: rate_hz: 500.0 is not accepted; accepted: 1000.0, that of the first" in caplog.text
 
 
 def test_help_says_what_it_takes(capsys: pytest.CaptureFixture[str]) -> None:

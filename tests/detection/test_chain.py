@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 
 from mobnet.detection.chain import chain_state, low_passed, make_chain
-from mobnet.detection.detector import Watch, run_over, run_segments
+from mobnet.detection.detector import GateSignal, run_over, run_segments
 
 RATE_HZ = 1000.0
 
 
 def ratios(
-    signals: np.ndarray, thresholds: np.ndarray, watch: Watch | None = None, *, norm: bool = False
+    signals: np.ndarray, thresholds: np.ndarray, watch: GateSignal | None = None, *, norm: bool = False
 ) -> np.ndarray:
     """Return the ratios of a chain."""
-    always = Watch(np.ones(len(signals), dtype=bool), np.zeros(len(signals)))
+    always = GateSignal(np.ones(len(signals), dtype=bool), np.zeros(len(signals)))
     return run_over(make_chain(15.0, 0.005, RATE_HZ, thresholds, norm=norm), signals, watch or always).ratio
 
 
@@ -38,7 +38,7 @@ def test_the_highest_joint_counts_and_is_named() -> None:
     signals = np.zeros((300, 3))
     signals[100:, 1], signals[150:, 2] = 3.0, -9.0
     chain = make_chain(15.0, 0.005, RATE_HZ, np.ones((1, 3)))
-    alarm = run_over(chain, signals, Watch(np.ones(300, dtype=bool), np.zeros(300)))
+    alarm = run_over(chain, signals, GateSignal(np.ones(300, dtype=bool), np.zeros(300)))
     assert alarm.ratio[299] == pytest.approx(9.0, rel=1e-3)
     assert (alarm.signal[140], alarm.signal[299]) == (1, 2)
 
@@ -46,7 +46,7 @@ def test_the_highest_joint_counts_and_is_named() -> None:
 def test_what_is_not_watched_counts_as_zero_for_five_samples() -> None:
     watched = np.ones(300, dtype=bool)
     watched[200] = False
-    found = ratios(np.full((300, 1), 5.0), np.ones((1, 1)), Watch(watched, np.zeros(300)))
+    found = ratios(np.full((300, 1), 5.0), np.ones((1, 1)), GateSignal(watched, np.zeros(300)))
     assert found[199] > 4.9
     assert not found[200:205].any()
     assert found[205] > 4.9
@@ -54,7 +54,7 @@ def test_what_is_not_watched_counts_as_zero_for_five_samples() -> None:
 
 def test_thresholds_follow_the_phase_of_the_swing() -> None:
     phase = np.linspace(0.0, 1.0, 400)
-    found = ratios(np.full((400, 1), 4.0), np.array([[1.0], [2.0]]), Watch(np.ones(400, dtype=bool), phase))
+    found = ratios(np.full((400, 1), 4.0), np.array([[1.0], [2.0]]), GateSignal(np.ones(400, dtype=bool), phase))
     assert (found[190], found[390]) == (pytest.approx(4.0, rel=1e-3), pytest.approx(2.0, rel=1e-3))
 
 
@@ -64,7 +64,7 @@ def test_the_norm_is_the_length_of_all_signals() -> None:
 
 
 def test_each_segment_begins_at_rest() -> None:
-    signals, watch = np.full((600, 1), 4.0), Watch(np.ones(600, dtype=bool), np.zeros(600))
+    signals, watch = np.full((600, 1), 4.0), GateSignal(np.ones(600, dtype=bool), np.zeros(600))
     chain = make_chain(15.0, 0.005, RATE_HZ, np.ones((1, 1)))
     found = run_segments(chain, signals, watch, ((0, 300), (300, 600))).ratio
     np.testing.assert_array_equal(found[:300], found[300:])

@@ -10,7 +10,7 @@ from made_swings import AIR, GROUND, RATE_HZ
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Sensed
 from mobnet.detection.chain import make_chain
-from mobnet.detection.detector import COLLISION, LegDetector, LegGate
+from mobnet.detection.detector import ALARM_RATIO, LegDetector, LegGate
 from mobnet.detection.signals import signal_names, whitening_of
 from mobnet.settings.detection import Detector
 
@@ -52,9 +52,9 @@ def test_in_steps_it_says_the_same_at_the_same_sample(
         one = Estimate(estimate.tau_ext[k], std[k])
         alarm = detector.step(state, sensed[k], one, estimate.tau_ext[k])
         assert alarm.ratio == pytest.approx(whole.ratio[k], rel=1e-9)
-        assert (alarm.ratio > COLLISION) == (whole.ratio[k] > COLLISION)
+        assert (alarm.ratio > ALARM_RATIO) == (whole.ratio[k] > ALARM_RATIO)
         assert alarm.signal == whole.signal[k]
-    over = whole.ratio > COLLISION
+    over = whole.ratio > ALARM_RATIO
     assert over.any()
     assert not over[:GROUND].any()
     assert not over[GROUND + AIR : 2 * GROUND + AIR].any()

@@ -83,7 +83,11 @@ def test_a_wanted_rate_that_is_common_is_met_without_going_beyond_what_was_seen(
 @pytest.mark.parametrize(
     ("largest", "rate", "text"),
     [
-        (np.arange(1.0, 50.0), 1.0, "swings: 49 is not accepted; accepted: 200 or more"),
+        (
+            np.arange(1.0, 50.0),
+            1.0,
+            "swings that calibrate: 49 is not accepted; accepted: 200 or more, some",
+        ),
         (np.ones(300), 1.0, "largest values: 1.0 is not accepted; accepted: numbers that change"),
         (
             np.minimum(np.arange(1.0, 301.0), 240.0),

@@ -9,129 +9,77 @@ import logging
 import math
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, named
 from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse
+from mobnet.core.estimator import Estimate
 from mobnet.core.notes import note_differences, read_array_note
-from mobnet.core.recording import SensedRecording, read_sensed
+from mobnet.core.recording import read_sensed
 from mobnet.core.store import NOTE, check_finite, file_of, read_array
-from mobnet.detection.chain import make_chain
-from mobnet.detection.detector import LegGate, Watch, run_over, run_segments
-from mobnet.detection.isolation import smallest_forces
-from mobnet.detection.leg import make_leg, unit_torques
-from mobnet.detection.swings import Spans, episodes_of, largest, swings_of
-from mobnet.detection.thresholds import Calibrated, calibrate
+from mobnet.detection.calibration import QuietWalk, check_signals, rate_scales
+from mobnet.detection.sensitivity import found_forces
+from mobnet.detection.signals import MEAN
+from mobnet.detection.thresholds import Calibrated
+from mobnet.detection.watch import LegSetup
 from mobnet.detection.words import calibrate_parser
 from mobnet.robot.description import RobotDescription, describe
-from mobnet.settings.detection import Detection
+from mobnet.settings.detection import Detection, Detector
 from mobnet.settings.load import load_section, load_settings
 from mobnet.settings.robot import RobotTable
 
 log = logging.getLogger(__name__)
-CONTACT_S = 0.078  # of the collisions of section 5.3: the filters leave a part of a hit that is so short
-POSES = 200  # of swings, at which forces are looked at
 LEAST_RATE = 1e-6  # wanted false alarms [1/h]
-SHARE = 0.95  # of the poses in which the smallest force is enough
+WANTED = "wanted"  # the only rule of thresholds
 
 
-@dataclass(frozen=True)
-class Quiet:
-    """A leg in a recording that nothing pushes: its estimate (T, 6) [N m], when it is watched, its swings."""
-
-    recording: SensedRecording
-    torque: Array
-    watch: Watch
-    swings: Spans
-
-    @property
-    def duration_s(self) -> float:
-        """Time that was walked [s]."""
-        return sum(end - start for start, end in self.recording.segments) / self.recording.rate_hz
-
-
-def read_quiet(recording: Path, estimate: Path, robot: RobotDescription, detection: Detection, limb: str) -> Quiet:
-    """Read a recording with its estimate, and run the gate of a leg over them.
+def calibrate_leg(
+    files: Sequence[tuple[Path, Path]], robot: RobotDescription, limb: str, detection: Detection, rate_per_h: float
+) -> list[str]:  # fmt: skip
+    """Calibrate a detector of the external torque of a leg on recordings with their estimates; return what is printed.
 
     Raises:
-        DataError: a file is missing or damaged, a number is not finite, a column never changes, or the two differ.
+        DataError: a file is missing or damaged, a number is not finite, a column never changes, recordings differ in
+            their rate, there are too few swings, or the rate is above what the fitted tail holds.
         ConfigError: the limb is no leg.
     """
-    joints = robot.layout.limb(limb)
-    note, other = (read_array_note(file_of(stem, NOTE)) for stem in (estimate, recording))
-    refuse(f"{estimate}{NOTE}", note_differences(note, other, f"{recording}{NOTE}"))
-    read, names = read_sensed(recording, robot.layout), named(EXTERNAL, joints)
-    gate = LegGate.of(detection.gate, robot, limb, read.rate_hz)
-    torque = read_array(estimate, names)[0].astype(np.float64)
-    check_finite(f"{estimate}", torque, names)
-    accepted = ["numbers that change"]
-    for name, column in zip(names, torque.T, strict=True):
-        if column.min() == column.max():
-            raise DataError(not_accepted(f"{estimate}: column {name!r}: every number", float(column[0]), accepted))
-    return Quiet(read, torque, gate.watch(read, torque), swings_of(read.sensed.swing[:, gate.foot], read.segments))
+    wanted = detection.thresholds.model_copy(update={"rates_per_h": {WANTED: rate_per_h}})
+    detector = Detector(method=detection.gate.method, signals=(MEAN,))
+    reads = [read_sensed(recording, robot.layout) for recording, _ in files]
+    rate_hz = reads[0].rate_hz
+    for (recording, _), read in zip(files, reads, strict=True):
+        if read.rate_hz != rate_hz:
+            raise DataError(not_accepted(f"{recording}: rate_hz", read.rate_hz, [f"{rate_hz}, that of the first"]))
+    setup = LegSetup.of(detection.model_copy(update={"thresholds": wanted}), robot, limb, rate_hz)
+    estimates = [read_own(*pair, setup.joints) for pair in files]
+    legs = [setup.record(path, read, tau) for (path, _), read, tau in zip(files, reads, estimates, strict=True)]
+    # Nothing is tried here on walking that is held out, so that all swings calibrate.
+    walk = QuietWalk.of(setup, "", legs, [Estimate(torque) for torque in estimates], share=1.0)
+    check_signals(setup, detector, walk)
+    scales, promises = rate_scales(setup, detector, None, walk)
+    thresholds = promises[WANTED].factor * scales[0]
+    poses = np.concatenate([read.sensed.q[leg.gate.watched] for read, leg in zip(reads, legs, strict=True)])
+    forces = found_forces(setup, poses, thresholds)
+    return report(thresholds, promises[WANTED], forces, setup.joints, walk.first, wanted.confidence)
 
 
-def held(quiet: Quiet, detection: Detection) -> Array:
-    """Return the largest held torque of each joint in each swing (k, 6) [N m], behind the low-pass."""
-    chain = make_chain(detection.low_pass_hz, detection.hold_s, quiet.recording.rate_hz, np.ones((1, 1)))
-    parts = np.split(quiet.torque, quiet.torque.shape[1], axis=1)
-    segments = quiet.recording.segments
-    held_parts = [run_segments(chain, np.ascontiguousarray(part), quiet.watch, segments).ratio for part in parts]
-    return largest(np.stack(held_parts, axis=1), quiet.swings)
-
-
-def thresholds_of(
-    quiets: Sequence[Quiet], detection: Detection, rate_per_h: float
-) -> tuple[Array, Calibrated]:  # fmt: skip
-    """Return the thresholds of the joints (6,) [N m] for a wanted rate of false alarms [1/h], and what to expect.
+def read_own(recording: Path, estimate: Path, joints: Sequence[str]) -> NDArray[Any]:
+    """Read the estimate of a leg's joints in a recording (T, 6) [N m].
 
     Raises:
-        DataError: there are too few swings, they do not differ, or the rate is above what the fitted tail holds.
+        DataError: a file is missing or damaged, a number is not finite, or the notes of the two differ.
     """
-    heights = np.concatenate([held(quiet, detection) for quiet in quiets])
-    if len(heights) < detection.thresholds.least_swings:
-        accepted = [f"{detection.thresholds.least_swings} or more, some minutes of walking"]
-        raise DataError(not_accepted("swings in all recordings", len(heights), accepted))
-    scales = np.quantile(heights, detection.thresholds.scale_quantile, axis=0)
-    if not scales.all():
-        raise DataError(not_accepted("swings in which the leg is watched", "none", ["most of them; see the gate"]))
-    seen = (heights / scales).max(axis=1)
-    episodes = episodes_of((one.recording.segments, one.swings) for one in quiets)
-    found = calibrate(seen, episodes, sum(one.duration_s for one in quiets), rate_per_h, detection.thresholds)
-    return found.factor * scales, found
-
-
-def forces_of(
-    quiets: Sequence[Quiet], robot: RobotDescription, limb: str, detection: Detection, thresholds: Array
-) -> dict[str, float]:  # fmt: skip
-    """Return point of the leg -> the force [N] that a short collision must have there, in most poses of a swing.
-
-    The filters leave a part of a half-sine of 78 ms; the force is what this part needs to lift a joint over its
-    threshold, in 95 % of the poses in which the leg is watched.
-    """
-    side = next(side for side, name in robot.layout.legs.items() if name == limb)
-    points = [row.name for row in robot.points if row.name.startswith(f"{side}_") and row.name.count("_") == 2]
-    leg, rate_hz = make_leg(robot, limb), quiets[0].recording.rate_hz
-    watched = [one.recording.sensed.q[np.flatnonzero(one.watch.watched)] for one in quiets]
-    poses = np.concatenate(watched)
-    picked = poses[np.linspace(0, len(poses) - 1, min(POSES, len(poses))).astype(int)]
-    left = attenuation(detection, rate_hz)
-    inward = -1.0 if side == "left" else 1.0
-    forces = [smallest_forces(unit_torques(robot, leg, q, points, inward), thresholds, left) for q in picked]
-    return dict(zip(points, np.quantile(forces, SHARE, axis=0).tolist(), strict=True))
-
-
-def attenuation(detection: Detection, rate_hz: float) -> float:
-    """Return what the filters leave of the peak of a half-sine of a collision's length [-]."""
-    count = round(CONTACT_S * rate_hz)
-    hit = np.sin(np.pi * np.arange(2 * count) / count)[:, None] * (np.arange(2 * count) < count)[:, None]
-    chain = make_chain(detection.low_pass_hz, detection.hold_s, rate_hz, np.ones((1, 1)))
-    always = Watch(np.ones(len(hit), dtype=bool), np.zeros(len(hit)))
-    return float(run_over(chain, np.ascontiguousarray(hit), always).ratio.max())
+    note, other = (read_array_note(file_of(stem, NOTE)) for stem in (estimate, recording))
+    refuse(f"{estimate}{NOTE}", note_differences(note, other, f"{recording}{NOTE}"))
+    names = named(EXTERNAL, joints)
+    torque = read_array(estimate, names)[0]
+    check_finite(f"{estimate}", torque, names)
+    return torque
 
 
 def report(
@@ -158,17 +106,13 @@ def main(words: list[str]) -> int:
         if not LEAST_RATE <= options.rate < math.inf:
             raise DataError(not_accepted("--rate", options.rate, [f"a number from {LEAST_RATE:g}, one in a century"]))
         settings = load_settings()
-        table = load_section(options.robot, RobotTable) if options.robot else settings.robot
-        robot, detection = describe(table), settings.detection
-        pairs = [(stem(one), stem(other)) for one, other in zip(options.recording, options.estimate, strict=True)]
-        quiets = [read_quiet(*pair, robot, detection, options.leg) for pair in pairs]
-        thresholds, found = thresholds_of(quiets, detection, options.rate)
-        forces = forces_of(quiets, robot, options.leg, detection, thresholds)
+        robot = describe(load_section(options.robot, RobotTable) if options.robot else settings.robot)
+        files = [(stem(one), stem(other)) for one, other in zip(options.recording, options.estimate, strict=True)]
+        lines = calibrate_leg(files, robot, options.leg, settings.detection, options.rate)
     except MobnetError as error:
         log.error("%s", error)
         return 1
-    joints, swings = robot.layout.limb(options.leg), sum(len(one.swings) for one in quiets)
-    for line in report(thresholds, found, forces, joints, swings, detection.thresholds.confidence):
+    for line in lines:
         log.info("%s", line)
     return 0
 

@@ -28,6 +28,7 @@ class ChainState(NamedTuple):
 
 def make_chain(low_pass_hz: float, hold_s: float, rate_hz: float, thresholds: Array, *, norm: bool = False) -> Chain:
     """Return the chain of a detector at a rate of samples [Hz]."""
+    # (D7) [5.3]: exact for a signal that is constant between samples, at any rate.
     pole = float(np.exp(-2.0 * np.pi * low_pass_hz / rate_hz))
     return Chain(pole, max(1, round(hold_s * rate_hz)), norm, np.ascontiguousarray(thresholds, dtype=np.float64))
 
@@ -44,6 +45,7 @@ def advance_chain(chain: Chain, state: ChainState, signals: Array, is_watched: b
 
     Above 1 there is a collision. What is not watched counts as zero. The phase of the swing [-] picks thresholds.
     """
+    # The filter runs on the ground too: a state that began at the gate would hide the first 10 ms of a swing.
     parts, count = chain.thresholds.shape
     part, row, total = min(int(phase * parts), parts - 1), state.place[0] % chain.hold, 0.0
     state.place[0] += 1
@@ -53,10 +55,13 @@ def advance_chain(chain: Chain, state: ChainState, signals: Array, is_watched: b
     highest = 0.0
     for k in range(count):
         size = np.sqrt(total) if chain.norm else abs(state.low[k])
+        # (D8): one sample that is not watched breaks what is held, so that no alarm reaches back to before the gate.
         state.held[row, k] = size / chain.thresholds[part, k] if is_watched else 0.0
+        # [5.3] "continuous filtering of 5 ms": the least of the last samples is above 1 if and only if all are.
         least = state.held[row, k]
         for i in range(chain.hold):
             least = min(least, state.held[i, k])
+        # The OR of [5.3]: one signal over its threshold is enough, and the highest one names the alarm.
         if least > highest:
             highest = least
             state.place[1] = k

@@ -22,11 +22,11 @@ from mobnet.detection.swings import Spans
 from mobnet.robot.description import RobotDescription
 from mobnet.settings import detection as settings
 
-COLLISION = 1.0  # ratio of a signal to its threshold above which there is a collision
+ALARM_RATIO = 1.0  # of a signal to its threshold: above it there is a collision
 
 
-class Watch(NamedTuple):
-    """When a leg is watched (T,), and the phase of its swing (T,) [-]."""
+class GateSignal(NamedTuple):
+    """What a gate says of samples: whether the leg is watched (T,), and the phase of its swing (T,) [-]."""
 
     watched: NDArray[np.bool_]
     phase: Array
@@ -55,33 +55,35 @@ class LegGate:
     foot: int
 
     @classmethod
-    def of(cls, numbers: settings.Gate, robot: RobotDescription, limb: str, rate_hz: float) -> "LegGate":
+    def of(cls, numbers: settings.SwingGate, robot: RobotDescription, limb: str, rate_hz: float) -> "LegGate":
         """Return the gate of a leg at a rate of samples [Hz]; a ConfigError names a limb that is no leg."""
+        # Recordings hold the signals of the feet that the robot has, in the order of FEET.
         leg, sides = make_leg(robot, limb), {name: side for side, name in robot.layout.legs.items()}
         feet = [foot for foot in FEET if foot.removesuffix("_foot") in robot.layout.legs]
         return cls(make_gate(numbers, rate_hz), leg, feet.index(f"{sides[limb]}_foot"))
 
-    def watch(self, recording: SensedRecording, tau: NDArray[Any]) -> Watch:
+    def watch(self, recording: SensedRecording, tau: NDArray[Any]) -> GateSignal:
         """Return when the leg is watched in a recording, tau (T, 6) [N m] being the estimate of its joints."""
-        watch = Watch(np.zeros(len(tau), dtype=bool), np.zeros(len(tau)))
+        found = GateSignal(np.zeros(len(tau), dtype=bool), np.zeros(len(tau)))
         for span in recording.spans():
-            watch.watched[span], watch.phase[span] = self.run(recording.sensed[span], tau[span])
-        return watch
+            found.watched[span], found.phase[span] = self.run(recording.sensed[span], tau[span])
+        return found
 
-    def run(self, sensed: Sensed, tau: NDArray[Any]) -> Watch:
+    def run(self, sensed: Sensed, tau: NDArray[Any]) -> GateSignal:
         """Return the same of a contiguous stretch."""
-        watch = Watch(np.zeros(len(sensed), dtype=bool), np.zeros(len(sensed)))
+        found = GateSignal(np.zeros(len(sensed), dtype=bool), np.zeros(len(sensed)))
         q, torque = np.asarray(sensed.q, dtype=np.float64), np.ascontiguousarray(tau, dtype=np.float64)
         swing, landing = (np.asarray(part[:, self.foot], dtype=np.float64) for part in (sensed.swing, sensed.landing))
-        run_gate(self.gate, self.leg, gate_state(), q, torque, swing, landing, *watch)
-        return watch
+        run_gate(self.gate, self.leg, gate_state(), q, torque, swing, landing, *found)
+        return found
 
 
-def run_segments(chain: Chain, signals: Array, watch: Watch, segments: Spans) -> Alarm:
+def run_segments(chain: Chain, signals: Array, gate: GateSignal, segments: Spans) -> Alarm:
     """Run a chain over the signals (T, m) of a recording, each contiguous segment from rest."""
     alarm = Alarm(np.zeros(len(signals)), np.zeros(len(signals), dtype=np.int64))
+    # Between two segments the robot fell or was set anew, so that nothing of one is held in the next.
     for start, end in segments:
-        part = Watch(watch.watched[start:end], watch.phase[start:end])
+        part = GateSignal(gate.watched[start:end], gate.phase[start:end])
         alarm.ratio[start:end], alarm.signal[start:end] = run_over(chain, signals[start:end], part)
     return alarm
 
@@ -108,18 +110,19 @@ class LegDetector:
         foot, leg = self.gate.foot, self.gate
         q, tau = np.asarray(sample.q, dtype=np.float64), np.asarray(gating, dtype=np.float64)
         swing, landing = float(sample.swing[foot]), float(sample.landing[foot])
+        # The gate has the estimate of one method for all detectors, so that they differ by their signals alone.
         watched = advance_gate(leg.gate, leg.leg, state.gate, q, tau, swing, landing)
         signals = signals_of(self.detector, estimate, self.whitening)
         ratio = advance_chain(self.chain, state.chain, signals, watched, float(state.gate.phase))
         return Alarm(ratio, int(state.chain.place[1]))
 
-    def run(self, watch: Watch, estimate: Estimate) -> Alarm:
+    def run(self, gate: GateSignal, estimate: Estimate) -> Alarm:
         """Return what the detector says of a contiguous stretch (T,), of which the gate has run."""
-        return run_over(self.chain, signals_of(self.detector, estimate, self.whitening), watch)
+        return run_over(self.chain, signals_of(self.detector, estimate, self.whitening), gate)
 
 
-def run_over(chain: Chain, signals: Array, watch: Watch) -> Alarm:
+def run_over(chain: Chain, signals: Array, gate: GateSignal) -> Alarm:
     """Run a chain over the signals (T, m) of a contiguous stretch from rest."""
     alarm = Alarm(np.zeros(len(signals)), np.zeros(len(signals), dtype=np.int64))
-    run_chain(chain, chain_state(chain, signals.shape[1]), signals, watch.watched, watch.phase, *alarm)
+    run_chain(chain, chain_state(chain, signals.shape[1]), signals, *gate, *alarm)
     return alarm

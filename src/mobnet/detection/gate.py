@@ -34,8 +34,9 @@ class Gate(NamedTuple):
     hold: int  # samples for which it must last
 
 
-def make_gate(numbers: settings.Gate, rate_hz: float) -> Gate:
+def make_gate(numbers: settings.SwingGate, rate_hz: float) -> Gate:
     """Return the gate at a rate of samples [Hz]."""
+    # Lift-off is counted in samples and the landing in seconds, since the plan moves the landing within a swing.
     lift_off, hold = (max(1, round(time_s * rate_hz)) for time_s in (numbers.lift_off_s, numbers.contact_s))
     upright = float(np.cos(np.deg2rad(numbers.contact_deg)))
     return Gate(1.0 / rate_hz, lift_off, numbers.landing_s, numbers.contact_n, upright, hold)
@@ -57,14 +58,19 @@ def advance_gate(gate: Gate, leg: Leg, s: Any, q: Array, tau: Array, swing: floa
         s.air = s.touching = s.landed = 0
         s.phase = 0.0
         return False
+    # (D4): the plan's own clock. A phase of the measured motion would jump when something stops the leg.
     s.air += 1
     since = s.air * gate.period
     s.phase = since / (since + landing)
+    # (D3) [5.3]: only unexpected collisions count. While a foot leaves or meets the ground, ground forces are expected.
     if s.landed == 1 or s.air < gate.lift_off or landing <= gate.landing:
         return False
+    # (D6) [7]: a force on the foot inside the friction cone is the ground's. At a straight knee no single wrench
+    # explains the torques, and such samples leave the count as it is.
     if foot_load(leg, q, tau):
         up, size = leg.load[2], np.sqrt(leg.load[0] ** 2 + leg.load[1] ** 2 + leg.load[2] ** 2)
         s.touching = s.touching + 1 if size > gate.force and up > gate.upright * size else 0
+    # An early landing ends the swing, though the plan does not know yet: what follows is the ground, not a collision.
     if s.touching >= gate.hold:
         s.landed = 1
         return False

@@ -51,6 +51,8 @@ def foot_load(leg: Leg, q: Array, tau: Array) -> bool:
 
     tau = J^T F with the six rows of the leg, at a generalized position q (nq,) [m, -, rad] and torques tau (6,) [N m].
     """
+    # (D5): six joints and six numbers of a wrench, so that one pose gives one wrench. Ground, a hit on another link and
+    # the error of the estimate all go into it, see note 0036.
     update(leg.tree, q, leg.still, 0.0, leg.pose)
     arm = leg.load[:3]  # room
     for j in range(LEG_JOINTS):
@@ -85,9 +87,11 @@ def unit_torques(
         if name not in rows:
             raise ConfigError(not_accepted("point of the robot", name, rows))
         body = names.index(rows[name].body)
+        # [5.3] hits legs from the front and from the side, which is the outside: the other leg is in the way inside.
         axes = leg.pose.rotation[body]
         force = -axes[:, FORWARD] if name.endswith("front") else inward * axes[:, LEFT]
         place = leg.pose.position[body] + axes @ np.asarray(rows[name].pos)
+        # (D9): a joint below the point carries nothing of it, which is what tells links apart.
         above = ancestors(leg.tree, body)
         for j in range(LEG_JOINTS):
             moved = int(leg.tree.body_of_joint[leg.first + j])

@@ -29,6 +29,7 @@ def signals_of(detector: Detector, estimate: Estimate, whitening: Array | None =
 
 def _signal(kind: Signal, estimate: Estimate) -> NDArray[Any]:
     """Return a signal of each joint, (..., n) [N m], a ratio [-]."""
+    # (D1) [5.3]: the standard deviation surges at a collision, which no training shows. It raises an alarm by itself.
     if kind == MEAN:
         return estimate.tau_ext
     if estimate.std is None:
@@ -46,5 +47,7 @@ def whitening_of(signals: Array) -> Array:
 
     The length of whitened signals is the Mahalanobis distance from zero.
     """
+    # (D2): the second moment about zero and not the covariance, because a constant error of the estimate raises false
+    # alarms as well. The small diagonal keeps signals that always move together from having no inverse.
     moment = signals.T @ signals / len(signals)
     return np.linalg.inv(np.linalg.cholesky(moment + 1e-9 * np.trace(moment) * np.eye(len(moment))))

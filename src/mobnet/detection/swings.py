@@ -18,7 +18,8 @@ def swings_of(swing: NDArray[Any], segments: Sequence[tuple[int, int]]) -> Spans
     for start, end in segments:
         air = np.asarray(swing[start:end]) > IN_THE_AIR
         edges = np.flatnonzero(np.diff(air)) + 1 + start
-        lifted = edges[1:] if len(edges) and air[0] else edges  # the first swing began before the segment
+        # Half a swing has not had its largest value yet, and would make false alarms look rarer than they are.
+        lifted = edges[1:] if len(edges) and air[0] else edges
         found += [(int(a), int(b)) for a, b in lifted[: len(lifted) // 2 * 2].reshape(-1, 2)]
     return tuple(found)
 

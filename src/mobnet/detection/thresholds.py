@@ -35,6 +35,7 @@ class Tail:
 
     def above(self, size: float) -> float:
         """Return the share of swings whose largest value lies above a size, not below the level [-]."""
+        # (D16). A shape of zero is the exponential law, the limit that the formula itself cannot give.
         over = max(size - self.level, 0.0) / self.scale
         if abs(self.shape) < 1e-6:
             return self.share * float(np.exp(-over))
@@ -42,6 +43,7 @@ class Tail:
 
     def size(self, share: float) -> float:
         """Return the size above which the largest values of a share of swings [-] lie."""
+        # (D17), the inverse of (D16).
         rarer = share / self.share
         grown = -np.log(rarer) if abs(self.shape) < 1e-6 else (rarer**-self.shape - 1.0) / self.shape
         return self.level + self.scale * float(max(grown, 0.0))
@@ -59,6 +61,7 @@ class Calibrated:
 
 def fit_tail(largest: Array, share: float) -> Tail:
     """Return the tail of the largest values of swings (k,): that of a share of them, empty where none lies above."""
+    # The law holds for what exceeds a high level, whatever the law below; a share fixes how many swings that leaves.
     level = float(np.quantile(largest, 1.0 - share))
     over = np.sort(largest[largest > level] - level)
     if not len(over):  # a walk drawn anew, whose largest value many swings share
@@ -68,6 +71,7 @@ def fit_tail(largest: Array, share: float) -> Tail:
 
 def _moments(over: Array) -> tuple[float, float]:
     """Return scale and shape of what exceeds a level (n,), in rising order, by probability-weighted moments."""
+    # (D18). Moments and not likelihood: with some tens of swings they err less, and they always give a number.
     rank = (np.arange(1, len(over) + 1) - 0.35) / len(over)
     mean, weighted = float(over.mean()), float((over * (1.0 - rank)).mean())
     shape = float(np.clip(2.0 - mean / max(mean - 2.0 * weighted, 1e-12), *SHAPES))
@@ -90,17 +94,21 @@ def calibrate(
         DataError: there are too few swings, they do not differ, or the rate is more than the tail holds.
     """
     if len(largest) < settings.least_swings:
-        raise DataError(not_accepted("swings", len(largest), [f"{settings.least_swings} or more"]))
+        accepted = [f"{settings.least_swings} or more, some minutes of walking"]
+        raise DataError(not_accepted("swings that calibrate", len(largest), accepted))
     if not np.ptp(largest):
         raise DataError(not_accepted("largest values", float(largest[0]), ["numbers that change from swing to swing"]))
+    # (D15): a robot reacts to the first alarm of a swing, so that a swing counts once, however often it crosses.
     per_h = len(largest) * HOUR_S / duration_s
     share = rate_per_h / per_h
+    # Below the level there is no law: such a threshold would be a quantile of the swings, and most steps an alarm.
     if share >= settings.tail_share:
         most = settings.tail_share * per_h
         raise DataError(not_accepted("rate", f"{rate_per_h:g} per hour", [f"below {most:.0f}, the tail of the swings"]))
     tail = fit_tail(largest, settings.tail_share)
     _check_tail(largest[largest > tail.level], tail.level)
     factor = tail.size(share)
+    # (D19), with the same random numbers for every detector and rate: intervals differ by the swings, not by chance.
     rng = np.random.default_rng(SEED)
     numbers = np.asarray(episodes)
     groups = [np.flatnonzero(numbers == number) for number in np.unique(numbers)]
@@ -131,8 +139,10 @@ def _resampled(
     Swings below the level are drawn from those seen, those above from the law; a walk's own rare swing, which decides
     its fit, is so as rare as it is.
     """
+    # Whole episodes: their ground and commands make swings alike, and single swings would look like more than they are.
     drawn = np.concatenate([largest[groups[k]] for k in rng.integers(0, len(groups), len(groups))])
     above = np.flatnonzero(drawn > tail.level)
+    # The rarest swing drawn twice or not at all would decide the rate. The law draws another one in its place.
     uniform = rng.uniform(size=len(above))
     shape = tail.shape if abs(tail.shape) > 1e-6 else 1e-6
     drawn[above] = tail.level + tail.scale * (uniform**-shape - 1.0) / shape
@@ -144,6 +154,7 @@ def expected_counts(calibrated: Calibrated, hours: float, confidence: float) -> 
 
     The ends are those of Poisson's law at the ends of the rate's interval: both may be wrong at once.
     """
+    # (D20): both ends of the rate and chance may be against us at once, which makes the span wider than stated.
     from scipy.stats import poisson  # here, as it takes a second to import
 
     low = poisson.ppf((1.0 - confidence) / 2.0, calibrated.low * hours)

@@ -176,7 +176,7 @@ class Jobs:
             "out": self.files.results / "detection",
         }
         own = dict.fromkeys(map(str, detection_files(self.files).values()), ())
-        return Job(Call("mobnet.evaluation.measure.detection.trial:detect", arguments), _read(walks), (), own)
+        return Job(Call("mobnet.detection.detect:detect", arguments), _read(walks), (), own)
 
     def _staged(self, name: str, job: Job) -> Job:
         """Return a job that keeps its finished parts below `state` until all of them are there."""

@@ -10,7 +10,7 @@ from mobnet.settings.base import Section
 Signal = Literal["mean", "std", "ratio"]
 
 
-class Gate(Section):
+class SwingGate(Section):
     """When a leg is watched; `method` is the one whose estimate tells of an early contact with the ground."""
 
     method: base.MethodName
@@ -33,7 +33,15 @@ class Thresholds(Section):
     rates_per_h: Annotated[dict[base.LowerName, base.Positive], Field(min_length=1)]
 
 
-class Curve(Section):
+class Sensitivity(Section):
+    """For which collisions `./reproduce calibrate` tells the smallest force that is found."""
+
+    contact_s: base.Real = Field(ge=0.001, le=1)
+    poses: base.Whole = Field(ge=1, le=100_000)
+    share: base.InnerShare
+
+
+class CurveGrid(Section):
     """Multiples of the thresholds at which curves have points, on a log scale between two ends."""
 
     factors: base.Span[base.Positive]
@@ -54,7 +62,7 @@ class Detection(Section):
 
     low_pass_hz: base.Positive
     hold_s: base.Real = Field(ge=0.001, le=1)
-    gate: Gate
+    gate: SwingGate
     thresholds: Thresholds
     collisions: base.TestName
     sweep: base.TestName
@@ -65,5 +73,6 @@ class Detection(Section):
     onset_n: base.Newton
     levels: base.Distinct[base.LevelName]
     legs: base.Distinct[base.LimbName]
-    curve: Curve
+    curve: CurveGrid
+    sensitivity: Sensitivity
     detectors: Annotated[dict[base.RowName, Detector], Field(min_length=1)]

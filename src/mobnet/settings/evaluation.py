@@ -7,7 +7,7 @@ from pydantic import AfterValidator, Field
 from mobnet.core.metrics import METRIC, SECTIONS
 from mobnet.settings import base
 from mobnet.settings.base import Section
-from mobnet.settings.detected import (
+from mobnet.settings.detection_tables import (
     AlarmTable,
     DetectionCurves,
     DetectorTable,

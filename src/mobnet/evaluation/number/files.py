@@ -11,6 +11,7 @@ from typing import Any, TypeVar, get_type_hints
 
 from mobnet.core.errors import DataError, not_accepted, refuse, refuse_lines
 from mobnet.core.files import read_text, write_text
+from mobnet.core.rows import csv_text
 from mobnet.evaluation.number.number import Number
 
 Row = TypeVar("Row")
@@ -20,18 +21,7 @@ WHOLE, REAL = re.compile(r"-?[0-9]+"), re.compile(r"-?[0-9]*\.?[0-9]+(e[-+]?[0-9
 
 def write_csv(path: Path, columns: Sequence[str], rows: Iterable[Sequence[Field]]) -> None:
     """Write CSV atomically: numbers with six digits, None as an empty field, lines ending in a newline."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows([_text(field) for _, field in zip(columns, row, strict=True)] for row in rows)
-    write_text(path, text.getvalue())
-
-
-def _text(value: Field) -> str:
-    """Return a value as a CSV field."""
-    if value is None:
-        return ""
-    return f"{value + 0.0:.6g}" if isinstance(value, float) else str(value)  # + 0.0 drops the sign of -0
+    write_text(path, csv_text(columns, rows))
 
 
 def read_rows(path: Path, kind: type[Row]) -> list[Row]:

@@ -26,8 +26,8 @@ from mobnet.evaluation.measure.detection.results import (
 )
 from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.number import Number
-from mobnet.settings.detected import DetectionCurves
 from mobnet.settings.detection import Detection
+from mobnet.settings.detection_tables import DetectionCurves
 from mobnet.settings.evaluation import Statistics
 
 COLUMNS = ("panel", "level", "detector", "x", "value", "low", "high", "count", "unit")

@@ -21,8 +21,8 @@ from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, entitle, save_figu
 from mobnet.evaluation.measure.detection.results import Detections, rows_of
 from mobnet.evaluation.number.files import write_csv
 from mobnet.robot.description import RobotDescription, describe
-from mobnet.settings.detected import Figure13
 from mobnet.settings.detection import Detection
+from mobnet.settings.detection_tables import Figure13
 from mobnet.settings.robot import RobotTable
 
 COLUMNS = (

@@ -11,8 +11,8 @@ from mobnet.core.detections import Collision
 from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, entitle, legend, looks, save_figure
 from mobnet.evaluation.measure.detection.results import MS, Detections, owners, rows_of
 from mobnet.evaluation.number.files import Field, write_csv
-from mobnet.settings.detected import Figure14
 from mobnet.settings.detection import Detection
+from mobnet.settings.detection_tables import Figure14
 
 COLUMNS = ("level", "quantity", "bin_from", "bin_to", "count", "mean", "least", "most", "unit", "published")
 LABELS = {"largest force": "N", "impulse": "N s", "contact time": "ms"}

@@ -16,8 +16,8 @@ from mobnet.core.store import read_array
 from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, entitle, legend, looks, save_figure
 from mobnet.evaluation.measure.detection.results import Detections, rows_of
 from mobnet.evaluation.number.files import write_csv
-from mobnet.settings.detected import Figure15
 from mobnet.settings.detection import Detection
+from mobnet.settings.detection_tables import Figure15
 
 COLUMNS = ("panel", "method", "time_s", "std_nm", "threshold_nm", "force_n", "swing")
 HEIGHT_INCH = 2.3

@@ -1,8 +1,7 @@
 """What detectors found, read from the files of robots: the robots of a level are taken together."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
@@ -12,10 +11,10 @@ from mobnet.core.detections import Collision, Detected, FreeSwing, Promise
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.evaluation.number.files import read_rows
 from mobnet.evaluation.number.number import Number
+from mobnet.plan.detection import Detections
 from mobnet.settings.evaluation import Statistics
 
 Row = TypeVar("Row")
-Detections = Mapping[str, Mapping[str, Path]]  # level of the plant or of a robot -> name of a file -> its path
 MS = 1000.0
 LINKS, DIRECTIONS = ("foot", "ankle", "knee"), ("front", "side")  # in the paper's order
 CELLS = tuple(f"{link} {direction}" for link in LINKS for direction in DIRECTIONS)

@@ -10,7 +10,7 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.evaluation.number.number import Number
-from mobnet.settings.detected import SmallestForce
+from mobnet.settings.detection_tables import SmallestForce
 from mobnet.settings.evaluation import Statistics
 
 HALVES, STEPS = 120, 24  # laws along the force for one half, and along the steepness
@@ -22,13 +22,16 @@ def smallest_force(force: Array, found: Array, settings: SmallestForce, statisti
     Forces (n,) [N] are the largest ones of the collisions, found (n,) is 1 or 0. Where the force lies below or above
     all that were tried there is no number, but that end as `low` or as `high`; else the interval is cut there.
     """
+    # (D23). A grid and no sampler: two unknowns, and the same bytes at every run.
     halves, steepness = np.geomspace(*settings.halves_n, HALVES), np.geomspace(*settings.steepness, STEPS)
     half, steep = (grid.ravel() for grid in np.meshgrid(halves, steepness, indexing="ij"))
     slope = steep * (np.log(force)[:, None] - np.log(half))
+    # The logarithm of a share near 0 or 1 would be lost in rounding if the share came first.
     likely = -np.logaddexp(0.0, np.where(found[:, None] > 0, -slope, slope)).sum(axis=0)
     wanted = half * (settings.share / (1.0 - settings.share)) ** (1.0 / steep)
     tail = (1.0 - statistics.confidence) / 2.0
     low, value, high = quantiles(wanted, np.exp(likely - likely.max()), (tail, 0.5, 1.0 - tail))
+    # Beyond the forces that were tried the number would be that of the assumed laws and not of the collisions.
     least, most = float(force.min()), float(force.max())
     if not least <= value <= most:
         return Number(None, *((least, None) if value < least else (None, most)), unit="N")

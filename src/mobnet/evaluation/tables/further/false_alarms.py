@@ -18,8 +18,8 @@ from mobnet.evaluation.measure.detection.results import (
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
-from mobnet.settings.detected import AlarmTable
 from mobnet.settings.detection import Detection
+from mobnet.settings.detection_tables import AlarmTable
 from mobnet.settings.evaluation import Statistics
 
 PROMISED, MEASURED, WITHIN = "promised", "measured", "within"

@@ -7,8 +7,8 @@ from mobnet.core.columns import DETECTION
 from mobnet.evaluation.measure.detection.results import ALL, CELLS, Detections, owners, share_of, tries_of
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.tables.layout import Line, Table, in_blocks, write_table
-from mobnet.settings.detected import Links
 from mobnet.settings.detection import Detection
+from mobnet.settings.detection_tables import Links
 from mobnet.settings.evaluation import Statistics
 
 NAMED, RIGHT_LINK, RIGHT_CELL = "named", "right_link", "right_cell"

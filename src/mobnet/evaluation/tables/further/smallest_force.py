@@ -11,8 +11,8 @@ from mobnet.evaluation.measure.detection.smallest_force import smallest_force as
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
-from mobnet.settings.detected import SmallestForce
 from mobnet.settings.detection import Detection
+from mobnet.settings.detection_tables import SmallestForce
 from mobnet.settings.evaluation import Statistics
 
 QUANTITY = "smallest_force"

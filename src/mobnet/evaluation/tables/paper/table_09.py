@@ -18,8 +18,8 @@ from mobnet.evaluation.measure.detection.results import (
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.number import number_text, published_row
 from mobnet.evaluation.tables.layout import PART, RULE, Line, Table, text_table, write_table
-from mobnet.settings.detected import DetectorTable
 from mobnet.settings.detection import Detection
+from mobnet.settings.detection_tables import DetectorTable
 from mobnet.settings.evaluation import Statistics
 from mobnet.settings.published import PublishedTable
 

@@ -10,7 +10,7 @@ from mobnet.evaluation.measure.detection.results import Detections, owners, rows
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.number import number_text, published_row
 from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
-from mobnet.settings.detected import DetectorTable
+from mobnet.settings.detection_tables import DetectorTable
 from mobnet.settings.published import PublishedTable
 
 THRESHOLD = "threshold_nm"  # place of the paper's numbers

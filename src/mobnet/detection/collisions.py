@@ -40,6 +40,7 @@ def hits_of(recording: Path, pushes: Mapping[str, Push], layout: JointLayout) ->
     number, force, names = array[:, 0], np.linalg.norm(array[:, 1:], axis=1).astype(np.float64), list(pushes)
     found: list[Hit] = []
     for start, end in runs_of(number, meta["segments"]):
+        # A recording holds the number of a push, counted from 1, and not its name.
         name = names[int(number[start]) - 1]
         found.append(Hit(name, *target_of(pushes[name], layout), slice(start, end), force[start:end]))
     return found

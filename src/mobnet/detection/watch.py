@@ -1,6 +1,6 @@
 """A leg in a recording as its detectors see it: the gate, its swings, and a method's estimate of its joints."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, STD, named
 from mobnet.core.estimator import Estimate
-from mobnet.core.joints import JointLayout
 from mobnet.core.notes import read_array_note
-from mobnet.core.recording import read_sensed
+from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import NOTE, file_of, read_array
 from mobnet.detection.chain import Chain, low_passed, make_chain
-from mobnet.detection.detector import Alarm, LegGate, Watch, run_segments
+from mobnet.detection.detector import Alarm, GateSignal, LegGate, run_segments
 from mobnet.detection.swings import Spans, segment_of, swings_of
 from mobnet.plan.detection import Walk
 from mobnet.robot.description import RobotDescription
@@ -26,12 +25,12 @@ UNKNOWN = "-"  # terrain of a recording that does not say it
 
 
 @dataclass(frozen=True)
-class Watched:
-    """A leg in a recording: contiguous segments, when it is watched, its whole swings and the terrain of each."""
+class LegRecording:
+    """A leg in a recording: contiguous segments, its gate, its whole swings and the terrain of each."""
 
     recording: Path
     segments: Spans
-    watch: Watch
+    gate: GateSignal
     swings: Spans
     terrains: tuple[str, ...]
 
@@ -47,12 +46,12 @@ class Watched:
 
     def run(self, chain: Chain, signals: Array) -> Alarm:
         """Run a chain over signals (T, m), each segment from rest; return what it says of the samples (T,)."""
-        return run_segments(chain, signals, self.watch, self.segments)
+        return run_segments(chain, signals, self.gate, self.segments)
 
 
 @dataclass(frozen=True)
-class Leg:
-    """A leg of a robot whose detectors are tried: its joints, its gate and the numbers of all detectors."""
+class LegSetup:
+    """What all detectors of a leg share: its joints, its gate, the filters, and the rate of samples [Hz]."""
 
     detection: Detection
     robot: RobotDescription
@@ -61,8 +60,8 @@ class Leg:
     gate: LegGate
 
     @classmethod
-    def of(cls, detection: Detection, robot: RobotDescription, limb: str, rate_hz: float) -> "Leg":
-        """Return a leg; a ConfigError names a limb that is none."""
+    def of(cls, detection: Detection, robot: RobotDescription, limb: str, rate_hz: float) -> "LegSetup":
+        """Return the setup of a leg; a ConfigError names a limb that is none."""
         return cls(detection, robot, limb, rate_hz, LegGate.of(detection.gate, robot, limb, rate_hz))
 
     @property
@@ -71,9 +70,14 @@ class Leg:
         return self.robot.layout.limb(self.limb)
 
     @property
+    def side(self) -> str:
+        """Side of the leg, with which the names of its points begin."""
+        return next(side for side, limb in self.robot.layout.legs.items() if limb == self.limb)
+
+    @property
     def inward(self) -> float:
         """Direction of the other leg along the y axis."""
-        return -1.0 if self.robot.layout.legs.get("left") == self.limb else 1.0
+        return -1.0 if self.side == "left" else 1.0
 
     def chain(self, thresholds: Array, *, norm: bool = False) -> Chain:
         """Return a chain with thresholds (phases, c)."""
@@ -86,23 +90,18 @@ class Leg:
             low_passed(pole, signals[start:end], out[start:end])
         return out
 
-    def watch(self, walk: Walk) -> list[Watched]:
-        """Run the gate over the recordings of a walk; none where the gate's method does not estimate the leg."""
-        gating = walk.estimates[self.detection.gate.method]
-        found = [self._watch(*pair) for pair in zip(walk.recordings, gating, strict=True)]
-        return [one for one in found if one is not None]
-
-    def _watch(self, recording: Path, gating: Path) -> Watched | None:
-        """Run the gate over a recording, on an estimate; None if this does not hold the leg's joints."""
-        estimate = read_estimate(gating, self.joints)
-        if estimate is None:
-            return None
-        read = read_sensed(recording, self.robot.layout)
-        watch = self.gate.watch(read, estimate.tau_ext)
+    def record(self, path: Path, read: SensedRecording, tau: NDArray[Any]) -> LegRecording:
+        """Run the gate over a recording, tau (T, 6) [N m] being the estimate of the leg's joints."""
         swings = swings_of(read.sensed.swing[:, self.gate.foot], read.segments)
         terrains = read.meta.get("terrains") or [UNKNOWN] * len(read.segments)
         walked = tuple(terrains[segment_of(swing, read.segments)] for swing in swings)
-        return Watched(recording, read.segments, watch, swings, walked)
+        return LegRecording(path, read.segments, self.gate.watch(read, tau), swings, walked)
+
+    def recordings(self, walk: Walk) -> Iterator[LegRecording]:
+        """Yield the leg in the recordings of a walk; not where the gate's method does not estimate it."""
+        for path, stem in zip(walk.recordings, walk.estimates[self.detection.gate.method], strict=True):
+            if estimate := read_estimate(stem, self.joints):
+                yield self.record(path, read_sensed(path, self.robot.layout), estimate.tau_ext)
 
 
 def read_estimate(stem: Path, joints: Sequence[str]) -> Estimate | None:
@@ -112,8 +111,3 @@ def read_estimate(stem: Path, joints: Sequence[str]) -> Estimate | None:
         return None
     std = read_array(stem, named(STD, joints))[0] if held.issuperset(named(STD, joints)) else None
     return Estimate(read_array(stem, named(EXTERNAL, joints))[0], std)
-
-
-def read_positions(recording: Path, layout: JointLayout, rows: Sequence[int]) -> NDArray[Any]:
-    """Return the generalized positions of some samples of a recording (n, nq) [m, -, rad]."""
-    return read_sensed(recording, layout).sensed.q[list(rows)]

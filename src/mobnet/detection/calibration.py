@@ -1,0 +1,240 @@
+"""A detector of a leg with thresholds from walking that nothing pushes, and its false alarms there (note 0036)."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mobnet.core.arrays import Array
+from mobnet.core.detections import CALIBRATION, COLLISION, HELD_OUT, LARGEST, FreeSwing, Promise, Threshold
+from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.estimator import Estimate
+from mobnet.detection.chain import Chain
+from mobnet.detection.signals import MEAN, STD, signal_names, signals_of, whitening_of
+from mobnet.detection.swings import Spans, episodes_of, largest
+from mobnet.detection.thresholds import HOUR_S, Calibrated, calibrate
+from mobnet.detection.watch import LegRecording, LegSetup
+from mobnet.settings.detection import Detector
+
+NEVER = not_accepted("swings in which the leg is watched", "none", ["some of those that calibrate"])
+
+
+class NotWatchedError(DataError):
+    """No swing that should calibrate a detector is watched: the gate takes all of them for early contacts."""
+
+
+@dataclass(frozen=True)
+class QuietWalk:
+    """A leg in walking that nothing pushes, and a method's estimate of it in each recording.
+
+    `first` is the number of swings that calibrate, the first ones, `hours` how long they took [h].
+    """
+
+    scenario: str
+    legs: tuple[LegRecording, ...]
+    estimates: tuple[Estimate, ...]
+    first: int
+    hours: float
+
+    @classmethod
+    def of(
+        cls, setup: LegSetup, scenario: str, legs: Sequence[LegRecording], estimates: Sequence[Estimate], share: float
+    ) -> "QuietWalk":  # fmt: skip
+        """Return a walk of which a share of the swings, the first ones, calibrates."""
+        count = sum(len(one.swings) for one in legs)
+        first = int(np.ceil(share * count))
+        walked = sum(one.samples for one in legs) / setup.rate_hz / HOUR_S
+        return cls(scenario, tuple(legs), tuple(estimates), first, walked * first / max(count, 1))
+
+
+@dataclass(frozen=True)
+class CalibratedDetector:
+    """A detector with its thresholds.
+
+    Attributes:
+        name: its name.
+        detector: what it watches.
+        whitening: of its signals, if it watches their length.
+        naming: of the estimated torques (6, 6), for telling links apart.
+        chains: rule -> the chain with its thresholds.
+        promises: rule, but that of the paper -> multiple of the scales and expected rate.
+    """
+
+    name: str
+    detector: Detector
+    whitening: Array | None
+    naming: Array
+    chains: Mapping[str, Chain]
+    promises: Mapping[str, Calibrated]
+
+    def signals(self, estimate: Estimate) -> Array:
+        """Return what the detector watches of an estimate, (T, m)."""
+        return signals_of(self.detector, estimate, self.whitening)
+
+    def names(self, joints: Sequence[str]) -> list[str]:
+        """Return the names of what has a threshold."""
+        return signal_names(self.detector, joints)
+
+    def perfect(self, chain: Chain, torque: Array) -> tuple[Chain, Array] | None:
+        """Return chain and signals (T, 6) of an estimate without error, the true torque (T, 6) [N m] itself.
+
+        The thresholds are those of the estimate, so that it is told what the method's error costs and what the filters
+        do. There is none where no torque is watched.
+        """
+        if MEAN not in self.detector.signals:
+            return None
+        if self.whitening is not None:
+            return chain, torque @ self.whitening.T
+        # Signals are one kind after the other, the mean first, and the truth has no standard deviation.
+        return chain._replace(thresholds=np.ascontiguousarray(chain.thresholds[:, : torque.shape[1]])), torque
+
+
+def calibrate_detector(
+    setup: LegSetup, name: str, detector: Detector, place: QuietWalk, random: QuietWalk
+) -> CalibratedDetector:  # fmt: skip
+    """Calibrate a detector on the first swings of quiet walks: in place by the paper's rule [5.3], else for rates.
+
+    Raises:
+        DataError: there are too few swings, or a signal never changes.
+        NotWatchedError: none of these swings is watched.
+    """
+    for walk in (place, random):
+        check_signals(setup, detector, walk)
+    whitening = None
+    if detector.norm:
+        plain = [signals_of(detector, estimate) for estimate in random.estimates]
+        whitening = _whitening(setup, random, plain)
+    scales, promises = rate_scales(setup, detector, whitening, random)
+    # (D13), the paper's rule. Its collisions were made in walking in place, so that is its normal walking.
+    highest = _over_swings(_heights(setup, detector, whitening, place), np.max)
+    thresholds = {LARGEST: setup.detection.thresholds.margin * highest}
+    thresholds |= {kind: found.factor * scales for kind, found in promises.items()}
+    chains = {kind: setup.chain(own, norm=detector.norm) for kind, own in thresholds.items()}
+    torques = [estimate.tau_ext.astype(np.float64) for estimate in random.estimates]
+    return CalibratedDetector(name, detector, whitening, _whitening(setup, random, torques), chains, promises)
+
+
+def rate_scales(
+    setup: LegSetup, detector: Detector, whitening: Array | None, walk: QuietWalk
+) -> tuple[Array, dict[str, Calibrated]]:  # fmt: skip
+    """Return the scales of a detector's signals (phases, c), and by rule the multiple of them for its rate.
+
+    Raises:
+        DataError: there are too few swings, or a rate is more than the tail of the swings holds.
+        NotWatchedError: none of the swings is watched.
+    """
+    numbers, signals = setup.detection.thresholds, [signals_of(detector, one, whitening) for one in walk.estimates]
+    # (D14): with one scale for each signal, one number is left to choose, and all signals raise alarms alike. The
+    # largest value itself would be a scale that one odd swing decides.
+    heights = _heights(setup, detector, whitening, walk)
+    scales = _over_swings(heights, lambda own: float(np.quantile(own, numbers.scale_quantile)))
+    seen = swing_ratios(walk.legs, setup.chain(scales, norm=detector.norm), signals)[: walk.first]
+    episodes = episodes_of((one.segments, one.swings) for one in walk.legs)[: walk.first]
+    rates = numbers.rates_per_h.items()
+    return scales, {kind: calibrate(seen, episodes, walk.hours * HOUR_S, rate, numbers) for kind, rate in rates}
+
+
+def swing_ratios(legs: Sequence[LegRecording], chain: Chain, signals: Sequence[Array]) -> Array:
+    """Return the largest number of a chain in each swing of a walk (k,)."""
+    pairs = zip(legs, signals, strict=True)
+    return np.concatenate([largest(one.run(chain, own).ratio, one.swings) for one, own in pairs])
+
+
+def threshold_rows(setup: LegSetup, calibrated: CalibratedDetector) -> Iterator[Threshold]:
+    """Yield the thresholds of a detector, signal by signal and phase by phase."""
+    names = calibrated.names(setup.joints)
+    for kind, chain in calibrated.chains.items():
+        for phase, row in enumerate(chain.thresholds, start=1):
+            for signal, value in zip(names, row.tolist(), strict=True):
+                unit = "N m" if signal.startswith((f"{MEAN}.", f"{STD}.")) else "-"
+                yield Threshold(calibrated.name, setup.limb, kind, signal, phase, value, unit)
+
+
+def promise_rows(setup: LegSetup, calibrated: CalibratedDetector, random: QuietWalk) -> Iterator[Promise]:
+    """Yield the rates of false alarms that are to be expected of a detector."""
+    for kind, found in calibrated.promises.items():
+        numbers = found.factor, found.rate_per_h, found.low, found.high
+        yield Promise(calibrated.name, setup.limb, kind, random.first, random.hours, *numbers)
+
+
+def quiet_rows(setup: LegSetup, calibrated: CalibratedDetector, walk: QuietWalk) -> Iterator[FreeSwing]:
+    """Yield the swings of a walk that nothing pushes: those that calibrated the detector, and those held out."""
+    signals = [calibrated.signals(one) for one in walk.estimates]
+    ratios, others = (swing_ratios(walk.legs, calibrated.chains[kind], signals) for kind in (COLLISION, LARGEST))
+    places = [(one.seed, number, terrain) for one in walk.legs for number, terrain in enumerate(one.terrains, start=1)]
+    for k, (seed, number, terrain) in enumerate(places):
+        # Thresholds fit the swings that made them, so that a count of false alarms is honest on the others alone.
+        part = CALIBRATION if k < walk.first else HELD_OUT
+        numbers = float(ratios[k]), float(others[k])
+        yield FreeSwing(calibrated.name, setup.limb, walk.scenario, part, terrain, seed, number, *numbers)
+
+
+def check_signals(setup: LegSetup, detector: Detector, walk: QuietWalk) -> None:
+    """Raise a DataError if a signal has the same number in all samples of a recording."""
+    names = [f"{kind}.{joint}" for kind in detector.signals for joint in setup.joints]
+    for one, estimate in zip(walk.legs, walk.estimates, strict=True):
+        for name, column in zip(names, signals_of(detector, estimate).T, strict=True):
+            if column.min() == column.max():
+                where = f"{one.recording}: signal {name}: every number"
+                raise DataError(not_accepted(where, float(column[0]), ["numbers that change"]))
+
+
+def _whitening(setup: LegSetup, walk: QuietWalk, signals: Sequence[Array]) -> Array:
+    """Return the whitening (m, m) of signals behind the low-pass, where the leg is watched in calibrating swings."""
+    parts, left = list[Array](), walk.first
+    for one, own in zip(walk.legs, signals, strict=True):
+        count = min(len(one.swings), left)
+        end = one.swings[count - 1][1] if count else 0
+        parts.append(setup.low_passed(own[:end], _cut(one.segments, end))[one.gate.watched[:end]])
+        left -= count
+    watched = np.concatenate(parts)
+    if not len(watched):
+        raise NotWatchedError(NEVER)
+    return whitening_of(watched)
+
+
+def _cut(segments: Spans, end: int) -> Spans:
+    """Return the segments before a row."""
+    return tuple((start, min(stop, end)) for start, stop in segments if start < end)
+
+
+def _heights(setup: LegSetup, detector: Detector, whitening: Array | None, walk: QuietWalk) -> Array:
+    """Return the largest held signal in each phase of each calibrating swing, (swings, phases, c).
+
+    It is minus infinity where a swing is not watched.
+    """
+    # A threshold of 1 leaves signals as they are, and a chain of one signal does not mix them.
+    whole = setup.chain(np.ones((1, 1)), norm=detector.norm)
+    found: list[Array] = []
+    for one, estimate in zip(walk.legs, walk.estimates, strict=True):
+        signals = signals_of(detector, estimate, whitening)
+        parts = [signals] if detector.norm else np.split(signals, signals.shape[1], axis=1)
+        held = np.stack([one.run(whole, np.ascontiguousarray(part)).ratio for part in parts], axis=1)
+        phase = np.minimum((one.gate.phase * detector.phases).astype(int), detector.phases - 1)
+        shown = [one.gate.watched & (phase == k) for k in range(detector.phases)]
+        found += [
+            np.stack([held[start:end][own[start:end]].max(axis=0, initial=-np.inf) for own in shown])
+            for start, end in one.swings
+        ]
+    if not found:
+        raise NotWatchedError(NEVER)
+    return np.array(found[: walk.first])
+
+
+def _over_swings(heights: Array, number: Callable[[Array], float]) -> Array:
+    """Return a number of the heights (swings, phases, c) over the swings that have them, (phases, c).
+
+    Raises:
+        NotWatchedError: no swing is watched.
+    """
+    found = np.full(heights.shape[1:], np.nan)
+    for place in np.ndindex(found.shape):
+        own = heights[(slice(None), *place)]
+        own = own[own > 0.0]
+        if len(own):
+            found[place] = number(own)
+    if np.isnan(found).all(axis=0).any():
+        raise NotWatchedError(NEVER)
+    # The ends of a swing are watched for too short a time to hold a signal. Alarms there must stay as rare as
+    # elsewhere, hence the largest number of the other phases.
+    return np.where(np.isnan(found), np.nanmax(found, axis=0), found)
