@@ -104,6 +104,19 @@ def test_batch_equals_the_recursion_and_stepping(
     np.testing.assert_allclose(rows, batch, atol=1e-9)
 
 
+def test_is_the_form_of_bledt_2018(nominal: NominalModel, observer: MomentumObserver, pushed: Callable) -> None:
+    """Its filter has p itself as an input and starts at b p_0 (docs/notes/0034-observer.md)."""
+    sensed, _ = pushed(RATE_HZ)
+    p, beta = momentum_and_beta(nominal, sensed.q, sensed.v)
+    b = (1 - observer.pole) * RATE_HZ / observer.pole
+    y, expected = b * p[0], np.zeros_like(p)
+    for k in range(1, len(p)):
+        known = np.concatenate([np.zeros(6), sensed.tau_motor[k]]) + (beta[k] + beta[k - 1]) / 2
+        y = observer.pole * y + (1 - observer.pole) * (b * p[k] + known)
+        expected[k] = b * p[k] - y
+    np.testing.assert_allclose(observer.residual(sensed), expected, atol=1e-9)
+
+
 def test_is_causal_and_starts_at_zero(observer: MomentumObserver, pushed: Callable) -> None:
     sensed, _ = pushed(RATE_HZ)
     np.testing.assert_allclose(observer.residual(sensed[:50]), observer.residual(sensed)[:50], atol=1e-12)

@@ -36,6 +36,7 @@ def train_gray(
     """
     friction = read_friction(fitted, layout.actuated)
 
+    # (O14): friction enters behind the observer's low-pass, because r and the truth of the target are behind it too.
     def known(recording: Path, joints: Sequence[str]) -> Array:
         return filtered_friction(layout, friction, observer.gain_hz, recording, joints)
 

@@ -96,6 +96,7 @@ class Block(nn.Module):
 
     def forward(self, x: Tensor) -> Tensor:
         """Return (1, width, T - past, B) of (1, inputs, T, B), unitless."""
+        # No padding: the carried state takes its place, and the shortcut must lose the same first samples.
         inner = self.dropout(self.first(x).relu())
         inner = self.dropout(self.second(inner).relu())
         return (inner + self.shortcut(x[:, :, self.past :])).relu()
@@ -121,6 +122,7 @@ class Window(nn.Module):
         To the convolution, time and lanes are the axes of an image and the inputs its channels: it reads the samples as
         they lie in memory, channels last, once for all windows that contain them.
         """
+        # The state has the samples (N23) that the first of the windows needs, so no window is filled up with zeros.
         samples = torch.cat([state, x])
         with torch.autocast(x.device.type, enabled=False):  # in bfloat16 a block's gradient is NaN, torch 2.13
             features = self.layer(self.blocks(samples[None].permute(0, 3, 1, 2))).tanh()

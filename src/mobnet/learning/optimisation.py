@@ -75,6 +75,7 @@ def train_epoch(
     losses, norms = [], []
     state = network.fresh_state(plan.rows.shape[1], samples.inputs.device)
     for x, target, keep in samples.horizons(plan, horizon):
+        # (N20): the state goes on from horizon to horizon as on a robot, the gradient does not.
         mean, std, after = network(x, state * keep)
         state = after.detach()
         known = samples.told(mean[scored], std[scored], target[scored])
@@ -95,6 +96,7 @@ def train_epoch(
 @torch.no_grad()
 def clip(gradients: Sequence[Tensor], most: float) -> Tensor:
     """Scale gradients in place to a norm of `most` where it is larger; return the norm before, ()."""
+    # (N21), on the device: reading the norm to decide would make a GPU wait at each update.
     norm = torch.nn.utils.get_total_norm(gradients)
     torch._foreach_mul_(list(gradients), (most / (norm + 1e-6)).clamp(max=1.0))
     return norm

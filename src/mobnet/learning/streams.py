@@ -43,6 +43,7 @@ def split(
     """
     if held_out is not None:
         return [span for span in segments if span[0] < held_out], [span for span in segments if span[0] >= held_out]
+    # Samples a millisecond apart are nearly the same, so that single ones held out would validate nothing.
     training, validation = [], []
     for start, end in segments:
         cut = end - round((end - start) * validation_share)
@@ -77,6 +78,7 @@ def deal(streams: Sequence[Span], lanes: int, horizon: int) -> Plan:
     Raises:
         DataError: the streams hold fewer horizons than there are lanes.
     """
+    # (N19): lanes of equal length, so that every batch is full until the last update.
     rows = np.concatenate([np.arange(a, b, horizon) for a, b in streams] or [np.empty(0)]).astype(np.int64)
     updates = len(rows) // lanes
     if updates == 0:
@@ -85,6 +87,7 @@ def deal(streams: Sequence[Span], lanes: int, horizon: int) -> Plan:
             "accepted: longer recordings, a smaller batch_size"
         )
     follows = np.concatenate([[False], np.diff(rows) == horizon])
+    # Two streams may lie end to end in a recording too, where a cut was drawn: a start all the same, (N20).
     follows[np.cumsum([0] + [(b - a) // horizon for a, b in streams[:-1]])] = False
     shape = (lanes, updates)
     fresh = ~follows[: lanes * updates].reshape(shape)

@@ -50,6 +50,7 @@ class Trainer:
         stream = job.stream(data.rate_hz)
         self._blocks = some_of(blocks, stream, learning.data_parts, job.shared_generator("data"))
         arrays = data.inputs, data.targets
+        # A network that goes on learning keeps its z-scores: with others its weights would mean something else.
         self.scales = first.scales if first else (scale_of(arrays[0], self._blocks), scale_of(arrays[1], self._blocks))
         inputs, targets = (self._scaled(*pair) for pair in zip(arrays, self.scales, strict=True))
         self._samples = Samples(inputs, targets, partial=learning.labels == "swing")
@@ -113,6 +114,7 @@ class Trainer:
             checkpoint.save(path, self.fingerprint, self.network, self._optimizer, done)
             write_metrics(state_dir / METRICS, done.epochs)
             self._report(done)
+        # A training that diverges at once is a result too where it may; it has learned nothing then.
         done.best = done.best or first
         return done
 
@@ -123,6 +125,7 @@ class Trainer:
         if self._samples.partial:
             known = ~np.isnan(error[:, 0])
             error, std = error[known], std[known]
+        # In N m, as coverage does not depend on the unit but likelihood and CRPS do.
         unit, learning = self.scales[1].std.astype(np.float64), self.job.training.learning
         return calibrate(error * unit, std * unit, learning.calibration_share, learning.calibration_levels)
 

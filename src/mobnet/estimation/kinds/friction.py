@@ -1,12 +1,6 @@
 """MOB-fric of section 5.2: the residual minus a friction model of the joints, regressed on r - tau_e of training data.
 
-The model has the form of (23). Every number of a joint is regressed, and none is negative, so that friction dissipates:
-
-    tau_f = -tanh(v / smoothing) (coulomb (1 - fade) + static fade + load tau_m^2) - viscous v
-    fade = exp(-|v| / stribeck)
-
-v and tau_m are the sensed joint velocity and the motor's torque. Regressors pass through the low-pass of (11), as the
-residual has.
+The model has the form of (23); (O10) and (O11) of docs/notes/0034-observer.md say how it is regressed and subtracted.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -93,6 +87,7 @@ class Friction:
 
     def torque(self, velocity: NDArray[Any], torque: NDArray[Any]) -> Array:
         """Return tau_f of (23), (..., nu) [N m], from joint velocity [rad/s] and motor torque [N m], (..., nu) each."""
+        # The factors of (O10) are those of -tau_f, where none of them may be negative.
         columns = regressors(velocity, torque, self.smoothing, self.stribeck)
         return -sum((self.terms[term] * columns[term] for term in TERMS), start=np.zeros(self.stribeck.shape))
 
@@ -114,6 +109,7 @@ class FrictionModel:
     def step(self, state: Array | None, sample: Sensed) -> tuple[Array, Prediction]:
         """Take one sample (1-D arrays); return the filtered friction as new state and as prediction (nv,) [N, N m]."""
         now = self._torque(sample)
+        # (O11): the residual's share of friction has passed the observer's low-pass, so this must, with the same start.
         filtered = np.zeros_like(now) if state is None else self._pole * state + (1 - self._pole) * now
         return filtered, _prediction(filtered)
 
@@ -166,6 +162,7 @@ def fit(
     Return `smoothing_rad_s`, and `joints`: name -> factors of (23), units in the keys, and the root mean square of the
     target and of what is left of it [N m].
     """
+    # By section 4.2.2 the load counts for the legs alone: there the limb's network sees the torque, its `T` in Table 1.
     law = Law(options.smoothing_rad_s, options.stribeck_rad_s, observer.gain_hz)
     found: dict[str, Mapping[str, float]] = {}
     for limb, pairs in training.items():

@@ -44,6 +44,8 @@ class FrictionAndNetworks:
 
     def _sum(self, known: Prediction, rest: Prediction) -> Prediction:
         """Return the sum (..., n) [N, N m] with the networks' standard deviation."""
+        # The target of the networks was r - tau_e less this friction, (O14), so the two add up to the uncertainty. The
+        # fit says nothing of its own error; the networks' sigma, trained on what it leaves, contains it.
         return Prediction(known.mean[..., self._columns] + rest.mean, rest.std)
 
 

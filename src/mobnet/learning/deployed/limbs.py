@@ -31,6 +31,7 @@ class LimbNetworks:
 
     def step(self, state: State, sample: Sensed) -> tuple[State, Prediction]:
         """Take one sample (1-D arrays); return the new states and the prediction (n,) [N, N m]."""
+        # The six networks share the pelvis' inputs and each other's joints (Figure 2), so signals are made once.
         x = signals(sample)
         stepped = [
             network.step(carried, x[columns])

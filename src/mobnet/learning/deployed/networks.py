@@ -74,17 +74,17 @@ class Deployed(ABC):
         return prediction
 
     def _z_score(self, x: Array) -> Array:
-        """Return z-scored inputs."""
         return (x - self._input_mean) / self._input_std
 
     def _physical(self, mean: Array, std: Array) -> Prediction:
-        """Return a z-scored mean and standard deviation in physical units."""
+        # (N11). The factor of the calibration is on sigma alone.
         return Prediction(mean * self._target_std + self._target_mean, std * self._std_unit)
 
     def _predict(self, output: Array) -> Prediction:
         """Return the prediction in physical units from the linear layer's output (..., 2 n)."""
         n = len(self.joints)
         mean, raw = output[..., :n], output[..., n:]
+        # (N10) by log(exp(raw) + exp(0)), which does not overflow.
         return self._physical(mean, np.maximum(np.logaddexp(raw, 0.0, dtype=np.float32), self.std_min))
 
 
@@ -119,7 +119,7 @@ class Network(Deployed):
         )
         self._as_trained = w_in, w_state, b_in, b_state
         self.hidden = w_state.shape[1]
-        # sigmoid(x) = (1 + tanh(x / 2)) / 2: the halves go into the weights of the reset and update gates
+        # The inner halves of (N7) go into the weights of the reset and update gates, once instead of at every sample.
         half = np.repeat(np.array([0.5, 0.5, 1.0], dtype=np.float32), self.hidden)
         self._w_in, self._w_state = half[:, None] * w_in, half[:, None] * w_state
         self._b_in, self._b_state = half * b_in, half * b_state
