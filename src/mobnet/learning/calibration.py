@@ -15,11 +15,11 @@ from mobnet.core.arrays import Array
 from mobnet.learning.gaussian import Fit, fit_of, half_width
 from mobnet.learning.model import LimbNetwork
 from mobnet.learning.optimisation import Samples, predictions
-from mobnet.learning.streams import Plan
+from mobnet.learning.streams import EpochPlan
 
 
 @dataclass(frozen=True)
-class Calibration:
+class StdFactors:
     """Factors that correct the standard deviations of n joints, and how well these fit before and after.
 
     Attributes:
@@ -48,7 +48,7 @@ class Calibration:
         }
 
 
-def calibrate(error: NDArray[Any], std: NDArray[Any], share: float, shares: Sequence[float]) -> Calibration:
+def calibrate(error: NDArray[Any], std: NDArray[Any], share: float, shares: Sequence[float]) -> StdFactors:
     """Learn the factors; test those of the first half of the data on the second half.
 
     Errors and predicted standard deviations are (T, n) [N m], in the order of time. `share` is the share of the errors
@@ -58,7 +58,7 @@ def calibrate(error: NDArray[Any], std: NDArray[Any], share: float, shares: Sequ
     cut = len(error) // 2
     halved = scale_for(error[:cut], std[:cut], share)
     # The second factor is (N26), what (22) itself would ask for.
-    return Calibration(
+    return StdFactors(
         scale_for(error, std, share),
         np.sqrt(np.square(error / std).mean(axis=0)),
         fit_of(error[cut:], std[cut:], shares),
@@ -72,7 +72,7 @@ def scale_for(error: NDArray[Any], std: NDArray[Any], share: float) -> Array:
     return np.quantile(np.abs(error) / std, share, axis=0) / half_width(share)
 
 
-def predict(network: LimbNetwork, samples: Samples, plan: Plan, horizon: int) -> tuple[Array, Array]:
+def predict(network: LimbNetwork, samples: Samples, plan: EpochPlan, horizon: int) -> tuple[Array, Array]:
     """Run a network through a validation, rows (updates, lanes) and `horizon` steps together, its state carried.
 
     Return error and standard deviation, z-scored, (T, n) each, lane after lane: in the order of time.

@@ -102,7 +102,7 @@ class Block(nn.Module):
         return (inner + self.shortcut(x[:, :, self.past :])).relu()
 
 
-class Window(nn.Module):
+class WindowCell(nn.Module):
     """One hidden tanh layer over the last samples: of the inputs (MLP), or of the output of blocks (TCN).
 
     The state is the last inputs (past, B, n_in), zeros at a fresh start.
@@ -154,14 +154,14 @@ def _tcn(
         Block(inputs if i == 0 else hidden, hidden, kernel_steps, dilation, dropout)
         for i, dilation in enumerate(dilations)
     ]
-    return Window(inputs, head, window_steps, blocks)
+    return WindowCell(inputs, head, window_steps, blocks)
 
 
 CELLS: Mapping[CellKind, Callable[..., CellModule]] = {  # each takes the number of inputs and its `SIZES` by name
     "GRU": lambda inputs, hidden: Gru(inputs, hidden),
     "LSTM": lambda inputs, hidden: Lstm(inputs, hidden),
     "RNN": lambda inputs, hidden: Rnn(inputs, hidden),
-    "MLP": lambda inputs, hidden, window_steps: Window(inputs, hidden, window_steps),
+    "MLP": lambda inputs, hidden, window_steps: WindowCell(inputs, hidden, window_steps),
     "TCN": _tcn,
     "constant": lambda inputs: Constant(),
 }

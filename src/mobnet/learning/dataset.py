@@ -25,7 +25,7 @@ CONSTANT = 1e-9  # an input that moves less than this share of its mean counts a
 
 
 @dataclass(frozen=True)
-class Scale:
+class ZScore:
     """Mean and standard deviation of each column, (n,), in the columns' units; z = (x - mean) / std."""
 
     mean: NDArray[np.float32]
@@ -142,7 +142,7 @@ def read_target(stem: Path, joints: Sequence[str], target: Target) -> NDArray[np
     return residual - external
 
 
-def scale_of(array: NDArray[np.float32], spans: Sequence[Span]) -> Scale:
+def scale_of(array: NDArray[np.float32], spans: Sequence[Span]) -> ZScore:
     """Return mean and standard deviation of the columns of an array (N, n) over some spans of its rows.
 
     A constant column, such as a joint that a scenario holds still, gets the standard deviation 1.
@@ -154,4 +154,4 @@ def scale_of(array: NDArray[np.float32], spans: Sequence[Span]) -> Scale:
     std = np.sqrt(square)
     # Divided by its standard deviation, the rounding errors of a constant would look like a signal.
     std[std <= CONSTANT * np.maximum(1.0, np.abs(mean))] = 1.0
-    return Scale(mean.astype(np.float32), std.astype(np.float32))
+    return ZScore(mean.astype(np.float32), std.astype(np.float32))

@@ -18,7 +18,7 @@ PRECISIONS = {"float32": torch.float32, "bfloat16": torch.bfloat16}
 
 
 @dataclass(frozen=True)
-class Job:
+class TrainingJob:
     """One repetition, number `seed`, of a training; the root seed is that of every random number."""
 
     training: Training

@@ -18,7 +18,7 @@ Span = tuple[int, int]  # first row and the row after the last
 
 
 @dataclass(frozen=True)
-class Plan:
+class EpochPlan:
     """The course of one epoch.
 
     Attributes:
@@ -69,7 +69,7 @@ def cut_streams(
     return [streams[i] for i in rng.permutation(len(streams))] if rng else streams
 
 
-def deal(streams: Sequence[Span], lanes: int, horizon: int) -> Plan:
+def deal(streams: Sequence[Span], lanes: int, horizon: int) -> EpochPlan:
     """Distribute streams over the lanes of a batch for truncated back-propagation through time (section 4.4).
 
     Streams, each a whole number of horizons long, are laid end to end and cut into lanes of equal length; what is left
@@ -92,7 +92,7 @@ def deal(streams: Sequence[Span], lanes: int, horizon: int) -> Plan:
     shape = (lanes, updates)
     fresh = ~follows[: lanes * updates].reshape(shape)
     fresh[:, 0] = True
-    return Plan(rows[: lanes * updates].reshape(shape).T.copy(), fresh.T.copy())
+    return EpochPlan(rows[: lanes * updates].reshape(shape).T.copy(), fresh.T.copy())
 
 
 def some_of(blocks: Sequence[Span], stream: int, parts: int, rng: np.random.Generator) -> list[Span]:
@@ -106,7 +106,7 @@ def some_of(blocks: Sequence[Span], stream: int, parts: int, rng: np.random.Gene
 
 def epoch_plan(
     blocks: Sequence[Span], stream: int, horizon: int, lanes: int, rng: np.random.Generator, samples: int | None = None
-) -> Plan:
+) -> EpochPlan:
     """Return the course of a training epoch: new cuts, new order; arrays (updates, lanes) of rows [samples].
 
     Blocks are gone through as often as it takes to fill so many `samples`; None means once, all of them.
@@ -127,7 +127,7 @@ def epoch_plan(
 
 def window_plan(
     blocks: Sequence[Span], stream: int, horizon: int, lanes: int, rng: np.random.Generator, samples: int | None = None
-) -> Plan:
+) -> EpochPlan:
     """Return an epoch of independent windows, each from a zero state; arrays (updates, lanes) of rows [samples].
 
     `stream` has no meaning here, for windows follow each other at random; without `samples` the epoch has as many as
@@ -144,10 +144,10 @@ def window_plan(
             "accepted: longer recordings, a smaller batch_size"
         )
     rows = rng.choice(starts, (updates, lanes))
-    return Plan(rows, np.ones(rows.shape, dtype=bool))
+    return EpochPlan(rows, np.ones(rows.shape, dtype=bool))
 
 
-def validation_plan(blocks: Sequence[Span], stream: int, horizon: int, lanes: int) -> Plan:
+def validation_plan(blocks: Sequence[Span], stream: int, horizon: int, lanes: int) -> EpochPlan:
     """Return the fixed course of a validation, at most `lanes` side by side; arrays (updates, lanes) of rows [samples].
 
     The state is carried through whole blocks. Lanes are about one stream long, so that the zero states at their starts

@@ -17,11 +17,11 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.provenance import provenance
 from mobnet.core.stage import Stage
 from mobnet.core.threads import one_thread
-from mobnet.learning.calibration import Calibration
+from mobnet.learning.calibration import StdFactors
 from mobnet.learning.checkpoint import CHECKPOINT, Progress, write_metrics
 from mobnet.learning.dataset import Known, LimbData, load_limb_data
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE
-from mobnet.learning.job import Job, precision_name
+from mobnet.learning.job import TrainingJob, precision_name
 from mobnet.learning.model import parameter_count
 from mobnet.learning.swings import Margins
 from mobnet.learning.trainer import Trainer
@@ -58,7 +58,7 @@ def train_all(
         same = list(alike)
         data = _load(layout, same[0].training, recordings, residuals, rate_hz, known, margins)
         for network in same:
-            job = Job(network.training, network.seed, root_seed)
+            job = TrainingJob(network.training, network.seed, root_seed)
             train_on(data, job, stage.place(network.out), network.state, network.start)
     stage.publish(file for network in networks for file in _files(network))
 
@@ -98,7 +98,7 @@ def train(
         TrainingError: the loss diverged, where `learning.may_diverge` does not allow it.
     """
     data = _load(layout, training, recordings, residuals, rate_hz, known, margins)
-    train_on(data, Job(training, seed, root_seed), out, state, start)
+    train_on(data, TrainingJob(training, seed, root_seed), out, state, start)
 
 
 def _load(
@@ -117,7 +117,7 @@ def _load(
     )  # fmt: skip
 
 
-def train_on(data: LimbData, job: Job, out: Path, state: Path, start: Path | None = None) -> None:
+def train_on(data: LimbData, job: TrainingJob, out: Path, state: Path, start: Path | None = None) -> None:
     """Train one limb network by (22), or by another of `losses`, and keep the epoch that validates best.
 
     The folder `out` gets `weights.safetensors`, `metrics.csv` and, last, `run.json`; nothing before the training is
@@ -142,7 +142,7 @@ def train_on(data: LimbData, job: Job, out: Path, state: Path, start: Path | Non
     log.info("%s: done after epoch %d, %.1f s", job.name, len(done.epochs), done.seconds)
 
 
-def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress, calibration: Calibration) -> None:
+def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress, calibration: StdFactors) -> None:
     """Write the best weights with z-scores, (n_in,) and (n,) [N, N m], and factors on std (n,), atomically."""
     training = trainer.job.training
     trainer.network.load_state_dict(done.best)
@@ -163,7 +163,7 @@ def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress, 
         temporary.write_bytes(to_bytes(tensors, {NOTE: json.dumps(note)}))
 
 
-def run_note(trainer: Trainer, data: LimbData, done: Progress, calibration: Calibration) -> dict[str, Any]:
+def run_note(trainer: Trainer, data: LimbData, done: Progress, calibration: StdFactors) -> dict[str, Any]:
     """Return the content of `run.json`: settings, sizes, the best epoch, calibration and provenance."""
     job, training = trainer.job, trainer.job.training
     return {

@@ -14,16 +14,16 @@ from mobnet.core.columns import Epoch
 from mobnet.core.errors import TrainingError
 from mobnet.core.files import METRICS
 from mobnet.learning import checkpoint
-from mobnet.learning.calibration import Calibration, calibrate, predict
+from mobnet.learning.calibration import StdFactors, calibrate, predict
 from mobnet.learning.checkpoint import CHECKPOINT, Progress, write_metrics
-from mobnet.learning.dataset import LimbData, Scale, scale_of
+from mobnet.learning.dataset import LimbData, ZScore, scale_of
 from mobnet.learning.device import own_device
-from mobnet.learning.job import Job
+from mobnet.learning.job import TrainingJob
 from mobnet.learning.losses import CHOSEN_BY, objective_of
 from mobnet.learning.model import build_network, seeded
 from mobnet.learning.optimisation import EVERY_STEP, LAST_STEP, SEQUENCES, Samples, train_epoch, validate
 from mobnet.learning.start import read_start
-from mobnet.learning.streams import Plan, some_of, split, validation_plan, window_plan
+from mobnet.learning.streams import EpochPlan, some_of, split, validation_plan, window_plan
 
 log = logging.getLogger(__name__)
 
@@ -35,7 +35,7 @@ class Trainer:
     weights from the network that it starts from; `fingerprint` is a hash of all that the weights depend on.
     """
 
-    def __init__(self, job: Job, data: LimbData, start: Path | None = None) -> None:
+    def __init__(self, job: TrainingJob, data: LimbData, start: Path | None = None) -> None:
         """Split, scale and move inputs (N, n_in) and targets (N, n) [N, N m] to the device.
 
         Raises:
@@ -81,7 +81,7 @@ class Trainer:
         """Return torch's seed for a purpose."""
         return int(self.job.generator(*purpose).integers(np.iinfo(np.int64).max))
 
-    def _scaled(self, array: NDArray[np.float32], scale: Scale) -> Tensor:
+    def _scaled(self, array: NDArray[np.float32], scale: ZScore) -> Tensor:
         """Return z-scored columns on the device."""
         scaled = array - scale.mean
         scaled /= scale.std
@@ -118,7 +118,7 @@ class Trainer:
         done.best = done.best or first
         return done
 
-    def calibrate(self, done: Progress) -> Calibration:
+    def calibrate(self, done: Progress) -> StdFactors:
         """Return how far off the best weights' standard deviations (n,) [N, N m] are on the validation blocks."""
         self.network.load_state_dict(done.best)
         error, std = predict(self.network, self._samples, self._validation, self.job.horizon)
@@ -135,7 +135,7 @@ class Trainer:
         loss, rmse = self._validate(self._windows, LAST_STEP)
         return {"loss": loss, "rmse": rmse}
 
-    def _validate(self, plan: Plan, scored: slice = EVERY_STEP) -> tuple[float, float]:
+    def _validate(self, plan: EpochPlan, scored: slice = EVERY_STEP) -> tuple[float, float]:
         """Return mean loss (22) and RMSE [N, N m] of a validation."""
         loss, rmse = validate(self.network, self._samples, plan, self.job.horizon, scored)
         return loss, float((rmse.numpy() * self.scales[1].std).mean())

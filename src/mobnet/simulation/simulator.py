@@ -17,7 +17,7 @@ from mobnet.robot.description import describe, for_walking
 from mobnet.settings.data import CommandSource, FixedCommand
 from mobnet.settings.settings import WalkSettings
 from mobnet.simulation.drives import reset_drives
-from mobnet.simulation.engine import Plant, make_plant, run
+from mobnet.simulation.engine import LivePlant, make_plant, run
 from mobnet.simulation.faults import reset_faults
 from mobnet.simulation.friction import make_friction
 from mobnet.simulation.hidden import draw_hidden
@@ -40,7 +40,7 @@ class Setting(NamedTuple):
 
     terrain: str
     world: World
-    plant: Plant
+    plant: LivePlant
     sensors: Sensors
     pushes: Pushes
 

@@ -13,7 +13,7 @@ from mobnet.core.errors import DataError
 from mobnet.learning.deployed import lanes
 from mobnet.learning.deployed.lanes import CHUNK
 from mobnet.learning.deployed.module_network import ModuleNetwork
-from mobnet.learning.deployed.networks import WEIGHTS, ConstantNetwork, Deployed, Network, load_network
+from mobnet.learning.deployed.networks import WEIGHTS, ConstantNetwork, Deployed, GruNetwork, load_network
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE
 from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.learning.streams import split
@@ -25,7 +25,10 @@ CELLS = {
     kind: Cell(cell=kind, **{name: ({"hidden": 150 if kind == "GRU" else 16} | WINDOW)[name] for name in names})
     for kind, names in SIZES.items()
 }
-KINDS: dict[CellKind, type[Deployed]] = {"GRU": Network, "constant": ConstantNetwork}  # by NumPy; the others by torch
+KINDS: dict[CellKind, type[Deployed]] = {
+    "GRU": GruNetwork,
+    "constant": ConstantNetwork,
+}  # by NumPy; the others by torch
 FACTORS = torch.linspace(0.5, 3.0, JOINTS)
 SCALES = {
     "input.mean": torch.linspace(-1.0, 1.0, INPUTS),
@@ -155,7 +158,7 @@ def test_weights_that_do_not_fit_their_note_are_refused(
 
 @pytest.mark.parametrize(
     ("method", "limb", "kind"),
-    [("TCN", "LL", ModuleNetwork), ("GRU-spectral", "LL", Network), ("MOB-Net", "N", ConstantNetwork)],
+    [("TCN", "LL", ModuleNetwork), ("GRU-spectral", "LL", GruNetwork), ("MOB-Net", "N", ConstantNetwork)],
 )
 def test_a_trained_network_on_a_robot_errs_as_in_its_validation(
     method: str, limb: str, kind: type, small: Any, tmp_path: Path

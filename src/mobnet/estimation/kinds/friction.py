@@ -72,7 +72,7 @@ class FrictionNote(Note):
 
 
 @dataclass(frozen=True)
-class Friction:
+class FittedFriction:
     """Numbers of (23) of every actuated joint; zero for a joint that was not fitted.
 
     Attributes:
@@ -95,7 +95,7 @@ class Friction:
 class FrictionModel:
     """The filtered friction torque as an uncertainty model of (15), for all joints (nv,); the base has none."""
 
-    def __init__(self, layout: JointLayout, friction: Friction, gain_hz: float, rate_hz: float) -> None:
+    def __init__(self, layout: JointLayout, friction: FittedFriction, gain_hz: float, rate_hz: float) -> None:
         """Take a fitted friction model, and the observer's gain K_0 of (7) [1/s]."""
         self.joints = layout.names
         self._base = len(layout.virtual)  # generalized velocities without a motor
@@ -182,7 +182,7 @@ def fitted_joints(layout: JointLayout, options: Options, limbs: Iterable[Limb]) 
     return found
 
 
-def read_friction(path: Path, joints: Sequence[str]) -> Friction:
+def read_friction(path: Path, joints: Sequence[str]) -> FittedFriction:
     """Read what `fit` found, for a robot's actuated joints (nu,); joints that it does not name have no friction.
 
     Raises:
@@ -194,7 +194,7 @@ def read_friction(path: Path, joints: Sequence[str]) -> Friction:
     fitted = [rows[joint].terms() if joint in rows else dict.fromkeys(TERMS, 0.0) for joint in joints]
     terms = {term: np.array([factors[term] for factors in fitted], dtype=np.float64) for term in TERMS}
     stribeck = np.array([rows[joint].stribeck_rad_s if joint in rows else 1.0 for joint in joints], dtype=np.float64)
-    return Friction(terms, stribeck, found.smoothing_rad_s)
+    return FittedFriction(terms, stribeck, found.smoothing_rad_s)
 
 
 def _prediction(torque: NDArray[Any]) -> Prediction:

@@ -108,7 +108,7 @@ class ConstantNetwork(Deployed):
         return [self._predict(np.tile(self._output, (len(x), 1))) for x in lanes]
 
 
-class Network(Deployed):
+class GruNetwork(Deployed):
     """GRU-Linear of Table 1 with its z-scores, by NumPy."""
 
     def __init__(self, tensors: Mapping[str, Array], *names: Any) -> None:
@@ -160,7 +160,7 @@ class Network(Deployed):
         return new + opened[h:] * (state - new)
 
 
-WITHOUT_TORCH: Mapping[CellKind, Callable[..., Deployed]] = {"GRU": Network, "constant": ConstantNetwork}
+WITHOUT_TORCH: Mapping[CellKind, Callable[..., Deployed]] = {"GRU": GruNetwork, "constant": ConstantNetwork}
 
 
 def load_network(folder: Path) -> Deployed:
