@@ -22,7 +22,7 @@ from mobnet.learning.model import LimbNetwork
 from mobnet.learning.optimisation import Samples, train_epoch
 from mobnet.learning.streams import deal
 from mobnet.learning.swings import free_rows, hanging
-from mobnet.learning.train import train
+from mobnet.learning.train import train_all
 from mobnet.learning.trainer import Trainer
 from mobnet.settings.settings import Settings
 
@@ -140,8 +140,7 @@ def test_swings_alone_train_and_calibrate_a_network(
     small: Any, trained: Path, walked: tuple[Path, Path], tmp_path: Path
 ) -> None:
     training = small.training(epochs=2, labels="swing", batch_size=2, validation_share=0.5)
-    arguments = small.arguments(training, tmp_path / "tuned") | {"start": trained, "margins": MARGINS}
-    arguments |= {"recordings": [walked[0]], "residuals": [walked[1]]}
-    train(**arguments)
+    arguments = small.arguments(training, tmp_path / "tuned", trained) | {"margins": MARGINS}
+    train_all(**arguments | {"recordings": [walked[0]], "residuals": [walked[1]]})
     tensors, _ = read_weights(tmp_path / "tuned/out" / WEIGHTS)
     assert all(np.isfinite(tensor).all() for tensor in tensors.values())

@@ -27,7 +27,6 @@ from mobnet.learning.swings import Margins
 from mobnet.learning.trainer import Trainer
 from mobnet.plan.parts import Repetition
 from mobnet.settings.base import Section
-from mobnet.settings.networks import Training
 
 log = logging.getLogger(__name__)
 
@@ -45,8 +44,9 @@ def train_all(
 ) -> None:
     """Train networks on the same recordings, one after another; data that several learn from are read once.
 
-    One job trains them all. One that was killed goes on with the network that it was at, from its last epoch. The other
-    arguments are those of `train`.
+    One job trains them all. One that was killed goes on with the network that it was at, from its last epoch. The
+    recordings are at `rate_hz` [Hz] where that is given. What is `known` of the target is subtracted from it. Where
+    swings label, `margins` say what is left out of them.
 
     Raises:
         DataError: a recording or a residual is damaged or too short.
@@ -56,7 +56,11 @@ def train_all(
     waiting = [network for network in networks if not stage.has(_files(network))]
     for _, alike in groupby(waiting, key=_reads):
         same = list(alike)
-        data = _load(layout, same[0].training, recordings, residuals, rate_hz, known, margins)
+        training = same[0].training
+        data = load_limb_data(
+            layout, training.network, training.target, recordings, residuals, rate_hz, training.held_out, known,
+            training.learning.data_s, margins,
+        )  # fmt: skip
         for network in same:
             job = TrainingJob(network.training, network.seed, root_seed)
             train_on(data, job, stage.place(network.out), network.state, network.start)
@@ -64,57 +68,14 @@ def train_all(
 
 
 def _files(network: Repetition) -> tuple[Path, ...]:
-    """Return the files of a network, in the order in which they are written."""
+    # The note is written last, so that a network with a note is whole.
     return tuple(network.out / name for name in (WEIGHTS, METRICS, RUN))
 
 
 def _reads(repetition: Repetition) -> tuple[object, ...]:
-    """Return what `_load` takes of a training: trainings with the same have the same data."""
+    """Return what `load_limb_data` takes of a training: trainings with the same have the same data."""
     training, network = repetition.training, repetition.training.network
     return network.Q, network.T, network.joints, training.target, training.held_out, training.learning.data_s
-
-
-def train(
-    root_seed: int,
-    layout: JointLayout,
-    training: Training,
-    seed: int,
-    recordings: Sequence[Path],
-    residuals: Sequence[Path],
-    out: Path,
-    state: Path,
-    rate_hz: float | None = None,
-    known: Known | None = None,
-    start: Path | None = None,
-    margins: Margins | None = None,
-) -> None:
-    """Train one limb network of Table 1 on recordings; `train_on` says how, and what is written.
-
-    The recordings are at `rate_hz` [Hz] where that is given. What is `known` of the target is subtracted from it. Where
-    swings label, `margins` say what is left out of them.
-
-    Raises:
-        DataError: a recording or a residual is damaged or too short.
-        TrainingError: the loss diverged, where `learning.may_diverge` does not allow it.
-    """
-    data = _load(layout, training, recordings, residuals, rate_hz, known, margins)
-    train_on(data, TrainingJob(training, seed, root_seed), out, state, start)
-
-
-def _load(
-    layout: JointLayout,
-    training: Training,
-    recordings: Sequence[Path],
-    residuals: Sequence[Path],
-    rate_hz: float | None,
-    known: Known | None,
-    margins: Margins | None,
-) -> LimbData:
-    """Return the data of a training."""
-    return load_limb_data(
-        layout, training.network, training.target, recordings, residuals, rate_hz, training.held_out, known,
-        training.learning.data_s, margins,
-    )  # fmt: skip
 
 
 def train_on(data: LimbData, job: TrainingJob, out: Path, state: Path, start: Path | None = None) -> None:
