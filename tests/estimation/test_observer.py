@@ -4,7 +4,6 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-import pinocchio as pin
 import pytest
 
 from mobnet.core.errors import ConfigError, DataError
@@ -12,7 +11,6 @@ from mobnet.core.recording import Sensed
 from mobnet.estimation.low_pass import exact_pole, low_pass
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.robot.dynamics import mass_matrix, momentum_and_beta
-from mobnet.robot.frames import rotation
 from mobnet.robot.nominal import NominalModel
 
 GAIN_HZ, RATE_HZ = 100.0, 1000.0
@@ -136,19 +134,6 @@ def test_is_linear_in_the_torque(observer: MomentumObserver, pushed: Callable) -
     heavier = replace(sensed, tau_motor=sensed.tau_motor + 2 * extra)
     expected = observer.residual(sensed)[:, 6:] - 2 * low_pass(extra, GAIN_HZ, RATE_HZ)
     np.testing.assert_allclose(observer.residual(heavier)[:, 6:], expected, atol=1e-9)
-
-
-def test_yaw_of_the_world_turns_the_linear_part_only(observer: MomentumObserver, pushed: Callable) -> None:
-    """The joints' residual is invariant to the robot's heading."""
-    sensed, _ = pushed(RATE_HZ)
-    turn = rotation(np.array([np.cos(0.35), 0, 0, np.sin(0.35)]))
-    q, v = sensed.q.copy(), sensed.v.copy()
-    q[:, :3], v[:, :3] = q[:, :3] @ turn.T, v[:, :3] @ turn.T
-    roots = [pin.Quaternion(turn @ rotation(quat)) for quat in sensed.q[:, 3:7]]
-    q[:, 3:7] = [[root.w, root.x, root.y, root.z] for root in roots]
-    here, there = observer.residual(sensed), observer.residual(replace(sensed, q=q, v=v))
-    np.testing.assert_allclose(there[:, :3], here[:, :3] @ turn.T, atol=1e-9)
-    np.testing.assert_allclose(there[:, 3:], here[:, 3:], atol=1e-9)
 
 
 def test_noise_of_velocity_obeys_its_law(nominal: NominalModel, observer: MomentumObserver) -> None:

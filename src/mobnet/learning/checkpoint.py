@@ -102,5 +102,4 @@ def write_metrics(path: Path, epochs: Sequence[Epoch]) -> None:
 
 
 def _below(prefix: str, tensors: Mapping[str, Tensor]) -> dict[str, Tensor]:
-    """Return the entries whose names start with a prefix, without it."""
     return {name.removeprefix(prefix): tensor for name, tensor in tensors.items() if name.startswith(prefix)}

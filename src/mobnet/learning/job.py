@@ -87,6 +87,5 @@ def precision_name(precision: torch.dtype) -> str:
 
 
 def _generator(*words: int | str) -> np.random.Generator:
-    """Return the random numbers that belong to some words."""
     # The words' hash as seed: a purpose that is added later changes no numbers of the others.
     return np.random.default_rng(list(hashlib.sha256(repr(words).encode()).digest()))

@@ -30,7 +30,6 @@ class EpochPlan:
     fresh: NDArray[np.bool_]
 
     def __len__(self) -> int:
-        """Return the number of updates."""
         return len(self.rows)
 
 

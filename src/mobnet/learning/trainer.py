@@ -78,11 +78,9 @@ class Trainer:
         return CHOSEN_BY[self.job.training.learning.loss]
 
     def _seed(self, *purpose: int | str) -> int:
-        """Return torch's seed for a purpose."""
         return int(self.job.generator(*purpose).integers(np.iinfo(np.int64).max))
 
     def _scaled(self, array: NDArray[np.float32], scale: ZScore) -> Tensor:
-        """Return z-scored columns on the device."""
         scaled = array - scale.mean
         scaled /= scale.std
         return torch.from_numpy(scaled).to(self.device)
@@ -141,7 +139,6 @@ class Trainer:
         return loss, float((rmse.numpy() * self.scales[1].std).mean())
 
     def _epoch(self, epoch: int) -> Epoch:
-        """Train and validate once."""
         job, rate, learning = self.job, self.job.rate(epoch), self.job.training.learning
         for group in self._optimizer.param_groups:
             group["lr"] = rate

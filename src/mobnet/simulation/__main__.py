@@ -53,7 +53,6 @@ def main(words: list[str] | None = None) -> int:
 
 
 def _parse(words: list[str] | None) -> argparse.Namespace:
-    """Read the command line."""
     parser = argparse.ArgumentParser(prog="python -m mobnet.simulation", description=DESCRIPTION)
     parser.add_argument("--scenario", default="forward_walk", help="key of `scenarios` (%(default)s)")
     parser.add_argument("--level", default="all_uncertainty", help="key of `levels` (%(default)s)")

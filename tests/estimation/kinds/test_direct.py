@@ -37,7 +37,7 @@ def test_it_returns_what_its_networks_predict(layout: JointLayout, made_up: Call
     networks = LimbNetworks([network(limb, layout, rng) for limb in ("RL", "LL")], layout)
     sensed = made_up(0, 0.1).sensed
     estimator = DirectEstimator(networks)
-    result, predicted = estimator.estimate(sensed), networks.run(sensed)
+    result, predicted = estimator.estimate(sensed), networks.run_all([sensed])[0]
     assert estimator.joints == layout.limb("RL") + layout.limb("LL")
     np.testing.assert_array_equal(result.tau_ext, predicted.mean)
     np.testing.assert_array_equal(result.std, predicted.std)

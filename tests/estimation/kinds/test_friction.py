@@ -56,19 +56,11 @@ def test_it_has_the_plants_form(plant: PlantFriction, layout: JointLayout, table
     np.testing.assert_allclose(table_4.torque(velocity, torque), expected, rtol=1e-12)
 
 
-def test_friction_is_odd_in_the_velocity_and_takes_energy(table_4: FittedFriction) -> None:
-    rng = np.random.default_rng(1)
-    velocity, torque = rng.normal(0, 1, (50, len(table_4.stribeck))), rng.normal(0, 50, (50, len(table_4.stribeck)))
-    forward, back = table_4.torque(velocity, torque), table_4.torque(-velocity, torque)
-    np.testing.assert_array_equal(forward, -back)
-    assert (forward * velocity < 0).all()
-
-
 def test_prediction_is_the_filtered_torque_and_the_base_has_none(
     layout: JointLayout, table_4: FittedFriction, made_up: Callable[..., Recording]
 ) -> None:
     sensed = made_up(2, 0.2).sensed
-    prediction = FrictionModel(layout, table_4, GAIN_HZ, RATE_HZ).run(sensed)
+    prediction = FrictionModel(layout, table_4, GAIN_HZ, RATE_HZ).run_all([sensed])[0]
     torque = table_4.torque(sensed.v[:, N_VIRTUAL:], sensed.tau_motor)
     assert prediction.std is None
     assert not prediction.mean[:, :N_VIRTUAL].any()

@@ -111,15 +111,12 @@ class FrictionModel:
         now = self._torque(sample)
         # (O11): the residual's share of friction has passed the observer's low-pass, so this must, with the same start.
         filtered = np.zeros_like(now) if state is None else self._pole * state + (1 - self._pole) * now
-        return filtered, _prediction(filtered)
-
-    def run(self, sensed: Sensed) -> Prediction:
-        """Run over one contiguous recording; return the filtered friction (T, nv) [N, N m]."""
-        return _prediction(low_pass(self._torque(sensed), self._gain_hz, self._rate_hz))
+        return filtered, Prediction(filtered)
 
     def run_all(self, recordings: Sequence[Sensed]) -> list[Prediction]:
         """Run over contiguous recordings, each from a fresh state; return the filtered friction (T_i, nv) [N, N m]."""
-        return [self.run(sensed) for sensed in recordings]
+        torques = [self._torque(sensed) for sensed in recordings]
+        return [Prediction(low_pass(torque, self._gain_hz, self._rate_hz)) for torque in torques]
 
     def _torque(self, sensed: Sensed) -> Array:
         """Return the friction torque before the filter, (..., nv) [N, N m]."""
@@ -195,8 +192,3 @@ def read_friction(path: Path, joints: Sequence[str]) -> FittedFriction:
     terms = {term: np.array([factors[term] for factors in fitted], dtype=np.float64) for term in TERMS}
     stribeck = np.array([rows[joint].stribeck_rad_s if joint in rows else 1.0 for joint in joints], dtype=np.float64)
     return FittedFriction(terms, stribeck, found.smoothing_rad_s)
-
-
-def _prediction(torque: NDArray[Any]) -> Prediction:
-    """Return a prediction without a standard deviation: the regression gives none."""
-    return Prediction(torque)

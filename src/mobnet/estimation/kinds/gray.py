@@ -22,7 +22,6 @@ class FrictionAndNetworks:
     """The sum of a friction model and of networks as an uncertainty model of (15); `joints` (n,) are the networks'."""
 
     def __init__(self, layout: JointLayout, friction: FrictionModel, networks: LimbNetworks) -> None:
-        """Take both parts."""
         self.joints = networks.joints
         self._friction, self._networks = friction, networks
         self._columns = layout.columns(networks.joints)

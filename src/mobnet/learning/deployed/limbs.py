@@ -39,11 +39,6 @@ class LimbNetworks:
         ]
         return tuple(after for after, _ in stepped), _joined([prediction for _, prediction in stepped])
 
-    def run(self, sensed: Sensed) -> Prediction:
-        """Run over one contiguous recording from fresh states; return the prediction (T, n) [N, N m]."""
-        (prediction,) = self.run_all([sensed])
-        return prediction
-
     def run_all(self, recordings: Sequence[Sensed]) -> list[Prediction]:
         """Run over contiguous recordings side by side, each from fresh states; return (T_i, n) [N, N m] of each."""
         seen = [signals(sensed) for sensed in recordings]
@@ -89,7 +84,6 @@ def _columns(network: Deployed, layout: JointLayout) -> NDArray[np.intp]:
 
 
 def _joined(predictions: Sequence[Prediction]) -> Prediction:
-    """Return the predictions of several limbs side by side."""
     if len(predictions) == 1:
         return predictions[0]
     mean = np.concatenate([p.mean for p in predictions], axis=-1)

@@ -25,8 +25,8 @@ Array = NDArray[np.float32]
 class Prediction:
     """Predicted torque and its standard deviation, (n,) or (T, n) [N, N m], eq. (18)."""
 
-    mean: Array
-    std: Array | None = None
+    mean: NDArray[Any]
+    std: NDArray[Any] | None = None
 
 
 class Deployed(ABC):
@@ -68,11 +68,6 @@ class Deployed(ABC):
     def run_all(self, lanes: Sequence[Array]) -> list[Prediction]:
         """Run over contiguous recordings of inputs (T_i, n_in), each from a fresh state; return (T_i, n) [N, N m]."""
 
-    def run(self, x: Array) -> Prediction:
-        """Run over a contiguous recording of inputs (T, n_in) from a fresh state; return (T, n) [N, N m]."""
-        (prediction,) = self.run_all([x])
-        return prediction
-
     def _z_score(self, x: Array) -> Array:
         return (x - self._input_mean) / self._input_std
 
@@ -92,7 +87,6 @@ class ConstantNetwork(Deployed):
     """The same mean and standard deviation at every sample: cell `constant`; there is no state."""
 
     def __init__(self, tensors: Mapping[str, Array], *names: Any) -> None:
-        """Take all arguments of `Deployed`."""
         super().__init__(tensors, *names)
         self._output = np.asarray(tensors["head.bias"], dtype=np.float32)
 
@@ -112,7 +106,6 @@ class GruNetwork(Deployed):
     """GRU-Linear of Table 1 with its z-scores, by NumPy."""
 
     def __init__(self, tensors: Mapping[str, Array], *names: Any) -> None:
-        """Take all arguments of `Deployed`."""
         super().__init__(tensors, *names)
         w_in, w_state, b_in, b_state, self._w_out, self._b_out = (
             np.asarray(tensors[name], dtype=np.float32) for name in GRU_TENSORS
