@@ -13,9 +13,9 @@ from mobnet.control.parameters import SIDES, State
 from mobnet.control.walker import Walker
 from mobnet.core.arrays import Array
 from mobnet.core.compiled import compiled, matrix3, vector3
+from mobnet.robot.description import LEG_JOINTS
 
 LEFT_SIDE, RIGHT_SIDE = SIDES
-LEG_JOINTS = 6
 KNEE, ANKLE_PITCH, ANKLE_ROLL = 3, 4, 5  # joints of a leg
 
 

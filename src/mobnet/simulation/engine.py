@@ -12,9 +12,9 @@ from mobnet.control.random_torque import Exploration, advance_random_torque
 from mobnet.control.upper_body import UpperBody, follow
 from mobnet.control.walker import Walker
 from mobnet.control.walking import walk
-from mobnet.control.whole_body import LEG_JOINTS
 from mobnet.core.arrays import Array
 from mobnet.core.compiled import compiled
+from mobnet.robot.description import LEG_JOINTS
 from mobnet.simulation.drives import Drives, drive
 from mobnet.simulation.faults import Faults, perceive
 from mobnet.simulation.friction import PlantFriction, friction_torque
