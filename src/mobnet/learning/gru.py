@@ -42,9 +42,11 @@ class FusedGru(torch.autograd.Function):
         sizes = (3 * hidden, padded), (padded, x.shape[2]), (padded, h.shape[2])
         tensors = given, gates, states.flatten(1), x, h, d, torch.empty_like(gates[0]), d_in, d_state
         go_back(
-            left_factor(w_state.T, paired), left_room(4 * hidden, padded, paired),
-            *(room(*size, paired) for size in sizes), *(tensor.numpy() for tensor in tensors),
-        )  # fmt: skip
+            left_factor(w_state.T, paired),
+            left_room(4 * hidden, padded, paired),
+            *(room(*size, paired) for size in sizes),
+            *(tensor.numpy() for tensor in tensors),
+        )
         # Torch has the order r, z, c, and the loops have i, r, z, whose first is c's part of the state's weights.
         d_state, n = d_state.roll(-hidden, 0), ctx.inputs
         return None, None, None, d_in[:, :n], d_state[:, :hidden], d_in[:, n], d_state[:, hidden]

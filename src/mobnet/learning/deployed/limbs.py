@@ -73,8 +73,10 @@ def check_limb(network: Deployed, limb: str, folder: Path, layout: JointLayout) 
         if name not in known_inputs:
             raise DataError(f"{folder}: {not_accepted('input', name, [*known_inputs[:3], '...'])}")
     if (network.limb, network.joints) != (limb, expected):
-        raise DataError(f"{folder}: network of limb {network.limb!r} with joints {', '.join(network.joints)}; "
-                        f"accepted: {limb!r} with {', '.join(expected)}")  # fmt: skip
+        raise DataError(
+            f"{folder}: network of limb {network.limb!r} with joints {', '.join(network.joints)}; "
+            f"accepted: {limb!r} with {', '.join(expected)}"
+        )
 
 
 def _columns(network: Deployed, layout: JointLayout) -> NDArray[np.intp]:
