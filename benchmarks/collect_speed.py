@@ -21,7 +21,7 @@ from mobnet.plan.jobs import walk_settings
 from mobnet.plan.runs import FIRST_TRAINING_SEED
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import WalkSettings
-from mobnet.simulation.engine import Plant
+from mobnet.simulation.engine import LivePlant
 from mobnet.simulation.native import call_step
 from mobnet.simulation.record import collect
 from mobnet.simulation.simulator import Simulator
@@ -112,7 +112,7 @@ def _noted_steps(settings: WalkSettings) -> tuple[Simulator, Inputs]:
 
 
 @compiled
-def _replay(plant: Plant, live: Any, values: Any) -> None:
+def _replay(plant: LivePlant, live: Any, values: Any) -> None:
     """Step once from each noted state."""
     for k in range(len(values[0])):
         _put(live[0], values[0], k)

@@ -17,7 +17,7 @@ from mobnet.core.recording import Sensed
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observe import observer_of
 from mobnet.learning.deployed.limbs import LimbNetworks
-from mobnet.learning.deployed.networks import Network
+from mobnet.learning.deployed.networks import GruNetwork
 from mobnet.learning.features import limb_inputs, signals
 from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.robot.description import describe
@@ -124,13 +124,13 @@ def _model(training: Training, layout: JointLayout) -> LimbNetwork:
     return build_network(network, *sizes, training.learning.std_min, seed=0)
 
 
-def _network(training: Training, layout: JointLayout, model: LimbNetwork) -> Network:
+def _network(training: Training, layout: JointLayout, model: LimbNetwork) -> GruNetwork:
     """Return the same network as it runs on a robot."""
     names, joints = limb_inputs(layout, training.network).names, layout.limbs(training.network.joints)
     tensors = {name: tensor.numpy() for name, tensor in model.state_dict().items()}
     for kind, count in (("input", len(names)), ("target", len(joints))):
         tensors |= {f"{kind}.mean": np.zeros(count, np.float32), f"{kind}.std": np.ones(count, np.float32)}
-    return Network(tensors, training.limb, joints, names, model.std_min)
+    return GruNetwork(tensors, training.limb, joints, names, model.std_min)
 
 
 def _sample(layout: JointLayout, rng: np.random.Generator) -> Sensed:

@@ -16,7 +16,7 @@ from torch import Tensor, nn
 from torch.utils.data import DataLoader, TensorDataset
 
 from mobnet.learning.features import limb_inputs
-from mobnet.learning.job import PRECISIONS, Job
+from mobnet.learning.job import PRECISIONS, TrainingJob
 from mobnet.learning.losses import gaussian_loss
 from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.learning.optimisation import Samples, train_epoch
@@ -38,7 +38,7 @@ def main() -> list[dict[str, float | str]]:
     """
     one_thread()
     settings = with_precision(load_settings(overrides={"scale": "default"}), Path("results") / "default")
-    job = Job(settings.training("MOB-Net", "LL"), 0, settings.seed)
+    job = TrainingJob(settings.training("MOB-Net", "LL"), 0, settings.seed)
     leg, learning = job.training.network, job.training.learning
     sizes = len(limb_inputs(settings.layout, leg).names), len(settings.layout.limbs(leg.joints))
     generator = torch.Generator().manual_seed(0)
@@ -85,7 +85,7 @@ def _speed(epoch: Callable[[], object], rows: int) -> float:
     return rows / (time.process_time() - started)
 
 
-def _products(job: Job, inputs: int, precision: torch.dtype) -> Callable[[], object]:
+def _products(job: TrainingJob, inputs: int, precision: torch.dtype) -> Callable[[], object]:
     """Return the matrix products of an epoch's GRU alone, by NumPy in float32 and by torch in bfloat16.
 
     Those of the inputs are in float32 in any case. As in a training, each step has its own left factor.
@@ -114,7 +114,7 @@ def _products(job: Job, inputs: int, precision: torch.dtype) -> Callable[[], obj
     return epoch
 
 
-def _on_gpu(job: Job, network: LimbNetwork, inputs: Tensor, targets: Tensor) -> list[dict[str, float | str]]:
+def _on_gpu(job: TrainingJob, network: LimbNetwork, inputs: Tensor, targets: Tensor) -> list[dict[str, float | str]]:
     """Return the row of a GPU, by wall time; without one say so."""
     if not torch.cuda.is_available():
         print("no GPU here: the speed of a training on one is not measured", file=sys.stderr)
@@ -129,7 +129,7 @@ def _on_gpu(job: Job, network: LimbNetwork, inputs: Tensor, targets: Tensor) -> 
     return [{"name": name, "ours": statistics.median(speeds[1:]), "unit": "1000 time steps/s"}]
 
 
-def _ours(job: Job, network: LimbNetwork, inputs: Tensor, targets: Tensor) -> Callable[[], object]:
+def _ours(job: TrainingJob, network: LimbNetwork, inputs: Tensor, targets: Tensor) -> Callable[[], object]:
     """Return one epoch as this package trains."""
     optimizer = torch.optim.Adam(network.parameters(), lr=job.rate(0), fused=True)
     samples, horizon, learning = Samples(inputs, targets), job.horizon, job.training.learning
@@ -142,7 +142,7 @@ def _ours(job: Job, network: LimbNetwork, inputs: Tensor, targets: Tensor) -> Ca
     return epoch
 
 
-def _theirs(job: Job, network: LimbNetwork, inputs: Tensor, targets: Tensor) -> Callable[[], object]:
+def _theirs(job: TrainingJob, network: LimbNetwork, inputs: Tensor, targets: Tensor) -> Callable[[], object]:
     """Return one epoch of the usual loop: shuffled windows from a DataLoader, zero state, nn.GRU."""
     optimizer = torch.optim.Adam(network.parameters(), lr=job.rate(0))
     learning = job.training.learning

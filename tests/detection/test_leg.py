@@ -8,7 +8,7 @@ from mobnet.core.errors import ConfigError
 from mobnet.detection.leg import ancestors, foot_load, make_leg, unit_torques
 from mobnet.robot.description import WalkingRobot
 from mobnet.robot.nominal import NominalModel
-from mobnet.robot.wrench import foot_torque
+from mobnet.robot.wrench import feet_torque
 
 
 def position(robot: WalkingRobot) -> np.ndarray:
@@ -23,7 +23,7 @@ def position(robot: WalkingRobot) -> np.ndarray:
 def test_the_force_on_the_foot_is_found_again(robot: WalkingRobot, nominal: NominalModel, limb: str, side: str) -> None:
     q, leg = position(robot), make_leg(robot, limb)
     wrench = np.array([20.0, -5.0, 60.0, 1.0, -2.0, 0.5])  # foot axes, about the sensor
-    tau = foot_torque(nominal, q, side, wrench)[robot.layout.columns(robot.layout.limb(limb))]
+    tau = feet_torque(nominal, q, {side: wrench})[robot.layout.columns(robot.layout.limb(limb))]
     assert foot_load(leg, q, tau)
     np.testing.assert_allclose(leg.load[:3], leg.pose.rotation[leg.foot] @ wrench[:3], rtol=1e-6)
 

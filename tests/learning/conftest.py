@@ -6,11 +6,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from mobnet.core.stage import Stage
 
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
 from mobnet.learning.dataset import LimbData, load_limb_data
-from mobnet.learning.train import train
+from mobnet.learning.train import train_all
+from mobnet.plan.parts import Repetition
 from mobnet.settings.networks import Training
 from mobnet.settings.settings import Settings
 
@@ -43,15 +45,15 @@ class Small:
         """Return the data of a training."""
         return load_limb_data(self.layout, training.network, training.target, self.recordings, self.residuals)
 
-    def arguments(self, training: Training, folder: Path) -> dict[str, Any]:
-        """Return what `train` gets; results go below a folder."""
-        places = {"out": folder / "out", "state": folder / "state"}
+    def arguments(self, training: Training, folder: Path, start: Path | None = None) -> dict[str, Any]:
+        """Return what `train_all` gets; results go below a folder."""
+        network = Repetition(training, 0, folder / "out", folder / "state", start)
         data = {"recordings": self.recordings, "residuals": self.residuals}
-        return {"root_seed": 1, "layout": self.layout, "training": training, "seed": 0, **data, **places}
+        return {"root_seed": 1, "layout": self.layout, "networks": [network], **data, "stage": Stage(folder / "s", "")}
 
     def train(self, training: Training, folder: Path) -> Path:
         """Train, and return the folder of the result."""
-        train(**self.arguments(training, folder))
+        train_all(**self.arguments(training, folder))
         return folder / "out"
 
 

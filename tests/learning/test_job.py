@@ -8,18 +8,18 @@ import pytest
 import torch
 
 from mobnet.core.errors import ConfigError
-from mobnet.learning.job import PRECISIONS, Job, precision_name, precision_of
+from mobnet.learning.job import PRECISIONS, TrainingJob, precision_name, precision_of
 from mobnet.settings.settings import Settings
 
 CPU, GPU = torch.device("cpu"), torch.device("cuda")
 
 
 @pytest.fixture
-def job(settings: Settings) -> Job:
-    return Job(settings.training("MOB-Net", "LL"), seed=0, root_seed=2023)
+def job(settings: Settings) -> TrainingJob:
+    return TrainingJob(settings.training("MOB-Net", "LL"), seed=0, root_seed=2023)
 
 
-def changed(job: Job, **values: Any) -> Job:
+def changed(job: TrainingJob, **values: Any) -> TrainingJob:
     """Return a job whose training, network or learning has other values."""
     parts = {name: getattr(job.training, name) for name in ("network", "learning")}
     training = {key: value for key, value in values.items() if key in type(job.training).model_fields}
@@ -29,7 +29,7 @@ def changed(job: Job, **values: Any) -> Job:
 
 
 def test_rate_falls_linearly_to_a_hundredth_over_the_first_half_at_the_papers_size(settings: Settings) -> None:
-    job = Job(settings.model_copy(update={"scale": "paper"}).training("MOB-Net", "LL"), 0, 0)
+    job = TrainingJob(settings.model_copy(update={"scale": "paper"}).training("MOB-Net", "LL"), 0, 0)
     rates = np.array([job.rate(epoch) for epoch in range(200)])
     first = settings.learning.rate_first
     assert rates[0] == first
@@ -37,7 +37,7 @@ def test_rate_falls_linearly_to_a_hundredth_over_the_first_half_at_the_papers_si
     np.testing.assert_allclose(rates[100:], first / 100)
 
 
-def test_rate_of_a_short_run_falls_to_its_very_end(job: Job, settings: Settings) -> None:
+def test_rate_of_a_short_run_falls_to_its_very_end(job: TrainingJob, settings: Settings) -> None:
     """At 20 epochs the share of the default scale ends with the last epoch but one."""
     short = changed(job, epochs=20)
     rates = np.array([short.rate(epoch) for epoch in range(20)])
@@ -48,20 +48,20 @@ def test_rate_of_a_short_run_falls_to_its_very_end(job: Job, settings: Settings)
 
 
 @pytest.mark.parametrize("rate_hz", [1000.0, 500.0, 0.1])
-def test_a_stream_is_whole_horizons_and_at_least_one(job: Job, rate_hz: float) -> None:
+def test_a_stream_is_whole_horizons_and_at_least_one(job: TrainingJob, rate_hz: float) -> None:
     stream = job.stream(rate_hz)
     assert stream % job.horizon == 0
     assert stream == max(job.horizon, round(job.training.learning.stream_s * rate_hz))
 
 
-def test_random_numbers_differ_by_purpose_and_repeat(job: Job) -> None:
+def test_random_numbers_differ_by_purpose_and_repeat(job: TrainingJob) -> None:
     draws = {p: job.generator(*p).integers(1 << 60) for p in [("epoch", 0), ("epoch", 1), ("weights",)]}
     assert len(set(draws.values())) == len(draws)
     assert job.generator("epoch", 0).integers(1 << 60) == draws["epoch", 0]
     assert replace(job, seed=1).generator("epoch", 0).integers(1 << 60) != draws["epoch", 0]
 
 
-def test_methods_share_which_data_they_learn_from(job: Job) -> None:
+def test_methods_share_which_data_they_learn_from(job: TrainingJob) -> None:
     other, again = changed(job, method="FTS-e2e"), replace(job, seed=1)
     shared = [run.shared_generator("data").integers(1 << 60) for run in (job, other, again)]
     assert shared[0] == shared[1] != shared[2]
@@ -69,24 +69,24 @@ def test_methods_share_which_data_they_learn_from(job: Job) -> None:
 
 
 @pytest.mark.parametrize("change", [{"epochs": 9}, {"rate_first": 0.1}, {"hidden": 9}, {"target": "external"}])
-def test_fingerprint_changes_with_the_training(job: Job, change: dict[str, Any]) -> None:
+def test_fingerprint_changes_with_the_training(job: TrainingJob, change: dict[str, Any]) -> None:
     assert job.fingerprint("data", CPU) == job.fingerprint("data", CPU)
     assert job.fingerprint("data", CPU) != changed(job, **change).fingerprint("data", CPU)
 
 
-def test_fingerprint_changes_with_seeds_and_data(job: Job) -> None:
+def test_fingerprint_changes_with_seeds_and_data(job: TrainingJob) -> None:
     others = [replace(job, seed=1).fingerprint("data", CPU), replace(job, root_seed=1).fingerprint("data", CPU)]
     assert len({job.fingerprint("data", CPU), job.fingerprint("other", CPU), *others}) == 4
 
 
-def test_fingerprint_depends_on_the_number_format(job: Job) -> None:
+def test_fingerprint_depends_on_the_number_format(job: TrainingJob) -> None:
     one, other = (changed(job, precision=name) for name in PRECISIONS)
     assert one.fingerprint("data", CPU) != other.fingerprint("data", CPU)
     assert one.fingerprint("data", GPU) != one.fingerprint("data", CPU)
 
 
 @pytest.mark.parametrize("cell", ["LSTM", "RNN", "TCN", "MLP", "constant"])
-def test_only_a_gru_has_bfloat16_products(job: Job, cell: str) -> None:
+def test_only_a_gru_has_bfloat16_products(job: TrainingJob, cell: str) -> None:
     gru = changed(job, precision="bfloat16")
     assert gru.precision(CPU) == torch.bfloat16
     assert changed(gru, cell=cell).precision(CPU) == torch.float32

@@ -17,12 +17,12 @@ from mobnet.core.store import read_array
 from mobnet.learning.cells import Gru
 from mobnet.learning.dataset import LimbData, load_limb_data
 from mobnet.learning.deployed.weights import GRU_TENSORS, read_weights
-from mobnet.learning.job import Job
+from mobnet.learning.job import TrainingJob
 from mobnet.learning.model import LimbNetwork
 from mobnet.learning.optimisation import Samples, train_epoch
 from mobnet.learning.streams import deal
 from mobnet.learning.swings import free_rows, hanging
-from mobnet.learning.train import train
+from mobnet.learning.train import train_all
 from mobnet.learning.trainer import Trainer
 from mobnet.settings.settings import Settings
 
@@ -118,30 +118,29 @@ def test_a_fine_tuning_begins_with_weights_and_scales_of_its_network(small: Any,
     """And no draw of its own: two seeds begin alike."""
     tensors, _ = read_weights(trained)
     data.inputs[:] += 1.0  # other data, the same scales
-    trainers = [Trainer(Job(small.training(), seed, 1), data, trained) for seed in (0, 1)]
+    trainers = [Trainer(TrainingJob(small.training(), seed, 1), data, trained) for seed in (0, 1)]
     for trainer in trainers:
         weights = trainer.network.state_dict()
         assert all(np.array_equal(weights[name].numpy(), tensors[name]) for name in GRU_TENSORS)
         np.testing.assert_array_equal(trainer.scales[0].mean, tensors["input.mean"])
         np.testing.assert_array_equal(trainer.scales[1].std, tensors["target.std"])
-    assert trainers[0].fingerprint != Trainer(Job(small.training(), 0, 1), data).fingerprint
+    assert trainers[0].fingerprint != Trainer(TrainingJob(small.training(), 0, 1), data).fingerprint
 
 
 def test_a_network_of_another_size_is_refused(small: Any, trained: Path, data: LimbData) -> None:
     training = small.training()
     larger = training.model_copy(update={"network": training.network.model_copy(update={"hidden": 17})})
     with pytest.raises(DataError, match=r"cell: \('GRU', 16\) is not accepted; accepted: \('GRU', 17\)"):
-        Trainer(Job(larger, 0, 1), data, trained)
+        Trainer(TrainingJob(larger, 0, 1), data, trained)
     with pytest.raises(DataError, match="joints: "):
-        Trainer(Job(small.training(limb="RL"), 0, 1), small.data(small.training(limb="RL")), trained)
+        Trainer(TrainingJob(small.training(limb="RL"), 0, 1), small.data(small.training(limb="RL")), trained)
 
 
 def test_swings_alone_train_and_calibrate_a_network(
     small: Any, trained: Path, walked: tuple[Path, Path], tmp_path: Path
 ) -> None:
     training = small.training(epochs=2, labels="swing", batch_size=2, validation_share=0.5)
-    arguments = small.arguments(training, tmp_path / "tuned") | {"start": trained, "margins": MARGINS}
-    arguments |= {"recordings": [walked[0]], "residuals": [walked[1]]}
-    train(**arguments)
+    arguments = small.arguments(training, tmp_path / "tuned", trained) | {"margins": MARGINS}
+    train_all(**arguments | {"recordings": [walked[0]], "residuals": [walked[1]]})
     tensors, _ = read_weights(tmp_path / "tuned/out" / WEIGHTS)
     assert all(np.isfinite(tensor).all() for tensor in tensors.values())

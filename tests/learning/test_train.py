@@ -21,7 +21,7 @@ from mobnet.learning.deployed.networks import load_network
 from mobnet.learning.job import precision_name, precision_of
 from mobnet.settings.networks import Training
 
-SCRIPT = "import pickle, sys; from mobnet.learning.train import train; train(**pickle.load(sys.stdin.buffer))"
+SCRIPT = "import pickle, sys; from mobnet.learning.train import train_all as a; a(**pickle.load(sys.stdin.buffer))"
 TIMEOUT_S = 120.0
 
 

@@ -13,7 +13,7 @@ from mobnet.core.errors import TrainingError
 from mobnet.core.files import METRICS
 from mobnet.learning.checkpoint import CHECKPOINT
 from mobnet.learning.dataset import LimbData
-from mobnet.learning.job import PRECISIONS, Job
+from mobnet.learning.job import PRECISIONS, TrainingJob
 from mobnet.learning.trainer import Trainer
 from mobnet.settings.settings import Settings
 
@@ -28,7 +28,7 @@ def data(small: Any) -> LimbData:
 @pytest.fixture
 def trainer(small: Any, data: LimbData) -> Callable[..., Trainer]:
     """Return a function of changes of how a network learns that sets a training up."""
-    return lambda epochs=EPOCHS, **learning: Trainer(Job(small.training(epochs=epochs, **learning), 0, 1), data)
+    return lambda epochs=EPOCHS, **learning: Trainer(TrainingJob(small.training(epochs=epochs, **learning), 0, 1), data)
 
 
 def test_it_learns_and_keeps_the_best_epoch(trainer: Callable[..., Trainer], tmp_path: Path) -> None:
@@ -96,7 +96,7 @@ def test_dropout_is_drawn_from_seed_and_epoch_alone(small: Any, data: LimbData, 
     training, results = small.training("TCN", epochs=1), []
     for seed in (0, 1):
         torch.manual_seed(seed)  # as whatever ran before in this process may have left it
-        results.append(Trainer(Job(training, 0, 1), data).run(tmp_path / str(seed)).epochs)
+        results.append(Trainer(TrainingJob(training, 0, 1), data).run(tmp_path / str(seed)).epochs)
     assert results[0] == results[1]
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 import numpy as np
+import pinocchio as pin
 import pytest
 
 from mobnet.core.errors import DataError
@@ -10,7 +11,7 @@ from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.dynamics import coriolis, gravity, mass_matrix, momentum_and_beta
 from mobnet.robot.momentum import LANES
 from mobnet.robot.nominal import NominalModel
-from mobnet.robot.wrench import foot_jacobian, foot_torque
+from mobnet.robot.wrench import feet_torque
 from mobnet.settings.robot import RobotTable
 
 STEP = 1e-5  # for differences along a joint [rad]
@@ -113,7 +114,9 @@ def test_torque_of_a_wrench_is_that_of_pinocchio_s_jacobian(model_of: Models, ma
     q, _ = states(nominal.robot, 5)
     wrench = np.random.default_rng(0).normal(size=(5, 6))
     for side in nominal.robot.feet:
-        wanted = [w @ foot_jacobian(nominal, one, side) for one, w in zip(q, wrench, strict=True)]
-        np.testing.assert_allclose(foot_torque(nominal, q, side, wrench), wanted, rtol=0, atol=1e-13)
+        frame, axes = nominal.foot_frames[side], pin.ReferenceFrame.LOCAL
+        given = [(nominal.model, nominal.data, one, frame, axes) for one in nominal.positions(q)]
+        wanted = [w @ pin.computeFrameJacobian(*each) for each, w in zip(given, wrench, strict=True)]
+        np.testing.assert_allclose(feet_torque(nominal, q, {side: wrench}), wanted, rtol=0, atol=1e-13)
     with pytest.raises(DataError, match="shape of the left wrench"):
-        foot_torque(nominal, q, "left", wrench[1:])
+        feet_torque(nominal, q, {"left": wrench[1:]})

@@ -10,7 +10,7 @@ from mobnet.core.errors import ConfigError
 from mobnet.robot.description import SIDES
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.plant import sole_name
-from mobnet.robot.wrench import feet_torque, foot_jacobian, foot_torque
+from mobnet.robot.wrench import feet_torque
 
 WRENCH = np.array([10.0, -20.0, 300.0, 4.0, -5.0, 6.0])
 
@@ -28,16 +28,9 @@ def test_torque_of_a_foot_equals_the_plant_s(
     axes, expected = site.xmat.reshape(3, 3), np.zeros(plant.nv)
     body = plant.body(sole_name(side)).id
     mujoco.mj_applyFT(plant, data, axes @ WRENCH[:3], axes @ WRENCH[3:], site.xpos, body, expected)
-    np.testing.assert_allclose(foot_torque(nominal, q, side, WRENCH), expected, atol=1e-9)
+    np.testing.assert_allclose(feet_torque(nominal, q, {side: WRENCH}), expected, atol=1e-9)
     with pytest.raises(ConfigError, match="'tail' is not accepted; accepted: left, right"):
-        foot_torque(nominal, q, "tail", WRENCH)
-
-
-def test_power_of_the_wrench_is_power_of_the_torque(nominal: NominalModel, random_state: Callable) -> None:
-    """Power is conserved by the Jacobian's transpose."""
-    q, v = random_state(1)
-    twist = foot_jacobian(nominal, q, "left") @ v
-    assert foot_torque(nominal, q, "left", WRENCH) @ v == pytest.approx(WRENCH @ twist, rel=1e-12)
+        feet_torque(nominal, q, {"tail": WRENCH})
 
 
 def test_sum_over_feet_keeps_each_leg_to_itself(nominal: NominalModel, random_state: Callable) -> None:
@@ -45,7 +38,7 @@ def test_sum_over_feet_keeps_each_leg_to_itself(nominal: NominalModel, random_st
     wrenches = {side: np.tile(WRENCH, (3, 1)) for side in SIDES}
     layout = nominal.robot.layout
     total = feet_torque(nominal, np.asfortranarray(q), {side: np.asfortranarray(w) for side, w in wrenches.items()})
-    left = foot_torque(nominal, q, "left", wrenches["left"])
+    left = feet_torque(nominal, q, {"left": wrenches["left"]})
     np.testing.assert_allclose(total[:, layout.columns(layout.limb("LL"))], left[:, layout.columns(layout.limb("LL"))])
     assert not left[:, layout.columns(layout.limb("RL"))].any()
     assert not total[:, layout.columns(layout.limb("W"))].any()

@@ -12,14 +12,14 @@ from mobnet.running.environment import THREADED
 ROOT = Path(__file__).parents[2]
 DEPLOYED = """
 import numpy as np
-from mobnet.learning.deployed.networks import Network
+from mobnet.learning.deployed.networks import GruNetwork
 n, m, h = 4, 30, 400
 rng = np.random.default_rng(0)
 shapes = {"cell.weight_ih_l0": (3 * h, m), "cell.weight_hh_l0": (3 * h, h), "cell.bias_ih_l0": (3 * h,),
           "cell.bias_hh_l0": (3 * h,), "head.weight": (2 * n, h), "head.bias": (2 * n,), "input.mean": (m,),
           "input.std": (m,), "target.mean": (n,), "target.std": (n,)}
 tensors = {name: rng.uniform(0.1, 0.2, shape).astype(np.float32) for name, shape in shapes.items()}
-network = Network(tensors, "LL", tuple("abcd"), tuple(map(str, range(m))), 0.01)
+network = GruNetwork(tensors, "LL", tuple("abcd"), tuple(map(str, range(m))), 0.01)
 x = np.zeros(m, np.float32)
 
 def work():

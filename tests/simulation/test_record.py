@@ -21,7 +21,7 @@ from mobnet.estimation.observe import observe
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import RecordingSettings
 from mobnet.settings.settings import Settings, WalkSettings
-from mobnet.simulation.record import Course, collect, record
+from mobnet.simulation.record import RecordingCourse, collect, record
 from mobnet.simulation.self_collision import Clearance
 from mobnet.simulation.simulator import Simulator
 
@@ -61,7 +61,7 @@ class Faller:
         return done
 
 
-def fill(episodes: list[float], seconds: int, **settings: float) -> tuple[np.ndarray, Course, Faller]:
+def fill(episodes: list[float], seconds: int, **settings: float) -> tuple[np.ndarray, RecordingCourse, Faller]:
     """Return rows at 10 Hz and how a planned sequence of episodes went."""
     faller, kept = Faller(episodes), []
     recording = RECORDING.model_copy(update=settings)

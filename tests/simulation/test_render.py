@@ -28,12 +28,12 @@ from mobnet.core.errors import DrawingError
 from mobnet.robot.description import describe
 from mobnet.settings.load import load_settings
 from mobnet.simulation.render import save_picture
-from mobnet.simulation.terrain import Terrain
+from mobnet.simulation.terrain import DrawnTerrain
 robot = describe(load_settings().robot)
 q = [0.0] * robot.layout.nq
 q[3] = 1.0
 try:
-    save_picture(robot, Terrain(1.0), q, Path(sys.argv[1]))
+    save_picture(robot, DrawnTerrain(1.0), q, Path(sys.argv[1]))
 except DrawingError as error:
     print(error)
 """

@@ -11,14 +11,14 @@ from mobnet.core.errors import ConfigError
 from mobnet.robot.plant import SOLE_TYPE, TERRAIN_TYPE
 from mobnet.settings import data
 from mobnet.settings.settings import Settings
-from mobnet.simulation.terrain import REACH_M, TERRAIN_GROUP, Terrain, add_terrain, draw_terrain, frustum
+from mobnet.simulation.terrain import REACH_M, TERRAIN_GROUP, DrawnTerrain, add_terrain, draw_terrain, frustum
 
 SEEDS = range(4)
 TERRAINS = tuple(data.Terrain.model_fields)
 Heights = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 
-def build(terrain: Terrain, half_width: float | None = None) -> tuple[mujoco.MjModel, Heights]:
+def build(terrain: DrawnTerrain, half_width: float | None = None) -> tuple[mujoco.MjModel, Heights]:
     """Return a world with nothing but the terrain, and its height (n,) [m] under points (n, 2) [m]."""
     spec = mujoco.MjSpec()
     add_terrain(spec, terrain, half_width)
@@ -34,13 +34,13 @@ def build(terrain: Terrain, half_width: float | None = None) -> tuple[mujoco.MjM
 
 
 @pytest.fixture
-def draw(settings: Settings) -> Callable[..., Terrain]:
+def draw(settings: Settings) -> Callable[..., DrawnTerrain]:
     """A function (name, seed) -> a terrain."""
     return lambda name, seed=0: draw_terrain(dict(settings.terrain)[name], np.random.default_rng(seed))
 
 
 def test_checks_are_a_drawn_share_of_cells_raised_by_one_drawn_height(
-    draw: Callable[..., Terrain], settings: Settings
+    draw: Callable[..., DrawnTerrain], settings: Settings
 ) -> None:
     checks, patterns, tops, shares = settings.terrain.checks, set[bytes](), [], []
     assert checks is not None
@@ -58,7 +58,7 @@ def test_checks_are_a_drawn_share_of_cells_raised_by_one_drawn_height(
 
 
 @pytest.mark.parametrize("name", TERRAINS)
-def test_terrain_repeats_wherever_a_foot_gets(draw: Callable[..., Terrain], name: str) -> None:
+def test_terrain_repeats_wherever_a_foot_gets(draw: Callable[..., DrawnTerrain], name: str) -> None:
     """A robot beyond the edge is put back by a period: all within its reach must be the same there."""
     terrain = draw(name)
     _, heights = build(terrain)
@@ -71,7 +71,7 @@ def test_terrain_repeats_wherever_a_foot_gets(draw: Callable[..., Terrain], name
 
 
 @pytest.mark.parametrize(("name", "top"), [("plates", 0.010), ("slope", 0.8 * np.tan(np.deg2rad(3)))])
-def test_the_top_is_as_high_as_it_should_be(draw: Callable[..., Terrain], name: str, top: float) -> None:
+def test_the_top_is_as_high_as_it_should_be(draw: Callable[..., DrawnTerrain], name: str, top: float) -> None:
     terrain = draw(name)
     points = np.random.default_rng(0).uniform(-0.5, 0.5, (500, 2)) * terrain.period
     z = build(terrain)[1](points)
@@ -80,7 +80,7 @@ def test_the_top_is_as_high_as_it_should_be(draw: Callable[..., Terrain], name: 
 
 
 @pytest.mark.parametrize(("name", "steepest"), [("checks", 2.0), ("plates", 1.0), ("slope", np.tan(np.deg2rad(3)))])
-def test_no_side_is_vertical(draw: Callable[..., Terrain], name: str, steepest: float) -> None:
+def test_no_side_is_vertical(draw: Callable[..., DrawnTerrain], name: str, steepest: float) -> None:
     """Along lines through a whole period, points 1 mm apart differ by as much as the steepest side allows at most."""
     terrain = draw(name)
     _, heights = build(terrain)
@@ -94,7 +94,7 @@ def test_no_side_is_vertical(draw: Callable[..., Terrain], name: str, steepest: 
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_slope_rises_by_three_degrees_both_ways_and_is_even_across(draw: Callable[..., Terrain], seed: int) -> None:
+def test_slope_rises_by_three_degrees_both_ways_and_is_even(draw: Callable[..., DrawnTerrain], seed: int) -> None:
     terrain = draw("slope", seed)
     _, heights = build(terrain)
     line = np.arange(-terrain.period / 2, terrain.period / 2, 0.01)
@@ -106,14 +106,14 @@ def test_slope_rises_by_three_degrees_both_ways_and_is_even_across(draw: Callabl
     assert np.ptp(across) < 1e-9
 
 
-def test_slopes_go_either_way_and_begin_anywhere(draw: Callable[..., Terrain]) -> None:
+def test_slopes_go_either_way_and_begin_anywhere(draw: Callable[..., DrawnTerrain]) -> None:
     places = [draw("slope", seed).pieces[0].place for seed in range(20)]
     assert {int(np.flatnonzero(place)[0]) for place in places} == {0, 1}
     assert np.ptp([place.sum() for place in places]) > 1.3
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_plates_keep_apart_all_over_the_world(draw: Callable[..., Terrain], seed: int) -> None:
+def test_plates_keep_apart_all_over_the_world(draw: Callable[..., DrawnTerrain], seed: int) -> None:
     """Points all over each plate lie in no other plate, nor in a copy of one beyond the period's edge."""
     terrain = draw("plates", seed)
     areas, grid = [], np.stack(np.meshgrid(*[np.linspace(-1, 1, 21)] * 2), axis=-1).reshape(-1, 2)
@@ -134,7 +134,7 @@ def rotation(yaw: float) -> NDArray[np.float64]:
     return np.array([[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]])
 
 
-def test_a_draw_is_the_generators(draw: Callable[..., Terrain]) -> None:
+def test_a_draw_is_the_generators(draw: Callable[..., DrawnTerrain]) -> None:
     a, b, c = draw("plates", 1), draw("plates", 1), draw("plates", 2)
     for one, same, another in zip(a.pieces, b.pieces, c.pieces, strict=True):
         np.testing.assert_array_equal(one.place, same.place)
@@ -143,7 +143,7 @@ def test_a_draw_is_the_generators(draw: Callable[..., Terrain]) -> None:
         assert one.yaw != another.yaw
 
 
-def test_a_wider_terrain_is_the_same_terrain(draw: Callable[..., Terrain]) -> None:
+def test_a_wider_terrain_is_the_same_terrain(draw: Callable[..., DrawnTerrain]) -> None:
     """Pictures show more of the ground, but the same."""
     for name in TERRAINS:
         terrain = draw(name)
@@ -157,14 +157,14 @@ def test_plates_without_room_are_named(settings: Settings) -> None:
         draw_terrain(plates, np.random.default_rng(0))
 
 
-def test_flat_is_the_ground_alone(draw: Callable[..., Terrain]) -> None:
+def test_flat_is_the_ground_alone(draw: Callable[..., DrawnTerrain]) -> None:
     model, heights = build(draw("flat"))
     assert model.ngeom == 1
     assert heights(np.array([[0.3, 7.0]])) == pytest.approx(0, abs=1e-12)
 
 
 @pytest.mark.parametrize("name", TERRAINS)
-def test_only_soles_touch_the_terrain(draw: Callable[..., Terrain], name: str) -> None:
+def test_only_soles_touch_the_terrain(draw: Callable[..., DrawnTerrain], name: str) -> None:
     model, _ = build(draw(name))
     assert set(model.geom_contype) == {TERRAIN_TYPE}
     assert set(model.geom_conaffinity) == {SOLE_TYPE}

@@ -35,9 +35,12 @@ def leg_ik(
     hip = vector3()
     for i in range(3):
         hip[i] = (
-            p_base[i] + r_base[i, 0] * leg.hip[0] + r_base[i, 1] * side * leg.hip[1] + r_base[i, 2] * leg.hip[2]
+            p_base[i]
+            + r_base[i, 0] * leg.hip[0]
+            + r_base[i, 1] * side * leg.hip[1]
+            + r_base[i, 2] * leg.hip[2]
             - p_ankle[i]
-        )  # fmt: skip
+        )
     x = r_foot[0, 0] * hip[0] + r_foot[1, 0] * hip[1] + r_foot[2, 0] * hip[2]
     y = r_foot[0, 1] * hip[0] + r_foot[1, 1] * hip[1] + r_foot[2, 1] * hip[2]
     z = r_foot[0, 2] * hip[0] + r_foot[1, 2] * hip[1] + r_foot[2, 2] * hip[2]

@@ -13,9 +13,9 @@ from mobnet.control.parameters import SIDES, State
 from mobnet.control.walker import Walker
 from mobnet.core.arrays import Array
 from mobnet.core.compiled import compiled, matrix3, vector3
+from mobnet.robot.description import LEG_JOINTS
 
 LEFT_SIDE, RIGHT_SIDE = SIDES
-LEG_JOINTS = 6
 KNEE, ANKLE_PITCH, ANKLE_ROLL = 3, 4, 5  # joints of a leg
 
 
@@ -122,9 +122,10 @@ def _ankle_correction(walker: Walker, s: State, k: int, which: int, push: float,
     bound = par.ankle_integral_max_nm
     s.integral[k, which] = clip(s.integral[k, which] + dt * rate, -bound, bound)
     guard = (
-        par.guard_stiffness_nm * tilt + par.guard_edge_nm * dead(tilt, par.guard_band[1 - which])
+        par.guard_stiffness_nm * tilt
+        + par.guard_edge_nm * dead(tilt, par.guard_band[1 - which])
         + par.guard_damping_nms * omega
-    )  # fmt: skip
+    )
     return s.load[k] * s.integral[k, which] - guard
 
 

@@ -34,8 +34,10 @@ def write_fit(
     """
     kind = kind_of(out.stem, method)
     if not hasattr(kind, "fit") or not method.fitted:
-        raise ConfigError(f"{out}: method of kind {method.kind!r} with `fitted` {list(method.fitted)} is not fitted; "
-                          "accepted: a kind with a function `fit`, and one or more limbs")  # fmt: skip
+        raise ConfigError(
+            f"{out}: method of kind {method.kind!r} with `fitted` {list(method.fitted)} is not fitted; "
+            "accepted: a kind with a function `fit`, and one or more limbs"
+        )
     if set(method.fitted) != set(training):
         raise ConfigError(not_accepted(f"{out}: limbs to fit", sorted(training), [sorted(method.fitted)]))
     write_json(out, kind.fit(layout, observer, options_of(out.stem, method, kind.Options), networks, training))

@@ -17,6 +17,7 @@ def exact_pole(gain_hz: float, rate_hz: float) -> float:
     """
     if gain_hz <= 0 or rate_hz <= 0:
         raise ConfigError(f"observer gain {gain_hz} 1/s at {rate_hz} Hz; accepted: numbers above 0")
+    # (O3) of note 0034. Euler's pole, 1 - K_0 T, would make r lag behind a truth that is filtered as (11) says.
     return float(np.exp(-gain_hz / rate_hz))
 
 
@@ -25,6 +26,7 @@ def low_pass(x: NDArray[Any], gain_hz: float, rate_hz: float) -> Array:
 
     The values of x are means over each sample, the gain is K_0 of (7) [1/s].
     """
+    # (O6): it starts as the residual does, which cannot know what touched the robot before its first sample.
     start_at_zero = np.array(x, dtype=np.float64)
     start_at_zero[:1] = 0.0
     return filtered(start_at_zero, exact_pole(gain_hz, rate_hz))

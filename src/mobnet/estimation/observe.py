@@ -50,6 +50,7 @@ def observe(
     external, _ = read_array(recording, named(EXTERNAL, description.layout.names), description.layout)
     momentum = observer_of(description, level, gravity_m_s2, observer.gain_hz, read.rate_hz, observer.torque)
     log.info("%s: %d samples in %d segments", recording, len(read.sensed), len(read.segments))
+    # Both parts of the target (O7) are written, not their difference: FTS-e2e learns the second, scores need it too.
     parts = residual_and_truth(momentum, read, external)
     labelled = level.labels == "foot_sensors"
     if labelled:
@@ -82,6 +83,7 @@ def residual_and_truth(
     """Return r of (9) and the external torque (T, nv) low-passed, (T, nv) each [N] and [N m], segment by segment."""
     residual, truth = np.zeros(recording.sensed.v.shape), np.zeros(recording.sensed.v.shape)
     for span in recording.spans():
+        # A segment begins with another state of the robot, so that no momentum is carried into it.
         residual[span] = observer.residual(recording.sensed[span])
         truth[span] = low_pass(external[span], observer.gain_hz, recording.rate_hz)
     return residual, truth
@@ -97,15 +99,15 @@ def _label(
         names = [name for name, *_ in columns[f"wrench_{side}_foot"]]
         wrenches[side] = zeroed(read_array(recording, names, robot.layout)[0], swing)
     torque = feet_torque(observer.nominal, read.sensed.q, wrenches)
+    # (O8) is mapped first and filtered then, because J^T times a low-passed F is not the low-pass of J^T F.
     for span in read.spans():
         torque[span] = low_pass(torque[span], observer.gain_hz, read.rate_hz)
     return torque
 
 
 def zeroed(wrench: NDArray[Any], swing: NDArray[Any]) -> NDArray[np.float64]:
-    """Return a foot's wrench (T, 6) [N] and [N m] without its constant error, the median where the foot swings (T,).
-
-    A foot in the air is touched by pushes alone, which are rare; without a swing nothing is known of the error.
-    """
+    """Return a foot's wrench (T, 6) [N] and [N m] without its constant error, the median where the foot swings (T,)."""
+    # F_0 of (O8): a foot in the air is touched by pushes alone, which are too rare to move a median. A recording
+    # without a swing tells nothing of the error.
     hanging = wrench[swing > 0]
     return wrench - (np.median(hanging, axis=0) if len(hanging) else 0.0)

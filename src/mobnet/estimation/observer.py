@@ -1,13 +1,6 @@
 """The momentum observer of section 3.2, in discrete time, second order in the sample time.
 
-With T the sample time and gamma = exp(-K_0 T), exact for a torque that is constant over a sample:
-
-    r_k = gamma r_{k-1} + (1 - gamma) * ((p_k - p_{k-1}) / T - u_k - (beta_k + beta_{k-1}) / 2)
-
-p_k and beta_k belong to the state at t_k, while u_k is the mean over (t_{k-1}, t_k] of the torque that the motors gave.
-A log holds either that mean or samples tau_k of the torque at the ticks; u_k = (tau_k + tau_{k-1}) / 2 then. A sample
-that is taken for the mean is half a sample late: the residual is wrong by T / 2 times the rate of the torque.
-The external torque behind the same pole is what r is compared with: r = filtered tau_e + filtered tau_u (15).
+The equations (O1) to (O5) are derived in docs/notes/0034-observer.md, p and beta in `mobnet.robot.momentum`.
 """
 
 import logging
@@ -47,7 +40,7 @@ class ObserverState:
 
 
 class MomentumObserver:
-    """Momentum observer (4)..(11): r follows the external torque through a first-order low-pass of K_0.
+    """Momentum observer (4) to (11): r follows the external torque through a first-order low-pass of K_0.
 
     Attributes:
         nominal: the model it knows.
@@ -82,11 +75,14 @@ class MomentumObserver:
         p, beta = momentum_and_beta(self.nominal, sample.q, sample.v)
         torque = np.array(sample.tau_motor, dtype=np.float64)  # kept: a robot may write its samples into one buffer
         if state.momentum is None or state.beta is None or state.residual is None or state.torque is None:
+            # (O5): before the first sample there is no momentum to take a difference from.
             residual = np.zeros_like(p)
         else:
             applied = np.zeros_like(p)
             applied[self._motors] = self._mean_torque(torque, state.torque)
+            # (O1): beta is known at both ends of the sample; either of them alone would cost an order in T.
             raw = (p - state.momentum) * self.rate_hz - applied - (beta + state.beta) / 2
+            # (O4), the solution of (10) over a sample, so that r has the low-pass of the truth it is compared with.
             residual = self.pole * state.residual + (1 - self.pole) * raw
         return ObserverState(p, beta, residual, torque), residual
 
@@ -101,6 +97,7 @@ class MomentumObserver:
         if shapes != accepted:
             raise DataError(f"samples q, v, tau_motor of shapes {shapes}; accepted: {accepted}")
         p, beta = self._terms(sensed)
+        # (O5) once more: the first row stays zero, and the low-pass from zero is then the recursion (O4) of `step`.
         raw = np.zeros_like(p)
         raw[1:] = np.diff(p, axis=0) * self.rate_hz - (beta[1:] + beta[:-1]) / 2
         raw[1:, self._motors] -= self._mean_torque(sensed.tau_motor[1:], sensed.tau_motor[:-1])
@@ -108,6 +105,7 @@ class MomentumObserver:
 
     def _mean_torque(self, now: NDArray[Any], before: NDArray[Any]) -> NDArray[Any]:
         """Return u_k from the motors' torque logged at t_k and at t_{k-1}, (..., nu) [N m]."""
+        # (O2): a value at the tick taken for the mean would be half a sample late.
         return now if self.torque == "mean" else np.add(now, before, dtype=np.float64) / 2
 
     def _terms(self, sensed: Sensed) -> tuple[Array, Array]:

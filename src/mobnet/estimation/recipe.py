@@ -86,7 +86,6 @@ class Recipe:
             raise ConfigError(f"method {self.name!r} with the fit {self.fitted}; accepted: {accepted}")
 
     def _row(self, name: str) -> Method:
-        """Return one of the methods."""
         if name not in self.methods:
             raise ConfigError(not_accepted("method", name, self.methods))
         return self.methods[name]

@@ -1,7 +1,6 @@
 """Regression of the friction model of (23) on r - tau_e, joint by joint, one recording at a time.
 
-The model is linear in all but the Stribeck velocity. One pass sums the products of all columns, for every Stribeck
-velocity of a grid; then each joint takes the velocity of the grid with the smallest error (docs/notes/0015).
+Derived in docs/notes/0034-observer.md, (O10) to (O13); note 0015 has what it finds.
 """
 
 import logging
@@ -59,12 +58,14 @@ def regressors(
 
     Both are (..., n). The width of the sign function and v_s of (23), one or (n,), are in rad/s.
     """
+    # (O10). tanh for the sign: a sign would switch with the noise of a joint at rest, where friction takes any value.
     sign, fade = np.tanh(velocity / smoothing), np.exp(-np.abs(velocity) / stribeck)
     return {"coulomb": sign * (1 - fade), "static": sign * fade, "viscous": velocity, "load": sign * torque**2}
 
 
 def _sums(law: Law, joints: Sequence[str], pairs: Sequence[Pair]) -> dict[str, Array]:
     """Return joint -> mean products (m, m) of the columns of `_columns` over all recordings."""
+    # Sums of products are all that (O13) needs, and do not grow with the hours of data.
     m = STATIC + len(law.stribeck) + 1
     sums, count = {joint: np.zeros((m, m)) for joint in joints}, 0
     for recording, residual in pairs:
@@ -72,6 +73,7 @@ def _sums(law: Law, joints: Sequence[str], pairs: Sequence[Pair]) -> dict[str, A
         velocity, torque, spans, rate_hz = _halves(recording, (VELOCITY, MOTOR), joints)
         observed, external, _, _ = _halves(residual, (RESIDUAL, label_of(residual)), joints)
         for span in (slice(*ends) for ends in spans):
+            # (O11): the factors are constant, so filtered columns have the factors of unfiltered ones.
             for i, joint in enumerate(joints):
                 columns = low_pass(_columns(law, velocity[span, i], torque[span, i]), law.gain_hz, rate_hz)
                 columns = np.column_stack([columns, external[span, i] - observed[span, i]])
@@ -93,6 +95,7 @@ def _halves(
 def _columns(law: Law, velocity: Array, torque: Array) -> Array:
     """Return the regressors of one joint, (T, m - 1): sign, viscous, load, static for each Stribeck velocity."""
     tried = regressors(velocity[:, None], torque[:, None], law.smoothing, np.array(law.stribeck))
+    # Coulomb friction depends on v_s too; (O12) needs one column for all v_s instead of one for each.
     sign = tried["coulomb"][:, :1] + tried["static"][:, :1]
     return np.column_stack([sign, tried["viscous"], tried["load"], tried["static"]])
 
@@ -102,9 +105,11 @@ def _solve(products: Array, terms: Sequence[str], grid: Sequence[float]) -> dict
 
     The mean products of the columns are (m, m), the grid has Stribeck velocities [rad/s].
     """
+    # v_s is the only number that does not enter linearly: the grid is searched, the rest is solved.
     found = [_non_negative(products, terms, STATIC + i) for i in range(len(grid))]
     best = min(range(len(grid)), key=lambda i: found[i][1])
     factors, left = found[best]
+    # Without a static term sgn v is not split, (O12): friction at rest is then that of motion.
     if "static" not in terms:
         factors["static"] = factors.get("coulomb", 0.0)
     return {
@@ -116,16 +121,16 @@ def _solve(products: Array, terms: Sequence[str], grid: Sequence[float]) -> dict
 
 
 def _non_negative(products: Array, terms: Sequence[str], static: int) -> tuple[dict[str, float], float]:
-    """Return the factors, none negative, with the smallest mean square error, and the root of that [N m].
-
-    A square root of the columns' mean products takes the place of the columns: the least-squares problem is the same.
-    """
+    """Return the factors, none negative, with the smallest mean square error, and the root of that [N m]."""
     unit = np.eye(len(products))
     faded = unit[static] if "static" in terms else 0.0
     mixed = {"coulomb": unit[SIGN] - faded, "static": unit[static], "viscous": unit[VISCOUS], "load": unit[LOAD]}
     chosen = np.array([*(mixed[term] for term in terms), unit[-1]])
+    # (O13): this root has the products of the columns, so it gives their least squares without them. Rounding can make
+    # the least eigenvalue of nearly collinear columns negative.
     values, vectors = np.linalg.eigh(chosen @ products @ chosen.T)
     root = (vectors * np.sqrt(np.maximum(values, 0.0))).T
+    # N m s and 1 / (N m) differ by orders of magnitude, which would spoil the condition of the problem.
     size = np.linalg.norm(root[:, :-1], axis=0)
     size[size == 0] = 1.0  # a joint that never moved
     factors, left = scipy.optimize.nnls(root[:, :-1] / size, root[:, -1])

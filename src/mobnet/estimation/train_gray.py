@@ -9,7 +9,7 @@ from mobnet.core.arrays import Array
 from mobnet.core.columns import MOTOR, VELOCITY, named
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array, spans_and_rate
-from mobnet.estimation.kinds.friction import Friction, read_friction
+from mobnet.estimation.kinds.friction import FittedFriction, read_friction
 from mobnet.estimation.low_pass import low_pass
 from mobnet.learning.train import train_all
 from mobnet.plan.parts import Repetition
@@ -36,6 +36,7 @@ def train_gray(
     """
     friction = read_friction(fitted, layout.actuated)
 
+    # (O14): friction enters behind the observer's low-pass, because r and the truth of the target are behind it too.
     def known(recording: Path, joints: Sequence[str]) -> Array:
         return filtered_friction(layout, friction, observer.gain_hz, recording, joints)
 
@@ -43,7 +44,7 @@ def train_gray(
 
 
 def filtered_friction(
-    layout: JointLayout, friction: Friction, gain_hz: float, recording: Path, joints: Sequence[str]
+    layout: JointLayout, friction: FittedFriction, gain_hz: float, recording: Path, joints: Sequence[str]
 ) -> Array:
     """Return the friction of some joints in a recording behind the low-pass of K_0 [1/s], (T, n) [N, N m].
 

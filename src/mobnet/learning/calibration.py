@@ -1,8 +1,6 @@
 """A factor per joint on the predicted standard deviation, learned on validation data alone, after the training.
 
-The likelihood (22) asks for the right mean square of error / sigma, so a few large errors, at touch-downs, widen sigma
-everywhere. The factor asks for the right share of errors inside +- 1 sigma instead, which a quantile of |error| / sigma
-gives whatever the tails are like (docs/notes/0017-calibration.md).
+docs/notes/0035-networks.md derives (N25) to (N27), note 0017 compares them on walks.
 """
 
 from collections.abc import Sequence
@@ -17,11 +15,11 @@ from mobnet.core.arrays import Array
 from mobnet.learning.gaussian import Fit, fit_of, half_width
 from mobnet.learning.model import LimbNetwork
 from mobnet.learning.optimisation import Samples, predictions
-from mobnet.learning.streams import Plan
+from mobnet.learning.streams import EpochPlan
 
 
 @dataclass(frozen=True)
-class Calibration:
+class StdFactors:
     """Factors that correct the standard deviations of n joints, and how well these fit before and after.
 
     Attributes:
@@ -50,15 +48,17 @@ class Calibration:
         }
 
 
-def calibrate(error: NDArray[Any], std: NDArray[Any], share: float, shares: Sequence[float]) -> Calibration:
+def calibrate(error: NDArray[Any], std: NDArray[Any], share: float, shares: Sequence[float]) -> StdFactors:
     """Learn the factors; test those of the first half of the data on the second half.
 
     Errors and predicted standard deviations are (T, n) [N m], in the order of time. `share` is the share of the errors
     that a central interval shall hold; the coverage is measured at the nominal `shares` (k,).
     """
+    # A factor fits the data that it was learned from better than any others, so it is tested on the other half.
     cut = len(error) // 2
     halved = scale_for(error[:cut], std[:cut], share)
-    return Calibration(
+    # The second factor is (N26), what (22) itself would ask for.
+    return StdFactors(
         scale_for(error, std, share),
         np.sqrt(np.square(error / std).mean(axis=0)),
         fit_of(error[cut:], std[cut:], shares),
@@ -68,10 +68,11 @@ def calibrate(error: NDArray[Any], std: NDArray[Any], share: float, shares: Sequ
 
 def scale_for(error: NDArray[Any], std: NDArray[Any], share: float) -> Array:
     """Return the factor (n,) on std (T, n) [N m] that puts a share of errors (T, n) [N m] into its interval."""
+    # (N27): the size of the few large errors at touch-downs has no say in a quantile.
     return np.quantile(np.abs(error) / std, share, axis=0) / half_width(share)
 
 
-def predict(network: LimbNetwork, samples: Samples, plan: Plan, horizon: int) -> tuple[Array, Array]:
+def predict(network: LimbNetwork, samples: Samples, plan: EpochPlan, horizon: int) -> tuple[Array, Array]:
     """Run a network through a validation, rows (updates, lanes) and `horizon` steps together, its state carried.
 
     Return error and standard deviation, z-scored, (T, n) each, lane after lane: in the order of time.

@@ -96,12 +96,13 @@ class Block(nn.Module):
 
     def forward(self, x: Tensor) -> Tensor:
         """Return (1, width, T - past, B) of (1, inputs, T, B), unitless."""
+        # No padding: the carried state takes its place, and the shortcut must lose the same first samples.
         inner = self.dropout(self.first(x).relu())
         inner = self.dropout(self.second(inner).relu())
         return (inner + self.shortcut(x[:, :, self.past :])).relu()
 
 
-class Window(nn.Module):
+class WindowCell(nn.Module):
     """One hidden tanh layer over the last samples: of the inputs (MLP), or of the output of blocks (TCN).
 
     The state is the last inputs (past, B, n_in), zeros at a fresh start.
@@ -121,6 +122,7 @@ class Window(nn.Module):
         To the convolution, time and lanes are the axes of an image and the inputs its channels: it reads the samples as
         they lie in memory, channels last, once for all windows that contain them.
         """
+        # The state has the samples (N23) that the first of the windows needs, so no window is filled up with zeros.
         samples = torch.cat([state, x])
         with torch.autocast(x.device.type, enabled=False):  # in bfloat16 a block's gradient is NaN, torch 2.13
             features = self.layer(self.blocks(samples[None].permute(0, 3, 1, 2))).tanh()
@@ -152,14 +154,14 @@ def _tcn(
         Block(inputs if i == 0 else hidden, hidden, kernel_steps, dilation, dropout)
         for i, dilation in enumerate(dilations)
     ]
-    return Window(inputs, head, window_steps, blocks)
+    return WindowCell(inputs, head, window_steps, blocks)
 
 
 CELLS: Mapping[CellKind, Callable[..., CellModule]] = {  # each takes the number of inputs and its `SIZES` by name
     "GRU": lambda inputs, hidden: Gru(inputs, hidden),
     "LSTM": lambda inputs, hidden: Lstm(inputs, hidden),
     "RNN": lambda inputs, hidden: Rnn(inputs, hidden),
-    "MLP": lambda inputs, hidden, window_steps: Window(inputs, hidden, window_steps),
+    "MLP": lambda inputs, hidden, window_steps: WindowCell(inputs, hidden, window_steps),
     "TCN": _tcn,
     "constant": lambda inputs: Constant(),
 }

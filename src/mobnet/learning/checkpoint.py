@@ -80,6 +80,7 @@ def resume(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.op
         log.warning("%s: belongs to another configuration, data or code (%s, here %s); starting afresh", path,
                     note.get("fingerprint"), fingerprint)  # fmt: skip
         return Progress()
+    # The last weights go on learning, with Adam's moments; the best ones only wait to be written.
     network.load_state_dict(_below("last.", tensors))
     state: dict[int, dict[str, Tensor]] = {}
     for name, tensor in _below("optimizer.", tensors).items():
@@ -101,5 +102,4 @@ def write_metrics(path: Path, epochs: Sequence[Epoch]) -> None:
 
 
 def _below(prefix: str, tensors: Mapping[str, Tensor]) -> dict[str, Tensor]:
-    """Return the entries whose names start with a prefix, without it."""
     return {name.removeprefix(prefix): tensor for name, tensor in tensors.items() if name.startswith(prefix)}

@@ -25,7 +25,7 @@ CONSTANT = 1e-9  # an input that moves less than this share of its mean counts a
 
 
 @dataclass(frozen=True)
-class Scale:
+class ZScore:
     """Mean and standard deviation of each column, (n,), in the columns' units; z = (x - mean) / std."""
 
     mean: NDArray[np.float32]
@@ -100,6 +100,7 @@ def load_limb_data(
         parts.append((x, y))
         segments += [(offset + start, offset + end) for start, end in spans]
         rates.add(rate)
+    # A network counts time in samples, so a second rate would be another robot to it.
     if len(rates) != 1:
         raise DataError(f"recordings at {sorted(rates)} Hz cannot be mixed; accepted: one or more at a single rate")
     xs, ys = (np.concatenate(column) for column in zip(*parts, strict=True))
@@ -125,6 +126,7 @@ def _load_one(
     if margins is None:
         torque = read_target(residual, joints, target)
     else:
+        # (N2). Rows without a target stay, as the state has to run through them on its way to the next swing.
         torque = read_array(residual, named(RESIDUAL, joints))[0]
         torque[~free_rows(recording, layout, joints, margins)] = np.nan
     return inputs.from_recorded(recorded), torque, *spans_and_rate(meta)
@@ -132,6 +134,7 @@ def _load_one(
 
 def read_target(stem: Path, joints: Sequence[str], target: Target) -> NDArray[np.float32]:
     """Return the torque to learn of some joints, (T, n) [N, N m], from a residual file and its label."""
+    # Both targets lag behind alike, as the file has tau_e behind the observer's low-pass, (O7) of note 0034.
     external, _ = read_array(stem, named(label_of(stem), joints))
     if target == "external":
         return external
@@ -139,14 +142,16 @@ def read_target(stem: Path, joints: Sequence[str], target: Target) -> NDArray[np
     return residual - external
 
 
-def scale_of(array: NDArray[np.float32], spans: Sequence[Span]) -> Scale:
+def scale_of(array: NDArray[np.float32], spans: Sequence[Span]) -> ZScore:
     """Return mean and standard deviation of the columns of an array (N, n) over some spans of its rows.
 
     A constant column, such as a joint that a scenario holds still, gets the standard deviation 1.
     """
+    # (N3), summed in float64: in float32 the sums of millions of samples would keep few digits.
     count = sum(end - start for start, end in spans)
     mean = np.sum([array[a:b].sum(axis=0, dtype=np.float64) for a, b in spans], axis=0) / count
     square = np.sum([np.square(array[a:b] - mean).sum(axis=0) for a, b in spans], axis=0) / count
     std = np.sqrt(square)
+    # Divided by its standard deviation, the rounding errors of a constant would look like a signal.
     std[std <= CONSTANT * np.maximum(1.0, np.abs(mean))] = 1.0
-    return Scale(mean.astype(np.float32), std.astype(np.float32))
+    return ZScore(mean.astype(np.float32), std.astype(np.float32))

@@ -57,6 +57,7 @@ def signals(sensed: Sensed) -> NDArray[np.float32]:
 
     Columns are those of `signal_names`, (T, 3 nu + 12), or (3 nu + 12,) for one sample; units as in `LimbInputs`.
     """
+    # Where the robot stands and how fast it moves in the world are left out: no encoder or IMU tells them (4.2.1).
     parts = [
         sensed.q[..., NQ_BASE:],
         sensed.v[..., N_VIRTUAL:],
@@ -70,6 +71,7 @@ def signals(sensed: Sensed) -> NDArray[np.float32]:
 
 def _first_columns(quaternion: NDArray[Any]) -> NDArray[np.float64]:
     """Return the first two columns of the rotations (..., 6) of quaternions w x y z (..., 4)."""
+    # The third column is the cross product of these two and would tell a network nothing new, (N1).
     columns = rotation(quaternion)[..., :2]
     return np.swapaxes(columns, -1, -2).reshape(*columns.shape[:-2], -1)
 
@@ -85,6 +87,7 @@ def limb_inputs(layout: JointLayout, limb: Limb) -> LimbInputs:
     Raises:
         ConfigError: a limb is unknown, or is the virtual one, which has no encoders or motors.
     """
+    # (N1) in the order of Table 1, which is the order of a trained network's weights.
     encoders = [_actuated(layout, name) for name in limb.Q]
     names = [f"{signal}.{joint}" for joints in encoders for signal in ("q", "v") for joint in joints]
     names += [f"tau_des.{joint}" for name in limb.T for joint in _actuated(layout, name)]

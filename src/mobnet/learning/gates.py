@@ -24,6 +24,7 @@ def ordered(w_in: Array, w_state: Array, b_in: Array, b_state: Array) -> tuple[A
     They are weight_ih (3 H, n_in) and weight_hh (3 H, H), bias_ih and bias_hh (3 H,): reset, update, new.
     """
     n = w_state.shape[1]
+    # Two of torch's biases are one number to (N5); that of i stays apart, because the reset gate multiplies it, (N4).
     bias = np.concatenate([b_state[2 * n :], b_in])
     bias[n : 3 * n] += b_state[: 2 * n]
     return np.ascontiguousarray(w_in), np.roll(w_state, n, axis=0), bias
@@ -33,10 +34,10 @@ def ordered(w_in: Array, w_state: Array, b_in: Array, b_state: Array) -> tuple[A
 def rational_tanh(x: np.float32) -> np.float32:
     """Return tanh(x), unitless, within a few float32 roundings; loops over it vectorize, which tanh's do not.
 
-    tanh(x / 2) by the seventh convergent of Lambert's continued fraction, x / (1 + x^2 / (3 + x^2 / (5 + ...))), then
-    the double of the argument: tanh(2 y) = 2 t / (1 + t^2), which for t = u / q needs one division.
+    (N8) at half the argument, whose double (N9) gives with a single division.
     """
-    x = min(np.float32(9.0), max(np.float32(-9.0), x)) if x == x else x  # tanh(9) rounds to 1; NaN passes
+    # (N8) grows without bound further out, where tanh is 1 to a rounding. NaN passes, so that a divergence is seen.
+    x = min(np.float32(9.0), max(np.float32(-9.0), x)) if x == x else x
     y = np.float32(0.5) * x
     s = y * y
     u = y * (np.float32(135135) + s * (np.float32(17325) + s * (np.float32(378) + s)))
@@ -47,6 +48,7 @@ def rational_tanh(x: np.float32) -> np.float32:
 @compiled(fastmath=MATHS)
 def open_gates(inner: Array, reset: Array, update: Array, new: Array, last: Array, state: Array) -> None:
     """Turn the sums of gates (n,) into the gates, and write the next state (n,), unitless."""
+    # (N5) and (N6), with (N7) for the logistic function.
     half = np.float32(0.5)
     for j in range(len(reset)):
         reset[j] = half + half * rational_tanh(half * reset[j])
@@ -86,6 +88,7 @@ def go_forward(
     lanes = inputs.shape[2]
     n = states.shape[1] // lanes
     for k in range(inputs.shape[1]):
+        # Training keeps every step's gates for the way back, (N12); without training there is room for one.
         parts = gates[k % len(gates)]
         sums = parts.reshape(4 * n, lanes)
         for i in range(4 * n):
@@ -108,6 +111,7 @@ def close_gates(
 
     What reaches the state before the step past the gates is left in `d`.
     """
+    # (N12) and (N13): the slopes of tanh and of the logistic function follow from the gates, so no sums are kept.
     one = np.float32(1.0)
     for j in range(len(d)):
         d_update[j] = d[j] * (last[j] - new[j]) * update[j] * (one - update[j])
@@ -118,6 +122,7 @@ def close_gates(
     for j in range(len(d)):
         d_inner[j] = d_new[j] * reset[j]
     for j in range(len(d)):
+        # The first part of (N14): what is past the gates decays by the update gate alone, hence a GRU's long memory.
         d[j] *= update[j]
 
 
@@ -151,6 +156,8 @@ def go_back(
         for i in range(n):
             for j in range(len(output)):
                 d[i, j] += output[j, i]
+        # (N14) and (N15). Gradients of weights are summed step by step, as one product after the loop would round
+        # and reorder its factors once more, which takes longer (note 0014).
         close_gates(g[0], g[1], g[2], g[3], states[k], flat, d_gates[0], d_gates[1], d_gates[2], d_gates[3])
         lay_left(d_gates.reshape(1, d_gates.size), left.reshape(1, left.size))
         lay_right(d_gates[:3].reshape(3 * n, lanes), right)

@@ -33,6 +33,7 @@ def fit_of(error: NDArray[Any], std: NDArray[Any], shares: Sequence[float]) -> F
 
 def half_width(share: float) -> float:
     """Return half the width of the central interval that holds a share of a Gaussian, in standard deviations."""
+    # (N25): the share outside lies in two tails.
     return float(ndtri((1.0 + share) / 2.0))
 
 
@@ -44,6 +45,7 @@ def coverage(error: NDArray[Any], std: NDArray[Any], shares: Sequence[float]) ->
 
 def likelihood(error: NDArray[Any], std: NDArray[Any]) -> Array:
     """Return the mean negative log-likelihood of errors (T, n) [N m], (n,) [nats]: (21) with its constants."""
+    # Half of (N16) and the constant of (20), which a loss can leave out but numbers of nats cannot.
     square = np.square(error / std).mean(axis=0, dtype=np.float64)
     return 0.5 * (np.log(2.0 * np.pi) + square) + np.log(std).mean(axis=0, dtype=np.float64)
 
@@ -53,6 +55,6 @@ def ranked_score(error: NDArray[Any], std: NDArray[Any]) -> Array:
 
     It is the mean absolute error that a prediction without spread would have, and in the unit of the torque.
     """
-    z = error / std
+    z = error / std  # zeta of (N28)
     density = np.exp(-0.5 * np.square(z)) / np.sqrt(2.0 * np.pi)
     return (std * (z * (2.0 * ndtr(z) - 1.0) + 2.0 * density - 1.0 / np.sqrt(np.pi))).mean(axis=0, dtype=np.float64)

@@ -42,9 +42,12 @@ class FusedGru(torch.autograd.Function):
         sizes = (3 * hidden, padded), (padded, x.shape[2]), (padded, h.shape[2])
         tensors = given, gates, states.flatten(1), x, h, d, torch.empty_like(gates[0]), d_in, d_state
         go_back(
-            left_factor(w_state.T, paired), left_room(4 * hidden, padded, paired),
-            *(room(*size, paired) for size in sizes), *(tensor.numpy() for tensor in tensors),
-        )  # fmt: skip
+            left_factor(w_state.T, paired),
+            left_room(4 * hidden, padded, paired),
+            *(room(*size, paired) for size in sizes),
+            *(tensor.numpy() for tensor in tensors),
+        )
+        # Torch has the order r, z, c, and the loops have i, r, z, whose first is c's part of the state's weights.
         d_state, n = d_state.roll(-hidden, 0), ctx.inputs
         return None, None, None, d_in[:, :n], d_state[:, :hidden], d_in[:, n], d_state[:, hidden]
 
@@ -56,6 +59,7 @@ def run_gru(cell: nn.GRU, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
     unitless, get no gradient, and back-propagation is truncated at the state (1, B, H). Return the states (h, B, H) and
     the last of them (1, B, H), float32.
     """
+    # The loops are compiled for a CPU, and a state that went there at each horizon would make a GPU wait.
     if x.device.type != "cpu":
         return cell(x, state)
     precision = torch.get_autocast_dtype("cpu") if torch.is_autocast_enabled("cpu") else torch.float32
@@ -66,6 +70,7 @@ def run_gru(cell: nn.GRU, x: Tensor, state: Tensor) -> tuple[Tensor, Tensor]:
 
 def with_ones(rows: Tensor, width: int) -> Tensor:
     """Return a copy (h, L, m) of rows (h, B, n), a one after so many columns, for the biases, and zero elsewhere."""
+    # The products (N15) with such rows have the gradients of the biases in their last column.
     copy = torch.zeros(len(rows), up(rows.shape[1]), up(width + 1))
     copy[:, : rows.shape[1], : rows.shape[2]] = rows
     copy[..., width] = 1.0

@@ -18,7 +18,7 @@ PRECISIONS = {"float32": torch.float32, "bfloat16": torch.bfloat16}
 
 
 @dataclass(frozen=True)
-class Job:
+class TrainingJob:
     """One repetition, number `seed`, of a training; the root seed is that of every random number."""
 
     training: Training
@@ -50,6 +50,7 @@ class Job:
     def rate(self, epoch: int) -> float:
         """Return the learning rate of an epoch: linear to its last value, then constant (section 4.4)."""
         learning = self.training.learning
+        # (N22) with a share of our own: half of a short training at the last rate would teach nothing (note 0009).
         passed = min(1.0, epoch / max(1.0, learning.rate_decay_share * self.training.epochs))
         return learning.rate_first * (1.0 - (1.0 - learning.rate_last_ratio) * passed)
 
@@ -86,5 +87,5 @@ def precision_name(precision: torch.dtype) -> str:
 
 
 def _generator(*words: int | str) -> np.random.Generator:
-    """Return the random numbers that belong to some words."""
+    # The words' hash as seed: a purpose that is added later changes no numbers of the others.
     return np.random.default_rng(list(hashlib.sha256(repr(words).encode()).digest()))

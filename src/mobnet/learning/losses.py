@@ -1,18 +1,8 @@
 """What a training minimises: the likelihood (22), or a loss that weighs its samples otherwise.
 
-(22) weighs the square of an error with 1 / sigma^2, so that a network learns most where it is already right: a swing
-leg, whose external torque is exactly zero, takes the gradient from a stance leg. Two losses change that:
-
-* `beta_likelihood` multiplies each sample of (22) with sigma^(2 beta), through which no gradient passes (beta-NLL,
-  Seitzer et al. 2022, arXiv:2203.09168): beta 0 is (22), beta 1 trains the mean as squared errors do;
-* `squared` trains the mean by squared errors alone, and sigma by (22) on errors and a state through which no gradient
-  passes (faithful heteroscedastic regression, Stirn et al. 2023, arXiv:2212.09184): the mean is what it would be
-  without a sigma.
-
-Which number chooses the epoch that is kept follows from the loss. What these two minimise rates no network: its weights
-are sigma's own, so that a wider sigma changes the number at the same errors. (22) would choose again by the samples
-that they are there to weigh less. They are therefore judged by the RMSE, which tables show; the scale of sigma is
-fitted after the training in any case (`calibration`).
+docs/notes/0035-networks.md derives (N16) to (N18), note 0025 says why (22) has two others beside it: `beta_likelihood`
+(beta-NLL, Seitzer et al. 2022, arXiv:2203.09168), and `squared` (faithful heteroscedastic regression, Stirn et al.
+2023, arXiv:2212.09184), with which the mean is what it would be without a sigma.
 """
 
 from collections.abc import Callable, Mapping
@@ -23,6 +13,8 @@ from torch import Tensor
 from mobnet.settings.networks import Learning, Loss
 
 Objective = Callable[[Tensor, Tensor, Tensor], tuple[Tensor, Tensor]]
+# What the last two minimise rates no network, because a wider sigma changes it at the same errors; (22) would choose by
+# the samples that they are there to weigh less.
 CHOSEN_BY: Mapping[Loss, str] = {  # column of `Epoch` that is smallest in the epoch kept
     "likelihood": "validation_loss",
     "beta_likelihood": "validation_rmse",
@@ -35,6 +27,7 @@ def gaussian_loss(mean: Tensor, std: Tensor, target: Tensor) -> Tensor:
 
     Mean, standard deviation and target torque are (..., n), z-scored, unitless.
     """
+    # The mean instead of the sum of (21), so that the rate and the clip do not depend on the size of a batch.
     return _terms(mean - target, std).mean()
 
 
@@ -46,6 +39,7 @@ def likelihood(mean: Tensor, std: Tensor, target: Tensor) -> tuple[Tensor, Tenso
 
 def beta_likelihood(mean: Tensor, std: Tensor, target: Tensor, beta: float) -> tuple[Tensor, Tensor]:
     """Return (22) with each sample multiplied with sigma^(2 beta), and (22) itself; else as `likelihood`."""
+    # (N17): a weight that passed a gradient would be minimised itself, by a small sigma.
     terms = _terms(mean - target, std)
     return (std.detach().pow(2.0 * beta) * terms).mean(), terms.mean()
 
@@ -55,6 +49,7 @@ def squared(mean: Tensor, std: Tensor, target: Tensor) -> tuple[Tensor, Tensor]:
 
     That sigma trains nothing but its own part of the linear layer is up to the network (`LimbNetwork.std_apart`).
     """
+    # (N18): sigma learns from errors that it cannot make smaller.
     error = mean - target
     loss = _terms(error.detach(), std).mean()
     return error.square().mean() + loss, loss
@@ -71,5 +66,5 @@ def objective_of(learning: Learning) -> Objective:
 
 
 def _terms(error: Tensor, std: Tensor) -> Tensor:
-    """Return ln(sigma^2) + error^2 / sigma^2 of each sample and joint, (..., n), unitless."""
+    # (N16) of sigma itself, not of the variance, because sigma is what the network has and clips, (N10).
     return 2 * std.log() + (error / std).square()

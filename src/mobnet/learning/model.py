@@ -44,8 +44,10 @@ class LimbNetwork(nn.Module):
         rounded = self.training and self.precision != torch.float32
         with torch.autocast(x.device.type, self.precision, enabled=rounded):
             features, state = self.cell.run(x if self.input_gain == 1.0 else self.input_gain * x, state)
-        mean, raw = self._output(features.float())  # rounded means would cost likelihood
-        std = nn.functional.softplus(raw.contiguous())  # ten times as fast as on a part of each row
+        # The linear layer is not rounded: it is a fourteenth of the time, and its errors would go straight to the mean.
+        mean, raw = self._output(features.float())
+        # (N10). A softplus on a part of each row would take ten times as long.
+        std = nn.functional.softplus(raw.contiguous())
         return mean, std.clamp_min(self.std_min), state.float()
 
     def _output(self, features: Tensor) -> tuple[Tensor, Tensor]:
@@ -53,6 +55,7 @@ class LimbNetwork(nn.Module):
         if not (self.training and self.std_apart):
             mean, raw = self.head(features).chunk(2, dim=-1)
             return mean, raw
+        # (N18) trains the mean alone through the cell; sigma sees the features as they come.
         (mean_weight, std_weight), (mean_bias, std_bias) = self.head.weight.chunk(2), self.head.bias.chunk(2)
         linear = nn.functional.linear
         return linear(features, mean_weight, mean_bias), linear(features.detach(), std_weight, std_bias)
@@ -62,6 +65,7 @@ class LimbNetwork(nn.Module):
         found = {name: p.grad for name, p in self.named_parameters() if p.grad is not None}
         if not self.std_apart:
             return [list(found.values())]
+        # Clipped together, a large gradient of sigma would shrink that of the mean, which (N18) keeps apart from it.
         halves = [grad.chunk(2) for name, grad in found.items() if name.startswith("head.")]
         rest = [grad for name, grad in found.items() if not name.startswith("head.")]
         return [rest + [mean for mean, _ in halves], [std for _, std in halves]]
@@ -86,6 +90,7 @@ class LimbNetwork(nn.Module):
             if parametrize.is_parametrized(module):
                 names = [name for name, _ in module.get_submodule("parametrizations").named_children()]
                 tensors |= {f"{path}.{name}": getattr(module, name) for name in names}
+        # (N24): a robot multiplies with one matrix, without norm and gain.
         if self.input_gain != 1.0:
             tensors["cell.weight_ih_l0"] = self.input_gain * tensors["cell.weight_ih_l0"]
         return {name: tensor.detach().cpu().clone() for name, tensor in tensors.items()}

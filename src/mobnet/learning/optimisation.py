@@ -13,7 +13,7 @@ from torch import Tensor
 from mobnet.core.errors import DataError
 from mobnet.learning.losses import Objective, gaussian_loss, likelihood
 from mobnet.learning.model import LimbNetwork
-from mobnet.learning.streams import Plan, epoch_plan, window_plan
+from mobnet.learning.streams import EpochPlan, epoch_plan, window_plan
 
 EVERY_STEP, LAST_STEP = slice(None), slice(-1, None)  # of a horizon, in the loss
 SEQUENCES = {"carried": (epoch_plan, EVERY_STEP), "windows": (window_plan, LAST_STEP)}
@@ -34,7 +34,7 @@ class Samples:
         """Return mean, std and target (h, B, n) of a horizon, or their samples (m, n) whose target is known."""
         return tuple(tensor[~tensors[-1][..., 0].isnan()] for tensor in tensors) if self.partial else tensors
 
-    def horizons(self, plan: Plan, horizon: int) -> Iterator[tuple[Tensor, Tensor, Tensor]]:
+    def horizons(self, plan: EpochPlan, horizon: int) -> Iterator[tuple[Tensor, Tensor, Tensor]]:
         """Walk through a plan, `horizon` steps an update.
 
         Yields:
@@ -59,7 +59,7 @@ def train_epoch(
     network: LimbNetwork,
     optimizer: torch.optim.Optimizer,
     samples: Samples,
-    plan: Plan,
+    plan: EpochPlan,
     horizon: int,
     gradient_norm: float,
     scored: slice = EVERY_STEP,
@@ -75,6 +75,7 @@ def train_epoch(
     losses, norms = [], []
     state = network.fresh_state(plan.rows.shape[1], samples.inputs.device)
     for x, target, keep in samples.horizons(plan, horizon):
+        # (N20): the state goes on from horizon to horizon as on a robot, the gradient does not.
         mean, std, after = network(x, state * keep)
         state = after.detach()
         known = samples.told(mean[scored], std[scored], target[scored])
@@ -95,6 +96,7 @@ def train_epoch(
 @torch.no_grad()
 def clip(gradients: Sequence[Tensor], most: float) -> Tensor:
     """Scale gradients in place to a norm of `most` where it is larger; return the norm before, ()."""
+    # (N21), on the device: reading the norm to decide would make a GPU wait at each update.
     norm = torch.nn.utils.get_total_norm(gradients)
     torch._foreach_mul_(list(gradients), (most / (norm + 1e-6)).clamp(max=1.0))
     return norm
@@ -102,7 +104,7 @@ def clip(gradients: Sequence[Tensor], most: float) -> Tensor:
 
 @torch.no_grad()
 def predictions(
-    network: LimbNetwork, samples: Samples, plan: Plan, horizon: int
+    network: LimbNetwork, samples: Samples, plan: EpochPlan, horizon: int
 ) -> Iterator[tuple[Tensor, Tensor, Tensor]]:
     """Run a network in evaluation mode over the rows of a plan (updates, lanes), its state carried as planned.
 
@@ -117,7 +119,7 @@ def predictions(
 
 
 def validate(
-    network: LimbNetwork, samples: Samples, plan: Plan, horizon: int, scored: slice = EVERY_STEP
+    network: LimbNetwork, samples: Samples, plan: EpochPlan, horizon: int, scored: slice = EVERY_STEP
 ) -> tuple[float, Tensor]:
     """Run a validation, its state carried as planned; only the `scored` steps of a horizon count.
 

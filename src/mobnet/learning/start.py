@@ -9,9 +9,9 @@ import torch
 from torch import Tensor
 
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.learning.dataset import LimbData, Scale
+from mobnet.learning.dataset import LimbData, ZScore
 from mobnet.learning.deployed.weights import GRU_TENSORS, read_weights
-from mobnet.learning.job import Job
+from mobnet.learning.job import TrainingJob
 
 
 @dataclass(frozen=True)
@@ -19,11 +19,11 @@ class Start:
     """Weights of a network, z-scores of its inputs (n_in,) and targets (n,), and a hash of the file."""
 
     weights: Mapping[str, Tensor]
-    scales: tuple[Scale, Scale]
+    scales: tuple[ZScore, ZScore]
     digest: str
 
 
-def read_start(path: Path, job: Job, data: LimbData) -> Start:
+def read_start(path: Path, job: TrainingJob, data: LimbData) -> Start:
     """Read the network from which a training starts.
 
     Raises:
@@ -38,6 +38,6 @@ def read_start(path: Path, job: Job, data: LimbData) -> Start:
     ):
         if own != wanted:
             raise DataError(not_accepted(f"{path}: {name}", own, [wanted]))
-    inputs, targets = (Scale(tensors[f"{name}.mean"], tensors[f"{name}.std"]) for name in ("input", "target"))
+    inputs, targets = (ZScore(tensors[f"{name}.mean"], tensors[f"{name}.std"]) for name in ("input", "target"))
     weights = {name: torch.from_numpy(tensors[name].copy()) for name in GRU_TENSORS}
     return Start(weights, (inputs, targets), hashlib.sha256(path.read_bytes()).hexdigest())

@@ -18,7 +18,7 @@ Span = tuple[int, int]  # first row and the row after the last
 
 
 @dataclass(frozen=True)
-class Plan:
+class EpochPlan:
     """The course of one epoch.
 
     Attributes:
@@ -30,7 +30,6 @@ class Plan:
     fresh: NDArray[np.bool_]
 
     def __len__(self) -> int:
-        """Return the number of updates."""
         return len(self.rows)
 
 
@@ -43,6 +42,7 @@ def split(
     """
     if held_out is not None:
         return [span for span in segments if span[0] < held_out], [span for span in segments if span[0] >= held_out]
+    # Samples a millisecond apart are nearly the same, so that single ones held out would validate nothing.
     training, validation = [], []
     for start, end in segments:
         cut = end - round((end - start) * validation_share)
@@ -68,7 +68,7 @@ def cut_streams(
     return [streams[i] for i in rng.permutation(len(streams))] if rng else streams
 
 
-def deal(streams: Sequence[Span], lanes: int, horizon: int) -> Plan:
+def deal(streams: Sequence[Span], lanes: int, horizon: int) -> EpochPlan:
     """Distribute streams over the lanes of a batch for truncated back-propagation through time (section 4.4).
 
     Streams, each a whole number of horizons long, are laid end to end and cut into lanes of equal length; what is left
@@ -77,6 +77,7 @@ def deal(streams: Sequence[Span], lanes: int, horizon: int) -> Plan:
     Raises:
         DataError: the streams hold fewer horizons than there are lanes.
     """
+    # (N19): lanes of equal length, so that every batch is full until the last update.
     rows = np.concatenate([np.arange(a, b, horizon) for a, b in streams] or [np.empty(0)]).astype(np.int64)
     updates = len(rows) // lanes
     if updates == 0:
@@ -85,11 +86,12 @@ def deal(streams: Sequence[Span], lanes: int, horizon: int) -> Plan:
             "accepted: longer recordings, a smaller batch_size"
         )
     follows = np.concatenate([[False], np.diff(rows) == horizon])
+    # Two streams may lie end to end in a recording too, where a cut was drawn: a start all the same, (N20).
     follows[np.cumsum([0] + [(b - a) // horizon for a, b in streams[:-1]])] = False
     shape = (lanes, updates)
     fresh = ~follows[: lanes * updates].reshape(shape)
     fresh[:, 0] = True
-    return Plan(rows[: lanes * updates].reshape(shape).T.copy(), fresh.T.copy())
+    return EpochPlan(rows[: lanes * updates].reshape(shape).T.copy(), fresh.T.copy())
 
 
 def some_of(blocks: Sequence[Span], stream: int, parts: int, rng: np.random.Generator) -> list[Span]:
@@ -103,7 +105,7 @@ def some_of(blocks: Sequence[Span], stream: int, parts: int, rng: np.random.Gene
 
 def epoch_plan(
     blocks: Sequence[Span], stream: int, horizon: int, lanes: int, rng: np.random.Generator, samples: int | None = None
-) -> Plan:
+) -> EpochPlan:
     """Return the course of a training epoch: new cuts, new order; arrays (updates, lanes) of rows [samples].
 
     Blocks are gone through as often as it takes to fill so many `samples`; None means once, all of them.
@@ -124,7 +126,7 @@ def epoch_plan(
 
 def window_plan(
     blocks: Sequence[Span], stream: int, horizon: int, lanes: int, rng: np.random.Generator, samples: int | None = None
-) -> Plan:
+) -> EpochPlan:
     """Return an epoch of independent windows, each from a zero state; arrays (updates, lanes) of rows [samples].
 
     `stream` has no meaning here, for windows follow each other at random; without `samples` the epoch has as many as
@@ -141,10 +143,10 @@ def window_plan(
             "accepted: longer recordings, a smaller batch_size"
         )
     rows = rng.choice(starts, (updates, lanes))
-    return Plan(rows, np.ones(rows.shape, dtype=bool))
+    return EpochPlan(rows, np.ones(rows.shape, dtype=bool))
 
 
-def validation_plan(blocks: Sequence[Span], stream: int, horizon: int, lanes: int) -> Plan:
+def validation_plan(blocks: Sequence[Span], stream: int, horizon: int, lanes: int) -> EpochPlan:
     """Return the fixed course of a validation, at most `lanes` side by side; arrays (updates, lanes) of rows [samples].
 
     The state is carried through whole blocks. Lanes are about one stream long, so that the zero states at their starts

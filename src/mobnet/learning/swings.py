@@ -24,6 +24,7 @@ def hanging(
     After a foot should have lifted off it may still touch the ground for some time [s], and before it should land it
     may have landed; spans (start, end) hang together, and the end of one ends a swing.
     """
+    # (N2). Margins beyond the middle of a short swing leave nothing of it.
     after, before = (round(margin * rate_hz) for margin in margins)
     found = np.zeros(len(swing), dtype=bool)
     for start, end in spans:

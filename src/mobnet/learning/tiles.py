@@ -71,7 +71,6 @@ def _at(builder: Any, array: Any, row: Any, column: Any, kind: Any) -> Any:
 
 
 def _spread(builder: Any, number: Any) -> Any:
-    """Return a vector of the same number."""
     zero = ir.Constant(ir.VectorType(ir.IntType(32), WIDE), None)
     nothing = ir.Constant(ir.VectorType(number.type, WIDE), ir.Undefined)
     first = builder.insert_element(nothing, number, ir.IntType(32)(0))

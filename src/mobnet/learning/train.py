@@ -14,11 +14,11 @@ from safetensors.torch import save as to_bytes
 
 from mobnet.core.files import METRICS, RUN, TIME, WEIGHTS, atomic_path, write_json
 from mobnet.core.joints import JointLayout
-from mobnet.learning.calibration import Calibration
+from mobnet.learning.calibration import StdFactors
 from mobnet.learning.checkpoint import CHECKPOINT, Progress, write_metrics
 from mobnet.learning.dataset import Known, LimbData, load_limb_data
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE
-from mobnet.learning.job import Job, precision_name
+from mobnet.learning.job import TrainingJob, precision_name
 from mobnet.learning.model import parameter_count
 from mobnet.learning.swings import Margins
 from mobnet.learning.trainer import Trainer
@@ -27,7 +27,6 @@ from mobnet.running.provenance import provenance
 from mobnet.running.stage import Stage
 from mobnet.running.threads import one_thread
 from mobnet.settings.base import Section
-from mobnet.settings.networks import Training
 
 log = logging.getLogger(__name__)
 
@@ -45,8 +44,9 @@ def train_all(
 ) -> None:
     """Train networks on the same recordings, one after another; data that several learn from are read once.
 
-    One job trains them all. One that was killed goes on with the network that it was at, from its last epoch. The other
-    arguments are those of `train`.
+    One job trains them all. One that was killed goes on with the network that it was at, from its last epoch. The
+    recordings are at `rate_hz` [Hz] where that is given. What is `known` of the target is subtracted from it. Where
+    swings label, `margins` say what is left out of them.
 
     Raises:
         DataError: a recording or a residual is damaged or too short.
@@ -56,68 +56,29 @@ def train_all(
     waiting = [network for network in networks if not stage.has(_files(network))]
     for _, alike in groupby(waiting, key=_reads):
         same = list(alike)
-        data = _load(layout, same[0].training, recordings, residuals, rate_hz, known, margins)
+        training = same[0].training
+        data = load_limb_data(
+            layout, training.network, training.target, recordings, residuals, rate_hz, training.held_out, known,
+            training.learning.data_s, margins,
+        )  # fmt: skip
         for network in same:
-            job = Job(network.training, network.seed, root_seed)
+            job = TrainingJob(network.training, network.seed, root_seed)
             train_on(data, job, stage.place(network.out), network.state, network.start)
     stage.publish(file for network in networks for file in _files(network))
 
 
 def _files(network: Repetition) -> tuple[Path, ...]:
-    """Return the files of a network, in the order in which they are written."""
+    # The note is written last, so that a network with a note is whole.
     return tuple(network.out / name for name in (WEIGHTS, METRICS, RUN))
 
 
 def _reads(repetition: Repetition) -> tuple[object, ...]:
-    """Return what `_load` takes of a training: trainings with the same have the same data."""
+    """Return what `load_limb_data` takes of a training: trainings with the same have the same data."""
     training, network = repetition.training, repetition.training.network
     return network.Q, network.T, network.joints, training.target, training.held_out, training.learning.data_s
 
 
-def train(
-    root_seed: int,
-    layout: JointLayout,
-    training: Training,
-    seed: int,
-    recordings: Sequence[Path],
-    residuals: Sequence[Path],
-    out: Path,
-    state: Path,
-    rate_hz: float | None = None,
-    known: Known | None = None,
-    start: Path | None = None,
-    margins: Margins | None = None,
-) -> None:
-    """Train one limb network of Table 1 on recordings; `train_on` says how, and what is written.
-
-    The recordings are at `rate_hz` [Hz] where that is given. What is `known` of the target is subtracted from it. Where
-    swings label, `margins` say what is left out of them.
-
-    Raises:
-        DataError: a recording or a residual is damaged or too short.
-        TrainingError: the loss diverged, where `learning.may_diverge` does not allow it.
-    """
-    data = _load(layout, training, recordings, residuals, rate_hz, known, margins)
-    train_on(data, Job(training, seed, root_seed), out, state, start)
-
-
-def _load(
-    layout: JointLayout,
-    training: Training,
-    recordings: Sequence[Path],
-    residuals: Sequence[Path],
-    rate_hz: float | None,
-    known: Known | None,
-    margins: Margins | None,
-) -> LimbData:
-    """Return the data of a training."""
-    return load_limb_data(
-        layout, training.network, training.target, recordings, residuals, rate_hz, training.held_out, known,
-        training.learning.data_s, margins,
-    )  # fmt: skip
-
-
-def train_on(data: LimbData, job: Job, out: Path, state: Path, start: Path | None = None) -> None:
+def train_on(data: LimbData, job: TrainingJob, out: Path, state: Path, start: Path | None = None) -> None:
     """Train one limb network by (22), or by another of `losses`, and keep the epoch that validates best.
 
     The folder `out` gets `weights.safetensors`, `metrics.csv` and, last, `run.json`; nothing before the training is
@@ -142,7 +103,7 @@ def train_on(data: LimbData, job: Job, out: Path, state: Path, start: Path | Non
     log.info("%s: done after epoch %d, %.1f s", job.name, len(done.epochs), done.seconds)
 
 
-def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress, calibration: Calibration) -> None:
+def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress, calibration: StdFactors) -> None:
     """Write the best weights with z-scores, (n_in,) and (n,) [N, N m], and factors on std (n,), atomically."""
     training = trainer.job.training
     trainer.network.load_state_dict(done.best)
@@ -163,7 +124,7 @@ def write_weights(path: Path, trainer: Trainer, data: LimbData, done: Progress, 
         temporary.write_bytes(to_bytes(tensors, {NOTE: json.dumps(note)}))
 
 
-def run_note(trainer: Trainer, data: LimbData, done: Progress, calibration: Calibration) -> dict[str, Any]:
+def run_note(trainer: Trainer, data: LimbData, done: Progress, calibration: StdFactors) -> dict[str, Any]:
     """Return the content of `run.json`: settings, sizes, the best epoch, calibration and provenance."""
     job, training = trainer.job, trainer.job.training
     return {

@@ -14,16 +14,16 @@ from mobnet.core.columns import Epoch
 from mobnet.core.errors import TrainingError
 from mobnet.core.files import METRICS
 from mobnet.learning import checkpoint
-from mobnet.learning.calibration import Calibration, calibrate, predict
+from mobnet.learning.calibration import StdFactors, calibrate, predict
 from mobnet.learning.checkpoint import CHECKPOINT, Progress, write_metrics
-from mobnet.learning.dataset import LimbData, Scale, scale_of
+from mobnet.learning.dataset import LimbData, ZScore, scale_of
 from mobnet.learning.device import own_device
-from mobnet.learning.job import Job
+from mobnet.learning.job import TrainingJob
 from mobnet.learning.losses import CHOSEN_BY, objective_of
 from mobnet.learning.model import build_network, seeded
 from mobnet.learning.optimisation import EVERY_STEP, LAST_STEP, SEQUENCES, Samples, train_epoch, validate
 from mobnet.learning.start import read_start
-from mobnet.learning.streams import Plan, some_of, split, validation_plan, window_plan
+from mobnet.learning.streams import EpochPlan, some_of, split, validation_plan, window_plan
 
 log = logging.getLogger(__name__)
 
@@ -35,7 +35,7 @@ class Trainer:
     weights from the network that it starts from; `fingerprint` is a hash of all that the weights depend on.
     """
 
-    def __init__(self, job: Job, data: LimbData, start: Path | None = None) -> None:
+    def __init__(self, job: TrainingJob, data: LimbData, start: Path | None = None) -> None:
         """Split, scale and move inputs (N, n_in) and targets (N, n) [N, N m] to the device.
 
         Raises:
@@ -50,6 +50,7 @@ class Trainer:
         stream = job.stream(data.rate_hz)
         self._blocks = some_of(blocks, stream, learning.data_parts, job.shared_generator("data"))
         arrays = data.inputs, data.targets
+        # A network that goes on learning keeps its z-scores: with others its weights would mean something else.
         self.scales = first.scales if first else (scale_of(arrays[0], self._blocks), scale_of(arrays[1], self._blocks))
         inputs, targets = (self._scaled(*pair) for pair in zip(arrays, self.scales, strict=True))
         self._samples = Samples(inputs, targets, partial=learning.labels == "swing")
@@ -77,11 +78,9 @@ class Trainer:
         return CHOSEN_BY[self.job.training.learning.loss]
 
     def _seed(self, *purpose: int | str) -> int:
-        """Return torch's seed for a purpose."""
         return int(self.job.generator(*purpose).integers(np.iinfo(np.int64).max))
 
-    def _scaled(self, array: NDArray[np.float32], scale: Scale) -> Tensor:
-        """Return z-scored columns on the device."""
+    def _scaled(self, array: NDArray[np.float32], scale: ZScore) -> Tensor:
         scaled = array - scale.mean
         scaled /= scale.std
         return torch.from_numpy(scaled).to(self.device)
@@ -113,16 +112,18 @@ class Trainer:
             checkpoint.save(path, self.fingerprint, self.network, self._optimizer, done)
             write_metrics(state_dir / METRICS, done.epochs)
             self._report(done)
+        # A training that diverges at once is a result too where it may; it has learned nothing then.
         done.best = done.best or first
         return done
 
-    def calibrate(self, done: Progress) -> Calibration:
+    def calibrate(self, done: Progress) -> StdFactors:
         """Return how far off the best weights' standard deviations (n,) [N, N m] are on the validation blocks."""
         self.network.load_state_dict(done.best)
         error, std = predict(self.network, self._samples, self._validation, self.job.horizon)
         if self._samples.partial:
             known = ~np.isnan(error[:, 0])
             error, std = error[known], std[known]
+        # In N m, as coverage does not depend on the unit but likelihood and CRPS do.
         unit, learning = self.scales[1].std.astype(np.float64), self.job.training.learning
         return calibrate(error * unit, std * unit, learning.calibration_share, learning.calibration_levels)
 
@@ -132,13 +133,12 @@ class Trainer:
         loss, rmse = self._validate(self._windows, LAST_STEP)
         return {"loss": loss, "rmse": rmse}
 
-    def _validate(self, plan: Plan, scored: slice = EVERY_STEP) -> tuple[float, float]:
+    def _validate(self, plan: EpochPlan, scored: slice = EVERY_STEP) -> tuple[float, float]:
         """Return mean loss (22) and RMSE [N, N m] of a validation."""
         loss, rmse = validate(self.network, self._samples, plan, self.job.horizon, scored)
         return loss, float((rmse.numpy() * self.scales[1].std).mean())
 
     def _epoch(self, epoch: int) -> Epoch:
-        """Train and validate once."""
         job, rate, learning = self.job, self.job.rate(epoch), self.job.training.learning
         for group in self._optimizer.param_groups:
             group["lr"] = rate

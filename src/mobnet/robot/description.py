@@ -174,7 +174,6 @@ def _with_unit_quaternion(row: BodyRow) -> BodyRow:
 
 
 def _posture(table: RobotTable) -> Posture:
-    """Return the posture of all limbs that have one, in motor order."""
     rows = {
         joint: numbers
         for limb, row in table.posture.items()

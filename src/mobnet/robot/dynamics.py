@@ -40,16 +40,6 @@ def inverse_dynamics(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any], a:
     return pin.rnea(nominal.model, nominal.data, nominal.positions(q), _float64(v), _float64(a))
 
 
-def momentum(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> Array:
-    """Return p = M v of (4), (nv,) [kg m/s] and [kg m^2/s]."""
-    return momentum_and_beta(nominal, q, v)[0]
-
-
-def beta(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> Array:
-    """Return C^T v - g of (6), (nv,) [N] and [N m]."""
-    return momentum_and_beta(nominal, q, v)[1]
-
-
 def momentum_and_beta(nominal: NominalModel, q: NDArray[Any], v: NDArray[Any]) -> tuple[Array, Array]:
     """Return p = M v of (4) [kg m/s], [kg m^2/s] and C^T v - g of (6) [N], [N m], both (..., nv).
 

@@ -14,7 +14,6 @@ from mobnet.core.joints import NQ_BASE
 POSITION = slice(0, 3)  # base position in a generalized position
 QUATERNION = slice(3, NQ_BASE)  # base quaternion in a generalized position
 WXYZ_TO_XYZW = (1, 2, 3, 0)
-XYZW_TO_WXYZ = (3, 0, 1, 2)
 
 
 def to_pinocchio(q: NDArray[Any]) -> NDArray[np.float64]:
@@ -22,18 +21,8 @@ def to_pinocchio(q: NDArray[Any]) -> NDArray[np.float64]:
 
     The base floats. Quaternions are brought to unit length: float32 logs and noise leave it.
     """
-    return _reordered(q, WXYZ_TO_XYZW)
-
-
-def from_pinocchio(q: NDArray[Any]) -> NDArray[np.float64]:
-    """Return Pinocchio's generalized positions (..., nq) [m], [-], [rad] with the quaternion as w x y z."""
-    return _reordered(q, XYZW_TO_WXYZ)
-
-
-def _reordered(q: NDArray[Any], order: tuple[int, ...]) -> NDArray[np.float64]:
-    """Return positions (..., nq) in float64 with the base quaternion reordered and of unit length."""
     result = np.array(q, dtype=np.float64, order="C")
-    quat = result[..., QUATERNION][..., list(order)]
+    quat = result[..., QUATERNION][..., list(WXYZ_TO_XYZW)]
     result[..., QUATERNION] = quat / np.linalg.norm(quat, axis=-1, keepdims=True)
     return result
 

@@ -81,7 +81,6 @@ def _add_root(model: pin.Model) -> tuple[int, pin.SE3]:
 
 
 def _placement(body: BodyRow) -> pin.SE3:
-    """Return a body's frame in its parent's."""
     w, x, y, z = body.quat
     return pin.SE3(pin.Quaternion(w, x, y, z).matrix(), np.array(body.pos))
 

@@ -79,7 +79,6 @@ def _add_bodies(spec: mujoco.MjSpec, robot: RobotDescription) -> Mapping[str, mu
 
 
 def _add_body(parent: mujoco.MjsBody, body: BodyRow) -> mujoco.MjsBody:
-    """Add a link with the inertia of the table."""
     return parent.add_body(
         name=body.name,
         pos=body.pos,

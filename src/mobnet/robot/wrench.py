@@ -5,7 +5,6 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-import pinocchio as pin
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array, rows_of
@@ -16,34 +15,11 @@ from mobnet.robot.nominal import NominalModel
 from mobnet.robot.triples import add, cross, dot, out_of, product, vector
 
 
-def foot_jacobian(nominal: NominalModel, q: NDArray[Any], side: str) -> Array:
-    """Return J_foot (6, nv) of (2): velocity of the foot's sensor, linear [m/s] then angular [rad/s], foot axes.
-
-    The position is q (nq,); the masses of the model do not matter.
-
-    Raises:
-        ConfigError: the side is unknown.
-    """
-    frame = _frame(nominal, side)
-    return pin.computeFrameJacobian(nominal.model, nominal.data, nominal.positions(q), frame, pin.ReferenceFrame.LOCAL)
-
-
-def foot_torque(nominal: NominalModel, q: NDArray[Any], side: str, wrench: NDArray[Any]) -> Array:
-    """Return J_foot^T F of (2), (T, nv) or (nv,) [N] and [N m]; positions are (..., nq).
-
-    The wrench (..., 6) is the force [N] and moment [N m] on the foot, in foot axes, about the sensor.
-
-    Raises:
-        ConfigError: the side is unknown.
-        DataError: positions or wrenches do not fit the model or each other.
-    """
-    return feet_torque(nominal, q, {side: wrench})
-
-
 def feet_torque(nominal: NominalModel, q: NDArray[Any], wrenches: Mapping[str, NDArray[Any]]) -> Array:
     """Return the sum of J^T F over the feet, (T, nv) or (nv,) [N] and [N m]: the training label of section 4.2.3.
 
-    Positions are (..., nq), wrenches side -> (..., 6) [N] and [N m] as in `foot_torque`.
+    Positions are (..., nq), wrenches side -> (..., 6): the force [N] and moment [N m] on the foot, in foot axes, about
+    the sensor.
 
     Raises:
         ConfigError: a side is unknown.
@@ -85,7 +61,6 @@ def _pull(linkage: Linkage, link: int, axes: Array, point: Array, q: Array, wren
 
 
 def _frame(nominal: NominalModel, side: str) -> int:
-    """Return the index of a side's sensor frame."""
     if side not in nominal.foot_frames:
         raise ConfigError(not_accepted("foot", side, nominal.foot_frames))
     return nominal.foot_frames[side]

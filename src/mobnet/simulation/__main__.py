@@ -21,7 +21,7 @@ from mobnet.settings.load import CONFIGS, load_settings
 from mobnet.settings.settings import Settings
 from mobnet.simulation.clip import check_ending, save_clip
 from mobnet.simulation.motion import make_motion
-from mobnet.simulation.record import read_motion
+from mobnet.simulation.record import REPORT_WALL_S, read_motion
 from mobnet.simulation.render import Pixels, draw_frames, picture_model, save_picture
 from mobnet.simulation.simulator import Simulator
 from mobnet.simulation.view import LOOKED_FOR_S, SYNC_S, has_display, upright, walk, walk_to_mid_stride, watch
@@ -31,7 +31,6 @@ SECONDS, MOTION_S = 10.0, 120.0  # walked, and moved by the upper body, where no
 FRAMES_HZ = 12.5  # of a clip
 CLIP_WIDTHS = (160, 1920)  # accepted [pixels]
 HEIGHT_OF_WIDTH = 0.75
-REPORT_WALL_S = 5.0  # between two lines of progress
 INTERRUPTED = 130  # exit code, as the shell's
 DESCRIPTION = """Walk a scenario and look at it. Opens MuJoCo's viewer where there is a display; --picture and --video
 draw without one. A robot that falls ends the walk; the exit code is then 1."""
@@ -53,7 +52,6 @@ def main(words: list[str] | None = None) -> int:
 
 
 def _parse(words: list[str] | None) -> argparse.Namespace:
-    """Read the command line."""
     parser = argparse.ArgumentParser(prog="python -m mobnet.simulation", description=DESCRIPTION)
     parser.add_argument("--scenario", default="forward_walk", help="key of `scenarios` (%(default)s)")
     parser.add_argument("--level", default="all_uncertainty", help="key of `levels` (%(default)s)")

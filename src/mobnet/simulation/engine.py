@@ -12,12 +12,12 @@ from mobnet.control.random_torque import Exploration, advance_random_torque
 from mobnet.control.upper_body import UpperBody, follow
 from mobnet.control.walker import Walker
 from mobnet.control.walking import walk
-from mobnet.control.whole_body import LEG_JOINTS
 from mobnet.core.arrays import Array
 from mobnet.core.compiled import compiled
+from mobnet.robot.description import LEG_JOINTS
 from mobnet.simulation.drives import Drives, drive
 from mobnet.simulation.faults import Faults, perceive
-from mobnet.simulation.friction import Friction, friction_torque
+from mobnet.simulation.friction import PlantFriction, friction_torque
 from mobnet.simulation.native import Native, addresses_at, call_step, doubles_at, ints_at
 from mobnet.simulation.pushes import Pushes, push
 from mobnet.simulation.sensing import Sensors, read_sensors
@@ -28,7 +28,7 @@ CONTACT_ROWS = 3  # of a contact: its normal and two directions of friction, in 
 CONTACT_FORCE_N = 1.0  # a foot that the ground pushes harder touches it
 
 
-class Plant(NamedTuple):
+class LivePlant(NamedTuple):
     """Live arrays of MuJoCo's data and what the plant adds to them."""
 
     native: Native  # addresses
@@ -45,7 +45,7 @@ class Plant(NamedTuple):
     qfrc_passive: Array  # passive forces (nv,)
     qfrc_actuator: Array  # motor torques in the generalized velocity (nv,)
     sensordata: Array  # readings of the step just taken
-    friction: Friction  # numbers of (23)
+    friction: PlantFriction  # numbers of (23)
     drives: Drives  # of a surrogate robot
     faults: Faults  # of its sensors
     gravity: float  # gravity [m/s^2]
@@ -59,12 +59,12 @@ class Plant(NamedTuple):
 
 
 def make_plant(
-    world: World, native: Native, friction: Friction, drives: Drives, faults: Faults, limits: Array, fall_height: float,
-    every: int,
-) -> Plant:  # fmt: skip
+    world: World, native: Native, friction: PlantFriction, drives: Drives, faults: Faults, limits: Array,
+    fall_height: float, every: int,
+) -> LivePlant:  # fmt: skip
     """Collect the live arrays of a world; the world must outlive the plant. limits (nu,) [N m], fall_height [m]."""
     data = world.data
-    return Plant(
+    return LivePlant(
         native, data.qpos, data.qvel, data.ctrl, data.qfrc_applied, data.xfrc_applied, data.site_xpos, data.xipos,
         data.xmat, data.qfrc_smooth, data.qfrc_bias, data.qfrc_passive, data.qfrc_actuator, data.sensordata, friction,
         drives, faults, -float(world.model.opt.gravity[2]), np.zeros(len(data.ctrl)),
@@ -75,9 +75,9 @@ def make_plant(
 
 @compiled(allocating=True)
 def run(
-    plant: Plant, walker: Walker, sensors: Sensors, s: State, commands: Array, upper: UpperBody, torque: Exploration,
-    pushes: Pushes, rng_noise: np.random.Generator, rng_torque: np.random.Generator, rng_pushes: np.random.Generator,
-    log: NDArray[np.float32],
+    plant: LivePlant, walker: Walker, sensors: Sensors, s: State, commands: Array, upper: UpperBody,
+    torque: Exploration, pushes: Pushes, rng_noise: np.random.Generator, rng_torque: np.random.Generator,
+    rng_pushes: np.random.Generator, log: NDArray[np.float32],
 ) -> int:  # fmt: skip
     """Simulate len(log) samples into log (n, C), columns of `recording_columns`; return how many before a fall."""
     nv, nu = len(plant.qvel), len(plant.ctrl)
@@ -139,7 +139,7 @@ def _explore(
 
 
 @compiled
-def _actuate(plant: Plant, tau: Array, tau_des: Array, tau_motor: Array) -> None:
+def _actuate(plant: LivePlant, tau: Array, tau_des: Array, tau_motor: Array) -> None:
     """Clip the desired torques tau (nu,) and send them to the motors, and friction to the joints; add to both sums.
 
     The limits are applied before the torque is sent: no drive is ever asked for more than it can give.
@@ -159,7 +159,7 @@ def _actuate(plant: Plant, tau: Array, tau_des: Array, tau_motor: Array) -> None
 
 
 @compiled
-def _sense(plant: Plant, walker: Walker, sensors: Sensors, rng: np.random.Generator) -> None:
+def _sense(plant: LivePlant, walker: Walker, sensors: Sensors, rng: np.random.Generator) -> None:
     """Read the sensors after a step; those of a surrogate robot do not see the plant itself."""
     if plant.faults.hidden == 0 and plant.drives.hidden == 0:
         read_sensors(sensors, walker, plant.qpos, plant.qvel, plant.sensordata, rng, plant.dt)
@@ -170,7 +170,7 @@ def _sense(plant: Plant, walker: Walker, sensors: Sensors, rng: np.random.Genera
 
 
 @compiled
-def _add_pushes(plant: Plant, tau_push: Array) -> None:
+def _add_pushes(plant: LivePlant, tau_push: Array) -> None:
     """Add J^T F of the pushes on bodies in the step just taken (nv,) [N, N m]: what MuJoCo mapped of xfrc_applied."""
     for i in range(len(tau_push)):
         smooth = plant.qfrc_passive[i] - plant.qfrc_bias[i] + plant.qfrc_applied[i] + plant.qfrc_actuator[i]
@@ -178,7 +178,7 @@ def _add_pushes(plant: Plant, tau_push: Array) -> None:
 
 
 @compiled
-def _add_contacts(plant: Plant, walker: Walker, tau_ext: Array, touch: Array) -> None:
+def _add_contacts(plant: LivePlant, walker: Walker, tau_ext: Array, touch: Array) -> None:
     """Add J^T F of the solver's contact rows in the step just taken (nv,) [N, N m].
 
     Only the contact rows: the constraint forces as a whole also hold friction loss and joint limits. Of a contact's
@@ -209,7 +209,7 @@ def _add_contacts(plant: Plant, walker: Walker, tau_ext: Array, touch: Array) ->
 
 
 @compiled
-def _wrap(plant: Plant, sensors: Sensors, s: State) -> None:
+def _wrap(plant: LivePlant, sensors: Sensors, s: State) -> None:
     """Put a robot beyond the edge back by a period, and all world positions of the controller with it."""
     for i in range(2):
         if abs(plant.qpos[i]) <= plant.edge:

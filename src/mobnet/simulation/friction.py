@@ -11,7 +11,7 @@ from mobnet.core.compiled import compiled
 from mobnet.settings.plant import FrictionTerm, Plant
 
 
-class Friction(NamedTuple):
+class PlantFriction(NamedTuple):
     """Numbers of (23)."""
 
     coulomb: float  # f_c [N m]
@@ -22,13 +22,13 @@ class Friction(NamedTuple):
     load: Array  # k_lf (nu,) [1/(N m)]
 
 
-def make_friction(plant: Plant, legs: NDArray[np.bool_], terms: Collection[FrictionTerm]) -> Friction:
+def make_friction(plant: Plant, legs: NDArray[np.bool_], terms: Collection[FrictionTerm]) -> PlantFriction:
     """Build the friction of a plant, (23) and Table 4, whose joints (nu,) in `legs` belong to a leg.
 
     Of the terms of (23), `stribeck` comes with the viscous one, and `loss` is left to MuJoCo.
     """
     table, speed, load = plant.friction, float("stribeck" in terms), float("load" in terms)
-    return Friction(
+    return PlantFriction(
         coulomb=speed * table.coulomb_nm,
         static=speed * table.static_nm,
         stribeck=table.stribeck_rad_s,
@@ -39,7 +39,7 @@ def make_friction(plant: Plant, legs: NDArray[np.bool_], terms: Collection[Frict
 
 
 @compiled
-def friction_torque(friction: Friction, joint: int, rate: float, torque: float) -> float:
+def friction_torque(friction: PlantFriction, joint: int, rate: float, torque: float) -> float:
     """Return the friction torque [N m] of (23) on an actuator's joint at its true rate [rad/s] and motor torque [N m].
 
     sgn(rate) is tanh(rate / smoothing): the sign alone chatters at every step of a joint that is stuck.

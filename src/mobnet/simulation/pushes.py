@@ -75,7 +75,6 @@ def _sines(rows: Sequence[Sines | None]) -> Array:
 
 
 def _law(row: Push, model: mujoco.MjModel, robot: RobotDescription) -> tuple[Any, ...]:
-    """Return a record of LAW."""
     target = -1, -1, N_VIRTUAL + robot.layout.actuated.index(row.joint) if row.joint else -1
     if row.point:
         target = model.site(row.point).id, int(model.site(row.point).bodyid[0]), -1

@@ -27,7 +27,7 @@ FALLS_MAX = 20  # more falls in one recording mean that the setting cannot be wa
 
 
 @dataclass
-class Course:
+class RecordingCourse:
     """How a recording went so far."""
 
     # kept stretches (start, end) of samples, each contiguous in time
@@ -36,7 +36,7 @@ class Course:
     falls: int = 0  # how often the robot fell
 
 
-class Watch:
+class CollisionWatch:
     """Looks for self-collision in some of the samples that come in (section 4.3: it does not occur)."""
 
     def __init__(self, clearance: Clearance, every: int, nq: int) -> None:
@@ -66,7 +66,7 @@ def collect(settings: WalkSettings, seed: int, duration_s: float, out: Path, mot
     layout, rate = simulator.robot.layout, settings.rates.data_hz
     samples = round(duration_s * rate)
     columns = [column for group in recording_columns(layout).values() for column in group]
-    watch = Watch(Clearance(simulator.robot), round(rate / settings.recording.clearance_hz), layout.nq)
+    watch = CollisionWatch(Clearance(simulator.robot), round(rate / settings.recording.clearance_hz), layout.nq)
     with array_writer(out, columns) as writer:
 
         def keep(rows: Rows) -> None:
@@ -93,13 +93,13 @@ def read_motion(stem: Path) -> UpperBody:
 
 def record(
     simulator: Simulator, samples: int, settings: RecordingSettings, rate_hz: float, keep: Callable[[Rows], None]
-) -> Course:
+) -> RecordingCourse:
     """Walk until `samples` are kept, handing them on in order, rows (n, C); return how it went.
 
     Raises:
         SimulationError: the robot keeps falling.
     """
-    course, end, reported = Course(), 0, time.perf_counter()
+    course, end, reported = RecordingCourse(), 0, time.perf_counter()
     while end < samples:
         begin = end
         longest = min(samples - begin, round(settings.episode_s * rate_hz))
@@ -118,7 +118,7 @@ def record(
 
 
 def _episode(
-    simulator: Simulator, longest: int, settings: RecordingSettings, rate_hz: float, begin: int, course: Course
+    simulator: Simulator, longest: int, settings: RecordingSettings, rate_hz: float, begin: int, course: RecordingCourse
 ) -> Iterator[Rows]:
     """Yield the samples worth keeping of an episode of at most `longest` samples; count its fall.
 

@@ -14,7 +14,7 @@ from mobnet.core.errors import DrawingError
 from mobnet.core.files import atomic_path
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.plant import robot_spec
-from mobnet.simulation.terrain import Terrain, add_terrain
+from mobnet.simulation.terrain import DrawnTerrain, add_terrain
 
 Pixels = NDArray[np.uint8]
 PACKAGES = "libegl1 libegl-mesa0 libgl1-mesa-dri"  # Debian's names of Mesa's EGL
@@ -33,7 +33,7 @@ SHADOW_PIXELS, SAMPLES = 8192, 8  # of the shadow's map, of a pixel
 SHADOW_CLIP = 2.5  # half width of the shadow's map, in extents; at its edge shadows speckle
 
 
-def save_picture(robot: RobotDescription, terrain: Terrain, q: NDArray[Any], path: Path) -> None:
+def save_picture(robot: RobotDescription, terrain: DrawnTerrain, q: NDArray[Any], path: Path) -> None:
     """Draw the robot at q (nq,) [m, rad] into a PNG, as a whole or not at all; DrawingError where it cannot."""
     (pixels,) = draw_frames(picture_model(robot, terrain), [q])
     with atomic_path(path) as temporary:
@@ -42,7 +42,7 @@ def save_picture(robot: RobotDescription, terrain: Terrain, q: NDArray[Any], pat
         matplotlib.image.imsave(temporary, pixels, format="png", pil_kwargs={"optimize": True})
 
 
-def picture_model(robot: RobotDescription, terrain: Terrain, size: tuple[int, int] = SIZE) -> mujoco.MjModel:
+def picture_model(robot: RobotDescription, terrain: DrawnTerrain, size: tuple[int, int] = SIZE) -> mujoco.MjModel:
     """Compile the robot under a sky on a wider part of its terrain, for pictures of a width and height [pixels]."""
     spec = robot_spec(robot)
     add_terrain(spec, _cut(terrain), WIDE_M)
@@ -59,14 +59,14 @@ def picture_model(robot: RobotDescription, terrain: Terrain, size: tuple[int, in
     return spec.compile()
 
 
-def _cut(terrain: Terrain) -> Terrain:
+def _cut(terrain: DrawnTerrain) -> DrawnTerrain:
     """Return a terrain with endless pieces cut into periods: light and fog are computed at corners alone."""
     half = terrain.period / 2
     pieces = [
         piece._replace(bottom=np.minimum(piece.bottom, half), top=np.minimum(piece.top, half))
         for piece in terrain.pieces
     ]
-    return Terrain(terrain.period, tuple(pieces))
+    return DrawnTerrain(terrain.period, tuple(pieces))
 
 
 def _set_view(visual: Any, size: tuple[int, int]) -> None:

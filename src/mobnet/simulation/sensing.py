@@ -73,9 +73,11 @@ def read_table_03(noise: Noise, level: Level) -> tuple[float, ...]:
     and angular velocity exchanged (`swapped`), or as variances (`variance`), as the table calls them.
     """
     q, v, acc, omega = (
-        noise.joint_position_rad, noise.joint_velocity_rad_s, noise.base_acceleration_m_s2,
+        noise.joint_position_rad,
+        noise.joint_velocity_rad_s,
+        noise.base_acceleration_m_s2,
         noise.base_angular_velocity_rad_s,
-    )  # fmt: skip
+    )
     readings = {
         "none": (0.0, 0.0, 0.0, 0.0),
         "std": (q, v, acc, omega),

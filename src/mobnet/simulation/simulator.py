@@ -17,14 +17,14 @@ from mobnet.robot.description import describe, for_walking
 from mobnet.settings.data import CommandSource, FixedCommand
 from mobnet.settings.settings import WalkSettings
 from mobnet.simulation.drives import reset_drives
-from mobnet.simulation.engine import Plant, make_plant, run
+from mobnet.simulation.engine import LivePlant, make_plant, run
 from mobnet.simulation.faults import reset_faults
 from mobnet.simulation.friction import make_friction
-from mobnet.simulation.hidden import draw_hidden
 from mobnet.simulation.native import bind
 from mobnet.simulation.pushes import Pushes, make_pushes, reset_pushes
 from mobnet.simulation.sensing import Sensors, make_sensors, reset_sensors
 from mobnet.simulation.start import raise_start, start_standing, start_walking, turn
+from mobnet.simulation.surrogate import draw_hidden
 from mobnet.simulation.terrain import draw_terrain
 from mobnet.simulation.world import World, ground_height, leg_mask, make_world
 
@@ -40,7 +40,7 @@ class Setting(NamedTuple):
 
     terrain: str
     world: World
-    plant: Plant
+    plant: LivePlant
     sensors: Sensors
     pushes: Pushes
 

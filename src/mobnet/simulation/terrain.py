@@ -34,7 +34,7 @@ class Piece(NamedTuple):
     yaw: float = 0.0  # [rad]
 
 
-class Terrain(NamedTuple):
+class DrawnTerrain(NamedTuple):
     """Even ground and what stands on one period of it."""
 
     period: float  # length after which the terrain repeats in x and y [m]
@@ -46,7 +46,7 @@ class Terrain(NamedTuple):
         return EDGE_PERIODS * self.period
 
 
-def draw_terrain(row: Checks | Flat | Plates | Slope, rng: np.random.Generator) -> Terrain:
+def draw_terrain(row: Checks | Flat | Plates | Slope, rng: np.random.Generator) -> DrawnTerrain:
     """Draw a terrain of section 4.3: which checks are raised and how high, where plates lie, which way a slope goes.
 
     Raises:
@@ -60,23 +60,24 @@ def draw_terrain(row: Checks | Flat | Plates | Slope, rng: np.random.Generator) 
         case Slope():
             return _slope(row, rng)
         case Flat():
-            return Terrain(FLAT_PERIOD_M)
+            return DrawnTerrain(FLAT_PERIOD_M)
 
 
-def top_of(terrain: Terrain) -> float:
+def top_of(terrain: DrawnTerrain) -> float:
     """Return the height of the terrain's highest point [m]."""
     return max((piece.height for piece in terrain.pieces), default=0.0)
 
 
-def _checks(row: Checks, rng: np.random.Generator) -> Terrain:
+def _checks(row: Checks, rng: np.random.Generator) -> DrawnTerrain:
     """Return drawn cells of a square field, all raised by one drawn height (Figure 3 a)."""
     half, height = np.full(2, row.cell_m / 2), rng.uniform(*row.height_m)
     raised = np.argwhere(rng.random((row.cells, row.cells)) < row.raised_share)
     places = (raised - (row.cells - 1) / 2) * row.cell_m
-    return Terrain(row.cells * row.cell_m, tuple(Piece(half, half - row.bevel_m, height, place) for place in places))
+    pieces = tuple(Piece(half, half - row.bevel_m, height, place) for place in places)
+    return DrawnTerrain(row.cells * row.cell_m, pieces)
 
 
-def _plates(row: Plates, rng: np.random.Generator) -> Terrain:
+def _plates(row: Plates, rng: np.random.Generator) -> DrawnTerrain:
     """Return plates at random places that do not touch each other, across the period's edge neither (Figure 3 b)."""
     period = row.period_m
     plates: list[Piece] = []
@@ -90,17 +91,17 @@ def _plates(row: Plates, rng: np.random.Generator) -> Terrain:
                 break
         else:
             raise ConfigError(f"terrain.plates: no room for a plate of {list(size)} m in a period of {period} m")
-    return Terrain(period, tuple(plates))
+    return DrawnTerrain(period, tuple(plates))
 
 
-def _slope(row: Slope, rng: np.random.Generator) -> Terrain:
+def _slope(row: Slope, rng: np.random.Generator) -> DrawnTerrain:
     """Return even ground, a slope up, even ground and a slope down, along x or y (Figure 3 c)."""
     run, even = row.slope_m, row.even_m
     period = 2 * (run + even)
     along, place = rng.integers(2), rng.uniform(-0.5, 0.5) * period
     bottom, top, centre = np.full(2, np.inf), np.full(2, np.inf), np.zeros(2)
     bottom[along], top[along], centre[along] = even / 2 + run, even / 2, place
-    return Terrain(period, (Piece(bottom, top, run * np.tan(np.deg2rad(row.angle_deg)), centre),))
+    return DrawnTerrain(period, (Piece(bottom, top, run * np.tan(np.deg2rad(row.angle_deg)), centre),))
 
 
 def _apart(a: Piece, b: Piece, period: float, gap: float) -> bool:
@@ -120,7 +121,7 @@ def _turn(yaw: float) -> Array:
     return np.array([[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]])
 
 
-def add_terrain(spec: mujoco.MjSpec, terrain: Terrain, half_width: float | None = None) -> None:
+def add_terrain(spec: mujoco.MjSpec, terrain: DrawnTerrain, half_width: float | None = None) -> None:
     """Add the ground z = 0 and all that stands on it within a half width [m]; without one, as far as a robot gets."""
     half_width = terrain.edge + REACH_M if half_width is None else half_width
     touch = {"contype": TERRAIN_TYPE, "conaffinity": SOLE_TYPE, "group": TERRAIN_GROUP}

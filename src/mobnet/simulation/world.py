@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from mobnet.robot.description import SIDES, RobotDescription
 from mobnet.robot.plant import robot_spec, sole_name
 from mobnet.settings.plant import Level, Plant
-from mobnet.simulation.terrain import TERRAIN_GROUP, Terrain, add_terrain, top_of
+from mobnet.simulation.terrain import TERRAIN_GROUP, DrawnTerrain, add_terrain, top_of
 
 DOWN = np.array([0.0, 0.0, -1.0])
 SOLE_CORNERS = 4  # contacts of a sole that stands flat
@@ -23,7 +23,7 @@ class World:
 
     model: mujoco.MjModel  # MuJoCo's model
     data: mujoco.MjData  # its state
-    terrain: Terrain  # what was drawn
+    terrain: DrawnTerrain  # what was drawn
 
     @property
     def period(self) -> float:
@@ -31,7 +31,7 @@ class World:
         return self.terrain.period
 
 
-def make_world(robot: RobotDescription, terrain: Terrain, plant: Plant, level: Level, rate_hz: float) -> World:
+def make_world(robot: RobotDescription, terrain: DrawnTerrain, plant: Plant, level: Level, rate_hz: float) -> World:
     """Compile the robot on a terrain, stepped at a rate [1/s]; the level switches friction loss on or off."""
     spec = robot_spec(robot)
     add_terrain(spec, terrain)

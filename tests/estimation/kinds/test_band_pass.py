@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mobnet.core.errors import ConfigError
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Recording, Sensed
-from mobnet.estimation.filtered import FilteredEstimator
+from mobnet.estimation.filter import FilteredEstimator
 from mobnet.estimation.kinds.band_pass import sections_of
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe

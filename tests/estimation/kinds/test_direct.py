@@ -12,7 +12,7 @@ from mobnet.estimation.kinds.direct import DirectEstimator
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe
 from mobnet.learning.deployed.limbs import LimbNetworks
-from mobnet.learning.deployed.networks import Network
+from mobnet.learning.deployed.networks import GruNetwork
 from mobnet.learning.deployed.weights import GRU_TENSORS, Z_SCORES
 from mobnet.learning.features import limb_inputs
 from mobnet.settings.methods import Method
@@ -21,7 +21,7 @@ from mobnet.settings.networks import Limb
 HIDDEN = 5
 
 
-def network(limb: str, layout: JointLayout, rng: np.random.Generator) -> Network:
+def network(limb: str, layout: JointLayout, rng: np.random.Generator) -> GruNetwork:
     """Return a random network of a leg, z-scores included."""
     joints, inputs = layout.limb(limb), limb_inputs(layout, Limb(joints=(limb,), Q=(limb,), T=(limb,))).names
     gates, n_in, n_out = 3 * HIDDEN, len(inputs), len(joints)
@@ -29,7 +29,7 @@ def network(limb: str, layout: JointLayout, rng: np.random.Generator) -> Network
     shapes += [(n_in,), (n_in,), (n_out,), (n_out,)]
     names = (*GRU_TENSORS, *Z_SCORES)
     tensors = {name: rng.uniform(0.1, 1.0, shape) for name, shape in zip(names, shapes, strict=True)}
-    return Network(tensors, limb, joints, inputs, 1e-6)
+    return GruNetwork(tensors, limb, joints, inputs, 1e-6)
 
 
 def test_it_returns_what_its_networks_predict(layout: JointLayout, made_up: Callable[..., Recording]) -> None:
@@ -37,7 +37,7 @@ def test_it_returns_what_its_networks_predict(layout: JointLayout, made_up: Call
     networks = LimbNetworks([network(limb, layout, rng) for limb in ("RL", "LL")], layout)
     sensed = made_up(0, 0.1).sensed
     estimator = DirectEstimator(networks)
-    result, predicted = estimator.estimate(sensed), networks.run(sensed)
+    result, predicted = estimator.estimate(sensed), networks.run_all([sensed])[0]
     assert estimator.joints == layout.limb("RL") + layout.limb("LL")
     np.testing.assert_array_equal(result.tau_ext, predicted.mean)
     np.testing.assert_array_equal(result.std, predicted.std)

@@ -11,13 +11,12 @@ import pytest
 from mobnet.core.errors import DataError
 from mobnet.core.joints import N_VIRTUAL, JointLayout
 from mobnet.core.recording import Recording
-from mobnet.estimation.kinds.friction import Friction, FrictionModel, Options, build, fit, read_friction
+from mobnet.estimation.kinds.friction import FittedFriction, FrictionModel, Options, build, fit, read_friction
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.recipe import Recipe
 from mobnet.estimation.regression import TERMS
 from mobnet.settings.settings import Settings
-from mobnet.simulation.friction import Friction as PlantFriction
-from mobnet.simulation.friction import friction_torque, make_friction
+from mobnet.simulation.friction import PlantFriction, friction_torque, make_friction
 
 GAIN_HZ, RATE_HZ = 100.0, 1000.0
 KNEE = {"coulomb_nm": 12.0, "static_nm": 9.0, "viscous_nms": 3.0, "load_per_nm": 0.002, "stribeck_rad_s": 0.3}
@@ -39,14 +38,14 @@ def plant(settings: Settings, layout: JointLayout) -> PlantFriction:
 
 
 @pytest.fixture
-def table_4(plant: PlantFriction, layout: JointLayout) -> Friction:
+def table_4(plant: PlantFriction, layout: JointLayout) -> FittedFriction:
     """The same in the form of the fit."""
     dry = {"coulomb": np.full(layout.nu, plant.coulomb), "static": np.full(layout.nu, plant.static)}
     terms = {**dry, "viscous": plant.viscous, "load": plant.load}
-    return Friction(terms, np.full(layout.nu, plant.stribeck), plant.smoothing)
+    return FittedFriction(terms, np.full(layout.nu, plant.stribeck), plant.smoothing)
 
 
-def test_it_has_the_form_of_the_plants_friction(plant: PlantFriction, layout: JointLayout, table_4: Friction) -> None:
+def test_it_has_the_plants_form(plant: PlantFriction, layout: JointLayout, table_4: FittedFriction) -> None:
     """Equivalent to the simulator's own formula of (23)."""
     rng = np.random.default_rng(0)
     velocity, torque = rng.normal(0, 1, (20, layout.nu)), rng.normal(0, 50, (20, layout.nu))
@@ -57,19 +56,11 @@ def test_it_has_the_form_of_the_plants_friction(plant: PlantFriction, layout: Jo
     np.testing.assert_allclose(table_4.torque(velocity, torque), expected, rtol=1e-12)
 
 
-def test_friction_is_odd_in_the_velocity_and_takes_energy(table_4: Friction) -> None:
-    rng = np.random.default_rng(1)
-    velocity, torque = rng.normal(0, 1, (50, len(table_4.stribeck))), rng.normal(0, 50, (50, len(table_4.stribeck)))
-    forward, back = table_4.torque(velocity, torque), table_4.torque(-velocity, torque)
-    np.testing.assert_array_equal(forward, -back)
-    assert (forward * velocity < 0).all()
-
-
 def test_prediction_is_the_filtered_torque_and_the_base_has_none(
-    layout: JointLayout, table_4: Friction, made_up: Callable[..., Recording]
+    layout: JointLayout, table_4: FittedFriction, made_up: Callable[..., Recording]
 ) -> None:
     sensed = made_up(2, 0.2).sensed
-    prediction = FrictionModel(layout, table_4, GAIN_HZ, RATE_HZ).run(sensed)
+    prediction = FrictionModel(layout, table_4, GAIN_HZ, RATE_HZ).run_all([sensed])[0]
     torque = table_4.torque(sensed.v[:, N_VIRTUAL:], sensed.tau_motor)
     assert prediction.std is None
     assert not prediction.mean[:, :N_VIRTUAL].any()

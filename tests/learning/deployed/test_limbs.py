@@ -32,9 +32,9 @@ def test_together_they_predict_what_each_predicts(
     """Limbs together and each alone are equivalent."""
     network, sensed = load_network(folder), made_up(3, 0.1).sensed
     x = limb_inputs(layout, Limb(joints=("LL",), Q=("LL",), T=("LL",)))(sensed)
-    both = LimbNetworks([network, network], layout).run(sensed)
-    np.testing.assert_array_equal(both.mean, np.tile(network.run(x).mean, 2))
-    np.testing.assert_array_equal(both.std, np.tile(network.run(x).std, 2))
+    both = LimbNetworks([network, network], layout).run_all([sensed])[0]
+    np.testing.assert_array_equal(both.mean, np.tile(network.run_all([x])[0].mean, 2))
+    np.testing.assert_array_equal(both.std, np.tile(network.run_all([x])[0].std, 2))
 
 
 def test_a_network_of_another_limb_is_refused(folder: Path, layout: JointLayout) -> None:

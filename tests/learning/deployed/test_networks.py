@@ -13,7 +13,7 @@ from mobnet.core.errors import DataError
 from mobnet.learning.deployed import lanes
 from mobnet.learning.deployed.lanes import CHUNK
 from mobnet.learning.deployed.module_network import ModuleNetwork
-from mobnet.learning.deployed.networks import WEIGHTS, ConstantNetwork, Deployed, Network, load_network
+from mobnet.learning.deployed.networks import WEIGHTS, ConstantNetwork, Deployed, GruNetwork, load_network
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE
 from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.learning.streams import split
@@ -25,7 +25,10 @@ CELLS = {
     kind: Cell(cell=kind, **{name: ({"hidden": 150 if kind == "GRU" else 16} | WINDOW)[name] for name in names})
     for kind, names in SIZES.items()
 }
-KINDS: dict[CellKind, type[Deployed]] = {"GRU": Network, "constant": ConstantNetwork}  # by NumPy; the others by torch
+KINDS: dict[CellKind, type[Deployed]] = {
+    "GRU": GruNetwork,
+    "constant": ConstantNetwork,
+}  # by NumPy; the others by torch
 FACTORS = torch.linspace(0.5, 3.0, JOINTS)
 SCALES = {
     "input.mean": torch.linspace(-1.0, 1.0, INPUTS),
@@ -64,9 +67,9 @@ def test_step_agrees_with_run(kind: CellKind, x: np.ndarray, tmp_path: Path, mon
     """Sample by sample, in chunks and all at once are equivalent."""
     network = deployed(tmp_path, model_of(CELLS[kind]), CELLS[kind])
     assert isinstance(network, KINDS.get(kind, ModuleNetwork))
-    whole, state = network.run(x), network.init()
+    whole, state = network.run_all([x])[0], network.init()
     monkeypatch.setattr(lanes, "CHUNK", 7)
-    np.testing.assert_allclose(network.run(x).mean, whole.mean, rtol=1e-5, atol=1e-5)
+    np.testing.assert_allclose(network.run_all([x])[0].mean, whole.mean, rtol=1e-5, atol=1e-5)
     for k in range(STEPS):
         state, result = network.step(state, x[k])
         np.testing.assert_allclose(result.mean, whole.mean[k], rtol=1e-5, atol=1e-5)
@@ -78,7 +81,7 @@ def test_recordings_side_by_side_are_those_alone(kind: CellKind, x: np.ndarray, 
     network = deployed(tmp_path, model_of(CELLS[kind]), CELLS[kind])
     given = [x, x[100:], x[:37]]
     for one, together in zip(given, network.run_all(given), strict=True):
-        alone = network.run(one)
+        alone = network.run_all([one])[0]
         np.testing.assert_allclose(together.mean, alone.mean, rtol=1e-5, atol=1e-5)
         np.testing.assert_allclose(together.std, alone.std, rtol=1e-5)
 
@@ -91,7 +94,7 @@ def test_run_agrees_with_the_module(kind: str, x: np.ndarray, tmp_path: Path) ->
     zscored = (torch.from_numpy(x) - SCALES["input.mean"]) / SCALES["input.std"]
     with torch.no_grad():
         mean, std, _ = model(zscored[:, None], model.fresh_state(1))
-    result = deployed(tmp_path, model, cell).run(x)
+    result = deployed(tmp_path, model, cell).run_all([x])[0]
     expected = mean[:, 0] * SCALES["target.std"] + SCALES["target.mean"]
     np.testing.assert_allclose(result.mean, expected.numpy(), rtol=1e-5, atol=1e-5)
     np.testing.assert_allclose(result.std, (std[:, 0] * SCALES["target.std"]).numpy(), rtol=1e-5)
@@ -108,14 +111,14 @@ def test_step_leaves_the_given_state_alone(kind: CellKind, x: np.ndarray, tmp_pa
 @pytest.mark.parametrize("kind", CELLS)
 def test_factors_multiply_the_standard_deviation_alone(kind: CellKind, x: np.ndarray, tmp_path: Path) -> None:
     model = model_of(CELLS[kind])
-    plain = deployed(tmp_path, model, CELLS[kind]).run(x)
-    scaled = deployed(tmp_path, model, CELLS[kind], **{STD_SCALE: FACTORS}).run(x)
+    plain = deployed(tmp_path, model, CELLS[kind]).run_all([x])[0]
+    scaled = deployed(tmp_path, model, CELLS[kind], **{STD_SCALE: FACTORS}).run_all([x])[0]
     np.testing.assert_array_equal(scaled.mean, plain.mean)
     np.testing.assert_allclose(scaled.std, plain.std * FACTORS.numpy(), rtol=1e-6)
 
 
 def test_huge_inputs_give_finite_torques(x: np.ndarray, tmp_path: Path) -> None:
-    result = deployed(tmp_path, model_of(CELLS["GRU"]), CELLS["GRU"]).run(1e6 * x)
+    result = deployed(tmp_path, model_of(CELLS["GRU"]), CELLS["GRU"]).run_all([1e6 * x])[0]
     assert np.isfinite(result.mean).all()
     assert (result.std > 0).all()
 
@@ -123,7 +126,7 @@ def test_huge_inputs_give_finite_torques(x: np.ndarray, tmp_path: Path) -> None:
 def test_a_recording_longer_than_a_chunk_has_no_seam(x: np.ndarray, tmp_path: Path) -> None:
     network = deployed(tmp_path, model_of(CELLS["TCN"]), CELLS["TCN"])
     long = np.tile(x, (CHUNK // STEPS + 2, 1))
-    periods = network.run(long).mean.reshape(-1, STEPS, JOINTS)
+    periods = network.run_all([long])[0].mean.reshape(-1, STEPS, JOINTS)
     for period in periods[2:]:
         np.testing.assert_allclose(period, periods[1], rtol=1e-5, atol=1e-5)
 
@@ -155,7 +158,7 @@ def test_weights_that_do_not_fit_their_note_are_refused(
 
 @pytest.mark.parametrize(
     ("method", "limb", "kind"),
-    [("TCN", "LL", ModuleNetwork), ("GRU-spectral", "LL", Network), ("MOB-Net", "N", ConstantNetwork)],
+    [("TCN", "LL", ModuleNetwork), ("GRU-spectral", "LL", GruNetwork), ("MOB-Net", "N", ConstantNetwork)],
 )
 def test_a_trained_network_on_a_robot_errs_as_in_its_validation(
     method: str, limb: str, kind: type, small: Any, tmp_path: Path
@@ -166,6 +169,6 @@ def test_a_trained_network_on_a_robot_errs_as_in_its_validation(
     network, note, data = load_network(out), json.loads((out / "run.json").read_text()), small.data(training)
     assert type(network) is kind
     _, held_out = split(data.segments, training.learning.validation_share)
-    errors = [(network.run(data.inputs[a:b]).mean - data.targets[a:b]) for a, b in held_out]
+    errors = [(network.run_all([data.inputs[a:b]])[0].mean - data.targets[a:b]) for a, b in held_out]
     rmse = np.sqrt(np.square(np.concatenate(errors)).mean(axis=0)).mean()
     assert rmse == pytest.approx(note["best"]["validation_rmse"], rel=0.1)  # lanes and ends of streams differ

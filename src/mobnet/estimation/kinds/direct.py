@@ -16,7 +16,6 @@ class DirectEstimator:
     """tau_e as limb networks predict it, without an observer; `joints` (n,) are the networks'."""
 
     def __init__(self, networks: LimbNetworks) -> None:
-        """Take networks trained on the external torque, one per limb."""
         self.joints = networks.joints
         self._networks = networks
 

@@ -1,12 +1,6 @@
 """MOB-fric of section 5.2: the residual minus a friction model of the joints, regressed on r - tau_e of training data.
 
-The model has the form of (23). Every number of a joint is regressed, and none is negative, so that friction dissipates:
-
-    tau_f = -tanh(v / smoothing) (coulomb (1 - fade) + static fade + load tau_m^2) - viscous v
-    fade = exp(-|v| / stribeck)
-
-v and tau_m are the sensed joint velocity and the motor's torque. Regressors pass through the low-pass of (11), as the
-residual has.
+The model has the form of (23); (O10) and (O11) of docs/notes/0034-observer.md say how it is regressed and subtracted.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -79,7 +73,7 @@ class FrictionNote(Note):
 
 
 @dataclass(frozen=True)
-class Friction:
+class FittedFriction:
     """Numbers of (23) of every actuated joint; zero for a joint that was not fitted.
 
     Attributes:
@@ -94,6 +88,7 @@ class Friction:
 
     def torque(self, velocity: NDArray[Any], torque: NDArray[Any]) -> Array:
         """Return tau_f of (23), (..., nu) [N m], from joint velocity [rad/s] and motor torque [N m], (..., nu) each."""
+        # The factors of (O10) are those of -tau_f, where none of them may be negative.
         columns = regressors(velocity, torque, self.smoothing, self.stribeck)
         return -sum((self.terms[term] * columns[term] for term in TERMS), start=np.zeros(self.stribeck.shape))
 
@@ -101,7 +96,7 @@ class Friction:
 class FrictionModel:
     """The filtered friction torque as an uncertainty model of (15), for all joints (nv,); the base has none."""
 
-    def __init__(self, layout: JointLayout, friction: Friction, gain_hz: float, rate_hz: float) -> None:
+    def __init__(self, layout: JointLayout, friction: FittedFriction, gain_hz: float, rate_hz: float) -> None:
         """Take a fitted friction model, and the observer's gain K_0 of (7) [1/s]."""
         self.joints = layout.names
         self._base = len(layout.virtual)  # generalized velocities without a motor
@@ -115,16 +110,14 @@ class FrictionModel:
     def step(self, state: Array | None, sample: Sensed) -> tuple[Array, Prediction]:
         """Take one sample (1-D arrays); return the filtered friction as new state and as prediction (nv,) [N, N m]."""
         now = self._torque(sample)
+        # (O11): the residual's share of friction has passed the observer's low-pass, so this must, with the same start.
         filtered = np.zeros_like(now) if state is None else self._pole * state + (1 - self._pole) * now
-        return filtered, _prediction(filtered)
-
-    def run(self, sensed: Sensed) -> Prediction:
-        """Run over one contiguous recording; return the filtered friction (T, nv) [N, N m]."""
-        return _prediction(low_pass(self._torque(sensed), self._gain_hz, self._rate_hz))
+        return filtered, Prediction(filtered)
 
     def run_all(self, recordings: Sequence[Sensed]) -> list[Prediction]:
         """Run over contiguous recordings, each from a fresh state; return the filtered friction (T_i, nv) [N, N m]."""
-        return [self.run(sensed) for sensed in recordings]
+        torques = [self._torque(sensed) for sensed in recordings]
+        return [Prediction(low_pass(torque, self._gain_hz, self._rate_hz)) for torque in torques]
 
     def _torque(self, sensed: Sensed) -> Array:
         """Return the friction torque before the filter, (..., nv) [N, N m]."""
@@ -167,6 +160,7 @@ def fit(
     Return `smoothing_rad_s`, and `joints`: name -> factors of (23), units in the keys, and the root mean square of the
     target and of what is left of it [N m].
     """
+    # By section 4.2.2 the load counts for the legs alone: there the limb's network sees the torque, its `T` in Table 1.
     law = Law(options.smoothing_rad_s, options.stribeck_rad_s, observer.gain_hz)
     found: dict[str, Mapping[str, float]] = {}
     for limb, pairs in training.items():
@@ -186,7 +180,7 @@ def fitted_joints(layout: JointLayout, options: Options, limbs: Iterable[Limb]) 
     return found
 
 
-def read_friction(path: Path, joints: Sequence[str]) -> Friction:
+def read_friction(path: Path, joints: Sequence[str]) -> FittedFriction:
     """Read what `fit` found, for a robot's actuated joints (nu,); joints that it does not name have no friction.
 
     Raises:
@@ -198,9 +192,4 @@ def read_friction(path: Path, joints: Sequence[str]) -> Friction:
     fitted = [rows[joint].terms() if joint in rows else dict.fromkeys(TERMS, 0.0) for joint in joints]
     terms = {term: np.array([factors[term] for factors in fitted], dtype=np.float64) for term in TERMS}
     stribeck = np.array([rows[joint].stribeck_rad_s if joint in rows else 1.0 for joint in joints], dtype=np.float64)
-    return Friction(terms, stribeck, found.smoothing_rad_s)
-
-
-def _prediction(torque: NDArray[Any]) -> Prediction:
-    """Return a prediction without a standard deviation: the regression gives none."""
-    return Prediction(torque)
+    return FittedFriction(terms, stribeck, found.smoothing_rad_s)

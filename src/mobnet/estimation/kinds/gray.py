@@ -22,7 +22,6 @@ class FrictionAndNetworks:
     """The sum of a friction model and of networks as an uncertainty model of (15); `joints` (n,) are the networks'."""
 
     def __init__(self, layout: JointLayout, friction: FrictionModel, networks: LimbNetworks) -> None:
-        """Take both parts."""
         self.joints = networks.joints
         self._friction, self._networks = friction, networks
         self._columns = layout.columns(networks.joints)
@@ -44,6 +43,8 @@ class FrictionAndNetworks:
 
     def _sum(self, known: Prediction, rest: Prediction) -> Prediction:
         """Return the sum (..., n) [N, N m] with the networks' standard deviation."""
+        # The target of the networks was r - tau_e less this friction, (O14), so the two add up to the uncertainty. The
+        # fit says nothing of its own error; the networks' sigma, trained on what it leaves, contains it.
         return Prediction(known.mean[..., self._columns] + rest.mean, rest.std)
 
 

@@ -62,6 +62,7 @@ class ResidualEstimator:
     def step(self, state: State, sample: Sensed) -> tuple[State, Estimate]:
         """Take one sample (1-D arrays); return the new state and tau_e, (n,) [N, N m]."""
         observed, residual = self._observer.step(state[0], sample)
+        # MOB is the case without a model of the uncertainty: all of r counts as external torque.
         if self._uncertainty is None:
             return (observed, None), self._estimate(residual)
         modelled, prediction = self._uncertainty.step(state[1], sample)
@@ -81,7 +82,8 @@ class ResidualEstimator:
         return [self._estimate(*pair) for pair in zip(residuals, predictions, strict=True)]
 
     def _estimate(self, residual: NDArray[np.float64], prediction: Prediction | None = None) -> Estimate:
-        """Return eq. (15) for the estimated joints, (..., n) [N, N m]."""
+        """Return tau_e of the estimated joints, (..., n) [N, N m]."""
+        # (O9) of note 0034, from (15). The observer's lag stays in it: what is estimated is the low-passed torque.
         tau = residual[..., self._columns]
         return Estimate(tau) if prediction is None else Estimate(tau - prediction.mean, prediction.std)
 

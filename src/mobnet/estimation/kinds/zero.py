@@ -17,7 +17,6 @@ class ZeroEstimator:
     """tau_e = 0 at every sample; `joints` (n,) are names of the estimated joints."""
 
     def __init__(self, joints: Sequence[str]) -> None:
-        """Take the names of the joints (n,)."""
         self.joints = tuple(joints)
 
     def init(self) -> None:

@@ -31,17 +31,13 @@ class LimbNetworks:
 
     def step(self, state: State, sample: Sensed) -> tuple[State, Prediction]:
         """Take one sample (1-D arrays); return the new states and the prediction (n,) [N, N m]."""
+        # The six networks share the pelvis' inputs and each other's joints (Figure 2), so signals are made once.
         x = signals(sample)
         stepped = [
             network.step(carried, x[columns])
             for network, carried, columns in zip(self.networks, state, self._columns, strict=True)
         ]
         return tuple(after for after, _ in stepped), _joined([prediction for _, prediction in stepped])
-
-    def run(self, sensed: Sensed) -> Prediction:
-        """Run over one contiguous recording from fresh states; return the prediction (T, n) [N, N m]."""
-        (prediction,) = self.run_all([sensed])
-        return prediction
 
     def run_all(self, recordings: Sequence[Sensed]) -> list[Prediction]:
         """Run over contiguous recordings side by side, each from fresh states; return (T_i, n) [N, N m] of each."""
@@ -77,8 +73,10 @@ def check_limb(network: Deployed, limb: str, folder: Path, layout: JointLayout) 
         if name not in known_inputs:
             raise DataError(f"{folder}: {not_accepted('input', name, [*known_inputs[:3], '...'])}")
     if (network.limb, network.joints) != (limb, expected):
-        raise DataError(f"{folder}: network of limb {network.limb!r} with joints {', '.join(network.joints)}; "
-                        f"accepted: {limb!r} with {', '.join(expected)}")  # fmt: skip
+        raise DataError(
+            f"{folder}: network of limb {network.limb!r} with joints {', '.join(network.joints)}; "
+            f"accepted: {limb!r} with {', '.join(expected)}"
+        )
 
 
 def _columns(network: Deployed, layout: JointLayout) -> NDArray[np.intp]:
@@ -88,7 +86,6 @@ def _columns(network: Deployed, layout: JointLayout) -> NDArray[np.intp]:
 
 
 def _joined(predictions: Sequence[Prediction]) -> Prediction:
-    """Return the predictions of several limbs side by side."""
     if len(predictions) == 1:
         return predictions[0]
     mean = np.concatenate([p.mean for p in predictions], axis=-1)

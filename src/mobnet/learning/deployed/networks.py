@@ -25,8 +25,8 @@ Array = NDArray[np.float32]
 class Prediction:
     """Predicted torque and its standard deviation, (n,) or (T, n) [N, N m], eq. (18)."""
 
-    mean: Array
-    std: Array | None = None
+    mean: NDArray[Any]
+    std: NDArray[Any] | None = None
 
 
 class Deployed(ABC):
@@ -68,23 +68,18 @@ class Deployed(ABC):
     def run_all(self, lanes: Sequence[Array]) -> list[Prediction]:
         """Run over contiguous recordings of inputs (T_i, n_in), each from a fresh state; return (T_i, n) [N, N m]."""
 
-    def run(self, x: Array) -> Prediction:
-        """Run over a contiguous recording of inputs (T, n_in) from a fresh state; return (T, n) [N, N m]."""
-        (prediction,) = self.run_all([x])
-        return prediction
-
     def _z_score(self, x: Array) -> Array:
-        """Return z-scored inputs."""
         return (x - self._input_mean) / self._input_std
 
     def _physical(self, mean: Array, std: Array) -> Prediction:
-        """Return a z-scored mean and standard deviation in physical units."""
+        # (N11). The factor of the calibration is on sigma alone.
         return Prediction(mean * self._target_std + self._target_mean, std * self._std_unit)
 
     def _predict(self, output: Array) -> Prediction:
         """Return the prediction in physical units from the linear layer's output (..., 2 n)."""
         n = len(self.joints)
         mean, raw = output[..., :n], output[..., n:]
+        # (N10) by log(exp(raw) + exp(0)), which does not overflow.
         return self._physical(mean, np.maximum(np.logaddexp(raw, 0.0, dtype=np.float32), self.std_min))
 
 
@@ -92,7 +87,6 @@ class ConstantNetwork(Deployed):
     """The same mean and standard deviation at every sample: cell `constant`; there is no state."""
 
     def __init__(self, tensors: Mapping[str, Array], *names: Any) -> None:
-        """Take all arguments of `Deployed`."""
         super().__init__(tensors, *names)
         self._output = np.asarray(tensors["head.bias"], dtype=np.float32)
 
@@ -108,18 +102,17 @@ class ConstantNetwork(Deployed):
         return [self._predict(np.tile(self._output, (len(x), 1))) for x in lanes]
 
 
-class Network(Deployed):
+class GruNetwork(Deployed):
     """GRU-Linear of Table 1 with its z-scores, by NumPy."""
 
     def __init__(self, tensors: Mapping[str, Array], *names: Any) -> None:
-        """Take all arguments of `Deployed`."""
         super().__init__(tensors, *names)
         w_in, w_state, b_in, b_state, self._w_out, self._b_out = (
             np.asarray(tensors[name], dtype=np.float32) for name in GRU_TENSORS
         )
         self._as_trained = w_in, w_state, b_in, b_state
         self.hidden = w_state.shape[1]
-        # sigmoid(x) = (1 + tanh(x / 2)) / 2: the halves go into the weights of the reset and update gates
+        # The inner halves of (N7) go into the weights of the reset and update gates, once instead of at every sample.
         half = np.repeat(np.array([0.5, 0.5, 1.0], dtype=np.float32), self.hidden)
         self._w_in, self._w_state = half[:, None] * w_in, half[:, None] * w_state
         self._b_in, self._b_state = half * b_in, half * b_state
@@ -160,7 +153,7 @@ class Network(Deployed):
         return new + opened[h:] * (state - new)
 
 
-WITHOUT_TORCH: Mapping[CellKind, Callable[..., Deployed]] = {"GRU": Network, "constant": ConstantNetwork}
+WITHOUT_TORCH: Mapping[CellKind, Callable[..., Deployed]] = {"GRU": GruNetwork, "constant": ConstantNetwork}
 
 
 def load_network(folder: Path) -> Deployed:

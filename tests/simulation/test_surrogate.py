@@ -11,8 +11,8 @@ from mobnet.robot.plant import robot_spec
 from mobnet.settings.settings import Settings
 from mobnet.settings.surrogate import SurrogateRobot
 from mobnet.simulation.faults import perceive
-from mobnet.simulation.hidden import Hidden, draw_hidden
 from mobnet.simulation.simulator import Simulator
+from mobnet.simulation.surrogate import Hidden, draw_hidden
 
 RATE_HZ = 2000.0
 WHOLE = ("drives", "body", "sensors")
