@@ -77,6 +77,7 @@ CALLED = {
     "compare": ["-m", "mobnet.evaluation.report.snapshot", "compare"],
     "cost": ["-m", "mobnet.evaluation.report.cost", "--config", "scale=smoke"],
     "schema": ["-m", "mobnet.settings"],
+    "snakemake": ["-m", "snakemake", "-n", "--config", "scale=smoke", "--", "tables/smoke/table_01.csv"],
 }
 
 

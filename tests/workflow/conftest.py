@@ -10,8 +10,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-LOCKS = ("environment.lock", "cuda.constraints")
-PARTS = ("Snakefile", "workflow", "profiles", "configs", "src", "docs", "paper", "reproduce", *LOCKS)
+PARTS = ("Snakefile", "workflow", "profiles", "configs", "src", "docs", "paper", "reproduce", "environment.lock")
 Snakemake = Callable[..., subprocess.CompletedProcess[str]]
 
 
