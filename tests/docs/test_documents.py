@@ -1,6 +1,7 @@
 """Documents are in the index, their links lead somewhere, and what they say twice agrees."""
 
 import json
+import pkgutil
 import re
 import tomllib
 from itertools import pairwise
@@ -13,7 +14,6 @@ ROOT = Path(__file__).parents[2]
 INDEX = ROOT / "docs" / "README.md"
 PAGES = sorted(path for part in ("*.md", "paper/*.md", "docs/*.md", "docs/notes/*.md") for path in ROOT.glob(part))
 LINK = re.compile(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)")
-UNNAMED = {"__init__", "__pycache__"}
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 
 
@@ -68,6 +68,6 @@ def test_the_guide_draws_the_packages_as_the_import_linter_checks_them() -> None
     part = (ROOT / "CONTRIBUTING.md").read_text().split("\n## How it fits together\n")[1].split("\n## ")[0]
     assert " ".join(re.findall(r"^ {4}(\w.*)$", part, re.MULTILINE)) == drawn
     named = re.findall(r"`(\w+)`", "".join(re.findall(r"^\| (`.*?) \|", part, re.MULTILINE)))
-    assert sorted(named) == sorted({path.stem for path in (ROOT / "src/mobnet").iterdir()} - UNNAMED)
+    assert sorted(named) == sorted(module.name for module in pkgutil.iter_modules([str(ROOT / "src" / "mobnet")]))
     missing = {name for name in re.findall(r"\w+", drawn) if name not in named}
     assert all(f"`{name}` does not exist yet" in part for name in missing)
