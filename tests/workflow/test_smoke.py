@@ -31,17 +31,8 @@ NO_OP_S = 10.0
 KILLS = 5
 LONGEST_S = 20.0
 MADE = ("results", "tables", "figures", "paper", ".snakemake")
-LOST = (
-    "results/smoke/recordings/forward_walk",
-    "results/smoke/robot_1/recordings/walk_test",
-    "results/smoke/networks/MOB-Net-LL-s0",
-    "results/smoke/networks/FTS-e2e-LL-s0",
-    "results/smoke/scores",
-    "tables/smoke",
-    "figures/smoke",
-)
 FIGURES = ("figures/smoke/drift.csv", "figures/smoke/amplitude.csv")
-LOST_ON_CLUSTER = (  # jobs of most kinds run again
+LOST = (  # walks of a test and walks that a network learns from: jobs of most kinds run again
     "results/smoke/recordings/foot_hold",
     "results/smoke/robot_1/recordings/robot_walk_25",
     "results/smoke/robot_1/networks/MOB-Net-25-LL-s101",
@@ -277,13 +268,13 @@ def run_on_cluster(folder: Path, place: Path, *targets: str) -> float:
     return time.monotonic() - before
 
 
-def copy_with_results(make_project: Callable[..., Path], unbroken: Path, name: str, lost: tuple[str, ...]) -> Path:
+def with_losses(make_project: Callable[..., Path], unbroken: Path, name: str) -> Path:
     """Return a copy of a project with its results, of which some are lost."""
     folder = make_project(name, unbroken)
     for part in MADE:
         shutil.copytree(unbroken / part, folder / part, symlinks=True, dirs_exist_ok=True)
-    for place in lost:
-        shutil.rmtree(folder / place) if (folder / place).is_dir() else (folder / place).unlink()
+    for place in (folder / name for name in LOST):
+        shutil.rmtree(place) if place.is_dir() else place.unlink()
     return folder
 
 
@@ -296,10 +287,9 @@ def numbers_below(place: Path) -> dict[str, bytes]:
 def test_a_cluster_makes_the_same_files(
     unbroken: Path, make_project: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory
 ) -> None:
-    """Walks of a test and those that a network learns from are lost, and what two figures show of them."""
-    folder = copy_with_results(make_project, unbroken, "on_cluster", LOST_ON_CLUSTER)
+    folder = with_losses(make_project, unbroken, "on_cluster")
     run_on_cluster(folder, tmp_path_factory.mktemp("cluster"), *FIGURES)
-    for place in LOST_ON_CLUSTER:
+    for place in LOST:
         assert numbers_below(folder / place) == numbers_below(unbroken / place) != {}
     assert products(folder) == products(unbroken)
 
@@ -318,8 +308,7 @@ if WHOLE_CLUSTER in os.environ:  # it takes as long as all other tests together
 
 
 def test_killed_at_random_moments_ends_with_the_same_tables(unbroken: Path, make_project: Callable[..., Path]) -> None:
-    # jobs of most kinds run again, in a third of the time of the whole line
-    folder = copy_with_results(make_project, unbroken, "killed", LOST)
+    folder = with_losses(make_project, unbroken, "killed")
     moments = random.Random(2023)
     for kill in range(KILLS):
         run = reproduce(folder, "--cores", "1")
