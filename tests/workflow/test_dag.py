@@ -54,9 +54,6 @@ def test_what_is_out_of_date_of_a_target_is_priced(snakemake: Snakemake) -> None
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ("observer={gain: 100.0}", "--config: observer.gain: key: 'gain' is not accepted; accepted: gain_hz"),
-        ("scales={smoke: {test: {shard_s: -1.0}}}", "--config: scales.smoke.test.shard_s: -1.0 is not accepted"),
-        ("methods={MOB-Net: {limbs: [LL, tail]}}", "--config: methods.MOB-Net.limbs.1: network: 'tail' is not"),
         ("methods={MOB: {kind: magic}}", "'magic' is not accepted; accepted: "),
         ("robot=configs/robots/none.yaml", "--config: robot: 'configs/robots/none.yaml' is not accepted"),
     ],
