@@ -1,12 +1,15 @@
 """Properties of (1), (4) and (6) that hold in every state."""
 
 from collections.abc import Callable
+from typing import Literal
 
 import numpy as np
 import pinocchio as pin
 import pytest
 
 from mobnet.robot import dynamics
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.frames import from_pinocchio, rotation, to_pinocchio
 from mobnet.robot.nominal import NominalModel
 
@@ -85,21 +88,29 @@ def test_rate_of_momentum_is_torque_plus_beta(nominal: NominalModel, random_stat
     np.testing.assert_allclose((after - before) / (2 * STEP), expected, atol=TOLERANCE)
 
 
-@pytest.mark.parametrize(
-    "laid_out", [np.ascontiguousarray, np.asfortranarray, lambda rows: np.repeat(rows, 2, axis=0)[::2]]
-)
+def test_batch_equals_one_by_one(nominal: NominalModel, random_state: Callable) -> None:
+    """A batch and its samples one by one are equivalent."""
+    states = [random_state(seed) for seed in range(4)]
+    q, v = (np.stack(part) for part in zip(*states, strict=True))
+    p, beta = dynamics.momentum_and_beta(nominal, q, v)
+    np.testing.assert_array_equal(p, [dynamics.momentum(nominal, *state) for state in states])
+    np.testing.assert_array_equal(beta, [dynamics.beta(nominal, *state) for state in states])
+
+
+@pytest.mark.parametrize("order", ["C", "F"])
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 @pytest.mark.parametrize("machine", ["robot", "arm"])
 def test_any_memory_order_and_float_type_gives_the_same(
-    request: pytest.FixtureRequest, machine: str, dtype: type, laid_out: Callable
+    request: pytest.FixtureRequest, machine: str, dtype: type, order: Literal["C", "F"]
 ) -> None:
     """Columns of a table, as pandas hands them out, are the reference's rows in another order."""
     nominal, rng = NominalModel(request.getfixturevalue(machine)), np.random.default_rng(8)
     layout = nominal.robot.layout
     q, v = (rng.normal(size=(5, width)).astype(dtype) for width in (layout.nq, layout.nv))
     expected = dynamics.momentum_and_beta(nominal, q.astype(np.float64), v.astype(np.float64))
-    np.testing.assert_array_equal(dynamics.momentum_and_beta(nominal, laid_out(q), laid_out(v)), expected)
-    column = dynamics.mass_matrix(nominal, laid_out(q)[2])
+    found = dynamics.momentum_and_beta(nominal, np.array(q, order=order), np.array(v, order=order))
+    np.testing.assert_array_equal(found, expected)
+    column = dynamics.mass_matrix(nominal, np.array(q, order=order)[2])
     np.testing.assert_array_equal(column, dynamics.mass_matrix(nominal, q[2].astype(np.float64)))
 
 
@@ -115,3 +126,16 @@ def test_yaw_of_the_world_turns_the_linear_part_only(nominal: NominalModel, rand
         here, there = term(nominal, q, v), term(nominal, turned_q, turned_v)
         np.testing.assert_allclose(there[:3], turn @ here[:3], atol=1e-9)
         np.testing.assert_allclose(there[3:], here[3:], atol=1e-9)
+
+
+@pytest.mark.parametrize("floats", [np.float32, np.float64])
+def test_columns_of_a_log_in_any_memory_order_give_the_same(
+    nominal: NominalModel, robot: RobotDescription, floats: type
+) -> None:
+    """Pandas gives Fortran order, which Pinocchio's bindings refuse row by row."""
+    rng = np.random.default_rng(3)
+    q, v = rng.normal(size=(20, robot.layout.nq)).astype(floats), rng.normal(size=(20, robot.layout.nv)).astype(floats)
+    expected = momentum_and_beta(nominal, q, v)
+    for given in ((np.asfortranarray(q), np.asfortranarray(v)), (np.repeat(q, 2, axis=0)[::2], v[::-1][::-1])):
+        for found, value in zip(momentum_and_beta(nominal, *given), expected, strict=True):
+            np.testing.assert_array_equal(found, value)
