@@ -25,7 +25,14 @@ from mobnet.settings.settings import Settings
 ROOT = Path(__file__).parents[1]
 RATE_HZ = 1000.0
 WAVES = 3  # sines per signal
+LONGEST = ("test_smoke.py", "test_cluster.py")  # minutes each
 Array = NDArray[np.float64]
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with the longest files: begun last, one of them would run alone on one of the workers."""
+    places = {ROOT / "tests" / "workflow" / name: place for place, name in enumerate(LONGEST)}
+    items.sort(key=lambda item: places.get(item.path, len(places)))
 
 
 @pytest.fixture(scope="session")

@@ -10,7 +10,7 @@ from mobnet.commands.clean import clean
 from mobnet.core.errors import CommandError
 
 PRODUCTS = ("results/smoke/a.parquet", "tables/t.csv", "tables/smoke/t.csv", "paper/main.pdf", ".snakemake/log/x")
-SOURCES = ("tables/README.md", "figures/README.md", "paper/main.tex", "paper/refs.bib", "src/kept.py", "mine.txt")
+SOURCES = ("tables/.gitignore", "figures/.gitignore", "paper/main.tex", "paper/refs.bib", "src/kept.py", "mine.txt")
 ENVIRONMENT = (".venv/bin/python", ".cache/uv/x")
 
 

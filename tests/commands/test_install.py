@@ -11,6 +11,7 @@ import pytest
 from mobnet.commands import install
 from mobnet.commands import tools as tooling
 from mobnet.commands.builds import wanted_build
+from mobnet.commands.setup import LOCKS
 from mobnet.commands.tell import is_unreachable
 from mobnet.core.errors import CommandError
 
@@ -20,7 +21,7 @@ OFFLINE = "error: Request failed\n  cause: dns error\n"
 NOTHING = "error: No solution found\n  cause: torch==2.13.0+cpu has no wheels with a matching tag\n"
 
 
-@pytest.mark.parametrize("name", ["environment.lock", "cuda.constraints"])
+@pytest.mark.parametrize("name", LOCKS)
 def test_every_package_has_a_version_and_hashes(name: str) -> None:
     lines = [line for line in (ROOT / name).read_text().splitlines() if not line.startswith("#")]
     packages = [line for line in lines if not line.startswith(" ")]
@@ -41,7 +42,7 @@ def test_lock_is_complete_for_every_python(version: str, tmp_path: Path) -> None
     """Nothing is needed beyond the lock, and it has a wheel of everything but one package; needs a registry."""
     tools = tooling.Tools.find(ROOT)
     target = "--python-version", version, "--only-binary", ":all:", "--no-binary", "connection-pool"
-    locked = install.locked_packages(ROOT, "cuda"), "-c", str(ROOT / "cuda.constraints")
+    locked = install.locked_packages(ROOT, "cuda"), "-c", str(ROOT / install.CONSTRAINTS)
     words = str(tools.uv), "pip", "install", "--dry-run", "--target", str(tmp_path), "--require-hashes", *target
     output = tools.try_to(*words, "-r", *locked, "--excludes", tooling.written(ROOT, "excludes.txt", "triton\nuv\n"))
     if output and is_unreachable(output):
@@ -78,8 +79,7 @@ def test_pip_configuration_is_handed_to_uv(tmp_path: Path) -> None:
 @pytest.fixture
 def tools(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> tooling.Tools:
     """Tools in a folder with a lock, whose answers a test chooses."""
-    for name in ("environment.lock", "cuda.constraints"):
-        (tmp_path / name).write_text((ROOT / name).read_text())
+    (tmp_path / "environment.lock").write_text((ROOT / "environment.lock").read_text())
     monkeypatch.setattr(install, "relocate", lambda _: None)
     return tooling.Tools(tmp_path, sys.executable, (sys.executable, "-m", "pip"), tmp_path / "uv", {})
 

@@ -15,8 +15,9 @@ SITE = Path(".venv/lib/python3.12/site-packages")
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
     """A folder with an environment of one package."""
-    for name in setup.LOCKS:
-        (tmp_path / name).write_text("one==1.0\n")
+    for path in (tmp_path / name for name in setup.LOCKS):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("one==1.0\n")
     fill(tmp_path)
     stamp(tmp_path)
     return tmp_path

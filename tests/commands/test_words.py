@@ -33,20 +33,20 @@ def test_trials_are_targets_of_their_own(command: str) -> None:
     assert parse([command, "--config", "scale=smoke"])[::2] == (command, [command, "--config", "scale=smoke"])
 
 
-@pytest.mark.parametrize("word", ["1x=3", "=3", "x=3", "observer.gain_hz=50", "a b=1"])
-def test_a_replaced_value_has_the_name_of_a_key(word: str) -> None:
-    with pytest.raises(CommandError, match=f"--config: '{word}' is not accepted; accepted: KEY=VALUE"):
-        in_order(["all", "--config", "scale=smoke", word])
-
-
-def test_config_without_a_value_is_refused() -> None:
-    with pytest.raises(CommandError, match="--config: seed is not accepted; accepted: KEY=VALUE"):
-        in_order(["--config", "seed"])
-
-
-def test_targets_of_two_scales_are_refused() -> None:
-    with pytest.raises(CommandError, match="targets of the scales default, smoke: one scale"):
-        in_order(["tables/table_05.tex", "tables/smoke/table_05.tex"])
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        *(
+            (["all", "--config", "scale=smoke", word], f"--config: '{word}' is not accepted; accepted: KEY=VALUE")
+            for word in ("1x=3", "=3", "x=3", "observer.gain_hz=50", "a b=1")
+        ),
+        (["--config", "seed"], "--config: seed is not accepted; accepted: KEY=VALUE"),
+        (["tables/table_05.tex", "tables/smoke/table_05.tex"], "targets of the scales default, smoke: one scale"),
+    ],
+)
+def test_words_that_name_no_key_or_two_scales_are_refused(words: list[str], message: str) -> None:
+    with pytest.raises(CommandError, match=message):
+        in_order(words)
 
 
 @pytest.mark.parametrize(

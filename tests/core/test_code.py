@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib.metadata
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -181,18 +180,6 @@ def test_names_in_the_lock_are_those_of_the_installed_packages() -> None:
     installed = importlib.metadata.packages_distributions()
     for name, wanted in code.DISTRIBUTIONS.items():
         assert wanted in {code.lock_name(found) for found in installed.get(name, [wanted])}
-
-
-def test_the_friction_law_counts_where_it_is_simulated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    names = "mobnet.simulation.record:collect", "mobnet.estimation.observe:observe"
-    before = [code_hash(name) for name in names]
-    shutil.copytree(code.SOURCE / "mobnet", tmp_path / "mobnet")
-    monkeypatch.setattr(code, "SOURCE", tmp_path)
-    law = tmp_path / "mobnet/simulation/friction.py"
-    for text, changed in ((" # comment\n", [False, False]), ("\nSTICKY = 1\n", [True, False])):
-        law.write_text(law.read_text() + text)
-        forget()
-        assert [code_hash(name) != old for name, old in zip(names, before, strict=True)] == changed
 
 
 def test_a_new_mujoco_counts_for_the_code_that_imports_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -24,6 +24,7 @@ FAILED = """Error in rule {rule}:
     log: results/smoke/logs/{log}.log (check log file(s) for error details)
 """
 OVER = "slurmstepd: error: Exceeded job memory limit\n"
+MORE = "give it more with --set-resources"
 
 
 def told_of(root: Path, *texts: str, place: str = "rule_train/_MOB-Net_LL_0", since_s: float = 0.0) -> list[str]:
@@ -54,21 +55,26 @@ def test_the_reason_is_told_with_a_remedy_where_there_is_one(tmp_path: Path, tex
     assert "\n" not in told
 
 
-def test_a_job_that_ended_before_snakemake_began_is_named_by_its_place(tmp_path: Path) -> None:
-    (told,) = told_of(tmp_path, OVER)
-    assert told.startswith("train (MOB-Net_LL_0): ended by SLURM above its 100 MB; give it more with")
-
-
-def test_a_job_without_a_word_is_told(tmp_path: Path) -> None:
-    (told,) = told_of(tmp_path, "")
-    assert told.startswith("train (MOB-Net_LL_0): no word of why (log: ")
-
-
-def test_a_rule_without_a_known_limit_is_told_what_to_set(tmp_path: Path) -> None:
-    (told,) = told_of(tmp_path, OVER, place="rule_table_05")
-    assert told.startswith(
-        "table_05: ended by SLURM above its limit; give it more with --set-resources table_05:mem_mb=MB"
-    )
+@pytest.mark.parametrize(
+    ("text", "place", "says"),
+    [
+        (
+            OVER,
+            "rule_train/_MOB-Net_LL_0",
+            f"train (MOB-Net_LL_0): ended by SLURM above its 100 MB; {MORE} train:mem_mb=200",
+        ),
+        ("", "rule_train/_MOB-Net_LL_0", "train (MOB-Net_LL_0): no word of why (log: "),
+        (
+            OVER,
+            "rule_table_05",
+            f"table_05: ended by SLURM above its limit; {MORE} table_05:mem_mb=MB",
+        ),
+    ],
+    ids=["before Snakemake began", "without a word", "without a known limit"],
+)
+def test_a_job_is_named_by_its_place_whatever_it_says(tmp_path: Path, text: str, place: str, says: str) -> None:
+    (told,) = told_of(tmp_path, text, place=place)
+    assert told.startswith(says)
 
 
 def test_of_a_group_the_job_is_named_that_did_not_end(tmp_path: Path) -> None:

@@ -77,6 +77,7 @@ CALLED = {
     "compare": ["-m", "mobnet.evaluation.report.snapshot", "compare"],
     "cost": ["-m", "mobnet.evaluation.report.cost", "--config", "scale=smoke"],
     "schema": ["-m", "mobnet.settings"],
+    "snakemake": ["-m", "snakemake", "-n", "--config", "scale=smoke", "--", "tables/smoke/table_01.csv"],
 }
 
 
@@ -109,8 +110,3 @@ def test_a_set_up_writes_nothing_at_home_where_rust_is_installed(home: dict[str,
         subprocess.run(["rustc"], env=variables, check=True)
     assert (tmp_path / ".cache" / "rustup" / "seen").is_dir()
     assert os.listdir(home["HOME"]) == []
-
-
-def test_module_needs_the_standard_library_only() -> None:
-    code = "import sys; sys.path.insert(0, 'src'); import mobnet.running.environment"
-    subprocess.run([sys.executable, "-I", "-S", "-c", code], check=True)

@@ -1,18 +1,33 @@
 """Copies of the project in which the workflow may run without touching the checkout's results."""
 
+import hashlib
+import os
+import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
+from mobnet.core.compiled import cache_root
+
 ROOT = Path(__file__).parents[2]
-LOCKS = ("environment.lock", "cuda.constraints")
-PARTS = ("Snakefile", "workflow", "profiles", "configs", "src", "docs", "paper", "reproduce", *LOCKS)
+PARTS = ("Snakefile", "workflow", "profiles", "configs", "src", "docs", "paper", "reproduce", "environment.lock")
+COMPILED = Path(".cache") / "numba"
+JOB = re.compile(r"^ *(?:local)?rule (\w+):\n((?: {4,}\w+: .*\n)*)", re.MULTILINE)
 Snakemake = Callable[..., subprocess.CompletedProcess[str]]
+
+
+class Job(NamedTuple):
+    """A job as a dry run tells it: its rule, its outputs and its resources."""
+
+    rule: str
+    outputs: list[str]
+    resources: dict[str, str]
 
 
 @pytest.fixture(scope="session")
@@ -21,28 +36,44 @@ def snakemake() -> Snakemake:
 
     def run(*words: str, folder: Path = ROOT) -> subprocess.CompletedProcess[str]:
         words = (str(folder / ".venv" / "bin" / "python"), "-m", "snakemake", *words)
-        return subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
+        environment = {**os.environ, **({} if folder == ROOT else {"NUMBA_CACHE_DIR": str(folder / COMPILED)})}
+        return subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True, check=False)
 
     return run
 
 
 @pytest.fixture(scope="session")
-def outputs(snakemake: Snakemake) -> Callable[[str], dict[str, str]]:
-    """Return a function of a scale that returns file -> rule of everything the workflow makes."""
+def planned(snakemake: Snakemake) -> Callable[[str], list[Job]]:
+    """Return a function of a scale that returns all jobs of a dry run of everything."""
 
     @cache
-    def listing(scale: str) -> dict[str, str]:
-        done = snakemake("--summary", "--config", f"scale={scale}")
+    def jobs(scale: str) -> list[Job]:
+        done = snakemake("-n", "--forceall", "--quiet", "host", "--config", f"scale={scale}")
         assert done.returncode == 0, done.stderr
-        header, *rows = (line.split("\t") for line in done.stdout.splitlines())
-        return {row[header.index("output_file")]: row[header.index("rule")] for row in rows}
+        return [job_of(*found) for found in JOB.findall(done.stdout + done.stderr)]
 
-    return listing
+    return jobs
+
+
+def job_of(rule: str, text: str) -> Job:
+    """Return a job of what a dry run tells of it."""
+    told = dict(line.strip().split(": ", 1) for line in text.splitlines() if ": " in line)
+    outputs, resources = (told[key].split(", ") if key in told else [] for key in ("output", "resources"))
+    return Job(rule, outputs, dict(pair.split("=", 1) for pair in resources))
+
+
+@pytest.fixture(scope="session")
+def outputs(planned: Callable[[str], list[Job]]) -> Callable[[str], dict[str, str]]:
+    """Return a function of a scale that returns file -> rule of everything the workflow makes."""
+    return lambda scale: {name: job.rule for job in planned(scale) for name in job.outputs}
 
 
 @pytest.fixture(scope="session")
 def make_project(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
-    """Return a function of a name that copies the project, or a copy, without its environment."""
+    """Return a function of a name that copies the project, or a copy, without its environment.
+
+    The copy has the machine code that its origin has compiled, as its code is the same.
+    """
 
     def make(name: str, origin: Path = ROOT) -> Path:
         folder = tmp_path_factory.mktemp(name)
@@ -54,6 +85,22 @@ def make_project(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path
             else:
                 shutil.copy2(source, folder / part)
         (folder / ".venv").symlink_to(sys.prefix)  # runs the code of the folder in which it is called
+        for source, place in compiled_in(cache_root() if origin == ROOT else origin / COMPILED, origin, folder):
+            shutil.copytree(source, folder / COMPILED / place, ignore=shutil.ignore_patterns("*.tmp.*"))
         return folder
 
     return make
+
+
+def compiled_in(root: Path, origin: Path, folder: Path) -> Iterator[tuple[Path, Path]]:
+    """Yield the folders of machine code below a root, and their places in a copy: numba names them by the source's."""
+    sources = [path.relative_to(origin) for path in (origin / "src").rglob("*") if path.is_dir()]
+    renamed = {named_by(origin / source): named_by(folder / source) for source in sources}
+    for path in root.glob("*/*"):
+        if path.name in renamed:
+            yield path, Path(path.parent.name) / renamed[path.name]
+
+
+def named_by(source: Path) -> str:
+    """Return the name that numba gives to the machine code of the files of a folder."""
+    return f"{source.name}_{hashlib.sha1(str(source).encode()).hexdigest()}"

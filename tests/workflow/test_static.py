@@ -6,6 +6,8 @@ import sys
 
 import pytest
 
+from mobnet.commands.setup import LOCKS
+
 from .conftest import ROOT, Snakemake
 
 CHECKS = {
@@ -31,5 +33,5 @@ def test_snakemake_lint_passes(snakemake: Snakemake) -> None:
 
 
 def test_no_committed_file_names_a_package_host() -> None:
-    for name in ("environment.lock", "cuda.constraints", "reproduce", "pyproject.toml"):
+    for name in (*LOCKS, "reproduce", "pyproject.toml"):
         assert "://" not in (ROOT / name).read_text(), name

@@ -10,8 +10,8 @@ from mobnet.core.errors import CommandError
 from mobnet.running.lock import holder
 
 PRODUCTS = {  # folder -> endings of what it holds besides products
-    "tables": ("README.md",),
-    "figures": ("README.md",),
+    "tables": (".gitignore",),
+    "figures": (".gitignore",),
     "paper": ("README.md", ".tex", ".bib"),
 }
 WHOLE = ("results", ".snakemake", "report.html", "MUJOCO_LOG.TXT")

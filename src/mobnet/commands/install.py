@@ -8,6 +8,7 @@ from mobnet.commands.relocate import relocate
 from mobnet.commands.tell import in_gb, is_unreachable, say
 from mobnet.commands.tools import Tools, failed, written
 
+CONSTRAINTS = "workflow/envs/cuda.constraints"  # what torch's CUDA build requires
 UNWANTED = "triton"  # comes with torch's CUDA build, crashes beside Mesa's software renderer, and nothing here uses it
 
 
@@ -40,7 +41,7 @@ def install(tools: Tools, build: str, *, is_asked: bool) -> str:
 def attempt(tools: Tools, build: str) -> list[str]:
     """Try to install a build from the cache, from pip's places, from where uv knows it, then by pip; return why not."""
     python, places = str(tools.python), BUILDS[build].places
-    locked = "-r", locked_packages(tools.root, build), "-c", str(tools.root / "cuda.constraints"), "--require-hashes"
+    locked = "-r", locked_packages(tools.root, build), "-c", str(tools.root / CONSTRAINTS), "--require-hashes"
     left_out = written(tools.root, "excludes.txt", f"{UNWANTED}\nuv\n")
     compiled = "--compile-bytecode"  # once, instead of at the start of every process that may not write it
     uv = str(tools.uv), "pip", "install", "--quiet", compiled, "--python", python, "--excludes", left_out, *locked

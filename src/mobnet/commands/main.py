@@ -15,7 +15,7 @@ from mobnet.core.errors import CommandError, MobnetError
 from mobnet.running.environment import child_environment, fault_of_place
 
 MODULES = {  # command -> the module that `python -m` runs, with words that come first
-    "test": ("pytest", "-n", "2", "--dist", "loadfile", "--max-worker-restart", "0"),
+    "test": ("pytest", "-n", "2", "--dist", "loadfile", "--no-loadscope-reorder", "--max-worker-restart", "0"),
     "bench": ("benchmarks",),
     "check": ("mobnet.check",),
     "calibrate": ("mobnet.detection.calibrate",),

@@ -13,12 +13,12 @@ from pathlib import Path
 
 from mobnet.commands.builds import costs, wanted_build
 from mobnet.commands.disk import remove, sizes_of
-from mobnet.commands.install import install, make_venv
+from mobnet.commands.install import CONSTRAINTS, install, make_venv
 from mobnet.commands.tell import in_gb, say
 from mobnet.commands.tools import LOG, Tools
 from mobnet.running.lock import taken
 
-LOCKS = ("environment.lock", "cuda.constraints")
+LOCKS = ("environment.lock", CONSTRAINTS)
 STAMP = "installed"
 CODE = "../../../../src"  # of this project, from site-packages; a copied environment finds the copy's
 

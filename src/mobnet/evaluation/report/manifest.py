@@ -18,7 +18,7 @@ RESULTS = "results"
 # Folders of results, and names of files, that no list has: logs, what a training goes on from, views, others' files
 STATE = "state"
 UNLISTED = ("logs", STATE, "wandb")
-KEPT = ("README.md", ".gitignore", ".snakemake_timestamp")
+KEPT = (".gitignore", ".snakemake_timestamp")
 
 
 def manifest(files: Iterable[Path], timed: Iterable[Path], out: Path) -> None:

@@ -1,0 +1,73 @@
+"""Documents are in the index, their links lead somewhere, and what they say twice agrees."""
+
+import json
+import pkgutil
+import re
+import tomllib
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+import yaml
+
+ROOT = Path(__file__).parents[2]
+INDEX = ROOT / "docs" / "README.md"
+PAGES = sorted(path for part in ("*.md", "paper/*.md", "docs/*.md", "docs/notes/*.md") for path in ROOT.glob(part))
+LINK = re.compile(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)")
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
+
+
+def links(page: Path) -> list[Path]:
+    """Return the files and folders to which a page links."""
+    return [(page.parent / name).resolve() for name in LINK.findall(page.read_text())]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_every_link_leads_somewhere(page: Path) -> None:
+    assert [path for path in links(page) if not path.exists()] == []
+
+
+def test_every_document_and_every_folder_of_documents_is_in_the_index_once() -> None:
+    folders = [path for path in (ROOT / "docs").iterdir() if path.is_dir() and path.name != "notes"]
+    wanted = [*(set(PAGES) - {INDEX}), *folders]
+    found = links(INDEX)
+    assert [path for path in wanted if found.count(path) != 1] == []
+
+
+def test_the_index_says_one_sentence_of_each_note_and_which_numbers_have_none() -> None:
+    rows = re.findall(r"^\| \[(\d{4})\]\(notes/(\d{4})-[^)]*\) \| ([A-Z].*\.) \|$", INDEX.read_text(), re.MULTILINE)
+    numbers = [int(number) for number, file, _ in rows if number == file]
+    notes = [int(path.name[:4]) for path in sorted((ROOT / "docs" / "notes").glob("*.md"))]
+    assert numbers == notes
+    unused = [number for low, high in pairwise(notes) for number in range(low + 1, high)]
+    told = re.search(r"The numbers ([\d,\s]*and \d{4}) are not used", INDEX.read_text())
+    assert told
+    assert [int(number) for number in re.findall(r"\d{4}", told[1])] == unused
+
+
+def test_a_note_begins_with_its_number_and_a_title() -> None:
+    notes = (ROOT / "docs" / "notes").glob("*.md")
+    assert [path for path in notes if not path.read_text().startswith(f"# {path.name[:4]}: ")] == []
+
+
+def test_the_newest_version_is_that_of_the_published_results_and_of_the_citation() -> None:
+    version, date, text = re.findall(
+        r"^## ([\d.]+), ([\d-]+)\n(.*?)(?=^## |\Z)", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE | re.DOTALL
+    )[0]
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text())
+    assert PROJECT["project"]["version"] == citation["version"] == version
+    assert str(citation["date-released"]) == date
+    commit = json.loads((ROOT / "docs" / "results" / "provenance.json").read_text())["commit"]
+    assert commit[:7] in text
+
+
+def test_the_guide_draws_the_packages_as_the_import_linter_checks_them() -> None:
+    """Its arrows are the layers of the first contract, and its table names every package once."""
+    layers = PROJECT["tool"]["importlinter"]["contracts"][0]["layers"]
+    drawn = " -> ".join(re.sub(r"[()]", "", layer) for layer in layers)
+    part = (ROOT / "CONTRIBUTING.md").read_text().split("\n## How it fits together\n")[1].split("\n## ")[0]
+    assert " ".join(re.findall(r"^ {4}(\w.*)$", part, re.MULTILINE)) == drawn
+    named = re.findall(r"`(\w+)`", "".join(re.findall(r"^\| (`.*?) \|", part, re.MULTILINE)))
+    assert sorted(named) == sorted(module.name for module in pkgutil.iter_modules([str(ROOT / "src" / "mobnet")]))
+    missing = {name for name in re.findall(r"\w+", drawn) if name not in named}
+    assert all(f"`{name}` does not exist yet" in part for name in missing)
