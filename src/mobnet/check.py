@@ -45,6 +45,7 @@ from mobnet.learning.deployed.weights import read_weights
 from mobnet.plan.places import scale_of
 from mobnet.plan.precision import with_precision
 from mobnet.plan.runs import Files
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import CONFIGS, load_section, load_settings
 from mobnet.settings.reading import read_yaml
 from mobnet.settings.robot import RobotTable
@@ -102,7 +103,7 @@ class Against:
         whole, results = path.absolute(), CONFIGS.parent / "results"
         scale = scale_of(str(whole.relative_to(CONFIGS.parent))) if whole.is_relative_to(results) else None
         if scale is not None and scale in self.settings.scales:
-            files = Files(settings_of(scale), results / scale)
+            files = Files(Catalogue(settings_of(scale)), results / scale)
             pair = [file_of(whole.with_suffix(""), ending) for ending in (ARRAY, NOTE)]
             check_agreement(pair if whole in pair else [whole], files, numbers=True)
 

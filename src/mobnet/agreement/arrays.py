@@ -39,7 +39,7 @@ def array_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[s
     if kind == "residuals":
         ratio = settings.levels[level].nominal_mass_ratio
         said |= {"gain_hz": settings.observer.gain_hz, "nominal_mass_ratio": ratio}
-    if owner and owner[0] in settings.all_methods:
+    if owner and owner[0] in files.catalogue.all_methods:
         yield from _owner_faults(note, owner[0], int(owner[1].removeprefix("n")), (scenario, level), files)
     yield from differences(note, said)
     if kind == "recordings":
@@ -52,7 +52,7 @@ def array_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[s
 
 def _run_faults(owner: Sequence[str], scenario: str, level: str, files: Files) -> Iterator[str]:
     """Yield what no job has in the folders of an estimate: method, n with a network seed, scenario, level."""
-    method, seed, settings = owner[0], owner[1].removeprefix("n"), files.settings
+    method, seed, settings = owner[0], owner[1].removeprefix("n"), files.catalogue
     if method not in settings.all_methods:
         yield not_accepted("folder of the method", method, settings.all_methods)
         return
@@ -86,7 +86,7 @@ def _owner_faults(
     """Yield in what the note of an estimate is not that of a method and a network seed in a test at a level."""
     folders = files.networks(method, seed, *test)
     yield from differences(note, {"method": method, "networks": {limb: path.name for limb, path in folders.items()}})
-    joints = files.settings.estimated(method, *test)
+    joints = files.catalogue.estimated(method, *test)
     expected = {*named(EXTERNAL, joints), *(named(STD, joints) if folders else ())}
     held = {column["name"] for column in note["columns"]}
     for name in sorted(expected ^ held):

@@ -26,7 +26,7 @@ def network_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator
     """Yield in what the weights, the note or the epochs of a network are not those of its folder."""
     if place[1] in files.trained:
         method, limb, seed = files.trained[place[1]]
-        yield from _faults(path, files.settings.training(method, limb), seed, files)
+        yield from _faults(path, files.catalogue.training(method, limb), seed, files)
 
 
 def _faults(path: Path, training: Training, seed: int, files: Files) -> Iterator[str]:

@@ -51,8 +51,8 @@ def number_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[
         yield from _scenario_faults(stem, scenario, files)
     elif kind == "residuals":
         yield from residual_faults(stem, recording, files)
-    elif kind == "estimates" and owner[0] in files.settings.all_methods:
-        yield from estimate_faults(stem, residual, files.settings.all_methods[owner[0]])
+    elif kind == "estimates" and owner[0] in files.catalogue.all_methods:
+        yield from estimate_faults(stem, residual, files.catalogue.all_methods[owner[0]])
 
 
 def _copy_faults(path: Path, kind: str) -> Iterator[str]:

@@ -25,12 +25,12 @@ RISING = "static"  # term that is zero for all joints of a robot whose friction 
 
 def fit_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[str]:
     """Yield in what a fit is not the one that the row of its method asks for."""
-    settings, method = files.settings, path.stem
-    if method not in settings.all_methods or not settings.method(method).fitted:
+    settings, catalogue, method = files.settings, files.catalogue, path.stem
+    if method not in catalogue.all_methods or not catalogue.method(method).fitted:
         return
-    note, options = read_note(path, FrictionNote), Options.model_validate(settings.method(method).options)
+    note, options = read_note(path, FrictionNote), Options.model_validate(catalogue.method(method).options)
     yield from differences(vars(note), {"smoothing_rad_s": options.smoothing_rad_s})
-    limbs = [settings.network(method, limb) for limb in settings.method(method).fitted]
+    limbs = [catalogue.network(method, limb) for limb in catalogue.method(method).fitted]
     wanted = fitted_joints(settings.layout, options, limbs)
     for term in options.terms:
         held = [note.joints[joint].terms()[term] for joint in wanted if joint in note.joints and term in wanted[joint]]
@@ -59,7 +59,7 @@ def _fitted_faults(joint: str, row: JointNote, options: Options) -> Iterator[str
 def score_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[str]:
     """Yield in what the rows of scores are not those of a test's runs at a level."""
     scenario, level = path.parent.name, path.stem
-    if level not in files.settings.tests.get(scenario, {}):
+    if level not in files.catalogue.tests.get(scenario, {}):
         return
     rows = read_scores(path)
     runs = {(run.level, run.method, run.network_seed, run.test_seed): run for run in files.runs_of(scenario, level)}
@@ -70,7 +70,7 @@ def score_faults(path: Path, place: tuple[str, ...], files: Files) -> Iterator[s
             if str(getattr(row, name)) not in accepted:
                 yield not_accepted(f"line {line}: {name}", getattr(row, name), accepted)
         yield from (f"line {line}: {fault}" for fault in _row_faults(row, files))
-    results = Results(files.settings)
+    results = Results(files.catalogue)
     for metric in sorted({row.metric for row in rows if re.fullmatch(METRIC, row.metric)}):
         if text := results.not_scored(scenario, metric):
             yield f"metric {metric}: {text}"
@@ -91,7 +91,7 @@ def run_of(row: Score) -> tuple[Any, ...]:
 
 def _limbs_of(run: Run, results: Results) -> set[str]:
     """Return the limbs that have errors in a run, because the run estimates a joint of theirs."""
-    joints = set(results.settings.estimated(run.method, run.scenario, run.level))
+    joints = set(results.catalogue.estimated(run.method, run.scenario, run.level))
     found = {limb for limb, members in results.layout.groups.items() if joints.intersection(members)}
     return found.difference(run.repeated)
 

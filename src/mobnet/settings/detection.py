@@ -56,10 +56,10 @@ class Detection(Section):
     hold_s: base.Real = Field(ge=0.001, le=1)
     gate: Gate
     thresholds: Thresholds
-    collisions: base.TestName
-    sweep: base.TestName
-    place: base.TestName
-    random: base.TestName
+    collisions: base.ScenarioName
+    sweep: base.ScenarioName
+    place: base.ScenarioName
+    random: base.ScenarioName
     calibration_share: base.InnerShare
     late_s: base.NotNegative = Field(le=1)
     onset_n: base.Newton

@@ -39,7 +39,7 @@ class Window(Section):
 class Runs(Section):
     """Methods on one test at one level."""
 
-    scenario: base.TestName
+    scenario: base.ScenarioName
     level: base.LevelName
     methods: base.MethodNames
 
@@ -86,12 +86,10 @@ class ErrorTable(Section):
     rows: base.Some[ErrorRow]
 
 
-class BudgetRow(Section):
+class BudgetRow(Runs):
     """One method, the observer, at one level; `label` is what a table calls it."""
 
     label: base.Text
-    scenario: base.TestName
-    level: base.LevelName
     methods: tuple[base.MethodName]
 
 
@@ -119,7 +117,7 @@ class Table01(Section):
 class Figure05(Section):
     """Figure 5: one joint over a gait cycle, a panel for each method of each level."""
 
-    scenario: base.TestName
+    scenario: base.ScenarioName
     joint: base.JointName
     start_s: base.NotNegative = Field(le=3600)
     panels: Annotated[dict[base.LevelName, base.MethodNames], Field(min_length=1)]
@@ -176,7 +174,7 @@ class Figure18(Section):
     level: base.LevelName
     limbs: base.Distinct[base.LimbName]
     methods: base.MethodNames
-    panels: Annotated[dict[base.TestName, base.Text], Field(min_length=1)]
+    panels: Annotated[dict[base.ScenarioName, base.Text], Field(min_length=1)]
 
 
 class Figure19(Section):
@@ -213,7 +211,7 @@ class LearningCurve(Section):
 class CoverageTest(Section):
     """A test that the training data are compared with; `pushed`: only samples around pushes that turn this joint."""
 
-    scenario: base.TestName
+    scenario: base.ScenarioName
     level: base.LevelName
     pushed: base.MotorName | None = None
 

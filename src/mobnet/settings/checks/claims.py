@@ -87,14 +87,9 @@ def _cell_problems(results: Results, cell: Cell) -> Iterator[Problem]:
 
 
 def _score_problems(results: Results, cell: Cell) -> Iterator[Problem]:
-    """Yield what is wrong with a cell of the scores: a run, joints or metrics that are not there."""
-    scenario, method = str(cell.scenario), str(cell.method)
-    if text := results.not_run(scenario, str(cell.level), method):
-        yield ("level" if text.startswith("level") else "method",), text
-    elif text := results.not_estimated(method, scenario, str(cell.level), results.joints_of_cell(cell)):
-        yield ("method",), text
+    """Yield metrics of a cell of the scores that are not there."""
     for metric in metrics_of(cell):
-        if text := results.not_scored(scenario, metric):
+        if text := results.not_scored(str(cell.scenario), metric):
             yield ("metric",), text
 
 

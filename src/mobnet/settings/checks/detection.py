@@ -28,7 +28,7 @@ def detection_problems(results: Results) -> Iterator[Problem]:
 
 
 def _walk_problems(results: Results) -> Iterator[Problem]:
-    """Yield walks that are the same, pushes where there should be none, and methods that do not run in a walk."""
+    """Yield walks that are the same, pushes where there should be none, and legs that are none."""
     settings, detection = results.settings, results.settings.detection
     for key in ("collisions", "sweep", "place", "random"):
         scenario = getattr(detection, key)
@@ -42,13 +42,6 @@ def _walk_problems(results: Results) -> Iterator[Problem]:
             if not POINT.fullmatch(settings.pushes[name].point or ""):
                 text = misfit(settings.pushes[name].point, "a point named <side>_<link>_<direction>")
                 yield ("pushes", name, "point"), text
-        for k, level in enumerate(detection.levels):
-            if text := results.not_run(scenario, level, detection.gate.method):
-                yield (*ROOT, *(("levels", k) if text.startswith("level") else ("gate", "method"))), text
-                continue
-            for name, row in detection.detectors.items():
-                if text := results.not_run(scenario, level, row.method):
-                    yield (*ROOT, "detectors", name, "method"), text
     for k, limb in enumerate(detection.legs):
         if limb not in results.legs:
             yield (*ROOT, "legs", k), not_accepted("leg", limb, results.legs)

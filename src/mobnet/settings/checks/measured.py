@@ -42,7 +42,7 @@ def measured_problems(results: Results) -> Iterator[Problem]:
 def _push_problems(results: Results) -> Iterator[Problem]:
     """Yield tests of pushes without any, and bins that are longer than the time that is looked at."""
     settings, evaluation = results.settings, results.settings.evaluation
-    pushed = [name for name in settings.tests if settings.scenarios[name].pushes]
+    pushed = [name for name in results.catalogue.tests if settings.scenarios[name].pushes]
     shown: list[tuple[Place, str]] = [
         *((("peaks", "tests", k, "scenario"), test.scenario) for k, test in enumerate(evaluation.peaks.tests)),
         *((("drift", "tests", title, "scenario"), test.scenario) for title, test in evaluation.drift.tests.items()),
@@ -50,7 +50,10 @@ def _push_problems(results: Results) -> Iterator[Problem]:
     for place, scenario in shown:
         if scenario not in pushed:
             yield (*ROOT, *place), not_accepted("test with pushes", scenario, pushed)
-    quiet, against = [name for name in settings.tests if name not in pushed], evaluation.figure_10.against.scenario
+    quiet, against = (
+        [name for name in results.catalogue.tests if name not in pushed],
+        evaluation.figure_10.against.scenario,
+    )
     if against not in quiet:
         yield (*ROOT, "figure_10", "against", "scenario"), not_accepted("test without pushes", against, quiet)
     for test in evaluation.drift.tests.values():

@@ -20,11 +20,11 @@ Problem = tuple[Place, str]
 Wanted = Mapping[str, set[str]]  # place in a table -> methods that are shown there
 
 
-def printed_problems(settings: Settings) -> Iterator[Problem]:
+def printed_problems(results: Results) -> Iterator[Problem]:
     """Yield printed numbers that nobody would find, or that contradict each other."""
-    results = Results(settings)
+    settings = results.settings
     for name, table in settings.published.tables.items():
-        for place, text in (*_place_problems(results, name, table), *_row_problems(settings, table)):
+        for place, text in (*_place_problems(results, name, table), *_row_problems(results, table)):
             yield ("published", "tables", name, *place), text
     for name, shown in settings.evaluation.tables.items():
         printed = settings.published.tables.get(name)
@@ -95,13 +95,13 @@ def _place_problems(results: Results, name: str, table: PublishedTable) -> Itera
             yield ("numbers", place, method), not_accepted("method that is shown", method, wanted[place])
 
 
-def _row_problems(settings: Settings, table: PublishedTable) -> Iterator[Problem]:
+def _row_problems(results: Results, table: PublishedTable) -> Iterator[Problem]:
     """Yield rows that are no method, are too short, or whose averages are not those of their numbers."""
     for place, rows in table.numbers.items():
         for method, row in rows.items():
             base = VARIANTS.fullmatch(method)
-            if base is None or base[1] not in settings.all_methods:
-                yield ("numbers", place, method), not_accepted("method", method, settings.methods)
+            if base is None or base[1] not in results.catalogue.all_methods:
+                yield ("numbers", place, method), not_accepted("method", method, results.settings.methods)
             if place == DETECTED:
                 yield from _detected_problems(("numbers", place, method), row)
             if len(row) != len(table.columns):
