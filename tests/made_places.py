@@ -13,7 +13,7 @@ Change = Callable[[dict[str, Any]], Any]
 
 def estimated(files: Files) -> tuple[str, ...]:
     """Return the joints of which the walk has estimates."""
-    return files.settings.estimated("MOB", SCENARIO, LEVEL)
+    return files.catalogue.estimated("MOB", SCENARIO, LEVEL)
 
 
 def note_of(files: Files, kind: str, **more: Any) -> tuple[Path, dict[str, Any]]:

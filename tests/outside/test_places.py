@@ -23,6 +23,7 @@ from mobnet.evaluation.number.files import write_csv
 from mobnet.learning.deployed.weights import NOTE, shapes
 from mobnet.learning.features import limb_inputs
 from mobnet.plan.runs import Files
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import load_settings
 
 
@@ -118,7 +119,7 @@ def test_factors_that_are_not_those_of_the_networks_are_refused(files: Files) ->
 
 def weights(files: Files, method: str, limb: str, change: Change = lambda note: None, **values: float) -> Path:
     """Write weights of a method's network, all ones or the value that is given for a tensor."""
-    training, layout = files.settings.training(method, limb), files.settings.layout
+    training, layout = files.catalogue.training(method, limb), files.settings.layout
     inputs = limb_inputs(layout, training.network).names
     joints = [joint for group in training.network.joints for joint in layout.limb(group)]
     row = training.network.model_dump(mode="json", exclude_defaults=True)
@@ -185,8 +186,8 @@ RUNS: dict[str, tuple[Change, str]] = {
 @pytest.mark.parametrize("name", RUNS)
 def test_the_note_of_another_training_is_refused(name: str, files: Files) -> None:
     change, says = RUNS[name]
-    row = files.settings.training("GRU", "LL").network.model_dump(mode="json", exclude_defaults=True)
-    training = files.settings.training("GRU", "LL")
+    row = files.catalogue.training("GRU", "LL").network.model_dump(mode="json", exclude_defaults=True)
+    training = files.catalogue.training("GRU", "LL")
     learning = training.learning.model_dump(mode="json", exclude_defaults=True)
     sizes = {"epochs": training.epochs, "epoch_samples": training.epoch_samples}
     joints = {"joints": [f"LL{k}" for k in range(1, 7)], "scale": [1.0] * 6, "likelihood_scale": [1.0] * 6}
@@ -203,9 +204,9 @@ def test_the_note_of_another_training_is_refused(name: str, files: Files) -> Non
 
 def fit_of(files: Files) -> dict[str, Any]:
     """Return a sound fit of MOB-fric."""
-    row = files.settings.method("MOB-fric")
+    row = files.catalogue.method("MOB-fric")
     options = Options.model_validate(row.options)
-    joints = fitted_joints(files.settings.layout, options, [files.settings.network("MOB-fric", x) for x in row.fitted])
+    joints = fitted_joints(files.settings.layout, options, [files.catalogue.network("MOB-fric", x) for x in row.fitted])
     numbers = {"coulomb_nm": 1.0, "static_nm": 1.0, "viscous_nms": 1.0, "load_per_nm": 0.0, "stribeck_rad_s": 0.1}
     return {"smoothing_rad_s": options.smoothing_rad_s, "joints": {joint: dict(numbers) for joint in joints}}
 
@@ -254,7 +255,7 @@ def scores_of(
     return [
         Score(scenario, run.level, run.method, run.network_seed, run.test_seed, limb, joint, metric, value, own)
         for run in runs
-        for held in [settings.estimated(run.method, run.scenario, run.level)]
+        for held in [Catalogue(settings).estimated(run.method, run.scenario, run.level)]
         for limb, joint, value, unit in limb_values(layout, {joint: values[joint] for joint in held})
         for own in [unit_of_metric(metric, unit)]
         if limb not in run.repeated

@@ -65,6 +65,10 @@ class Catalogue:
         }
         return tests, limbs
 
+    def at_scale(self, scale: str) -> "Catalogue":
+        """Return the same at another scale."""
+        return Catalogue(self.settings.model_copy(update={"scale": scale}), self._tests_and_limbs)
+
     def _in_order(self, names: Iterable[str]) -> Names:
         """Return methods in the order of the configuration, those that are nothing but networks after the others."""
         rows = self.all_methods

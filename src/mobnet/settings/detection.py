@@ -56,14 +56,14 @@ class Detection(Section):
     hold_s: base.Real = Field(ge=0.001, le=1)
     gate: Gate
     thresholds: Thresholds
-    collisions: base.ScenarioName
-    sweep: base.ScenarioName
-    place: base.ScenarioName
-    random: base.ScenarioName
+    collisions: base.PushedName
+    sweep: base.PushedName
+    place: base.QuietName
+    random: base.QuietName
     calibration_share: base.InnerShare
     late_s: base.NotNegative = Field(le=1)
     onset_n: base.Newton
     levels: base.Distinct[base.LevelName]
-    legs: base.Distinct[base.LimbName]
+    legs: base.Distinct[base.LegName]
     curve: Curve
     detectors: Annotated[dict[base.RowName, Detector], Field(min_length=1)]

@@ -8,7 +8,6 @@ from mobnet.settings.methods import Method, swept_name
 from mobnet.settings.networks import Cell, Learning, Network
 from mobnet.settings.reading import Place
 from mobnet.settings.settings import Settings
-from mobnet.settings.trials import combinations
 
 Problem = tuple[Place, str]
 
@@ -31,24 +30,13 @@ def learning_problems(catalogue: Catalogue) -> Iterator[Problem]:
 
 
 def _trial_problems(catalogue: Catalogue) -> Iterator[Problem]:
-    """Yield trials of methods that do not learn, unequal numbers of trials, and development walks that are tests."""
+    """Yield trials of how a method learns that does not, and development walks that are tests."""
     settings = catalogue.settings
     grids, place = settings.trials.tuning.grids, ("trials", "tuning", "grids")
-    most = max((len([*combinations(grid)]) for grid in grids.values()), default=0)
     for name, grid in grids.items():
         if grid.learning and name in settings.methods and not settings.methods[name].limbs:
             accepted = "`options` of a method without networks"
             yield (*place, name, "learning"), misfit("`learning`", accepted)
-        if (count := len([*combinations(grid)])) != most:
-            yield (*place, name), misfit(f"{count} combinations", f"{most}, as many as other methods have")
-    learned = [name for name, method in settings.methods.items() if method.limbs]
-    others = [name for name in settings.methods if name not in learned]
-    for index, name in enumerate(settings.trials.tuning.references):
-        if name in learned:
-            yield ("trials", "tuning", "references", index), not_accepted("method without networks", name, others)
-    for index, name in enumerate(settings.trials.lengths.methods):
-        if name in settings.methods and name not in learned:
-            yield ("trials", "lengths", "methods", index), not_accepted("method with networks", name, learned)
     walked = settings.development.scenario
     taken = {*catalogue.tests, *(row.scenario for row in settings.training_sets.values())}
     if walked in taken:

@@ -9,6 +9,7 @@ from pydantic import BaseModel, ValidationError
 
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.data import data_problems
+from mobnet.settings.checks.detection import LARGEST
 from mobnet.settings.checks.learning import learning_problems
 from mobnet.settings.checks.shown import shown_problems
 from mobnet.settings.checks.sizes import size_problems
@@ -26,25 +27,34 @@ Refused = tuple[Place, type[BaseModel], Mapping[str, Any], ValidationError]
 
 def accepted_names(catalogue: Catalogue) -> dict[str, Collection[str]]:
     """Return kind of name -> the names that exist."""
-    settings = catalogue.settings
+    settings, detection = catalogue.settings, catalogue.settings.detection
     experiments = chain.from_iterable(scale.experiments for scale in settings.scales.values())
     terrains = [name for name in type(settings.terrain).model_fields if getattr(settings.terrain, name) is not None]
+    pushed = [name for name, row in settings.scenarios.items() if row.pushes]
+    learned = [name for name, row in catalogue.all_methods.items() if row.limbs]
+    struck = settings.scenarios[detection.collisions].pushes if detection.collisions in settings.scenarios else ()
+    points = [settings.pushes[name].point or "" for name in struck if name in settings.pushes]
     return {
         "scale": settings.scales, "level": [*settings.levels, *settings.fleet.levels],
         "level of one plant": settings.levels, "terrain": terrains, "push": settings.pushes,
         "motion": settings.motions, "scenario": settings.scenarios, "test": [one.scenario for one in catalogue.asked],
+        "scenario with pushes": pushed, "scenario without pushes": settings.scenarios.keys() - {*pushed},
         "test with a window around pushes": settings.evaluation.windows,
         "training set": settings.training_sets, "experiment": set(experiments),
-        "network": settings.networks, "detector": settings.detection.detectors,
-        "method": catalogue.all_methods, "sweep": settings.sweeps,
+        "network": settings.networks, "sweep": settings.sweeps, "method": catalogue.all_methods,
+        "method with networks": learned, "method without networks": catalogue.all_methods.keys() - {*learned},
         "method that runs on its own": [name for name, row in settings.methods.items() if row.of is None],
+        "detector": detection.detectors, "rule of thresholds": (LARGEST, *detection.thresholds.rates_per_h),
+        "level with detectors": (*detection.levels, *settings.fleet.robots), "leg with detectors": detection.legs,
+        "cell of collisions": [" ".join(point.split("_")[1:]) for point in points],
         **settings.robot.accepted_names,
     }  # fmt: skip
 
 
-def unknown_names(settings: Settings) -> Iterator[Problem]:
+def unknown_names(catalogue: Catalogue) -> Iterator[Problem]:
     """Yield the place of every name that does not exist and what is accepted there."""
-    yield from unknown((*uses(settings, Settings), *_changed_uses(settings)), accepted_names(Catalogue(settings)))
+    settings = catalogue.settings
+    yield from unknown((*uses(settings, Settings), *_changed_uses(settings)), accepted_names(catalogue))
 
 
 def _changed_uses(settings: Settings) -> Iterator[Use]:
@@ -56,9 +66,8 @@ def _changed_uses(settings: Settings) -> Iterator[Use]:
                 yield from uses(value, Annotated[field.annotation, *field.metadata, None], place)
 
 
-def refused_changes(settings: Settings) -> Iterator[Refused]:
+def refused_changes(catalogue: Catalogue) -> Iterator[Refused]:
     """Yield every change by a method that is not accepted: place, section, what is given of it, and the error."""
-    catalogue = Catalogue(settings)
     for name, method in {**catalogue.all_methods, **catalogue.tried}.items():
         checks = [("network", Network, method.network, partial(catalogue.network, name, limb)) for limb in method.limbs]
         checks += [("learning", Learning, method.learning, partial(catalogue.learned, name))]
@@ -78,12 +87,12 @@ def _place_of(catalogue: Catalogue, method: str, part: str) -> Place:
     return ("sweeps", swept[0]) if swept else ("trials",)
 
 
-def inconsistencies(settings: Settings) -> Iterator[Problem]:
+def inconsistencies(catalogue: Catalogue) -> Iterator[Problem]:
     """Yield the place and the text of everything that does not fit together."""
-    catalogue = Catalogue(settings)
+    settings = catalogue.settings
     found = [problem for check in (walking_problems, data_problems, surrogate_problems) for problem in check(settings)]
     found += learning_problems(catalogue)
     yield from found
     if not found:  # only then can sizes and results be looked up
-        yield from size_problems(settings)
+        yield from size_problems(catalogue)
         yield from shown_problems(catalogue)

@@ -8,10 +8,10 @@ from mobnet.settings.checks.claims import claim_problems
 from mobnet.settings.checks.detection import detection_problems
 from mobnet.settings.checks.estimated import asked_problems
 from mobnet.settings.checks.measured import measured_problems
-from mobnet.settings.checks.printed import printed_problems
 from mobnet.settings.checks.results import Results
 from mobnet.settings.evaluation import ErrorTable, Mean
 from mobnet.settings.reading import Place
+from mobnet.settings.settings import Settings
 
 Problem = tuple[Place, str]
 ROOT: Place = ("evaluation",)
@@ -21,9 +21,6 @@ LEAST_DRAWN = 10  # samples of a figure
 def shown_problems(catalogue: Catalogue) -> Iterator[Problem]:
     """Yield what does not fit in tables, figures, claims and printed numbers."""
     settings, results = catalogue.settings, Results(catalogue)
-    for name, window in settings.evaluation.windows.items():
-        if window and not settings.scenarios[name].pushes:
-            yield (*ROOT, "windows", name), misfit(name, "tests whose scenario has pushes")
     for name, table in settings.evaluation.tables.items():
         for place, text in _table_problems(results, table):
             yield (*ROOT, "tables", name, *place), text
@@ -41,7 +38,7 @@ def shown_problems(catalogue: Catalogue) -> Iterator[Problem]:
     yield from detection_problems(results)
     yield from asked_problems(catalogue)
     yield from claim_problems(results)
-    yield from printed_problems(results)
+    yield from _printed_problems(settings)
 
 
 def _column_problems(results: Results, columns: Sequence[str | Mean]) -> Iterator[tuple[Place, str]]:
@@ -113,25 +110,15 @@ def _figure_problems(results: Results) -> Iterator[Problem]:
             if method not in against:
                 place = (*ROOT, "figure_10", "tests", title, "methods", k)
                 yield place, not_accepted("method", method, against)
-    if len(evaluation.figure_08.methods) != 1:
-        yield (*ROOT, "figure_08", "methods"), misfit(list(evaluation.figure_08.methods), "one method")
 
 
 def _leg_problems(results: Results) -> Iterator[Problem]:
-    """Yield limbs that are no leg where gait cycles are shown, and joints that no push of the test turns."""
+    """Yield a limb of the coverage that is no leg, and joints that no push of the test turns."""
     settings, evaluation = results.settings, results.settings.evaluation
-    for name in ("figure_08", "figure_09", "coverage"):
-        limb = getattr(evaluation, name).limb
-        if limb not in results.legs:
-            yield (*ROOT, name, "limb"), not_accepted("leg", limb, results.legs)
     limb = evaluation.coverage.limb
-    if limb in results.legs and limb not in settings.robot.networks[limb].T:
-        yield (*ROOT, "coverage", "limb"), misfit(limb, "a leg whose network sees its torques, `T`")
-    legs = [joint for limb in results.legs for joint in results.joints(limb)]
-    for name in ("figure_05", "figure_06", "figure_10"):
-        joint = getattr(evaluation, name).joint
-        if joint not in legs:
-            yield (*ROOT, name, "joint"), not_accepted("joint of a leg", joint, legs)
+    if limb not in results.legs or limb not in settings.robot.networks[limb].T:
+        text = misfit(limb, f"a leg whose network sees its torques, `T`: {' or '.join(results.legs)}")
+        yield (*ROOT, "coverage", "limb"), text
     asked: list[tuple[Place, str, str]] = [
         ((*ROOT, "figure_06", "joint"), evaluation.figure_06.scenario, evaluation.figure_06.joint)
     ]
@@ -209,3 +196,18 @@ def _method_table_problems(results: Results) -> Iterator[Problem]:
                 if column not in (*results.joints(limb), "avg"):
                     place = (*ROOT, "methods", index, "columns", limb, k)
                     yield place, not_accepted(f"column of {limb}", column, [*results.joints(limb), "avg"])
+
+
+def _printed_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield places of numbers of the paper that are shown and that it does not print."""
+    evaluation, printed = settings.evaluation, settings.published.tables
+    shown: list[tuple[Place, str, str | None]] = [
+        (("tables", name, "rows", k, "paper"), name, row.paper)
+        for name, table in evaluation.tables.items()
+        for k, row in enumerate(table.rows)
+    ]
+    shown += [(("noise", "paper", name), name, place) for name, place in evaluation.noise.paper.items()]
+    for place, name, paper in shown:
+        accepted = printed[name].numbers if name in printed else {}
+        if paper is not None and paper not in accepted:
+            yield (*ROOT, *place), not_accepted("place of a row", paper, accepted)

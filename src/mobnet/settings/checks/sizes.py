@@ -17,8 +17,9 @@ CYCLES = 3  # a whole gait cycle follows a start within so many
 Problem = tuple[Place, str]
 
 
-def size_problems(settings: Settings) -> Iterator[Problem]:
+def size_problems(catalogue: Catalogue) -> Iterator[Problem]:
     """Yield what does not fit at some scale, the chosen one or another."""
+    settings = catalogue.settings
     names = set(chain.from_iterable(scale.experiments for scale in settings.scales.values()))
     for name, scale in settings.scales.items():
         missing = names - scale.experiments.keys()
@@ -28,11 +29,11 @@ def size_problems(settings: Settings) -> Iterator[Problem]:
         if missing:
             return
     for name, scale in settings.scales.items():
-        catalogue = Catalogue(settings.model_copy(update={"scale": name}))
-        yield from _length_problems(catalogue.settings, scale)
-        yield from _time_problems(catalogue, scale)
-        yield from _training_problems(catalogue)
-        results = _result_count(catalogue)
+        scaled = catalogue.at_scale(name)
+        yield from _length_problems(scaled.settings, scale)
+        yield from _time_problems(scaled, scale)
+        yield from _training_problems(scaled)
+        results = _result_count(scaled)
         if results > RESULTS_MAX:
             accepted = f"{RESULTS_MAX} of them, by fewer shards or seeds"
             yield ("scales", name), misfit(f"{results} recordings, residuals, networks and estimates", accepted)
