@@ -22,6 +22,7 @@ from mobnet.learning.features import limb_inputs, signals
 from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.robot.description import describe
 from mobnet.running.threads import one_thread
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import load_settings
 from mobnet.settings.networks import Training
 from mobnet.settings.settings import Settings
@@ -53,7 +54,8 @@ def main() -> list[Row]:
 
 def six_trainings(settings: Settings) -> dict[str, Training]:
     """Return the trainings of the six networks of Table 1, by limb."""
-    trainings = {limb: settings.training("MOB-Net", limb) for limb in settings.method("MOB-Net").limbs}
+    catalogue = Catalogue(settings)
+    trainings = {limb: catalogue.training("MOB-Net", limb) for limb in catalogue.method("MOB-Net").limbs}
     return {limb: training for limb, training in trainings.items() if training.network.cell == "GRU"}
 
 

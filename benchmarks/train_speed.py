@@ -23,6 +23,7 @@ from mobnet.learning.optimisation import Samples, train_epoch
 from mobnet.learning.streams import epoch_plan
 from mobnet.plan.precision import with_precision
 from mobnet.running.threads import one_thread
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import load_settings
 
 UPDATES, ROUNDS = 40, 5  # updates in a turn, turns
@@ -38,7 +39,7 @@ def main() -> list[dict[str, float | str]]:
     """
     one_thread()
     settings = with_precision(load_settings(overrides={"scale": "default"}), Path("results") / "default")
-    job = TrainingJob(settings.training("MOB-Net", "LL"), 0, settings.seed)
+    job = TrainingJob(Catalogue(settings).training("MOB-Net", "LL"), 0, settings.seed)
     leg, learning = job.training.network, job.training.learning
     sizes = len(limb_inputs(settings.layout, leg).names), len(settings.layout.limbs(leg.joints))
     generator = torch.Generator().manual_seed(0)

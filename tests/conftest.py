@@ -18,6 +18,7 @@ from mobnet.estimation.recipe import Recipe
 from mobnet.plan.precision import with_precision
 from mobnet.robot.description import RobotDescription, WalkingRobot, describe, for_walking
 from mobnet.robot.nominal import NominalModel
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import load_section, load_settings
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.settings import Settings
@@ -51,7 +52,7 @@ def recipe_of(settings: Settings) -> Callable[..., Recipe]:
     """Return a function of a method's name, its level, its files and other methods that makes its recipe."""
 
     def recipe(name: str, level: str = "all_uncertainty", **changes: Any) -> Recipe:
-        methods = changes.pop("methods", settings.all_methods)
+        methods = changes.pop("methods", Catalogue(settings).all_methods)
         observing = settings.levels[level], settings.plant.gravity_m_s2, settings.observer
         return Recipe(name, methods, settings.robot, *observing, RATE_HZ, **changes)
 

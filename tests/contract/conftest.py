@@ -18,6 +18,7 @@ from mobnet.estimation.recipe import Recipe
 from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.networks import Training
 from mobnet.settings.settings import Settings
 
@@ -37,15 +38,15 @@ def learned(
     """Return a function of (method, zero) that writes random or zero networks, or a fit to a few samples."""
 
     def made(method: str, zero: bool = False) -> tuple[dict[str, Path], Path | None]:
-        folder = tmp_path_factory.mktemp(method)
-        source, learned = settings.source_of(method), settings.network_source_of(method)
-        row, networks = settings.method(source), {limb: folder / limb for limb in settings.method(learned).limbs}
+        folder, catalogue = tmp_path_factory.mktemp(method), Catalogue(settings)
+        source, learned = catalogue.source_of(method), catalogue.network_source_of(method)
+        row, networks = catalogue.method(source), {limb: folder / limb for limb in catalogue.method(learned).limbs}
         for limb, place in networks.items():
-            _write_network(place, settings.training(learned, limb), settings.layout, zero)
+            _write_network(place, catalogue.training(learned, limb), settings.layout, zero)
         fitted = folder / "fit.json" if row.fitted else None
         if fitted is not None:
             pair = write_pair(folder, made_up(1, FIT_SECONDS))
-            limbs = {limb: settings.network(source, limb) for limb in row.fitted}
+            limbs = {limb: catalogue.network(source, limb) for limb in row.fitted}
             write_fit(settings.layout, settings.observer, row, limbs, dict.fromkeys(limbs, (pair,)), fitted)
         return networks, fitted
 

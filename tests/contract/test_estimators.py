@@ -8,11 +8,12 @@ import pytest
 from mobnet.core.estimator import Estimator
 from mobnet.core.recording import Sensed
 from mobnet.estimation.kinds.zero import ZeroEstimator
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import load_settings
 
 from .checks import CHECKS, the_past_matters
 
-METHODS = list(load_settings().all_methods)
+METHODS = list(Catalogue(load_settings()).all_methods)
 Build = Callable[..., Estimator]
 
 

@@ -16,6 +16,7 @@ from mobnet.core.recording import Sensed
 from mobnet.estimation import kinds
 from mobnet.estimation.methods import build_estimator, method_problems
 from mobnet.estimation.recipe import Recipe
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
@@ -55,7 +56,7 @@ def estimator(extended: Settings, recipe_of: Callable[..., Recipe], added: None)
 @pytest.mark.usefixtures("added")
 def test_one_file_and_one_row_are_accepted_beside_all_other_methods(extended: Settings) -> None:
     assert not list(method_problems(extended))
-    wide = extended.method(NAME).model_copy(update={"options": {"width_nm": -2.0}})
+    wide = Catalogue(extended).method(NAME).model_copy(update={"options": {"width_nm": -2.0}})
     (fault,) = method_problems(extended.model_copy(update={"methods": {**extended.methods, NAME: wide}}))
     place = ("methods", NAME, "options", "width_nm")
     assert fault == (place, "-2.0 is not accepted; accepted: a number above 0")
@@ -79,7 +80,7 @@ def test_the_example_does_what_it_says(
 ) -> None:
     """The residual, nearer to zero by the band's half width."""
     residual, quiet = (made.estimate(sensed).tau_ext for made in (build_estimator(recipe_of("MOB")), estimator))
-    width = extended.method(NAME).options["width_nm"]
+    width = Catalogue(extended).method(NAME).options["width_nm"]
     np.testing.assert_allclose(np.abs(residual - quiet), np.minimum(np.abs(residual), width), atol=1e-9)
 
 

@@ -21,11 +21,12 @@ from mobnet.estimation.methods import kind_names
 from mobnet.estimation.observe import observe
 from mobnet.plan.parts import MethodRun
 from mobnet.running.stage import Stage
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
 LEVEL, SECONDS, WRONG = "all_uncertainty", 0.12, 77.0
-METHODS = list(load_settings().all_methods)
+METHODS = list(Catalogue(load_settings()).all_methods)
 Runner = Callable[[str, Path], np.ndarray]
 
 
@@ -92,7 +93,7 @@ def run(settings: Settings, learned: Callable[..., tuple[dict[str, Path], Path |
         networks, fitted = files[method] = files.get(method) or learned(method)
         given = settings.robot, settings.levels[LEVEL], settings.plant.gravity_m_s2, settings.observer
         read, residual, out = (folder / name for name in ("recording", "residual", "estimate"))
-        runs = [MethodRun(method, settings.all_methods, networks, fitted, (out,))]
+        runs = [MethodRun(method, Catalogue(settings).all_methods, networks, fitted, (out,))]
         estimate(*given, runs, [read], [residual], Stage(folder / "stage", method))
         return read_array(folder / "estimate")[0]
 
@@ -130,4 +131,4 @@ def test_a_poisoned_file_is_really_poisoned(truth: dict[str, list[str]], folders
 
 
 def test_every_kind_is_among_the_methods(settings: Settings) -> None:
-    assert {row.kind for row in settings.all_methods.values()} == set(kind_names())
+    assert {row.kind for row in Catalogue(settings).all_methods.values()} == set(kind_names())

@@ -11,13 +11,14 @@ from mobnet.core.files import read_json
 from mobnet.core.recording import Recording
 from mobnet.estimation.fitting import write_fit
 from mobnet.estimation.kinds.friction import read_friction
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.settings import Settings
 
 
 def fit(settings: Settings, method: str, training: Mapping[str, Any], folder: Path) -> Path:
     """Fit a method, and return the file."""
-    networks, out = {limb: settings.network(method, limb) for limb in training}, folder / f"{method}.json"
-    write_fit(settings.layout, settings.observer, settings.method(method), networks, training, out)
+    networks, out = {limb: Catalogue(settings).network(method, limb) for limb in training}, folder / f"{method}.json"
+    write_fit(settings.layout, settings.observer, Catalogue(settings).method(method), networks, training, out)
     return out
 
 
@@ -27,7 +28,8 @@ def test_what_it_writes_is_what_the_kind_reads(
     write_pair: Callable[[Path, Recording], tuple[Path, Path]],
     tmp_path: Path,
 ) -> None:
-    pair, layout, limbs = write_pair(tmp_path, made_up(1, 1.0)), settings.layout, settings.method("MOB-fric").fitted
+    pair, layout = write_pair(tmp_path, made_up(1, 1.0)), settings.layout
+    limbs = Catalogue(settings).method("MOB-fric").fitted
     out = fit(settings, "MOB-fric", {limb: [pair] for limb in limbs}, tmp_path / "fits")
     fitted = {joint for limb in limbs for joint in layout.limb(limb)}
     assert set(read_json(out)["joints"]) == fitted

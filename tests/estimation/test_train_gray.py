@@ -19,6 +19,7 @@ from mobnet.learning.dataset import load_limb_data
 from mobnet.plan.parts import Repetition
 from mobnet.plan.plan import make_plan
 from mobnet.running.stage import Stage
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.settings import Settings
 
 METHOD, LIMB = "MOB-Net-gray", "LL"
@@ -32,9 +33,9 @@ def pair(tmp_path: Path, made_up: Callable[..., Recording], write_pair: Any) -> 
 @pytest.fixture
 def fitted(settings: Settings, tmp_path: Path, pair: tuple[Path, Path]) -> Path:
     """A fit of the method that the gray box builds upon."""
-    source = settings.source_of(METHOD)
-    row = settings.method(source)
-    limbs = {limb: settings.network(source, limb) for limb in row.fitted}
+    source = Catalogue(settings).source_of(METHOD)
+    row = Catalogue(settings).method(source)
+    limbs = {limb: Catalogue(settings).network(source, limb) for limb in row.fitted}
     write_fit(settings.layout, settings.observer, row, limbs, dict.fromkeys(limbs, (pair,)), tmp_path / "fit.json")
     return tmp_path / "fit.json"
 
@@ -43,7 +44,7 @@ def test_the_target_lacks_what_the_method_subtracts_that_it_builds_upon(
     settings: Settings, recipe_of: Callable[..., Recipe], made_up: Callable[..., Recording], pair: Any, fitted: Path
 ) -> None:
     """By MOB - MOB-fric-load, segment by segment; so the gray box's target is the error of MOB-fric-load."""
-    layout, training = settings.layout, settings.training(METHOD, LIMB)
+    layout, training = settings.layout, Catalogue(settings).training(METHOD, LIMB)
     friction = read_friction(fitted, layout.actuated)
 
     def known(recording: Path, joints: Any) -> Any:
@@ -70,7 +71,7 @@ def test_the_base_has_no_friction(settings: Settings, pair: Any, fitted: Path) -
 
 
 def test_it_trains(settings: Settings, pair: Any, fitted: Path, tmp_path: Path) -> None:
-    training = settings.training(METHOD, LIMB)
+    training = Catalogue(settings).training(METHOD, LIMB)
     small = {
         "network": training.network.model_copy(update={"hidden": 8, "horizon_steps": 25}),
         "learning": training.learning.model_copy(update={"stream_s": 0.5, "batch_size": 4}),

@@ -13,6 +13,7 @@ from mobnet.core.recording import Recording
 from mobnet.learning.dataset import LimbData, load_limb_data
 from mobnet.learning.train import train_all
 from mobnet.plan.parts import Repetition
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.networks import Training
 from mobnet.settings.settings import Settings
 
@@ -31,7 +32,7 @@ class Small:
 
     def training(self, method: str = "MOB-Net", limb: str = "LL", *, epochs: int = 5, **learning: Any) -> Training:
         """Return a method's training with a small GRU, and with changes of how it learns."""
-        training = self.settings.training(method, limb)
+        training = Catalogue(self.settings).training(method, limb)
         hidden = 16 if training.network.cell == "GRU" else training.network.hidden
         changes = {
             "network": training.network.model_copy(update={"hidden": hidden, "horizon_steps": 25}),

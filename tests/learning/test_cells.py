@@ -6,6 +6,7 @@ from torch import Tensor, nn
 
 from mobnet.learning.cells import CELLS, Block, Lstm
 from mobnet.learning.model import LimbNetwork, build_network, parameter_count
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.networks import SIZES, Cell
 from mobnet.settings.settings import Settings
 
@@ -34,7 +35,7 @@ def test_every_kind_can_be_built() -> None:
 
 @pytest.mark.parametrize("method", PUBLISHED)
 def test_size_is_the_published_one(method: str, settings: Settings) -> None:
-    network = build_network(settings.network(method, "LL"), 30, 6, STD_MIN, seed=0)
+    network = build_network(Catalogue(settings).network(method, "LL"), 30, 6, STD_MIN, seed=0)
     assert parameter_count(network) == PUBLISHED[method]
 
 
@@ -128,7 +129,7 @@ def test_dropout_acts_in_training_alone() -> None:
 @pytest.mark.parametrize("method", PUBLISHED)
 def test_gradients_in_bfloat16_are_those_of_float32(method: str, settings: Settings) -> None:
     """At the published sizes: one of them met a NaN in torch's bfloat16 convolution."""
-    cell = settings.network(method, "LL").model_copy(update={"dropout": 0.0})
+    cell = Catalogue(settings).network(method, "LL").model_copy(update={"dropout": 0.0})
     network = build_network(cell, 30, 6, STD_MIN, seed=0)
     x, gradients = _inputs(50, 64, 30), {}
     for precision in (torch.float32, torch.bfloat16):

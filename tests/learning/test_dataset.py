@@ -13,6 +13,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
 from mobnet.core.store import read_array, write_array
 from mobnet.learning.dataset import LimbData, load_limb_data, scale_of
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.methods import Target
 from mobnet.settings.settings import Settings
 
@@ -28,7 +29,7 @@ def stems(tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write) 
 def load(stems: list[tuple[Path, Path]], settings: Settings) -> Callable[..., LimbData]:
     def load(target: Target, rate_hz: float | None = None) -> LimbData:
         recordings, residuals = zip(*stems, strict=True)
-        limb = settings.network("MOB-Net", "LL")
+        limb = Catalogue(settings).network("MOB-Net", "LL")
         return load_limb_data(settings.layout, limb, target, recordings, residuals, rate_hz)
 
     return load
@@ -82,7 +83,7 @@ def test_z_scores_come_from_the_given_rows_alone() -> None:
 
 
 def test_the_last_recordings_are_held_out(stems: list[tuple[Path, Path]], settings: Settings) -> None:
-    limb, columns = settings.network("MOB-Net", "LL"), tuple(zip(*stems, strict=True))
+    limb, columns = Catalogue(settings).network("MOB-Net", "LL"), tuple(zip(*stems, strict=True))
     data = load_limb_data(settings.layout, limb, "external", *columns, held_out=1)
     assert data.held_out == len(read_array(stems[0][0])[0])
     assert data.digest != load_limb_data(settings.layout, limb, "external", *columns).digest
@@ -98,7 +99,7 @@ def test_a_missing_column_is_named(stems: list[tuple[Path, Path]], load: Callabl
 
 
 def test_a_residual_of_another_recording_is_refused(stems: list[tuple[Path, Path]], settings: Settings) -> None:
-    limb = settings.network("MOB-Net", "LL")
+    limb = Catalogue(settings).network("MOB-Net", "LL")
     with pytest.raises(DataError, match=r"residual.*\.json: rows: 2000 is not accepted; accepted: 1000, as in"):
         load_limb_data(settings.layout, limb, "external", [stems[0][0]], [stems[1][1]])
 

@@ -9,6 +9,7 @@ import torch
 
 from mobnet.core.errors import ConfigError
 from mobnet.learning.job import PRECISIONS, TrainingJob, precision_name, precision_of
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.settings import Settings
 
 CPU, GPU = torch.device("cpu"), torch.device("cuda")
@@ -16,7 +17,7 @@ CPU, GPU = torch.device("cpu"), torch.device("cuda")
 
 @pytest.fixture
 def job(settings: Settings) -> TrainingJob:
-    return TrainingJob(settings.training("MOB-Net", "LL"), seed=0, root_seed=2023)
+    return TrainingJob(Catalogue(settings).training("MOB-Net", "LL"), seed=0, root_seed=2023)
 
 
 def changed(job: TrainingJob, **values: Any) -> TrainingJob:
@@ -29,7 +30,7 @@ def changed(job: TrainingJob, **values: Any) -> TrainingJob:
 
 
 def test_rate_falls_linearly_to_a_hundredth_over_the_first_half_at_the_papers_size(settings: Settings) -> None:
-    job = TrainingJob(settings.model_copy(update={"scale": "paper"}).training("MOB-Net", "LL"), 0, 0)
+    job = TrainingJob(Catalogue(settings.model_copy(update={"scale": "paper"})).training("MOB-Net", "LL"), 0, 0)
     rates = np.array([job.rate(epoch) for epoch in range(200)])
     first = settings.learning.rate_first
     assert rates[0] == first

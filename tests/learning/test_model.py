@@ -6,6 +6,7 @@ import torch
 from mobnet.learning.cells import Gru
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import LimbNetwork, build_network, parameter_count, seeded
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.networks import Cell
 from mobnet.settings.settings import Settings
 
@@ -17,7 +18,7 @@ SPECTRAL = Cell(cell="GRU", hidden=24, spectral=True, input_gain=16.0)
 
 @pytest.mark.parametrize("limb", SIZES)
 def test_size_is_the_published_one(limb: str, settings: Settings) -> None:
-    row, layout = settings.network("MOB-Net", limb), settings.layout
+    row, layout = Catalogue(settings).network("MOB-Net", limb), settings.layout
     network = build_network(row, len(limb_inputs(layout, row).names), len(layout.limb(limb)), STD_MIN, seed=0)
     assert parameter_count(network) == SIZES[limb]
 

@@ -24,6 +24,7 @@ from mobnet.learning.streams import deal
 from mobnet.learning.swings import free_rows, hanging
 from mobnet.learning.train import train_all
 from mobnet.learning.trainer import Trainer
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.settings import Settings
 
 RATE_HZ, MARGINS = 1000.0, (0.09, 0.03)
@@ -59,7 +60,7 @@ def test_the_target_of_a_free_swing_is_the_residual_whatever_the_label_says(
     walked: tuple[Path, Path], settings: Settings, layout: JointLayout
 ) -> None:
     recording, residual = walked
-    limb = settings.network("MOB-Net", "LL")
+    limb = Catalogue(settings).network("MOB-Net", "LL")
     data = load_limb_data(layout, limb, "uncertainty", [recording], [residual], margins=MARGINS)
     free = free_rows(recording, layout, layout.limb("LL"), MARGINS)
     np.testing.assert_array_equal(np.isnan(data.targets), np.repeat(~free[:, None], 6, axis=1))

@@ -31,6 +31,7 @@ from mobnet.estimation.estimate import estimate
 from mobnet.learning.dataset import load_limb_data
 from mobnet.plan.parts import MethodRun
 from mobnet.running.stage import Stage
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.settings import Settings
 
 ROWS, WIDTH = 1200, recording_width(AGAINST.layout)
@@ -329,7 +330,7 @@ def test_a_residual_of_another_recording_trains_no_network(
     change: Change, says: str, copied: Path, settings: Settings
 ) -> None:
     changed_note(copied / "residual", change)
-    limb = settings.network("MOB-Net", "LL")
+    limb = Catalogue(settings).network("MOB-Net", "LL")
     with pytest.raises(DataError, match=says):
         load_limb_data(settings.layout, limb, "external", [copied / "recording"], [copied / "residual"], RATE_HZ)
 
@@ -337,7 +338,7 @@ def test_a_residual_of_another_recording_trains_no_network(
 def test_networks_and_observers_take_recordings_of_the_configured_rate_alone(copied: Path, settings: Settings) -> None:
     changed_note(copied / "recording", key("rate_hz", 900.0))
     level, gravity = settings.levels["all_uncertainty"], settings.plant.gravity_m_s2
-    runs = [MethodRun("MOB", {"MOB": settings.method("MOB")}, {}, None, (copied / "out",))]
+    runs = [MethodRun("MOB", {"MOB": Catalogue(settings).method("MOB")}, {}, None, (copied / "out",))]
     with pytest.raises(DataError, match=r"rate_hz: 900.0 is not accepted; accepted: 1000, `rates.data_hz`"):
         estimate(
             settings.robot,
@@ -353,7 +354,7 @@ def test_networks_and_observers_take_recordings_of_the_configured_rate_alone(cop
     with pytest.raises(DataError, match=r"rate_hz: 900\.0 is not accepted"):
         load_limb_data(
             settings.layout,
-            settings.network("MOB-Net", "LL"),
+            Catalogue(settings).network("MOB-Net", "LL"),
             "external",
             [copied / "recording"],
             [copied / "residual"],

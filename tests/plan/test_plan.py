@@ -100,7 +100,7 @@ def test_every_method_gets_its_networks(plans: dict[str, Plan], scale: str) -> N
     A method that is fine-tuned stands for those of its sweep alone.
     """
     files = plans[scale].files
-    rows = files.settings.all_methods.items()
+    rows = files.catalogue.all_methods.items()
     learned = {*files.learned, *(pair for own in files.robots.values() for pair in own.learned)}
     swept = {base for sweep in files.settings.sweeps.values() for base in sweep.of}
     assert {name for name, _ in learned} == {

@@ -9,6 +9,7 @@ from mobnet.core.errors import DataError
 from mobnet.plan import precision
 from mobnet.plan.plan import make_plan
 from mobnet.plan.precision import PLACE, of_processor, record_precision, with_precision
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
@@ -50,7 +51,7 @@ def test_a_named_format_stays_and_that_of_a_method_is_named_too(asked: Settings,
     )
     (tmp_path / PLACE).parent.mkdir()
     (tmp_path / PLACE).write_text('{"auto": "bfloat16"}')
-    found = with_precision(named, tmp_path)
+    found = Catalogue(with_precision(named, tmp_path))
     assert (found.learned("MOB-Net").precision, found.learned("GRU").precision) == ("float32", "bfloat16")
 
 

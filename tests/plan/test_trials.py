@@ -7,6 +7,7 @@ import pytest
 
 from mobnet.plan.plan import Plan, make_plan
 from mobnet.plan.products import Product
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import load_settings
 from mobnet.settings.trials import of_lengths, trial_name, tuned
 
@@ -31,27 +32,29 @@ def test_every_method_is_tried_as_often_as_every_other(plan: Plan) -> None:
 
 
 def test_names_are_distinct_and_can_be_folders(plan: Plan) -> None:
+    catalogue = Catalogue(settings)
     settings = plan.settings
     given = settings.trials, settings.methods
     trials = [*tuned(*given), *of_lengths(*given, settings.learning.rate_first)]
-    assert len(settings.tried) == len(trials)
-    assert not set(settings.tried) & set(settings.all_methods)
-    assert not [name for name in settings.tried if Path(f"{name}-LL-s0").suffix]
+    assert len(catalogue.tried) == len(trials)
+    assert not set(catalogue.tried) & set(catalogue.all_methods)
+    assert not [name for name in catalogue.tried if Path(f"{name}-LL-s0").suffix]
     assert trial_name("A", {"loss": "beta_likelihood", "rate_first": 0.005}) == "A-beta-likelihood-0-005"
 
 
 def test_a_trial_changes_what_it_says_and_its_length(plan: Plan) -> None:
+    catalogue = Catalogue(settings)
     settings = plan.settings
-    training = settings.training("FTS-e2e-squared-0-01", "LL")
+    training = catalogue.training("FTS-e2e-squared-0-01", "LL")
     assert (training.learning.loss, training.learning.rate_first) == ("squared", 0.01)
     assert training.target == "external"
     assert training.learning.may_diverge
-    lengths = [settings.training(f"MOB-Net-steps-{steps}m", "LL") for steps in (3, 10, 39, 150)]
+    lengths = [catalogue.training(f"MOB-Net-steps-{steps}m", "LL") for steps in (3, 10, 39, 150)]
     assert [one.epochs * (one.epoch_samples or 0) for one in lengths] == [3e6, 10e6, 39e6, 150e6]
-    slower = [one for one in settings.tried if one.startswith("FTS-e2e-steps-39m-")]
-    chosen = settings.learned("FTS-e2e").rate_first
-    assert [settings.training(name, "LL").learning.rate_first for name in slower] == [chosen / 2]
-    assert settings.method("MOB-Kalman-300-0").options["walk_nm"] == 300.0
+    slower = [one for one in catalogue.tried if one.startswith("FTS-e2e-steps-39m-")]
+    chosen = catalogue.learned("FTS-e2e").rate_first
+    assert [catalogue.training(name, "LL").learning.rate_first for name in slower] == [chosen / 2]
+    assert catalogue.method("MOB-Kalman-300-0").options["walk_nm"] == 300.0
 
 
 def test_trials_read_development_walks_and_no_test(products: dict[str, Product]) -> None:
@@ -63,7 +66,7 @@ def test_trials_read_development_walks_and_no_test(products: dict[str, Product])
 
 def test_no_product_of_a_run_needs_a_trial_and_none_is_stored(plan: Plan) -> None:
     made = {name for product in plan.trials for name in product.outputs}
-    tried = [name for name in plan.stored if any(f"/{trial}-LL-s" in name for trial in plan.settings.tried)]
+    tried = [name for name in plan.stored if any(f"/{trial}-LL-s" in name for trial in Catalogue(plan.settings).tried)]
     assert not tried
     assert not made & {name for product in plan.products for name in (*product.job.inputs, *product.outputs)}
 

@@ -4,6 +4,7 @@ import pytest
 
 from mobnet.plan.plan import Plan, make_plan
 from mobnet.plan.work import TOGETHER_S, Work
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import load_settings
 
 
@@ -59,7 +60,7 @@ def test_a_training_has_its_steps_and_the_numbers_that_it_holds(works: dict[str,
     """The left leg sees 12 angles and velocities, 6 torques and 12 of the base, and learns 6: Table 1."""
     work = works["train/MOB-Net-LL-s0"]
     settings = load_settings()
-    epochs, size = settings.training("MOB-Net", "LL").epochs, settings.training_sets["walk"].sizes["default"]
+    epochs, size = Catalogue(settings).training("MOB-Net", "LL").epochs, settings.training_sets["walk"].sizes["default"]
     seconds = size.shards * size.shard_s
     steps = 1000 * seconds * epochs
     assert work.amounts == {

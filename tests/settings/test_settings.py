@@ -9,6 +9,7 @@ from pydantic import ValidationError
 from mobnet.core.errors import ConfigError
 from mobnet.plan.runs import FIRST_DEVELOPMENT_SEED, FIRST_TRAINING_SEED
 from mobnet.settings import evaluation
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.claims import TAKES, Claim
 from mobnet.settings.names import uses
 from mobnet.settings.reading import dotted
@@ -16,48 +17,56 @@ from mobnet.settings.settings import Settings
 
 SECTIONS = Path(evaluation.__file__).parent
 # with properties that follow from the values and are never called by a job, or without sections
-RESOLVED = {"settings.py", "robot.py", "results.py", "reading.py", "load.py"}
+RESOLVED = {"settings.py", "catalogue.py", "surrogate.py", "robot.py", "results.py", "reading.py", "load.py"}
 CLAIM = {"printed": "Table 5", "says": "It errs.", "quantity": "ratio", "unit": "-", "published": None}
 BOUNDS = {"rule": "sign", "bar": [1.0, 2.0], "side": [1.0, None]}
 
 
 def test_a_sweep_stands_for_one_method_for_each_value(settings: Settings) -> None:
-    base, swept = settings.method("MOB-Net"), settings.method("MOB-Net-hidden-44")
+    catalogue = Catalogue(settings)
+    base, swept = catalogue.method("MOB-Net"), catalogue.method("MOB-Net-hidden-44")
     assert swept == base.model_copy(update={"limbs": ("LL",), "network": {"experiment": "sweep", "hidden": 44}})
-    assert settings.method("FTS-e2e-data-parts-2").learning == {**settings.method("FTS-e2e").learning, "data_parts": 2}
+    assert catalogue.method("FTS-e2e-data-parts-2").learning == {
+        **catalogue.method("FTS-e2e").learning,
+        "data_parts": 2,
+    }
     sizes = sum(len(sweep.of) * len(sweep.values) for sweep in settings.sweeps.values())
-    assert len(settings.all_methods) == len(settings.methods) + sizes
+    assert len(catalogue.all_methods) == len(settings.methods) + sizes
 
 
 def test_a_method_changes_its_networks_alone(settings: Settings) -> None:
-    plain, base = (settings.network(method, "LL") for method in ("MOB-Net-plain", "MOB-Net"))
+    catalogue = Catalogue(settings)
+    plain, base = (catalogue.network(method, "LL") for method in ("MOB-Net-plain", "MOB-Net"))
     assert plain == base.model_copy(update={"data": "walk_plain"})
     assert base.joints == ("LL",)
-    assert settings.network("MOB-Net-Single", "WB").joints == settings.robot.networks["WB"].joints
+    assert catalogue.network("MOB-Net-Single", "WB").joints == settings.robot.networks["WB"].joints
 
 
 def test_a_method_of_another_runs_on_its_fit_and_on_networks_of_its_own_if_it_has_some(settings: Settings) -> None:
-    assert [settings.source_of(name) for name in ("MOB-fric", "MOB-fric-BPF")] == ["MOB-fric", "MOB-fric"]
-    assert settings.source_of("MOB-Net-gray") == "MOB-fric-load"
+    catalogue = Catalogue(settings)
+    assert [catalogue.source_of(name) for name in ("MOB-fric", "MOB-fric-BPF")] == ["MOB-fric", "MOB-fric"]
+    assert catalogue.source_of("MOB-Net-gray") == "MOB-fric-load"
     names = ("MOB-Net", "MOB-Net-gray", "MOB-fric-BPF")
-    assert [settings.network_source_of(name) for name in names] == ["MOB-Net", "MOB-Net-gray", "MOB-fric"]
+    assert [catalogue.network_source_of(name) for name in names] == ["MOB-Net", "MOB-Net-gray", "MOB-fric"]
 
 
 def test_sizes_lie_over_learning_and_the_methods_changes_over_both(settings: Settings) -> None:
-    learning, sizes = settings.training("GRU-printed-rate", "LL").learning, settings.sizes
+    catalogue = Catalogue(settings)
+    learning, sizes = catalogue.training("GRU-printed-rate", "LL").learning, settings.sizes
     assert (learning.batch_size, learning.rate_first) == (sizes.batch_size, 0.05)
     assert learning.std_min == settings.learning.std_min
-    assert settings.experiment("MOB-Net", "LL") == sizes.experiments["left_leg"]
-    assert settings.experiment("MOB-Net-hidden-44", "LL") == sizes.experiments["sweep"]
+    assert catalogue.experiment("MOB-Net", "LL") == sizes.experiments["left_leg"]
+    assert catalogue.experiment("MOB-Net-hidden-44", "LL") == sizes.experiments["sweep"]
 
 
 def test_unknown_names_are_refused(settings: Settings) -> None:
+    catalogue = Catalogue(settings)
     with pytest.raises(ConfigError, match="method: 'X' is not accepted; accepted: "):
-        settings.method("X")
+        catalogue.method("X")
     with pytest.raises(ConfigError, match="network: 'tail' is not accepted"):
-        settings.network("MOB-Net", "tail")
+        catalogue.network("MOB-Net", "tail")
     with pytest.raises(ConfigError, match=r"method to train: 'MOB' is not accepted; accepted: .*MOB-Net"):
-        settings.training("MOB", "LL")
+        catalogue.training("MOB", "LL")
 
 
 def test_names_are_looked_at_in_every_section(settings: Settings) -> None:
@@ -66,8 +75,7 @@ def test_names_are_looked_at_in_every_section(settings: Settings) -> None:
     assert found >= {
         ("scale", "scale"), ("scenarios.random_walk.terrain.0", "terrain"), ("scenarios.random_walk.pushes.2", "push"),
         ("scenarios.random_motion.motion", "motion"), ("scenarios.hand_load_10.draws", "scenario"),
-        ("pushes.hip_pitch.joint", "motor"), ("tests.walk_test", "scenario"),
-        ("tests.walk_test.robots", "level"),
+        ("pushes.hip_pitch.joint", "motor"), ("detection.place", "scenario without pushes"),
         ("networks.LL.experiment", "experiment"), ("methods.MOB-Net.limbs.0", "network"),
         ("sweeps.hidden.of.1", "method"),
         ("training_sets.walk.scenario", "scenario"), ("training_sets.motion.sizes.smoke", "scale"),
@@ -95,7 +103,7 @@ def test_seeds_of_the_tests_of_two_scales_never_meet(settings: Settings) -> None
 
 def test_methods_are_chosen_on_walks_that_no_test_has(settings: Settings) -> None:
     row = settings.scenarios[settings.development.scenario]
-    assert settings.development.scenario not in settings.tests
+    assert settings.development.scenario not in Catalogue(settings).tests
     assert row.commands == "uniform"
     assert not row.narrowed.model_fields_set  # uniform over all of Table 2
 

@@ -17,6 +17,7 @@ from mobnet.core.estimator import Estimator
 from mobnet.estimation import kinds
 from mobnet.estimation.recipe import Recipe
 from mobnet.settings.base import Section
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.faults import problems
 from mobnet.settings.methods import Method
 from mobnet.settings.reading import Place
@@ -35,8 +36,9 @@ def build_estimator(recipe: Recipe) -> Estimator:
 
 def method_problems(settings: Settings) -> Iterator[tuple[Place, str]]:
     """Yield the place and the text of every kind, option or key of a method that its kind does not accept."""
-    for name, method in {**settings.methods, **settings.tried}.items():
-        place: Place = ("trials",) if name in settings.tried else ("methods", name)
+    tried = Catalogue(settings).tried
+    for name, method in {**settings.methods, **tried}.items():
+        place: Place = ("trials",) if name in tried else ("methods", name)
         if method.kind not in kind_names():
             yield (*place, "kind"), not_accepted("kind", method.kind, kind_names())
             continue

@@ -8,7 +8,6 @@ from mobnet.core.detections import FILES
 from mobnet.plan.runs import Files
 from mobnet.settings.data import Push
 from mobnet.settings.detection import Detection
-from mobnet.settings.fleet import level_of
 
 Detections = Mapping[str, Mapping[str, Path]]  # level of the plant or of a robot -> name of a file -> its path
 
@@ -27,7 +26,7 @@ def level_of_detectors(files: Files) -> str:
     """Return the level at which the detectors of a robot, or of the plant of section 5.1, are tried; else nothing."""
     settings = files.settings
     own = next((level for level in settings.detection.levels if files.has(level)), "")
-    return level_of(settings.fleet, files.robot, own) if own and files.robot else own
+    return settings.fleet.level_of(files.robot, own) if own and files.robot else own
 
 
 def numbers_of(files: Files) -> Detection:
@@ -50,7 +49,7 @@ def walks_of(files: Files) -> dict[str, Walk]:
             {
                 method: tuple(run.estimate for run in files.runs(scenario, level, [method]))
                 for method in methods
-                if method in settings.tests[scenario][level]
+                if method in files.catalogue.tests[scenario][level]
             },
             {name: settings.pushes[name] for name in settings.scenarios[scenario].pushes},
         )

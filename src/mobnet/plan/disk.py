@@ -9,7 +9,7 @@ from mobnet.core.errors import DataError
 from mobnet.core.files import MIB, check_room
 from mobnet.plan.plan import Plan
 from mobnet.plan.runs import ARRAY, NOTE
-from mobnet.settings.settings import Settings
+from mobnet.settings.catalogue import Catalogue
 
 NUMBER_BYTES = 4
 STORED = 0.6  # of the bytes of an array remain after compression: of recordings 0.46, of residuals 0.54
@@ -63,20 +63,20 @@ def bytes_of(plan: Plan, names: Iterable[str]) -> int:
 def expected_bytes(plan: Plan, path: Path) -> int:
     """Return about how many bytes a file of the plan will have: rows by columns for an array."""
     files, (kind, *parts) = plan.files.owner_of(path)
-    settings, layout = files.settings, plan.settings.layout
+    layout = plan.settings.layout
     match kind if path.suffix == ARRAY else "":
         case "recordings":
             width = recording_width(layout)
         case "residuals":
-            level = settings.levels[path.parts[-2]]
+            level = files.settings.levels[path.parts[-2]]
             width = len(residual_columns(layout, level.labels == "foot_sensors"))
         case "estimates":
-            width = _estimated_width(settings, parts[0], *parts[2:4])
+            width = _estimated_width(files.catalogue, parts[0], *parts[2:4])
         case _:
             return NOTE_BYTES if path.suffix == NOTE else OTHER_BYTES
     return round(files.array_s(path) * plan.settings.rates.data_hz * width * NUMBER_BYTES * STORED)
 
 
-def _estimated_width(settings: Settings, method: str, scenario: str, level: str) -> int:
+def _estimated_width(catalogue: Catalogue, method: str, scenario: str, level: str) -> int:
     """Return the columns of an estimate: a method with networks gives a standard deviation of each joint too."""
-    return (1 + bool(settings.method(method).limbs)) * len(settings.estimated(method, scenario, level))
+    return (1 + bool(catalogue.method(method).limbs)) * len(catalogue.estimated(method, scenario, level))

@@ -11,9 +11,10 @@ from mobnet.plan.detection import detection_files, numbers_of, walks_of
 from mobnet.plan.parts import MethodRun, Repetition, Shard
 from mobnet.plan.runs import NOTE, Files, NetworkName, files_in
 from mobnet.running.stage import Stage
+from mobnet.settings.asked import tests_in
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.data import Terrain
 from mobnet.settings.evaluation import Scoring
-from mobnet.settings.names import shown_in
 from mobnet.settings.settings import Settings, WalkSettings
 
 KINDS = "mobnet.estimation.kinds"  # modules that a method names as its kind
@@ -27,8 +28,17 @@ class Jobs:
     The name of a job is that of its log.
     """
 
-    settings: Settings
     files: Files
+
+    @property
+    def settings(self) -> Settings:
+        """The configuration, of a robot as it has it."""
+        return self.files.settings
+
+    @property
+    def catalogue(self) -> Catalogue:
+        """What follows from it."""
+        return self.files.catalogue
 
     def motions(self, name: str, motion: str, seeds: Sequence[int]) -> Job:
         """Return the making of random motions of the upper body."""
@@ -69,8 +79,8 @@ class Jobs:
 
     def fit(self, method: str) -> Job:
         """Return the fit of a method without networks to the training sets of its limbs."""
-        row = self.settings.method(method)
-        networks = {limb: self.settings.network(method, limb) for limb in row.fitted}
+        row = self.catalogue.method(method)
+        networks = {limb: self.catalogue.network(method, limb) for limb in row.fitted}
         training = {limb: tuple(zip(*self._training(network.data), strict=True)) for limb, network in networks.items()}
         arguments = {
             "layout": self.settings.layout,
@@ -90,7 +100,7 @@ class Jobs:
         that method's network. Networks of one job are alike in both.
         """
         first = networks[0]
-        learning = self.settings.training(first.method, first.limb)
+        learning = self.catalogue.training(first.method, first.limb)
         recordings, residuals = self._training(learning.network.data)
         repetitions, fitted = tuple(map(self._repetition, networks)), self.files.fit(first.method)
         arguments = {
@@ -116,7 +126,7 @@ class Jobs:
         """Return the training of a network."""
         folder = self.files.network(*network)
         return Repetition(
-            training=self.settings.training(network.method, network.limb),
+            training=self.catalogue.training(network.method, network.limb),
             seed=network.seed,
             out=folder,
             state=self.files.results / "state" / folder.name,
@@ -125,7 +135,7 @@ class Jobs:
 
     def estimate(self, name: str, scenario: str, level: str) -> Job:
         """Return the external torque of all methods of a test, whose recordings run side by side."""
-        methods = self.settings.tests[scenario][level]
+        methods = self.catalogue.tests[scenario][level]
         runs = tuple(
             self._run(method, seed, scenario, level)
             for method in methods
@@ -149,11 +159,11 @@ class Jobs:
         """Return the run of a method with its networks of a seed on all recordings of a test."""
         return MethodRun(
             method=method,
-            methods={name: self.settings.method(name) for name in self._with_source(method)},
+            methods={name: self.catalogue.method(name) for name in self._with_source(method)},
             networks=self.files.networks(method, network_seed, scenario, level),
             fitted=next(iter(self.files.fit(method)), None),
             outs=self.files.tests(scenario, level, f"estimates/{method}/n{network_seed}"),
-            joints=self.settings.estimated(method, scenario, level),
+            joints=self.catalogue.estimated(method, scenario, level),
         )
 
     def score(self, scenario: str, level: str) -> Job:
@@ -185,11 +195,11 @@ class Jobs:
 
     def _kinds(self, method: str) -> tuple[str, ...]:
         """Return the modules that a method imports by name: its kind and that of the method it runs on."""
-        return tuple(dict.fromkeys(f"{KINDS}.{self.settings.method(name).kind}" for name in self._with_source(method)))
+        return tuple(dict.fromkeys(f"{KINDS}.{self.catalogue.method(name).kind}" for name in self._with_source(method)))
 
     def _with_source(self, method: str) -> tuple[str, ...]:
         """Return a method and, if it runs on another one, that one too."""
-        return tuple(dict.fromkeys([method, self.settings.source_of(method)]))
+        return tuple(dict.fromkeys([method, self.catalogue.source_of(method)]))
 
     def _observer(self, level: str) -> dict[str, object]:
         """Return what the observer takes."""
@@ -209,7 +219,11 @@ class Jobs:
 def scoring(settings: Settings, scenario: str, level: str) -> Scoring:
     """Return what is measured on the runs of a test at a level: the sections of the products that show it."""
     evaluation = settings.evaluation
-    sections = {name: own for name, own in evaluation.measured.items() if (scenario, level) in shown_in(own)}
+    sections = {
+        name: section
+        for name, section in evaluation.measured.items()
+        if (scenario, level) in tests_in(settings, section)
+    }
     pushes = [settings.pushes[name] for name in settings.scenarios[scenario].pushes]
     shared = {
         "window": evaluation.windows.get(scenario),

@@ -7,8 +7,8 @@ from typing import Any
 from mobnet.core.errors import ConfigError
 from mobnet.plan.detection import all_detections
 from mobnet.plan.runs import Files
+from mobnet.settings.asked import tests_in
 from mobnet.settings.evaluation import Runs
-from mobnet.settings.names import shown_in
 
 Needs = Mapping[str, object]
 
@@ -29,7 +29,7 @@ def needs_of(files: Files, name: str, section: Any, parameters: Iterable[str]) -
 
 def _scores(files: Files, section: Any) -> tuple[Path, ...]:
     """Return the scores of the tests that a section, or a tuple of them, names, at the levels that it names."""
-    return files.scores(shown_in(section))
+    return files.scores(tests_in(files.settings, section))
 
 
 def _folders(files: Files, section: Any) -> tuple[Path, ...]:
@@ -76,7 +76,7 @@ def _amplitude(files: Files) -> Needs:
     amplitudes, training = dict[str, float](), dict[str, tuple[Path, ...]]()
     for test in section.tests.values():
         for method in test.methods:
-            data = settings.network(method, test.limb).data
+            data = files.catalogue.network(method, test.limb).data
             own = files.robots.get(test.level, files)
             scenario = own.settings.training_sets[data].scenario
             asked = settings.scenarios[scenario].random_torque
@@ -108,24 +108,23 @@ def _folders_of_kinds(files: Files) -> tuple[Path, ...]:
 def _claims(files: Files) -> Needs:
     """Return the scores that claims name, and the trainings of the kinds and sizes of the left leg's networks."""
     sizes = [folder for size in files.swept_sizes() for folder in size.folders]
-    made = [number for claim in files.settings.claims.values() for number in (claim, *claim.numbers.values())]
-    named = [(cell.scenario, cell.level) for each in made for cell in each.cells if cell.scenario and cell.level]
-    return {"scores": files.scores(named), "folders": tuple(dict.fromkeys([*_folders_of_kinds(files), *sizes]))}
+    folders = tuple(dict.fromkeys([*_folders_of_kinds(files), *sizes]))
+    return {"scores": _scores(files, files.settings.claims), "folders": folders}
 
 
 def _latency(files: Files) -> Needs:
     """Return the first trained network of each limb of the method whose time is looked at."""
     method = files.settings.evaluation.latency.method
     first = files.network_seeds(method)[0]
-    return {"networks": {limb: files.network(method, limb, first) for limb in files.settings.method(method).limbs}}
+    return {"networks": {limb: files.network(method, limb, first) for limb in files.catalogue.method(method).limbs}}
 
 
 def _table_01(files: Files) -> Needs:
     """Return the networks of the method of Table 1, with its changes, and what they learn."""
     method = files.settings.evaluation.table_01.method
     limbs = files.settings.published.table_01.rows
-    networks = {limb: files.settings.network(method, limb) for limb in limbs}
-    return {"networks": networks, "target": files.settings.method(method).target}
+    networks = {limb: files.catalogue.network(method, limb) for limb in limbs}
+    return {"networks": networks, "target": files.catalogue.method(method).target}
 
 
 def _calibration(files: Files) -> Needs:

@@ -9,6 +9,7 @@ from mobnet.plan.runs import ARRAY, Files
 from mobnet.plan.steps import Step, all_steps, trial_steps
 from mobnet.plan.trials import trial_products
 from mobnet.plan.work import SECONDS, Work
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.settings import Settings
 
 
@@ -57,7 +58,7 @@ def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
     results, part = Path("results") / scale, "" if scale == MAIN else scale
     paper, manifest = (Path("paper"), results.parent) if scale == MAIN else (results / "paper", results)
     folders = Folders(results, Path("tables") / part, Path("figures") / part, paper, manifest / "MANIFEST.sha256")
-    files = Files(settings, results)
-    steps, trials = tuple(all_steps(files)), tuple(trial_products(settings, files))
+    files = Files(Catalogue(settings), results)
+    steps, trials = tuple(all_steps(files)), tuple(trial_products(files))
     products = Products(settings, files, folders, with_pdf, tuple(name for step in steps for name in step.outputs))
     return Plan(settings, folders, files, steps, tuple(products.all()), tuple(trial_steps(files)), trials)

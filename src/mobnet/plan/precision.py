@@ -38,9 +38,7 @@ def with_precision(settings: Settings, results: Path) -> Settings:
     learning = settings.learning
     if learning.precision == AUTO:
         learning = learning.model_copy(update={"precision": name})
-    values = {key: getattr(settings, key) for key in Settings.model_fields}  # a copy would keep what is cached
-    changed = {"learning": learning, "methods": {**settings.methods, **methods}}
-    return Settings.model_construct(None, **{**values, **changed})
+    return settings.model_copy(update={"learning": learning, "methods": {**settings.methods, **methods}})
 
 
 def record_precision(results: Path) -> None:

@@ -7,12 +7,13 @@ from pathlib import Path
 from typing import NamedTuple, cast
 
 from mobnet.core.files import METRICS, RUN, WEIGHTS
+from mobnet.settings.asked import tests_in
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.data import Recordings
 from mobnet.settings.evaluation import Runs
-from mobnet.settings.fleet import as_robot, level_of, levels_of
-from mobnet.settings.methods import Method
-from mobnet.settings.names import shown_in
-from mobnet.settings.settings import Settings, swept_name
+from mobnet.settings.fleet import as_robot
+from mobnet.settings.methods import Method, swept_name
+from mobnet.settings.settings import Settings
 
 # Recordings and motions of development and of training count from these seeds; those of tests, from their scale's
 # `first_seed`, lie below.
@@ -84,15 +85,20 @@ class Files:
     Each robot of the fleet has files of its own in a folder of its name, but the motions that all share.
     """
 
-    settings: Settings
+    catalogue: Catalogue
     results: Path
     robot: str = ""
+
+    @property
+    def settings(self) -> Settings:
+        """The configuration, of a robot as it has it."""
+        return self.catalogue.settings
 
     @cached_property
     def robots(self) -> Mapping[str, "Files"]:
         """Robot of the fleet -> its files; a robot has none below its own."""
         named = self.settings.fleet.robots[: self.settings.sizes.fleet]
-        return {name: Files(as_robot(self.settings, name), self.results / name, name) for name in named}
+        return {name: Files(as_robot(self.catalogue, name), self.results / name, name) for name in named}
 
     def owner_of(self, path: Path) -> tuple["Files", tuple[str, ...]]:
         """Return whose file it is, this or a robot's, and its place below that folder; ("",) if it is nobody's."""
@@ -132,7 +138,7 @@ class Files:
     def training(self, kind: str, name: str) -> tuple[Path, ...]:
         """Return the recordings or residuals of a training set, of all robots that learn from it where it is theirs."""
         row = self.settings.training_sets[name]
-        if row.level in levels_of(self.settings.fleet):
+        if row.level in self.settings.fleet.levels:
             own = next(own for own, other in self.settings.fleet.sets.items() if other == name)
             robots = [files for files in self.robots.values() if own in files.learned_sets]
             return tuple(stem for files in robots for stem in files.training(kind, own))
@@ -157,7 +163,7 @@ class Files:
         for name in self.recorded_sets:
             row = self.settings.training_sets[name]
             yield from ((row.scenario, row.level, seed) for seed in self.training_seeds(name))
-        for scenario, levels in self.settings.tests.items():
+        for scenario, levels in self.catalogue.tests.items():
             single = [level for level in levels if self.has(level)]
             yield from ((scenario, level, seed) for level in single for seed in self.test_seeds)
 
@@ -181,15 +187,15 @@ class Files:
 
     def network_seeds(self, method: str, limb: str | None = None) -> tuple[int, ...]:
         """Return the seeds of a method's networks of a limb, or of that with the most; (0,) if there are none."""
-        limbs = [limb] if limb else self.settings.method(self.settings.network_source_of(method)).limbs
-        return max((self.settings.experiment(method, name).seeds for name in limbs), key=len, default=(0,))
+        limbs = [limb] if limb else self.catalogue.method(self.catalogue.network_source_of(method)).limbs
+        return max((self.catalogue.experiment(method, name).seeds for name in limbs), key=len, default=(0,))
 
     def run_seeds(self, method: str, scenario: str, level: str) -> tuple[int, ...]:
         """Return the seeds with which a method runs in a test: those of the limb with the most among the test's."""
         every = self.network_seeds(method)
         if scenario in self.settings.detection_walks:
             return every[:1]  # a robot detects with one network
-        source, limbs = self.settings.network_source_of(method), self.networks(method, every[0], scenario, level)
+        source, limbs = self.catalogue.network_source_of(method), self.networks(method, every[0], scenario, level)
         return max((self.network_seeds(source, limb) for limb in limbs), key=len, default=every)
 
     def network(self, method: str, limb: str, seed: int) -> Path:
@@ -199,20 +205,20 @@ class Files:
 
     def networks(self, method: str, seed: int, scenario: str, level: str) -> dict[str, Path]:
         """Return the networks, limb -> folder, that a method runs in a test: those of joints that it estimates."""
-        source, joints = self.settings.network_source_of(method), {*self.settings.estimated(method, scenario, level)}
+        source, joints = self.catalogue.network_source_of(method), {*self.catalogue.estimated(method, scenario, level)}
         return {
             limb: self.network(source, limb, seed)
-            for limb in self.settings.method(source).limbs
+            for limb in self.catalogue.method(source).limbs
             if joints.intersection(self.settings.layout.limbs(self.settings.robot.networks[limb].joints))
         }
 
     def repeated(self, method: str, seed: int) -> tuple[str, ...]:
         """Return the limbs, groups of joints, whose network served an earlier seed of a method already."""
-        source, seeds = self.settings.network_source_of(method), self.network_seeds(method)
+        source, seeds = self.catalogue.network_source_of(method), self.network_seeds(method)
         earlier, networks = seeds[: seeds.index(seed)], self.settings.robot.networks
         return tuple(
             group
-            for limb in self.settings.method(source).limbs
+            for limb in self.catalogue.method(source).limbs
             if self.network(source, limb, seed) in [self.network(source, limb, other) for other in earlier]
             for group in networks[limb].joints
         )
@@ -231,28 +237,28 @@ class Files:
         """Return whether a level is one of these files' own: of a robot, or of the plant of section 5.1."""
         fleet = self.settings.fleet
         if self.robot:
-            known = levels_of(fleet)
-            return level in (*known, *(level_of(fleet, self.robot, name) for name in known))
+            known = fleet.levels
+            return level in (*known, *(fleet.level_of(self.robot, name) for name in known))
         return level in self.settings.levels and level not in fleet.robots
 
     @cached_property
     def trained(self) -> Mapping[str, NetworkName]:
         """Name of a network's folder -> method, limb and seed; networks of `./reproduce tuning` are among them."""
-        methods = (*self.settings.all_methods, *self.settings.tried)
+        methods = (*self.catalogue.all_methods, *self.catalogue.tried)
         return {
             self.network(method, limb, seed).name: NetworkName(method, limb, seed)
             for method in methods
-            for limb in self.settings.method(method).limbs
+            for limb in self.catalogue.method(method).limbs
             for seed in self.network_seeds(method, limb)
         }
 
     @cached_property
     def learned(self) -> frozenset[tuple[str, str]]:
         """Method and limb of every network that runs in a test or is shown by itself."""
-        settings, evaluation = self.settings, self.settings.evaluation
+        catalogue, settings, evaluation = self.catalogue, self.settings, self.settings.evaluation
         pairs = [
-            (settings.network_source_of(method), limb)
-            for scenario, levels in settings.tests.items()
+            (catalogue.network_source_of(method), limb)
+            for scenario, levels in catalogue.tests.items()
             for level, methods in levels.items()
             if self.has(level)
             for method in methods
@@ -271,14 +277,14 @@ class Files:
                 for value in settings.sweeps[key].values
             ]
         if not self.robot:
-            pairs += [(timed, limb) for limb in settings.method(timed).limbs]
-        pairs += [(first, limb) for method, limb in pairs if (first := settings.method(method).start)]
+            pairs += [(timed, limb) for limb in catalogue.method(timed).limbs]
+        pairs += [(first, limb) for method, limb in pairs if (first := catalogue.method(method).start)]
         return frozenset(pairs)
 
     @cached_property
     def own_networks(self) -> tuple[NetworkName, ...]:
         """The networks that are trained of the plant of section 5.1, or of a robot."""
-        pairs = [(name, limb) for name, row in self.settings.all_methods.items() for limb in row.limbs]
+        pairs = [(name, limb) for name, row in self.catalogue.all_methods.items() for limb in row.limbs]
         return tuple(
             NetworkName(*pair, seed) for pair in pairs if pair in self.learned for seed in self.network_seeds(*pair)
         )
@@ -291,26 +297,26 @@ class Files:
     @cached_property
     def tried_networks(self) -> tuple[NetworkName, ...]:
         """The networks that the trials train."""
-        rows = self.settings.tried.items()
+        rows = self.catalogue.tried.items()
         pairs = [(name, limb) for name, row in rows for limb in row.limbs]
         return tuple(NetworkName(*pair, seed) for pair in pairs for seed in self.network_seeds(*pair))
 
     @cached_property
     def own_fits(self) -> tuple[str, ...]:
         """The methods that are fitted of the plant of section 5.1, or of a robot: for a test, or for a network."""
-        tests = [pair for levels in self.settings.tests.values() for pair in levels.items()]
+        tests = [pair for levels in self.catalogue.tests.values() for pair in levels.items()]
         named = [method for level, methods in tests if self.has(level) for method in methods]
-        sources = dict.fromkeys(map(self.settings.source_of, [*named, *(name.method for name in self.own_networks)]))
-        return tuple(name for name in sources if self.settings.method(name).fitted)
+        sources = dict.fromkeys(map(self.catalogue.source_of, [*named, *(name.method for name in self.own_networks)]))
+        return tuple(name for name in sources if self.catalogue.method(name).fitted)
 
     @cached_property
     def learned_sets(self) -> tuple[str, ...]:
         """Names of the training sets that networks and fits learn from, in the configuration's order."""
-        settings = self.settings
-        named = {method for levels in settings.tests.values() for methods in levels.values() for method in methods}
-        sources = {settings.source_of(method) for method in (*named, *(method for method, _ in self.learned))}
-        fitted = [(source, limb) for source in sources for limb in settings.method(source).fitted]
-        used = {settings.network(method, limb).data for method, limb in (*self.learned, *fitted)}
+        settings, catalogue = self.settings, self.catalogue
+        named = {method for levels in catalogue.tests.values() for methods in levels.values() for method in methods}
+        sources = {catalogue.source_of(method) for method in (*named, *(method for method, _ in self.learned))}
+        fitted = [(source, limb) for source in sources for limb in catalogue.method(source).fitted]
+        used = {catalogue.network(method, limb).data for method, limb in (*self.learned, *fitted)}
         return tuple(name for name in settings.training_sets if name in used)
 
     @property
@@ -321,12 +327,12 @@ class Files:
 
     def fit(self, method: str) -> list[Path]:
         """Return the file of what a method, or the one it runs on, was fitted to; none if it is not fitted."""
-        source = self.settings.source_of(method)
-        return [self.results / "fits" / f"{source}.json"] if self.settings.method(source).fitted else []
+        source = self.catalogue.source_of(method)
+        return [self.results / "fits" / f"{source}.json"] if self.catalogue.method(source).fitted else []
 
     def start(self, method: str, limb: str, seed: int) -> Path | None:
         """Return the weights from which a method's network is fine-tuned; None of one that learns from the first."""
-        first = self.settings.method(method).start
+        first = self.catalogue.method(method).start
         return self.network(first, limb, seed) / WEIGHTS if first else None
 
     def runs(self, scenario: str, level: str, methods: Iterable[str]) -> tuple[Run, ...]:
@@ -336,8 +342,8 @@ class Files:
             return tuple(
                 replace(run, level=level, network_seed=number)
                 for number, (robot, files) in enumerate(self.robots.items(), start=1)
-                if level in (*levels_of(fleet), robot)
-                for run in files.runs(scenario, level_of(fleet, robot, level), methods)
+                if level in (*fleet.levels, robot)
+                for run in files.runs(scenario, fleet.level_of(robot, level), methods)
             )
         return tuple(
             run
@@ -360,14 +366,14 @@ class Files:
 
     def runs_of(self, scenario: str, level: str) -> tuple[Run, ...]:
         """Return every run of a test at a level."""
-        return self.runs(scenario, level, self.settings.tests[scenario][level])
+        return self.runs(scenario, level, self.catalogue.tests[scenario][level])
 
     @property
     def scored(self) -> tuple[tuple[str, str], ...]:
-        """The tests and levels whose errors are scored: all but those of detectors, unless a product shows them."""
-        shown, walks = set(shown_in(self.settings.evaluation)), self.settings.detection_walks
-        pairs = ((scenario, level) for scenario, levels in self.settings.tests.items() for level in levels)
-        return tuple(pair for pair in pairs if pair in shown or pair[0] not in walks)
+        """The tests and levels whose errors are scored: those that a product shows, not those of detectors alone."""
+        shown = tests_in(self.settings, (self.settings.evaluation, self.settings.claims))
+        pairs = ((scenario, level) for scenario, levels in self.catalogue.tests.items() for level in levels)
+        return tuple(pair for pair in pairs if pair in shown)
 
     def scores(self, shown: Iterable[tuple[str, str]]) -> tuple[Path, ...]:
         """Return the files of scores of some tests, each at a level; each file once."""
@@ -381,7 +387,7 @@ class Files:
             for base in sweeps[key].of:
                 names = [swept_name(base, key, value) for value in sweeps[key].values]
                 if panel == "samples":
-                    full = getattr(self.settings.network(base, figure.limb), figure.parameters)
+                    full = getattr(self.catalogue.network(base, figure.limb), figure.parameters)
                     names.append(swept_name(base, figure.parameters, full))
                 found += [
                     SweptSize(panel, base, self.network_folders([name], figure.limb, figure.level)) for name in names

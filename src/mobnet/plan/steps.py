@@ -57,7 +57,7 @@ def all_steps(files: Files) -> Iterator[Step]:
 
 def trial_steps(files: Files) -> Iterator[Step]:
     """Yield the steps that the trials need besides: their walks, and what learns in them."""
-    walk, fits = files.settings.development, dict.fromkeys(map(files.settings.source_of, files.settings.tried))
+    walk, fits = files.settings.development, dict.fromkeys(map(files.catalogue.source_of, files.catalogue.tried))
     yield from _walks(files, ((walk.scenario, walk.level, seed) for seed in files.development_seeds))
     yield from (_fit(files, name) for name in fits if files.fit(name) and name not in files.own_fits)
     yield from _trainings(files, files.tried_networks)
@@ -72,7 +72,7 @@ def _motions(files: Files) -> Iterator[Step]:
         for part in _parts(seeds, lambda seed, name=motion: files.motion_s(name, seed), PART_S):
             account = f"motion/{motion}-s{part[0]}"
             amounts = {SECONDS: sum(files.motion_s(motion, seed) for seed in part), "motion": len(part)}
-            job = partial(Jobs(files.settings, files).motions, account, motion, part)
+            job = partial(Jobs(files).motions, account, motion, part)
             arrays = [files.motion_place(motion, seed) for seed in part]
             yield Step(Work(account, "motion", amounts, 0.0), _both(arrays), job)
 
@@ -85,14 +85,14 @@ def _walks(files: Files, recorded: Iterable[Place]) -> Iterator[Step]:
     for (scenario, level, _), seeds in sets.items():
         for part in _parts(seeds, lambda seed, name=scenario: files.duration_s([name], seed), PART_S):
             account = _account("collect", files, f"{scenario}-{level}-s{part[0]}")
-            job = partial(Jobs(files.settings, files).collect, account, scenario, level, part)
+            job = partial(Jobs(files).collect, account, scenario, level, part)
             arrays = [files.array(kind, scenario, level, seed) for seed in part for kind in ("recordings", "residuals")]
             yield Step(Work(account, "collect", *walked(files, scenario, part)), _both(arrays), job)
 
 
 def _fit(files: Files, method: str) -> Step:
     """Return the fit of a method."""
-    account, job = _account("fit", files, method), partial(Jobs(files.settings, files).fit, method)
+    account, job = _account("fit", files, method), partial(Jobs(files).fit, method)
     return Step(Work(account, "fit", *fitted(files, method)), tuple(map(str, files.fit(method))), job)
 
 
@@ -100,7 +100,7 @@ def _trainings(files: Files, networks: Iterable[NetworkName]) -> Iterator[Step]:
     """Yield trainings: those of a step learn from one set of recordings, those on the same data one after another."""
 
     def learns(name: NetworkName) -> tuple[str, ...]:
-        training, row = files.settings.training(name.method, name.limb), files.settings.method(name.method)
+        training, row = files.catalogue.training(name.method, name.limb), files.catalogue.method(name.method)
         learning = training.learning
         together = training.network.data, learning.labels, row.of or "", row.start or ""
         return *together, name.limb, training.target, str(learning.data_s)
@@ -109,17 +109,17 @@ def _trainings(files: Files, networks: Iterable[NetworkName]) -> Iterator[Step]:
         for part in _parts(list(alike), lambda name: steps_of(files, name), PART_STEPS):
             folders = [files.network(*name) for name in part]
             account = _account("train", files, folders[0].name)
-            job = partial(Jobs(files.settings, files).train, account, part)
+            job = partial(Jobs(files).train, account, part)
             outputs = tuple(f"{folder}/{name}" for folder in folders for name in (WEIGHTS, METRICS, RUN))
             yield Step(Work(account, "train", *trained(files, part)), outputs, job)
 
 
 def _estimates(files: Files) -> Iterator[Step]:
     """Yield the estimates of each test at a level, by all of its methods."""
-    for scenario, levels in files.settings.tests.items():
+    for scenario, levels in files.catalogue.tests.items():
         for level in filter(files.has, levels):
             account = _account("estimate", files, f"{scenario}-{level}")
-            job = partial(Jobs(files.settings, files).estimate, account, scenario, level)
+            job = partial(Jobs(files).estimate, account, scenario, level)
             outputs = _both(run.estimate for run in files.runs(scenario, level, levels[level]))
             yield Step(Work(account, "estimate", *estimated(files, scenario, level)), outputs, job)
 
@@ -129,7 +129,7 @@ def _detectors(files: Files) -> Iterator[Step]:
     if level_of_detectors(files):
         outputs = tuple(map(str, detection_files(files).values()))
         work = Work(_account("detect", files, "all"), "detect", *detected(files))
-        yield Step(work, outputs, Jobs(files.settings, files).detect)
+        yield Step(work, outputs, Jobs(files).detect)
 
 
 def _score(files: Files, scenario: str, level: str) -> Step:
@@ -137,7 +137,7 @@ def _score(files: Files, scenario: str, level: str) -> Step:
     seconds = files.settings.test_s(scenario) * len(files.runs_of(scenario, level))
     work = Work(f"score/{scenario}-{level}", "score", {SECONDS: seconds}, 0.0)
     outputs = tuple(map(str, files.scores([(scenario, level)])))
-    return Step(work, outputs, partial(Jobs(files.settings, files).score, scenario, level))
+    return Step(work, outputs, partial(Jobs(files).score, scenario, level))
 
 
 def _account(kind: str, files: Files, name: str) -> str:

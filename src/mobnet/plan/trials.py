@@ -8,24 +8,25 @@ from mobnet.plan.call import Call, Job
 from mobnet.plan.jobs import KINDS
 from mobnet.plan.products import TABLE, Product
 from mobnet.plan.runs import Files, Tried, files_in
-from mobnet.settings.settings import Settings
 from mobnet.settings.trials import Trial, of_lengths, references, tuned
 
 
-def trial_products(settings: Settings, files: Files) -> Iterator[Product]:
+def trial_products(files: Files) -> Iterator[Product]:
     """Yield the tables of what was tried: `tuning` and `lengths`."""
+    settings = files.settings
     given = settings.trials, settings.methods
     tables = {
         "tuning": (*references(*given), *tuned(*given)),
         "lengths": tuple(of_lengths(*given, settings.learning.rate_first)),
     }
     for name, trials in tables.items():
-        yield _product(settings, files, files.results / "trials" / name, trials)
+        yield _product(files, files.results / "trials" / name, trials)
 
 
-def _product(settings: Settings, files: Files, out: Path, trials: Iterable[Trial]) -> Product:
+def _product(files: Files, out: Path, trials: Iterable[Trial]) -> Product:
     """Return the table of some trials, which runs all their networks on the development walks."""
-    tried = tuple(one for trial in trials for one in _tried(settings, files, trial))
+    settings = files.settings
+    tried = tuple(one for trial in trials for one in _tried(files, trial))
     recordings, residuals = files.development("recordings"), files.development("residuals")
     arguments = {
         "robot": settings.robot,
@@ -46,15 +47,15 @@ def _product(settings: Settings, files: Files, out: Path, trials: Iterable[Trial
     return Product(out.name, Job(call, tuple(inputs), tuple(kinds)), tuple(f"{out}.{ending}" for ending in TABLE))
 
 
-def _tried(settings: Settings, files: Files, trial: Trial) -> Iterator[Tried]:
+def _tried(files: Files, trial: Trial) -> Iterator[Tried]:
     """Yield a trial with each of its networks, or without any."""
-    source = settings.source_of(trial.name)
+    source = files.catalogue.source_of(trial.name)
     for seed in files.network_seeds(trial.name):
         yield Tried(
             trial.base,
             trial.name,
             dict(trial.changes),
-            {name: settings.method(name) for name in dict.fromkeys([trial.name, source])},
+            {name: files.catalogue.method(name) for name in dict.fromkeys([trial.name, source])},
             {limb: files.network(trial.name, limb, seed) for limb in trial.method.limbs},
             next(iter(files.fit(trial.name)), None),
             seed,

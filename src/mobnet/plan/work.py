@@ -50,7 +50,7 @@ def trained(files: Files, networks: Sequence[NetworkName]) -> tuple[Amounts, flo
     rate_hz = files.settings.rates.data_hz
     found, held = list[Amounts](), list[float]()
     for name in networks:
-        training = files.settings.training(name.method, name.limb)
+        training = files.catalogue.training(name.method, name.limb)
         network, hidden = training.network, training.network.hidden or 0
         ways = {"windows": training.learning.sequences == "windows", "spectral": network.spectral}
         cell = " ".join([network.cell, *(way for way, is_so in ways.items() if is_so)])
@@ -63,28 +63,28 @@ def trained(files: Files, networks: Sequence[NetworkName]) -> tuple[Amounts, flo
 
 def steps_of(files: Files, name: NetworkName) -> float:
     """Return the time steps that a network learns from, over all epochs."""
-    training = files.settings.training(name.method, name.limb)
+    training = files.catalogue.training(name.method, name.limb)
     read = training_s(files, training.network.data) * files.settings.rates.data_hz / training.learning.data_parts
     return training.epochs * (training.epoch_samples or read)
 
 
 def estimated(files: Files, scenario: str, level: str) -> tuple[Amounts, float]:
     """Return the work of all methods of a test at a level, and the seconds [s] that run side by side."""
-    settings, seconds = files.settings, files.settings.test_s(scenario)
+    catalogue, seconds = files.catalogue, files.settings.test_s(scenario)
     whole = seconds * len(files.test_seeds)
     found: list[Mapping[str, float]] = [{SECONDS: whole}]
-    for method in settings.tests[scenario][level]:
-        kind = settings.method(method).kind
+    for method in catalogue.tests[scenario][level]:
+        kind = catalogue.method(method).kind
         for seed in files.run_seeds(method, scenario, level):
-            steps = seconds * settings.rates.data_hz * len(files.networks(method, seed, scenario, level))
+            steps = seconds * files.settings.rates.data_hz * len(files.networks(method, seed, scenario, level))
             found.append({"run": 1.0, f"{kind} s": whole, f"{kind} step": steps})
     return total(found), max(seconds, min(whole, TOGETHER_S))
 
 
 def fitted(files: Files, method: str) -> tuple[Amounts, float]:
     """Return the work of a fit, which reads the training set of one limb after the other, and the longest set [s]."""
-    limbs = files.settings.method(method).fitted
-    read = [training_s(files, files.settings.network(method, limb).data) for limb in limbs]
+    limbs = files.catalogue.method(method).fitted
+    read = [training_s(files, files.catalogue.network(method, limb).data) for limb in limbs]
     return {SECONDS: sum(read)}, max(read)
 
 

@@ -15,9 +15,9 @@ from mobnet.settings.base import (
     LowerName,
     MethodName,
     Real,
+    ScenarioName,
     Section,
     Some,
-    TestName,
     Text,
     distinct,
 )
@@ -65,7 +65,7 @@ class Cell(Section):
     table: its `column` in the row that has the texts of `where`.
     """
 
-    scenario: TestName | None = None
+    scenario: ScenarioName | None = None
     level: LevelName | None = None
     method: MethodName | None = None
     joint: LimbOrJointName | Several[LimbOrJointName] | None = None

@@ -64,15 +64,15 @@ class Detection(Section):
     hold_s: base.Real = Field(ge=0.001, le=1)
     gate: SwingGate
     thresholds: Thresholds
-    collisions: base.TestName
-    sweep: base.TestName
-    place: base.TestName
-    random: base.TestName
+    collisions: base.PushedName
+    sweep: base.PushedName
+    place: base.QuietName
+    random: base.QuietName
     calibration_share: base.InnerShare
     late_s: base.NotNegative = Field(le=1)
     onset_n: base.Newton
     levels: base.Distinct[base.LevelName]
-    legs: base.Distinct[base.LimbName]
+    legs: base.Distinct[base.LegName]
     curve: CurveGrid
     sensitivity: Sensitivity
     detectors: Annotated[dict[base.RowName, Detector], Field(min_length=1)]

@@ -9,17 +9,17 @@ from mobnet.settings.base import Section
 class DetectorTable(Section):
     """Detectors on the collisions of a leg, by a rule of thresholds; `levels` are those at which they are tried."""
 
-    levels: base.Distinct[base.LevelName]
-    leg: base.LimbName
-    kind: base.LowerName
+    levels: base.Distinct[base.WatchedLevelName]
+    leg: base.WatchedLegName
+    kind: base.ThresholdsName
     detectors: base.Distinct[base.DetectorName]
 
 
 class AlarmTable(Section):
     """False alarms of detectors of a leg, by the rules of thresholds for wanted rates and by the paper's."""
 
-    levels: base.Distinct[base.LevelName]
-    leg: base.LimbName
+    levels: base.Distinct[base.WatchedLevelName]
+    leg: base.WatchedLegName
     detectors: base.Distinct[base.DetectorName]
 
 
@@ -29,7 +29,7 @@ class SmallestForce(DetectorTable):
     Laws of the found share have these forces for one half and these steepnesses on a log scale.
     """
 
-    kinds: base.Distinct[base.LowerName]
+    kinds: base.Distinct[base.ThresholdsName]
     share: base.InnerShare
     halves_n: base.Span[base.Positive]
     steepness: base.Span[base.Positive]
@@ -42,28 +42,28 @@ class Links(DetectorTable):
 class Figure13(Section):
     """Snapshots of collisions: the robot's level, the leg, and the cells, `<link> <direction>`."""
 
-    level: base.SingleLevelName
-    leg: base.LimbName
-    cells: base.Distinct[base.Text]
+    level: base.WatchedLevelName
+    leg: base.WatchedLegName
+    cells: base.Distinct[base.StruckName]
 
 
 class Figure14(Section):
     """Histograms of collisions."""
 
-    levels: base.Distinct[base.LevelName]
-    leg: base.LimbName
+    levels: base.Distinct[base.WatchedLevelName]
+    leg: base.WatchedLegName
     bins: base.Whole = Field(ge=2, le=200)
 
 
 class Figure15(Section):
     """Standard deviations around collisions: of these methods, whose detectors have the thresholds, at one joint."""
 
-    level: base.SingleLevelName
-    leg: base.LimbName
+    level: base.WatchedLevelName
+    leg: base.WatchedLegName
     joint: base.MotorName
-    cells: base.Distinct[base.Text]
+    cells: base.Distinct[base.StruckName]
     detectors: dict[base.MethodName, base.DetectorName]
-    kind: base.LowerName
+    kind: base.ThresholdsName
     before_s: base.NotNegative = Field(le=10)
     after_s: base.Positive = Field(le=10)
 
@@ -71,8 +71,8 @@ class Figure15(Section):
 class DetectionCurves(Section):
     """Found share and delay over the rate of false alarms, and the found share over the force."""
 
-    level: base.LevelName
-    leg: base.LimbName
-    kind: base.LowerName
+    level: base.WatchedLevelName
+    leg: base.WatchedLegName
+    kind: base.ThresholdsName
     detectors: base.Distinct[base.DetectorName]
     force_bins: base.Whole = Field(ge=2, le=100)

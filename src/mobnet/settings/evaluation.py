@@ -39,7 +39,7 @@ class PushWindow(Section):
 class Runs(Section):
     """Methods on one test at one level."""
 
-    scenario: base.TestName
+    scenario: base.ScenarioName
     level: base.LevelName
     methods: base.MethodNames
 
@@ -86,12 +86,10 @@ class ErrorTable(Section):
     rows: base.Some[ErrorRow]
 
 
-class BudgetRow(Section):
+class BudgetRow(Runs):
     """One method, the observer, at one level; `label` is what a table calls it."""
 
     label: base.Text
-    scenario: base.TestName
-    level: base.LevelName
     methods: tuple[base.MethodName]
 
 
@@ -119,8 +117,8 @@ class Table01(Section):
 class Figure05(Section):
     """Figure 5: one joint over a gait cycle, a panel for each method of each level."""
 
-    scenario: base.TestName
-    joint: base.JointName
+    scenario: base.ScenarioName
+    joint: base.LegJointName
     start_s: base.NotNegative = Field(le=3600)
     panels: Annotated[dict[base.LevelName, base.MethodNames], Field(min_length=1)]
 
@@ -128,7 +126,7 @@ class Figure05(Section):
 class Figure06(PushedRuns, PushWindow):
     """Figure 6: a step of torque on a swinging hip."""
 
-    joint: base.MotorName
+    joint: base.LegJointName
 
 
 class HandFigure(Runs):
@@ -141,18 +139,30 @@ class HandFigure(Runs):
 
 
 class GaitFigure(Runs):
-    """Figures 8 and 9: a limb over a gait cycle."""
+    """Figures 8 and 9: a leg over a gait cycle."""
 
-    limb: base.LimbName
+    limb: base.LegName
     start_s: base.NotNegative = Field(le=3600)
+
+
+class Figure08(GaitFigure):
+    """Figure 8: what the networks of one method predict."""
+
+    methods: tuple[base.LearnedName]
+
+
+class QuietRuns(Runs):
+    """Methods on one test that nothing pushes."""
+
+    scenario: base.QuietName
 
 
 class Figure10(PushWindow):
     """Figure 10: knee collisions; errors are increases over the walk that nothing pushes."""
 
-    joint: base.MotorName
+    joint: base.LegJointName
     tests: Annotated[dict[base.Text, PushedRuns], Field(min_length=1)]
-    against: Runs
+    against: QuietRuns
 
 
 class Figure17(Section):
@@ -176,7 +186,7 @@ class Figure18(Section):
     level: base.LevelName
     limbs: base.Distinct[base.LimbName]
     methods: base.MethodNames
-    panels: Annotated[dict[base.TestName, base.Text], Field(min_length=1)]
+    panels: Annotated[dict[base.ScenarioName, base.Text], Field(min_length=1)]
 
 
 class Figure19(Section):
@@ -213,7 +223,7 @@ class LearningCurve(Section):
 class CoverageTest(Section):
     """A test that the training data are compared with; `pushed`: only samples around pushes that turn this joint."""
 
-    scenario: base.TestName
+    scenario: base.ScenarioName
     level: base.LevelName
     pushed: base.MotorName | None = None
 
@@ -221,6 +231,7 @@ class CoverageTest(Section):
 class AmplitudeTest(Runs):
     """A test of networks that learned with random torques of different size; `joint` may be `avg`, the limb's mean."""
 
+    methods: base.Distinct[base.LearnedName]
     limb: base.LimbName
     joint: base.Text
     metric: Metric = "rmse"
@@ -271,7 +282,7 @@ class Coverage(Section):
 class CalibrationTest(CoverageTest):
     """A test of the standard deviations; limbs: those whose training set is like the test."""
 
-    methods: base.MethodNames
+    methods: base.Distinct[base.LearnedName]
     limbs: base.Distinct[base.LimbName]
 
 
@@ -280,7 +291,7 @@ class CalibrationTable(Section):
 
     tolerance: base.Real = Field(ge=0.001, le=0.5)
     points: base.Whole = Field(ge=3, le=1000)
-    methods: base.MethodNames
+    methods: base.Distinct[base.LearnedName]
     tests: base.Some[CalibrationTest]
 
 
@@ -290,30 +301,54 @@ class LimbRuns(Runs):
     limbs: base.Distinct[base.LimbName]
 
 
+class PushedLimbRuns(LimbRuns):
+    """The same of a test that has pushes."""
+
+    scenario: base.PushedName
+
+
+class LegRuns(LimbRuns):
+    """The same of legs."""
+
+    limbs: base.Distinct[base.LegName]
+
+
+class LearnedRuns(LimbRuns):
+    """The same of methods that predict standard deviations."""
+
+    methods: base.Distinct[base.LearnedName]
+
+
 class Peaks(Section):
     """Peak ratio and delay of the rise under pushes, at joints that take a share of the largest torque, or more."""
 
     turned_share: base.PositiveShare
     after_s: base.NotNegative = Field(le=10)
     longest_s: base.Real = Field(ge=0.01, le=10)
-    tests: base.Some[LimbRuns]
+    tests: base.Some[PushedLimbRuns]
 
 
 class Bode(Runs):
     """Gain and phase: bands of frequency, in each of which every joint of a limb is driven at one line."""
 
-    limb: base.LimbName
+    limb: base.LegName
     bands_hz: base.Rising[base.Positive]
 
 
-class Drift(Section):
-    """How long pushes are held: a limb's estimate over the time since a push began, in bins."""
+class HeldRuns(Runs):
+    """Methods on one test with pushes that last."""
 
-    limb: base.LimbName
+    scenario: base.PushedName
+
+
+class Drift(Section):
+    """How long pushes are held: a leg's estimate over the time since a push began, in bins."""
+
+    limb: base.LegName
     bin_s: base.Real = Field(ge=0.01, le=10)
     longest_s: base.Real = Field(ge=0.1, le=60)
     calm_s: base.NotNegative = Field(le=10)
-    tests: Annotated[dict[base.Text, Runs], Field(min_length=1)]
+    tests: Annotated[dict[base.Text, HeldRuns], Field(min_length=1)]
 
 
 class Phases(Section):
@@ -333,7 +368,7 @@ class Sigma(Section):
     parts: base.Whole = Field(ge=2, le=100)
     lags_ms: base.Rising[Annotated[base.Whole, Field(ge=1, le=60_000)]]
     longest_s: base.Real = Field(ge=0.01, le=60)
-    tests: Annotated[dict[base.Text, LimbRuns], Field(min_length=1)]
+    tests: Annotated[dict[base.Text, LearnedRuns], Field(min_length=1)]
     against: dict[base.Text, base.Text]
 
 
@@ -348,7 +383,7 @@ class Changed(Section):
     lift_off_s: base.NotNegative = Field(le=1)
     landing_s: base.NotNegative = Field(le=1)
     least_share: base.PositiveShare
-    tests: Annotated[dict[base.Text, LimbRuns], Field(min_length=1)]
+    tests: Annotated[dict[base.Text, LegRuns], Field(min_length=1)]
 
 
 class Measure(Section):
@@ -407,7 +442,7 @@ class Uncertainty(Section):
 class Latency(Section):
     """The table of latency: stretches of ticks of a method's networks."""
 
-    method: base.MethodName
+    method: base.LearnedName
     stretches: base.Whole = Field(ge=2, le=1000)
     ticks: base.Whole = Field(ge=10, le=100_000)
 
@@ -422,7 +457,7 @@ class Evaluation(Section):
     """All tables and figures."""
 
     statistics: Statistics
-    windows: dict[base.TestName, PushWindow]
+    windows: dict[base.PushedName, PushWindow]
     table_01: Table01
     tables: dict[base.LowerName, ErrorTable]
     error_budget: ErrorBudget
@@ -430,7 +465,7 @@ class Evaluation(Section):
     figure_05: Figure05
     figure_06: Figure06
     figure_07: HandFigure
-    figure_08: GaitFigure
+    figure_08: Figure08
     figure_09: GaitFigure
     figure_10: Figure10
     figure_12: HandFigure

@@ -1,36 +1,26 @@
 """The configuration as one robot of the fleet has it."""
 
-from collections.abc import Mapping
 from typing import Any
 
+from mobnet.settings.catalogue import ByTest, Catalogue, Names
 from mobnet.settings.plant import Level
 from mobnet.settings.scales import Experiment
-from mobnet.settings.settings import Settings
 from mobnet.settings.surrogate import Fleet, SurrogateRobot, Variant
 
 FIRST_SEED = 101  # of the networks of the fleet's robots, one for each: their names differ from all others
 
 
-def levels_of(fleet: Fleet) -> tuple[str, ...]:
-    """Return the levels at which each robot of a fleet walks: as it is, and changed."""
-    return (fleet.name, *fleet.variants)
-
-
-def level_of(fleet: Fleet, robot: str, level: str) -> str:
-    """Return the level of one robot at a level of its fleet, or at its own."""
-    return robot if level in (fleet.name, robot) else f"{robot}_{level}"
-
-
-def as_robot(settings: Settings, robot: str) -> Settings:
+def as_robot(catalogue: Catalogue, robot: str) -> Catalogue:
     """Return the configuration of a robot of the fleet: its tests, training sets and experiments, and its variants."""
+    settings = catalogue.settings
     fleet, index = settings.fleet, settings.fleet.robots.index(robot)
     following = fleet.robots[(index + 1) % len(fleet.robots)]
     levels = {
-        level_of(fleet, robot, name): varied(settings.levels[following if row.other else robot], row)
+        fleet.level_of(robot, name): varied(settings.levels[following if row.other else robot], row)
         for name, row in fleet.variants.items()
     }
     rows = {name: settings.training_sets[other] for name, other in fleet.sets.items()}
-    sets = {name: row.model_copy(update={"level": level_of(fleet, robot, row.level)}) for name, row in rows.items()}
+    sets = {name: row.model_copy(update={"level": fleet.level_of(robot, row.level)}) for name, row in rows.items()}
     lengths = {**settings.sizes.experiments, **settings.sizes.robots}
     experiments = {
         name: Experiment(epochs=row.epochs, epoch_samples=row.epoch_samples, seeds=(FIRST_SEED + index,))
@@ -41,13 +31,11 @@ def as_robot(settings: Settings, robot: str) -> Settings:
     changed: dict[str, Any] = {
         "levels": {**settings.levels, **levels},
         "training_sets": sets,
-        "tests": _own(settings, settings.tests, robot),
-        "estimated_limbs": _own(settings, settings.estimated_limbs, robot),
         "scales": {settings.scale: sizes},
         "fleet": fleet.model_copy(update={"robots": ()}),
     }
-    # not `model_copy`, which would keep what has been worked out of the sections that change
-    return Settings.model_construct(**{**dict(settings), **changed})
+    own = _own(fleet, catalogue.tests, robot), _own(fleet, catalogue.limbs, robot)
+    return Catalogue(settings.model_copy(update=changed), own)
 
 
 def varied(level: Level, row: Variant) -> Level:
@@ -60,16 +48,15 @@ def varied(level: Level, row: Variant) -> Level:
     return level.model_copy(update={"surrogate": changed, "friction": row.friction})
 
 
-def _own(settings: Settings, section: Mapping[str, Mapping[str, Any]], robot: str) -> dict[str, dict[str, Any]]:
-    """Return of a section scenario -> level -> names the scenarios that the robot walks, at its own levels.
+def _own(fleet: Fleet, named: ByTest, robot: str) -> ByTest:
+    """Return the methods or limbs of the tests that a robot walks, at its own levels.
 
     What stands at the robot's own level adds to what the whole fleet has.
     """
-    fleet, found = settings.fleet, dict[str, dict[str, Any]]()
-    for scenario, rows in section.items():
-        for name in (*levels_of(fleet), robot):
+    found = dict[str, dict[str, Names]]()
+    for scenario, rows in named.items():
+        for name in (*fleet.levels, robot):
             if name in rows:
-                own = found.setdefault(scenario, {})
-                level = level_of(fleet, robot, name)
+                own, level = found.setdefault(scenario, {}), fleet.level_of(robot, name)
                 own[level] = tuple(dict.fromkeys([*own.get(level, ()), *rows[name]]))
     return found

@@ -12,6 +12,7 @@ from pydantic import ValidationError
 
 from mobnet.core.errors import ConfigError
 from mobnet.settings.base import Section
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.robot import robot_problems
 from mobnet.settings.checks.sections import inconsistencies, refused_changes, unknown_names
 from mobnet.settings.claims import place_of, spelt_out
@@ -32,8 +33,7 @@ PARTS: Mapping[str, tuple[str, ...]] = {  # file -> the sections that stand in i
     ),
     "networks": ("networks", "learning"),
     "methods": ("observer", "methods", "sweeps"),
-    "tests": ("development", "tests", "estimated_limbs"),
-    "trials": ("trials",),
+    "trials": ("development", "trials"),
     "detection": ("detection",),
     "evaluation": ("evaluation",),
     "scales": ("scales",),
@@ -161,21 +161,21 @@ def _checked(values: Mapping[str, Any], sources: Sources, further: Check | None)
     except ValidationError as error:
         found = problems(error, Settings, {**values, "claims": spelt_out(values.get("claims"))})
         raise ConfigError(_lines(sources.told(place, text) for place, text in found)) from None
-    wrong = [(("robot", *place), text) for place, text in robot_problems(settings.robot)] + list(
-        unknown_names(settings)
-    )
+    catalogue = Catalogue(settings)
+    wrong: list[Problem] = [(("robot", *place), text) for place, text in robot_problems(settings.robot)]
+    wrong += unknown_names(catalogue)
     if not wrong:  # only then can what they name be looked up
-        wrong = list(_changes(settings))
+        wrong = list(_changes(catalogue))
     if not wrong:
-        wrong = [*inconsistencies(settings), *(further(settings) if further else ())]
+        wrong = [*inconsistencies(catalogue), *(further(settings) if further else ())]
     if wrong:
         raise ConfigError(_lines(sources.told(place, text) for place, text in wrong))
     return settings
 
 
-def _changes(settings: Settings) -> Iterator[Problem]:
+def _changes(catalogue: Catalogue) -> Iterator[Problem]:
     """Yield what methods change of other sections and may not."""
-    for place, section, given, error in refused_changes(settings):
+    for place, section, given, error in refused_changes(catalogue):
         for inner, text in problems(error, section, given):
             yield place if place[0] == "sweeps" else (*place, *inner), text  # there the key is the sweep's own name
 

@@ -47,3 +47,8 @@ class Sweep(Section):
     experiment: base.ExperimentName
     section: Literal["network", "learning"]
     values: base.Rising[base.Count]
+
+
+def swept_name(base: str, key: str, value: int) -> str:
+    """Return the name of the method that stands for one value of a sweep."""
+    return f"{base}-{key.replace('_', '-')}-{value}"

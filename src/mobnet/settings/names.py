@@ -1,18 +1,16 @@
 """Names in a section that must exist elsewhere: found by the marks of the fields that hold them."""
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from itertools import product
 from types import NoneType, UnionType
 from typing import Annotated, Any, Union, cast, get_args, get_origin
 
 from pydantic import BaseModel
 
 from mobnet.core.errors import not_accepted
-from mobnet.settings.base import Named, Section
+from mobnet.settings.base import Named
 from mobnet.settings.reading import Place
 
 Use = tuple[Place, str, str]  # place, kind of name, name
-TESTS = ("test", "test with a window around pushes")  # kinds of names that are tests
 
 
 def unknown(found: Iterable[Use], accepted: Mapping[str, Collection[str]]) -> Iterator[tuple[Place, str]]:
@@ -20,21 +18,6 @@ def unknown(found: Iterable[Use], accepted: Mapping[str, Collection[str]]) -> It
     for place, kind, name in found:
         if name not in accepted[kind]:
             yield place, not_accepted(kind, name, accepted[kind])
-
-
-def shown_in(value: object) -> Iterator[tuple[str, str]]:
-    """Yield test and level of the runs that sections show: those that one section names, each test at each level.
-
-    A section that holds others with tests shows theirs.
-    """
-    if isinstance(value, dict | tuple):
-        items = cast("dict[object, object] | tuple[object, ...]", value)
-        for item in items.values() if isinstance(items, dict) else items:
-            yield from shown_in(item)
-    elif isinstance(value, Section):
-        named = list(uses(value, type(value)))
-        tests, levels = ([name for _, kind, name in named if kind in kinds] for kinds in (TESTS, ("level",)))
-        yield from list(shown_in(tuple(vars(value).values()))) or product(tests, levels)
 
 
 def uses(value: Any, kind: Any, place: Place = ()) -> Iterator[Use]:

@@ -84,9 +84,10 @@ class RobotTable(Section):
     def accepted_names(self) -> dict[str, Collection[str]]:
         """Kind of name -> the names that exist on the robot."""
         order = self.order
-        joints = (*order.virtual, *order.actuated)
+        joints, legs = (*order.virtual, *order.actuated), [foot.limb for foot in self.feet.values()]
         return {
             "joint": joints, "motor": order.actuated, "limb": self.groups, "limb or joint": (*self.groups, *joints),
+            "leg": legs, "joint of a leg": [joint for limb in legs for joint in self.groups.get(limb, ())],
             "body": [body.name for body in self.bodies], "tone": self.tones,
             "network of the robot": self.networks,
             "point": [

@@ -139,3 +139,12 @@ class Fleet(Section):
     robots: Distinct[SingleLevelName]
     sets: dict[TrainingSetName, TrainingSetName]
     variants: dict[LowerName, Variant]
+
+    @property
+    def levels(self) -> tuple[str, ...]:
+        """The levels at which each robot walks: as it is, and changed."""
+        return (self.name, *self.variants)
+
+    def level_of(self, robot: str, level: str) -> str:
+        """Return the level of one robot at a level of the fleet, or at its own."""
+        return robot if level in (self.name, robot) else f"{robot}_{level}"

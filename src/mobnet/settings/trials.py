@@ -23,7 +23,7 @@ class Grid(Section):
 class Tuning(Section):
     """What is tried for each method, all of them in trainings of one length, and methods beside which they stand."""
 
-    references: base.MethodNames
+    references: base.Distinct[base.PlainName]
     experiment: base.ExperimentName
     grids: dict[base.MethodName, Grid]
 
@@ -31,7 +31,7 @@ class Tuning(Section):
 class Lengths(Section):
     """Methods whose networks are trained at each length, and with each of some shares of their first learning rate."""
 
-    methods: base.MethodNames
+    methods: base.Distinct[base.LearnedName]
     experiments: base.Distinct[base.ExperimentName]
     rate_shares: base.Distinct[base.PositiveShare]
 

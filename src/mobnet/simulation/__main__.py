@@ -16,6 +16,7 @@ from mobnet.core.code import ROOT
 from mobnet.core.errors import ConfigError, DrawingError, MobnetError, not_accepted
 from mobnet.plan.jobs import walk_settings
 from mobnet.running.environment import quieten
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.sections import accepted_names
 from mobnet.settings.load import CONFIGS, load_settings
 from mobnet.settings.settings import Settings
@@ -122,7 +123,7 @@ def _settings(options: argparse.Namespace) -> Settings:
         raise ConfigError(not_accepted("--level", options.level, settings.levels))
     if options.terrain is None:
         return settings
-    accepted = accepted_names(settings)["terrain"]
+    accepted = accepted_names(Catalogue(settings))["terrain"]
     if options.terrain not in accepted:
         raise ConfigError(not_accepted("--terrain", options.terrain, accepted))
     # not by an override, which is refused where a scenario draws as another one does

@@ -15,6 +15,7 @@ from mobnet.estimation.kinds.friction import FittedFriction, FrictionModel, Opti
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.recipe import Recipe
 from mobnet.estimation.regression import TERMS
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.settings import Settings
 from mobnet.simulation.friction import PlantFriction, friction_torque, make_friction
 
@@ -113,7 +114,7 @@ def test_load_needs_a_limb_whose_network_sees_the_torque(
     """Section 4.2.2: load-dependent friction in the legs alone."""
     pair, layout, limbs = write_pair(tmp_path, made_up(3, 1.0)), settings.layout, ("LA", "LL")
     options = Options(terms=("coulomb", "load"), smoothing_rad_s=0.02, stribeck_rad_s=(0.1, 0.3))
-    networks = {limb: settings.network("MOB-fric", limb) for limb in limbs}
+    networks = {limb: Catalogue(settings).network("MOB-fric", limb) for limb in limbs}
     found = fit(layout, settings.observer, options, networks, {limb: [pair] for limb in limbs})
     joints = found["joints"]
     assert found["smoothing_rad_s"] == 0.02

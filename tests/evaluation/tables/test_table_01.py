@@ -8,6 +8,7 @@ import pytest
 from csv_files import check_golden, read_table
 
 from mobnet.evaluation.tables.paper.table_01 import tex_symbols
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.settings import Settings
 
 
@@ -16,9 +17,11 @@ def rows_of(make_table: Callable[..., Path], settings: Settings) -> Callable[...
     """Return a function of changes of the left leg's network that makes the rows of the repository's Table 1."""
 
     def rows(**changes: Any) -> list[Any]:
-        networks = {limb: settings.network("MOB-Net", limb) for limb in settings.published.table_01.rows}
+        networks = {limb: Catalogue(settings).network("MOB-Net", limb) for limb in settings.published.table_01.rows}
         networks["LL"] = networks["LL"].model_copy(update=changes)
-        return read_table(make_table("table_01", networks=networks, target=settings.method("MOB-Net").target))
+        return read_table(
+            make_table("table_01", networks=networks, target=Catalogue(settings).method("MOB-Net").target)
+        )
 
     return rows
 

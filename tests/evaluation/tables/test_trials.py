@@ -13,6 +13,7 @@ from mobnet.core.recording import Recording
 from mobnet.core.store import read_array
 from mobnet.evaluation.tables.further.trials import is_best, trials
 from mobnet.plan.runs import Tried
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.settings import Settings
 from mobnet.settings.trials import tuned
 
@@ -25,14 +26,18 @@ def made(
 ) -> tuple[Path, list[tuple[Path, Path]]]:
     """The table of the zero predictor and of the observer, and the walks that they ran on."""
     pairs = [write_pair(tmp_path, made_up(seed, 0.3)) for seed in (1, 2)]
-    tried = [Tried(name, name, {}, {name: settings.method(name)}, {}, None, 0) for name in ("zero", "MOB")]
+    tried = [Tried(name, name, {}, {name: Catalogue(settings).method(name)}, {}, None, 0) for name in ("zero", "MOB")]
     for change in (1.0, 2.0):
-        row = settings.method("MOB-Kalman").model_copy(
-            update={"of": "MOB", "options": {"momentum_nms": 1.0, "walk_nm": 1e5 * change}}
+        row = (
+            Catalogue(settings)
+            .method("MOB-Kalman")
+            .model_copy(update={"of": "MOB", "options": {"momentum_nms": 1.0, "walk_nm": 1e5 * change}})
         )
         name = f"K-{change}"
         tried.append(
-            Tried("K", name, {"walk_nm": 1e5 * change}, {name: row, "MOB": settings.method("MOB")}, {}, None, 0)
+            Tried(
+                "K", name, {"walk_nm": 1e5 * change}, {name: row, "MOB": Catalogue(settings).method("MOB")}, {}, None, 0
+            )
         )
     level = settings.levels["all_uncertainty"]
     known = settings.robot, level, settings.plant.gravity_m_s2, settings.observer

@@ -1,7 +1,7 @@
 """What must hold for terrains, commands, motions, pushes, scenarios and training sets."""
 
 from collections.abc import Iterator
-from itertools import combinations, pairwise, product
+from itertools import pairwise, product
 from math import isclose
 from typing import cast
 
@@ -21,19 +21,9 @@ def data_problems(settings: Settings) -> Iterator[Problem]:
     """Yield what does not fit in the sections of data."""
     for check in (_terrain_problems, _command_problems, _torque_problems, _motion_problems, _push_problems):
         yield from check(settings)
-    yield from _copy_problems(settings)
     for name, row in settings.scenarios.items():
         yield from (((("scenarios", name, *place)), text) for place, text in _scenario_problems(settings, name, row))
     yield from _set_problems(settings)
-
-
-def _copy_problems(settings: Settings) -> Iterator[Problem]:
-    """Yield rows that say the same under two names: one of them was copied and not changed."""
-    for section in ("levels", "pushes", "scenarios"):
-        rows = getattr(settings, section)
-        for (first, row), (name, other) in combinations(rows.items(), 2):
-            if row == other:
-                yield (section, name), misfit(f"what {first} says too", "a row that differs from all others")
 
 
 def _terrain_problems(settings: Settings) -> Iterator[Problem]:

@@ -3,58 +3,50 @@
 from collections.abc import Iterator
 
 from mobnet.core.errors import misfit, not_accepted
-from mobnet.settings.methods import Method
+from mobnet.settings.catalogue import Catalogue
+from mobnet.settings.methods import Method, swept_name
 from mobnet.settings.networks import Cell, Learning, Network
 from mobnet.settings.reading import Place
-from mobnet.settings.settings import Settings, swept_name
-from mobnet.settings.trials import combinations
+from mobnet.settings.settings import Settings
 
 Problem = tuple[Place, str]
 
 
-def learning_problems(settings: Settings) -> Iterator[Problem]:
+def learning_problems(catalogue: Catalogue) -> Iterator[Problem]:
     """Yield what does not fit in networks, methods and sweeps."""
+    settings = catalogue.settings
     learning = settings.learning
     if learning.calibration_share not in learning.calibration_levels:
         text = misfit(learning.calibration_share, f"one of calibration_levels, {list(learning.calibration_levels)}")
         yield ("learning", "calibration_share"), text
     for name, method in settings.methods.items():
-        for place, text in _method_problems(settings, name, method):
+        for place, text in _method_problems(catalogue, name, method):
             yield ("methods", name, *place), text
     for limb in settings.networks:
-        yield from _window_problems(settings, limb)
-    yield from _trial_problems(settings)
+        yield from _window_problems(catalogue, limb)
+    yield from _trial_problems(catalogue)
     yield from _name_problems(settings)
     yield from _sweep_problems(settings)
 
 
-def _trial_problems(settings: Settings) -> Iterator[Problem]:
-    """Yield trials of methods that do not learn, unequal numbers of trials, and development walks that are tests."""
+def _trial_problems(catalogue: Catalogue) -> Iterator[Problem]:
+    """Yield trials of how a method learns that does not, and development walks that are tests."""
+    settings = catalogue.settings
     grids, place = settings.trials.tuning.grids, ("trials", "tuning", "grids")
-    most = max((len([*combinations(grid)]) for grid in grids.values()), default=0)
     for name, grid in grids.items():
         if grid.learning and name in settings.methods and not settings.methods[name].limbs:
             accepted = "`options` of a method without networks"
             yield (*place, name, "learning"), misfit("`learning`", accepted)
-        if (count := len([*combinations(grid)])) != most:
-            yield (*place, name), misfit(f"{count} combinations", f"{most}, as many as other methods have")
-    learned = [name for name, method in settings.methods.items() if method.limbs]
-    others = [name for name in settings.methods if name not in learned]
-    for index, name in enumerate(settings.trials.tuning.references):
-        if name in learned:
-            yield ("trials", "tuning", "references", index), not_accepted("method without networks", name, others)
-    for index, name in enumerate(settings.trials.lengths.methods):
-        if name in settings.methods and name not in learned:
-            yield ("trials", "lengths", "methods", index), not_accepted("method with networks", name, learned)
     walked = settings.development.scenario
-    taken = {*settings.tests, *(row.scenario for row in settings.training_sets.values())}
+    taken = {*catalogue.tests, *(row.scenario for row in settings.training_sets.values())}
     if walked in taken:
         accepted = [name for name in settings.scenarios if name not in taken]
         yield ("development", "scenario"), not_accepted("scenario apart from tests and training", walked, accepted)
 
 
-def _method_problems(settings: Settings, name: str, method: Method) -> Iterator[Problem]:
+def _method_problems(catalogue: Catalogue, name: str, method: Method) -> Iterator[Problem]:
     """Yield keys of a method that do not go together."""
+    settings = catalogue.settings
     if bool(method.limbs) != (method.target is not None):
         yield (), misfit("`target` or `limbs` alone", "both together, or none of them")
     for key in ("network", "learning"):
@@ -64,7 +56,7 @@ def _method_problems(settings: Settings, name: str, method: Method) -> Iterator[
         yield ("of",), misfit(method.of, "another method, without `fitted` of its own")
     if method.of in settings.methods and method.limbs and not settings.methods[method.of].fitted:
         yield ("of",), misfit(method.of, "a method with `fitted`, for one with `limbs` of its own")
-    yield from _tuning_problems(settings, name, method)
+    yield from _tuning_problems(catalogue, name, method)
     robot = settings.robot
     for index, limb in enumerate(method.fitted):
         if not set(robot.order.actuated).intersection(settings.layout.limbs(robot.networks[limb].joints)):
@@ -79,8 +71,9 @@ def _method_problems(settings: Settings, name: str, method: Method) -> Iterator[
                 break
 
 
-def _tuning_problems(settings: Settings, name: str, method: Method) -> Iterator[Problem]:
+def _tuning_problems(catalogue: Catalogue, name: str, method: Method) -> Iterator[Problem]:
     """Yield methods that are fine-tuned from other networks, or learn from swings with nothing to start from."""
+    settings = catalogue.settings
     first, swings = settings.methods.get(method.start or ""), method.learning.get("labels") == "swing"
     if swings and (first is None or method.target != "uncertainty"):
         yield ("learning", "labels"), misfit("swing", "`labels: swing` of a method with `start` and target uncertainty")
@@ -92,7 +85,7 @@ def _tuning_problems(settings: Settings, name: str, method: Method) -> Iterator[
         if limb not in first.limbs:
             yield ("start",), misfit(method.start, f"a method that trains {limb}")
             continue
-        own, other = (settings.network(row, limb) for row in (name, str(method.start)))
+        own, other = (catalogue.network(row, limb) for row in (name, str(method.start)))
         differs = any(getattr(own, key) != getattr(other, key) for key in Cell.model_fields)
         if own.cell != "GRU" or own.spectral or differs:
             yield ("start",), misfit(method.start, f"a method with the same GRU for {limb}, without `spectral`")
@@ -102,10 +95,11 @@ def _tuning_problems(settings: Settings, name: str, method: Method) -> Iterator[
             yield ("learning", "labels"), misfit("swing", "`labels: swing` of networks of one leg")
 
 
-def _window_problems(settings: Settings, limb: str) -> Iterator[Problem]:
+def _window_problems(catalogue: Catalogue, limb: str) -> Iterator[Problem]:
     """Yield windows that are longer than what a network is trained on at once, by the methods that train it."""
+    settings = catalogue.settings
     rows = {("networks", limb): settings.networks[limb]} | {
-        ("methods", name, "network"): settings.network(name, limb)
+        ("methods", name, "network"): catalogue.network(name, limb)
         for name, method in settings.methods.items()
         if limb in method.limbs
     }

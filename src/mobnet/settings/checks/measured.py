@@ -16,10 +16,6 @@ MS = 1000.0
 def measured_problems(results: Results) -> Iterator[Problem]:
     """Yield what does not fit in the sections of measures and in the table of methods."""
     evaluation = results.settings.evaluation
-    for name in ("bode", "drift"):
-        limb = getattr(evaluation, name).limb
-        if limb not in results.legs:
-            yield (*ROOT, name, "limb"), not_accepted("leg", limb, results.legs)
     yield from _push_problems(results)
     yield from _learned_problems(results)
     yield from _line_problems(results)
@@ -40,19 +36,8 @@ def measured_problems(results: Results) -> Iterator[Problem]:
 
 
 def _push_problems(results: Results) -> Iterator[Problem]:
-    """Yield tests of pushes without any, and bins that are longer than the time that is looked at."""
+    """Yield bins that are longer than the time that is looked at, and a time that is longer than the pushes."""
     settings, evaluation = results.settings, results.settings.evaluation
-    pushed = [name for name in settings.tests if settings.scenarios[name].pushes]
-    shown: list[tuple[Place, str]] = [
-        *((("peaks", "tests", k, "scenario"), test.scenario) for k, test in enumerate(evaluation.peaks.tests)),
-        *((("drift", "tests", title, "scenario"), test.scenario) for title, test in evaluation.drift.tests.items()),
-    ]
-    for place, scenario in shown:
-        if scenario not in pushed:
-            yield (*ROOT, *place), not_accepted("test with pushes", scenario, pushed)
-    quiet, against = [name for name in settings.tests if name not in pushed], evaluation.figure_10.against.scenario
-    if against not in quiet:
-        yield (*ROOT, "figure_10", "against", "scenario"), not_accepted("test without pushes", against, quiet)
     for test in evaluation.drift.tests.values():
         longest = max(
             (settings.pushes[name].duration_s[1] for name in settings.scenarios[test.scenario].pushes), default=0.0
@@ -68,18 +53,8 @@ def _push_problems(results: Results) -> Iterator[Problem]:
 
 
 def _learned_problems(results: Results) -> Iterator[Problem]:
-    """Yield methods without networks where networks are timed or drawn, and trials that there are not."""
+    """Yield a learning curve of trials that there are not."""
     settings, evaluation = results.settings, results.settings.evaluation
-    shown: list[tuple[Place, str]] = [(("latency", "method"), evaluation.latency.method)]
-    shown += [(("figure_08", "methods", k), name) for k, name in enumerate(evaluation.figure_08.methods)]
-    shown += [
-        (("amplitude", "tests", title, "methods", k), name)
-        for title, test in evaluation.amplitude.tests.items()
-        for k, name in enumerate(test.methods)
-    ]
-    for place, method in shown:
-        if text := results.not_learned(method):
-            yield (*ROOT, *place), text
     joints = results.layout.limbs(settings.robot.networks[settings.trials.limb].joints)
     data = evaluation.learning_curve.data
     if not re.fullmatch(r"docs/trials/[a-z0-9_]+\.csv", data):
@@ -113,7 +88,7 @@ def _line_problems(results: Results) -> Iterator[Problem]:
 
 
 def _sigma_problems(results: Results) -> Iterator[Problem]:
-    """Yield lags that are not looked at, names of tests that there are not, and methods without standard deviations."""
+    """Yield lags that are not looked at, and names of tests that there are not."""
     sigma = results.settings.evaluation.sigma
     if sigma.lags_ms[-1] > sigma.longest_s * MS:
         yield (*ROOT, "sigma", "lags_ms"), misfit(sigma.lags_ms[-1], f"at most longest_s, {sigma.longest_s * MS:g} ms")
@@ -124,19 +99,12 @@ def _sigma_problems(results: Results) -> Iterator[Problem]:
                 yield (*ROOT, "sigma", "against", title), not_accepted("test of sigma", name, names)
         if title == base:
             yield (*ROOT, "sigma", "against", title), misfit(base, "another test of sigma than itself")
-    for title, test in sigma.tests.items():
-        for k, method in enumerate(test.methods):
-            if text := results.not_learned(method):
-                yield (*ROOT, "sigma", "tests", title, "methods", k), text
 
 
 def _changed_problems(results: Results) -> Iterator[Problem]:
-    """Yield limbs that do not swing, and windows that no recording is long enough for."""
+    """Yield windows that no recording is long enough for."""
     settings, changed = results.settings, results.settings.evaluation.changed
-    for title, test in changed.tests.items():
-        for k, limb in enumerate(test.limbs):
-            if limb not in results.legs:
-                yield (*ROOT, "changed", "tests", title, "limbs", k), not_accepted("leg", limb, results.legs)
+    for test in changed.tests.values():
         longest = min(settings.test_s(test.scenario), settings.recording.episode_s)
         if changed.window_s > longest:
             text = misfit(changed.window_s, f"at most {longest:g}, for {test.scenario} lasts so long")

@@ -1,6 +1,6 @@
 """What the configuration will have results of: runs, scores, estimated joints, trainings and pushes."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -8,11 +8,13 @@ from mobnet.core.columns import CALIBRATION, COVERAGE, DETECTION, ERRORS, KINDS,
 from mobnet.core.errors import not_accepted
 from mobnet.core.joints import JointLayout, right_of, with_image
 from mobnet.core.metrics import metric_of
+from mobnet.settings.asked import tests_in
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.robot import joints_above
 from mobnet.settings.claims import Cell
 from mobnet.settings.evaluation import Mean
-from mobnet.settings.names import uses
-from mobnet.settings.settings import Settings, swept_name
+from mobnet.settings.methods import swept_name
+from mobnet.settings.settings import Settings
 
 TABLES = {  # that are no entry of `tables` -> their columns
     **dict.fromkeys(("table_09", "table_13", "false_alarms", "smallest_force", "links"), DETECTION),
@@ -26,7 +28,12 @@ PUSHED, PUSH, RAW = "rmse_pushed", "rmse_push_", "_raw"  # metrics of windows ar
 class Results:
     """Answers of the configuration about results; each `not_...` returns what is wrong, empty where nothing is."""
 
-    settings: Settings
+    catalogue: Catalogue
+
+    @property
+    def settings(self) -> Settings:
+        """The configuration."""
+        return self.catalogue.settings
 
     @cached_property
     def layout(self) -> JointLayout:
@@ -58,23 +65,16 @@ class Results:
             name for column in columns for name in (self.joints(column) if isinstance(column, str) else (column.name,))
         ]
 
-    def not_run(self, scenario: str, level: str, method: str) -> str:
-        """Return what is wrong with a run of a method, or of any where that is empty."""
-        levels = self.settings.tests[scenario]
-        if level not in levels:
-            return not_accepted(f"level of test {scenario}", level, levels)
-        if method and method not in levels[level]:
-            return not_accepted(f"method of test {scenario}, {level}", method, levels[level])
-        return ""
-
     def not_scored(self, scenario: str, metric: str) -> str:
         """Return what is wrong with a metric of a test: pushes need a window, and there are only so many."""
         windows = self.settings.evaluation.windows
         if metric.startswith(PUSHED[:9]) and scenario not in windows:
             return not_accepted("test with a window around pushes", scenario, windows)
-        section = metric_of(metric).section
-        if section and scenario not in (tests := self._tests.get(section, [])):
-            return not_accepted(f"test of section {section}", scenario, tests)
+        if section := metric_of(metric).section:
+            measured = self.settings.evaluation.measured
+            tests = [test for test, _ in tests_in(self.settings, measured[section])] if section in measured else []
+            if scenario not in tests:
+                return not_accepted(f"test of section {section}", scenario, tests)
         timed = [self.settings.pushes[name].at_s for name in self.settings.scenarios[scenario].pushes]
         if metric.startswith(PUSH) and None not in timed:
             count = sum(len(times) for times in timed if times)
@@ -82,28 +82,14 @@ class Results:
                 return not_accepted("metric", metric, [f"{PUSH}{k + 1}" for k in range(count)])
         return ""
 
-    @cached_property
-    def _tests(self) -> dict[str, list[str]]:
-        """The tests that each section of the evaluation with metrics of its own names."""
-        return {
-            section: sorted({name for _, kind, name in uses(value, type(value)) if kind == "test"})
-            for section, value in self.settings.evaluation.measured.items()
-        }
-
-    def not_estimated(self, method: str, scenario: str, level: str, joints: Collection[str]) -> str:
-        """Return what is wrong with a method where these joints of a test are shown: it estimates some limbs alone."""
-        held = self.settings.estimated(method, scenario, level)
-        missing = [f"{joint} in {scenario}, {level}" for joint in joints if joint not in held]
-        return f"{method} is not accepted; accepted: methods that estimate {missing[0]}" if missing else ""
-
     def not_learned(self, method: str) -> str:
         """Return what is wrong with a method where networks are shown."""
-        learned = [name for name, row in self.settings.all_methods.items() if row.limbs]
+        learned = [name for name, row in self.catalogue.all_methods.items() if row.limbs]
         return "" if method in learned else not_accepted("method with networks", method, learned)
 
     def trained(self, limb: str) -> list[str]:
         """Return the methods that train a network of a limb."""
-        return [name for name, method in self.settings.all_methods.items() if limb in method.limbs]
+        return [name for name, method in self.catalogue.all_methods.items() if limb in method.limbs]
 
     def claimed_trainings(self) -> list[str]:
         """Return the methods whose trainings claims may ask about: those of Figures 17 and 20, and their variants."""

@@ -14,10 +14,6 @@ from mobnet.settings.robot import WORLD, RobotTable
 
 MASS_TOLERANCE = 1e-6  # relative, of the total
 LENGTH_TOLERANCE_M = 1e-6
-SAME_M, SAME_SHARE = 0.01, 0.1  # by which the right side may differ from the left one's mirror image
-MIRROR = np.array([1.0, -1.0, 1.0])
-MIRROR_INERTIA = np.array([1.0, 1.0, 1.0, -1.0, 1.0, -1.0])
-MIRROR_QUATERNION = np.array([1.0, -1.0, 1.0, -1.0])
 LEG_AXES = ("z", "x", "y", "y", "y", "x")  # yaw, roll, pitch of the hip, knee, pitch and roll of the ankle
 GYRATION_M = (0.001, 1.5)  # of a body: what is outside has its mass or inertia in another unit
 Problem = tuple[Place, str]
@@ -30,8 +26,6 @@ def robot_problems(table: RobotTable) -> Iterator[Problem]:
     yield from names
     if not names:  # only then can what they name be looked up
         for check in (
-            _mirror_problems,
-            _height_problems,
             _order_problems,
             _limb_problems,
             _foot_problems,
@@ -194,60 +188,6 @@ def _leg_problems(table: RobotTable, joints: tuple[str, ...]) -> Iterator[Proble
             )
             yield ("leg", "link_length"), text
             return
-
-
-def _mirror_problems(table: RobotTable) -> Iterator[Problem]:
-    """Yield bodies and joints of the right side that are not about the mirror image, in y, of the left side's.
-
-    Bodies of another mass have a content of their own: a robot may carry a tool in one hand.
-    """
-    bodies = {body.name: body for body in table.bodies}
-    joints = {joint.body: joint for joint in table.joints}
-    for index, body in enumerate(table.bodies):
-        left = bodies.get(body.name.replace("R_", "L_", 1))
-        if left is None or left is body or right_of(left.name) != body.name:
-            continue
-        largest = max(left.inertia[:3])
-        wanted = {"pos": (left.pos * MIRROR, SAME_M)}
-        if abs(body.mass - left.mass) < SAME_SHARE * left.mass:
-            wanted["com"] = (left.com * MIRROR, SAME_M)
-            wanted["inertia"] = (left.inertia * MIRROR_INERTIA, SAME_SHARE * largest)
-        for name, (accepted, tolerance) in wanted.items():
-            if np.abs(np.subtract(getattr(body, name), accepted)).max() > tolerance:
-                text = misfit(
-                    getattr(body, name), f"about {np.asarray(accepted).tolist()}, as {left.name} mirrored in y"
-                )
-                yield ("bodies", index, name), text
-        if abs(abs(np.dot(body.quat, left.quat * MIRROR_QUATERNION)) - 1.0) > SAME_SHARE:
-            yield ("bodies", index, "quat"), misfit(body.quat, f"that of {left.name} mirrored in y")
-        if body.name in joints and left.name in joints:
-            row, other = joints[body.name], joints[left.name]
-            for name in ("torque_limit", "velocity_limit", "armature"):
-                if abs(getattr(row, name) - getattr(other, name)) > SAME_SHARE * getattr(other, name):
-                    place = ("joints", table.joints.index(row), name)
-                    yield place, misfit(getattr(row, name), f"about {getattr(other, name)}, as {other.id}")
-            if abs(abs(np.dot(row.axis, other.axis * MIRROR)) - 1.0) > SAME_SHARE:
-                yield (
-                    ("joints", table.joints.index(row), "axis"),
-                    misfit(row.axis, f"that of {other.id} mirrored in y"),
-                )
-
-
-def _height_problems(table: RobotTable) -> Iterator[Problem]:
-    """Yield a height of the whole robot that is less than the distance between its highest and lowest joint."""
-    if table.totals is None:
-        return
-    place, turn = {WORLD: np.zeros(3)}, {WORLD: np.eye(3)}
-    for body in table.bodies:
-        w, axis = body.quat[0], np.array(body.quat[1:])
-        cross = np.cross(np.eye(3), axis)
-        rotation = np.eye(3) + 2 * w * cross + 2 * cross @ cross
-        place[body.name] = place[body.parent] + turn[body.parent] @ body.pos
-        turn[body.name] = turn[body.parent] @ rotation
-    heights = [point[2] for name, point in place.items() if name != WORLD]
-    apart = max(heights) - min(heights)
-    if apart > table.totals.height_m:
-        yield ("totals", "height_m"), misfit(table.totals.height_m, f"at least {apart:.3f}, between all joints")
 
 
 def _size_problems(table: RobotTable) -> Iterator[Problem]:

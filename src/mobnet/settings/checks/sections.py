@@ -7,13 +7,15 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, ValidationError
 
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.data import data_problems
+from mobnet.settings.checks.detection import LARGEST
 from mobnet.settings.checks.learning import learning_problems
 from mobnet.settings.checks.shown import shown_problems
 from mobnet.settings.checks.sizes import size_problems
 from mobnet.settings.checks.surrogate import surrogate_problems
 from mobnet.settings.checks.walking import walking_problems
-from mobnet.settings.fleet import levels_of
+from mobnet.settings.methods import swept_name
 from mobnet.settings.names import Use, unknown, uses
 from mobnet.settings.networks import Learning, Network
 from mobnet.settings.reading import Place
@@ -23,26 +25,36 @@ Problem = tuple[Place, str]
 Refused = tuple[Place, type[BaseModel], Mapping[str, Any], ValidationError]
 
 
-def accepted_names(settings: Settings) -> dict[str, Collection[str]]:
+def accepted_names(catalogue: Catalogue) -> dict[str, Collection[str]]:
     """Return kind of name -> the names that exist."""
+    settings, detection = catalogue.settings, catalogue.settings.detection
     experiments = chain.from_iterable(scale.experiments for scale in settings.scales.values())
     terrains = [name for name in type(settings.terrain).model_fields if getattr(settings.terrain, name) is not None]
+    pushed = [name for name, row in settings.scenarios.items() if row.pushes]
+    learned = [name for name, row in catalogue.all_methods.items() if row.limbs]
+    struck = settings.scenarios[detection.collisions].pushes if detection.collisions in settings.scenarios else ()
+    points = [settings.pushes[name].point or "" for name in struck if name in settings.pushes]
     return {
-        "scale": settings.scales, "level": [*settings.levels, *levels_of(settings.fleet)],
+        "scale": settings.scales, "level": [*settings.levels, *settings.fleet.levels],
         "level of one plant": settings.levels, "terrain": terrains, "push": settings.pushes,
-        "motion": settings.motions, "scenario": settings.scenarios, "test": settings.tests,
+        "motion": settings.motions, "scenario": settings.scenarios, "test": [one.scenario for one in catalogue.asked],
+        "scenario with pushes": pushed, "scenario without pushes": settings.scenarios.keys() - {*pushed},
         "test with a window around pushes": settings.evaluation.windows,
         "training set": settings.training_sets, "experiment": set(experiments),
-        "network": settings.networks, "detector": settings.detection.detectors,
-        "method": settings.all_methods, "sweep": settings.sweeps,
+        "network": settings.networks, "sweep": settings.sweeps, "method": catalogue.all_methods,
+        "method with networks": learned, "method without networks": catalogue.all_methods.keys() - {*learned},
         "method that runs on its own": [name for name, row in settings.methods.items() if row.of is None],
+        "detector": detection.detectors, "rule of thresholds": (LARGEST, *detection.thresholds.rates_per_h),
+        "level with detectors": (*detection.levels, *settings.fleet.robots), "leg with detectors": detection.legs,
+        "cell of collisions": [" ".join(point.split("_")[1:]) for point in points],
         **settings.robot.accepted_names,
     }  # fmt: skip
 
 
-def unknown_names(settings: Settings) -> Iterator[Problem]:
+def unknown_names(catalogue: Catalogue) -> Iterator[Problem]:
     """Yield the place of every name that does not exist and what is accepted there."""
-    yield from unknown((*uses(settings, Settings), *_changed_uses(settings)), accepted_names(settings))
+    settings = catalogue.settings
+    yield from unknown((*uses(settings, Settings), *_changed_uses(settings)), accepted_names(catalogue))
 
 
 def _changed_uses(settings: Settings) -> Iterator[Use]:
@@ -54,31 +66,33 @@ def _changed_uses(settings: Settings) -> Iterator[Use]:
                 yield from uses(value, Annotated[field.annotation, *field.metadata, None], place)
 
 
-def refused_changes(settings: Settings) -> Iterator[Refused]:
+def refused_changes(catalogue: Catalogue) -> Iterator[Refused]:
     """Yield every change by a method that is not accepted: place, section, what is given of it, and the error."""
-    for name, method in {**settings.all_methods, **settings.tried}.items():
-        checks = [("network", Network, method.network, partial(settings.network, name, limb)) for limb in method.limbs]
-        checks += [("learning", Learning, method.learning, partial(settings.learned, name))]
+    for name, method in {**catalogue.all_methods, **catalogue.tried}.items():
+        checks = [("network", Network, method.network, partial(catalogue.network, name, limb)) for limb in method.limbs]
+        checks += [("learning", Learning, method.learning, partial(catalogue.learned, name))]
         for part, section, given, made in checks:
             try:
                 made()
             except ValidationError as error:
-                yield _place_of(settings, name, part), section, given, error
+                yield _place_of(catalogue, name, part), section, given, error
 
 
-def _place_of(settings: Settings, method: str, part: str) -> Place:
+def _place_of(catalogue: Catalogue, method: str, part: str) -> Place:
     """Return the place of what makes a change: a method, a sweep or the trials."""
-    swept = settings.sweep_of(method)
-    if method in settings.tried:
-        return ("trials",)
-    return ("sweeps", swept) if swept else ("methods", method, part)
+    if method in catalogue.settings.methods:
+        return ("methods", method, part)
+    swept = [key for key, sweep in catalogue.settings.sweeps.items()
+             if method in {swept_name(base, key, value) for base in sweep.of for value in sweep.values}]  # fmt: skip
+    return ("sweeps", swept[0]) if swept else ("trials",)
 
 
-def inconsistencies(settings: Settings) -> Iterator[Problem]:
+def inconsistencies(catalogue: Catalogue) -> Iterator[Problem]:
     """Yield the place and the text of everything that does not fit together."""
-    checks = walking_problems, data_problems, learning_problems, surrogate_problems
-    found = [problem for check in checks for problem in check(settings)]
+    settings = catalogue.settings
+    found = [problem for check in (walking_problems, data_problems, surrogate_problems) for problem in check(settings)]
+    found += learning_problems(catalogue)
     yield from found
     if not found:  # only then can sizes and results be looked up
-        yield from size_problems(settings)
-        yield from shown_problems(settings)
+        yield from size_problems(catalogue)
+        yield from shown_problems(catalogue)

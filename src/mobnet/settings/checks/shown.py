@@ -1,38 +1,26 @@
 """What must hold for tables and figures: what they show is run, estimated, trained and pushed."""
 
-from collections.abc import Iterator, Mapping, Sequence
-from itertools import product
-from typing import cast
-
-from pydantic import BaseModel
+from collections.abc import Iterator, Sequence
 
 from mobnet.core.errors import misfit, not_accepted
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.claims import claim_problems
 from mobnet.settings.checks.detection import detection_problems
-from mobnet.settings.checks.estimated import estimate_problems
+from mobnet.settings.checks.estimated import asked_problems
 from mobnet.settings.checks.measured import measured_problems
-from mobnet.settings.checks.printed import printed_problems
 from mobnet.settings.checks.results import Results
-from mobnet.settings.evaluation import CoverageTest, ErrorRow, ErrorTable, Mean, TunedTest
+from mobnet.settings.evaluation import ErrorTable, Mean
 from mobnet.settings.reading import Place
-from mobnet.settings.settings import Settings, swept_name
+from mobnet.settings.settings import Settings
 
 Problem = tuple[Place, str]
-Shown = tuple[Place, str, str, str]  # place, scenario, level, method
 ROOT: Place = ("evaluation",)
 LEAST_DRAWN = 10  # samples of a figure
 
 
-def shown_problems(settings: Settings) -> Iterator[Problem]:
+def shown_problems(catalogue: Catalogue) -> Iterator[Problem]:
     """Yield what does not fit in tables, figures, claims and printed numbers."""
-    results = Results(settings)
-    for place, scenario, level, method in shown_runs(settings):
-        text = results.not_run(scenario, level, method)
-        if text:
-            yield place, text
-    for name, window in settings.evaluation.windows.items():
-        if window and not settings.scenarios[name].pushes:
-            yield (*ROOT, "windows", name), misfit(name, "tests whose scenario has pushes")
+    settings, results = catalogue.settings, Results(catalogue)
     for name, table in settings.evaluation.tables.items():
         for place, text in _table_problems(results, table):
             yield (*ROOT, "tables", name, *place), text
@@ -48,54 +36,9 @@ def shown_problems(settings: Settings) -> Iterator[Problem]:
         yield from check(results)
     yield from measured_problems(results)
     yield from detection_problems(results)
-    yield from estimate_problems(results)
+    yield from asked_problems(catalogue)
     yield from claim_problems(results)
-    yield from printed_problems(settings)
-
-
-def shown_runs(settings: Settings) -> Iterator[Shown]:
-    """Yield every run that a table or a figure shows."""
-    evaluation = settings.evaluation
-    for place, section in sections_below(evaluation, ROOT):
-        if {"scenario", "level", "methods"} <= type(section).model_fields.keys():
-            scenario, level, methods = (getattr(section, name) for name in ("scenario", "level", "methods"))
-            yield from (((*place, "methods", k), scenario, level, method) for k, method in enumerate(methods))
-            further = section.further if isinstance(section, ErrorRow) else ()
-            yield from (((*place, "further", k), scenario, level, method) for k, method in enumerate(further))
-        elif isinstance(section, CoverageTest):
-            yield (*place, "level"), section.scenario, section.level, ""
-    figure = evaluation.figure_05
-    for level, methods in figure.panels.items():
-        place = (*ROOT, "figure_05", "panels", level)
-        yield from (((*place, k), figure.scenario, level, method) for k, method in enumerate(methods))
-    for title, test in evaluation.fine_tuning.tests.items():
-        place = (*ROOT, "fine_tuning", "tests", title)
-        yield (*place, "known"), test.scenario, test.known, test.methods[0]
-        for label, method in tuned_methods(settings, test):
-            yield (*place, "tuned", label), test.scenario, test.level, method
-    for scenario, method in product(evaluation.figure_18.panels, evaluation.figure_18.methods):
-        yield (*ROOT, "figure_18", "panels", scenario), scenario, evaluation.figure_18.level, method
-
-
-def tuned_methods(settings: Settings, test: TunedTest) -> Iterator[tuple[str, str]]:
-    """Yield the name of each line of fine-tuned methods with each of them."""
-    key = settings.evaluation.fine_tuning.sweep
-    values = settings.sweeps[key].values if key in settings.sweeps else ()
-    yield from ((label, swept_name(base, key, value)) for label, base in test.tuned.items() for value in values)
-
-
-def sections_below(value: object, place: Place) -> Iterator[tuple[Place, BaseModel]]:
-    """Yield a section and all below it, each with the keys that lead to it."""
-    if isinstance(value, BaseModel):
-        yield place, value
-        for name in type(value).model_fields:
-            yield from sections_below(getattr(value, name), (*place, name))
-    elif isinstance(value, Mapping):
-        for key, item in cast("Mapping[str, object]", value).items():
-            yield from sections_below(item, (*place, key))
-    elif isinstance(value, tuple):
-        for index, item in enumerate(cast("Sequence[object]", value)):
-            yield from sections_below(item, (*place, index))
+    yield from _printed_problems(settings)
 
 
 def _column_problems(results: Results, columns: Sequence[str | Mean]) -> Iterator[tuple[Place, str]]:
@@ -167,25 +110,15 @@ def _figure_problems(results: Results) -> Iterator[Problem]:
             if method not in against:
                 place = (*ROOT, "figure_10", "tests", title, "methods", k)
                 yield place, not_accepted("method", method, against)
-    if len(evaluation.figure_08.methods) != 1:
-        yield (*ROOT, "figure_08", "methods"), misfit(list(evaluation.figure_08.methods), "one method")
 
 
 def _leg_problems(results: Results) -> Iterator[Problem]:
-    """Yield limbs that are no leg where gait cycles are shown, and joints that no push of the test turns."""
+    """Yield a limb of the coverage that is no leg, and joints that no push of the test turns."""
     settings, evaluation = results.settings, results.settings.evaluation
-    for name in ("figure_08", "figure_09", "coverage"):
-        limb = getattr(evaluation, name).limb
-        if limb not in results.legs:
-            yield (*ROOT, name, "limb"), not_accepted("leg", limb, results.legs)
     limb = evaluation.coverage.limb
-    if limb in results.legs and limb not in settings.robot.networks[limb].T:
-        yield (*ROOT, "coverage", "limb"), misfit(limb, "a leg whose network sees its torques, `T`")
-    legs = [joint for limb in results.legs for joint in results.joints(limb)]
-    for name in ("figure_05", "figure_06", "figure_10"):
-        joint = getattr(evaluation, name).joint
-        if joint not in legs:
-            yield (*ROOT, name, "joint"), not_accepted("joint of a leg", joint, legs)
+    if limb not in results.legs or limb not in settings.robot.networks[limb].T:
+        text = misfit(limb, f"a leg whose network sees its torques, `T`: {' or '.join(results.legs)}")
+        yield (*ROOT, "coverage", "limb"), text
     asked: list[tuple[Place, str, str]] = [
         ((*ROOT, "figure_06", "joint"), evaluation.figure_06.scenario, evaluation.figure_06.joint)
     ]
@@ -263,3 +196,18 @@ def _method_table_problems(results: Results) -> Iterator[Problem]:
                 if column not in (*results.joints(limb), "avg"):
                     place = (*ROOT, "methods", index, "columns", limb, k)
                     yield place, not_accepted(f"column of {limb}", column, [*results.joints(limb), "avg"])
+
+
+def _printed_problems(settings: Settings) -> Iterator[Problem]:
+    """Yield places of numbers of the paper that are shown and that it does not print."""
+    evaluation, printed = settings.evaluation, settings.published.tables
+    shown: list[tuple[Place, str, str | None]] = [
+        (("tables", name, "rows", k, "paper"), name, row.paper)
+        for name, table in evaluation.tables.items()
+        for k, row in enumerate(table.rows)
+    ]
+    shown += [(("noise", "paper", name), name, place) for name, place in evaluation.noise.paper.items()]
+    for place, name, paper in shown:
+        accepted = printed[name].numbers if name in printed else {}
+        if paper is not None and paper not in accepted:
+            yield (*ROOT, *place), not_accepted("place of a row", paper, accepted)

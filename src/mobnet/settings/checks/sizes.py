@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from itertools import chain
 
 from mobnet.core.errors import misfit
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.walking import is_whole
 from mobnet.settings.evaluation import Figure05, GaitFigure, HandFigure
 from mobnet.settings.reading import Place
@@ -16,8 +17,9 @@ CYCLES = 3  # a whole gait cycle follows a start within so many
 Problem = tuple[Place, str]
 
 
-def size_problems(settings: Settings) -> Iterator[Problem]:
+def size_problems(catalogue: Catalogue) -> Iterator[Problem]:
     """Yield what does not fit at some scale, the chosen one or another."""
+    settings = catalogue.settings
     names = set(chain.from_iterable(scale.experiments for scale in settings.scales.values()))
     for name, scale in settings.scales.items():
         missing = names - scale.experiments.keys()
@@ -27,26 +29,27 @@ def size_problems(settings: Settings) -> Iterator[Problem]:
         if missing:
             return
     for name, scale in settings.scales.items():
-        chosen = settings.model_copy(update={"scale": name})
-        yield from _length_problems(chosen, scale)
-        yield from _time_problems(chosen, scale)
-        yield from _training_problems(chosen)
-        results = _result_count(chosen)
+        scaled = catalogue.at_scale(name)
+        yield from _length_problems(scaled.settings, scale)
+        yield from _time_problems(scaled, scale)
+        yield from _training_problems(scaled)
+        results = _result_count(scaled)
         if results > RESULTS_MAX:
             accepted = f"{RESULTS_MAX} of them, by fewer shards or seeds"
             yield ("scales", name), misfit(f"{results} recordings, residuals, networks and estimates", accepted)
 
 
-def _result_count(settings: Settings) -> int:
+def _result_count(catalogue: Catalogue) -> int:
     """Return how many recordings, residuals, networks and estimates the chosen scale has."""
+    settings, tests = catalogue.settings, catalogue.tests.values()
     shards = settings.sizes.test.shards
     recorded = sum(row.sizes[settings.scale].shards for row in settings.training_sets.values())
-    recorded += shards * sum(map(len, settings.tests.values()))
+    recorded += shards * sum(map(len, tests))
     seeds = {
-        name: [len(settings.experiment(name, limb).seeds) for limb in method.limbs]
-        for name, method in settings.all_methods.items()
+        name: [len(catalogue.experiment(name, limb).seeds) for limb in method.limbs]
+        for name, method in catalogue.all_methods.items()
     }
-    runs = [max(seeds[settings.network_source_of(name)], default=1) for levels in settings.tests.values()
+    runs = [max(seeds[catalogue.network_source_of(name)], default=1) for levels in tests
             for methods in levels.values() for name in methods]  # fmt: skip
     return 2 * recorded + sum(map(sum, seeds.values())) + shards * sum(runs)
 
@@ -64,8 +67,9 @@ def _length_problems(settings: Settings, scale: Scale) -> Iterator[Problem]:
             yield place, misfit(value, f"a whole number of samples at {rate} Hz")
 
 
-def _time_problems(settings: Settings, scale: Scale) -> Iterator[Problem]:
+def _time_problems(catalogue: Catalogue, scale: Scale) -> Iterator[Problem]:
     """Yield figures and pushes behind the end of a test; a scale with `figure_start_s` is too short for pushes."""
+    settings = catalogue.settings
     length, cycle = scale.test.shard_s, CYCLES * 2 * max(settings.commands.duration_s)
     for test, duration in scale.durations_s.items():
         if duration == length:
@@ -82,7 +86,7 @@ def _time_problems(settings: Settings, scale: Scale) -> Iterator[Problem]:
             ends.append((("evaluation", name, "start_s"), section.scenario, section.start_s, cycle))
         elif isinstance(section, HandFigure):
             ends.append((("evaluation", name, "end_s"), section.scenario, section.end_s, 0.0))
-    for test in settings.tests:
+    for test in catalogue.tests:
         for push in settings.scenarios[test].pushes:
             row = settings.pushes[push]
             for index, start in enumerate(row.at_s or ()):
@@ -97,16 +101,17 @@ def _time_problems(settings: Settings, scale: Scale) -> Iterator[Problem]:
         yield ("evaluation", "coverage", "block_s"), misfit(settings.evaluation.coverage.block_s, accepted)
 
 
-def _training_problems(settings: Settings) -> Iterator[Problem]:
+def _training_problems(catalogue: Catalogue) -> Iterator[Problem]:
     """Yield trainings whose data do not fill a batch, a stream or a validation, or are gone through without end."""
-    for name, method in settings.all_methods.items():
+    for name, method in catalogue.all_methods.items():
         for limb in method.limbs:
-            yield from _filling_problems(settings, name, limb)
+            yield from _filling_problems(catalogue, name, limb)
 
 
-def _filling_problems(settings: Settings, name: str, limb: str) -> Iterator[Problem]:
+def _filling_problems(catalogue: Catalogue, name: str, limb: str) -> Iterator[Problem]:
     """Yield what does not fit in the training of a method's network."""
-    training, rate = settings.training(name, limb), settings.rates.data_hz
+    settings = catalogue.settings
+    training, rate = catalogue.training(name, limb), settings.rates.data_hz
     network, learning, scale = training.network, training.learning, settings.scale
     size, horizon = settings.training_sets[network.data].sizes[scale], network.horizon_steps
     contiguous = min(size.shard_s, settings.recording.episode_s) * rate

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 
 from mobnet.core.errors import misfit, not_accepted
-from mobnet.settings.fleet import level_of, levels_of
 from mobnet.settings.reading import Place
 from mobnet.settings.settings import Settings
 from mobnet.settings.surrogate import Variant
@@ -46,7 +45,7 @@ def _level_problems(settings: Settings) -> Iterator[Problem]:
 def _fleet_problems(settings: Settings) -> Iterator[Problem]:
     """Yield a fleet that has the name of a level, robots that are none, and training sets without a counterpart."""
     fleet, sets = settings.fleet, settings.training_sets
-    taken = [*settings.levels, *(level_of(fleet, robot, name) for robot in fleet.robots for name in fleet.variants)]
+    taken = [*settings.levels, *(fleet.level_of(robot, name) for robot in fleet.robots for name in fleet.variants)]
     for place, name in ((("name",), fleet.name), *((("variants", name), name) for name in fleet.variants)):
         if name in taken or (name == fleet.name and place != ("name",)):
             yield ("fleet", *place), misfit(name, "a name that is no level's")
@@ -61,19 +60,8 @@ def _fleet_problems(settings: Settings) -> Iterator[Problem]:
             named = [name for name, level in settings.levels.items() if level.surrogate]
             yield ("fleet", "robots", index), not_accepted("level of a surrogate robot", robot, named)
     for name, other in fleet.sets.items():
-        if sets[other].level not in levels_of(fleet):
-            yield ("fleet", "sets", name), misfit(other, f"a set at one of the levels {', '.join(levels_of(fleet))}")
+        if sets[other].level not in fleet.levels:
+            yield ("fleet", "sets", name), misfit(other, f"a set at one of the levels {', '.join(fleet.levels)}")
     for name, row in sets.items():
-        if row.level in levels_of(fleet) and name not in fleet.sets.values():
+        if row.level in fleet.levels and name not in fleet.sets.values():
             yield ("training_sets", name, "level"), misfit(row.level, "a level of one plant, or a set of `fleet.sets`")
-    for test, levels in settings.tests.items():
-        named = [(level, k, name) for level in levels_of(fleet) for k, name in enumerate(levels.get(level, ()))]
-        for level, index, method in named:
-            learned = settings.method(settings.network_source_of(method)).limbs
-            fitted = settings.method(settings.source_of(method)).fitted
-            for limb in (*learned, *fitted):
-                data = settings.network(settings.source_of(method) if limb in fitted else method, limb).data
-                if data not in fleet.sets:
-                    accepted = f"methods that learn from {', '.join(fleet.sets)}"
-                    yield ("tests", test, level, index), misfit(f"{method}, which learns from {data}", accepted)
-                    break

@@ -10,7 +10,7 @@ from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.rows import read_scores
 from mobnet.settings.evaluation import FineTuning, Statistics, TunedTest
-from mobnet.settings.settings import swept_name
+from mobnet.settings.methods import swept_name
 
 BEFORE, KNOWN = "not tuned", "own walks"
 X_LABEL, Y_LABEL = "new data [s]", "RMSE [N m]"
