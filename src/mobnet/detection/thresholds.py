@@ -135,7 +135,7 @@ def _resampled(
     # Whole episodes: their ground and commands make swings alike, and single swings would look like more than they are.
     drawn = np.concatenate([largest[groups[k]] for k in rng.integers(0, len(groups), len(groups))])
     above = np.flatnonzero(drawn > tail.level)
-    # The rarest swing decides the fit, and would often be drawn twice or not at all. The law draws another in its place.
+    # The rarest swing decides the fit, and would often be drawn twice or not at all: the law draws another one.
     uniform = rng.uniform(size=len(above))
     shape = tail.shape if abs(tail.shape) > 1e-6 else 1e-6
     drawn[above] = tail.level + tail.scale * (uniform**-shape - 1.0) / shape
