@@ -1,11 +1,8 @@
 """Thresholds from a walk that nothing pushes: for a wanted rate of false alarms, and what rate to expect.
 
 In each swing a detector's signals have a largest value, over their scale. A rate of one false alarm in an hour is one
-in some thousands of swings, more than a lab records, so that the tail of the largest values is fitted: what exceeds a
-high level has a generalised Pareto law (Pickands 1975, Ann. Statist. 3), fitted by probability-weighted moments
-(Hosking and Wallis 1987, Technometrics 29). The interval of the expected rate is that of walks resampled from the fit
-and the swings, and it widens where the fit goes beyond what was seen. Swings of one episode are alike, so that whole
-episodes are drawn anew.
+in some thousands of swings, more than a lab records, so that a generalised Pareto law is fitted to the tail of these
+values (note 0036, section 7). The interval of the expected rate widens where the fit goes beyond what was seen.
 """
 
 from collections.abc import Sequence
@@ -134,15 +131,11 @@ def _resampled(
     largest: Array, groups: Sequence[NDArray[np.intp]], tail: Tail, factor: float, settings: Thresholds,
     rng: np.random.Generator,
 ) -> float:  # fmt: skip
-    """Return the share of swings above a factor that a walk like this one, drawn anew, would make one expect.
-
-    Swings below the level are drawn from those seen, those above from the law; a walk's own rare swing, which decides
-    its fit, is so as rare as it is.
-    """
+    """Return the share of swings above a factor that a walk like this one, drawn anew, would make one expect."""
     # Whole episodes: their ground and commands make swings alike, and single swings would look like more than they are.
     drawn = np.concatenate([largest[groups[k]] for k in rng.integers(0, len(groups), len(groups))])
     above = np.flatnonzero(drawn > tail.level)
-    # The rarest swing drawn twice or not at all would decide the rate. The law draws another one in its place.
+    # The rarest swing decides the fit, and would often be drawn twice or not at all: the law draws another one.
     uniform = rng.uniform(size=len(above))
     shape = tail.shape if abs(tail.shape) > 1e-6 else 1e-6
     drawn[above] = tail.level + tail.scale * (uniform**-shape - 1.0) / shape
