@@ -45,16 +45,7 @@ def log(arm: RobotDescription) -> Recording:
         rows.append([data.qpos.copy(), data.qvel.copy(), *np.mean(ticks, axis=0)])
     q, v, tau, external = np.array(rows).transpose(1, 0, 2)
     none = np.zeros((SAMPLES, 0))
-    truth = Truth(
-        external,
-        none,
-        none,
-        none,
-        np.zeros((SAMPLES, 1)),
-        np.zeros_like(tau),
-        np.zeros_like(external),
-        none,
-    )
+    truth = Truth(external, none, none, none, np.zeros((SAMPLES, 1)), np.zeros_like(tau), np.zeros_like(external), none)
     return Recording(
         Sensed(q, v, none, tau, tau, none, none, none), ((0, SAMPLES),), RATE_HZ, {"level": "ideal"}, truth
     )

@@ -22,7 +22,7 @@ GRAVITY_M_S2 = (1.5, 30.0)  # of any planet to stand on; in units of g, or witho
 SETTLED_S = 1.0  # in less time a step or a hit may hide gravity
 
 
-class Motion:
+class MotionCheck:
     """Looks at the positions and velocities of an array, piece by piece."""
 
     def __init__(self, names: Sequence[str], segments: Sequence[Sequence[int]], rate_hz: float) -> None:

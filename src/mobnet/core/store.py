@@ -23,7 +23,7 @@ from mobnet.core.contract import Values, column_faults
 from mobnet.core.errors import DataError, not_accepted, refuse, refuse_lines
 from mobnet.core.files import atomic_path, check_regular, write_json
 from mobnet.core.joints import JointLayout
-from mobnet.core.motion import Motion
+from mobnet.core.motion import MotionCheck
 from mobnet.core.notes import check_array_note, note_differences, read_array_note
 
 ARRAY, NOTE = ".parquet", ".json"
@@ -193,7 +193,7 @@ def read_pieces(
     path = file_of(stem, ARRAY)
     check_regular(path)
     whole = sum(end - start for start, end in note["segments"]) == note["rows"]
-    values, motion = Values(names, layout, whole), Motion(names, note["segments"], note["rate_hz"])
+    values, motion = Values(names, layout, whole), MotionCheck(names, note["segments"], note["rate_hz"])
     try:
         with pq.ParquetFile(path, page_checksum_verification=True, **STREAMED) as file:
             faults = [f"{stem}{NOTE}: {fault}" for fault in column_faults(note["columns"], layout)]

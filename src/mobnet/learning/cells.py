@@ -141,13 +141,7 @@ class Constant(nn.Module):
 
 
 def _tcn(
-    inputs: int,
-    hidden: int,
-    window_steps: int,
-    kernel_steps: int,
-    dilations: Sequence[int],
-    dropout: float,
-    head: int,
+    inputs: int, hidden: int, window_steps: int, kernel_steps: int, dilations: Sequence[int], dropout: float, head: int
 ) -> CellModule:
     """Return a TCN: blocks of `hidden` channels, one for each dilation, then a layer of `head` units."""
     blocks = [
