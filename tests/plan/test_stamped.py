@@ -165,11 +165,11 @@ def test_files_of_another_configuration_are_told(name: str, root: Path) -> None:
     assert {line.partition(": ")[0] for line in lines} >= touched
 
 
-def test_files_of_other_code_are_told(plan: Plan, root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_files_of_other_code_are_told(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     hashed = call.code_hash
     changed = "mobnet.learning.train"
     monkeypatch.setattr(call, "code_hash", lambda *names: hashed(*names) + "x" * (changed in names))
-    assert [line.partition(": ")[0] for line in told(plan, root)] == [f"{NETWORK}/run.json"]
+    assert [line.partition(": ")[0] for line in told(plan_with(), root)] == [f"{NETWORK}/run.json"]
 
 
 def stamps(plan: Plan) -> dict[str, str]:
