@@ -12,7 +12,7 @@ from made_notes import training_note
 from mobnet.core.files import write_json
 from mobnet.plan import call, steps
 from mobnet.plan.plan import Plan, make_plan
-from mobnet.plan.stamped import foreign
+from mobnet.plan.stamped import Stamped
 from mobnet.plan.steps import Step
 from mobnet.running.logs import Account
 from mobnet.running.stamp import Stamps, is_note
@@ -79,7 +79,7 @@ def root(plan: Plan, tmp_path: Path) -> Path:
 
 
 def told(plan: Plan, root: Path, *names: str) -> list[str]:
-    return list(foreign(plan, names or MADE, root))
+    return list(Stamped(plan, root).foreign(names or MADE))
 
 
 def test_what_the_jobs_of_the_plan_make_is_accepted(plan: Plan, root: Path) -> None:
