@@ -246,6 +246,8 @@ FITS = {
     "a number below zero": (set_at("joints.LL4.coulomb_nm", -1.0), "joints.LL4.coulomb_nm: -1.0 is not accepted"),
     "NaN": (set_at("joints.LL4.coulomb_nm", float("nan")), "joints.LL4.coulomb_nm: nan is not accepted"),
     "velocity zero": (set_at("joints.LL4.stribeck_rad_s", 0.0), "joints.LL4.stribeck_rad_s: 0.0 is not accepted"),
+    "more load than there is": (set_at("joints.LL4.load_per_nm", 2.6), "joints.LL4.load_per_nm: 2.6 is not accepted"),
+    "huge": (set_at("joints.LL4.viscous_nms", 1e15), "joints.LL4.viscous_nms: 1000000000000000.0 is not accepted"),
     "a key more": (set_at("joints.LL4.colour", 1), "joints.LL4.colour: 1 is not accepted"),
 }
 
