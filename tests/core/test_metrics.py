@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from mobnet.core.errors import ConfigError
-from mobnet.core.metrics import METRIC, METRIC_KINDS, SECTIONS, kind_of_metric, unit_of_metric
+from mobnet.core.metrics import METRIC, METRIC_KINDS, SECTIONS, UNITS, kind_of_metric, unit_of_metric
 from mobnet.settings.evaluation import Scoring
 
 GOLDEN = Path(__file__).parents[1] / "golden"
@@ -37,6 +37,7 @@ def test_a_metric_has_one_kind_and_one_unit(name: str, unit: str) -> None:
     assert sum(re.fullmatch(kind.names, name) is not None for kind in METRIC_KINDS) == 1
     assert re.fullmatch(METRIC, name)
     assert unit_of_metric(name, "N m") == unit
+    assert unit in UNITS
 
 
 @pytest.mark.parametrize("name", ["rmse_push_0", "share", "acf_ms", "rmse_part_", ""])

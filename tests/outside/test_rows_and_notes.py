@@ -17,7 +17,7 @@ from mobnet.core.columns import SCORES as SCORES_OF
 from mobnet.core.detections import FILES as DETECTION_FILES
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
-from mobnet.core.metrics import METRIC_KINDS, MetricKind
+from mobnet.core.metrics import METRIC, unit_of_metric
 from mobnet.estimation.kinds.friction import read_friction
 from mobnet.evaluation.measure.trainings import read_training
 from mobnet.evaluation.number.rows import read_scores
@@ -178,8 +178,8 @@ SCORES = {
     "unit unknown": (("N m", "Nm"), "walk.csv:2: unit: 'Nm' is not accepted; accepted: N, N m"),
     "metric unknown": (("rmse", "rmse_push_0"), "walk.csv:2: metric: 'rmse_push_0' is not accepted"),
     "unit of another metric": (("rmse", "r_rmse"), "walk.csv:2: unit: 'N m' is not accepted; accepted: %"),
-    "share above 1": (("rmse,1.5,N m", "cover,1.5,-"), "walk.csv:2: value of cover: 1.5 is not .*: 0 to 1"),
-    "correlation": (("rmse,1.5,N m", "acf_10ms,-1.5,-"), "walk.csv:2: value of acf_10ms: -1.5 is not .*: -1 to 1"),
+    "share above 1": (("rmse,1.5,N m", "cover,1.5,-"), "walk.csv:2: value.*: 1.5 is not accepted"),
+    "correlation": (("rmse,1.5,N m", "acf_10ms,-1.5,-"), "walk.csv:2: value.*: -1.5 is not accepted"),
     "no joint": (("LL1", ""), "walk.csv:2: joint: '' is not accepted; accepted: a name"),
     "no method": (("MOB", ""), "walk.csv:2: method: '' is not accepted"),
     "a column is gone": (("metric", "measure"), "walk.csv: column 'metric' is missing"),
@@ -204,11 +204,11 @@ def test_sound_scores_are_accepted(scores: Path) -> None:
 
 @settings(max_examples=5, deadline=None, suppress_health_check=list(HealthCheck))
 @given(data=st.data())
-@pytest.mark.parametrize("kind", METRIC_KINDS, ids=lambda kind: kind.names)
-def test_every_metric_is_a_sound_row(kind: MetricKind, data: st.DataObject, scores: Path) -> None:
+@pytest.mark.parametrize("names", METRIC[1:-1].split(")|("))
+def test_every_metric_is_a_sound_row(names: str, data: st.DataObject, scores: Path) -> None:
     """The shares of changed robots were in no list of names once."""
-    name = data.draw(st.from_regex(kind.names.replace("[0-9]*", "[0-9]?"), fullmatch=True))
-    scores.write_text(f"{','.join(SCORES_OF)}\nwalk,ideal,MOB,0,1,LL,LL1,{name},0.5,{kind.unit.format('N m')}\n")
+    name = data.draw(st.from_regex(names.replace("[0-9]*", "[0-9]?"), fullmatch=True))
+    scores.write_text(f"{','.join(SCORES_OF)}\nwalk,ideal,MOB,0,1,LL,LL1,{name},0.5,{unit_of_metric(name, 'N m')}\n")
     assert check(scores, AGAINST) == "scores, 1 rows"
 
 

@@ -52,6 +52,7 @@ METRIC_KINDS = (
 )
 METRIC = "|".join(f"({kind.names})" for kind in METRIC_KINDS)  # pattern of every name
 SECTIONS = tuple(dict.fromkeys(kind.section for kind in METRIC_KINDS if kind.section))
+UNITS = tuple(dict.fromkeys(kind.unit.format(unit) for kind in METRIC_KINDS for unit in JOINT_UNITS))  # of a score
 
 
 def kind_of_metric(name: str) -> MetricKind:
