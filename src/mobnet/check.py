@@ -43,9 +43,9 @@ from mobnet.learning.deployed.limbs import LimbNetworks, check_limb
 from mobnet.learning.deployed.networks import deployed
 from mobnet.learning.deployed.weights import read_weights
 from mobnet.plan.places import scale_of
-from mobnet.plan.plan import Plan, make_plan
+from mobnet.plan.plan import make_plan
 from mobnet.plan.precision import with_precision
-from mobnet.plan.stamped import foreign
+from mobnet.plan.stamped import Stamped
 from mobnet.running.accounts import AccountNote, read_account
 from mobnet.settings.load import load_section, load_settings
 from mobnet.settings.reading import read_yaml
@@ -71,10 +71,10 @@ class UnknownKindError(DataError):
 
 
 @functools.cache
-def plan_of(scale: str) -> Plan:
-    """Return the plan of a scale."""
+def stamped_at(scale: str) -> Stamped:
+    """Return the files that the plan of a scale makes."""
     settings = load_settings(overrides={"scale": scale})
-    return make_plan(with_precision(settings, ROOT / "results" / scale), with_pdf=False)
+    return Stamped(make_plan(with_precision(settings, ROOT / "results" / scale), with_pdf=False), ROOT)
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,7 @@ def check(path: Path, against: Against) -> str:
     place = path.absolute()
     name = str(place.relative_to(ROOT)) if place.is_relative_to(ROOT / "results") else ""
     if (scale := scale_of(name)) in against.settings.scales:
-        refuse_lines(foreign(plan_of(scale), [name], ROOT))
+        refuse_lines(stamped_at(scale).foreign([name]))
     return kind
 
 

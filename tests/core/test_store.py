@@ -36,6 +36,16 @@ def array_stem(tmp_path: Path) -> Path:
     return stem
 
 
+def test_the_array_of_another_note_is_refused(tmp_path: Path) -> None:
+    rng = np.random.default_rng(1)
+    for name in ("one", "other"):
+        write_array(tmp_path / name, rng.normal(size=(500, 2)), COLUMNS[:2], {"rate_hz": 1000.0})
+        read_array(tmp_path / name)
+    (tmp_path / "one.parquet").write_bytes((tmp_path / "other.parquet").read_bytes())
+    with pytest.raises(DataError, match=r"one\.parquet: hash of the footer: .* as one\.json says"):
+        read_array(tmp_path / "one")
+
+
 def test_arrays_are_written_and_read_without_pandas_whose_import_takes_a_second(tmp_path: Path) -> None:
     done = subprocess.run([sys.executable, "-c", ROUND_TRIP], cwd=tmp_path, capture_output=True, text=True, check=True)
     assert "pandas" not in done.stdout.split()

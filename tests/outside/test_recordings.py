@@ -109,6 +109,7 @@ NOTES = {
     "scenario empty": (key("scenario", ""), "scenario: '' is not accepted"),
     "terrains too few": (key("terrains", ["flat"]), r"terrains: \['flat'\] is not .*: one for each of 2"),
     "falls below zero": (key("falls", -1), "falls: -1 is not accepted"),
+    "clearance in mm": (key("clearance_min_m", 60.0), "clearance_min_m: 60.0 is not accepted; accepted: less than or"),
     "provenance as text": (key("provenance", "mine"), "provenance: 'mine' is not accepted"),
     "a list": (lambda note: [note], "accepted: a JSON object"),
     "a number": (lambda _: 5, "recording.json: 5 is not accepted; accepted: a JSON object"),

@@ -12,7 +12,7 @@ from made_notes import training_note
 from mobnet.core.files import write_json
 from mobnet.plan import call, steps
 from mobnet.plan.plan import Plan, make_plan
-from mobnet.plan.stamped import foreign
+from mobnet.plan.stamped import Stamped
 from mobnet.plan.steps import Step
 from mobnet.running.logs import Account
 from mobnet.running.stamp import Stamps, is_note
@@ -79,7 +79,7 @@ def root(plan: Plan, tmp_path: Path) -> Path:
 
 
 def told(plan: Plan, root: Path, *names: str) -> list[str]:
-    return list(foreign(plan, names or MADE, root))
+    return list(Stamped(plan, root).foreign(names or MADE))
 
 
 def test_what_the_jobs_of_the_plan_make_is_accepted(plan: Plan, root: Path) -> None:
@@ -165,11 +165,11 @@ def test_files_of_another_configuration_are_told(name: str, root: Path) -> None:
     assert {line.partition(": ")[0] for line in lines} >= touched
 
 
-def test_files_of_other_code_are_told(plan: Plan, root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_files_of_other_code_are_told(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     hashed = call.code_hash
     changed = "mobnet.learning.train"
     monkeypatch.setattr(call, "code_hash", lambda *names: hashed(*names) + "x" * (changed in names))
-    assert [line.partition(": ")[0] for line in told(plan, root)] == [f"{NETWORK}/run.json"]
+    assert [line.partition(": ")[0] for line in told(plan_with(), root)] == [f"{NETWORK}/run.json"]
 
 
 def stamps(plan: Plan) -> dict[str, str]:

@@ -19,7 +19,7 @@ from mobnet.plan.places import check_scale
 from mobnet.plan.plan import make_plan
 from mobnet.plan.precision import record_precision, with_precision
 from mobnet.plan.products import shown
-from mobnet.plan.stamped import foreign
+from mobnet.plan.stamped import Stamped
 from mobnet.plan.texts import text_problems
 from mobnet.running.cluster import LIMITED, failed_jobs, warm_cache
 from mobnet.running.environment import quieten
@@ -71,7 +71,7 @@ onstart:
         check_space(PLAN, made)
         read = {str(path) for job in workflow.dag.needrun_jobs() for path in job.input}
         if RerunTrigger.PARAMS in workflow.dag_settings.rerun_triggers:  # else what other code has made is wanted
-            refuse_lines(foreign(PLAN, sorted(read - made)))
+            refuse_lines(Stamped(PLAN).foreign(sorted(read - made)))
         if not workflow.local_exec:
             warm_cache(ROOT, jobs=len(list(workflow.dag.needrun_jobs())))
     except MobnetError as error:
