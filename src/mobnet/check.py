@@ -38,6 +38,7 @@ from mobnet.core.store import ARRAY, NOTE, check_rate, file_of, read_pieces
 from mobnet.estimation.kinds.friction import FrictionNote, read_friction
 from mobnet.estimation.methods import method_problems
 from mobnet.evaluation.measure.learning.trainings import TrainingNote, read_training, read_training_note
+from mobnet.evaluation.measure.registry import measure_problems
 from mobnet.evaluation.number.rows import read_detections, read_epochs, read_scores
 from mobnet.learning.deployed.limbs import LimbNetworks, check_limb
 from mobnet.learning.deployed.networks import deployed
@@ -219,7 +220,7 @@ def _configuration(path: Path, against: Against) -> str:
     folder = next((folder for folder in path.absolute().parents[:2] if (folder / "config.yaml").is_file()), None)
     if folder is None:
         raise UnknownKindError(path, "keys", sorted(keys))
-    settings = load_settings(folder, further=method_problems)
+    settings = load_settings(folder, further=lambda own: [*method_problems(own), *measure_problems(own)])
     return f"configuration of scale {settings.scale}, with the other files of {folder}"
 
 

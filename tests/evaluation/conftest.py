@@ -15,6 +15,7 @@ from made_notes import training_note
 from mobnet.core.columns import FEET, Epoch, Score, residual_columns, torque_columns
 from mobnet.core.files import write_json
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
+from mobnet.core.metrics import unit_of_metric
 from mobnet.core.recording import Recording, Sensed, Truth, read_recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.evaluation.measure.claims.cells import listed
@@ -265,7 +266,7 @@ def claimed_scores(layout: JointLayout, claims: list[Claim], means: dict[str, fl
             zip(limbs, joints, strict=True), kept, seeds, (1, 2)
         ):
             run = (str(cell.scenario), str(cell.level), str(cell.method), network, test, limb, joint, name)
-            rows[run] = Score(*run, mean * (1 + 0.01 * (test - 1.5)), "N m")
+            rows[run] = Score(*run, mean * (1 + 0.01 * (test - 1.5)), unit_of_metric(name, "N m"))
     return list(rows.values())
 
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.evaluation.compare.pair import Pair
 from mobnet.evaluation.compare.scene import Scene
+from mobnet.evaluation.compare.windows import rows_in
 
 STUCK, MOVING = "stuck", "moving"
 PUSHED, CALM = "pushed", "calm"
@@ -23,9 +24,7 @@ def parts_of(pair: Pair, scene: Scene) -> dict[str, NDArray[np.bool_]]:
     speed = scene.speed[:, places]
     found = {name: held[:, places] for name, held in scene.phases.items()}
     found |= {STUCK: speed < scene.asked.stuck_rad_s, MOVING: speed >= scene.asked.stuck_rad_s}
-    inside = np.zeros(len(speed), dtype=bool)
-    for start, end in pair.spans:
-        inside[start:end] = True
+    inside = rows_in(pair.spans, len(speed))
     return {name: held & inside[:, None] for name, held in found.items()}
 
 

@@ -15,10 +15,10 @@ from mobnet.core.notes import read_array_note
 from mobnet.core.store import NOTE, file_of, read_array
 from mobnet.estimation.low_pass import low_pass
 from mobnet.evaluation.compare.pair import Pair
+from mobnet.evaluation.compare.windows import FLAG
 from mobnet.settings.evaluation import Scoring
 
 SWINGING, TOUCH_DOWN, STANCE = "swing", "touch_down", "stance"  # phases of a leg
-FLAG = 0.5  # a stored flag above this is 1
 
 
 @dataclass(frozen=True)

@@ -80,6 +80,14 @@ def flagged_spans(flags: NDArray[np.bool_], segments: Spans, after: int) -> Span
     return tuple(spans)
 
 
+def rows_in(spans: Spans, count: int) -> NDArray[np.bool_]:
+    """Return whether each of some rows lies in a span (start, end), (count,)."""
+    inside = np.zeros(count, dtype=bool)
+    for start, end in spans:
+        inside[start:end] = True
+    return inside
+
+
 def blocks_of(spans: Spans, length: int) -> Iterator[tuple[int, int]]:
     """Yield spans (start, end) cut into blocks of `length` rows; the last of each span may be shorter."""
     for first, last in spans:

@@ -5,18 +5,19 @@ In TeX only booktabs is needed, and longtable for a table of several pages.
 
 import logging
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
 
+from mobnet.core.columns import METHODS
 from mobnet.core.files import write_text
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.number.files import Field, write_csv
 from mobnet.evaluation.number.grid import Wanted
 from mobnet.evaluation.number.lookup import AVERAGE, Lookup
 from mobnet.evaluation.number.number import Number
-from mobnet.settings.evaluation import Runs
+from mobnet.settings.evaluation import LimbRuns
 
 log = logging.getLogger(__name__)
 
@@ -97,11 +98,24 @@ def with_intervals(
     return lines
 
 
-def measured_rows(
-    lookup: Lookup, layout: JointLayout, test: Runs, limbs: Sequence[str], metrics: Sequence[str]
+def write_measured(
+    stem: Path, lookup: Lookup, layout: JointLayout, tests: Sequence[tuple[str, LimbRuns]], metrics: Sequence[str],
+    header: Sequence[str], lines_of: Callable[[LimbRuns, str], Sequence[Sequence[str]]],
+) -> None:  # fmt: skip
+    """Write metrics of titled tests: every joint as CSV, columns METHODS, and as text the lines of each test and limb.
+
+    The leading columns are those of the title, the limb and the method.
+    """
+    records = [row for _, test in tests for row in _measured_rows(lookup, layout, test, metrics)]
+    lines = in_blocks(([title, limb], lines_of(test, limb)) for title, test in tests for limb in test.limbs)
+    write_table(stem, Table(METHODS, records, header, lines, left=3))
+
+
+def _measured_rows(
+    lookup: Lookup, layout: JointLayout, test: LimbRuns, metrics: Sequence[str]
 ) -> Iterator[Sequence[Field]]:
-    """Yield the rows of CSV, columns METHODS, of some metrics of a test: joints of limbs, then their average."""
-    for method, limb in product(test.methods, limbs):
+    """Yield the rows of CSV of some metrics of a test: joints of its limbs, then their average."""
+    for method, limb in product(test.methods, test.limbs):
         for joint, metric in product((*layout.limb(limb), AVERAGE), metrics):
             found = lookup.number([Wanted(test.scenario, limb, test.level, method, joint, metric)])
             if found.value is not None:

@@ -8,7 +8,7 @@ from mobnet.evaluation.compare.pair import Pair
 from mobnet.evaluation.compare.rmse import Spans
 from mobnet.evaluation.compare.scene import STANCE, SWINGING, Scene, shown_pushes
 from mobnet.evaluation.compare.values import Measured, Measures
-from mobnet.evaluation.compare.windows import flagged_spans
+from mobnet.evaluation.compare.windows import flagged_spans, rows_in
 from mobnet.settings.evaluation import Drift
 
 HELD = "held_{}"  # phase: over the whole push
@@ -56,9 +56,4 @@ def rows_since(pushed: NDArray[np.bool_], spans: Spans) -> NDArray[np.intp]:
 
 def calm_rows(pushed: NDArray[np.bool_], spans: Spans, after: int) -> NDArray[np.bool_]:
     """Return where nothing pushes and the last push ended more than some rows ago (T,)."""
-    calm = np.zeros(len(pushed), dtype=bool)
-    for start, end in spans:
-        calm[start:end] = True
-    for start, end in flagged_spans(pushed, spans, after):
-        calm[start:end] = False
-    return calm
+    return rows_in(spans, len(pushed)) & ~rows_in(flagged_spans(pushed, spans, after), len(pushed))

@@ -12,6 +12,7 @@ from mobnet.evaluation.compare.pair import Pair, read_std
 from mobnet.evaluation.compare.rmse import Spans, parts
 from mobnet.evaluation.compare.scene import Scene
 from mobnet.evaluation.compare.values import Measured, Measures
+from mobnet.evaluation.compare.windows import rows_in
 from mobnet.learning.gaussian import half_width
 from mobnet.settings.evaluation import Sigma
 
@@ -45,9 +46,7 @@ def spreads(pair: Pair, std: NDArray[np.float32] | None, masks: Masks, share: fl
     if std is None:
         return
     error = pair.estimate.astype(np.float64) - pair.truth
-    ratio, inside = error / std, np.zeros(error.shape, dtype=bool)
-    for start, end in pair.spans:
-        inside[start:end] = True
+    ratio, inside = error / std, np.repeat(rows_in(pair.spans, len(error))[:, None], error.shape[1], axis=1)
     covered = (np.abs(ratio) <= half_width(share)).astype(np.float64)
     sigma = std.astype(np.float64)
     for name, mask in {"": inside, **{f"_{name}": held for name, held in masks.items()}}.items():

@@ -1,14 +1,14 @@
 """Table of pushes: how high an estimate rises over the true peak, and how late."""
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
-from mobnet.core.columns import METHODS
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.estimates.peaks import DELAY, OBSERVER, PEAK
 from mobnet.evaluation.number.lookup import Lookup, read_lookup
 from mobnet.evaluation.number.number import Number
-from mobnet.evaluation.tables.layout import Line, Table, in_blocks, measured_rows, write_table
+from mobnet.evaluation.tables.layout import write_measured
 from mobnet.settings.evaluation import LimbRuns, Peaks, Statistics
 
 REFERENCE = "low-pass of (11)"  # what a residual without any error would show
@@ -24,17 +24,9 @@ def peaks(
     """
     lookup = read_lookup(scores, statistics)
     metrics = [name + suffix for suffix in ("", OBSERVER) for name in (PEAK, DELAY)]
-    records = [row for test in settings.tests for row in measured_rows(lookup, layout, test, test.limbs, metrics)]
-    blocks = [(labels_of(test, limb), lines_of(lookup, test, limb)) for test in settings.tests for limb in test.limbs]
-    share = f"{statistics.confidence:.0%}"
+    share, tests = f"{statistics.confidence:.0%}", [(test.scenario.replace("_", " "), test) for test in settings.tests]
     header = ["Push", "Limb", "Method", "Peak ratio", share, "Delay [ms]", share]
-    lines: list[Line] = in_blocks(blocks)
-    write_table(table_dir / "peaks", Table(METHODS, records, header, lines, left=3))
-
-
-def labels_of(test: LimbRuns, limb: str) -> list[str]:
-    """Return the leading cells of a test and a limb."""
-    return [test.scenario.replace("_", " "), limb]
+    write_measured(table_dir / "peaks", lookup, layout, tests, metrics, header, partial(lines_of, lookup))
 
 
 def lines_of(lookup: Lookup, test: LimbRuns, limb: str) -> list[list[str]]:

@@ -1,9 +1,9 @@
 """Table of standard deviations in parts of a walk, and outside of the training data."""
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
-from mobnet.core.columns import METHODS
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.compare.masks import MOVING, PUSHED, STUCK
 from mobnet.evaluation.compare.scene import STANCE, SWINGING, TOUCH_DOWN
@@ -11,8 +11,8 @@ from mobnet.evaluation.measure.estimates.sigma import COVER, EXCURSION, STD
 from mobnet.evaluation.number.grid import Wanted
 from mobnet.evaluation.number.intervals import RATIO
 from mobnet.evaluation.number.lookup import AVERAGE, Lookup
-from mobnet.evaluation.tables.layout import Table, in_blocks, measured_rows, percent, write_table
-from mobnet.settings.evaluation import Runs, Sigma
+from mobnet.evaluation.tables.layout import percent, write_measured
+from mobnet.settings.evaluation import LimbRuns, Runs, Sigma
 
 ERROR = "rmse"
 PARTS = {
@@ -30,18 +30,15 @@ def sigma_table(settings: Sigma, layout: JointLayout, lookup: Lookup, share: flo
     """
     metrics = [*(name + part for part in PARTS for name in (COVER, STD)), ERROR, EXCURSION]
     metrics += [f"{name}_part_{k + 1}" for k in range(settings.parts) for name in (STD, ERROR, COVER)]
-    tests = settings.tests.values()
-    records = [row for test in tests for row in measured_rows(lookup, layout, test, test.limbs, metrics)]
-    blocks = [([title, limb], lines_of(settings, lookup, title, limb)) for title, test in settings.tests.items()
-              for limb in test.limbs]  # fmt: skip
     heads = [f"{share:.0%} {part}" if not key else part for key, part in PARTS.items()]
     header = ["Test", "Limb", "Method", *heads, "excursion [ms]", "sigma, times", "error, times"]
-    write_table(table_dir / "sigma", Table(METHODS, records, header, in_blocks(blocks), left=3))
+    tests, lines = list(settings.tests.items()), partial(lines_of, settings, lookup)
+    write_measured(table_dir / "sigma", lookup, layout, tests, metrics, header, lines)
 
 
-def lines_of(settings: Sigma, lookup: Lookup, title: str, limb: str) -> list[list[str]]:
+def lines_of(settings: Sigma, lookup: Lookup, test: LimbRuns, limb: str) -> list[list[str]]:
     """Return a line of texts for each method of a test."""
-    test = settings.tests[title]
+    title = next(title for title, one in settings.tests.items() if one is test)
     lines = []
     for method in test.methods:
         covered = [percent(lookup.average(test, method, limb, COVER + part)) for part in PARTS]
