@@ -55,9 +55,7 @@ def main() -> list[Row]:
 def six_trainings(settings: Settings) -> dict[str, Training]:
     """Return the trainings of the six networks of Table 1, by limb."""
     catalogue = Catalogue(settings)
-    trainings = {
-        limb: catalogue.training("MOB-Net", limb) for limb in catalogue.method("MOB-Net").limbs
-    }
+    trainings = {limb: catalogue.training("MOB-Net", limb) for limb in catalogue.method("MOB-Net").limbs}
     return {limb: training for limb, training in trainings.items() if training.network.cell == "GRU"}
 
 

@@ -20,6 +20,7 @@ from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.observe import observe
 from mobnet.plan.runs import Files
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
@@ -157,12 +158,12 @@ def scores(tmp_path: Path) -> Path:
 @pytest.fixture(scope="module")
 def planned() -> Files:
     """The files of the smoke scale below a folder that each test replaces; its tests have the made-up walk."""
-    walked = {LEVEL: ["zero", "MOB", "MOB-fric", "MOB-fric-load", "MOB-Kalman", "MOB-Net-gray", "MOB-Net", "FTS-e2e"]}
-    sections = {"tests": {SCENARIO: walked}, "estimated_limbs": {SCENARIO: {LEVEL: ["LL", "RL"]}}}
-    return Files(load_settings(overrides={"scale": "smoke", **sections}), Path("results/smoke"))
+    walked = ["zero", "MOB", "MOB-fric", "MOB-fric-load", "MOB-Kalman", "MOB-Net-gray", "MOB-Net", "FTS-e2e"]
+    given = {SCENARIO: {LEVEL: tuple(walked)}}, {SCENARIO: {LEVEL: ("LL", "RL")}}
+    return Files(Catalogue(load_settings(overrides={"scale": "smoke"}), given), Path("results/smoke"))
 
 
 @pytest.fixture
 def files(planned: Files, tmp_path: Path) -> Files:
     """The files of the smoke scale below a folder of its own."""
-    return Files(planned.settings, tmp_path)
+    return Files(planned.catalogue, tmp_path)

@@ -264,7 +264,7 @@ def scores_of(
 
 def test_every_metric_that_is_measured_is_a_sound_row(tmp_path: Path) -> None:
     """The shares of changed robots were in no list of names."""
-    files, place = Files(load_settings(overrides={"scale": "smoke"}), tmp_path), ("changed_walk", "robots")
+    files, place = Files(Catalogue(load_settings(overrides={"scale": "smoke"})), tmp_path), ("changed_walk", "robots")
     rows = scores_of(files, *place) + [
         row for metric in (KNOWN, FREE, FLAGGED) for row in scores_of(files, *place, metric, 0.01)
     ]
