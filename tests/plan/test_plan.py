@@ -261,7 +261,7 @@ def test_scores_and_runs_follow_from_the_section_of_a_product(plan: Plan) -> Non
         ("figure_06", figure, [(figure.scenario, figure.level)]),
         ("methods", rows, [(row.scenario, row.level) for row in rows]),
         ("figure_18", panels, [(test, panels.level) for test in panels.panels]),
-        ("fine_tuning", settings.fine_tuning.tests, [("changed_walk", "robots_other"), ("changed_walk", "robots")]),
+        ("fine_tuning", settings.fine_tuning, [("changed_walk", "robots_other"), ("changed_walk", "robots")]),
     ):
         own: Any = needs_of(plan.files, "any other", section, ["scores"])["scores"]
         assert own == plan.files.scores(tests), name

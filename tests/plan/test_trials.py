@@ -7,7 +7,6 @@ import pytest
 
 from mobnet.plan.plan import Plan, make_plan
 from mobnet.plan.products import Product
-from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import load_settings
 from mobnet.settings.trials import of_lengths, trial_name, tuned
 
@@ -32,8 +31,7 @@ def test_every_method_is_tried_as_often_as_every_other(plan: Plan) -> None:
 
 
 def test_names_are_distinct_and_can_be_folders(plan: Plan) -> None:
-    catalogue = Catalogue(settings)
-    settings = plan.settings
+    settings, catalogue = plan.settings, plan.files.catalogue
     given = settings.trials, settings.methods
     trials = [*tuned(*given), *of_lengths(*given, settings.learning.rate_first)]
     assert len(catalogue.tried) == len(trials)
@@ -43,8 +41,7 @@ def test_names_are_distinct_and_can_be_folders(plan: Plan) -> None:
 
 
 def test_a_trial_changes_what_it_says_and_its_length(plan: Plan) -> None:
-    catalogue = Catalogue(settings)
-    settings = plan.settings
+    catalogue = plan.files.catalogue
     training = catalogue.training("FTS-e2e-squared-0-01", "LL")
     assert (training.learning.loss, training.learning.rate_first) == ("squared", 0.01)
     assert training.target == "external"
@@ -66,7 +63,7 @@ def test_trials_read_development_walks_and_no_test(products: dict[str, Product])
 
 def test_no_product_of_a_run_needs_a_trial_and_none_is_stored(plan: Plan) -> None:
     made = {name for product in plan.trials for name in product.outputs}
-    tried = [name for name in plan.stored if any(f"/{trial}-LL-s" in name for trial in Catalogue(plan.settings).tried)]
+    tried = [name for name in plan.stored if any(f"/{trial}-LL-s" in name for trial in plan.files.catalogue.tried)]
     assert not tried
     assert not made & {name for product in plan.products for name in (*product.job.inputs, *product.outputs)}
 

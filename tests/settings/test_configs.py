@@ -1,4 +1,4 @@
-"""What only who writes the files of configs/ can get wrong: the robot's sides, printed numbers, the wording of claims."""
+"""What only the authors of configs/ can get wrong: the robot's two sides, printed numbers, the wording of claims."""
 
 import re
 from collections.abc import Iterator, Sequence
@@ -17,7 +17,6 @@ from mobnet.settings.claims import Bounds, Cell, Claim, MadeNumber, TrainingMetr
 from mobnet.settings.evaluation import ErrorTable
 from mobnet.settings.load import load_settings
 from mobnet.settings.published import ARCHITECTURE
-from mobnet.settings.trials import combinations
 
 SETTINGS = load_settings()
 RESULTS = Results(Catalogue(SETTINGS))
@@ -128,10 +127,6 @@ def test_printed_sizes_of_networks_and_sets_are_those_of_their_parts() -> None:
             assert said["samples"] == said["duration"] * 60.0 * SETTINGS.rates.data_hz
     for limb, values in PUBLISHED.uncertainty.std.items():
         assert len(values) == len(SETTINGS.layout.limb(limb))
-
-
-def test_every_method_is_tried_as_often_as_others() -> None:
-    assert len({len([*combinations(grid)]) for grid in SETTINGS.trials.tuning.grids.values()}) == 1
 
 
 def units_of(cell: Cell) -> set[str]:

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from mobnet.settings.base import Count, LowerName, NotNegative, Positive, Section, Seeds, Share, TestName, Whole
+from mobnet.settings.base import Count, LowerName, NotNegative, Positive, ScenarioName, Section, Seeds, Share, Whole
 from mobnet.settings.data import Recordings, RecordingSeconds, TestRecordings
 
 
@@ -31,7 +31,7 @@ class Scale(Section):
     """
 
     test: TestRecordings
-    durations_s: dict[TestName, RecordingSeconds] = {}
+    durations_s: dict[ScenarioName, RecordingSeconds] = {}
     development: Recordings
     experiments: dict[LowerName, Experiment] = Field(min_length=1)
     robots: dict[LowerName, Length] = {}

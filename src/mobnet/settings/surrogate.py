@@ -16,8 +16,8 @@ from mobnet.settings.base import (
     Real,
     Section,
     Share,
-    SingleLevelName,
     Some,
+    SurrogateLevelName,
     TrainingSetName,
     Vector3,
     Whole,
@@ -136,7 +136,7 @@ class Fleet(Section):
     """
 
     name: LowerName
-    robots: Distinct[SingleLevelName]
+    robots: Distinct[SurrogateLevelName]
     sets: dict[TrainingSetName, TrainingSetName]
     variants: dict[LowerName, Variant]
 

@@ -23,7 +23,7 @@ class Grid(Section):
 class Tuning(Section):
     """What is tried for each method, all of them in trainings of one length, and methods beside which they stand."""
 
-    references: base.Distinct[base.PlainName]
+    references: base.MethodNames
     experiment: base.ExperimentName
     grids: dict[base.MethodName, Grid]
 

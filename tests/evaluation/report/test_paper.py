@@ -22,6 +22,7 @@ from mobnet.evaluation.tables.further.uncertainty import text_of
 from mobnet.evaluation.tables.layout import PART, long_table, note_tex, text_table
 from mobnet.plan.products import Folders, Products
 from mobnet.plan.runs import Files
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.data import Recordings
 from mobnet.settings.settings import Settings
 
@@ -151,7 +152,7 @@ def test_the_paper_itself_builds_from_the_golden_tables(
 ) -> None:
     """And fits its pages with tables as large as the published ones; every figure is the same picture."""
     folders = Folders(tmp_path, tmp_path, tmp_path, tmp_path / "out", tmp_path / "MANIFEST.sha256")
-    products = Products(settings, Files(settings, tmp_path), folders, with_pdf=True, stored=())
+    products = Products(settings, Files(Catalogue(settings), tmp_path), folders, with_pdf=True, stored=())
     deviations(REPO / "docs/deviations.md", tmp_path / "deviations.tex")
     train, sizes = Recordings(shards=1, shard_s=60.0), (settings.scale, settings.rates, settings.sizes, settings.fleet)
     numbers(*sizes, train, [GOLDEN / "table_05.csv"], claims_csv, summary_csv, tmp_path / "numbers.tex")

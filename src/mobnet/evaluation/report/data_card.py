@@ -18,6 +18,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed, Truth
 from mobnet.evaluation.tables.layout import markdown_table
 from mobnet.plan.runs import FIRST_DEVELOPMENT_SEED, FIRST_TRAINING_SEED
+from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.data import Recordings
 from mobnet.settings.load import load_settings
 from mobnet.settings.scales import Scale
@@ -158,8 +159,9 @@ def tests(settings: Settings, entry: Scale) -> Iterator[tuple[tuple[str, str, st
     yield ("test", "each test", asked), entry.test
     yield ("test", "each test of a robot", asked), own
     plants = settings.levels.keys() - set(settings.fleet.robots)
+    walked = Catalogue(settings).tests
     for name, duration in entry.durations_s.items():
-        row = entry.test if plants.intersection(settings.tests[name]) else own
+        row = entry.test if plants.intersection(walked.get(name, ())) else own
         yield ("test", name, asked), row.model_copy(update={"shard_s": duration})
 
 

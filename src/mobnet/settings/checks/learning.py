@@ -37,6 +37,10 @@ def _trial_problems(catalogue: Catalogue) -> Iterator[Problem]:
         if grid.learning and name in settings.methods and not settings.methods[name].limbs:
             accepted = "`options` of a method without networks"
             yield (*place, name, "learning"), misfit("`learning`", accepted)
+    plain = [name for name, method in catalogue.all_methods.items() if not method.limbs]
+    for index, name in enumerate(settings.trials.tuning.references):
+        if name not in plain:
+            yield ("trials", "tuning", "references", index), not_accepted("method without networks", name, plain)
     walked = settings.development.scenario
     taken = {*catalogue.tests, *(row.scenario for row in settings.training_sets.values())}
     if walked in taken:

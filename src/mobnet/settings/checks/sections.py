@@ -36,13 +36,15 @@ def accepted_names(catalogue: Catalogue) -> dict[str, Collection[str]]:
     points = [settings.pushes[name].point or "" for name in struck if name in settings.pushes]
     return {
         "scale": settings.scales, "level": [*settings.levels, *settings.fleet.levels],
-        "level of one plant": settings.levels, "terrain": terrains, "push": settings.pushes,
-        "motion": settings.motions, "scenario": settings.scenarios, "test": [one.scenario for one in catalogue.asked],
+        "level of one plant": settings.levels,
+        "level of a surrogate robot": [name for name, level in settings.levels.items() if level.surrogate],
+        "terrain": terrains, "push": settings.pushes,
+        "motion": settings.motions, "scenario": settings.scenarios,
         "scenario with pushes": pushed, "scenario without pushes": settings.scenarios.keys() - {*pushed},
         "test with a window around pushes": settings.evaluation.windows,
         "training set": settings.training_sets, "experiment": set(experiments),
         "network": settings.networks, "sweep": settings.sweeps, "method": catalogue.all_methods,
-        "method with networks": learned, "method without networks": catalogue.all_methods.keys() - {*learned},
+        "method with networks": learned,
         "method that runs on its own": [name for name, row in settings.methods.items() if row.of is None],
         "detector": detection.detectors, "rule of thresholds": (LARGEST, *detection.thresholds.rates_per_h),
         "level with detectors": (*detection.levels, *settings.fleet.robots), "leg with detectors": detection.legs,

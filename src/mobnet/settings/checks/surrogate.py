@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from mobnet.core.errors import misfit, not_accepted
+from mobnet.core.errors import misfit
 from mobnet.settings.reading import Place
 from mobnet.settings.settings import Settings
 from mobnet.settings.surrogate import Variant
@@ -43,7 +43,7 @@ def _level_problems(settings: Settings) -> Iterator[Problem]:
 
 
 def _fleet_problems(settings: Settings) -> Iterator[Problem]:
-    """Yield a fleet that has the name of a level, robots that are none, and training sets without a counterpart."""
+    """Yield a fleet that has the name of a level, and training sets without a counterpart."""
     fleet, sets = settings.fleet, settings.training_sets
     taken = [*settings.levels, *(fleet.level_of(robot, name) for robot in fleet.robots for name in fleet.variants)]
     for place, name in ((("name",), fleet.name), *((("variants", name), name) for name in fleet.variants)):
@@ -55,10 +55,6 @@ def _fleet_problems(settings: Settings) -> Iterator[Problem]:
             yield ("fleet", "variants", name, "friction"), misfit(list(row.friction), accepted)
         if row == Variant():
             yield ("fleet", "variants", name), misfit("a variant that changes nothing", "one change or more")
-    for index, robot in enumerate(fleet.robots):
-        if settings.levels[robot].surrogate is None:
-            named = [name for name, level in settings.levels.items() if level.surrogate]
-            yield ("fleet", "robots", index), not_accepted("level of a surrogate robot", robot, named)
     for name, other in fleet.sets.items():
         if sets[other].level not in fleet.levels:
             yield ("fleet", "sets", name), misfit(other, f"a set at one of the levels {', '.join(fleet.levels)}")
