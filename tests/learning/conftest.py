@@ -6,13 +6,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from mobnet.core.stage import Stage
 
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
 from mobnet.learning.dataset import LimbData, load_limb_data
 from mobnet.learning.train import train_all
 from mobnet.plan.parts import Repetition
+from mobnet.running.stage import Stage
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.networks import Training
 from mobnet.settings.settings import Settings

@@ -18,12 +18,6 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.observe import observe
-<<<<<<< HEAD
-=======
-from mobnet.plan.runs import Files
-from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.load import load_settings
->>>>>>> 2953233548285c24afabfda18eec58aa426d5387
 from mobnet.settings.settings import Settings
 
 RATE_HZ = 1000.0
@@ -155,20 +149,3 @@ def scores(tmp_path: Path) -> Path:
     lines = [",".join(map(str, vars(row).values())) for row in rows]
     (tmp_path / "walk.csv").write_text("\n".join([",".join(vars(rows[0])), *lines, ""]))
     return tmp_path / "walk.csv"
-<<<<<<< HEAD
-=======
-
-
-@pytest.fixture(scope="module")
-def planned() -> Files:
-    """The files of the smoke scale below a folder that each test replaces; its tests have the made-up walk."""
-    walked = ["zero", "MOB", "MOB-fric", "MOB-fric-load", "MOB-Kalman", "MOB-Net-gray", "MOB-Net", "FTS-e2e"]
-    given = {SCENARIO: {LEVEL: tuple(walked)}}, {SCENARIO: {LEVEL: ("LL", "RL")}}
-    return Files(Catalogue(load_settings(overrides={"scale": "smoke"}), given), Path("results/smoke"))
-
-
-@pytest.fixture
-def files(planned: Files, tmp_path: Path) -> Files:
-    """The files of the smoke scale below a folder of its own."""
-    return Files(planned.catalogue, tmp_path)
->>>>>>> 2953233548285c24afabfda18eec58aa426d5387

@@ -173,7 +173,7 @@ class Jobs:
         arguments = {"layout": self.settings.layout, "runs": runs, "asked": asked, "out": out}
         read = [[run.residual, run.estimate, run.recording] for run in runs]
         modules = tuple(f"{MEASURES}.{name}" for name in asked.sections)
-        return Job(Call(f"{MEASURES}.scores:score", arguments), _read(read), modules, {str(out): ()})
+        return Job(Call(f"{MEASURES}.scores:score", arguments), _read(read), modules, {str(out): code_hash(*modules)})
 
     def detect(self) -> Job:
         """Return the calibration and the trial of the detectors of a robot, or of the plant of section 5.1."""
