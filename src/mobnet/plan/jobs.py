@@ -11,7 +11,7 @@ from mobnet.plan.detection import detection_files, numbers_of, walks_of
 from mobnet.plan.parts import MethodRun, Repetition, Shard
 from mobnet.plan.runs import NOTE, Files, NetworkName, files_in
 from mobnet.running.stage import Stage
-from mobnet.settings.asked import tests_in
+from mobnet.settings.asked import measured_sections, tests_in
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.data import Terrain
 from mobnet.settings.evaluation import Scoring
@@ -221,7 +221,7 @@ def scoring(settings: Settings, scenario: str, level: str) -> Scoring:
     evaluation = settings.evaluation
     sections = {
         name: section
-        for name, section in evaluation.measured.items()
+        for name, section in measured_sections(evaluation).items()
         if (scenario, level) in tests_in(settings, section)
     }
     pushes = [settings.pushes[name] for name in settings.scenarios[scenario].pushes]

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field
 
-from mobnet.core.metrics import METRIC, SECTIONS
+from mobnet.core.metrics import METRIC
 from mobnet.settings import base
 from mobnet.settings.base import Section
 from mobnet.settings.detection_tables import (
@@ -503,9 +503,3 @@ class Evaluation(Section):
     uncertainty: Uncertainty
     latency: Latency
     compute: Compute
-
-    @property
-    def measured(self) -> dict[str, Section]:
-        """The sections that ask for metrics of their own, in order: those of products, then `measures`."""
-        found: dict[str, Section] = {name: getattr(self, name) for name in type(self).model_fields if name in SECTIONS}
-        return {**found, **self.measures}
