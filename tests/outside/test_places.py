@@ -283,12 +283,8 @@ SCORES: dict[str, tuple[int, dict[str, Any], str]] = {
     "network seed": (0, {"network_seed": 9}, "line 2: network_seed: 9 is not"),
     "limb": (0, {"limb": "XX"}, "line 2: limb: 'XX' is not"),
     "joint": (0, {"joint": "RA1"}, "line 2: joint: 'RA1' is not"),
-    "metric": (0, {"metric": "rmse_push_0"}, "line 2: metric: 'rmse_push_0' is not"),
     "unit": (0, {"unit": "N"}, "line 2: unit: 'N' is not"),
-    "unit of a share": (0, {"metric": "r_rmse"}, "line 2: unit: 'N m' is not accepted; accepted: %"),
-    "correlation": (0, {"metric": "acf_10ms", "unit": "-", "value": 1.5}, "line 2: value of acf_10ms: 1.5 is not"),
     "no push": (0, {"metric": "rmse_pushed"}, "metric rmse_pushed: test with a window around pushes: 'walk_test' is"),
-    "share": (0, {"metric": "cover", "unit": "-", "value": 1.5}, "line 2: value of cover: 1.5 is not"),
     "average": (6, {"value": 99.0}, "metric rmse: avg: 99.0 is not accepted; accepted: 9.5, the mean"),
 }
 

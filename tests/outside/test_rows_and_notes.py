@@ -172,6 +172,16 @@ SCORES = {
     "seed below zero": ((",0,1,", ",-1,1,"), "walk.csv:2: network_seed: -1 is not accepted"),
     "twice": ((",0,2,", ",0,1,"), "walk.csv:4: row: .* is not accepted; accepted: once; it stands in line 2"),
     "unit unknown": (("N m", "Nm"), "walk.csv:2: unit: 'Nm' is not accepted; accepted: N, N m"),
+    "metric unknown": (
+        (",rmse,", ",rmse_push_0,"),
+        "walk.csv:2: metric: 'rmse_push_0' is not accepted; accepted: a name",
+    ),
+    "unit of another": ((",rmse,", ",r_rmse,"), "walk.csv:2: unit: 'N m' is not accepted; accepted: %"),
+    "correlation": (
+        (",rmse,1.5,N m", ",acf_10ms,1.5,-"),
+        "walk.csv:2: value: 1.5 is not accepted; accepted: 1 or less",
+    ),
+    "share": ((",rmse,1.5,N m", ",cover,1.5,-"), "walk.csv:2: value: 1.5 is not accepted; accepted: 1 or less"),
     "no joint": (("LL1", ""), "walk.csv:2: joint: '' is not accepted; accepted: a name"),
     "no method": (("MOB", ""), "walk.csv:2: method: '' is not accepted"),
     "a column is gone": (("metric", "measure"), "walk.csv: column 'metric' is missing"),

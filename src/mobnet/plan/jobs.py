@@ -11,7 +11,7 @@ from mobnet.plan.detection import numbers_of, walks_of
 from mobnet.plan.parts import MethodRun, Repetition, Shard
 from mobnet.plan.runs import Files, NetworkName, files_in
 from mobnet.settings.data import Terrain
-from mobnet.settings.evaluation import Scoring
+from mobnet.settings.evaluation import Scoring, measured_in
 from mobnet.settings.names import shown_in
 from mobnet.settings.settings import Settings, WalkSettings
 
@@ -199,7 +199,7 @@ class Jobs:
 def scoring(settings: Settings, scenario: str, level: str) -> Scoring:
     """Return what is measured on the runs of a test at a level: the sections of the products that show it."""
     evaluation = settings.evaluation
-    sections = {name: own for name, own in evaluation.measured.items() if (scenario, level) in shown_in(own)}
+    sections = {name: own for name, own in measured_in(evaluation).items() if (scenario, level) in shown_in(own)}
     pushes = [settings.pushes[name] for name in settings.scenarios[scenario].pushes]
     shared = {
         "window": evaluation.windows.get(scenario),

@@ -469,8 +469,8 @@ class Evaluation(Section):
     latency: Latency
     compute: Compute
 
-    @property
-    def measured(self) -> dict[str, Section]:
-        """The sections that ask for metrics of their own, in order: those of products, then `measures`."""
-        found: dict[str, Section] = {name: getattr(self, name) for name in type(self).model_fields if name in SECTIONS}
-        return {**found, **self.measures}
+
+def measured_in(evaluation: Evaluation) -> dict[str, Section]:
+    """Return the sections that ask for metrics of their own, in order: those of products, then `measures`."""
+    names = [name for name in Evaluation.model_fields if name in SECTIONS]
+    return {**{name: getattr(evaluation, name) for name in names}, **evaluation.measures}

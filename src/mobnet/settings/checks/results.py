@@ -10,7 +10,7 @@ from mobnet.core.joints import JointLayout, right_of, with_image
 from mobnet.core.metrics import metric_of
 from mobnet.settings.checks.robot import joints_above
 from mobnet.settings.claims import Cell
-from mobnet.settings.evaluation import Mean
+from mobnet.settings.evaluation import Mean, measured_in
 from mobnet.settings.names import uses
 from mobnet.settings.settings import Settings, swept_name
 
@@ -87,7 +87,7 @@ class Results:
         """The tests that each section of the evaluation with metrics of its own names."""
         return {
             section: sorted({name for _, kind, name in uses(value, type(value)) if kind == "test"})
-            for section, value in self.settings.evaluation.measured.items()
+            for section, value in measured_in(self.settings.evaluation).items()
         }
 
     def not_estimated(self, method: str, scenario: str, level: str, joints: Collection[str]) -> str:
