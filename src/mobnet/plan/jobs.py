@@ -11,10 +11,10 @@ from mobnet.plan.detection import detection_files, numbers_of, walks_of
 from mobnet.plan.parts import MethodRun, Repetition, Shard
 from mobnet.plan.runs import NOTE, Files, NetworkName, files_in
 from mobnet.running.stage import Stage
-from mobnet.settings.asked import measured_sections, tests_in
+from mobnet.settings.asked import tests_in
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.data import Terrain
-from mobnet.settings.evaluation import Scoring
+from mobnet.settings.evaluation import Scoring, measured_in
 from mobnet.settings.settings import Settings, WalkSettings
 
 KINDS = "mobnet.estimation.kinds"  # modules that a method names as its kind
@@ -219,11 +219,8 @@ class Jobs:
 def scoring(settings: Settings, scenario: str, level: str) -> Scoring:
     """Return what is measured on the runs of a test at a level: the sections of the products that show it."""
     evaluation = settings.evaluation
-    sections = {
-        name: section
-        for name, section in measured_sections(evaluation).items()
-        if (scenario, level) in tests_in(settings, section)
-    }
+    measured = measured_in(evaluation).items()
+    sections = {name: own for name, own in measured if (scenario, level) in tests_in(settings, own)}
     pushes = [settings.pushes[name] for name in settings.scenarios[scenario].pushes]
     shared = {
         "window": evaluation.windows.get(scenario),

@@ -9,11 +9,9 @@ from typing import Any, NamedTuple, cast
 
 from pydantic import BaseModel
 
-from mobnet.core.metrics import SECTIONS
-from mobnet.settings.base import Section
 from mobnet.settings.claims import Cell
 from mobnet.settings.detection import Detection
-from mobnet.settings.evaluation import CalibrationTest, ErrorRow, Evaluation, Figure05, Figure18, FineTuning, Mean, Runs
+from mobnet.settings.evaluation import CalibrationTest, ErrorRow, Figure05, Figure18, FineTuning, Mean, Runs
 from mobnet.settings.methods import swept_name
 from mobnet.settings.reading import Place
 from mobnet.settings.settings import Settings
@@ -45,12 +43,6 @@ def asked_by(settings: Settings) -> Iterator[Asked]:
 def tests_in(settings: Settings, section: object) -> tuple[tuple[str, str], ...]:
     """Return test and level of the runs that a section, or several of them, asks for; each once."""
     return tuple(dict.fromkeys((one.scenario, one.level) for one in asked_in(settings, section, ())))
-
-
-def measured_sections(evaluation: Evaluation) -> Mapping[str, Section]:
-    """Return the sections that ask for metrics of their own, in order: those of products, then `measures`."""
-    found = {name: getattr(evaluation, name) for name in type(evaluation).model_fields if name in SECTIONS}
-    return {**found, **evaluation.measures}
 
 
 def asked_in(settings: Settings, section: object, place: Place, shown: tuple[str, ...] = ()) -> Iterator[Asked]:

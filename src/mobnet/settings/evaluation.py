@@ -503,3 +503,9 @@ class Evaluation(Section):
     uncertainty: Uncertainty
     latency: Latency
     compute: Compute
+
+
+def measured_in(evaluation: Evaluation) -> dict[str, Section]:
+    """Return the sections that ask for metrics of their own, in order: those of products, then `measures`."""
+    names = [name for name in Evaluation.model_fields if name in SECTIONS]
+    return {**{name: getattr(evaluation, name) for name in names}, **evaluation.measures}

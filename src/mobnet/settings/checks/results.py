@@ -8,11 +8,11 @@ from mobnet.core.columns import CALIBRATION, COVERAGE, DETECTION, ERRORS, KINDS,
 from mobnet.core.errors import not_accepted
 from mobnet.core.joints import JointLayout, right_of, with_image
 from mobnet.core.metrics import metric_of
-from mobnet.settings.asked import measured_sections, tests_in
+from mobnet.settings.asked import tests_in
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.robot import joints_above
 from mobnet.settings.claims import Cell
-from mobnet.settings.evaluation import Mean
+from mobnet.settings.evaluation import Mean, measured_in
 from mobnet.settings.methods import swept_name
 from mobnet.settings.settings import Settings
 
@@ -71,7 +71,7 @@ class Results:
         if metric.startswith(PUSHED[:9]) and scenario not in windows:
             return not_accepted("test with a window around pushes", scenario, windows)
         if section := metric_of(metric).section:
-            measured = measured_sections(self.settings.evaluation)
+            measured = measured_in(self.settings.evaluation)
             tests = [test for test, _ in tests_in(self.settings, measured[section])] if section in measured else []
             if scenario not in tests:
                 return not_accepted(f"test of section {section}", scenario, tests)
