@@ -255,7 +255,7 @@ def scores_of(
     return [
         Score(scenario, run.level, run.method, run.network_seed, run.test_seed, limb, joint, metric, value, own)
         for run in runs
-        for held in [Catalogue(settings).estimated(run.method, run.scenario, run.level)]
+        for held in [files.catalogue.estimated(run.method, run.scenario, run.level)]
         for limb, joint, value, unit in limb_values(layout, {joint: values[joint] for joint in held})
         for own in [unit_of_metric(metric, unit)]
         if limb not in run.repeated

@@ -129,19 +129,25 @@ def test_printed_sizes_of_networks_and_sets_are_those_of_their_parts() -> None:
         assert len(values) == len(SETTINGS.layout.limb(limb))
 
 
+def joints_of(cell: Cell) -> list[str]:
+    """Return the joints behind a cell of a claim, which may name limbs; none where it names no joint."""
+    names = (cell.joint,) if isinstance(cell.joint, str) else cell.joint or ()
+    return [joint for name in names for joint in RESULTS.joints(name)]
+
+
 def units_of(cell: Cell) -> set[str]:
     """Return the units of a cell's numbers; none of a table's."""
     if cell.table:
         return set()
     if metrics_of(cell)[0] in get_args(TrainingMetric):
         return {"N m" if metrics_of(cell) == ("validation RMSE",) else "-"}
-    units = {RESULTS.layout.unit(joint) for joint in RESULTS.joints_of_cell(cell)}
+    units = {RESULTS.layout.unit(joint) for joint in joints_of(cell)}
     return {unit_of_metric(metric, unit) for metric in metrics_of(cell) for unit in units}
 
 
 def printed(cell: Cell, joint: str | None) -> float | None:
     """Return the paper's number of a cell, or of one of its joints; None where no table prints it."""
-    joints = [joint] if joint else RESULTS.joints_of_cell(cell)
+    joints = [joint] if joint else joints_of(cell)
     tables = SETTINGS.evaluation.tables.items()
     found = (one for name, table in tables if name in PUBLISHED.tables for one in in_table(name, table, cell, joints))
     return next(found, None)
@@ -172,7 +178,7 @@ def test_a_claim_quotes_what_is_printed_and_its_cells_units_and_bounds_fit(name:
     assert claim.unit == ("-" if claim.quantity in NO_UNIT else next(iter(units), claim.unit))
     assert not claim.statement or not CLAIMS[claim.statement].statement
     assert not claim.by_joint or claim.published is not None
-    assert all(set(claim.by_joint) <= set(RESULTS.joints_of_cell(cell)) for cell in claim.cells)
+    assert all(set(claim.by_joint) <= set(joints_of(cell)) for cell in claim.cells)
     check_bounds(claim)
     for joint, value in {None: claim.published, **claim.by_joint}.items():
         cells = [printed(cell, joint) for cell in claim.cells if claim.quantity in MADE]
