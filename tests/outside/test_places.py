@@ -250,7 +250,7 @@ def scores_of(
     files: Files, scenario: str = SCENARIO, level: str = LEVEL, metric: str = "rmse", size: float = 1.0
 ) -> list[Score]:
     """Return a metric of every run of a test at a level, from a size on, on all joints that it estimates."""
-    layout, settings, runs = files.settings.layout, files.settings, files.runs_of(scenario, level)
+    layout, runs = files.settings.layout, files.runs_of(scenario, level)
     values = {joint: size * (1.0 + k) for k, joint in enumerate(layout.names)}
     return [
         Score(scenario, run.level, run.method, run.network_seed, run.test_seed, limb, joint, metric, value, own)

@@ -17,6 +17,7 @@ from mobnet.settings.claims import Bounds, Cell, Claim, MadeNumber, TrainingMetr
 from mobnet.settings.evaluation import ErrorTable
 from mobnet.settings.load import load_settings
 from mobnet.settings.published import ARCHITECTURE
+from mobnet.settings.robot import WORLD
 
 SETTINGS = load_settings()
 RESULTS = Results(Catalogue(SETTINGS))
@@ -59,6 +60,17 @@ def test_the_right_side_of_the_robot_is_about_the_mirror_image_of_the_left_in_y(
             for name in ("torque_limit", "velocity_limit", "armature"):
                 assert getattr(other, name) == pytest.approx(getattr(one, name), rel=SAME_SHARE), other.id
             assert abs(abs(np.dot(other.axis, one.axis * np.array([1, -1, 1]))) - 1) < SAME_SHARE, other.id
+
+
+def test_the_robot_is_at_least_as_high_as_its_joints_are_apart() -> None:
+    place, turn = {WORLD: np.zeros(3)}, {WORLD: np.eye(3)}
+    for body in ROBOT.bodies:
+        cross = np.cross(np.eye(3), body.quat[1:])
+        place[body.name] = place[body.parent] + turn[body.parent] @ body.pos
+        turn[body.name] = turn[body.parent] @ (np.eye(3) + 2 * body.quat[0] * cross + 2 * cross @ cross)
+    heights = [point[2] for name, point in place.items() if name != WORLD]
+    assert ROBOT.totals is not None
+    assert max(heights) - min(heights) <= ROBOT.totals.height_m
 
 
 def shown_of(name: str) -> tuple[dict[str, set[str]], Sequence[str]] | None:
