@@ -17,6 +17,7 @@ from mobnet.settings.claims import Bounds, Cell, Claim, MadeNumber, TrainingMetr
 from mobnet.settings.evaluation import ErrorTable
 from mobnet.settings.load import load_settings
 from mobnet.settings.published import ARCHITECTURE
+from mobnet.settings.robot import WORLD
 
 SETTINGS = load_settings()
 RESULTS = Results(Catalogue(SETTINGS))
@@ -59,6 +60,17 @@ def test_the_right_side_of_the_robot_is_about_the_mirror_image_of_the_left_in_y(
             for name in ("torque_limit", "velocity_limit", "armature"):
                 assert getattr(other, name) == pytest.approx(getattr(one, name), rel=SAME_SHARE), other.id
             assert abs(abs(np.dot(other.axis, one.axis * np.array([1, -1, 1]))) - 1) < SAME_SHARE, other.id
+
+
+def test_the_robot_is_at_least_as_high_as_its_joints_are_apart() -> None:
+    place, turn = {WORLD: np.zeros(3)}, {WORLD: np.eye(3)}
+    for body in ROBOT.bodies:
+        cross = np.cross(np.eye(3), body.quat[1:])
+        place[body.name] = place[body.parent] + turn[body.parent] @ body.pos
+        turn[body.name] = turn[body.parent] @ (np.eye(3) + 2 * body.quat[0] * cross + 2 * cross @ cross)
+    heights = [point[2] for name, point in place.items() if name != WORLD]
+    assert ROBOT.totals is not None
+    assert max(heights) - min(heights) <= ROBOT.totals.height_m
 
 
 def shown_of(name: str) -> tuple[dict[str, set[str]], Sequence[str]] | None:
@@ -129,19 +141,25 @@ def test_printed_sizes_of_networks_and_sets_are_those_of_their_parts() -> None:
         assert len(values) == len(SETTINGS.layout.limb(limb))
 
 
+def joints_of(cell: Cell) -> list[str]:
+    """Return the joints behind a cell of a claim, which may name limbs; none where it names no joint."""
+    names = (cell.joint,) if isinstance(cell.joint, str) else cell.joint or ()
+    return [joint for name in names for joint in RESULTS.joints(name)]
+
+
 def units_of(cell: Cell) -> set[str]:
     """Return the units of a cell's numbers; none of a table's."""
     if cell.table:
         return set()
     if metrics_of(cell)[0] in get_args(TrainingMetric):
         return {"N m" if metrics_of(cell) == ("validation RMSE",) else "-"}
-    units = {RESULTS.layout.unit(joint) for joint in RESULTS.joints_of_cell(cell)}
+    units = {RESULTS.layout.unit(joint) for joint in joints_of(cell)}
     return {unit_of_metric(metric, unit) for metric in metrics_of(cell) for unit in units}
 
 
 def printed(cell: Cell, joint: str | None) -> float | None:
     """Return the paper's number of a cell, or of one of its joints; None where no table prints it."""
-    joints = [joint] if joint else RESULTS.joints_of_cell(cell)
+    joints = [joint] if joint else joints_of(cell)
     tables = SETTINGS.evaluation.tables.items()
     found = (one for name, table in tables if name in PUBLISHED.tables for one in in_table(name, table, cell, joints))
     return next(found, None)
@@ -172,7 +190,7 @@ def test_a_claim_quotes_what_is_printed_and_its_cells_units_and_bounds_fit(name:
     assert claim.unit == ("-" if claim.quantity in NO_UNIT else next(iter(units), claim.unit))
     assert not claim.statement or not CLAIMS[claim.statement].statement
     assert not claim.by_joint or claim.published is not None
-    assert all(set(claim.by_joint) <= set(RESULTS.joints_of_cell(cell)) for cell in claim.cells)
+    assert all(set(claim.by_joint) <= set(joints_of(cell)) for cell in claim.cells)
     check_bounds(claim)
     for joint, value in {None: claim.published, **claim.by_joint}.items():
         cells = [printed(cell, joint) for cell in claim.cells if claim.quantity in MADE]

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field
 
-from mobnet.core.metrics import METRIC
+from mobnet.core.metrics import METRIC, SECTIONS
 from mobnet.settings import base
 from mobnet.settings.base import Section
 from mobnet.settings.detection_tables import (

@@ -11,7 +11,6 @@ from mobnet.core.metrics import metric_of
 from mobnet.settings.asked import tests_in
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.robot import joints_above
-from mobnet.settings.claims import Cell
 from mobnet.settings.evaluation import Mean, measured_in
 from mobnet.settings.methods import swept_name
 from mobnet.settings.settings import Settings
@@ -52,11 +51,6 @@ class Results:
     def joints_of(self, column: str | Mean) -> list[str]:
         """Return the joints behind a column."""
         names = (column,) if isinstance(column, str) else column.joints
-        return [joint for name in names for joint in self.joints(name)]
-
-    def joints_of_cell(self, cell: Cell) -> list[str]:
-        """Return the joints behind a cell of a claim, which may name limbs; none where it names no joint."""
-        names = (cell.joint,) if isinstance(cell.joint, str) else cell.joint or ()
         return [joint for name in names for joint in self.joints(name)]
 
     def column_names(self, columns: Sequence[str | Mean]) -> list[str]:
