@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.compiled import compiled
+from mobnet.core.compilation import compiled
 from mobnet.plan.jobs import walk_settings
 from mobnet.plan.runs import FIRST_TRAINING_SEED
 from mobnet.settings.load import load_settings

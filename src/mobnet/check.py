@@ -46,7 +46,7 @@ from mobnet.learning.deployed.weights import read_weights
 from mobnet.plan.places import scale_of
 from mobnet.plan.plan import make_plan
 from mobnet.plan.precision import with_precision
-from mobnet.plan.stamped import Stamped
+from mobnet.plan.stamps import Stamped
 from mobnet.running.accounts import AccountNote, read_account
 from mobnet.settings.load import load_section, load_settings
 from mobnet.settings.reading import read_yaml

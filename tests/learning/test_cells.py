@@ -7,21 +7,21 @@ from torch import Tensor, nn
 from mobnet.learning.cells import CELLS, Block, Lstm
 from mobnet.learning.model import LimbNetwork, build_network, parameter_count
 from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.networks import SIZES, Cell
+from mobnet.settings.networks import SIZES, NetworkCell
 from mobnet.settings.settings import Settings
 
 STD_MIN = 1e-6
 PUBLISHED = {"GRU": 83712, "LSTM": 83468, "RNN": 83628, "TCN": 83956, "MLP": 83227, "MLP-500": 756512}  # section 6.1
 SMALL = {
-    **{kind: Cell(cell=kind, hidden=8) for kind in ("GRU", "LSTM", "RNN")},
-    "TCN": Cell(cell="TCN", hidden=4, kernel_steps=3, dilations=(1, 2), dropout=0.2, window_steps=5, head=6),
-    "MLP": Cell(cell="MLP", hidden=8, window_steps=5),
-    "constant": Cell(cell="constant"),
+    **{kind: NetworkCell(cell=kind, hidden=8) for kind in ("GRU", "LSTM", "RNN")},
+    "TCN": NetworkCell(cell="TCN", hidden=4, kernel_steps=3, dilations=(1, 2), dropout=0.2, window_steps=5, head=6),
+    "MLP": NetworkCell(cell="MLP", hidden=8, window_steps=5),
+    "constant": NetworkCell(cell="constant"),
 }
 LOOKS_BACK = {"MLP": 4, "TCN": 4 + 2 * 2 * (1 + 2)}  # samples before the present one
 
 
-def _network(cell: Cell, inputs: int = 3, joints: int = 2) -> LimbNetwork:
+def _network(cell: NetworkCell, inputs: int = 3, joints: int = 2) -> LimbNetwork:
     return build_network(cell, inputs, joints, STD_MIN, seed=0).eval()
 
 

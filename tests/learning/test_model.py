@@ -7,13 +7,13 @@ from mobnet.learning.cells import Gru
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import LimbNetwork, build_network, parameter_count, seeded
 from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.networks import Cell
+from mobnet.settings.networks import NetworkCell
 from mobnet.settings.settings import Settings
 
 SIZES = {"LL": 83712, "RL": 83712, "RA": 144816, "LA": 144816, "W": 152406, "V": 168012}  # Table 1
 STD_MIN = 1e-6
-PLAIN = Cell(cell="GRU", hidden=24)
-SPECTRAL = Cell(cell="GRU", hidden=24, spectral=True, input_gain=16.0)
+PLAIN = NetworkCell(cell="GRU", hidden=24)
+SPECTRAL = NetworkCell(cell="GRU", hidden=24, spectral=True, input_gain=16.0)
 
 
 @pytest.mark.parametrize("limb", SIZES)

@@ -11,7 +11,7 @@ from mobnet.learning.losses import gaussian_loss
 from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.learning.optimisation import LAST_STEP, SEQUENCES, Samples, train_epoch, validate
 from mobnet.learning.streams import deal, epoch_plan, window_plan
-from mobnet.settings.networks import SIZES, Cell, CellKind
+from mobnet.settings.networks import SIZES, CellKind, NetworkCell
 
 HORIZON = 10
 
@@ -61,7 +61,7 @@ def test_training_lowers_the_loss(network: LimbNetwork, samples: Samples) -> Non
 @pytest.mark.parametrize("kind", ["TCN", "MLP", "LSTM", "constant"])
 def test_every_cell_learns_on_streams(kind: CellKind, samples: Samples) -> None:
     sizes = {"hidden": 8, "window_steps": 4, "kernel_steps": 2, "dilations": (1, 2), "dropout": 0.1, "head": 8}
-    cell = Cell(cell=kind, **{name: sizes[name] for name in SIZES[kind]})
+    cell = NetworkCell(cell=kind, **{name: sizes[name] for name in SIZES[kind]})
     network = build_network(cell, 3, 2, 1e-6, seed=0)
     samples.targets.add_(1.0)  # what even a constant can learn
     optimizer = torch.optim.Adam(network.parameters(), lr=1e-2)

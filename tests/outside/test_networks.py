@@ -20,7 +20,7 @@ from mobnet.learning.deployed.networks import WEIGHTS, load_network
 from mobnet.learning.deployed.weights import NOTE, shapes
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network
-from mobnet.settings.networks import SIZES, Cell, CellKind
+from mobnet.settings.networks import SIZES, CellKind, NetworkCell
 from mobnet.settings.settings import Settings
 
 CELLS: dict[str, dict[str, Any]] = {
@@ -47,7 +47,7 @@ def made(settings: Settings, layout: JointLayout) -> Callable[[CellKind], tuple[
     """Return a function of a kind of cell that returns tensors and note of a network of the left leg."""
 
     def make(kind: CellKind) -> tuple[Tensors, dict[str, Any]]:
-        cell, inputs = Cell(cell=kind, **CELLS[kind]), limb_inputs(layout, settings.robot.networks["LL"]).names
+        cell, inputs = NetworkCell(cell=kind, **CELLS[kind]), limb_inputs(layout, settings.robot.networks["LL"]).names
         model = build_network(cell, len(inputs), 6, 1e-6, seed=0)
         tensors = {name: tensor.numpy() for name, tensor in model.deployable().items()}
         for name, width in (("input", len(inputs)), ("target", 6)):
@@ -69,7 +69,7 @@ def made(settings: Settings, layout: JointLayout) -> Callable[[CellKind], tuple[
 
 @pytest.mark.parametrize("kind", SIZES)
 def test_shapes_are_those_of_the_module(kind: CellKind) -> None:
-    cell = Cell(cell=kind, **CELLS[kind])
+    cell = NetworkCell(cell=kind, **CELLS[kind])
     found = {f"cell.{k}": tuple(v.shape) for k, v in torch.nn.Module.state_dict(build_cell(cell, 7)).items()}  # pyright: ignore
     assert {k: v for k, v in shapes(cell, 7, 2).items() if k.startswith("cell.")} == found
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import pytest
 
-from mobnet.core.compiled import cache_root
+from mobnet.core.compilation import cache_root
 
 ROOT = Path(__file__).parents[2]
 PARTS = ("Snakefile", "workflow", "profiles", "configs", "src", "docs", "paper", "reproduce", "environment.lock")

@@ -19,7 +19,7 @@ from mobnet.plan.places import check_scale
 from mobnet.plan.plan import make_plan
 from mobnet.plan.precision import record_precision, with_precision
 from mobnet.plan.products import shown
-from mobnet.plan.stamped import Stamped
+from mobnet.plan.stamps import Stamped
 from mobnet.plan.texts import text_problems
 from mobnet.running.cluster import LIMITED, failed_jobs, warm_cache
 from mobnet.running.environment import quieten

@@ -12,7 +12,7 @@ from mobnet.control.geometry import clip, dead, to_world, to_yaw_frame
 from mobnet.control.kinematics import Pose
 from mobnet.control.parameters import State, WalkingParameters
 from mobnet.core.arrays import Array
-from mobnet.core.compiled import compiled
+from mobnet.core.compilation import compiled
 
 PEAK_SPEED_RATIO = 1.875  # largest slope of the quintic `rise`, (W31)
 

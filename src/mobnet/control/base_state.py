@@ -6,7 +6,7 @@ Encoders and IMU are all that is read: no force of the feet and no plan.
 from mobnet.control.geometry import cross, rotate
 from mobnet.control.walker import Walker
 from mobnet.core.arrays import Array
-from mobnet.core.compiled import compiled, vector3
+from mobnet.core.compilation import compiled, vector3
 
 
 @compiled

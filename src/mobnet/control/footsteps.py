@@ -10,7 +10,7 @@ import numpy as np
 from mobnet.control.geometry import clip
 from mobnet.control.parameters import STEP_X, STEP_Y, TURN, State, WalkingParameters
 from mobnet.core.arrays import Array
-from mobnet.core.compiled import compiled
+from mobnet.core.compilation import compiled
 
 
 @compiled

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from mobnet.control.geometry import axis_angle_to_matrix, cross, multiply, quaternion_to_matrix, rotate
 from mobnet.core.arrays import Array
-from mobnet.core.compiled import compiled, matrix3, vector3
+from mobnet.core.compilation import compiled, matrix3, vector3
 from mobnet.robot.description import RobotDescription
 
 Indices = NDArray[np.int64]

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mobnet.core.arrays import Array
-from mobnet.core.compiled import compiled, matrix3, vector3
+from mobnet.core.compilation import compiled, matrix3, vector3
 
 
 class LegGeometry(NamedTuple):

@@ -11,7 +11,7 @@ from mobnet.control.geometry import clip, smoothstep, wrap
 from mobnet.control.parameters import DURATION, State, WalkingParameters
 from mobnet.control.walker import Walker, foot_yaw, vertical_force
 from mobnet.core.arrays import Array
-from mobnet.core.compiled import compiled
+from mobnet.core.compilation import compiled
 
 
 @compiled

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.compiled import compiled
+from mobnet.core.compilation import compiled
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
 from mobnet.settings.data import RandomTorque

@@ -7,7 +7,7 @@ import numpy as np
 
 from mobnet.control.geometry import rise, rise_slope, wrap, yaw_roll_pitch_matrix
 from mobnet.control.parameters import FOOT_HEIGHT, State, WalkingParameters
-from mobnet.core.compiled import compiled
+from mobnet.core.compilation import compiled
 
 
 @compiled

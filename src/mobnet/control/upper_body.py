@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from mobnet.core.arrays import Array
-from mobnet.core.compiled import compiled
+from mobnet.core.compilation import compiled
 
 
 class UpperBody(NamedTuple):

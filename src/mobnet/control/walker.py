@@ -9,7 +9,7 @@ from mobnet.control.kinematics import Pose, Tree, empty_pose, tree_of
 from mobnet.control.leg_ik import LegGeometry
 from mobnet.control.parameters import WalkingParameters, walking_parameters
 from mobnet.core.arrays import Array
-from mobnet.core.compiled import compiled
+from mobnet.core.compilation import compiled
 from mobnet.robot.description import SIDES, WalkingRobot
 from mobnet.settings.walking import Walking
 

@@ -24,7 +24,7 @@ from mobnet.control.swing import swing_foot
 from mobnet.control.walker import Walker, foot_yaw, move_wrenches
 from mobnet.control.whole_body import leg_reference, posture_torque, stance_torque, swing_torque
 from mobnet.core.arrays import Array
-from mobnet.core.compiled import compiled
+from mobnet.core.compilation import compiled
 
 
 @compiled

@@ -12,7 +12,7 @@ from mobnet.control.leg_ik import leg_ik
 from mobnet.control.parameters import SIDES, State
 from mobnet.control.walker import Walker
 from mobnet.core.arrays import Array
-from mobnet.core.compiled import compiled, matrix3, vector3
+from mobnet.core.compilation import compiled, matrix3, vector3
 from mobnet.robot.description import LEG_JOINTS
 
 LEFT_SIDE, RIGHT_SIDE = SIDES

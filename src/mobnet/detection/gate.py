@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.compiled import compiled
+from mobnet.core.compilation import compiled
 from mobnet.detection.leg import Leg, foot_load
 from mobnet.settings import detection as settings
 

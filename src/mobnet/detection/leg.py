@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from mobnet.control.geometry import cross, solve
 from mobnet.control.kinematics import Pose, Tree, empty_pose, tree_of, update
 from mobnet.core.arrays import Array
-from mobnet.core.compiled import compiled
+from mobnet.core.compilation import compiled
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.robot.description import LEG_JOINTS, RobotDescription
 

@@ -1,7 +1,7 @@
 """The recursion of the low-pass, compiled."""
 
 from mobnet.core.arrays import Array
-from mobnet.core.compiled import compiled
+from mobnet.core.compilation import compiled
 
 
 @compiled

@@ -11,7 +11,7 @@ import torch
 from torch import Tensor, nn
 
 from mobnet.learning.gru import run_gru
-from mobnet.settings.networks import SIZES, Cell, CellKind
+from mobnet.settings.networks import SIZES, CellKind, NetworkCell
 
 
 class CellModule(Protocol):
@@ -161,6 +161,6 @@ CELLS: Mapping[CellKind, Callable[..., CellModule]] = {  # each takes the number
 }
 
 
-def build_cell(cell: Cell, inputs: int) -> CellModule:
+def build_cell(cell: NetworkCell, inputs: int) -> CellModule:
     """Build a cell of Table 1 or section 6.1, n_in inputs wide, with torch's default initial weights."""
     return CELLS[cell.cell](inputs, **{name: getattr(cell, name) for name in SIZES[cell.cell]})

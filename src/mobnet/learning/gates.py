@@ -11,7 +11,7 @@ not vectorize.
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.core.compiled import compiled
+from mobnet.core.compilation import compiled
 from mobnet.learning.tiles import Factor, add_product, lay_left, lay_right
 
 Array = NDArray[np.float32]

@@ -11,7 +11,7 @@ from torch.nn.utils.parametrizations import spectral_norm
 
 from mobnet.learning.cells import CellModule, build_cell
 from mobnet.running.threads import one_thread
-from mobnet.settings.networks import Cell
+from mobnet.settings.networks import NetworkCell
 
 
 class LimbNetwork(nn.Module):
@@ -104,7 +104,7 @@ def seeded(seed: int) -> Iterator[None]:
         yield
 
 
-def build_network(cell: Cell, inputs: int, joints: int, std_min: float, seed: int) -> LimbNetwork:
+def build_network(cell: NetworkCell, inputs: int, joints: int, std_min: float, seed: int) -> LimbNetwork:
     """Build a network of Table 1 or section 6.1, its initial weights drawn from a seed; `std_min` is z-scored.
 
     Torch's own stream of random numbers is untouched.

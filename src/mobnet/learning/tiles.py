@@ -18,7 +18,7 @@ from numba.core import cgutils
 from numba.extending import intrinsic
 from numpy.typing import NDArray
 
-from mobnet.core.compiled import compiled
+from mobnet.core.compilation import compiled
 
 Factor = NDArray[Any]  # float32, or uint32 for pairs of bfloat16
 FEATURES = (numba.config.CPU_FEATURES or llvm.get_host_cpu_features().flatten()).split(",")

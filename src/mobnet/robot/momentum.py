@@ -34,7 +34,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.compiled import compiled
+from mobnet.core.compilation import compiled
 from mobnet.robot.linkage import Linkage, turn, turn_base
 from mobnet.robot.triples import Triple, add, at, cross, dot, into, out_of, product, put, times, vector
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array, rows_of
-from mobnet.core.compiled import compiled
+from mobnet.core.compilation import compiled
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.robot.linkage import Linkage, turn, turn_base
 from mobnet.robot.nominal import NominalModel

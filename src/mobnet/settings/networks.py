@@ -24,7 +24,7 @@ SIZES: dict[CellKind, tuple[str, ...]] = {  # what a kind of cell needs to be to
 }
 
 
-class Cell(Section):
+class NetworkCell(Section):
     """A network's cell and its sizes, Table 1 and section 6.1.
 
     `hidden` is the size of the state, the channels of a TCN, or the units of an MLP; a TCN and an MLP see
@@ -43,7 +43,7 @@ class Cell(Section):
     input_gain: base.Real = Field(default=1.0, gt=0, le=1000)
 
     @model_validator(mode="after")
-    def _has_its_sizes(self) -> Cell:
+    def _has_its_sizes(self) -> NetworkCell:
         """Check that exactly the sizes are there which this kind of cell takes, and that they fit each other."""
         wanted = SIZES[self.cell]
         given = [name for name in dict.fromkeys(sum(SIZES.values(), ())) if getattr(self, name) is not None]
@@ -63,7 +63,7 @@ class Cell(Section):
         return self
 
 
-class NetworkRow(Cell):
+class NetworkRow(NetworkCell):
     """A network of Table 1 as the configuration has it, on a training set of section 4.3."""
 
     data: base.TrainingSetName

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.compiled import compiled
+from mobnet.core.compilation import compiled
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.surrogate import Surrogate
 

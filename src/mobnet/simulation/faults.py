@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.compiled import compiled
+from mobnet.core.compilation import compiled
 from mobnet.robot.description import SIDES, WalkingRobot
 from mobnet.robot.plant import sole_name
 from mobnet.settings.surrogate import SensorErrors

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mobnet.control.parameters import State
 from mobnet.core.arrays import Array
-from mobnet.core.compiled import compiled
+from mobnet.core.compilation import compiled
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Direction, Phase, Push, Sines

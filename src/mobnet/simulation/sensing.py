@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mobnet.control.base_state import update_base
 from mobnet.control.walker import Walker
 from mobnet.core.arrays import Array
-from mobnet.core.compiled import compiled, vector3
+from mobnet.core.compilation import compiled, vector3
 from mobnet.robot.description import SIDES
 from mobnet.settings.plant import Level, Noise, Plant
 

@@ -17,12 +17,12 @@ from mobnet.learning.deployed.networks import WEIGHTS, ConstantNetwork, Deployed
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE
 from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.learning.streams import split
-from mobnet.settings.networks import SIZES, Cell, CellKind
+from mobnet.settings.networks import SIZES, CellKind, NetworkCell
 
 INPUTS, JOINTS, STEPS, STD_MIN = 30, 6, 400, 1e-6
 WINDOW: dict[str, Any] = {"window_steps": 10, "kernel_steps": 3, "dilations": (2, 4), "dropout": 0.2, "head": 12}
 CELLS = {
-    kind: Cell(cell=kind, **{name: ({"hidden": 150 if kind == "GRU" else 16} | WINDOW)[name] for name in names})
+    kind: NetworkCell(cell=kind, **{name: ({"hidden": 150 if kind == "GRU" else 16} | WINDOW)[name] for name in names})
     for kind, names in SIZES.items()
 }
 KINDS: dict[CellKind, type[Deployed]] = {
@@ -38,7 +38,7 @@ SCALES = {
 }
 
 
-def model_of(cell: Cell) -> LimbNetwork:
+def model_of(cell: NetworkCell) -> LimbNetwork:
     """Return a network with weights as large as trained ones."""
     model = build_network(cell, INPUTS, JOINTS, STD_MIN, seed=0)
     with torch.no_grad():
@@ -47,7 +47,7 @@ def model_of(cell: Cell) -> LimbNetwork:
     return model
 
 
-def deployed(folder: Path, model: LimbNetwork, cell: Cell, without: str = "", **more: torch.Tensor) -> Deployed:
+def deployed(folder: Path, model: LimbNetwork, cell: NetworkCell, without: str = "", **more: torch.Tensor) -> Deployed:
     """Write a network with its z-scores, and read it back."""
     tensors = {name: tensor for name, tensor in (model.deployable() | SCALES | more).items() if name != without}
     network = {"data": "walk", **cell.model_dump(mode="json")}  # a training notes more than the cell
@@ -89,7 +89,7 @@ def test_recordings_side_by_side_are_those_alone(kind: CellKind, x: np.ndarray, 
 @pytest.mark.parametrize("kind", [*CELLS, "spectral"])
 def test_run_agrees_with_the_module(kind: str, x: np.ndarray, tmp_path: Path) -> None:
     """The module as trained is the reference, z-scores by hand; a norm and a gain are in the deployed weights."""
-    cell = Cell(cell="GRU", hidden=24, spectral=True, input_gain=16.0) if kind == "spectral" else CELLS[kind]
+    cell = NetworkCell(cell="GRU", hidden=24, spectral=True, input_gain=16.0) if kind == "spectral" else CELLS[kind]
     model = model_of(cell).eval()
     zscored = (torch.from_numpy(x) - SCALES["input.mean"]) / SCALES["input.std"]
     with torch.no_grad():

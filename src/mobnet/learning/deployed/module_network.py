@@ -10,13 +10,13 @@ from torch import Tensor
 from mobnet.learning.deployed.lanes import side_by_side
 from mobnet.learning.deployed.networks import Array, Deployed, Prediction
 from mobnet.learning.model import build_network
-from mobnet.settings.networks import Cell
+from mobnet.settings.networks import NetworkCell
 
 
 class ModuleNetwork(Deployed):
     """A network of any cell with its z-scores, dropout off; the state is the cell's, (rows, 1, columns)."""
 
-    def __init__(self, tensors: Mapping[str, Array], *names: Any, cell: Cell) -> None:
+    def __init__(self, tensors: Mapping[str, Array], *names: Any, cell: NetworkCell) -> None:
         """Build the module of a cell and load its weights; `names` are the other arguments of `Deployed`."""
         super().__init__(tensors, *names)
         sizes = len(self.input_names), len(self.joints), float(self.std_min)

@@ -13,7 +13,7 @@ from safetensors import SafetensorError, safe_open
 from mobnet.core.errors import DataError, not_accepted, refuse
 from mobnet.core.files import parse_json
 from mobnet.core.notes import Names, Note, Positive, Text, checked, fault_of
-from mobnet.settings.networks import Cell
+from mobnet.settings.networks import NetworkCell
 
 NOTE = "note"  # the only entry of the file's metadata: several would be written in an order that changes
 GRU_TENSORS = (
@@ -41,10 +41,10 @@ class WeightsNote(Note):
     network: dict[str, Any]
 
     @property
-    def cell(self) -> Cell:
+    def cell(self) -> NetworkCell:
         """The cell and its sizes; the row also has limbs and data."""
-        known = {key: value for key, value in self.network.items() if key in Cell.model_fields}
-        return Cell.model_validate_json(json.dumps(known))
+        known = {key: value for key, value in self.network.items() if key in NetworkCell.model_fields}
+        return NetworkCell.model_validate_json(json.dumps(known))
 
 
 def read_weights(path: Path) -> tuple[dict[str, Array], WeightsNote]:
@@ -111,7 +111,7 @@ def _tensor_faults(name: str, tensor: Array, shape: Shape) -> Iterator[str]:
             yield not_accepted(f"tensor {name!r}, entry {place}", float(tensor[tuple(place)]), [accepted])
 
 
-def shapes(cell: Cell, inputs: int, joints: int) -> dict[str, Shape]:
+def shapes(cell: NetworkCell, inputs: int, joints: int) -> dict[str, Shape]:
     """Return name -> shape of all tensors of a network with so many inputs and joints; `std.scale` may be absent."""
     scores = {"input.mean": (inputs,), "input.std": (inputs,), "target.mean": (joints,), "target.std": (joints,)}
     width, weights = _cell_shapes(cell, inputs)
@@ -119,7 +119,7 @@ def shapes(cell: Cell, inputs: int, joints: int) -> dict[str, Shape]:
     return {**{f"cell.{name}": shape for name, shape in weights.items()}, **head, **scores, STD_SCALE: (joints,)}
 
 
-def _cell_shapes(cell: Cell, inputs: int) -> tuple[int, dict[str, Shape]]:
+def _cell_shapes(cell: NetworkCell, inputs: int) -> tuple[int, dict[str, Shape]]:
     """Return the features of a cell, and name -> shape of its tensors, as torch names them."""
     hidden, steps = cell.hidden or 0, cell.window_steps or 1
     if cell.cell in GATES:

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.methods import Method, swept_name
-from mobnet.settings.networks import Cell, Learning, Network
+from mobnet.settings.networks import Learning, Network, NetworkCell
 from mobnet.settings.reading import Place
 from mobnet.settings.settings import Settings
 
@@ -90,7 +90,7 @@ def _tuning_problems(catalogue: Catalogue, name: str, method: Method) -> Iterato
             yield ("start",), misfit(method.start, f"a method that trains {limb}")
             continue
         own, other = (catalogue.network(row, limb) for row in (name, str(method.start)))
-        differs = any(getattr(own, key) != getattr(other, key) for key in Cell.model_fields)
+        differs = any(getattr(own, key) != getattr(other, key) for key in NetworkCell.model_fields)
         if own.cell != "GRU" or own.spectral or differs:
             yield ("start",), misfit(method.start, f"a method with the same GRU for {limb}, without `spectral`")
         legs = [settings.layout.limb(foot.limb) for foot in settings.robot.feet.values()]

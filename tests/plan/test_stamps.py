@@ -12,7 +12,7 @@ from made_notes import training_note
 from mobnet.core.files import write_json
 from mobnet.plan import call, steps
 from mobnet.plan.plan import Plan, make_plan
-from mobnet.plan.stamped import Stamped
+from mobnet.plan.stamps import Stamped
 from mobnet.plan.steps import Step
 from mobnet.running.logs import Account
 from mobnet.running.stamp import Stamps, is_note

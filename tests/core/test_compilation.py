@@ -13,9 +13,9 @@ from numba.core.errors import NumbaError
 
 from mobnet.control.geometry import multiply
 from mobnet.core.code import SOURCE, code_hash
-from mobnet.core.compiled import cache_folder, compiled, matrix3, on_stack, vector3
+from mobnet.core.compilation import cache_folder, compiled, matrix3, on_stack, vector3
 
-CALLED = """from mobnet.core.compiled import compiled
+CALLED = """from mobnet.core.compilation import compiled
 
 
 @compiled
