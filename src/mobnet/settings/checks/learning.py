@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.catalogue import Catalogue
+from mobnet.settings.checks.limits import at_most
 from mobnet.settings.methods import Method, swept_name
 from mobnet.settings.networks import Cell, Learning, Network
 from mobnet.settings.reading import Place
@@ -108,8 +109,7 @@ def _window_problems(catalogue: Catalogue, limb: str) -> Iterator[Problem]:
         if limb in method.limbs
     }
     for place, row in rows.items():
-        if row.window_steps is not None and row.window_steps > row.horizon_steps:
-            yield (*place, "window_steps"), misfit(row.window_steps, f"at most horizon_steps, {row.horizon_steps}")
+        yield from at_most((*place, "window_steps"), row.window_steps or 0, row.horizon_steps, "horizon_steps")
 
 
 def _name_problems(settings: Settings) -> Iterator[Problem]:
