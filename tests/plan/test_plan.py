@@ -10,10 +10,11 @@ from made_steps import arguments, maker, recording
 
 from mobnet.core.errors import ConfigError
 from mobnet.plan.call import Call, Job, call_of, parameters
+from mobnet.plan.files import files_in
 from mobnet.plan.needs import needs_of
 from mobnet.plan.plan import Plan, make_plan
 from mobnet.plan.products import Shown, shown
-from mobnet.plan.runs import SweptSize, files_in
+from mobnet.plan.runs import SweptSize
 from mobnet.plan.steps import Step
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings

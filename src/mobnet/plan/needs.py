@@ -9,7 +9,7 @@ from typing import Any
 
 from mobnet.core.errors import ConfigError
 from mobnet.plan.detection import all_detections
-from mobnet.plan.runs import Files
+from mobnet.plan.files import Files
 from mobnet.settings.asked import tests_in
 from mobnet.settings.evaluation import Runs
 
@@ -22,7 +22,7 @@ def needs_of(files: Files, name: str, section: Any, parameters: Iterable[str]) -
     Raises:
         ConfigError: a parameter has its usual meaning, and the section lacks what this needs.
     """
-    own = NEEDS[name](files, section) if name in NEEDS else {}
+    own: Needs = NEEDS[name](files, section) if name in NEEDS else {}
     usual = [parameter for parameter in parameters if parameter in USUAL and parameter not in own]
     try:
         return {**{parameter: USUAL[parameter](files, section) for parameter in usual}, **own}
