@@ -11,7 +11,7 @@ from mobnet.plan.runs import Run, SweptSize
 from mobnet.plan.seeds import Seeds
 from mobnet.settings.asked import tests_in
 from mobnet.settings.evaluation import Runs
-from mobnet.settings.methods import swept_name
+from mobnet.settings.methods import swept_name, swept_names
 
 ARRAY, NOTE = ".parquet", ".json"  # endings of the two files of an array
 COURSE = (RUN, METRICS)  # files of a trained network that say how its training went
@@ -147,12 +147,8 @@ class Files(Seeds):
         if self.has(evaluation.kinds.level):
             pairs += [(method, kinds.limb) for method in evaluation.kinds.variants]
         if self.has(sizes.level):
-            swept = [(key, base) for key in (sizes.parameters, sizes.samples) for base in settings.sweeps[key].of]
-            pairs += [
-                (swept_name(base, key, value), sizes.limb)
-                for key, base in swept
-                for value in settings.sweeps[key].values
-            ]
+            for key in (sizes.parameters, sizes.samples):
+                pairs += [(name, sizes.limb) for name in swept_names(key, settings.sweeps[key])]
         if not self.robot:
             pairs += [(timed, limb) for limb in catalogue.method(timed).limbs]
         pairs += [(first, limb) for method, limb in pairs if (first := catalogue.method(method).start)]
