@@ -22,7 +22,7 @@ from mobnet.core.files import read_json
 from mobnet.evaluation.measure.data.steps import KEYS, UNITS, bin_edges, bin_of, read_steps
 from mobnet.evaluation.measure.data.upper_body import upper_body
 from mobnet.evaluation.tables.further.data import commanded
-from mobnet.plan.runs import FIRST_TRAINING_SEED
+from mobnet.plan.seeds import FIRST_TRAINING_SEED
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.load import load_settings

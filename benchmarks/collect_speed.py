@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.compilation import compiled
 from mobnet.plan.jobs import walk_settings
-from mobnet.plan.runs import FIRST_TRAINING_SEED
+from mobnet.plan.seeds import FIRST_TRAINING_SEED
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import WalkSettings
 from mobnet.simulation.engine import LivePlant

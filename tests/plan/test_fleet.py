@@ -134,7 +134,6 @@ def test_products_can_show_the_fleet(plan: Plan) -> None:
     ({"fleet": {"robots": ["ideal"]}}, "level of a surrogate robot: 'ideal' is not accepted"),
     ({"fleet": {"sets": {"walk": "walk"}}}, "sets.walk: walk is not accepted; accepted: a set at one of the levels"),
     ({"fleet": {"variants": {"robot_1": {"other": True}}}}, "fleet.variants.robot_1: robot_1 is not accepted"),
-    ({"fleet": {"variants": {"same": {}}}}, "a variant that changes nothing"),
     ({"fleet": {"variants": {"odd": {"friction": ["load"], "parts": ["drives"]}}}}, "odd.friction: ['load'] is not"),
     ({"levels": {"robot_1": {"friction": ["load"]}}}, "levels.robot_1.friction: ['load'] is not accepted"),
     ({"surrogate": {"limbs": {"N": {"coulomb_nm": [1.0]}}}}, "1 numbers is not accepted; accepted: 2"),

@@ -10,10 +10,11 @@ from made_steps import arguments, maker, recording
 
 from mobnet.core.errors import ConfigError
 from mobnet.plan.call import Call, Job, call_of, parameters
+from mobnet.plan.files import files_in
 from mobnet.plan.needs import needs_of
 from mobnet.plan.plan import Plan, make_plan
 from mobnet.plan.products import Shown, shown
-from mobnet.plan.runs import SweptSize, files_in
+from mobnet.plan.runs import SweptSize
 from mobnet.plan.steps import Step
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
@@ -79,8 +80,7 @@ def test_quick_makes_every_product_with_one_robot_and_one_network_of_each(plans:
     quick = plans["quick"]
     assert [product.name for product in quick.products] == [product.name for product in plans["default"].products]
     assert list(quick.files.robots) == ["robot_1"]
-    owners = (quick.files, *quick.files.robots.values())
-    assert {len(own.network_seeds(*network)) for own in owners for network in own.learned} == {1}
+    assert {len(own.network_seeds(*network)) for own in quick.files.owners for network in own.learned} == {1}
 
 
 def test_training_and_test_recordings_are_disjoint(plans: dict[str, Plan]) -> None:
@@ -101,14 +101,13 @@ def test_every_method_gets_its_networks(plans: dict[str, Plan], scale: str) -> N
     """
     files = plans[scale].files
     rows = files.catalogue.all_methods.items()
-    learned = {*files.learned, *(pair for own in files.robots.values() for pair in own.learned)}
+    learned = {pair for own in files.owners for pair in own.learned}
     swept = {base for sweep in files.settings.sweeps.values() for base in sweep.of}
     assert {name for name, _ in learned} == {
         name for name, row in rows if row.limbs and not (row.start and name in swept)
     }
     trained = [name for name in plans[scale].stored if name.endswith("weights.safetensors")]
-    owners = (files, *files.robots.values())
-    assert len(trained) == sum(len(own.network_seeds(*pair)) for own in owners for pair in own.learned)
+    assert len(trained) == sum(len(own.network_seeds(*pair)) for own in files.owners for pair in own.learned)
 
 
 def test_a_limb_with_fewer_seeds_serves_them_in_turn(plans: dict[str, Plan]) -> None:

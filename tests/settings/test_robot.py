@@ -51,7 +51,7 @@ def load_broken(tmp_path: Path, source: Path, *breaks: Break) -> RobotTable:
         (lambda t: t["groups"]["W"].append("W4"), "groups.W.3: joint: 'W4' is not accepted; accepted: "),
         (lambda t: t["groups"]["W"].append("LL1"), "groups: 'LL1' 2 times is not accepted; accepted: each name once"),
         (lambda t: t["networks"]["W"].update(Q=["tail"]), "networks.W.Q.0: limb: 'tail' is not accepted; accepted: LA"),
-        (lambda t: t["posture"]["N"].update(angle_rad=[0.0]), "posture.N.angle_rad: 1 numbers are not .*: 2"),
+        (lambda t: t["posture"]["N"].update(angle_rad=[0.0]), "posture.N.angle_rad: 1 numbers is not .*: 2"),
         (lambda t: t["posture"].update(T=t["posture"]["N"]), "posture.T: limb: 'T' is not accepted"),
         (lambda t: t["hands"].update(left="L_Hook"), "hands.left: body: 'L_Hook' is not .*: .*Head_Link"),
         (lambda t: t["feet"].update(middle=t["feet"]["left"]), "feet.middle"),

@@ -7,7 +7,7 @@ import pytest
 from pydantic import ValidationError
 
 from mobnet.core.errors import ConfigError
-from mobnet.plan.runs import FIRST_DEVELOPMENT_SEED, FIRST_TRAINING_SEED
+from mobnet.plan.seeds import FIRST_DEVELOPMENT_SEED, FIRST_TRAINING_SEED
 from mobnet.settings import evaluation
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.claims import TAKES, Claim

@@ -9,7 +9,7 @@ import pytest
 from mobnet.core.arrays import Array
 from mobnet.core.errors import SimulationError
 from mobnet.core.store import read_array
-from mobnet.plan.runs import FIRST_TRAINING_SEED
+from mobnet.plan.seeds import FIRST_TRAINING_SEED
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Motion
 from mobnet.settings.settings import Settings

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mobnet.core.detections import FILES
-from mobnet.plan.runs import Files
+from mobnet.plan.files import Files
 from mobnet.settings.data import Push
 from mobnet.settings.detection import Detection
 
@@ -64,5 +64,4 @@ def detection_files(files: Files) -> dict[str, Path]:
 
 def all_detections(files: Files) -> Detections:
     """Return the files of all detectors: those of the plant first, then those of each robot of the fleet."""
-    owners = (files, *files.robots.values())
-    return {level: detection_files(own) for own in owners if (level := level_of_detectors(own))}
+    return {level: detection_files(own) for own in files.owners if (level := level_of_detectors(own))}

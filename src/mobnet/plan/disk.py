@@ -7,8 +7,8 @@ from pathlib import Path
 from mobnet.core.columns import recording_width, residual_columns
 from mobnet.core.errors import DataError
 from mobnet.core.files import MIB, check_room
+from mobnet.plan.files import ARRAY, NOTE
 from mobnet.plan.plan import Plan
-from mobnet.plan.runs import ARRAY, NOTE
 from mobnet.settings.catalogue import Catalogue
 
 NUMBER_BYTES = 4

@@ -8,8 +8,8 @@ from mobnet.core.code import code_hash
 from mobnet.core.files import RUN, WEIGHTS
 from mobnet.plan.call import STAGE, Call, Job
 from mobnet.plan.detection import detection_files, numbers_of, walks_of
+from mobnet.plan.files import NOTE, Files, NetworkName, files_in
 from mobnet.plan.parts import MethodRun, Repetition, Shard
-from mobnet.plan.runs import NOTE, Files, NetworkName, files_in
 from mobnet.running.stage import Stage
 from mobnet.settings.asked import tests_in
 from mobnet.settings.catalogue import Catalogue

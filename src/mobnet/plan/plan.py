@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from mobnet.plan.files import ARRAY, Files
 from mobnet.plan.places import MAIN
 from mobnet.plan.products import Folders, Product, Products
-from mobnet.plan.runs import ARRAY, Files
 from mobnet.plan.steps import Step, all_steps, trial_steps
 from mobnet.plan.trials import trial_products
 from mobnet.plan.work import SECONDS, Work

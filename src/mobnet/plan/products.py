@@ -7,8 +7,8 @@ from pathlib import Path
 
 from mobnet.core.code import start_of
 from mobnet.plan.call import Job, call_of, parameters
+from mobnet.plan.files import Files, files_in
 from mobnet.plan.needs import needs_of
-from mobnet.plan.runs import Files, files_in
 from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.settings import Settings
 

@@ -15,8 +15,9 @@ from typing import TypeVar
 from mobnet.core.files import METRICS, RUN, WEIGHTS
 from mobnet.plan.call import Job
 from mobnet.plan.detection import detection_files, level_of_detectors
+from mobnet.plan.files import ARRAY, NOTE, Files, NetworkName, Place
 from mobnet.plan.jobs import Jobs
-from mobnet.plan.runs import ARRAY, FIRST_TRAINING_SEED, NOTE, Files, NetworkName, Place
+from mobnet.plan.seeds import FIRST_TRAINING_SEED
 from mobnet.plan.work import SECONDS, Work, detected, estimated, fitted, steps_of, trained, walked
 
 PART_S = 1200.0  # recordings that one step makes [s]: some two minutes
@@ -46,7 +47,7 @@ class Step:
 def all_steps(files: Files) -> Iterator[Step]:
     """Yield the steps behind everything that products are made from, those of robots last."""
     yield from _motions(files)
-    for own in (files, *files.robots.values()):
+    for own in files.owners:
         yield from _walks(own, own.recorded())
         yield from (_fit(own, method) for method in own.own_fits)
         yield from _trainings(own, own.own_networks)
@@ -65,8 +66,7 @@ def trial_steps(files: Files) -> Iterator[Step]:
 
 def _motions(files: Files) -> Iterator[Step]:
     """Yield the motions of the upper body, which all robots share."""
-    owners = (files, *files.robots.values())
-    taken = {(own.settings.scenarios[name].motion, seed) for own in owners for name, _, seed in own.recorded()}
+    taken = {(own.settings.scenarios[name].motion, seed) for own in files.owners for name, _, seed in own.recorded()}
     for motion, is_test in sorted({(name, seed < FIRST_TRAINING_SEED) for name, seed in taken if name}):
         seeds = sorted(seed for name, seed in taken if (name, seed < FIRST_TRAINING_SEED) == (motion, is_test))
         for part in _parts(seeds, lambda seed, name=motion: files.motion_s(name, seed), PART_S):

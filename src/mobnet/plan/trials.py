@@ -5,9 +5,10 @@ from pathlib import Path
 
 from mobnet.core.files import WEIGHTS
 from mobnet.plan.call import Call, Job
+from mobnet.plan.files import Files, files_in
 from mobnet.plan.jobs import KINDS
 from mobnet.plan.products import TABLE, Product
-from mobnet.plan.runs import Files, Tried, files_in
+from mobnet.plan.runs import Tried
 from mobnet.settings.trials import Trial, of_lengths, references, tuned
 
 

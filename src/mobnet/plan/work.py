@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from mobnet.plan.runs import Files, NetworkName
+from mobnet.plan.files import Files, NetworkName
 from mobnet.settings.networks import Network
 
 SECONDS = "s"

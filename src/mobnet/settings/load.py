@@ -110,8 +110,7 @@ def load_settings(
             values[section] = files[section].values
     faults += [fault for document in documents for fault in document.faults]
     faults += [sources.told(place, text) for place, text in odd]
-    if faults:
-        raise ConfigError(_lines(faults))
+    _refuse(faults)
     # the sections of those files now stand in them, and an override of their paths is none of their values
     inner = {key: value for key, value in own.items() if key not in NAMED_FILES}
     return _checked(values, Sources(documents[0], {**homes, **files}, inner), further)
@@ -130,7 +129,7 @@ def _read(folder: Path) -> tuple[list[Document], dict[str, Document], list[str]]
                 faults.append(document.told((section,), text))
             files[section] = document
     if not all(document.is_readable for document in documents):  # only then are all sections there
-        raise ConfigError(_lines(fault for document in documents for fault in document.faults))
+        _refuse(fault for document in documents for fault in document.faults)
     return documents, files, faults
 
 
@@ -141,26 +140,25 @@ def load_section(path: Path, kind: type[Kind]) -> Kind:
         ConfigError: the file, a key or a value is not accepted; one line for each of them.
     """
     document = Document(path)
-    if document.faults:
-        raise ConfigError(_lines(document.faults))
-    try:
-        section = kind.model_validate(document.values)
-        found = robot_problems(section) if isinstance(section, RobotTable) else ()
-    except ValidationError as error:
-        section, found = None, problems(error, kind, document.values)
-    lines = _lines(document.told(place, text) for place, text in found)
-    if lines or section is None:
-        raise ConfigError(lines)
+    _refuse(document.faults)
+    section = _validated(kind, document.values, document.values, document.told)
+    if isinstance(section, RobotTable):
+        _refuse(document.told(place, text) for place, text in robot_problems(section))
     return section
+
+
+def _validated(kind: type[Kind], values: Mapping[str, Any], typed: object, told: Callable[[Place, str], str]) -> Kind:
+    """Return a section with these values, or raise a line for each fault in them as they were typed."""
+    try:
+        return kind.model_validate(values)
+    except ValidationError as error:
+        raise ConfigError(_lines(told(*problem) for problem in problems(error, kind, typed))) from None
 
 
 def _checked(values: Mapping[str, Any], sources: Sources, further: Check | None) -> Settings:
     """Return the configuration if every value, name and change in it is accepted."""
-    try:
-        settings = Settings.model_validate(values)
-    except ValidationError as error:
-        found = problems(error, Settings, {**values, "claims": spelt_out(values.get("claims"))})
-        raise ConfigError(_lines(sources.told(place, text) for place, text in found)) from None
+    typed = {**values, "claims": spelt_out(values.get("claims"))}
+    settings = _validated(Settings, values, typed, sources.told)
     catalogue = Catalogue(settings)
     wrong: list[Problem] = [(("robot", *place), text) for place, text in robot_problems(settings.robot)]
     wrong += unknown_names(catalogue)
@@ -168,8 +166,7 @@ def _checked(values: Mapping[str, Any], sources: Sources, further: Check | None)
         wrong = list(_changes(catalogue))
     if not wrong:
         wrong = [*inconsistencies(catalogue), *(further(settings) if further else ())]
-    if wrong:
-        raise ConfigError(_lines(sources.told(place, text) for place, text in wrong))
+    _refuse(sources.told(place, text) for place, text in wrong)
     return settings
 
 
@@ -190,6 +187,12 @@ def _laid_over(values: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[
         else:
             merged[key] = value
     return merged
+
+
+def _refuse(found: Iterable[str]) -> None:
+    """Raise these lines, if there are any."""
+    if lines := _lines(found):
+        raise ConfigError(lines)
 
 
 def _lines(found: Iterable[str]) -> str:

@@ -52,3 +52,8 @@ class Sweep(Section):
 def swept_name(base: str, key: str, value: int) -> str:
     """Return the name of the method that stands for one value of a sweep."""
     return f"{base}-{key.replace('_', '-')}-{value}"
+
+
+def swept_names(key: str, sweep: Sweep) -> list[str]:
+    """Return the names of all methods that a sweep stands for."""
+    return [swept_name(base, key, value) for base in sweep.of for value in sweep.values]

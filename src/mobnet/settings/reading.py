@@ -138,7 +138,10 @@ class Document:
     def _built(self, node: Node, place: Place) -> tuple[Any, int]:
         """Return value and size of a node that is met for the first time."""
         if isinstance(node, yaml.ScalarNode):
-            return self._scalar(node, place), 1
+            value, fault = read_scalar(node.tag, node.value, plain=not node.style, nulls=self._nulls)
+            if fault:
+                self._refuse(_line(node), place, fault)
+            return value, 1
         kind = "map" if isinstance(node, yaml.MappingNode) else "seq"
         if node.tag != TAG + kind:
             self._refuse(_line(node), place, f"tag {node.tag!r} is not accepted; accepted: values without tags")
@@ -154,9 +157,8 @@ class Document:
         for key_node, value_node in node.value:
             line, key = _line(key_node), key_node.value
             if key_node.tag not in (f"{TAG}str", MERGE):
-                self._refuse(
-                    line, place, f"key {key if isinstance(key, str) else '?'!r} is not accepted; accepted: text"
-                )
+                shown = key if isinstance(key, str) else "?"
+                self._refuse(line, place, f"key {shown!r} is not accepted; accepted: text")
             elif key in lines:
                 text = f"a second {key!r} is not accepted; accepted: each key once, it stands in line {lines[key]} too"
                 self._refuse(line, (*place, key), text)
@@ -172,13 +174,6 @@ class Document:
                 else:
                     self._refuse(line, (*place, key), "what is merged is not accepted; accepted: one mapping")
         return {**merged, **own}, total
-
-    def _scalar(self, node: Node, place: Place) -> Any:
-        """Return the value of a scalar."""
-        value, fault = read_scalar(node.tag, node.value, plain=not node.style, nulls=self._nulls)
-        if fault:
-            self._refuse(_line(node), place, fault)
-        return value
 
 
 def _check_depth(text: str) -> None:

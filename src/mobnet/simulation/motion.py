@@ -17,7 +17,7 @@ from scipy.special import erf
 from mobnet.core.arrays import Array
 from mobnet.core.errors import SimulationError
 from mobnet.core.store import files_of, write_array
-from mobnet.plan.runs import FIRST_TRAINING_SEED
+from mobnet.plan.seeds import FIRST_TRAINING_SEED
 from mobnet.robot.description import RobotDescription, describe, for_walking
 from mobnet.running.provenance import provenance
 from mobnet.running.stage import Stage

@@ -20,8 +20,8 @@ from mobnet.evaluation.report.paper import PACKAGES, PaperError, copy_sources, m
 from mobnet.evaluation.tables.further import claims_table, methods
 from mobnet.evaluation.tables.further.uncertainty import text_of
 from mobnet.evaluation.tables.layout import PART, long_table, note_tex, text_table
+from mobnet.plan.files import Files
 from mobnet.plan.products import Folders, Products
-from mobnet.plan.runs import Files
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.data import Recordings
 from mobnet.settings.settings import Settings

@@ -17,7 +17,7 @@ from mobnet.core.files import write_text
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed, Truth
 from mobnet.evaluation.tables.layout import markdown_table
-from mobnet.plan.runs import FIRST_DEVELOPMENT_SEED, FIRST_TRAINING_SEED
+from mobnet.plan.seeds import FIRST_DEVELOPMENT_SEED, FIRST_TRAINING_SEED
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.data import Recordings
 from mobnet.settings.load import load_settings

@@ -18,11 +18,8 @@ def claim_problems(results: Results) -> Iterator[Problem]:
     """Yield claims about what is not measured."""
     claims = results.settings.claims
     numbers = {("claims", name): claim.cells for name, claim in claims.items()}
-    numbers |= {
-        ("claims", name, "numbers", key): number.cells
-        for name, claim in claims.items()
-        for key, number in claim.numbers.items()
-    }
+    for name, claim in claims.items():
+        numbers |= {("claims", name, "numbers", key): number.cells for key, number in claim.numbers.items()}
     for place, cells in numbers.items():
         for index, cell in enumerate(cells):
             yield from (((*place, "cells", index, *key), text) for key, text in _cell_problems(results, cell))
@@ -44,10 +41,8 @@ def _cell_problems(results: Results, cell: Cell) -> Iterator[Problem]:
     wanted = {"table", "where", "column"} if cell.table else wanted
     given = {key for key, value in cell if value and key != "metric"}
     if given != wanted:
-        yield (
-            (),
-            misfit(f"a cell with {', '.join(sorted(given)) or 'nothing'}", f"{', '.join(sorted(wanted))}, all of them"),
-        )
+        found = f"a cell with {', '.join(sorted(given)) or 'nothing'}"
+        yield (), misfit(found, f"{', '.join(sorted(wanted))}, all of them")
     elif cell.table:
         accepted = results.claimed_tables()
         if cell.table not in accepted:

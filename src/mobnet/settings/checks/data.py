@@ -6,12 +6,13 @@ from math import isclose
 from typing import cast
 
 from mobnet.core.errors import misfit, not_accepted
+from mobnet.settings.checks.limits import as_many, at_least, at_most, below, within
 from mobnet.settings.data import FixedCommand, Motion, Push, Scenario
 from mobnet.settings.reading import Place
 from mobnet.settings.settings import Settings
 
 PACKED = 0.5  # share of the ground that plates drawn one by one can cover
-RANGES = ("step_x_m", "step_y_m", "turn_deg", "duration_s", "foot_height_m")  # keys of a command
+
 FIRST_SETS = ("walk", "walk_plain")  # training sets that tables and figures of the paper compare by name
 NARROW = 1e-9
 Problem = tuple[Place, str]
@@ -29,16 +30,11 @@ def data_problems(settings: Settings) -> Iterator[Problem]:
 def _terrain_problems(settings: Settings) -> Iterator[Problem]:
     """Yield edges wider than what they belong to, plates that find no room, and heights that no foot clears."""
     checks, plates, least = settings.terrain.checks, settings.terrain.plates, min(settings.commands.foot_height_m)
-    if checks and checks.bevel_m >= checks.cell_m / 2:
-        yield (
-            ("terrain", "checks", "bevel_m"),
-            misfit(checks.bevel_m, f"below half of cell_m, {checks.cell_m / 2}"),
-        )
+    if checks:
+        yield from below(("terrain", "checks", "bevel_m"), checks.bevel_m, checks.cell_m / 2, "half of cell_m")
     if plates:
         sides = [side for size in plates.sizes_m for side in size]
-        if plates.bevel_m >= min(sides) / 2:
-            text = misfit(plates.bevel_m, f"below half of a plate's side, {min(sides) / 2}")
-            yield ("terrain", "plates", "bevel_m"), text
+        yield from below(("terrain", "plates", "bevel_m"), plates.bevel_m, min(sides) / 2, "half of a plate's side")
         area = sum(length * width for length, width in plates.sizes_m)
         if max(sides) + plates.gap_m > plates.period_m or area > PACKED * plates.period_m**2:
             accepted = (
@@ -48,14 +44,13 @@ def _terrain_problems(settings: Settings) -> Iterator[Problem]:
     heights: dict[Place, float] = {} if checks is None else {("checks", "height_m", 1): checks.height_m[1]}
     heights |= {} if plates is None else {("plates", "height_m"): plates.height_m}
     for place, height in heights.items():
-        if height >= least:
-            yield ("terrain", *place), misfit(height, f"below the lowest foot_height_m, {least}")
+        yield from below(("terrain", *place), height, least, "the lowest foot_height_m")
 
 
 def _command_problems(settings: Settings) -> Iterator[Problem]:
     """Yield ranges without zero, from which all walks start, and probabilities that are no distribution."""
     commands = settings.commands
-    for name in RANGES[:3]:
+    for name in ("step_x_m", "step_y_m", "turn_deg"):
         low, high = getattr(commands, name)
         if not low <= 0.0 <= high:
             yield ("commands", name), misfit([low, high], "a range that contains 0")
@@ -63,9 +58,8 @@ def _command_problems(settings: Settings) -> Iterator[Problem]:
     if not isclose(total, 1.0, abs_tol=NARROW):
         yield ("commands", "random", "kinds"), misfit(f"a sum of {total:g}", "probabilities with the sum 1")
     steps = (settings.recording.episode_s + settings.recording.settle_s) / settings.walking.step_min_s
-    if settings.recording.episode_steps < steps:
-        accepted = f"at least {steps:.0f}, the steps of an episode"
-        yield ("recording", "episode_steps"), misfit(settings.recording.episode_steps, accepted)
+    place, most = ("recording", "episode_steps"), settings.recording.episode_steps
+    yield from at_least(place, most, steps, "the steps of an episode")
 
 
 def _torque_problems(settings: Settings) -> Iterator[Problem]:
@@ -73,28 +67,19 @@ def _torque_problems(settings: Settings) -> Iterator[Problem]:
     limits = {joint.id: joint.torque_limit for joint in settings.robot.joints}
     groups, torque = settings.robot.groups, settings.random_torque
     for limb in ("LA", "RA"):
-        if limb in groups and len(torque.arms_nm) != len(groups[limb]):
-            accepted = f"{len(groups[limb])}, one for each joint of {limb}"
-            yield ("random_torque", "arms_nm"), misfit(f"{len(torque.arms_nm)} numbers", accepted)
-        for index, (joint, value) in enumerate(zip(groups.get(limb, ()), torque.arms_nm, strict=False)):
-            if value > limits[joint]:
-                yield (
-                    ("random_torque", "arms_nm", index),
-                    misfit(value, f"at most {limits[joint]}, limit of {joint}"),
-                )
+        place, joints = ("random_torque", "arms_nm"), groups.get(limb, ())
+        if joints:
+            yield from as_many(place, len(torque.arms_nm), len(joints), f"one for each joint of {limb}")
+        for index, (joint, value) in enumerate(zip(joints, torque.arms_nm, strict=False)):
+            yield from at_most((*place, index), value, limits[joint], f"limit of {joint}")
     for name, limbs in (("legs_waist_nm", ("LL", "RL", "W")), ("neck_nm", ("N",))):
         most = min((limits[joint] for limb in limbs for joint in groups.get(limb, ())), default=0.0)
         given: dict[Place, float] = {("random_torque", name): getattr(torque, name)}
         if name == "legs_waist_nm":
-            asked = {key: row.random_torque for key, row in settings.scenarios.items()}
-            given |= {
-                ("scenarios", key, "random_torque"): value
-                for key, value in asked.items()
-                if not isinstance(value, bool)
-            }
+            asked = [(key, row.random_torque) for key, row in settings.scenarios.items()]
+            given |= {("scenarios", key, "random_torque"): x for key, x in asked if not isinstance(x, bool)}
         for place, value in given.items():
-            if value > most:
-                yield place, misfit(value, f"at most {most}, the least limit of a motor")
+            yield from at_most(place, value, most, "the least limit of a motor")
 
 
 def _motion_problems(settings: Settings) -> Iterator[Problem]:
@@ -128,22 +113,17 @@ def _joint_range_problems(settings: Settings, motion: Motion) -> Iterator[Proble
     legs = robot.groups[robot.feet["left"].limb] if "left" in robot.feet else ()
     for index, pose in enumerate(motion.leg_poses_rad):
         for k, (joint, angle) in enumerate(zip(legs, pose, strict=False)):
-            if not limits[joint][0] <= angle <= limits[joint][1]:
-                text = misfit(angle, f"{limits[joint][0]} to {limits[joint][1]}, the range of {joint}")
-                yield ("leg_poses_rad", index, k), text
+            yield from within(("leg_poses_rad", index, k), angle, limits[joint], f"the range of {joint}")
 
 
 def _shape_problems(motion: Motion) -> Iterator[Problem]:
     """Yield distances and frequencies of a motion that stand in the wrong order, and variants that are the same."""
     fastest = max(variant.speed for variant in motion.variants) * motion.band_hz[1]
     if fastest >= motion.knot_hz / 2:
-        yield (
-            ("band_hz", 1),
-            misfit(motion.band_hz[1], f"below half of knot_hz, times the fastest variant: {fastest:g}"),
-        )
+        text = misfit(motion.band_hz[1], f"below half of knot_hz, times the fastest variant: {fastest:g}")
+        yield ("band_hz", 1), text
     for low, high in (("clearance_least_m", "clearance_m"), ("clearance_m", "guard_m")):
-        if getattr(motion, low) > getattr(motion, high):
-            yield (low,), misfit(getattr(motion, low), f"at most {high}, {getattr(motion, high)}")
+        yield from at_most((low,), getattr(motion, low), getattr(motion, high), high)
     for index, variant in enumerate(motion.variants):
         if variant in motion.variants[:index]:
             yield ("variants", index), misfit("the same variant twice", "variants that differ")
@@ -154,11 +134,9 @@ def _push_problems(settings: Settings) -> Iterator[Problem]:
     for name, push in settings.pushes.items():
         for place, text in _push_faults(push):
             yield ("pushes", name, *place), text
-        longest = push.duration_s[1]
         for index, (before, after) in enumerate(pairwise(push.at_s or ()), start=1):
-            if after < before + longest:
-                text = misfit(after, f"at least {before + longest:g}, the end of the push before")
-                yield ("pushes", name, "at_s", index), text
+            end_s = before + push.duration_s[1]
+            yield from at_least(("pushes", name, "at_s", index), after, end_s, "the end of the push before")
 
 
 def _push_faults(push: Push) -> Iterator[Problem]:
@@ -189,11 +167,10 @@ def _scenario_problems(settings: Settings, name: str, row: Scenario) -> Iterator
     asked = row.commands if isinstance(row.commands, FixedCommand) else row.narrowed
     place = "commands" if isinstance(row.commands, FixedCommand) else "narrowed"
     for key, value in asked:
-        low, high = min(getattr(settings.commands, key)), max(getattr(settings.commands, key))
+        ends = min(getattr(settings.commands, key)), max(getattr(settings.commands, key))
         numbers = cast("tuple[float, ...]", value if isinstance(value, tuple) else () if value is None else (value,))
         for number in numbers:
-            if not low <= number <= high:
-                yield (place, key), misfit(number, f"{low} to {high}, the range in section commands")
+            yield from within((place, key), number, ends, "the range in section commands")
     for index, push in enumerate(row.pushes):
         if set(commands) == {"stand"} and settings.pushes[push].during != "always":
             yield ("pushes", index), misfit(push, "pushes at any time, where nobody walks")
@@ -208,10 +185,7 @@ def _draw_problems(settings: Settings, name: str, row: Scenario) -> Iterator[Pro
         yield ("draws",), not_accepted("scenario", row.draws, [k for k, v in settings.scenarios.items() if not v.draws])
     for key, value in other:
         if key not in own and getattr(row, key) != value:
-            yield (
-                (key,),
-                f"what differs from scenario {row.draws} is not accepted; accepted: the same, as it draws alike",
-            )
+            yield (key,), misfit(f"what differs from scenario {row.draws}", "the same, as it draws alike")
 
 
 def _set_problems(settings: Settings) -> Iterator[Problem]:
@@ -221,10 +195,8 @@ def _set_problems(settings: Settings) -> Iterator[Problem]:
         if scale not in sets[name].sizes:
             yield ("training_sets", name, "sizes"), misfit(f"no scale {scale}", ", ".join(settings.scales))
         else:
-            size = sets[name].sizes[scale]
-            if size.held_out >= size.shards:
-                place = "training_sets", name, "sizes", scale, "held_out"
-                yield place, misfit(size.held_out, f"below {size.shards}, the number of shards")
+            size, place = sets[name].sizes[scale], ("training_sets", name, "sizes", scale, "held_out")
+            yield from below(place, size.held_out, size.shards, "the number of shards")
     seen = dict[tuple[str, str], str]()
     for name, row in sets.items():
         first = seen.setdefault((row.scenario, row.level), name)

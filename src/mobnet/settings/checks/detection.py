@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator
 
 from mobnet.core.errors import misfit
+from mobnet.settings.checks.limits import below
 from mobnet.settings.checks.results import Results
 from mobnet.settings.reading import Place
 
@@ -35,9 +36,7 @@ def _walk_problems(results: Results) -> Iterator[Problem]:
 def _number_problems(results: Results) -> Iterator[Problem]:
     """Yield filters above what is sampled, signals that a method does not have, and names of rules that are taken."""
     settings, detection = results.settings, results.settings.detection
-    if detection.low_pass_hz >= settings.rates.data_hz / 2:
-        text = misfit(detection.low_pass_hz, f"below half of data_hz, {settings.rates.data_hz / 2}")
-        yield (*ROOT, "low_pass_hz"), text
+    yield from below((*ROOT, "low_pass_hz"), detection.low_pass_hz, settings.rates.data_hz / 2, "half of data_hz")
     for name, row in detection.detectors.items():
         if set(row.signals) - {"mean"} and (text := results.not_learned(row.method)):
             yield (*ROOT, "detectors", name, "signals"), f"a standard deviation of {text}"

@@ -4,7 +4,8 @@ from collections.abc import Iterator
 
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.methods import Method, swept_name
+from mobnet.settings.checks.limits import at_most
+from mobnet.settings.methods import Method, swept_names
 from mobnet.settings.networks import Learning, Network, NetworkCell
 from mobnet.settings.reading import Place
 from mobnet.settings.settings import Settings
@@ -108,8 +109,7 @@ def _window_problems(catalogue: Catalogue, limb: str) -> Iterator[Problem]:
         if limb in method.limbs
     }
     for place, row in rows.items():
-        if row.window_steps is not None and row.window_steps > row.horizon_steps:
-            yield (*place, "window_steps"), misfit(row.window_steps, f"at most horizon_steps, {row.horizon_steps}")
+        yield from at_most((*place, "window_steps"), row.window_steps or 0, row.horizon_steps, "horizon_steps")
 
 
 def _name_problems(settings: Settings) -> Iterator[Problem]:
@@ -120,7 +120,7 @@ def _name_problems(settings: Settings) -> Iterator[Problem]:
         if first != name:
             yield ("methods", name), misfit(name, f"names that differ from {first} in more than capitals")
     for key, sweep in settings.sweeps.items():
-        for made in (swept_name(base, key, value) for base in sweep.of for value in sweep.values):
+        for made in swept_names(key, sweep):
             if made.casefold() in seen:
                 yield ("methods", seen[made.casefold()]), misfit(made, f"names that sweep {key} does not give")
 

@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from mobnet.core.errors import misfit, not_accepted
+from mobnet.settings.checks.limits import at_most
 from mobnet.settings.checks.results import Results
 from mobnet.settings.evaluation import AmplitudeTest, FineTuning, MethodsRow
 from mobnet.settings.reading import Place
@@ -37,33 +38,22 @@ def measured_problems(results: Results) -> Iterator[Problem]:
 
 def _push_problems(results: Results) -> Iterator[Problem]:
     """Yield bins that are longer than the time that is looked at, and a time that is longer than the pushes."""
-    settings, evaluation = results.settings, results.settings.evaluation
-    for test in evaluation.drift.tests.values():
-        longest = max(
-            (settings.pushes[name].duration_s[1] for name in settings.scenarios[test.scenario].pushes), default=0.0
-        )
-        if evaluation.drift.longest_s > longest:
-            text = misfit(evaluation.drift.longest_s, f"at most {longest:g}, the longest push of {test.scenario}")
-            yield (*ROOT, "drift", "longest_s"), text
-    if evaluation.drift.bin_s > evaluation.drift.longest_s:
-        yield (
-            (*ROOT, "drift", "bin_s"),
-            misfit(evaluation.drift.bin_s, f"at most longest_s, {evaluation.drift.longest_s}"),
-        )
+    settings, drift, place = results.settings, results.settings.evaluation.drift, (*ROOT, "drift", "longest_s")
+    for test in drift.tests.values():
+        pushes = [settings.pushes[name] for name in settings.scenarios[test.scenario].pushes]
+        longest = max((push.duration_s[1] for push in pushes), default=0.0)
+        yield from at_most(place, drift.longest_s, longest, f"the longest push of {test.scenario}")
+    yield from at_most((*ROOT, "drift", "bin_s"), drift.bin_s, drift.longest_s, "longest_s")
 
 
 def _learned_problems(results: Results) -> Iterator[Problem]:
     """Yield a learning curve of trials that there are not."""
-    settings, evaluation = results.settings, results.settings.evaluation
-    joints = results.layout.limbs(settings.robot.networks[settings.trials.limb].joints)
-    data = evaluation.learning_curve.data
-    if not re.fullmatch(r"docs/trials/[a-z0-9_]+\.csv", data):
-        yield (*ROOT, "learning_curve", "data"), not_accepted("file", data, ["a .csv file of docs/trials"])
-    if evaluation.learning_curve.joint not in (*joints, "avg"):
-        yield (
-            (*ROOT, "learning_curve", "joint"),
-            not_accepted("joint", evaluation.learning_curve.joint, [*joints, "avg"]),
-        )
+    settings, curve = results.settings, results.settings.evaluation.learning_curve
+    if not re.fullmatch(r"docs/trials/[a-z0-9_]+\.csv", curve.data):
+        yield (*ROOT, "learning_curve", "data"), not_accepted("file", curve.data, ["a .csv file of docs/trials"])
+    accepted = [*results.layout.limbs(settings.robot.networks[settings.trials.limb].joints), "avg"]
+    if curve.joint not in accepted:
+        yield (*ROOT, "learning_curve", "joint"), not_accepted("joint", curve.joint, accepted)
 
 
 def _line_problems(results: Results) -> Iterator[Problem]:
@@ -106,6 +96,5 @@ def _changed_problems(results: Results) -> Iterator[Problem]:
     settings, changed = results.settings, results.settings.evaluation.changed
     for test in changed.tests.values():
         longest = min(settings.test_s(test.scenario), settings.recording.episode_s)
-        if changed.window_s > longest:
-            text = misfit(changed.window_s, f"at most {longest:g}, for {test.scenario} lasts so long")
-            yield (*ROOT, "changed", "window_s"), text
+        place, what = (*ROOT, "changed", "window_s"), f"for {test.scenario} lasts so long"
+        yield from at_most(place, changed.window_s, longest, what)

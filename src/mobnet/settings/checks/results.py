@@ -12,7 +12,7 @@ from mobnet.settings.asked import tests_in
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.robot import joints_above
 from mobnet.settings.evaluation import Mean, measured_in
-from mobnet.settings.methods import swept_name
+from mobnet.settings.methods import swept_names
 from mobnet.settings.settings import Settings
 
 TABLES = {  # that are no entry of `tables` -> their columns
@@ -89,9 +89,7 @@ class Results:
         """Return the methods whose trainings claims may ask about: those of Figures 17 and 20, and their variants."""
         evaluation, sweeps = self.settings.evaluation, self.settings.sweeps
         keys = (evaluation.figure_20.parameters, evaluation.figure_20.samples)
-        swept = [
-            swept_name(base, key, value) for key in keys for base in sweeps[key].of for value in sweeps[key].values
-        ]
+        swept = [name for key in keys for name in swept_names(key, sweeps[key])]
         return [*evaluation.figure_17.methods, *evaluation.kinds.variants, *swept]
 
     def claimed_tables(self) -> dict[str, tuple[str, ...]]:

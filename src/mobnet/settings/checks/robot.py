@@ -8,6 +8,7 @@ import numpy as np
 
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.core.joints import N_VIRTUAL, right_of, with_image
+from mobnet.settings.checks.limits import as_many, within
 from mobnet.settings.names import unknown, uses
 from mobnet.settings.reading import Place
 from mobnet.settings.robot import WORLD, RobotTable
@@ -25,13 +26,7 @@ def robot_problems(table: RobotTable) -> Iterator[Problem]:
     names += _base_problems(table)
     yield from names
     if not names:  # only then can what they name be looked up
-        for check in (
-            _order_problems,
-            _limb_problems,
-            _foot_problems,
-            _size_problems,
-            _total_problems,
-        ):
+        for check in (_order_problems, _limb_problems, _foot_problems, _size_problems, _total_problems):
             yield from check(table)
 
 
@@ -105,14 +100,10 @@ def _limb_problems(table: RobotTable) -> Iterator[Problem]:
     for limb, posture in table.posture.items():
         joints = table.groups[limb]
         for name, values in posture:
-            if len(values) != len(joints):
-                text = f"{len(values)} numbers are not accepted; accepted: {len(joints)}, one for each joint"
-                yield ("posture", limb, name), text
+            yield from as_many(("posture", limb, name), len(values), len(joints), "one for each joint")
         for index, (joint, angle) in enumerate(zip(joints, posture.angle_rad, strict=False)):
-            low, high = ranges.get(joint, (-np.inf, np.inf))
-            if not low <= angle <= high:
-                text = f"{angle} is not accepted; accepted: {low} to {high}, the range of {joint}"
-                yield ("posture", limb, "angle_rad", index), text
+            place, ends = ("posture", limb, "angle_rad", index), ranges.get(joint, (-np.inf, np.inf))
+            yield from within(place, angle, ends, f"the range of {joint}")
     moving = [limb for limb, joints in table.groups.items() if not set(joints) & set(table.order.virtual)]
     for name, network in table.networks.items():
         for key, limbs in (("Q", network.Q), ("T", network.T)):
@@ -155,9 +146,7 @@ def _foot_problems(table: RobotTable) -> Iterator[Problem]:
         lowest = table.sole.box_centre[2] - table.sole.box_half[2]
         if abs(table.sole.height - lowest) > LENGTH_TOLERANCE_M:
             yield ("sole", "height"), f"{table.sole.height} is not accepted; accepted: {lowest:g}, the box's lower face"
-        if not table.sole.height <= table.sole.sensor_pos[2] <= 0.0:
-            text = f"{table.sole.sensor_pos[2]} is not accepted; accepted: from {table.sole.height} to 0, in the foot"
-            yield ("sole", "sensor_pos", 2), text
+        yield from within(("sole", "sensor_pos", 2), table.sole.sensor_pos[2], (table.sole.height, 0.0), "in the foot")
     if table.leg is not None and "left" in table.feet:
         yield from _leg_problems(table, table.groups[table.feet["left"].limb])
 
@@ -177,16 +166,10 @@ def _leg_problems(table: RobotTable, joints: tuple[str, ...]) -> Iterator[Proble
                 index = [row.id for row in table.joints].index(joint)
                 yield ("joints", index, "axis"), misfit(list(axes[joint]), f"{wanted} of a leg that walks")
     if dist(leg.hip_pos, steps[0]) > LENGTH_TOLERANCE_M:
-        yield (
-            ("leg", "hip_pos"),
-            f"{list(leg.hip_pos)} is not accepted; accepted: {list(steps[0])}, that of {joints[0]}",
-        )
+        yield ("leg", "hip_pos"), misfit(list(leg.hip_pos), f"{list(steps[0])}, that of {joints[0]}")
     for pos in steps[1:]:
         if (length := dist(pos, (0.0, 0.0, 0.0))) > 0.0 and abs(length - leg.link_length) > LENGTH_TOLERANCE_M:
-            text = (
-                f"{leg.link_length} is not accepted; accepted: {length:g}, the distance between the bodies of the leg"
-            )
-            yield ("leg", "link_length"), text
+            yield ("leg", "link_length"), misfit(leg.link_length, f"{length:g}, between the bodies of the leg")
             return
 
 
@@ -196,16 +179,11 @@ def _size_problems(table: RobotTable) -> Iterator[Problem]:
     for index, body in enumerate(table.bodies):
         radius = float(np.sqrt(max(body.inertia[:3]) / body.mass))
         if not low <= radius <= high:
-            text = (
-                f"a radius of gyration of {radius:.3g} m is not accepted; accepted: {low} to {high}, [kg m^2] and [kg]"
-            )
+            text = misfit(f"a radius of gyration of {radius:.3g} m", f"{low} to {high}, [kg m^2] and [kg]")
             yield ("bodies", index, "inertia"), text
     for index, shape in enumerate(table.shapes):
         if shape.segment is not None and dist(shape.segment[:3], shape.segment[3:]) < LENGTH_TOLERANCE_M:
-            yield (
-                ("shapes", index, "segment"),
-                f"{list(shape.segment)} is not accepted; accepted: two points that differ",
-            )
+            yield ("shapes", index, "segment"), misfit(list(shape.segment), "two points that differ")
 
 
 def _total_problems(table: RobotTable) -> Iterator[Problem]:

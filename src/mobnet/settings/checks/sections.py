@@ -15,7 +15,7 @@ from mobnet.settings.checks.shown import shown_problems
 from mobnet.settings.checks.sizes import size_problems
 from mobnet.settings.checks.surrogate import surrogate_problems
 from mobnet.settings.checks.walking import walking_problems
-from mobnet.settings.methods import swept_name
+from mobnet.settings.methods import swept_names
 from mobnet.settings.names import Use, unknown, uses
 from mobnet.settings.networks import Learning, Network
 from mobnet.settings.reading import Place
@@ -84,8 +84,7 @@ def _place_of(catalogue: Catalogue, method: str, part: str) -> Place:
     """Return the place of what makes a change: a method, a sweep or the trials."""
     if method in catalogue.settings.methods:
         return ("methods", method, part)
-    swept = [key for key, sweep in catalogue.settings.sweeps.items()
-             if method in {swept_name(base, key, value) for base in sweep.of for value in sweep.values}]  # fmt: skip
+    swept = [key for key, sweep in catalogue.settings.sweeps.items() if method in swept_names(key, sweep)]
     return ("sweeps", swept[0]) if swept else ("trials",)
 
 

@@ -24,16 +24,13 @@ def shown_problems(catalogue: Catalogue) -> Iterator[Problem]:
     for name, table in settings.evaluation.tables.items():
         for place, text in _table_problems(results, table):
             yield (*ROOT, "tables", name, *place), text
-    for check in (
-        _budget_problems,
-        _figure_problems,
-        _leg_problems,
-        _trained_problems,
-        _sweep_problems,
-        _test_problems,
-        _method_table_problems,
-    ):
-        yield from check(results)
+    yield from _budget_problems(results)
+    yield from _figure_problems(results)
+    yield from _leg_problems(results)
+    yield from _trained_problems(results)
+    yield from _sweep_problems(results)
+    yield from _test_problems(results)
+    yield from _method_table_problems(results)
     yield from measured_problems(results)
     yield from detection_problems(results)
     yield from asked_problems(catalogue)
@@ -119,11 +116,10 @@ def _leg_problems(results: Results) -> Iterator[Problem]:
     if limb not in results.legs or limb not in settings.robot.networks[limb].T:
         text = misfit(limb, f"a leg whose network sees its torques, `T`: {' or '.join(results.legs)}")
         yield (*ROOT, "coverage", "limb"), text
-    asked: list[tuple[Place, str, str]] = [
-        ((*ROOT, "figure_06", "joint"), evaluation.figure_06.scenario, evaluation.figure_06.joint)
-    ]
-    for title, test in evaluation.figure_10.tests.items():
-        asked.append(((*ROOT, "figure_10", "tests", title, "scenario"), test.scenario, evaluation.figure_10.joint))
+    step, knee = evaluation.figure_06, evaluation.figure_10
+    asked: list[tuple[Place, str, str]] = [((*ROOT, "figure_06", "joint"), step.scenario, step.joint)]
+    for title, test in knee.tests.items():
+        asked.append(((*ROOT, "figure_10", "tests", title, "scenario"), test.scenario, knee.joint))
     for name in ("coverage", "calibration"):
         for k, test in enumerate(getattr(evaluation, name).tests):
             if test.pushed is not None:
@@ -141,10 +137,8 @@ def _trained_problems(results: Results) -> Iterator[Problem]:
     for name, key in (("figure_17", "methods"), ("kinds", "variants")):
         for k, method in enumerate(getattr(getattr(evaluation, name), key)):
             if method not in trained:
-                yield (
-                    (*ROOT, name, key, k),
-                    not_accepted(f"method that trains {evaluation.figure_17.limb}", method, trained),
-                )
+                text = not_accepted(f"method that trains {evaluation.figure_17.limb}", method, trained)
+                yield (*ROOT, name, key, k), text
     for k, method in enumerate(evaluation.kinds.variants):
         if method in evaluation.figure_17.methods:
             yield (*ROOT, "kinds", "variants", k), misfit(method, "methods that Figure 17 does not show")
@@ -166,13 +160,11 @@ def _sweep_problems(results: Results) -> Iterator[Problem]:
         yield ("sweeps", figure.parameters, "values"), text
     for k, base in enumerate(settings.sweeps[figure.samples].of):
         if base not in sizes.of:
-            yield (
-                ("sweeps", figure.samples, "of", k),
-                not_accepted(f"method of sweep {figure.parameters}", base, sizes.of),
-            )
+            text = not_accepted(f"method of sweep {figure.parameters}", base, sizes.of)
+            yield ("sweeps", figure.samples, "of", k), text
     table = evaluation.table_01.method
     for limb in settings.published.table_01.rows:
-        if limb not in settings.methods[table].limbs if table in settings.methods else True:
+        if table not in settings.methods or limb not in settings.methods[table].limbs:
             yield (*ROOT, "table_01", "method"), misfit(table, f"a method that trains {limb}, a row of Table 1")
             return
 
@@ -192,10 +184,11 @@ def _method_table_problems(results: Results) -> Iterator[Problem]:
     """Yield columns of the table of methods that its limbs do not have."""
     for index, row in enumerate(results.settings.evaluation.methods):
         for limb, columns in row.columns.items():
+            accepted = [*results.joints(limb), "avg"]
             for k, column in enumerate(columns):
-                if column not in (*results.joints(limb), "avg"):
+                if column not in accepted:
                     place = (*ROOT, "methods", index, "columns", limb, k)
-                    yield place, not_accepted(f"column of {limb}", column, [*results.joints(limb), "avg"])
+                    yield place, not_accepted(f"column of {limb}", column, accepted)
 
 
 def _printed_problems(settings: Settings) -> Iterator[Problem]:

@@ -5,6 +5,7 @@ from itertools import chain
 
 from mobnet.core.errors import misfit
 from mobnet.settings.catalogue import Catalogue
+from mobnet.settings.checks.limits import at_most
 from mobnet.settings.checks.walking import is_whole
 from mobnet.settings.evaluation import Figure05, GaitFigure, HandFigure
 from mobnet.settings.reading import Place
@@ -71,14 +72,9 @@ def _time_problems(catalogue: Catalogue, scale: Scale) -> Iterator[Problem]:
     """Yield figures and pushes behind the end of a test; a scale with `figure_start_s` is too short for pushes."""
     settings = catalogue.settings
     length, cycle = scale.test.shard_s, CYCLES * 2 * max(settings.commands.duration_s)
-    for test, duration in scale.durations_s.items():
-        if duration == length:
-            text = misfit(duration, f"another one than shard_s of test, {length:g}")
-            yield ("scales", settings.scale, "durations_s", test), text
     if scale.figure_start_s is not None:
-        if scale.figure_start_s + cycle > length:
-            accepted = f"at most {length - cycle:g}, {CYCLES} gait cycles before the end of a test"
-            yield ("scales", settings.scale, "figure_start_s"), misfit(scale.figure_start_s, accepted)
+        place, what = ("scales", settings.scale, "figure_start_s"), f"{CYCLES} gait cycles before the end of a test"
+        yield from at_most(place, scale.figure_start_s, length - cycle, what)
         return
     ends = list[tuple[Place, str, float, float]]()  # place, test, value and time after it that the test must last
     for name, section in settings.evaluation:
@@ -93,12 +89,10 @@ def _time_problems(catalogue: Catalogue, scale: Scale) -> Iterator[Problem]:
                 ends.append((("pushes", push, "at_s", index), test, start, row.duration_s[1]))
     for place, test, value, after in ends:
         most = min(settings.test_s(test), settings.recording.episode_s) - after
-        if value > most:
-            lasts = f"for {test} lasts {settings.test_s(test)} s at scale {settings.scale}"
-            yield place, misfit(value, f"at most {most:g}, {lasts}")
-    if settings.evaluation.coverage.block_s > length:
-        accepted = f"at most {length}, a test at scale {settings.scale}"
-        yield ("evaluation", "coverage", "block_s"), misfit(settings.evaluation.coverage.block_s, accepted)
+        lasts = f"for {test} lasts {settings.test_s(test)} s at scale {settings.scale}"
+        yield from at_most(place, value, most, lasts)
+    place, block_s = ("evaluation", "coverage", "block_s"), settings.evaluation.coverage.block_s
+    yield from at_most(place, block_s, length, f"a test at scale {settings.scale}")
 
 
 def _training_problems(catalogue: Catalogue) -> Iterator[Problem]:

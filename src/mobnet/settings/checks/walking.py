@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from math import isclose
 
 from mobnet.core.errors import misfit
+from mobnet.settings.checks.limits import as_many, at_least, at_most, below, within
 from mobnet.settings.reading import Place
 from mobnet.settings.settings import Settings
 
@@ -56,15 +57,12 @@ def _rate_problems(settings: Settings) -> Iterator[Problem]:
         value = getattr(recording, name)
         if value and not is_whole(value * rates.data_hz):
             yield ("recording", name), misfit(value, f"a whole number of samples at {rates.data_hz} Hz")
-    if plant.loss_time_constant_s < SOLREF_STEPS / rates.plant_hz:
-        text = misfit(plant.loss_time_constant_s, f"at least two steps of the plant, {SOLREF_STEPS / rates.plant_hz}")
-        yield ("plant", "loss_time_constant_s"), text
-    if settings.observer.gain_hz > rates.data_hz / 2:
-        accepted = f"at most half of data_hz, {rates.data_hz / 2}"
-        yield ("observer", "gain_hz"), misfit(settings.observer.gain_hz, accepted)
-    for name, low, high in (("chunk_s", "chunk_s", "episode_s"), ("dropped_before_fall_s",) * 2 + ("episode_s",)):
-        if getattr(recording, low) >= getattr(recording, high):
-            yield ("recording", name), misfit(getattr(recording, low), f"below {high}, {getattr(recording, high)}")
+    least, most = SOLREF_STEPS / rates.plant_hz, rates.data_hz / 2
+    place = ("plant", "loss_time_constant_s")
+    yield from at_least(place, plant.loss_time_constant_s, least, "two steps of the plant")
+    yield from at_most(("observer", "gain_hz"), settings.observer.gain_hz, most, "half of data_hz")
+    for name in ("chunk_s", "dropped_before_fall_s"):
+        yield from below(("recording", name), getattr(recording, name), recording.episode_s, "episode_s")
 
 
 def _controller_problems(settings: Settings) -> Iterator[Problem]:
@@ -82,24 +80,14 @@ def _controller_problems(settings: Settings) -> Iterator[Problem]:
     for name, most in limits.items():
         if getattr(walking, name) > most:
             yield ("walking", name), misfit(getattr(walking, name), f"at most {most:g}")
-    if walking.swing_apex >= walking.swing_xy_share:
-        yield (
-            ("walking", "swing_apex"),
-            misfit(walking.swing_apex, f"below swing_xy_share, {walking.swing_xy_share}"),
-        )
-    low, high = walking.foothold_y_m
-    if not low <= walking.foot_spacing_m <= high:
-        yield (
-            ("walking", "foot_spacing_m"),
-            misfit(walking.foot_spacing_m, f"within foothold_y_m, {low} to {high}"),
-        )
-    for name, reach in (("step_x_m", walking.foothold_x_max_m), ("step_y_m", high - walking.foot_spacing_m)):
+    yield from below(("walking", "swing_apex"), walking.swing_apex, walking.swing_xy_share, "swing_xy_share")
+    yield from within(("walking", "foot_spacing_m"), walking.foot_spacing_m, walking.foothold_y_m, "foothold_y_m")
+    sideways = walking.foothold_y_m[1] - walking.foot_spacing_m
+    for name, reach in (("step_x_m", walking.foothold_x_max_m), ("step_y_m", sideways)):
         for index, value in enumerate(getattr(settings.commands, name)):
-            if abs(value) > reach:
-                yield ("commands", name, index), misfit(value, f"{-reach:g} to {reach:g}, where a foot may stand")
-    if settings.recording.fall_height_m >= walking.pelvis_height_m:
-        accepted = f"below walking.pelvis_height_m, {walking.pelvis_height_m}"
-        yield ("recording", "fall_height_m"), misfit(settings.recording.fall_height_m, accepted)
+            yield from within(("commands", name, index), value, (-reach, reach), "where a foot may stand")
+    fallen, most = settings.recording.fall_height_m, walking.pelvis_height_m
+    yield from below(("recording", "fall_height_m"), fallen, most, "walking.pelvis_height_m")
 
 
 def _body_problems(settings: Settings) -> Iterator[Problem]:
@@ -109,26 +97,17 @@ def _body_problems(settings: Settings) -> Iterator[Problem]:
     assert sole is not None
     joints = robot.groups[robot.feet["left"].limb]
     for name in ("leg_stiffness_nm_rad", "leg_damping_nms_rad"):
-        values = getattr(walking, name)
-        if len(values) != len(joints):
-            yield (
-                ("walking", name),
-                misfit(f"{len(values)} numbers", f"{len(joints)}, one for each joint of a leg"),
-            )
-    middle, half = sole.box_centre, sole.box_half
+        yield from as_many(("walking", name), len(getattr(walking, name)), len(joints), "one for each joint of a leg")
+    (middle, *_), half = sole.box_centre, sole.box_half
     for index, value in enumerate(walking.sole_x_m):
-        if abs(value - middle[0]) > half[0]:
-            text = misfit(value, f"{middle[0] - half[0]:g} to {middle[0] + half[0]:g}, the robot's sole")
-            yield ("walking", "sole_x_m", index), text
+        ends = middle - half[0], middle + half[0]
+        yield from within(("walking", "sole_x_m", index), value, ends, "the robot's sole")
     for index, value in enumerate(walking.stand_shift_m):
-        if abs(value) > half[index]:
-            text = misfit(value, f"{-half[index]:g} to {half[index]:g}, half the robot's sole")
-            yield ("walking", "stand_shift_m", index), text
-    if walking.sole_y_m > half[1]:
-        yield ("walking", "sole_y_m"), misfit(walking.sole_y_m, f"at most {half[1]}, half the robot's sole")
-    if walking.foothold_y_m[0] < 2 * half[1]:
-        text = misfit(walking.foothold_y_m[0], f"at least {2 * half[1]}, the width of the robot's sole")
-        yield ("walking", "foothold_y_m", 0), text
+        ends = -half[index], half[index]
+        yield from within(("walking", "stand_shift_m", index), value, ends, "half the robot's sole")
+    yield from at_most(("walking", "sole_y_m"), walking.sole_y_m, half[1], "half the robot's sole")
+    nearest, width = walking.foothold_y_m[0], 2 * half[1]
+    yield from at_least(("walking", "foothold_y_m", 0), nearest, width, "the width of the robot's sole")
 
 
 def _leg_problems(settings: Settings) -> Iterator[Problem]:
@@ -138,22 +117,12 @@ def _leg_problems(settings: Settings) -> Iterator[Problem]:
     assert sole is not None
     assert leg is not None
     joints = robot.groups[robot.feet["left"].limb]
-    longest = 2 * leg.link_length - sole.height - leg.hip_pos[2]
-    if walking.pelvis_height_m >= longest:
-        yield (
-            ("walking", "pelvis_height_m"),
-            misfit(walking.pelvis_height_m, f"below {longest:g}, of stretched legs"),
-        )
-    if walking.leg_reach_m >= 2 * leg.link_length:
-        accepted = f"below {2 * leg.link_length:g}, of stretched legs"
-        yield ("walking", "leg_reach_m"), misfit(walking.leg_reach_m, accepted)
+    reach = 2 * leg.link_length
+    longest = reach - sole.height - leg.hip_pos[2]
+    yield from below(("walking", "pelvis_height_m"), walking.pelvis_height_m, longest, "of stretched legs")
+    yield from below(("walking", "leg_reach_m"), walking.leg_reach_m, reach, "of stretched legs")
     weight = sum(body.mass for body in robot.bodies) * settings.plant.gravity_m_s2
-    if walking.touch_force_n >= weight / 2:
-        yield (
-            ("walking", "touch_force_n"),
-            misfit(walking.touch_force_n, f"below {weight / 2:.0f}, half the weight"),
-        )
+    yield from below(("walking", "touch_force_n"), walking.touch_force_n, weight / 2, "half the weight")
+    place, fastest = ("walking", "joint_speed_max_rad_s"), walking.joint_speed_max_rad_s
     slowest = min(joint.velocity_limit for joint in robot.joints if joint.id in joints)
-    if walking.joint_speed_max_rad_s > slowest:
-        accepted = f"at most {slowest}, the velocity limit of a leg's joint"
-        yield ("walking", "joint_speed_max_rad_s"), misfit(walking.joint_speed_max_rad_s, accepted)
+    yield from at_most(place, fastest, slowest, "the velocity limit of a leg's joint")
