@@ -1,17 +1,15 @@
 """What lower and higher thresholds do: collisions and delays over false alarms; and found shares over the force."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import StrMethodFormatter
 
 from mobnet.core.detections import COLLISION, HELD_OUT, CurvePoint, FreeSwing, Promise
-from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, entitle, legend, looks, save_figure
+from mobnet.evaluation.figures.style import beside, entitle, legend, looks, save_figure, styled
 from mobnet.evaluation.measure.detection.results import (
     MS,
     Detections,
@@ -24,7 +22,6 @@ from mobnet.evaluation.measure.detection.results import (
     share_of,
     tries_of,
 )
-from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.detection import Detection
 from mobnet.settings.detection_tables import DetectionCurves
@@ -82,8 +79,7 @@ def detection_curves(
         unit = "ms" if one.panel == DELAY else "-"
         rows += [(one.panel, settings.level, one.detector, x, *number.with_ends, count, unit)
                  for x, number, count in zip(one.x, one.numbers, one.counts, strict=True)]  # fmt: skip
-    write_csv(figure_dir / "detection_curves.csv", COLUMNS, rows)
-    save_figure(draw_courses(courses), figure_dir / "detection_curves")
+    save_figure(draw_courses(courses), figure_dir / "detection_curves", COLUMNS, rows)
 
 
 def _over_rates(
@@ -129,22 +125,21 @@ def area_of(hits: np.ndarray, quiet: np.ndarray, statistics: Statistics) -> Numb
     return Number(area, max(area - reach, 0.0), min(area + reach, 1.0))
 
 
+@styled
 def draw_courses(courses: Sequence[DetectorLine]) -> Figure:
     """Draw the three panels side by side."""
     styles = looks(one.detector for one in courses)
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(PAGE_INCH, HEIGHT_INCH), layout="constrained")
-        axes: Mapping[str, Axes] = dict(zip(LABELS, figure.subplots(1, len(LABELS)), strict=True))
-        for k, (panel, axis) in enumerate(axes.items()):
-            for one in (one for one in courses if one.panel == panel):
-                look = styles[one.detector]
-                values = [np.nan if number.value is None else number.value for number in one.numbers]
-                x = np.maximum(one.x, RATE_FLOOR) if panel != FORCE else np.asarray(one.x)
-                axis.plot(x, values, label=one.detector, marker=look.marker if panel == FORCE else "", markersize=3,
-                          **look.line)  # fmt: skip
-            axis.set(xlabel=LABELS[panel][0], ylabel=LABELS[panel][1], xscale="log")
-            axis.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-            axis.set_ylim(0.0, None if panel == DELAY else 1.05)
-            entitle(axis, k, panel)
-        legend(figure, list(axes.values()))
+    figure, axes = beside(len(LABELS), HEIGHT_INCH)
+    for k, (panel, axis) in enumerate(zip(LABELS, axes, strict=True)):
+        for one in (one for one in courses if one.panel == panel):
+            look = styles[one.detector]
+            values = [np.nan if number.value is None else number.value for number in one.numbers]
+            x = np.maximum(one.x, RATE_FLOOR) if panel != FORCE else np.asarray(one.x)
+            axis.plot(x, values, label=one.detector, marker=look.marker if panel == FORCE else "", markersize=3,
+                      **look.line)  # fmt: skip
+        axis.set(xlabel=LABELS[panel][0], ylabel=LABELS[panel][1], xscale="log")
+        axis.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        axis.set_ylim(0.0, None if panel == DELAY else 1.05)
+        entitle(axis, k, panel)
+    legend(figure, axes)
     return figure

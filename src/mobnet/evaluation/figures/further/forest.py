@@ -18,7 +18,6 @@ from matplotlib.figure import Figure
 from mobnet.core.columns import FOREST, SIGN_ONLY, VERDICTS
 from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, save_figure
 from mobnet.evaluation.measure.claims.verdicts import Judged
-from mobnet.evaluation.number.files import write_csv
 from mobnet.settings.claims import Bounds
 
 OVER_PAPER, BEYOND_BOUND = "ours over the paper's", "beyond the bound"  # what an axis has
@@ -54,8 +53,9 @@ Panel = Sequence[Place]
 def forest(judged: Sequence[Judged], confidence: float, figure_dir: Path) -> None:
     """Write the figure of all claims as PDF, PNG and CSV; `confidence` is that of the intervals, a share [-]."""
     places = [beyond_bound(each) if each.score == SIGN_ONLY else over_paper(each) for each in judged]
-    write_csv(figure_dir / "claims.csv", FOREST, [place.record for place in places])
-    save_figure(draw_forest(columns_of(places), confidence), figure_dir / "claims")
+    save_figure(
+        draw_forest(columns_of(places), confidence), figure_dir / "claims", FOREST, [place.record for place in places]
+    )
 
 
 def over_paper(judged: Judged) -> Place:
