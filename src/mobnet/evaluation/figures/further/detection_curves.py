@@ -15,13 +15,14 @@ from mobnet.evaluation.measure.detection.results import (
     Detections,
     Try,
     alarms_in,
+    found_share,
     hours_per_swing,
     mean_of,
     owners,
     rows_of,
     share_of,
     tries_of,
-)
+)  # fmt: skip
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.detection import Detection
 from mobnet.settings.detection_tables import DetectionCurves
@@ -59,10 +60,9 @@ def detection_curves(
     the interval of Hanley and McNeil (1982, Radiology 143).
     """
     names, leg = owners(detections, settings.level, detection.levels), settings.leg
-    points = [row for _, row in rows_of(detections, names, "curves", CurvePoint) if row.leg == leg]
-    promises = [row for _, row in rows_of(detections, names, "promises", Promise) if row.leg == leg]
-    swings = [row for _, row in rows_of(detections, names, "swings", FreeSwing)
-              if (row.leg, row.scenario, row.part) == (leg, detection.random, HELD_OUT)]  # fmt: skip
+    points = rows_of(detections, names, "curves", CurvePoint, leg=leg)
+    promises = rows_of(detections, names, "promises", Promise, leg=leg)
+    swings = rows_of(detections, names, "swings", FreeSwing, leg=leg, scenario=detection.random, part=HELD_OUT)
     hits = tries_of(detections, names, detection.collisions, leg, COLLISION)
     sweep = tries_of(detections, names, detection.sweep, leg, settings.kind)
     courses, rows = list[DetectorLine](), []
@@ -107,7 +107,7 @@ def _over_force(name: str, tries: Sequence[Try], bins: int, statistics: Statisti
     ordered = sorted(tries, key=lambda one: one.collision.force_n)
     parts = [list(part) for part in np.array_split(np.array(ordered, dtype=object), bins) if len(part)]
     x = [mean_of([one.collision.force_n for one in part], statistics, "N").value or 0.0 for part in parts]
-    shares = [share_of([one.detected.delay_s is not None for one in part], statistics) for part in parts]
+    shares = [found_share(part, statistics) for part in parts]
     return DetectorLine(FORCE, name, x, shares, [len(part) for part in parts])
 
 

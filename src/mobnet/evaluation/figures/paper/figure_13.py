@@ -38,7 +38,7 @@ def figure_13(
 ) -> None:  # fmt: skip
     """Write Figure 13 as PDF, PNG and CSV: the first collision of each cell, when its force is largest."""
     description, rows = describe(robot), []
-    found = [row for _, row in rows_of(detections, [settings.level], "collisions", Collision)]
+    found = rows_of(detections, [settings.level], "collisions", Collision)
     figure, axes = beside(len(settings.cells), HEIGHT_INCH)
     for k, (axis, cell) in enumerate(zip(axes, settings.cells, strict=True)):
         hit = first_of(found, detection.collisions, settings.leg, cell)

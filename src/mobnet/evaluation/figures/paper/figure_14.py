@@ -21,13 +21,10 @@ HEIGHT_INCH = 2.1
 
 def figure_14(settings: Figure14, detection: Detection, detections: Detections, figure_dir: Path) -> None:
     """Write Figure 14 as PDF, PNG and CSV: histograms of the collisions, those of a level's robots together."""
-    found = {
-        level.replace("_", " "): quantities(
-            [row for _, row in rows_of(detections, owners(detections, level, settings.levels), "collisions", Collision)
-             if (row.scenario, row.leg) == (detection.collisions, settings.leg)]
-        )
-        for level in settings.levels
-    }  # fmt: skip
+    found, own_leg = {}, {"scenario": detection.collisions, "leg": settings.leg}
+    for level in settings.levels:
+        names = owners(detections, level, settings.levels)
+        found[level.replace("_", " ")] = quantities(rows_of(detections, names, "collisions", Collision, **own_leg))
     edges = {name: np.histogram_bin_edges(np.concatenate([own[name] for own in found.values()]), settings.bins)
              for name in LABELS}  # fmt: skip
     rows: list[Sequence[Field]] = []

@@ -37,12 +37,12 @@ def figure_15(
     recordings: Sequence[Path], estimates: Mapping[str, Sequence[Path]], figure_dir: Path,
 ) -> None:  # fmt: skip
     """Write Figure 15 as PDF, PNG and CSV: the first collision of each cell."""
-    collisions = [row for _, row in rows_of(detections, [settings.level], "collisions", Collision)]
+    collisions = rows_of(detections, [settings.level], "collisions", Collision)
     signal = f"{STD}.{settings.joint}"
     found = {
         row.detector: row.value
-        for _, row in rows_of(detections, [settings.level], "thresholds", Threshold)
-        if (row.leg, row.kind, row.signal, row.phase) == (settings.leg, settings.kind, signal, 1)
+        for row in rows_of(detections, [settings.level], "thresholds", Threshold, leg=settings.leg, signal=signal)
+        if (row.kind, row.phase) == (settings.kind, 1)
     }
     thresholds = {method: found[name] for method, name in settings.detectors.items()}
     courses = [_course(settings, detection, layout, collisions, cell, recordings, estimates, thresholds)
