@@ -76,7 +76,6 @@ def order_text(shown: Mapping[str, Sequence[Try]], published: PublishedTable) ->
 
 
 def _in_cells(tries: Sequence[Try]) -> dict[str, list[Try]]:
-    """Return the collisions of each cell."""
     return {cell: [one for one in tries if one.cell == cell] for cell in CELLS}
 
 
@@ -101,7 +100,6 @@ def _rows(
     level: str, name: str, settings: DetectorTable, tries: Sequence[Try], statistics: Statistics,
     published: PublishedTable,
 ) -> Iterator[Sequence[Field]]:  # fmt: skip
-    """Yield the rows of CSV of a detector."""
     printed = {place: published_row(published, place, name) for place in (DETECTED, DELAY_MS)}
     for cell, own in {**_in_cells(tries), ALL: list(tries)}.items():
         place = level, name, settings.leg, settings.kind, cell
@@ -145,5 +143,4 @@ def _lines(
 
 
 def _mean(values: Sequence[float]) -> float | None:
-    """Return the mean of values; None of none."""
     return sum(values) / len(values) if values else None
