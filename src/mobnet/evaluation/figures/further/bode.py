@@ -59,9 +59,7 @@ def bode(
     save_figure(draw_bode(answers, joints, reference), figure_dir / "bode", RESPONSE, rows_of(answers))
 
 
-def answer(
-    lookup: Lookup, settings: Bode, method: str, joint: str, quantity: str, lines: Sequence[float]
-) -> Answer:  # fmt: skip
+def answer(lookup: Lookup, settings: Bode, method: str, joint: str, quantity: str, lines: Sequence[float]) -> Answer:
     """Return gain [-] or phase [deg] of a method at a joint's lines [Hz]."""
     numbers = {}
     for band_hz, frequency_hz in zip(settings.bands_hz, lines, strict=True):

@@ -17,9 +17,7 @@ X_LABEL, Y_LABEL = "time since the push began [s]", "share of the push [-]"
 Held = dict[float, Number]  # time [s] -> share of the push [-]
 
 
-def drift(
-    settings: Drift, statistics: Statistics, scores: Sequence[Path], figure_dir: Path
-) -> None:  # fmt: skip
+def drift(settings: Drift, statistics: Statistics, scores: Sequence[Path], figure_dir: Path) -> None:
     """Write the share of long pushes [-] that each method shows over time [s], as PDF, PNG and CSV."""
     lookup = read_lookup(scores, statistics)
     panels: list[LinePanel] = []

@@ -65,9 +65,7 @@ def rows_of(detections: Detections, names: Sequence[str], file: str, kind: type[
     return [row for row in rows if all(getattr(row, field) == value for field, value in held.items())]
 
 
-def tries_of(
-    detections: Detections, names: Sequence[str], scenario: str, leg: str, kind: str
-) -> dict[str, list[Try]]:  # fmt: skip
+def tries_of(detections: Detections, names: Sequence[str], scenario: str, leg: str, kind: str) -> dict[str, list[Try]]:
     """Return what each detector said of the collisions of a leg in a scenario, by a rule of thresholds."""
     found: dict[str, list[Try]] = {}
     for name in names:
