@@ -28,6 +28,12 @@ def read_table(path: Path) -> list[SimpleNamespace]:
         return [SimpleNamespace(**{name: _value(text) for name, text in row.items()}) for row in csv.DictReader(file)]
 
 
+def markdown_cells(table: Path) -> list[list[str]]:
+    """Return the cells of each line of a table's Markdown, which stands beside its CSV file."""
+    lines = table.with_suffix(".md").read_text().splitlines()
+    return [[cell.strip() for cell in line.split("|")[1:-1]] for line in lines]
+
+
 def check_golden(*produced: Path) -> None:
     """Compare files with the golden ones of their names, or make them the golden ones."""
     for path in produced:

@@ -396,16 +396,8 @@ def write_steps(stem: Path, layout: JointLayout, seed: int, size: float = 1.0, s
     acc = rng.normal(size=(rows, 3)) + [0.0, 0.0, 9.81]
     sensed = Sensed(q, v, acc, torque, np.clip(torque, -25.0, 25.0), swing.astype(float), command, np.zeros((rows, 2)))
     wrench, pushed = np.zeros((rows, 6)), np.zeros((rows, 1))
-    truth = Truth(
-        rng.normal(size=v.shape),
-        wrench,
-        wrench,
-        1.0 - swing,
-        pushed,
-        np.zeros_like(torque),
-        np.zeros_like(v),
-        np.zeros((rows, 4)),
-    )
+    still, external = (np.zeros_like(torque), np.zeros_like(v), np.zeros((rows, 4))), rng.normal(size=v.shape)
+    truth = Truth(external, wrench, wrench, 1.0 - swing, pushed, *still)
     meta = {"falls": seed % 2, "terrains": ["checks", "flat"]}
     spans = ((0, rows // 2), (rows // 2, rows))
     write_recording(stem, Recording(sensed, spans, RATE_HZ, meta, truth), layout)

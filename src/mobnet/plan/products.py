@@ -15,6 +15,7 @@ from mobnet.settings.settings import Settings
 EVALUATION = "mobnet.evaluation"
 PLACES = (*(f"{kind}.{part}" for kind in ("tables", "figures") for part in ("paper", "further")), "report")
 ERRORS = f"{EVALUATION}.tables.paper.error_table:error_table"  # makes every entry of `tables`
+HANDS = ("figure_07", "figure_12")  # figures that `hand_figure` makes
 TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their rules: the code hash reads Python only
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "png", "csv")  # endings of a table's and of a figure's files
 CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`
@@ -203,4 +204,5 @@ def functions() -> dict[str, str]:
     """Return the function `module:name` of each module of tables, of figures and of what is both."""
     folders = [f"{EVALUATION}.{place}" for place in PLACES]
     found = {path.stem: folder for folder in folders for path in start_of(folder).parent.glob("[a-z]*.py")}
-    return {name: f"{folder}.{name}:{name}" for name, folder in found.items()}
+    made = {name: f"{folder}.{name}:{name}" for name, folder in found.items()}
+    return made | dict.fromkeys(HANDS, made["hand_figure"])

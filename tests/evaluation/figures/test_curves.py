@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from mobnet.evaluation.compare.curves import Panel, TorqueCurve
-from mobnet.evaluation.figures.drawing.curves import draw_panels, write_panels
+from mobnet.evaluation.figures.drawing.curves import draw_panels, table_of
 from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, save_figure
+from mobnet.evaluation.number.files import write_csv
 
 TIME = np.arange(140) / 100.0
 TRUTH = 40.0 * np.sin(4.5 * TIME)
@@ -81,7 +82,7 @@ def test_nothing_drawn_is_twice_in_the_legend(panels: list[Panel]) -> None:
 
 def test_equal_arrays_give_equal_files_without_dates(tmp_path: Path, panels: list[Panel]) -> None:
     for name in ("a", "b"):
-        save_figure(draw_panels(panels, "time [s]", "torque [N m]"), tmp_path / name)
+        save_figure(draw_panels(panels, "time [s]", "torque [N m]"), tmp_path / name, *table_of(panels))
     for suffix in (".pdf", ".png"):
         one, two = ((tmp_path / name).with_suffix(suffix).read_bytes() for name in ("a", "b"))
         assert one == two
@@ -90,7 +91,7 @@ def test_equal_arrays_give_equal_files_without_dates(tmp_path: Path, panels: lis
 
 
 def test_written_numbers_are_those_drawn_and_a_missing_curve_is_empty(tmp_path: Path, panels: list[Panel]) -> None:
-    write_panels(tmp_path / "a.csv", panels)
+    write_csv(tmp_path / "a.csv", *table_of(panels))
     with (tmp_path / "a.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 4 * 140

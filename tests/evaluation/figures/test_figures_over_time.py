@@ -9,9 +9,9 @@ from csv_files import check_golden, read_table
 
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.figures.paper.figure_05 import figure_05, read_panel
-from mobnet.evaluation.figures.paper.figure_07 import figure_07
 from mobnet.evaluation.figures.paper.figure_08 import figure_08
 from mobnet.evaluation.figures.paper.figure_09 import figure_09
+from mobnet.evaluation.figures.paper.hand_figure import hand_figure
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import Evaluation
 
@@ -46,7 +46,7 @@ def test_figure_07_shows_every_fifth_sample_of_each_joint_with_its_unit(
 ) -> None:
     joints = list(evaluation.figure_07.joints)
     runs = [walk(-15.0, method="MOB", joints=joints), walk(1.5, joints=joints, std=0.5)]
-    figure_07(evaluation.figure_07, layout, runs, tmp_path)
+    hand_figure(evaluation.figure_07, "figure_07", layout, runs, tmp_path)
     rows = read_table(tmp_path / "figure_07.csv")
     assert list(dict.fromkeys(row.panel for row in rows)) == ["W2 [N m]", "V3 [N]"]
     assert [row.time_s for row in rows[:10]] == pytest.approx([0.5 + 0.05 * k for k in range(10)])

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from csv_files import check_golden, read_table
+from csv_files import check_golden, markdown_cells, read_table
 
 from mobnet.evaluation.report.sigma import sigma
 from mobnet.settings.evaluation import Evaluation, LimbRuns
@@ -35,7 +35,7 @@ def made(tmp_path: Path, settings: Settings, evaluation: Evaluation, write_measu
 
 
 def test_shares_are_in_percent_and_what_rises_is_told_as_a_factor(made: Path) -> None:
-    lines = [[cell.strip() for cell in line.split("|")[1:-1]] for line in (made / "sigma.md").read_text().splitlines()]
+    lines = markdown_cells(made / "sigma.csv")
     assert lines[0] == [
         "Test", "Limb", "Method", "68% all", "swing", "touch-down", "stance", "stuck", "moving", "pushed",
         "excursion [ms]", "sigma, times", "error, times",

@@ -13,6 +13,7 @@ from mobnet.core.files import read_json, write_json
 from mobnet.evaluation.measure.data.steps import WalkedSteps
 from mobnet.evaluation.tables.further.data import commanded, extent
 from mobnet.robot.nominal import NominalModel
+from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.settings import Settings
 
 Sets = dict[str, list[Path]]
@@ -78,3 +79,11 @@ def test_a_command_never_given_has_no_ratio(
 def test_a_missing_recording_is_named(tmp_path: Path, make_table: Callable[..., Path]) -> None:
     with pytest.raises(DataError, match=r"nowhere\.json: file is missing"):
         make_table("data", sets={"walk": [tmp_path / "nowhere"]})
+
+
+def test_coverage_is_the_golden_one(
+    make_table: Callable[..., Path], settings: Settings, evaluation: Evaluation, data_sets: Sets
+) -> None:
+    training = {"with RTE": data_sets["walk"], "without RTE": data_sets["walk_plain"]}
+    ports = settings.robot.networks[evaluation.coverage.limb]
+    check_golden(make_table("coverage", ports=ports, training=training, tests=[data_sets["test"]]))

@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from csv_files import check_golden, read_table, write_rows
+from csv_files import check_golden, markdown_cells, read_table, write_rows
 
 from mobnet.core.columns import Score
 from mobnet.evaluation.number.files import read_rows
@@ -27,11 +27,6 @@ def table(make_table: Make, write_limb_scores: Make) -> Path:
     """The overview of made-up scores."""
     scenarios = dict.fromkeys(row.scenario for row in ROWS)
     return make_table("methods", settings=ROWS, scores=[write_limb_scores(name, MEANS) for name in scenarios])
-
-
-def cells(line: str) -> list[str]:
-    """Return the cells of a line of Markdown."""
-    return [cell.strip() for cell in line.split("|")[1:-1]]
 
 
 def test_errors_are_those_asked_for_test_by_test(table: Path) -> None:
@@ -63,11 +58,11 @@ def test_where_the_truth_is_zero_there_is_no_skill(make_table: Make, write_limb_
     test = ROWS[0].model_copy(update={"methods": ("zero", "MOB")})
     table = make_table("methods", settings=[test], scores=scores)
     assert "skill" not in {row.metric for row in read_table(table)}
-    assert cells(table.with_suffix(".md").read_text().splitlines()[-1]) == ["", "", "skill", "-", "-"]
+    assert markdown_cells(table)[-1] == ["", "", "skill", "-", "-"]
 
 
 def test_tests_stand_below_one_another_with_dashes_where_a_column_is_not_theirs(table: Path) -> None:
-    lines = [cells(line) for line in table.with_suffix(".md").read_text().splitlines()]
+    lines = markdown_cells(table)
     assert lines[0] == ["Test", "Method", "", "LL3", "LL avg", "W avg", "RA avg"]
     assert lines[2] == ["walk test, all uncertainty", "zero", "RMSE", "10.00", "10.00", "-", "-"]
     assert [line[2] for line in lines[2:9]] == ["RMSE", "95%", "raw truth", "RMSE", "95%", "raw truth", "skill"]
@@ -85,7 +80,7 @@ def test_a_scenario_at_two_levels_is_two_tests(make_table: Make, write_limb_scor
     change = {"columns": {"LL": ("avg",)}, "methods": ("MOB",)}
     tests = [ROWS[0].model_copy(update={**change, "level": level}) for level in ("all_uncertainty", "ideal")]
     table = make_table("methods", settings=tests, scores=[path])
-    lines = [cells(line) for line in table.with_suffix(".md").read_text().splitlines()]
+    lines = markdown_cells(table)
     assert [line for line in lines[2:] if line[2] == "RMSE"] == [
         ["walk test, all uncertainty", "MOB", "RMSE", "9.00"], ["walk test, ideal", "MOB", "RMSE", "1.00"],
     ]  # fmt: skip

@@ -60,34 +60,24 @@ class Curves:
 
         With `band`, a standard deviation is shown where a method predicts it.
         """
-        k = self.joints.index(joint)
-        estimates = [
-            TorqueCurve(method, values[rows, k], self._std(method, rows, k) if band else None)
-            for method, values in self.estimates.items()
-        ]
-        return self._panel(title, rows, zero, [TorqueCurve(TRUTH, self.truth[rows, k]), *estimates])
+        return self._panel(title, joint, rows, zero, {TRUTH: self.truth, **self.estimates}, band)
 
     def uncertainty_panel(self, title: str, joint: str, rows: slice, *, zero: int = 0) -> Panel:
         """Return a panel of a joint's uncertainty torque, r - tau_e of (15), and of its predictions [N m].
 
         A method predicts what it subtracts from the residual; the arguments are those of `panel`.
         """
-        k = self.joints.index(joint)
-        residual = self.residual[rows, k]
-        predictions = [
-            TorqueCurve(method, residual - values[rows, k], self._std(method, rows, k))
-            for method, values in self.estimates.items()
-        ]
-        return self._panel(title, rows, zero, [TorqueCurve(TARGET, residual - self.truth[rows, k]), *predictions])
+        shown = {TARGET: self.truth, **self.estimates}
+        beyond = {name: self.residual - values for name, values in shown.items()}
+        return self._panel(title, joint, rows, zero, beyond, band=True)
 
-    def _std(self, method: str, rows: slice, k: int) -> NDArray[Any] | None:
-        """Return the standard deviation of the k-th joint that a method predicts (T,) [N m], V1..V3 [N]."""
-        std = self.stds[method]
-        return None if std is None else std[rows, k]
-
-    def _panel(self, title: str, rows: slice, zero: int, curves: Sequence[TorqueCurve]) -> Panel:
-        """Return a panel with time [s] and flags of some rows."""
-        time = (np.arange(len(self.truth))[rows] - zero) / self.rate_hz
+    def _panel(
+        self, title: str, joint: str, rows: slice, zero: int, shown: Mapping[str, NDArray[Any]], band: bool
+    ) -> Panel:
+        """Return a panel of a joint in some rows; shown are label -> curves of all joints (T, n) [N m], V1..V3 [N]."""
+        k, time = self.joints.index(joint), (np.arange(len(self.truth))[rows] - zero) / self.rate_hz
+        stds = {name: std[rows, k] for name, std in self.stds.items() if band and std is not None}
+        curves = [TorqueCurve(name, values[rows, k], stds.get(name)) for name, values in shown.items()]
         return Panel(title, time, curves, {name: flags[rows] for name, flags in self.flags.items()})
 
 

@@ -77,7 +77,6 @@ class Scene:
         return found
 
     def _read(self, names: list[str]) -> NDArray[np.float32]:
-        """Return columns of the recording (T, n)."""
         return read_array(self.stem, names)[0]
 
 

@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mobnet.core.files import atomic_path
+from mobnet.evaluation.number.files import Field, write_csv
 
 log = logging.getLogger(__name__)
 
@@ -28,6 +29,7 @@ STYLE: dict[Any, Any] = {
     "pdf.fonttype": 42,
     "savefig.dpi": 200,
 }
+styled = mpl.rc_context(STYLE)  # decorates functions that draw
 COLUMN_INCH, PAGE_INCH = 3.4, 7.0  # width of one column of the paper and of two
 LETTERS = "abcdefghijkl"
 
@@ -103,6 +105,12 @@ def stacked(units: Sequence[str], panel_inch: float, legend_inch: float) -> tupl
     return figure, axes
 
 
+def beside(count: int, height_inch: float, **shared: Any) -> tuple[Figure, list[Axes]]:
+    """Return a figure of two columns' width with panels side by side, so high [inch]; what they share is `shared`."""
+    figure = Figure(figsize=(PAGE_INCH, height_inch), layout="constrained")
+    return figure, figure.subplots(1, count, squeeze=False, **shared)[0].tolist()
+
+
 def entitle(axis: Axes, k: int, title: str) -> None:
     """Put the k-th letter and a title above a panel."""
     axis.set_title(f"({LETTERS[k]}) {title}", loc="left", pad=3)
@@ -130,8 +138,12 @@ def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, las
         key.remove()
 
 
-def save_figure(figure: Figure, stem: Path) -> None:
-    """Write `stem.pdf` (vector, fonts embedded) and `stem.png`, without dates, so equal numbers give equal files."""
+def save_figure(figure: Figure, stem: Path, columns: Sequence[str], rows: Iterable[Sequence[Field]]) -> None:
+    """Write the plotted numbers as `stem.csv`, and `stem.pdf` (vector, fonts embedded) and `stem.png` without dates.
+
+    So equal numbers give equal files.
+    """
+    write_csv(stem.with_suffix(".csv"), columns, rows)
     with mpl.rc_context(STYLE):
         for suffix, metadata in ((".pdf", {"CreationDate": None, "Producer": None}), (".png", {"Software": None})):
             with atomic_path(stem.with_suffix(suffix)) as temporary:

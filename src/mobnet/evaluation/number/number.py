@@ -47,6 +47,11 @@ class Number:
         """The number and the ends of its interval [unit]."""
         return self.value, self.low, self.high
 
+    @property
+    def range(self) -> tuple[float | None, float | None, float | None]:
+        """The number and the ends of its interval, or itself where it has none [unit]."""
+        return (self.value, self.value, self.value) if self.low is None else self.with_ends
+
     def text(self, digits: int = 2) -> str:
         """Return the number as text."""
         return number_text(self.value, digits)

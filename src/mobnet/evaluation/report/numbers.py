@@ -33,16 +33,9 @@ MILLION = 1e6
 
 
 def numbers(
-    scale: str,
-    rates: Rates,
-    sizes: Scale,
-    fleet: Fleet,
-    train: Recordings,
-    table_csvs: Sequence[Path],
-    claims_csv: Path,
-    summary_csv: Path,
-    out: Path,
-) -> None:
+    scale: str, rates: Rates, sizes: Scale, fleet: Fleet, train: Recordings, table_csvs: Sequence[Path],
+    claims_csv: Path, summary_csv: Path, out: Path,
+) -> None:  # fmt: skip
     r"""Write the macros that the paper's text uses, a TeX file to \input before it.
 
     \ourcell{scenario}{level}{method}{joint}{metric} and \publishedcell give a cell of any table (metric: `mean` if it
@@ -59,7 +52,9 @@ def numbers(
         values |= claim_texts(of, number)
     for row in read_texts(summary_csv, CLAIMED):
         values[f"scored@{row['score']}@{row['outcome']}"] = row["statements"]
-    write_text(out, LOOKUP + "".join(map(tex_definition, values.items())))
+    # a TeX line defines one name, which may hold any character, as a text
+    lines = (rf"\expandafter\def\csname {name}\endcsname{{{text}}}" + "\n" for name, text in values.items())
+    write_text(out, LOOKUP + "".join(lines))
 
 
 def cell_texts(of: Mapping[str, str], number: Number) -> dict[str, str]:
@@ -77,12 +72,6 @@ def claim_texts(of: Mapping[str, str], number: Number) -> dict[str, str]:
     texts = {"claimed": number_text(number.published), "found": value, "span": interval}
     texts |= {name: of[name] for name in ("verdict", "cause")}
     return {f"{name}@{of['claim']}": tex_escape(text) for name, text in texts.items()}
-
-
-def tex_definition(item: tuple[str, str]) -> str:
-    """Return the TeX line that defines one name, which may hold any character, as a text."""
-    name, text = item
-    return rf"\expandafter\def\csname {name}\endcsname{{{text}}}" + "\n"
 
 
 def size_texts(scale: str, rates: Rates, sizes: Scale, fleet: Fleet, train: Recordings) -> dict[str, str]:

@@ -22,6 +22,8 @@ NEEDED = {  # file that TeX must find -> Debian package that holds it
 }
 PACKAGES = ("texlive-latex-recommended", "texlive-publishers", "texlive-fonts-recommended", "latexmk")
 TABLES, FIGURES = "tables", "figures"  # folders beside the copy of the paper that TeX reads
+PLACES = rf"\def\tables{{{TABLES}}}\def\figures{{{FIGURES}}}\def\results{{{TABLES}}}"
+LATEXMK = ("latexmk", "-pdf", "-norc", "-interaction=nonstopmode", "-halt-on-error", f"-usepretex={PLACES}")
 LOG_LINES = 15
 LINE = "10000"  # characters after which TeX breaks a line of its log
 EPOCH = "0"  # date of the PDF unless SOURCE_DATE_EPOCH says another: equal input gives equal bytes
@@ -82,7 +84,7 @@ def compile_pdf(source: Path, out: Path) -> None:
     """Run latexmk in the source's folder and write the PDF, if everything fits its pages."""
     fixed = {"SOURCE_DATE_EPOCH": os.environ.get("SOURCE_DATE_EPOCH", EPOCH), "max_print_line": LINE}
     run = subprocess.run(
-        latexmk_command(source.name), cwd=source.parent, capture_output=True, text=True, errors="replace", check=False,
+        [*LATEXMK, source.name], cwd=source.parent, capture_output=True, text=True, errors="replace", check=False,
         stdin=subprocess.DEVNULL, env={**os.environ, **fixed},
     )  # fmt: skip
     if run.returncode != 0:
@@ -94,9 +96,3 @@ def compile_pdf(source: Path, out: Path) -> None:
         raise PaperError(f"{out}: the paper does not fit its pages: {'; '.join(faults)}")
     with atomic_path(out) as temporary:
         shutil.copy(source.with_suffix(".pdf"), temporary)
-
-
-def latexmk_command(name: str) -> Sequence[str]:
-    """Return the command that sets a paper whose tables and figures are in folders beside it."""
-    folders = rf"\def\tables{{{TABLES}}}\def\figures{{{FIGURES}}}\def\results{{{TABLES}}}"
-    return ("latexmk", "-pdf", "-norc", "-interaction=nonstopmode", "-halt-on-error", f"-usepretex={folders}", name)

@@ -47,9 +47,8 @@ def measured(plan: Plan, jobs: Iterable[Account]) -> RatesNote:
         DataError: a job of the plan has no account.
     """
     accounts = {job.job: job for job in jobs if job.succeeded}
-    works = plan.work
-    kinds = fitted(works, accounts)
-    own = [accounts[work.job] for work in works]
+    kinds = fitted(plan.work, accounts)
+    own = [accounts[work.job] for work in plan.work]
     return RatesNote(
         processor=processor(PROCESSOR),
         scale=plan.settings.scale,
@@ -81,7 +80,6 @@ def fitted(works: Iterable[Work], accounts: Mapping[str, Account]) -> dict[str, 
 
 
 def _kind(works: Sequence[Work], accounts: Sequence[Account]) -> Kind:
-    """Return the rates of one kind of jobs."""
     cpu_s = _rates([work.amounts for work in works], [account.cpu_s for account in accounts])
     peak_mib = _rates([{HELD: work.held} for work in works], [account.peak_mib for account in accounts])
     return Kind(cpu_s=cpu_s, peak_mib=peak_mib)
@@ -103,5 +101,4 @@ def price(work: Work, kind: Kind) -> tuple[float, float]:
 
 
 def _sum(rates: Rates, amounts: Mapping[str, float]) -> float:
-    """Return what amounts take at some rates."""
     return sum(rate * {JOB: 1.0, **amounts}.get(name, 0.0) for name, rate in rates.items())

@@ -82,7 +82,8 @@ def read_training_run(folder: Path) -> TrainingRun:
     Raises:
         DataError: a file is missing or damaged, or lacks a key or a column.
     """
-    training, note, time = read_training(folder), read_json(folder / RUN), state_of(folder) / TIME
+    training, note = read_training(folder), read_json(folder / RUN)
+    time = folder.parent.with_name("state") / folder.name / TIME  # beside the training's checkpoint
     return TrainingRun(
         **vars(training),
         **{key: note[key] for key in SHOWN},
@@ -91,11 +92,6 @@ def read_training_run(folder: Path) -> TrainingRun:
         metrics=folder / METRICS,
         seconds=read_json(time)["seconds"] if time.is_file() else None,
     )
-
-
-def state_of(folder: Path) -> Path:
-    """Return the folder in which the training of a network kept its checkpoint."""
-    return folder.parent.with_name("state") / folder.name
 
 
 def flattened(name: str, value: Any) -> Iterator[tuple[str, str]]:

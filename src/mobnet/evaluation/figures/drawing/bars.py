@@ -4,14 +4,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from mobnet.evaluation.figures.drawing.lines import LEGEND, LEGEND_INCH, PANEL_INCH
-from mobnet.evaluation.figures.style import STYLE, entitle, legend, looks, stacked
+from mobnet.evaluation.figures.style import entitle, legend, looks, stacked, styled
 from mobnet.evaluation.number.number import Number
 
 BAR_SHARE = 0.8  # of the distance between two groups of bars
@@ -35,15 +34,15 @@ class BarPanel:
     notes: Mapping[str, Sequence[str]] = field(default_factory=dict)
 
 
+@styled
 def draw_bars(panels: Sequence[BarPanel], y_label: str) -> Figure:
     """Draw groups of bars [N m], one for each method with its interval, and a panel for each test (Figure 18)."""
-    with mpl.rc_context(STYLE):
-        figure, axes = stacked([y_label] * len(panels), PANEL_INCH, LEGEND_INCH)
-        for k, (axis, panel) in enumerate(zip(axes, panels, strict=True)):
-            draw_bar_panel(axis, panel)
-            axis.set(ylabel=y_label)
-            entitle(axis, k, panel.title)
-        legend(figure, axes, **LEGEND)
+    figure, axes = stacked([y_label] * len(panels), PANEL_INCH, LEGEND_INCH)
+    for k, (axis, panel) in enumerate(zip(axes, panels, strict=True)):
+        draw_bar_panel(axis, panel)
+        axis.set(ylabel=y_label)
+        entitle(axis, k, panel.title)
+    legend(figure, axes, **LEGEND)
     return figure
 
 
@@ -72,10 +71,7 @@ def columns_of(numbers: Sequence[Number]) -> NDArray[np.float64]:
 
     Where there is no interval, its ends are the value.
     """
-    rows = [
-        (number.value, *((number.value,) * 2 if number.low is None else (number.low, number.high)), number.published)
-        for number in numbers
-    ]
+    rows = [(*number.range, number.published) for number in numbers]
     return np.array(rows, dtype=np.float64).reshape(-1, 4).T
 
 

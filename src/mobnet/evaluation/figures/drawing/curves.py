@@ -1,26 +1,16 @@
 """Panels of curves over time, and the plotted numbers as CSV. Drawing only."""
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from mobnet.evaluation.compare.curves import Panel
-from mobnet.evaluation.figures.style import (
-    COLUMN_INCH,
-    PAGE_INCH,
-    STYLE,
-    entitle,
-    legend,
-    looks,
-    save_figure,
-)  # fmt: skip
-from mobnet.evaluation.number.files import Field, write_csv
+from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, STYLE, entitle, legend, looks, styled
+from mobnet.evaluation.number.files import Field
 
 FLAGS: Mapping[str, tuple[float, Mapping[str, Any]]] = {  # name -> lower edge of its mark [of the height], its look
     "swing": (0.0, {"color": "#009E73", "alpha": 0.15}),
@@ -32,6 +22,7 @@ FROM_LIFT_OFF = "time from lift-off [s]"
 SIDE_BY_SIDE, HEIGHT_INCH = 3, 1.5  # panels of a leg's joints
 
 
+@styled
 def draw_panels(
     panels: Sequence[Panel], x_label: str, y_label: str, columns: int = 1, *, height_inch: float = PANEL_INCH,
     one_scale: bool = False,
@@ -41,20 +32,19 @@ def draw_panels(
     The curves are torque [N m] or force [N], (T,); with `one_scale`, all panels have the same vertical scale.
     """
     rows = -(-len(panels) // columns)
-    with mpl.rc_context(STYLE):
-        size = COLUMN_INCH if columns == 1 else PAGE_INCH, height_inch * rows + LEGEND_INCH
-        figure = Figure(figsize=size, layout="constrained")
-        grid = figure.subplots(rows, columns, sharex=True, sharey=one_scale, squeeze=False)
-        axes: list[Axes] = grid.ravel().tolist()
-        for spare in axes[len(panels) :]:
-            spare.set_visible(False)
-        for k, (axis, panel) in enumerate(zip(axes, panels, strict=False)):
-            draw_panel(axis, panel)
-            entitle(axis, k, panel.title)
-        axes[0].set_xlim(min(panel.time[0] for panel in panels), max(panel.time[-1] for panel in panels))
-        figure.supxlabel(x_label, fontsize=STYLE["axes.labelsize"])
-        figure.supylabel(y_label, fontsize=STYLE["axes.labelsize"])
-        legend(figure, axes[: len(panels)])
+    size = COLUMN_INCH if columns == 1 else PAGE_INCH, height_inch * rows + LEGEND_INCH
+    figure = Figure(figsize=size, layout="constrained")
+    grid = figure.subplots(rows, columns, sharex=True, sharey=one_scale, squeeze=False)
+    axes: list[Axes] = grid.ravel().tolist()
+    for spare in axes[len(panels) :]:
+        spare.set_visible(False)
+    for k, (axis, panel) in enumerate(zip(axes, panels, strict=False)):
+        draw_panel(axis, panel)
+        entitle(axis, k, panel.title)
+    axes[0].set_xlim(min(panel.time[0] for panel in panels), max(panel.time[-1] for panel in panels))
+    figure.supxlabel(x_label, fontsize=STYLE["axes.labelsize"])
+    figure.supylabel(y_label, fontsize=STYLE["axes.labelsize"])
+    legend(figure, axes[: len(panels)])
     return figure
 
 
@@ -84,14 +74,8 @@ def draw_leg(panels: Sequence[Panel], y_label: str) -> Figure:
     return draw_panels(panels, FROM_LIFT_OFF, y_label, SIDE_BY_SIDE, height_inch=HEIGHT_INCH)
 
 
-def save_panels(figure: Figure, panels: Sequence[Panel], stem: Path) -> None:
-    """Write the figure of some panels as PDF and PNG, and the plotted numbers as CSV."""
-    write_panels(stem.with_suffix(".csv"), panels)
-    save_figure(figure, stem)
-
-
-def write_panels(path: Path, panels: Sequence[Panel]) -> None:
-    """Write the plotted numbers as CSV, a row for each panel and sample: time [s], flags, curves [N m], V1..V3 [N].
+def table_of(panels: Sequence[Panel]) -> tuple[list[str], list[tuple[Field, ...]]]:
+    """Return columns and rows of the plotted numbers, a row for each panel and sample: time [s], flags, curves [N m].
 
     A curve that another panel has and this one has not leaves its field empty.
     """
@@ -101,7 +85,7 @@ def write_panels(path: Path, panels: Sequence[Panel]) -> None:
     for panel, own in zip(panels, columns, strict=True):
         values = [own[name].tolist() if name in own else [None] * len(panel.time) for name in names]
         rows += [(panel.title, *row) for row in zip(*values, strict=True)]
-    write_csv(path, ["panel", *names], rows)
+    return ["panel", *names], rows
 
 
 def columns_of(panel: Panel) -> dict[str, NDArray[Any]]:

@@ -4,14 +4,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from mobnet.evaluation.figures.style import STYLE, Look, entitle, legend, looks, stacked
+from mobnet.evaluation.figures.style import Look, entitle, legend, looks, stacked, styled
 from mobnet.evaluation.number.number import Number
 
 PANEL_INCH, LEGEND_INCH = 1.6, 0.45  # height of a panel and of the legend above all
@@ -49,21 +48,21 @@ class LinePanel:
         return self.y_label.partition("[")[2].rstrip("]")
 
 
+@styled
 def draw_lines(panels: Sequence[LinePanel]) -> Figure:
     """Draw panels of lines with the spread of their runs below one another (Figures 17 and 20)."""
     styles = looks(line.label for panel in panels for line in panel.lines)
     logarithmic = all(min(line.x) > 0.0 for panel in panels for line in panel.lines)
-    with mpl.rc_context(STYLE):
-        figure, axes = stacked([panel.unit for panel in panels], PANEL_INCH, LEGEND_INCH)
-        for k, (axis, panel) in enumerate(zip(axes, panels, strict=True)):
-            for line in panel.lines:
-                _line(axis, line, styles[line.label], panel.sizes)
-            axis.set(xlabel=panel.x_label, ylabel=panel.y_label)
-            entitle(axis, k, panel.title)
-            _places(axis, panel, logarithmic)
-        if not any(panel.sizes for panel in panels):
-            axes[0].set_ylim(*_range_of_means(panels))
-        legend(figure, axes, **LEGEND)
+    figure, axes = stacked([panel.unit for panel in panels], PANEL_INCH, LEGEND_INCH)
+    for k, (axis, panel) in enumerate(zip(axes, panels, strict=True)):
+        for line in panel.lines:
+            _line(axis, line, styles[line.label], panel.sizes)
+        axis.set(xlabel=panel.x_label, ylabel=panel.y_label)
+        entitle(axis, k, panel.title)
+        _places(axis, panel, logarithmic)
+    if not any(panel.sizes for panel in panels):
+        axes[0].set_ylim(*_range_of_means(panels))
+    legend(figure, axes, **LEGEND)
     return figure
 
 

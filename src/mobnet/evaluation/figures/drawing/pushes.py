@@ -5,15 +5,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mobnet.core.columns import PUSH_ERRORS
 from mobnet.evaluation.compare.curves import Panel
 from mobnet.evaluation.figures.drawing.bars import BarPanel, draw_bar_panel
-from mobnet.evaluation.figures.drawing.curves import LEGEND_INCH, draw_panel, write_panels
-from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, STYLE, entitle, legend, save_figure
+from mobnet.evaluation.figures.drawing.curves import LEGEND_INCH, draw_panel, table_of
+from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, entitle, legend, save_figure, styled
 from mobnet.evaluation.measure.estimates.pushes import INCREASE, PushErrors
 from mobnet.evaluation.number.files import write_csv
 
@@ -54,11 +53,12 @@ def save_pushes(groups: Sequence[PushGroup], joint: str, stem: Path) -> None:
         for group in groups for method, own in group.errors.items() for push, error in own.items()
     ]  # fmt: skip
     across, note_deg = (1, 0) if len(groups) == 1 else (2, 90)
-    write_panels(stem.with_suffix(".csv"), [panel for group in groups for panel in group.panels])
     write_csv(stem.with_name(f"{stem.name}_bars.csv"), PUSH_ERRORS, rows)
-    save_figure(draw_pushes(groups, joint, across, note_deg), stem)
+    panels = [panel for group in groups for panel in group.panels]
+    save_figure(draw_pushes(groups, joint, across, note_deg), stem, *table_of(panels))
 
 
+@styled
 def draw_pushes(groups: Sequence[PushGroup], joint: str, across: int = 1, note_deg: int = 0) -> Figure:
     """Draw groups side by side, one in one column of the paper and more in two: curves, and their bars below.
 
@@ -70,19 +70,18 @@ def draw_pushes(groups: Sequence[PushGroup], joint: str, across: int = 1, note_d
         [f"{k}.{row * across + i}" for k in range(len(groups)) for i in range(across)] for row in range(rows)
     ]
     places.append([f"{k}.bars" for k in range(len(groups)) for _ in range(across)])
-    with mpl.rc_context(STYLE):
-        size = COLUMN_INCH if len(groups) == 1 else PAGE_INCH, CURVES_INCH * rows + BARS_INCH + LEGEND_INCH
-        figure = Figure(figsize=size, layout="constrained")
-        axes = figure.subplot_mosaic(places, height_ratios=[*[CURVES_INCH] * rows, BARS_INCH])
-        for k, group in enumerate(groups):
-            bars = axes[f"{k}.bars"]
-            draw_bar_panel(bars, group.bars(), note_deg)
-            entitle(bars, 2 * k + 1, group.title)
-            bars.set_ylabel("RMSE [N m]")
-            curves = [axes[f"{k}.{i}"] for i in range(rows * across)]
-            _curves(curves, group, across, joint)
-            entitle(curves[0], 2 * k, curves[0].get_title(loc="left"))
-        legend(figure, list(axes.values()), LEGEND_COLUMNS * len(groups))
+    size = COLUMN_INCH if len(groups) == 1 else PAGE_INCH, CURVES_INCH * rows + BARS_INCH + LEGEND_INCH
+    figure = Figure(figsize=size, layout="constrained")
+    axes = figure.subplot_mosaic(places, height_ratios=[*[CURVES_INCH] * rows, BARS_INCH])
+    for k, group in enumerate(groups):
+        bars = axes[f"{k}.bars"]
+        draw_bar_panel(bars, group.bars(), note_deg)
+        entitle(bars, 2 * k + 1, group.title)
+        bars.set_ylabel("RMSE [N m]")
+        curves = [axes[f"{k}.{i}"] for i in range(rows * across)]
+        _curves(curves, group, across, joint)
+        entitle(curves[0], 2 * k, curves[0].get_title(loc="left"))
+    legend(figure, list(axes.values()), LEGEND_COLUMNS * len(groups))
     return figure
 
 

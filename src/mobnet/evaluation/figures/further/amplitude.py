@@ -8,7 +8,6 @@ from mobnet.core.joints import JointLayout
 from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from mobnet.evaluation.figures.style import save_figure
 from mobnet.evaluation.measure.data.random_torque import torque_left
-from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.rows import read_scores
@@ -49,8 +48,7 @@ def amplitude(
         (title, amplitudes[name], "", "", name, limb, "share", *share.with_ends, *share.spread, "-")
         for name, share in left.items()
     ]
-    write_csv(figure_dir / "amplitude.csv", AMPLITUDES, rows)
-    save_figure(draw_lines(panels), figure_dir / "amplitude")
+    save_figure(draw_lines(panels), figure_dir / "amplitude", AMPLITUDES, rows)
 
 
 def wanted_of(test: AmplitudeTest, method: str) -> Wanted:

@@ -5,16 +5,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mobnet.core.columns import RESPONSE
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.figures.style import LETTERS, PAGE_INCH, STYLE, Look, legend, looks, save_figure
+from mobnet.evaluation.figures.style import LETTERS, PAGE_INCH, STYLE, Look, legend, looks, save_figure, styled
 from mobnet.evaluation.measure.estimates.bode import GAIN, PHASE, observer_response
-from mobnet.evaluation.number.files import Field, write_csv
+from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.grid import Wanted
 from mobnet.evaluation.number.lookup import Lookup, read_lookup
 from mobnet.evaluation.number.number import Number
@@ -57,13 +56,10 @@ def bode(
     frequencies = np.geomspace(*ends, POINTS)
     response = observer_response(frequencies, observer.gain_hz, rates.data_hz)
     reference = frequencies, {"gain": np.abs(response), "phase": np.angle(response, deg=True)}
-    write_csv(figure_dir / "bode.csv", RESPONSE, rows_of(answers))
-    save_figure(draw_bode(answers, joints, reference), figure_dir / "bode")
+    save_figure(draw_bode(answers, joints, reference), figure_dir / "bode", RESPONSE, rows_of(answers))
 
 
-def answer(
-    lookup: Lookup, settings: Bode, method: str, joint: str, quantity: str, lines: Sequence[float]
-) -> Answer:  # fmt: skip
+def answer(lookup: Lookup, settings: Bode, method: str, joint: str, quantity: str, lines: Sequence[float]) -> Answer:
     """Return gain [-] or phase [deg] of a method at a joint's lines [Hz]."""
     numbers = {}
     for band_hz, frequency_hz in zip(settings.bands_hz, lines, strict=True):
@@ -82,6 +78,7 @@ def rows_of(answers: Sequence[Answer]) -> Iterator[tuple[Field, ...]]:
             yield (*of, *number.with_ends, *number.spread, number.unit)
 
 
+@styled
 def draw_bode(answers: Sequence[Answer], joints: Sequence[str], reference: tuple[Any, Mapping[str, Any]]) -> Figure:
     """Draw a column of gain [-] and phase [deg] for each joint, three joints side by side.
 
@@ -89,37 +86,34 @@ def draw_bode(answers: Sequence[Answer], joints: Sequence[str], reference: tuple
     """
     styles = looks(one.method for one in answers)
     blocks = -(-len(joints) // ACROSS)
-    with mpl.rc_context(STYLE):
-        size = PAGE_INCH, ROW_INCH * 2 * blocks + LEGEND_INCH
-        figure = Figure(figsize=size, layout="constrained")
-        axes = figure.subplots(2 * blocks, ACROSS, sharex=True, sharey="row", squeeze=False)
-        for axis in axes.flat:
-            axis.set_visible(False)
-        for k, joint in enumerate(joints):
-            for row, (quantity, (_, label)) in enumerate(QUANTITIES.items(), start=2 * (k // ACROSS)):
-                axis: Axes = axes[row, k % ACROSS]
-                axis.set_visible(True)
-                axis.plot(reference[0], reference[1][quantity], label=REFERENCE, **REFERENCE_LOOK)
-                for one in answers:
-                    if (one.joint, one.quantity) == (joint, quantity) and one.numbers:
-                        _draw(axis, one, styles[one.method])
-                axis.set_xscale("log")
-                axis.set_xticks(TICKS_HZ, [f"{tick:g}" for tick in TICKS_HZ])
-                axis.minorticks_off()
-                if k % ACROSS == 0:
-                    axis.set_ylabel(label)
-                if quantity == "gain":
-                    axis.set_title(f"({LETTERS[k]}) {joint}", loc="left", pad=3)
-        figure.supxlabel("frequency [Hz]", fontsize=STYLE["axes.labelsize"])
-        legend(figure, axes.ravel().tolist())
+    size = PAGE_INCH, ROW_INCH * 2 * blocks + LEGEND_INCH
+    figure = Figure(figsize=size, layout="constrained")
+    axes = figure.subplots(2 * blocks, ACROSS, sharex=True, sharey="row", squeeze=False)
+    for axis in axes.flat:
+        axis.set_visible(False)
+    for k, joint in enumerate(joints):
+        for row, (quantity, (_, label)) in enumerate(QUANTITIES.items(), start=2 * (k // ACROSS)):
+            axis: Axes = axes[row, k % ACROSS]
+            axis.set_visible(True)
+            axis.plot(reference[0], reference[1][quantity], label=REFERENCE, **REFERENCE_LOOK)
+            for one in answers:
+                if (one.joint, one.quantity) == (joint, quantity) and one.numbers:
+                    _draw(axis, one, styles[one.method])
+            axis.set_xscale("log")
+            axis.set_xticks(TICKS_HZ, [f"{tick:g}" for tick in TICKS_HZ])
+            axis.minorticks_off()
+            if k % ACROSS == 0:
+                axis.set_ylabel(label)
+            if quantity == "gain":
+                axis.set_title(f"({LETTERS[k]}) {joint}", loc="left", pad=3)
+    figure.supxlabel("frequency [Hz]", fontsize=STYLE["axes.labelsize"])
+    legend(figure, axes.ravel().tolist())
     return figure
 
 
 def _draw(axis: Axes, one: Answer, look: Look) -> None:
     """Draw the gain [-] or phase [deg] of a method with its intervals."""
-    ends = [(n.value, n.low if n.low is not None else n.value, n.high if n.high is not None else n.value)
-            for n in one.numbers.values()]  # fmt: skip
-    mean, low, high = np.array(ends, dtype=np.float64).T
+    mean, low, high = np.array([number.range for number in one.numbers.values()], dtype=np.float64).T
     axis.errorbar(
         list(one.numbers), mean, [mean - low, high - mean], label=one.method, marker=look.marker, markersize=2.5,
         capsize=1.5, elinewidth=0.6, **look.line,

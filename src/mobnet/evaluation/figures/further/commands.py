@@ -4,16 +4,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from mobnet.core.columns import COMMAND, COMMANDS
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, legend, looks, save_figure
+from mobnet.evaluation.figures.style import beside, legend, looks, save_figure, styled
 from mobnet.evaluation.measure.data.steps import UNITS, bin_edges, bin_of, read_steps
-from mobnet.evaluation.number.files import write_csv
 from mobnet.settings.data import Commands
 from mobnet.settings.evaluation import CommandsFigure
 
@@ -48,21 +46,19 @@ def commands(
             (name, COMMAND[column][0], *bounds, count, count / len(found[name]), UNITS[column])
             for name, own in counts.items() for bounds, count in zip(ends, own.tolist(), strict=True)
         ]  # fmt: skip
-    write_csv(figure_dir / "commands.csv", COMMANDS, rows)
-    save_figure(draw_bars(panels), figure_dir / "commands")
+    save_figure(draw_bars(panels), figure_dir / "commands", COMMANDS, rows)
 
 
+@styled
 def draw_bars(panels: Sequence[Bars]) -> Figure:
     """Draw the share of steps [%] in each bin, a panel for each command, the sets side by side."""
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(PAGE_INCH, BARS_INCH), layout="constrained")
-        axes = figure.subplots(1, len(panels), squeeze=False)[0]
-        for axis, panel in zip(axes, panels, strict=True):
-            width, styles = np.diff(panel.edges) / (len(panel.counts) + 1), looks(panel.counts)
-            for k, (name, counts) in enumerate(panel.counts.items()):
-                left, shares = panel.edges[:-1] + (k + 0.5) * width, 100 * counts / counts.sum()
-                axis.bar(left, shares, width, align="edge", color=styles[name].colour, label=name)
-            axis.set_xlabel(panel.label)
-        axes[0].set_ylabel("share of steps [%]")
-        legend(figure, [axes[0]])
+    figure, axes = beside(len(panels), BARS_INCH)
+    for axis, panel in zip(axes, panels, strict=True):
+        width, styles = np.diff(panel.edges) / (len(panel.counts) + 1), looks(panel.counts)
+        for k, (name, counts) in enumerate(panel.counts.items()):
+            left, shares = panel.edges[:-1] + (k + 0.5) * width, 100 * counts / counts.sum()
+            axis.bar(left, shares, width, align="edge", color=styles[name].colour, label=name)
+        axis.set_xlabel(panel.label)
+    axes[0].set_ylabel("share of steps [%]")
+    legend(figure, [axes[0]])
     return figure

@@ -1,30 +1,28 @@
 """What lower and higher thresholds do: collisions and delays over false alarms; and found shares over the force."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import StrMethodFormatter
 
 from mobnet.core.detections import COLLISION, HELD_OUT, CurvePoint, FreeSwing, Promise
-from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, entitle, legend, looks, save_figure
+from mobnet.evaluation.figures.style import beside, entitle, legend, looks, save_figure, styled
 from mobnet.evaluation.measure.detection.results import (
     MS,
     Detections,
     Try,
     alarms_in,
+    found_share,
     hours_per_swing,
     mean_of,
     owners,
     rows_of,
     share_of,
     tries_of,
-)
-from mobnet.evaluation.number.files import write_csv
+)  # fmt: skip
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.detection import Detection
 from mobnet.settings.detection_tables import DetectionCurves
@@ -62,10 +60,9 @@ def detection_curves(
     the interval of Hanley and McNeil (1982, Radiology 143).
     """
     names, leg = owners(detections, settings.level, detection.levels), settings.leg
-    points = [row for _, row in rows_of(detections, names, "curves", CurvePoint) if row.leg == leg]
-    promises = [row for _, row in rows_of(detections, names, "promises", Promise) if row.leg == leg]
-    swings = [row for _, row in rows_of(detections, names, "swings", FreeSwing)
-              if (row.leg, row.scenario, row.part) == (leg, detection.random, HELD_OUT)]  # fmt: skip
+    points = rows_of(detections, names, "curves", CurvePoint, leg=leg)
+    promises = rows_of(detections, names, "promises", Promise, leg=leg)
+    swings = rows_of(detections, names, "swings", FreeSwing, leg=leg, scenario=detection.random, part=HELD_OUT)
     hits = tries_of(detections, names, detection.collisions, leg, COLLISION)
     sweep = tries_of(detections, names, detection.sweep, leg, settings.kind)
     courses, rows = list[DetectorLine](), []
@@ -82,8 +79,7 @@ def detection_curves(
         unit = "ms" if one.panel == DELAY else "-"
         rows += [(one.panel, settings.level, one.detector, x, *number.with_ends, count, unit)
                  for x, number, count in zip(one.x, one.numbers, one.counts, strict=True)]  # fmt: skip
-    write_csv(figure_dir / "detection_curves.csv", COLUMNS, rows)
-    save_figure(draw_courses(courses), figure_dir / "detection_curves")
+    save_figure(draw_courses(courses), figure_dir / "detection_curves", COLUMNS, rows)
 
 
 def _over_rates(
@@ -111,7 +107,7 @@ def _over_force(name: str, tries: Sequence[Try], bins: int, statistics: Statisti
     ordered = sorted(tries, key=lambda one: one.collision.force_n)
     parts = [list(part) for part in np.array_split(np.array(ordered, dtype=object), bins) if len(part)]
     x = [mean_of([one.collision.force_n for one in part], statistics, "N").value or 0.0 for part in parts]
-    shares = [share_of([one.detected.delay_s is not None for one in part], statistics) for part in parts]
+    shares = [found_share(part, statistics) for part in parts]
     return DetectorLine(FORCE, name, x, shares, [len(part) for part in parts])
 
 
@@ -129,22 +125,21 @@ def area_of(hits: np.ndarray, quiet: np.ndarray, statistics: Statistics) -> Numb
     return Number(area, max(area - reach, 0.0), min(area + reach, 1.0))
 
 
+@styled
 def draw_courses(courses: Sequence[DetectorLine]) -> Figure:
     """Draw the three panels side by side."""
     styles = looks(one.detector for one in courses)
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(PAGE_INCH, HEIGHT_INCH), layout="constrained")
-        axes: Mapping[str, Axes] = dict(zip(LABELS, figure.subplots(1, len(LABELS)), strict=True))
-        for k, (panel, axis) in enumerate(axes.items()):
-            for one in (one for one in courses if one.panel == panel):
-                look = styles[one.detector]
-                values = [np.nan if number.value is None else number.value for number in one.numbers]
-                x = np.maximum(one.x, RATE_FLOOR) if panel != FORCE else np.asarray(one.x)
-                axis.plot(x, values, label=one.detector, marker=look.marker if panel == FORCE else "", markersize=3,
-                          **look.line)  # fmt: skip
-            axis.set(xlabel=LABELS[panel][0], ylabel=LABELS[panel][1], xscale="log")
-            axis.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-            axis.set_ylim(0.0, None if panel == DELAY else 1.05)
-            entitle(axis, k, panel)
-        legend(figure, list(axes.values()))
+    figure, axes = beside(len(LABELS), HEIGHT_INCH)
+    for k, (panel, axis) in enumerate(zip(LABELS, axes, strict=True)):
+        for one in (one for one in courses if one.panel == panel):
+            look = styles[one.detector]
+            values = [np.nan if number.value is None else number.value for number in one.numbers]
+            x = np.maximum(one.x, RATE_FLOOR) if panel != FORCE else np.asarray(one.x)
+            axis.plot(x, values, label=one.detector, marker=look.marker if panel == FORCE else "", markersize=3,
+                      **look.line)  # fmt: skip
+        axis.set(xlabel=LABELS[panel][0], ylabel=LABELS[panel][1], xscale="log")
+        axis.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        axis.set_ylim(0.0, None if panel == DELAY else 1.05)
+        entitle(axis, k, panel)
+    legend(figure, axes)
     return figure

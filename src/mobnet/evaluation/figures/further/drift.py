@@ -8,7 +8,7 @@ from mobnet.evaluation.compare.scene import STANCE, SWINGING
 from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from mobnet.evaluation.figures.style import save_figure
 from mobnet.evaluation.measure.estimates.drift import HELD_BIN
-from mobnet.evaluation.number.files import Field, write_csv
+from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.lookup import Lookup, read_lookup
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.evaluation import Drift, Runs, Statistics
@@ -17,9 +17,7 @@ X_LABEL, Y_LABEL = "time since the push began [s]", "share of the push [-]"
 Held = dict[float, Number]  # time [s] -> share of the push [-]
 
 
-def drift(
-    settings: Drift, statistics: Statistics, scores: Sequence[Path], figure_dir: Path
-) -> None:  # fmt: skip
+def drift(settings: Drift, statistics: Statistics, scores: Sequence[Path], figure_dir: Path) -> None:
     """Write the share of long pushes [-] that each method shows over time [s], as PDF, PNG and CSV."""
     lookup = read_lookup(scores, statistics)
     panels: list[LinePanel] = []
@@ -33,8 +31,7 @@ def drift(
                 (title, test.scenario, test.level, method, phase, time_s, *number.with_ends, *number.spread)
                 for method, own in held.items() for time_s, number in own.items()
             ]  # fmt: skip
-    write_csv(figure_dir / "drift.csv", DRIFT, rows)
-    save_figure(draw_lines(panels), figure_dir / "drift")
+    save_figure(draw_lines(panels), figure_dir / "drift", DRIFT, rows)
 
 
 def held_over_time(lookup: Lookup, settings: Drift, test: Runs, method: str, phase: str) -> Held:

@@ -6,7 +6,6 @@ from pathlib import Path
 from mobnet.core.columns import TUNED
 from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from mobnet.evaluation.figures.style import save_figure
-from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.rows import read_scores
 from mobnet.settings.evaluation import FineTuning, Statistics, TunedTest
@@ -35,8 +34,7 @@ def fine_tuning(
                 for time, wanted, error in zip(seconds, shown, errors, strict=True)
             ]  # fmt: skip
         panels.append(LinePanel(title, X_LABEL, Y_LABEL, lines, sizes=True))
-    write_csv(figure_dir / "fine_tuning.csv", TUNED, rows)
-    save_figure(draw_lines(panels), figure_dir / "fine_tuning")
+    save_figure(draw_lines(panels), figure_dir / "fine_tuning", TUNED, rows)
 
 
 def shown_of(settings: FineTuning, seconds: Sequence[int], test: TunedTest) -> dict[str, list[Wanted]]:

@@ -18,16 +18,14 @@ from matplotlib.figure import Figure
 from mobnet.core.columns import FOREST, SIGN_ONLY, VERDICTS
 from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, save_figure
 from mobnet.evaluation.measure.claims.verdicts import Judged
-from mobnet.evaluation.number.files import write_csv
 from mobnet.settings.claims import Bounds
 
 OVER_PAPER, BEYOND_BOUND = "ours over the paper's", "beyond the bound"  # what an axis has
 ENDS: Mapping[str, tuple[float, float]] = {OVER_PAPER: (1 / 8, 8.0), BEYOND_BOUND: (-1.15, 1.15)}  # of the axes
 EQUAL: Mapping[str, float] = {OVER_PAPER: 1.0, BEYOND_BOUND: 0.0}
 MARKS = (("#D55E00", "X"), ("#E69F00", "s"), ("#0072B2", "^"), ("#009E73", "o"), ("0.5", ""))
-LOOKS: Mapping[str, tuple[str, str]] = dict(
-    zip(VERDICTS, MARKS, strict=True)
-)  # verdict -> colour, of Okabe and Ito's palette, and marker
+# verdict -> colour, of Okabe and Ito's palette, and marker
+LOOKS: Mapping[str, tuple[str, str]] = dict(zip(VERDICTS, MARKS, strict=True))
 ROW_INCH, HEAD_INCH, POINTS = 0.108, 0.28, 4.8  # height of a row and of a panel's head and axis, size of letters
 COLUMNS, LABEL_SHARE = 2, 0.62  # of the page, and the share of a column that labels take
 JOINT_SHARE = 0.45  # height of a joint's row over that of a claim's
@@ -54,8 +52,9 @@ Panel = Sequence[Place]
 def forest(judged: Sequence[Judged], confidence: float, figure_dir: Path) -> None:
     """Write the figure of all claims as PDF, PNG and CSV; `confidence` is that of the intervals, a share [-]."""
     places = [beyond_bound(each) if each.score == SIGN_ONLY else over_paper(each) for each in judged]
-    write_csv(figure_dir / "claims.csv", FOREST, [place.record for place in places])
-    save_figure(draw_forest(columns_of(places), confidence), figure_dir / "claims")
+    save_figure(
+        draw_forest(columns_of(places), confidence), figure_dir / "claims", FOREST, [place.record for place in places]
+    )
 
 
 def over_paper(judged: Judged) -> Place:
@@ -82,9 +81,7 @@ def beyond_bound(judged: Judged) -> Place:
     held = [each for each in found if each is not None]
     scale = max(map(abs, held), default=0.0) or 1.0
     value, low, high = (None if each is None else each / scale for each in found)
-    if (
-        value is not None and low is not None and high is not None
-    ):  # within a two-sided range the middle lies farthest in
+    if value is not None and low is not None and high is not None:  # in a two-sided range the middle lies farthest in
         low, high = min(low, high), max(low, high, value)
     return Place(judged, BEYOND_BOUND, (value, low, high), (0.0, None))
 
@@ -113,7 +110,7 @@ def columns_of(places: Sequence[Place]) -> list[list[Panel]]:
 
 def rows_of(panel: Iterable[Place]) -> list[float]:
     """Return where the middle of each row is, from the top down [heights of a row]; those of joints are low."""
-    heights = [JOINT_SHARE if place.judged.row.joint else 1.0 for place in panel]
+    heights = [height_of([place]) for place in panel]
     return [top + height / 2.0 for top, height in zip(accumulate(heights, initial=0.0), heights, strict=False)]
 
 
@@ -125,9 +122,9 @@ def height_of(panel: Iterable[Place]) -> float:
 def sorted_by_score(places: Iterable[Place]) -> list[Place]:
     """Return places score by score, statement by statement, each in the order in which it comes first."""
     held = list(places)
-    first = {place.judged.row.statement: k for k, place in reversed(list(enumerate(held)))}
-    scores = {place.judged.score: k for k, place in reversed(list(enumerate(held)))}
-    return sorted(held, key=lambda place: (scores[place.judged.score], first[place.judged.row.statement]))
+    first = list(dict.fromkeys(place.judged.row.statement for place in held))
+    scores = list(dict.fromkeys(place.judged.score for place in held))
+    return sorted(held, key=lambda place: (scores.index(place.judged.score), first.index(place.judged.row.statement)))
 
 
 def draw_forest(columns: Sequence[Sequence[Panel]], confidence: float) -> Figure:
@@ -202,14 +199,8 @@ def draw_place(axis: Axes, row: float, place: Place) -> None:
         ends = [min(max(end, first), last) for end in (low, high)]
         axis.plot(ends, [row, row], color=colour, linewidth=0.6 if small else 1.0, solid_capstyle="butt", zorder=3)
     beyond = "<" if value < first else ">" if value > last else marker
-    look: dict[str, Any] = {
-        "color": colour,
-        "markersize": 1.8 if small else 3.2,
-        "markeredgewidth": 0.0,
-        "zorder": 4,
-        "clip_on": False,
-    }
-    axis.plot([min(max(value, first), last)], [row], linestyle="", marker=beyond, **look)
+    look: dict[str, Any] = {"markersize": 1.8 if small else 3.2, "markeredgewidth": 0.0, "zorder": 4, "clip_on": False}
+    axis.plot([min(max(value, first), last)], [row], linestyle="", marker=beyond, color=colour, **look)
 
 
 def key(figure: Figure, interval: str) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 from mobnet.core.columns import TRIALS, TrialError
 from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from mobnet.evaluation.figures.style import save_figure
-from mobnet.evaluation.number.files import read_rows, write_csv
+from mobnet.evaluation.number.files import read_rows
 from mobnet.evaluation.number.single import extremes
 from mobnet.settings.evaluation import LearningCurve
 
@@ -24,8 +24,7 @@ def learning_curve(settings: LearningCurve, kept: Path, figure_dir: Path) -> Non
     rows = [row for row in read_rows(kept, TrialError) if row.joint == settings.joint and row.best and not row.state]
     lines = [curve_of(method, rows) for method in dict.fromkeys(row.method for row in rows)]
     panel = LinePanel("development walks", "time steps learned from [million]", "RMSE [N m]", lines, sizes=True)
-    write_csv(figure_dir / "learning_curve.csv", TRIALS, [astuple(row) for row in rows])
-    save_figure(draw_lines([panel]), figure_dir / "learning_curve")
+    save_figure(draw_lines([panel]), figure_dir / "learning_curve", TRIALS, [astuple(row) for row in rows])
 
 
 def curve_of(method: str, rows: list[TrialError]) -> Line:

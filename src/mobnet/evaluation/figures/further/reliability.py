@@ -5,16 +5,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from mobnet.core.columns import RELIABILITY
-from mobnet.evaluation.figures.style import STYLE, Look, legend, looks, save_figure
+from mobnet.evaluation.figures.style import STYLE, Look, legend, looks, save_figure, styled
 from mobnet.evaluation.measure.learning.calibration import CoverageGrid
-from mobnet.evaluation.number.files import write_csv
 
 PANEL_INCH, LEGEND_INCH = 1.8, 0.4  # side of a panel, height of the legend above all
 IDEAL = {"color": "0.7", "linewidth": 0.6, "linestyle": "-", "zorder": 0}
@@ -42,6 +40,7 @@ class ReliabilityPanel:
     curves: Sequence[CoverageCurve]
 
 
+@styled
 def draw_reliability(panels: Sequence[ReliabilityPanel]) -> Figure:
     """Draw observed over nominal coverage; pale lines as learned, full ones scaled; on the diagonal sigma is true.
 
@@ -49,20 +48,19 @@ def draw_reliability(panels: Sequence[ReliabilityPanel]) -> Figure:
     """
     methods, titles = (list(dict.fromkeys(getattr(panel, key) for panel in panels)) for key in ("method", "title"))
     styles = looks(curve.label for panel in panels for curve in panel.curves)
-    with mpl.rc_context(STYLE):
-        size = PANEL_INCH * max(1, len(titles)), PANEL_INCH * max(1, len(methods)) + LEGEND_INCH
-        figure = Figure(figsize=size, layout="constrained")
-        axes = figure.subplots(max(1, len(methods)), max(1, len(titles)), squeeze=False)
-        for axis in axes.flat:
-            axis.set_visible(False)
-        for panel in panels:
-            axis = axes[methods.index(panel.method), titles.index(panel.title)]
-            draw_panel(axis, panel, styles)
-            axis.set_title(panel.title, loc="left", pad=3)
-            axis.set_ylabel(panel.method)
-        figure.supxlabel("nominal coverage [-]; pale: as learned", fontsize=STYLE["axes.labelsize"])
-        figure.supylabel("observed coverage [-]", fontsize=STYLE["axes.labelsize"])
-        legend(figure, axes.ravel().tolist())
+    size = PANEL_INCH * max(1, len(titles)), PANEL_INCH * max(1, len(methods)) + LEGEND_INCH
+    figure = Figure(figsize=size, layout="constrained")
+    axes = figure.subplots(max(1, len(methods)), max(1, len(titles)), squeeze=False)
+    for axis in axes.flat:
+        axis.set_visible(False)
+    for panel in panels:
+        axis = axes[methods.index(panel.method), titles.index(panel.title)]
+        draw_panel(axis, panel, styles)
+        axis.set_title(panel.title, loc="left", pad=3)
+        axis.set_ylabel(panel.method)
+    figure.supxlabel("nominal coverage [-]; pale: as learned", fontsize=STYLE["axes.labelsize"])
+    figure.supylabel("observed coverage [-]", fontsize=STYLE["axes.labelsize"])
+    legend(figure, axes.ravel().tolist())
     return figure
 
 
@@ -87,8 +85,7 @@ def curve_rows(panels: Sequence[ReliabilityPanel]) -> Iterator[tuple[str, str, s
 
 def reliability(panels: Sequence[ReliabilityPanel], figure_dir: Path) -> None:
     """Write the reliability diagram as calibration.pdf, .png and .csv."""
-    write_csv(figure_dir / "calibration.csv", RELIABILITY, curve_rows(panels))
-    save_figure(draw_reliability(panels), figure_dir / "calibration")
+    save_figure(draw_reliability(panels), figure_dir / "calibration", RELIABILITY, curve_rows(panels))
 
 
 def nominal_points(count: int) -> list[float]:

@@ -4,16 +4,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodFormatter
 
 from mobnet.core.columns import SIGMA
-from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, Look, entitle, legend, looks, save_figure
+from mobnet.evaluation.figures.style import Look, beside, entitle, legend, looks, save_figure, styled
 from mobnet.evaluation.measure.estimates.sigma import COVER, MEMORY, STD
-from mobnet.evaluation.number.files import Field, write_csv
+from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.lookup import Lookup
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.evaluation import LimbRuns, Sigma
@@ -58,8 +57,9 @@ def sigma_figure(settings: Sigma, lookup: Lookup, share: float, figure_dir: Path
         for title, test in known.items() for method in test.methods for limb in test.limbs
         for course in courses_of(settings, lookup, (title, test), method, limb)
     ]  # fmt: skip
-    write_csv(figure_dir / "sigma.csv", SIGMA, [row for course in courses for row in course.rows()])
-    save_figure(draw_sigma(courses, share), figure_dir / "sigma")
+    save_figure(
+        draw_sigma(courses, share), figure_dir / "sigma", SIGMA, [row for course in courses for row in course.rows()]
+    )
 
 
 def courses_of(
@@ -83,38 +83,36 @@ def courses_of(
             yield SigmaLine(panel, title, method, limb, x, own)
 
 
+@styled
 def draw_sigma(courses: Sequence[SigmaLine], share: float) -> Figure:
     """Draw the three panels side by side; thin grey lines show where a sigma that is true would be."""
     styles = looks(course.label for course in courses)
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(PAGE_INCH, HEIGHT_INCH), layout="constrained")
-        axes: dict[str, Axes] = dict(zip(LABELS, figure.subplots(1, len(LABELS)), strict=True))
-        for k, (panel, axis) in enumerate(axes.items()):
-            for course in courses:
-                if course.panel == panel:
-                    _draw(axis, course, styles[course.label])
-            axis.set(xlabel=LABELS[panel][0], ylabel=LABELS[panel][1])
-            entitle(axis, k, panel)
-        axes[COVERAGE].axhline(share, **GUIDE)
-        sizes = [x for course in courses if course.panel == ERROR for x in course.x]
-        axes[ERROR].plot(sizes, sizes, **GUIDE)
-        axes[ERROR].set(xscale="log", yscale="log")
-        axes[CORRELATION].set_xscale("log")
-        axes[COVERAGE].xaxis.set_major_locator(MaxNLocator(integer=True))
-        scales = {axes[ERROR].xaxis: (1, 2, 5), axes[ERROR].yaxis: (1, 2, 5), axes[CORRELATION].xaxis: (1,)}
-        for scale, steps in scales.items():
-            scale.set_major_locator(LogLocator(subs=steps))
-            scale.set_major_formatter(StrMethodFormatter("{x:g}"))
-            scale.set_minor_formatter(NullFormatter())
-        axes[CORRELATION].axhline(0.0, **GUIDE)
-        legend(figure, list(axes.values()))
+    figure, row = beside(len(LABELS), HEIGHT_INCH)
+    axes = dict(zip(LABELS, row, strict=True))
+    for k, (panel, axis) in enumerate(axes.items()):
+        for course in courses:
+            if course.panel == panel:
+                _draw(axis, course, styles[course.label])
+        axis.set(xlabel=LABELS[panel][0], ylabel=LABELS[panel][1])
+        entitle(axis, k, panel)
+    axes[COVERAGE].axhline(share, **GUIDE)
+    sizes = [x for course in courses if course.panel == ERROR for x in course.x]
+    axes[ERROR].plot(sizes, sizes, **GUIDE)
+    axes[ERROR].set(xscale="log", yscale="log")
+    axes[CORRELATION].set_xscale("log")
+    axes[COVERAGE].xaxis.set_major_locator(MaxNLocator(integer=True))
+    scales = {axes[ERROR].xaxis: (1, 2, 5), axes[ERROR].yaxis: (1, 2, 5), axes[CORRELATION].xaxis: (1,)}
+    for scale, steps in scales.items():
+        scale.set_major_locator(LogLocator(subs=steps))
+        scale.set_major_formatter(StrMethodFormatter("{x:g}"))
+        scale.set_minor_formatter(NullFormatter())
+    axes[CORRELATION].axhline(0.0, **GUIDE)
+    legend(figure, row)
     return figure
 
 
 def _draw(axis: Axes, course: SigmaLine, look: Look) -> None:
     """Draw a line and the band of its intervals."""
-    ends = [(n.value, n.value if n.low is None else n.low, n.value if n.high is None else n.high)
-            for n in course.numbers]  # fmt: skip
-    mean, low, high = np.array(ends, dtype=np.float64).T
+    mean, low, high = np.array([number.range for number in course.numbers], dtype=np.float64).T
     axis.plot(course.x, mean, label=course.label, marker=look.marker, markersize=2.5, **look.line)
     axis.fill_between(course.x, low, high, color=look.colour, alpha=0.18, linewidth=0.0)

@@ -5,7 +5,8 @@ from pathlib import Path
 
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.compare.curves import Panel, read_cycle
-from mobnet.evaluation.figures.drawing.curves import FROM_LIFT_OFF, draw_panels, save_panels
+from mobnet.evaluation.figures.drawing.curves import FROM_LIFT_OFF, draw_panels, table_of
+from mobnet.evaluation.figures.style import save_figure
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import Figure05
 
@@ -14,7 +15,7 @@ def figure_05(settings: Figure05, start_s: float, layout: JointLayout, runs: Seq
     """Write Figure 5, one gait cycle of one joint [N m], a panel for each run, as PDF, PNG and CSV."""
     panels = [read_panel(layout, run, settings.joint, start_s) for run in runs]
     figure = draw_panels(panels, FROM_LIFT_OFF, f"external torque of {settings.joint} [N m]", one_scale=True)
-    save_panels(figure, panels, figure_dir / "figure_05")
+    save_figure(figure, figure_dir / "figure_05", *table_of(panels))
 
 
 def read_panel(layout: JointLayout, run: Run, joint: str, start_s: float) -> Panel:

@@ -6,7 +6,8 @@ from pathlib import Path
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.compare.curves import read_cycle
 from mobnet.evaluation.compare.rmse import rmse
-from mobnet.evaluation.figures.drawing.curves import draw_leg, save_panels
+from mobnet.evaluation.figures.drawing.curves import draw_leg, table_of
+from mobnet.evaluation.figures.style import save_figure
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import GaitFigure
 
@@ -23,4 +24,4 @@ def figure_08(settings: GaitFigure, start_s: float, layout: JointLayout, runs: S
         curves.uncertainty_panel(f"{joint}, RMSE {error:.2f} N m", joint, rows, zero=rows.start)
         for joint, error in zip(curves.joints, errors, strict=True)
     ]
-    save_panels(draw_leg(panels, "uncertainty torque [N m]"), panels, figure_dir / "figure_08")
+    save_figure(draw_leg(panels, "uncertainty torque [N m]"), figure_dir / "figure_08", *table_of(panels))

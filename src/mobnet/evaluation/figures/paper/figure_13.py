@@ -3,10 +3,8 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from mobnet.control.kinematics import empty_pose, tree_of, update
 from mobnet.core.arrays import Array
@@ -17,9 +15,8 @@ from mobnet.core.joints import N_VIRTUAL
 from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array
 from mobnet.evaluation.figures.drawing.robot import draw_robot, lowest, projection
-from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, entitle, save_figure
+from mobnet.evaluation.figures.style import beside, entitle, save_figure, styled
 from mobnet.evaluation.measure.detection.results import Detections, rows_of
-from mobnet.evaluation.number.files import write_csv
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.settings.detection import Detection
 from mobnet.settings.detection_tables import Figure13
@@ -34,22 +31,20 @@ ARROW_M_N = 0.0035  # length of an arrow for each newton
 ROOM_M = (-0.7, 0.7, -0.12, 1.75)  # of a panel: right of the robot's base, and above the ground
 
 
+@styled
 def figure_13(
     settings: Figure13, detection: Detection, robot: RobotTable, detections: Detections, recordings: Sequence[Path],
     figure_dir: Path,
 ) -> None:  # fmt: skip
     """Write Figure 13 as PDF, PNG and CSV: the first collision of each cell, when its force is largest."""
     description, rows = describe(robot), []
-    found = [row for _, row in rows_of(detections, [settings.level], "collisions", Collision)]
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(PAGE_INCH, HEIGHT_INCH), layout="constrained")
-        axes = figure.subplots(1, len(settings.cells), squeeze=False)[0]
-        for k, (axis, cell) in enumerate(zip(axes, settings.cells, strict=True)):
-            hit = first_of(found, detection.collisions, settings.leg, cell)
-            rows.append((cell, hit.seed, hit.number, *_draw(axis, description, hit, recordings)))
-            entitle(axis, k, f"{cell}, {hit.force_n:.0f} N")
-    write_csv(figure_dir / "figure_13.csv", COLUMNS, rows)
-    save_figure(figure, figure_dir / "figure_13")
+    found = rows_of(detections, [settings.level], "collisions", Collision)
+    figure, axes = beside(len(settings.cells), HEIGHT_INCH)
+    for k, (axis, cell) in enumerate(zip(axes, settings.cells, strict=True)):
+        hit = first_of(found, detection.collisions, settings.leg, cell)
+        rows.append((cell, hit.seed, hit.number, *_draw(axis, description, hit, recordings)))
+        entitle(axis, k, f"{cell}, {hit.force_n:.0f} N")
+    save_figure(figure, figure_dir / "figure_13", COLUMNS, rows)
 
 
 def first_of(collisions: Sequence[Collision], scenario: str, leg: str, cell: str) -> Collision:

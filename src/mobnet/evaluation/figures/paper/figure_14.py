@@ -3,14 +3,13 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
 from mobnet.core.detections import Collision
-from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, entitle, legend, looks, save_figure
+from mobnet.evaluation.figures.style import beside, entitle, legend, looks, save_figure, styled
 from mobnet.evaluation.measure.detection.results import MS, Detections, owners, rows_of
-from mobnet.evaluation.number.files import Field, write_csv
+from mobnet.evaluation.number.files import Field
 from mobnet.settings.detection import Detection
 from mobnet.settings.detection_tables import Figure14
 
@@ -22,13 +21,10 @@ HEIGHT_INCH = 2.1
 
 def figure_14(settings: Figure14, detection: Detection, detections: Detections, figure_dir: Path) -> None:
     """Write Figure 14 as PDF, PNG and CSV: histograms of the collisions, those of a level's robots together."""
-    found = {
-        level.replace("_", " "): quantities(
-            [row for _, row in rows_of(detections, owners(detections, level, settings.levels), "collisions", Collision)
-             if (row.scenario, row.leg) == (detection.collisions, settings.leg)]
-        )
-        for level in settings.levels
-    }  # fmt: skip
+    found, own_leg = {}, {"scenario": detection.collisions, "leg": settings.leg}
+    for level in settings.levels:
+        names = owners(detections, level, settings.levels)
+        found[level.replace("_", " ")] = quantities(rows_of(detections, names, "collisions", Collision, **own_leg))
     edges = {name: np.histogram_bin_edges(np.concatenate([own[name] for own in found.values()]), settings.bins)
              for name in LABELS}  # fmt: skip
     rows: list[Sequence[Field]] = []
@@ -38,8 +34,7 @@ def figure_14(settings: Figure14, detection: Detection, detections: Detections, 
             ends = float(values.mean()), float(values.min()), float(values.max())
             rows += [(level, name, float(low), float(high), int(count), *ends, unit, PUBLISHED[name])
                      for low, high, count in zip(edges[name], edges[name][1:], counts, strict=False)]  # fmt: skip
-    write_csv(figure_dir / "figure_14.csv", COLUMNS, rows)
-    save_figure(draw_histograms(found, edges), figure_dir / "figure_14")
+    save_figure(draw_histograms(found, edges), figure_dir / "figure_14", COLUMNS, rows)
 
 
 def quantities(collisions: Sequence[Collision]) -> dict[str, np.ndarray]:
@@ -51,19 +46,18 @@ def quantities(collisions: Sequence[Collision]) -> dict[str, np.ndarray]:
     }
 
 
+@styled
 def draw_histograms(found: Mapping[str, Mapping[str, np.ndarray]], edges: Mapping[str, np.ndarray]) -> Figure:
     """Draw a panel for each quantity; a dashed line is the paper's mean."""
     styles = looks(found)
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(PAGE_INCH, HEIGHT_INCH), layout="constrained")
-        axes = list(figure.subplots(1, len(LABELS)))
-        for k, (axis, (name, unit)) in enumerate(zip(axes, LABELS.items(), strict=True)):
-            for level, own in found.items():
-                axis.hist(own[name], edges[name], histtype="stepfilled", alpha=0.35, color=styles[level].colour)
-                axis.hist(own[name], edges[name], histtype="step", label=level, **styles[level].line)
-            if (mean := PUBLISHED[name]) is not None:
-                axis.axvline(mean, label="mean of the paper", color="black", linestyle="--", linewidth=0.8)
-            axis.set(xlabel=f"{name} [{unit}]", ylabel="collisions")
-            entitle(axis, k, name)
-        legend(figure, axes)
+    figure, axes = beside(len(LABELS), HEIGHT_INCH)
+    for k, (axis, (name, unit)) in enumerate(zip(axes, LABELS.items(), strict=True)):
+        for level, own in found.items():
+            axis.hist(own[name], edges[name].tolist(), histtype="stepfilled", alpha=0.35, color=styles[level].colour)
+            axis.hist(own[name], edges[name].tolist(), histtype="step", label=level, **styles[level].line)
+        if (mean := PUBLISHED[name]) is not None:
+            axis.axvline(mean, label="mean of the paper", color="black", linestyle="--", linewidth=0.8)
+        axis.set(xlabel=f"{name} [{unit}]", ylabel="collisions")
+        entitle(axis, k, name)
+    legend(figure, axes)
     return figure

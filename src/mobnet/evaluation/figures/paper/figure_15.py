@@ -4,18 +4,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mobnet.core.columns import PUSH, STD, SWING, foot_of, named
 from mobnet.core.detections import Collision, Threshold
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
-from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, entitle, legend, looks, save_figure
+from mobnet.evaluation.figures.style import beside, entitle, legend, looks, save_figure, styled
 from mobnet.evaluation.measure.detection.results import Detections, rows_of
-from mobnet.evaluation.number.files import write_csv
 from mobnet.settings.detection import Detection
 from mobnet.settings.detection_tables import Figure15
 
@@ -40,12 +37,12 @@ def figure_15(
     recordings: Sequence[Path], estimates: Mapping[str, Sequence[Path]], figure_dir: Path,
 ) -> None:  # fmt: skip
     """Write Figure 15 as PDF, PNG and CSV: the first collision of each cell."""
-    collisions = [row for _, row in rows_of(detections, [settings.level], "collisions", Collision)]
+    collisions = rows_of(detections, [settings.level], "collisions", Collision)
     signal = f"{STD}.{settings.joint}"
     found = {
         row.detector: row.value
-        for _, row in rows_of(detections, [settings.level], "thresholds", Threshold)
-        if (row.leg, row.kind, row.signal, row.phase) == (settings.leg, settings.kind, signal, 1)
+        for row in rows_of(detections, [settings.level], "thresholds", Threshold, leg=settings.leg, signal=signal)
+        if (row.kind, row.phase) == (settings.kind, 1)
     }
     thresholds = {method: found[name] for method, name in settings.detectors.items()}
     courses = [_course(settings, detection, layout, collisions, cell, recordings, estimates, thresholds)
@@ -56,8 +53,7 @@ def figure_15(
         for method, std in one.stds.items()
         for numbers in zip(one.time, std, [one.thresholds[method]] * len(std), one.force, one.swing, strict=True)
     ]
-    write_csv(figure_dir / "figure_15.csv", COLUMNS, rows)
-    save_figure(draw_courses(courses, settings.joint), figure_dir / "figure_15")
+    save_figure(draw_courses(courses, settings.joint), figure_dir / "figure_15", COLUMNS, rows)
 
 
 def _course(
@@ -80,31 +76,30 @@ def _course(
     return CollisionCourse(cell, time, stds, thresholds, np.linalg.norm(array[rows, :3], axis=1), array[rows, 3])
 
 
+@styled
 def draw_courses(courses: Sequence[CollisionCourse], joint: str) -> Figure:
     """Draw a panel for each collision: standard deviations, thresholds dotted, and the force behind them."""
     methods = list(courses[0].stds)
     styles = looks(methods)
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(PAGE_INCH, HEIGHT_INCH), layout="constrained")
-        axes: list[Axes] = figure.subplots(1, len(courses), sharey=True, squeeze=False)[0].tolist()
-        for k, (axis, course) in enumerate(zip(axes, courses, strict=True)):
-            for method in methods:
-                axis.plot(course.time, course.stds[method], label=method, **styles[method].line)
-                axis.axhline(course.thresholds[method], color=styles[method].colour, linestyle=":", linewidth=0.8)
-            beside = axis.twinx()
-            beside.fill_between(course.time, course.force, color="0.8", linewidth=0.0, zorder=0)
-            beside.set_ylim(0.0, 2.0 * max(float(one.force.max()) for one in courses))
-            beside.spines["right"].set_visible(True)
-            beside.set_ylabel("force [N]" if axis is axes[-1] else "")
-            beside.tick_params(labelright=axis is axes[-1])
-            axis.set_zorder(beside.get_zorder() + 1)
-            axis.patch.set_visible(False)
-            low, high = (float(course.time[end]) for end in (0, -1))
-            axis.fill_between(course.time, 0.0, 0.03, where=course.swing > 0, transform=axis.get_xaxis_transform(),
-                              color="#CC79A7", linewidth=0.0, label="swing by the plan")  # fmt: skip
-            axis.set(xlabel="time from the contact [s]", xlim=(low, high))
-            entitle(axis, k, course.title)
-        axes[0].set_ylabel(f"sigma of {joint} [N m]")
-        axes[0].set_ylim(bottom=0.0)
-        legend(figure, axes)
+    figure, axes = beside(len(courses), HEIGHT_INCH, sharey=True)
+    for k, (axis, course) in enumerate(zip(axes, courses, strict=True)):
+        for method in methods:
+            axis.plot(course.time, course.stds[method], label=method, **styles[method].line)
+            axis.axhline(course.thresholds[method], color=styles[method].colour, linestyle=":", linewidth=0.8)
+        behind = axis.twinx()
+        behind.fill_between(course.time, course.force, color="0.8", linewidth=0.0, zorder=0)
+        behind.set_ylim(0.0, 2.0 * max(float(one.force.max()) for one in courses))
+        behind.spines["right"].set_visible(True)
+        behind.set_ylabel("force [N]" if axis is axes[-1] else "")
+        behind.tick_params(labelright=axis is axes[-1])
+        axis.set_zorder(behind.get_zorder() + 1)
+        axis.patch.set_visible(False)
+        low, high = (float(course.time[end]) for end in (0, -1))
+        axis.fill_between(course.time, 0.0, 0.03, where=course.swing > 0, transform=axis.get_xaxis_transform(),
+                          color="#CC79A7", linewidth=0.0, label="swing by the plan")  # fmt: skip
+        axis.set(xlabel="time from the contact [s]", xlim=(low, high))
+        entitle(axis, k, course.title)
+    axes[0].set_ylabel(f"sigma of {joint} [N m]")
+    axes[0].set_ylim(bottom=0.0)
+    legend(figure, axes)
     return figure

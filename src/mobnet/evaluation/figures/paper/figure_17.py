@@ -10,7 +10,6 @@ from mobnet.core.errors import DataError
 from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from mobnet.evaluation.figures.style import save_figure
 from mobnet.evaluation.measure.learning.trainings import TrainedNetwork, read_trainings, sound
-from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.single import extremes
 
 MEASURES = {"train_loss": "training loss", "validation_loss": "validation loss"}
@@ -29,8 +28,7 @@ def figure_17(folders: Sequence[Path], figure_dir: Path) -> None:
         for line in lines:
             points = zip(line.x, line.numbers, strict=True)
             rows += [(name, line.label, number.runs, epoch, *number.with_ends) for epoch, number in points]
-    write_csv(figure_dir / "figure_17.csv", LOSSES, rows)
-    save_figure(draw_lines(panels), figure_dir / "figure_17")
+    save_figure(draw_lines(panels), figure_dir / "figure_17", LOSSES, rows)
 
 
 def curve(label: str, trainings: Sequence[TrainedNetwork], field: str) -> Line:

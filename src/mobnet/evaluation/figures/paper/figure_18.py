@@ -8,7 +8,6 @@ from mobnet.core.joints import JointLayout
 from mobnet.evaluation.figures.drawing.bars import BarPanel, draw_bars
 from mobnet.evaluation.figures.style import save_figure
 from mobnet.evaluation.measure.estimates.scores import AVERAGE
-from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.rows import read_scores
@@ -35,8 +34,7 @@ def figure_18(
             (scenario, method, *place, *error.with_ends, *error.spread)
             for method, found in errors.items() for place, error in found.items()
         ]  # fmt: skip
-    write_csv(figure_dir / "figure_18.csv", LIMB_ERRORS, rows)
-    save_figure(draw_bars(panels, "RMSE [N m]"), figure_dir / "figure_18")
+    save_figure(draw_bars(panels, "RMSE [N m]"), figure_dir / "figure_18", LIMB_ERRORS, rows)
 
 
 def wanted_of(

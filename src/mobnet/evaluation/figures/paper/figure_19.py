@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -15,9 +14,8 @@ from mobnet.core.columns import DESIRED, DOTS, SWING, VELOCITY, foot_of
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
 from mobnet.evaluation.compare.windows import FLAG, Pushed, evenly, pushed_of
-from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, entitle, legend, looks, save_figure
+from mobnet.evaluation.figures.style import PAGE_INCH, entitle, legend, looks, save_figure, styled
 from mobnet.evaluation.measure.data.conditional import HALF, TorqueRange, even_cells, gait_phase, torque_range
-from mobnet.evaluation.number.files import write_csv
 from mobnet.settings.evaluation import Coverage, Figure19
 
 CLOUD_INCH = 2.0  # height of a row
@@ -41,6 +39,7 @@ class Cloud:
     range: TorqueRange
 
 
+@styled
 def draw_clouds(clouds: Sequence[Cloud], test: str) -> Figure:
     """Draw desired torque [N m] over joint velocity [rad/s], a column for each joint, a row for each training set.
 
@@ -49,25 +48,24 @@ def draw_clouds(clouds: Sequence[Cloud], test: str) -> Figure:
     """
     joints, sets = (list(dict.fromkeys(getattr(cloud, key) for cloud in clouds)) for key in ("joint", "training"))
     styles = looks(sets)
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(PAGE_INCH, CLOUD_INCH * (len(sets) + 1)), layout="constrained")
-        axes = figure.subplots(len(sets) + 1, len(joints), sharey="col", squeeze=False)
-        for cloud in clouds:
-            row, column = sets.index(cloud.training), joints.index(cloud.joint)
-            colour = styles[cloud.training].colour
-            axes[row, column].sharex(axes[0, column])
-            _scatter(axes[row, column], cloud.dots[:, :2], colour, f"training {cloud.training}")
-            _scatter(axes[row, column], cloud.test[:, :2], TEST_COLOUR, test)
-            _shade(axes[-1, column], cloud.range, colour)
-            if row == len(sets) - 1:
-                _scatter(axes[-1, column], cloud.test[:, [2, 1]], TEST_COLOUR, test)
-                axes[row, column].set_xlabel("velocity [rad/s]")
-                axes[-1, column].set_xlabel(f"phase: swing to {HALF:g}, then stance")
-        for k, (joint, axis) in enumerate(zip(joints, axes[0], strict=True)):
-            entitle(axis, k, joint)
-        for axis in axes[:, 0]:
-            axis.set_ylabel("desired torque [N m]")
-        legend(figure, axes[:, 0].tolist(), last=test, markerscale=MARKER)
+    figure = Figure(figsize=(PAGE_INCH, CLOUD_INCH * (len(sets) + 1)), layout="constrained")
+    axes = figure.subplots(len(sets) + 1, len(joints), sharey="col", squeeze=False)
+    for cloud in clouds:
+        row, column = sets.index(cloud.training), joints.index(cloud.joint)
+        colour = styles[cloud.training].colour
+        axes[row, column].sharex(axes[0, column])
+        _scatter(axes[row, column], cloud.dots[:, :2], colour, f"training {cloud.training}")
+        _scatter(axes[row, column], cloud.test[:, :2], TEST_COLOUR, test)
+        _shade(axes[-1, column], cloud.range, colour)
+        if row == len(sets) - 1:
+            _scatter(axes[-1, column], cloud.test[:, [2, 1]], TEST_COLOUR, test)
+            axes[row, column].set_xlabel("velocity [rad/s]")
+            axes[-1, column].set_xlabel(f"phase: swing to {HALF:g}, then stance")
+    for k, (joint, axis) in enumerate(zip(joints, axes[0], strict=True)):
+        entitle(axis, k, joint)
+    for axis in axes[:, 0]:
+        axis.set_ylabel("desired torque [N m]")
+    legend(figure, axes[:, 0].tolist(), last=test, markerscale=MARKER)
     return figure
 
 
@@ -110,8 +108,7 @@ def figure_19(
         for k, joint in enumerate(joints)
         for dot in dots[:, k].tolist()
     ]
-    write_csv(figure_dir / "figure_19.csv", DOTS, rows)
-    save_figure(draw_clouds(clouds, "test"), figure_dir / "figure_19")
+    save_figure(draw_clouds(clouds, "test"), figure_dir / "figure_19", DOTS, rows)
 
 
 def range_of(dots: NDArray[Any], coverage: Coverage) -> TorqueRange:

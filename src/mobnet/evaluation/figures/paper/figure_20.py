@@ -10,7 +10,6 @@ from mobnet.core.columns import SIZES
 from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from mobnet.evaluation.figures.style import save_figure
 from mobnet.evaluation.measure.learning.trainings import TrainedNetwork, read_trainings, sound
-from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.single import extremes
 from mobnet.plan.runs import SweptSize
@@ -54,8 +53,7 @@ def figure_20(sizes_of_networks: Sequence[SweptSize], figure_dir: Path) -> None:
         own = {base: [size for size in sizes if (size.panel, size.base) == (panel, base)] for base in bases}
         lines = [growth_line(found, base) for base, found in own.items() if found]
         panels.append(LinePanel(title, X_LABELS[panel], "validation loss [-]", lines, sizes=True))
-    write_csv(figure_dir / "figure_20.csv", SIZES, [size.record() for size in sizes])
-    save_figure(draw_lines(panels), figure_dir / "figure_20")
+    save_figure(draw_lines(panels), figure_dir / "figure_20", SIZES, [size.record() for size in sizes])
 
 
 def sizes_of(swept: SweptSize) -> list[Size]:

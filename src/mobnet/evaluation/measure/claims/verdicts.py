@@ -131,14 +131,6 @@ def cause_of(claim: Claim, results: Evidence, statistics: Statistics) -> str:
     return claim.cause.format_map({name: Missing() if value is None else value for name, value in found.items()})
 
 
-def statements_of(judged: Sequence[Judged]) -> dict[str, list[Judged]]:
-    """Return statement -> its claims, in order."""
-    found: dict[str, list[Judged]] = {}
-    for each in judged:
-        found.setdefault(each.row.statement, []).append(each)
-    return found
-
-
 def worst(verdicts: Sequence[str]) -> str:
     """Return the verdict on a statement, which is that on the worst of its claims."""
     return min(verdicts, key=WORST_FIRST.index)

@@ -1,6 +1,6 @@
 """What detectors found, read from the files of robots: the robots of a level are taken together."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -10,8 +10,11 @@ from mobnet.core.arrays import Array
 from mobnet.core.detections import Collision, Detected, FreeSwing, Promise
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.evaluation.number.files import read_rows
+from mobnet.evaluation.number.intervals import RunGrid
 from mobnet.evaluation.number.number import Number
+from mobnet.evaluation.number.single import share
 from mobnet.plan.detection import Detections
+from mobnet.settings.detection_tables import DetectorTable
 from mobnet.settings.evaluation import Statistics
 
 Row = TypeVar("Row")
@@ -34,6 +37,11 @@ class Try:
         return f"{self.collision.link} {self.collision.direction}"
 
     @property
+    def is_found(self) -> bool:
+        """Whether the detector found it."""
+        return self.detected.delay_s is not None
+
+    @property
     def named(self) -> str:
         """What the detector says was hit from where; empty where it found nothing."""
         return f"{self.detected.link} {self.detected.direction}".strip()
@@ -51,35 +59,42 @@ def owners(detections: Detections, level: str, levels: Sequence[str]) -> list[st
     return found
 
 
-def rows_of(detections: Detections, names: Sequence[str], file: str, kind: type[Row]) -> list[tuple[str, Row]]:
-    """Return the rows of a file of some robots, each with the robot's name."""
-    return [(name, row) for name in names for row in read_rows(detections[name][file], kind)]
+def rows_of(detections: Detections, names: Sequence[str], file: str, kind: type[Row], /, **held: str) -> list[Row]:
+    """Return the rows of a file of some robots whose fields hold what is given."""
+    rows = [row for name in names for row in read_rows(detections[name][file], kind)]
+    return [row for row in rows if all(getattr(row, field) == value for field, value in held.items())]
 
 
-def tries_of(
-    detections: Detections, names: Sequence[str], scenario: str, leg: str, kind: str
-) -> dict[str, list[Try]]:  # fmt: skip
+def tries_of(detections: Detections, names: Sequence[str], scenario: str, leg: str, kind: str) -> dict[str, list[Try]]:
     """Return what each detector said of the collisions of a leg in a scenario, by a rule of thresholds."""
-    collisions = {
-        (name, row.seed, row.number): row
-        for name, row in rows_of(detections, names, "collisions", Collision)
-        if (row.scenario, row.leg) == (scenario, leg)
-    }
     found: dict[str, list[Try]] = {}
-    for name, row in rows_of(detections, names, "detected", Detected):
-        if (row.scenario, row.leg, row.kind) == (scenario, leg, kind):
-            found.setdefault(row.detector, []).append(Try(collisions[name, row.seed, row.number], row))
+    for name in names:
+        rows = rows_of(detections, [name], "collisions", Collision, scenario=scenario, leg=leg)
+        collisions = {(row.seed, row.number): row for row in rows}
+        for row in rows_of(detections, [name], "detected", Detected, scenario=scenario, leg=leg, kind=kind):
+            found.setdefault(row.detector, []).append(Try(collisions[row.seed, row.number], row))
     return found
+
+
+def shown_tries(
+    settings: DetectorTable, detections: Detections, scenario: str, kind: str
+) -> Iterator[tuple[str, dict[str, list[Try]]]]:
+    """Yield each level of a table with what those of its detectors that were tried said, as `tries_of` does."""
+    for level in settings.levels:
+        tries = tries_of(detections, owners(detections, level, settings.levels), scenario, settings.leg, kind)
+        yield level, {name: tries[name] for name in settings.detectors if name in tries}
+
+
+def found_share(tries: Sequence[Try], statistics: Statistics) -> Number:
+    """Return the share of collisions that a detector finds [-], with its interval."""
+    return share_of([one.is_found for one in tries], statistics)
 
 
 def share_of(flags: Sequence[bool], statistics: Statistics) -> Number:
     """Return the share of flags that are set [-], with Wilson's interval."""
     if not flags:
         return Number(None)
-    from scipy.stats import binomtest  # here, as it takes a second to import
-
-    ends = binomtest(sum(flags), len(flags)).proportion_ci(statistics.confidence, method="wilson")
-    return Number(sum(flags) / len(flags), float(ends.low), float(ends.high))
+    return share([RunGrid(np.array([flags], dtype=np.float64))], statistics)
 
 
 def mean_of(values: Sequence[float], statistics: Statistics, unit: str) -> Number:

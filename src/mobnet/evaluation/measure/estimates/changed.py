@@ -22,9 +22,7 @@ def measure(pair: Pair, scene: Scene, settings: Changed) -> Measures:
     return knowledge(pair, read_std(pair.run, pair.joints), scene, scene.asked.cover_share, settings)
 
 
-def knowledge(
-    pair: Pair, std: NDArray[np.float32] | None, scene: Scene, share: float, settings: Changed
-) -> Measures:  # fmt: skip
+def knowledge(pair: Pair, std: NDArray[np.float32] | None, scene: Scene, share: float, settings: Changed) -> Measures:
     """Yield what the standard deviations (T, n) [N m] of a leg's joints say of a robot, shares [-].
 
     `known_share`: errors within the central interval of a nominal share, which only the truth tells. `free_share`:

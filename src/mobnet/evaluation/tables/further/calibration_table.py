@@ -17,12 +17,9 @@ Trust = Mapping[tuple[str, float | None], tuple[Number, Number]]  # measure, nom
 
 
 def trust_table(
-    settings: CalibrationTable,
-    learning: Learning,
-    statistics: Statistics,
-    grids: Sequence[CoverageGrid],
+    settings: CalibrationTable, learning: Learning, statistics: Statistics, grids: Sequence[CoverageGrid],
     table_dir: Path,
-) -> None:
+) -> None:  # fmt: skip
     """Write calibration.csv, .tex and .md of held-out data and tests; texts hold the methods of `settings` only."""
     trusts = [(grid, trust_of(grid, learning.calibration_levels, statistics)) for grid in grids]
     records = [

@@ -14,7 +14,7 @@ from mobnet.evaluation.measure.detection.results import (
     owners,
     rate_of,
     rows_of,
-)
+)  # fmt: skip
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
@@ -39,8 +39,8 @@ def false_alarms(
     lines: list[Line] = []
     for level in settings.levels:
         names, leg = owners(detections, level, settings.levels), settings.leg
-        swings = [row for _, row in rows_of(detections, names, "swings", FreeSwing) if row.leg == leg]
-        promises = [row for _, row in rows_of(detections, names, "promises", Promise) if row.leg == leg]
+        swings = rows_of(detections, names, "swings", FreeSwing, leg=leg)
+        promises = rows_of(detections, names, "promises", Promise, leg=leg)
         lines += [RULE] if lines else []
         for name in settings.detectors:
             own = [row for row in promises if row.detector == name]
@@ -125,5 +125,4 @@ def _line(rows: Sequence[Sequence[Field]], level: str, name: str) -> list[str]:
 
 
 def _mean(values: Sequence[float]) -> float:
-    """Return the mean of values."""
     return sum(values) / len(values)

@@ -34,7 +34,8 @@ def kinds(
     """
     found, papers, variants = read_trainings(folders), figure_17.methods, settings.variants
     measured = {method: measures_of(found[method], statistics) for method in (*papers, *variants)}
-    shown = sorted(papers, key=lambda method: _order(measured[method][ORDERED_BY]))
+    losses = {method: measured[method][ORDERED_BY].value for method in papers}
+    shown = sorted(papers, key=lambda method: (losses[method] is None, losses[method] or 0.0))  # always diverged: last
     ranks = {name: k for k, name in enumerate([name for name in shown if name in published.order], start=1)}
     traits = {
         method: {**counts(found[method], ranks.get(method), method, published), **measured[method]}
@@ -56,11 +57,6 @@ def measures_of(trainings: Sequence[TrainedNetwork], statistics: Statistics) -> 
     if not good:
         return {name: Number(None, unit=unit) for name, (_, unit) in MEASURES.items()}
     return {name: summarise([grid], statistics, unit=MEASURES[name][1]) for name, grid in grids.items()}
-
-
-def _order(loss: Number) -> float:
-    """Return what kinds are ordered by: the mean validation loss; kinds that always diverged come last."""
-    return float("inf") if loss.value is None else loss.value
 
 
 def counts(trainings: Sequence[TrainedNetwork], rank: int | None, method: str, published: PublishedKinds) -> Traits:

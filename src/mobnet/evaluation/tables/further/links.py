@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from mobnet.core.columns import DETECTION
-from mobnet.evaluation.measure.detection.results import ALL, CELLS, Detections, owners, share_of, tries_of
+from mobnet.evaluation.measure.detection.results import ALL, CELLS, Detections, share_of, shown_tries
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.tables.layout import Line, Table, in_blocks, write_table
 from mobnet.settings.detection import Detection
@@ -23,13 +23,11 @@ def links(
     """
     rows: list[Sequence[Field]] = []
     blocks: list[tuple[list[str], list[list[str]]]] = []
-    for level in settings.levels:
-        names = owners(detections, level, settings.levels)
-        tries = tries_of(detections, names, detection.collisions, settings.leg, settings.kind)
-        for name in (name for name in settings.detectors if name in tries):
+    for level, tries in shown_tries(settings, detections, detection.collisions, settings.kind):
+        for name, whole in tries.items():
             lines: list[list[str]] = []
             for cell in (*CELLS, ALL):
-                own = [one for one in tries[name] if cell in (one.cell, ALL) and one.detected.delay_s is not None]
+                own = [one for one in whole if cell in (one.cell, ALL) and one.is_found]
                 counts = [sum(one.named == other for one in own) for other in CELLS]
                 right = {
                     RIGHT_LINK: share_of([one.detected.link == one.collision.link for one in own], statistics),

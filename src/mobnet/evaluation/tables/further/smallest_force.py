@@ -1,12 +1,13 @@
 """The smallest force that detectors find, by what is hit from where."""
 
 from collections.abc import Sequence
+from itertools import product
 from pathlib import Path
 
 import numpy as np
 
 from mobnet.core.columns import DETECTION
-from mobnet.evaluation.measure.detection.results import CELLS, Detections, owners, tries_of
+from mobnet.evaluation.measure.detection.results import CELLS, Detections, shown_tries
 from mobnet.evaluation.measure.detection.smallest_force import smallest_force as force_of
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.number import Number
@@ -27,23 +28,22 @@ def smallest_force(
     """
     rows: list[Sequence[Field]] = []
     blocks: list[tuple[list[str], list[list[str]]]] = []
-    for level in settings.levels:
-        names = owners(detections, level, settings.levels)
-        for kind in settings.kinds:
-            tries, lines = tries_of(detections, names, detection.sweep, settings.leg, kind), list[list[str]]()
-            for name in (name for name in settings.detectors if name in tries):
-                texts: list[str] = []
-                for cell in CELLS:
-                    own = [one for one in tries[name] if one.cell == cell]
-                    force = np.array([one.collision.force_n for one in own])
-                    found = np.array([one.detected.delay_s is not None for one in own], dtype=np.float64)
-                    number = force_of(force, found, settings, statistics) if len(own) else Number(None, unit="N")
-                    place = level, name, settings.leg, kind, cell, QUANTITY
-                    rows.append((*place, *number.with_ends, len(own), number.unit, None))
-                    texts.append(_text(number))
-                lines.append([name, *texts])
-            if lines:
-                blocks.append(([level.replace("_", " "), kind], lines))
+    shown = {(level, kind): tries for kind in settings.kinds
+             for level, tries in shown_tries(settings, detections, detection.sweep, kind)}  # fmt: skip
+    for level, kind in product(settings.levels, settings.kinds):
+        lines = list[list[str]]()
+        for name, tries in shown[level, kind].items():
+            lines.append([name])
+            for cell in CELLS:
+                own = [one for one in tries if one.cell == cell]
+                force = np.array([one.collision.force_n for one in own])
+                found = np.array([one.is_found for one in own], dtype=np.float64)
+                number = force_of(force, found, settings, statistics) if len(own) else Number(None, unit="N")
+                place = level, name, settings.leg, kind, cell, QUANTITY
+                rows.append((*place, *number.with_ends, len(own), number.unit, None))
+                lines[-1].append(_text(number))
+        if lines:
+            blocks.append(([level.replace("_", " "), kind], lines))
     header = ["Level", "Rule", "Detector", *(f"{cell} [N]" for cell in CELLS)]
     write_table(table_dir / "smallest_force", Table(DETECTION, rows, header, in_blocks(blocks, nested=True), left=3))
 

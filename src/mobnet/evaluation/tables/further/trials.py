@@ -22,17 +22,9 @@ log = logging.getLogger(__name__)
 
 
 def trials(
-    robot: RobotTable,
-    level: Level,
-    gravity_m_s2: float,
-    observer: Observer,
-    joints: Sequence[str],
-    tried: Sequence[Tried],
-    recordings: Sequence[Path],
-    residuals: Sequence[Path],
-    rate_hz: float,
-    out: Path,
-) -> None:
+    robot: RobotTable, level: Level, gravity_m_s2: float, observer: Observer, joints: Sequence[str],
+    tried: Sequence[Tried], recordings: Sequence[Path], residuals: Sequence[Path], rate_hz: float, out: Path,
+) -> None:  # fmt: skip
     """Write a CSV, .tex and .md: RMSE [N m] of each variant by joint, means over the development walks.
 
     Recordings and residuals, at a rate [Hz], and `out` are paths without a suffix; gravity is in [m/s^2].
@@ -65,11 +57,12 @@ def _kind_of(outcome: Outcome) -> tuple[str, object]:
 def rows_of(outcome: Outcome, joints: Sequence[str], outcomes: Sequence[Outcome]) -> Iterator[TrialError]:
     """Yield the rows of a variant: each joint, then their mean; with the standard deviation over the walks [N m]."""
     by_walk = np.column_stack([outcome.errors, outcome.errors.mean(axis=1)])
+    changes, steps, loss, state = facts_of(outcome)
     for joint, errors in zip((*joints, AVERAGE), by_walk.T, strict=True):
+        std = float(errors.std(ddof=1)) if len(errors) > 1 else None
         yield TrialError(
-            outcome.tried.base, changes_of(outcome), outcome.tried.network_seed, steps_of(outcome), state_of(outcome),
-            loss_of(outcome), joint, float(errors.mean()), float(errors.std(ddof=1)) if len(errors) > 1 else None,
-            len(errors), int(is_best(outcome, outcomes)),
+            outcome.tried.base, changes, outcome.tried.network_seed, steps, state, loss, joint, float(errors.mean()),
+            std, len(errors), int(is_best(outcome, outcomes)),
         )  # fmt: skip
 
 
@@ -85,28 +78,20 @@ def trial_lines(outcomes: Sequence[Outcome]) -> list[Line]:
 
 def _cells(outcome: Outcome, best: bool) -> list[str]:
     """Return the cells of a variant after its method."""
-    steps = steps_of(outcome)
+    changes, steps, loss, state = facts_of(outcome)
     errors = [number_text(value) for value in (*outcome.errors.mean(axis=0).tolist(), outcome.average)]
-    sizes = [number_text(None if steps is None else steps / MILLION, 1), number_text(loss_of(outcome))]
-    return [changes_of(outcome), *sizes, *errors, BEST if best else state_of(outcome)]
+    sizes = [number_text(None if steps is None else steps / MILLION, 1), number_text(loss)]
+    return [changes, *sizes, *errors, BEST if best else state]
 
 
-def changes_of(outcome: Outcome) -> str:
-    """Return what is changed, such as `loss squared, rate_first 0.005`."""
-    return ", ".join(f"{key} {value}" for key, value in outcome.tried.changes.items())
+def facts_of(outcome: Outcome) -> tuple[str, int | None, float | None, str]:
+    """Return what is changed, such as `loss squared, rate_first 0.005`, and what came of the training.
 
-
-def steps_of(outcome: Outcome) -> int | None:
-    """Return how many time steps the network has learned from; none of a method without networks."""
-    return outcome.training.steps if outcome.training else None
-
-
-def loss_of(outcome: Outcome) -> float | None:
-    """Return the validation loss (22) of the epoch kept; none of a method without networks."""
-    training = outcome.training
-    return training.kept.validation_loss if training is not None and training.epochs else None
-
-
-def state_of(outcome: Outcome) -> str:
-    """Return whether the training diverged, in a word."""
-    return DIVERGED if outcome.training is not None and outcome.training.diverged else ""
+    That is how many time steps the network has learned from, the validation loss (22) of the epoch kept, and in a word
+    whether it diverged; there is none of a method without networks.
+    """
+    changes, training = ", ".join(f"{key} {value}" for key, value in outcome.tried.changes.items()), outcome.training
+    if training is None:
+        return changes, None, None, ""
+    loss = training.kept.validation_loss if training.epochs else None
+    return changes, training.steps, loss, DIVERGED if training.diverged else ""

@@ -49,19 +49,11 @@ def describe(
     count = len(limb_inputs(layout, network).names)
     built = build_network(network, count, len(layout.limbs(network.joints)), std_min, seed)
     head = built.head
-    return (
-        limb,
-        ", ".join([*(f"{letter}^{group}" for letter in "QT" for group in getattr(network, letter)), "U^V"]),
-        count,
-        target,
-        f"{network.cell}[{count}, {head.in_features}]-Linear[{head.in_features}, {head.out_features}]",
-        parameter_count(built),
-        network.horizon_steps,
-        network.data,
-        printed.architecture,
-        printed.parameters,
-        printed.horizon_steps,
-    )
+    inputs = ", ".join([*(f"{letter}^{group}" for letter in "QT" for group in getattr(network, letter)), "U^V"])
+    layers = f"{network.cell}[{count}, {head.in_features}]-Linear[{head.in_features}, {head.out_features}]"
+    sizes = parameter_count(built), network.horizon_steps
+    paper = printed.architecture, printed.parameters, printed.horizon_steps
+    return (limb, inputs, count, target, layers, *sizes, network.data, *paper)
 
 
 def tex_cells(line: Sequence[str]) -> list[str]:

@@ -1,6 +1,6 @@
 """Table 9: collisions of a leg that detectors find, and how late."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from mobnet.core.columns import DETECTION
@@ -10,11 +10,10 @@ from mobnet.evaluation.measure.detection.results import (
     MS,
     Detections,
     Try,
+    found_share,
     mean_of,
-    owners,
-    share_of,
-    tries_of,
-)
+    shown_tries,
+)  # fmt: skip
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.number import number_text, published_row
 from mobnet.evaluation.tables.layout import PART, RULE, Line, Table, text_table, write_table
@@ -42,10 +41,7 @@ def table_09(
     rows: list[Sequence[Field]] = []
     lines: list[Line] = []
     taus: list[str] = []
-    for level in settings.levels:
-        names = owners(detections, level, settings.levels)
-        tries = tries_of(detections, names, detection.collisions, settings.leg, settings.kind)
-        shown = {name: tries[name] for name in settings.detectors if name in tries}
+    for level, shown in shown_tries(settings, detections, detection.collisions, settings.kind):
         lines += [RULE] if lines else []
         for name, own in shown.items():
             rows += _rows(level, name, settings, own, statistics, published)
@@ -75,53 +71,45 @@ def order_text(shown: Mapping[str, Sequence[Try]], published: PublishedTable) ->
     from scipy.stats import kendalltau  # here, as it takes a second to import
 
     totals = {name: row[ALL] for name in shown if (row := published_row(published, DETECTED, name))}
-    ours = [sum(one.detected.delay_s is not None for one in shown[name]) / len(shown[name]) for name in totals]
+    ours = [sum(one.is_found for one in shown[name]) / len(shown[name]) for name in totals]
     return number_text(float(kendalltau(ours, list(totals.values())).statistic) if len(ours) > 1 else None)
 
 
 def _in_cells(tries: Sequence[Try]) -> dict[str, list[Try]]:
-    """Return the collisions of each cell."""
     return {cell: [one for one in tries if one.cell == cell] for cell in CELLS}
 
 
-def _delays(tries: Sequence[Try]) -> list[float]:
-    """Return the delays of the collisions that were found [ms]."""
-    return [MS * one.detected.delay_s for one in tries if one.detected.delay_s is not None]
+def _onset_delay(one: Try) -> float | None:
+    """Return the delay from when the force exceeds that of the second definition of a beginning [s]."""
+    late, onset = one.detected.delay_s, one.collision.onset_s
+    return None if late is None or onset is None else late - (onset - one.collision.start_s)
 
 
-def _onset_delays(tries: Sequence[Try]) -> list[float]:
-    """Return the delays from when the force exceeds that of the second definition of a beginning [ms]."""
-    return [
-        MS * (one.detected.delay_s - (one.collision.onset_s - one.collision.start_s))
-        for one in tries
-        if one.detected.delay_s is not None and one.collision.onset_s is not None
-    ]
+DELAYS: Mapping[str, Callable[[Try], float | None]] = {  # of a collision that was found [s]
+    DELAY: lambda one: one.detected.delay_s, ONSET: _onset_delay, PERFECT: lambda one: one.detected.perfect_s,
+}  # fmt: skip
 
 
-def _perfect_delays(tries: Sequence[Try]) -> list[float]:
-    """Return the delays of an estimate without error [ms], of the collisions that were found."""
-    return [
-        MS * one.detected.perfect_s
-        for one in tries
-        if one.detected.delay_s is not None and one.detected.perfect_s is not None
-    ]
+def _delays(tries: Sequence[Try], quantity: str = DELAY) -> list[float]:
+    """Return delays of the collisions that were found [ms], one of `DELAYS`."""
+    found = [DELAYS[quantity](one) for one in tries if one.is_found]
+    return [MS * delay for delay in found if delay is not None]
 
 
 def _rows(
     level: str, name: str, settings: DetectorTable, tries: Sequence[Try], statistics: Statistics,
     published: PublishedTable,
 ) -> Iterator[Sequence[Field]]:  # fmt: skip
-    """Yield the rows of CSV of a detector."""
     printed = {place: published_row(published, place, name) for place in (DETECTED, DELAY_MS)}
     for cell, own in {**_in_cells(tries), ALL: list(tries)}.items():
         place = level, name, settings.leg, settings.kind, cell
         count = TRIED * (len(CELLS) if cell == ALL else 1)
         of_paper = printed[DETECTED].get(cell)
-        found = share_of([one.detected.delay_s is not None for one in own], statistics)
+        found = found_share(own, statistics)
         share = None if of_paper is None else of_paper / count
         yield (*place, FOUND, *found.with_ends, len(own), "-", share)
-        numbers = {DELAY: _delays(own), ONSET: _onset_delays(own), PERFECT: _perfect_delays(own)}
-        for quantity, values in numbers.items():
+        for quantity in DELAYS:
+            values = _delays(own, quantity)
             number = mean_of(values, statistics, "ms")
             paper = printed[DELAY_MS].get(cell) if quantity == DELAY and cell != ALL else None
             yield (*place, quantity, *number.with_ends, len(values), "ms", paper)
@@ -136,12 +124,11 @@ def _lines(
 ) -> Iterator[Line]:  # fmt: skip
     """Yield what a detector finds in each cell and how late, and below it what the paper prints."""
     in_cells = _in_cells(tries)
-    counts = [str(sum(one.detected.delay_s is not None for one in own)) for own in in_cells.values()]
-    total = share_of([one.detected.delay_s is not None for one in tries], statistics)
+    counts, total = [str(len(_delays(own))) for own in in_cells.values()], found_share(tries, statistics)
     all_found = f"{len(_delays(tries))}/{len(tries)}"
     means = [_mean(_delays(own)) for own in in_cells.values()]
     known = [mean for mean in means if mean is not None]
-    further = [_mean(known), *(_mean(own(tries)) for own in (_delays, _perfect_delays, _onset_delays))]
+    further = [_mean(known), *(_mean(_delays(tries, quantity)) for quantity in (DELAY, PERFECT, ONSET))]
     delays = [number_text(mean, 1) for mean in (*means, *further)]
     yield [level.replace("_", " "), name, "ours", *counts, all_found, total.interval(), *delays]
     printed, late = (published_row(published, place, name) for place in (DETECTED, DELAY_MS))
@@ -156,5 +143,4 @@ def _lines(
 
 
 def _mean(values: Sequence[float]) -> float | None:
-    """Return the mean of values; None of none."""
     return sum(values) / len(values) if values else None

@@ -30,7 +30,7 @@ def table_13(
     for level in settings.levels:
         names = owners(detections, level, settings.levels)
         found: dict[tuple[str, ...], list[Threshold]] = defaultdict(list)
-        for _, row in rows_of(detections, names, "thresholds", Threshold):
+        for row in rows_of(detections, names, "thresholds", Threshold):
             found[row.detector, row.leg, row.kind, f"{row.signal} {row.phase}"].append(row)
         means = {key: sum(row.value for row in own) / len(own) for key, own in found.items()}
         for key, own in found.items():

@@ -1,4 +1,4 @@
-"""A hand that is loaded or pushed: curves of joints of the upper body and of the base, two panels side by side."""
+"""Figures 7 and 12, a hand that is loaded or pushed: curves of joints of the upper body and of the base."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -6,15 +6,16 @@ from pathlib import Path
 from mobnet.core.columns import PUSHED
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.compare.curves import read_curves
-from mobnet.evaluation.figures.drawing.curves import draw_panels, save_panels
+from mobnet.evaluation.figures.drawing.curves import draw_panels, table_of
+from mobnet.evaluation.figures.style import save_figure
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import HandFigure
 
 SIDE_BY_SIDE = 2
 
 
-def draw_hand(settings: HandFigure, layout: JointLayout, runs: Sequence[Run], path: Path) -> None:
-    """Write a figure, a path without ending: external torque of joints [N m], force on the base [N].
+def hand_figure(settings: HandFigure, name: str, layout: JointLayout, runs: Sequence[Run], figure_dir: Path) -> None:
+    """Write a figure as PDF, PNG and CSV: external torque of joints [N m], force on the base [N].
 
     The runs are one of each method, all of one recording.
     """
@@ -23,4 +24,4 @@ def draw_hand(settings: HandFigure, layout: JointLayout, runs: Sequence[Run], pa
     rows = slice(start, end, settings.every)
     panels = [curves.panel(f"{joint} [{layout.unit(joint)}]", joint, rows, band=True) for joint in settings.joints]
     figure = draw_panels(panels, "time [s]", "external torque or force", SIDE_BY_SIDE)
-    save_panels(figure, panels, path)
+    save_figure(figure, figure_dir / name, *table_of(panels))

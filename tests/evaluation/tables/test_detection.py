@@ -1,0 +1,134 @@
+"""Tables of detectors: counts, delays, rates and forces follow from the files of made-up robots, beside the paper's."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from csv_files import check_golden, markdown_cells, read_table
+from made_detections import write_detections
+
+from mobnet.evaluation.measure.detection.smallest_force import smallest_force
+from mobnet.settings.settings import Settings
+
+Make = Callable[..., Path]
+
+
+@pytest.fixture
+def made(make_table: Make, tmp_path: Path) -> Make:
+    """Write a table of made-up detectors, which is the golden one: made(name) -> its CSV."""
+
+    def write(name: str) -> Path:
+        table = make_table(name, detections=write_detections(tmp_path / "detection"))
+        check_golden(table)
+        return table
+
+    return write
+
+
+def test_shares_delays_and_the_paper_stand_in_the_csv(made: Make) -> None:
+    rows = {(row.level, row.detector, row.cell, row.quantity): row for row in read_table(made("table_09"))}
+    whole = rows["robots", "MOB-Net-OR", "all", "found"]
+    assert (whole.value, whole.count, whole.published) == (1.0, 24, 1.0)
+    assert (whole.low, whole.high) == (pytest.approx(0.862, abs=1e-3), 1.0)  # Wilson's, of 24 of 24
+    sigma = rows["robots", "MOB-Net-sigma", "foot front", "found"]
+    assert (sigma.value, sigma.count, sigma.published) == (0.5, 4, 1.0)
+    # delays of 20 to 23 ms, from the first contact and from 3 ms later
+    assert rows["robots", "MOB-Net-OR", "all", "delay"].value == pytest.approx(21.5)
+    assert rows["robots", "MOB-Net-OR", "all", "delay_onset"].value == pytest.approx(18.5)
+    assert rows["robots", "MOB-Net-OR", "all", "perfect_delay"].value == pytest.approx(15.0)
+    cells = rows["robots", "MOB-Net-OR", "cells", "delay"]
+    assert (cells.value, cells.published) == (pytest.approx(21.5), pytest.approx(11.9))
+    assert rows["robots", "MOB", "all", "delay"].value is None
+
+
+def test_the_text_has_counts_beside_the_paper(made: Make) -> None:
+    table = made("table_09")
+    lines, text = markdown_cells(table), table.with_suffix(".md").read_text()
+    ours, paper = next(
+        (line, lines[k + 1]) for k, line in enumerate(lines) if line[:3] == ["robots", "MOB-Net-sigma", "ours"]
+    )
+    assert ours[3:10] == ["2", "2", "2", "2", "2", "2", "12/24"]
+    assert paper[3:10] == ["10", "10", "9", "10", "9", "10", "58/60"]
+    assert paper[-3] == "13.5"  # the mean over detections of the paper's delays
+    assert "Kendall's tau of the order of the found totals against the paper's: 1.00 (all uncertainty)" in text
+
+
+def test_a_plant_stands_for_itself_and_robots_together(make_table: Make, tmp_path: Path) -> None:
+    detections = write_detections(tmp_path / "detection", ("all_uncertainty", "robot_1", "robot_2"))
+    table = make_table("table_09", detections=detections)
+    rows = {(row.level, row.detector, row.cell, row.quantity): row.count for row in read_table(table)}
+    assert rows["all_uncertainty", "MOB", "all", "found"] == 24
+    assert rows["robots", "MOB", "all", "found"] == 48
+
+
+def test_only_detectors_that_were_tried_are_shown(made: Make, settings: Settings) -> None:
+    shown = {row.detector for row in read_table(made("table_09"))}
+    assert shown == {"MOB-Net-OR", "MOB-Net-sigma", "MOB"} < set(settings.evaluation.table_09.detectors)
+
+
+def test_thresholds_stand_beside_the_papers(made: Make) -> None:
+    table = made("table_13")
+    rows = {(row.level, row.detector, row.kind, row.cell): row for row in read_table(table)}
+    knee = rows["robots", "MOB", "largest", "mean.LL4 1"]
+    assert (knee.value, knee.unit, knee.published) == (pytest.approx(6.0), "N m", 111.98)
+    assert rows["robots", "MOB", "collision", "mean.LL4 1"].published is None
+    assert "|  | MOB | ours | 1.50 | 3.00 | 4.50 | 6.00 | 7.50 | 9.00 |" in table.with_suffix(".md").read_text()
+    assert "|  |  | paper | 19.25 | 60.28 | 114.62 | 111.98 | 38.94 | 15.62 |" in table.with_suffix(".md").read_text()
+
+
+def test_rates_are_counted_and_compared_with_what_was_promised(made: Make) -> None:
+    table = made("false_alarms")
+    rows = {(row.level, row.detector, row.kind, row.cell, row.quantity): row for row in read_table(table)}
+
+    def number(kind: str, cell: str, quantity: str) -> tuple[float, float]:
+        row = rows["robots", "MOB", kind, cell, quantity]
+        return row.value, row.count
+
+    # of 100 swings in 0.1 h one lies above the threshold; half of the threshold is that for contacts
+    assert number("collision", "random", "measured") == (pytest.approx(10.0), 1)
+    assert number("collision", "all", "promised") == (1.0, 100)
+    assert number("contact", "random", "measured") == (pytest.approx(500.0), 50)
+    assert [number("contact", f"random on {ground}", "measured")[1] for ground in ("checks", "flat")] == [25, 25]
+    assert number("largest", "in place", "measured") == (0.0, 0)
+    assert number("largest", "random", "measured") == (pytest.approx(1000.0), 100)
+    assert number("contact", "random", "within")[0] == 0.0
+    interval = rows["robots", "MOB", "largest", "in place", "measured"]
+    assert (interval.low, interval.high) == (0.0, pytest.approx(36.9, abs=0.1))  # of none in 0.1 h (Garwood)
+
+
+def test_what_is_named_is_counted_for_what_was_hit(made: Make) -> None:
+    table = made("links")
+    rows = {(row.level, row.detector, row.cell, row.quantity): row for row in read_table(table)}
+    assert rows["robots", "MOB-Net-OR", "knee side", "named knee side"].value == 4
+    assert rows["robots", "MOB-Net-OR", "knee side", "named foot side"].value == 0
+    whole = rows["robots", "MOB-Net-OR", "all", "right_link"]
+    assert (whole.value, whole.count, whole.low) == (1.0, 24, pytest.approx(0.862, abs=1e-3))
+    assert ("robots", "MOB", "all", "right_link") in rows
+    assert rows["robots", "MOB", "all", "right_link"].value is None  # it finds nothing
+
+
+def test_forces_are_between_what_is_missed_and_what_is_found(made: Make) -> None:
+    table = made("smallest_force")
+    rows = {(row.level, row.kind, row.detector, row.cell): row for row in read_table(table)}
+    assert rows["robots", "largest", "MOB-Net-OR", "foot front"].count == 4
+    text = table.with_suffix(".md").read_text()
+    assert "| MOB-Net-OR | < 10 |" in text  # it finds all, 10 N and more
+    assert "| MOB | > 80 |" in text  # it finds none, 80 N or less
+
+
+@pytest.mark.parametrize("half_n", [15.0, 60.0])
+def test_a_known_law_is_found_and_its_interval_holds_it(settings: Settings, half_n: float) -> None:
+    section, statistics = settings.evaluation.smallest_force, settings.evaluation.statistics
+    wanted, held, values = half_n * 19.0 ** (1.0 / 8.0), 0, []
+    for seed in range(60):
+        rng = np.random.default_rng(seed)
+        force = np.exp(rng.uniform(np.log(4.0), np.log(200.0), 60))
+        found = rng.uniform(size=60) < 1.0 / (1.0 + (half_n / force) ** 8.0)
+        number = smallest_force(force, found.astype(float), section, statistics)
+        assert number.low is not None
+        assert number.high is not None
+        held += number.low <= wanted <= number.high
+        values.append(number.value)
+    assert held >= 0.90 * 60
+    assert np.median(values) == pytest.approx(wanted, rel=0.15)
