@@ -43,7 +43,7 @@ class Browser:
         )  # fmt: skip
         os.close(read)
         os.close(write)
-        self.events: list[dict[str, Any]] = []
+        self.events = []
         self._rest, self._number, self._session = b"", count(1), {}
         target = self.tell("Target.createTarget", url="about:blank")["targetId"]
         attached = self.tell("Target.attachToTarget", targetId=target, flatten=True)

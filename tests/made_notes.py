@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 FIT = {"coverage": [[0.5, 0.4]], "nll": [1.0, 1.5], "crps": [0.2, 0.3]}
-CALIBRATION: dict[str, Any] = {
+CALIBRATION = {
     "joints": ["LL1", "LL2"], "shares": [0.5], "scale": [0.9, 1.1], "likelihood_scale": [1.0, 1.2],
     "before": FIT, "after": FIT,
 }  # fmt: skip

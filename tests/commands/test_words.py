@@ -24,12 +24,12 @@ from mobnet.plan.places import check_scale, scale_of
         (["all", "--config", "scale=smoke", "--", "x.md"], ["all", "--config", "scale=smoke", "--", "x.md"]),
     ],
 )
-def test_targets_come_first_and_name_the_scale(words: list[str], handed: list[str]) -> None:
+def test_targets_come_first_and_name_the_scale(words, handed):
     assert parse(words)[::2] == ("all", handed)
 
 
 @pytest.mark.parametrize("command", ["tuning", "lengths"])
-def test_trials_are_targets_of_their_own(command: str) -> None:
+def test_trials_are_targets_of_their_own(command):
     assert parse([command, "--config", "scale=smoke"])[::2] == (command, [command, "--config", "scale=smoke"])
 
 
@@ -44,7 +44,7 @@ def test_trials_are_targets_of_their_own(command: str) -> None:
         (["tables/table_05.tex", "tables/smoke/table_05.tex"], "targets of the scales default, smoke: one scale"),
     ],
 )
-def test_words_that_name_no_key_or_two_scales_are_refused(words: list[str], message: str) -> None:
+def test_words_that_name_no_key_or_two_scales_are_refused(words, message):
     with pytest.raises(CommandError, match=message):
         in_order(words)
 
@@ -61,11 +61,11 @@ def test_words_that_name_no_key_or_two_scales_are_refused(words: list[str], mess
         ("all", None),
     ],
 )
-def test_a_path_tells_its_scale(target: str, scale: str | None) -> None:
+def test_a_path_tells_its_scale(target, scale):
     assert scale_of(target) == scale
 
 
-def test_a_target_of_another_scale_is_not_accepted() -> None:
+def test_a_target_of_another_scale_is_not_accepted():
     check_scale(["-n", "tables/table_05.tex", "results/default/x"], "default")
     with pytest.raises(ConfigError, match="is not made at scale=smoke; accepted: --config scale=default"):
         check_scale(["-n", "tables/table_05.tex"], "smoke")
@@ -74,13 +74,13 @@ def test_a_target_of_another_scale_is_not_accepted() -> None:
 @pytest.mark.parametrize(
     "words", [["al"], ["clean", "--al"], ["clean", "-a"], ["clean", "all"], ["clean", "--scale", "x"]]
 )
-def test_misspelt_words_are_refused(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+def test_misspelt_words_are_refused(words, capsys):
     with pytest.raises(SystemExit, match="2"):
         parse(words)
     assert words[-1] in capsys.readouterr().err
 
 
-def test_a_misspelt_command_is_told_with_the_nearest(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_misspelt_command_is_told_with_the_nearest(capsys):
     with pytest.raises(SystemExit, match="2"):
         parse(["cleen"])
     told = capsys.readouterr().err
@@ -90,7 +90,7 @@ def test_a_misspelt_command_is_told_with_the_nearest(capsys: pytest.CaptureFixtu
 
 @pytest.mark.parametrize("command", COMMANDS)
 @pytest.mark.parametrize("word", ["-h", "--help"])
-def test_help_of_every_command_does_nothing_else(command: str, word: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_help_of_every_command_does_nothing_else(command, word, capsys):
     with pytest.raises(SystemExit, match="0"):
         parse([command, word])
     assert f"./reproduce {command}" in capsys.readouterr().out

@@ -1,43 +1,31 @@
 """Untrained networks and small fits on disk, for every method of the configuration."""
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 import torch
 from safetensors.torch import save_file
 
-from mobnet.core.estimator import Estimator
 from mobnet.core.files import WEIGHTS
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording, Sensed
 from mobnet.estimation.fitting import write_fit
 from mobnet.estimation.methods import build_estimator
-from mobnet.estimation.recipe import Recipe
 from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.networks import Training
-from mobnet.settings.settings import Settings
 
 SECONDS, FIT_SECONDS = 0.15, 0.3
 INPUT_STD, TARGET_STD = 2.0, 10.0
-Build = Callable[..., Estimator]
-Learned = Callable[..., tuple[dict[str, Path], Path | None]]
 
 
 @pytest.fixture(scope="session")
-def learned(
-    settings: Settings,
-    made_up: Callable[..., Recording],
-    write_pair: Callable[[Path, Recording], tuple[Path, Path]],
-    tmp_path_factory: pytest.TempPathFactory,
-) -> Learned:
+def learned(settings, made_up, write_pair, tmp_path_factory):
     """Return a function of (method, zero) that writes random or zero networks, or a fit to a few samples."""
 
-    def made(method: str, zero: bool = False) -> tuple[dict[str, Path], Path | None]:
+    def made(method, zero=False):
         folder, catalogue = tmp_path_factory.mktemp(method), Catalogue(settings)
         source, learned = catalogue.source_of(method), catalogue.network_source_of(method)
         row, networks = catalogue.method(source), {limb: folder / limb for limb in catalogue.method(learned).limbs}
@@ -54,10 +42,10 @@ def learned(
 
 
 @pytest.fixture(scope="session")
-def build(recipe_of: Callable[..., Recipe], learned: Learned) -> Build:
+def build(recipe_of, learned):
     """Return a function of (method, zero) that builds it with what `learned` writes."""
 
-    def made(method: str, zero: bool = False) -> Estimator:
+    def made(method, zero=False):
         networks, fitted = learned(method, zero)
         return build_estimator(recipe_of(method, networks=networks, fitted=fitted))
 
@@ -65,7 +53,7 @@ def build(recipe_of: Callable[..., Recipe], learned: Learned) -> Build:
 
 
 @pytest.fixture(scope="session")
-def sensed(made_up: Callable[..., Recording]) -> Sensed:
+def sensed(made_up):
     return made_up(5, SECONDS).sensed
 
 

@@ -26,7 +26,7 @@ from mobnet.control.geometry import (
 SMALL = 1e-6
 
 
-def test_quintic_has_zero_slope_and_curvature_at_both_ends() -> None:
+def test_quintic_has_zero_slope_and_curvature_at_both_ends():
     assert [rise(x) for x in (-1.0, 0.0, 0.5, 1.0, 2.0)] == [0.0, 0.0, 0.5, 1.0, 1.0]
     assert [rise_slope(x) for x in (-1.0, 0.0, 1.0, 2.0)] == [0.0] * 4
     for end in (0.0, 1.0):
@@ -35,19 +35,19 @@ def test_quintic_has_zero_slope_and_curvature_at_both_ends() -> None:
 
 
 @pytest.mark.parametrize("x", np.linspace(0.01, 0.99, 9))
-def test_slope_is_the_derivative_of_the_quintic(x: float) -> None:
+def test_slope_is_the_derivative_of_the_quintic(x):
     """The reference is a central difference."""
     assert rise_slope(x) == pytest.approx((rise(x + SMALL) - rise(x - SMALL)) / (2 * SMALL), abs=1e-8)
 
 
-def test_quintic_and_cubic_are_symmetric_about_the_middle() -> None:
+def test_quintic_and_cubic_are_symmetric_about_the_middle():
     for x in np.linspace(0, 1, 11):
         assert rise(x) + rise(1 - x) == pytest.approx(1, abs=1e-14)
         assert smoothstep(x) + smoothstep(1 - x) == pytest.approx(1, abs=1e-14)
     assert [smoothstep(x) for x in (-1.0, 0.0, 1.0, 2.0)] == [0.0, 0.0, 1.0, 1.0]
 
 
-def test_dead_band_is_odd_and_clip_keeps_inside() -> None:
+def test_dead_band_is_odd_and_clip_keeps_inside():
     """The dead band is symmetric and leaves what the clip takes; numpy's clip is the reference."""
     for x in np.linspace(-0.5, 0.5, 11):
         assert dead(-x, 0.2) == -dead(x, 0.2)
@@ -55,12 +55,12 @@ def test_dead_band_is_odd_and_clip_keeps_inside() -> None:
 
 
 @pytest.mark.parametrize("turns", [-3, 0, 2])
-def test_wrap_is_invariant_to_whole_turns(turns: int) -> None:
+def test_wrap_is_invariant_to_whole_turns(turns):
     for angle in (-3.1, 0.0, 1.5, 3.1):
         assert wrap(angle + 2 * np.pi * turns) == pytest.approx(angle, abs=1e-12)
 
 
-def test_yaw_frame_round_trip_also_in_place() -> None:
+def test_yaw_frame_round_trip_also_in_place():
     vector = np.array([0.3, -0.7])
     there, back = np.zeros(2), vector.copy()
     to_yaw_frame(vector, 0.8, there)
@@ -70,7 +70,7 @@ def test_yaw_frame_round_trip_also_in_place() -> None:
     np.testing.assert_allclose(back, [0.7, 0.3], atol=1e-15)
 
 
-def test_rotation_matrices_equal_mujoco_s() -> None:
+def test_rotation_matrices_equal_mujoco_s():
     """MuJoCo's quaternions are the reference."""
     rng = np.random.default_rng(0)
     axis = rng.normal(size=3)
@@ -84,7 +84,7 @@ def test_rotation_matrices_equal_mujoco_s() -> None:
     np.testing.assert_allclose(ours.ravel(), expected, atol=1e-14)
 
 
-def test_yaw_pitch_roll_is_the_product_of_three_turns() -> None:
+def test_yaw_pitch_roll_is_the_product_of_three_turns():
     """The reference is the product of the turns about each axis."""
     yaw, roll, pitch = 0.4, -0.3, 0.7
     turns = [np.zeros((3, 3)) for _ in range(3)]
@@ -95,7 +95,7 @@ def test_yaw_pitch_roll_is_the_product_of_three_turns() -> None:
     np.testing.assert_allclose(ours, turns[2] @ turns[1] @ turns[0], atol=1e-15)
 
 
-def test_products_equal_numpy_s() -> None:
+def test_products_equal_numpy_s():
     """numpy is the reference."""
     rng = np.random.default_rng(1)
     a, b, force = rng.normal(size=(3, 3))
@@ -111,7 +111,7 @@ def test_products_equal_numpy_s() -> None:
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_elimination_solves_what_numpy_solves(seed: int) -> None:
+def test_elimination_solves_what_numpy_solves(seed):
     """numpy is the reference; the first pivot is zero."""
     rng = np.random.default_rng(seed)
     matrix, right = rng.normal(size=(6, 6)), rng.normal(size=6)

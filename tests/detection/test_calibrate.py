@@ -1,7 +1,6 @@
 """The calibrator prints thresholds, rate and forces of a walk, and one clear line where it cannot."""
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -11,22 +10,18 @@ import pytest
 from made_swings import AIR, GROUND, RATE_HZ, unseen
 
 from mobnet.core.columns import torque_columns
-from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording, Sensed, write_recording
+from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.detection.calibrate import main
 
 SWINGS = 240
-Write = Callable[..., list[str]]
 
 
 @pytest.fixture
-def write(walk: Callable[[int], Sensed], layout: JointLayout, tmp_path: Path) -> Write:
+def write(walk, layout, tmp_path):
     """A function that writes a walk with an estimate, which a change may spoil, and returns words that name them."""
 
-    def files(
-        swings: int = SWINGS, change: Callable[[np.ndarray], None] | None = None, rate_hz: float = RATE_HZ
-    ) -> list[str]:
+    def files(swings=SWINGS, change=None, rate_hz=RATE_HZ):
         sensed = walk(swings)
         count, truth = len(sensed), unseen(layout, len(sensed))
         joints, rng = layout.limb("LL"), np.random.default_rng(0)
@@ -43,7 +38,7 @@ def write(walk: Callable[[int], Sensed], layout: JointLayout, tmp_path: Path) ->
     return files
 
 
-def test_thresholds_rate_and_forces_are_printed(write: Write, caplog: pytest.LogCaptureFixture) -> None:
+def test_thresholds_rate_and_forces_are_printed(write, caplog):
     caplog.set_level("INFO", "mobnet.detection")
     assert main([*write(), "--rate", "20"]) == 0
     text = "\n".join(caplog.messages)
@@ -84,17 +79,11 @@ def spoil(stem: str) -> None:
         (0, "", "swings in which the leg is watched: 'none' is not accepted; accepted: some of those that calibrate"),
         (40, "", "swings that calibrate: 40 is not accepted; accepted: 200 or more, some minutes of walking"),
         (SWINGS, "constant", "walk: signal mean.LL3: every number: 7.0 is not accepted; accepted: numbers that change"),
-        (
-            SWINGS,
-            "saturated",
-            "above 1 times their scales: 0 is not accepted; accepted: 1 or more, those of an",
-        ),
+        (SWINGS, "saturated", "above 1 times their scales: 0 is not accepted; accepted: 1 or more, those of an"),
         (SWINGS, "missing", "column 'tau_ext.LL5', row 1234: nan is not accepted; accepted: "),
     ],
 )
-def test_a_walk_that_calibrates_nothing_is_one_line_and_no_threshold(
-    write: Write, caplog: pytest.LogCaptureFixture, swings: int, fault: str, text: str
-) -> None:
+def test_a_walk_that_calibrates_nothing_is_one_line_and_no_threshold(write, caplog, swings, fault, text):
     words = write(swings, {"constant": constant, "saturated": saturated}.get(fault))
     if fault == "missing":
         spoil(words[-1])
@@ -114,19 +103,17 @@ def test_a_walk_that_calibrates_nothing_is_one_line_and_no_threshold(
         (["--estimate", "more"], "--estimate: 2 is not accepted; accepted: 1, one for each --recording"),
     ],
 )
-def test_words_that_fit_nothing_are_told(
-    write: Write, caplog: pytest.LogCaptureFixture, words: list[str], text: str
-) -> None:
+def test_words_that_fit_nothing_are_told(write, caplog, words, text):
     assert main([*write(3), *words]) == 1
     assert text in caplog.text
 
 
-def test_recordings_have_one_rate(write: Write, caplog: pytest.LogCaptureFixture) -> None:
+def test_recordings_have_one_rate(write, caplog):
     assert main([*write(3), *write(3, rate_hz=500.0)]) == 1
     assert "walk: rate_hz: 500.0 is not accepted; accepted: 1000.0, that of the first" in caplog.text
 
 
-def test_help_says_what_it_takes(capsys: pytest.CaptureFixture[str]) -> None:
+def test_help_says_what_it_takes(capsys):
     with pytest.raises(SystemExit):
         main(["--help"])
     text = capsys.readouterr().out

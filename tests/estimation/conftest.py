@@ -1,6 +1,5 @@
 """A robot that follows a trajectory known in closed form, and what its sensors read on the way."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,9 +8,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.columns import COMMAND, FEET
 from mobnet.core.recording import Sensed
-from mobnet.robot.description import RobotDescription
 from mobnet.robot.dynamics import inverse_dynamics
-from mobnet.robot.nominal import NominalModel
 
 SUB_STEPS = 2  # plant ticks in a sample
 Array = NDArray[np.float64]
@@ -60,7 +57,7 @@ def base_rotation(x: Array, dx: Array, ddx: Array) -> tuple[Array, Array, Array]
 
 
 @pytest.fixture(scope="session")
-def trajectory(robot: RobotDescription) -> Trajectory:
+def trajectory(robot):
     """All joints swing at a few tenths of a radian and one or two Hertz, each in its own time."""
     rng, nv = np.random.default_rng(7), robot.layout.nv
     return Trajectory(Wave(rng.uniform(0.1, 0.3, nv), rng.uniform(0.7, 2.0, nv), rng.uniform(0, 2 * np.pi, nv)))
@@ -74,14 +71,14 @@ def sensed_of(q: Array, v: Array, tau: Array) -> Sensed:
 
 
 @pytest.fixture
-def follow(nominal: NominalModel, trajectory: Trajectory) -> Callable[..., tuple[Sensed, Array]]:
+def follow(nominal, trajectory):
     """A function rate_hz, seconds, external (nu,) [N m] -> what is sensed, and the true external torque (T, nv).
 
     Motors give what the motion needs less the external torque, which starts with the first sample; the base has no
     motors, so all it needs is external. Torques are means over the sub-steps of a sample.
     """
 
-    def run(rate_hz: float, seconds: float, external: Array) -> tuple[Sensed, Array]:
+    def run(rate_hz, seconds, external):
         times = np.arange(round(seconds * rate_hz) + 1) / rate_hz
         states = [trajectory(t) for t in times]
         middles = (np.arange(SUB_STEPS) + 0.5) / SUB_STEPS - 1

@@ -3,8 +3,6 @@
 import re
 import subprocess
 import sys
-from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
@@ -12,7 +10,6 @@ from mobnet.core.code import SOURCE, reached, start_of
 from mobnet.core.errors import DataError
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.methods import build_estimator, kind_names, method_problems
-from mobnet.estimation.recipe import Recipe
 from mobnet.settings.methods import Method
 from mobnet.settings.reading import dotted
 from mobnet.settings.settings import Settings
@@ -36,18 +33,18 @@ def told(settings: Settings, methods: dict[str, dict[str, object]]) -> list[str]
     return [f"{dotted(place)}: {text}" for place, text in found]
 
 
-def test_mob_estimates_every_joint(recipe_of: Callable[..., Recipe]) -> None:
+def test_mob_estimates_every_joint(recipe_of):
     estimator = build_estimator(recipe_of("MOB"))
     assert isinstance(estimator, ResidualEstimator)
     assert len(estimator.joints) == 39
 
 
-def test_missing_weights_are_named(recipe_of: Callable[..., Recipe], tmp_path: Path) -> None:
+def test_missing_weights_are_named(recipe_of, tmp_path):
     with pytest.raises(DataError, match=r"weights\.safetensors: file is missing"):
         build_estimator(recipe_of("FTS-e2e", networks={"LL": tmp_path}))
 
 
-def test_the_configured_methods_are_accepted(settings: Settings) -> None:
+def test_the_configured_methods_are_accepted(settings):
     assert not list(method_problems(settings))
     assert {"band_pass", "direct", "friction", "residual"} <= set(kind_names())
 
@@ -69,28 +66,26 @@ def test_the_configured_methods_are_accepted(settings: Settings) -> None:
         ("friction", FRICTION, "fitted: .* is not accepted; accepted: limbs to fit"),
     ],
 )  # fmt: skip
-def test_a_kind_or_an_option_that_is_not_accepted_is_one_line(
-    settings: Settings, kind: str, options: dict[str, object], message: str
-) -> None:
+def test_a_kind_or_an_option_that_is_not_accepted_is_one_line(settings, kind, options, message):
     row = {"of": "a"} if kind == "band_pass" else {}
     (line,) = told(settings, {"a": {}, "b": {"kind": kind, "options": options, **row}})
     assert re.match(rf"methods\.b\.{message}", line)
 
 
-def test_all_faults_of_all_methods_are_told_at_once(settings: Settings) -> None:
+def test_all_faults_of_all_methods_are_told_at_once(settings):
     learned = {"kind": "direct", "target": "uncertainty", "limbs": ["LL"]}
     lines = told(settings, {"a": {"kind": "magic"}, "b": {"kind": "band_pass"}, "c": {}, "d": learned})
     places = [line.split(": ")[0] for line in lines]
     assert places == ["methods.a.kind", "methods.b.options.band_hz", "methods.b.options.order", "methods.d.target"]
 
 
-def test_the_check_imports_nothing_heavy() -> None:
+def test_the_check_imports_nothing_heavy():
     """The workflow checks methods whenever it starts."""
     done = subprocess.run([sys.executable, "-c", CHECK], check=True, capture_output=True, text=True)
     assert not HEAVY & set(done.stdout.split())
 
 
-def test_an_estimate_does_not_depend_on_how_networks_are_trained(settings: Settings) -> None:
+def test_an_estimate_does_not_depend_on_how_networks_are_trained(settings):
     """The code hash of an estimate covers networks as they run, and neither their training nor other kinds."""
     kinds = [f"mobnet.estimation.kinds.{name}" for name in ("residual", "direct")]
     starts = frozenset(start_of(name) for name in ("mobnet.estimation.estimate", *kinds))

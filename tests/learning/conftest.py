@@ -1,6 +1,5 @@
 """A training small enough for a test."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -8,7 +7,6 @@ from typing import Any
 import pytest
 
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording
 from mobnet.learning.dataset import LimbData, load_limb_data
 from mobnet.learning.train import train_all
 from mobnet.plan.parts import Repetition
@@ -59,11 +57,6 @@ class Small:
 
 
 @pytest.fixture
-def small(
-    settings: Settings,
-    tmp_path: Path,
-    made_up: Callable[..., Recording],
-    write_pair: Callable[[Path, Recording], tuple[Path, Path]],
-) -> Small:
+def small(settings, tmp_path, made_up, write_pair):
     stems = [write_pair(tmp_path / "data", made_up(seed, 4.0, segments=2)) for seed in (0, 1)]
     return Small(settings, *map(list, zip(*stems, strict=True)))

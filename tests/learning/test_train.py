@@ -41,7 +41,7 @@ def kill_after(small: Any, training: Training, folder: Path, epochs: int) -> Non
     process.wait()
 
 
-def test_it_writes_weights_metrics_and_a_note(small: Any, tmp_path: Path) -> None:
+def test_it_writes_weights_metrics_and_a_note(small, tmp_path):
     out = small.train(small.training(), tmp_path)
     assert {path.name for path in out.iterdir()} == {WEIGHTS, METRICS, RUN}
     assert not (tmp_path / "state" / CHECKPOINT).exists()
@@ -57,7 +57,7 @@ def test_it_writes_weights_metrics_and_a_note(small: Any, tmp_path: Path) -> Non
     ("method", "changes"),
     [("MOB-Net", {}), ("MOB-Net", {"divergence_loss": -100.0, "may_diverge": True}), ("GRU-spectral", {}), ("TCN", {})],
 )
-def test_what_a_training_writes_is_accepted(method: str, changes: dict[str, Any], small: Any, tmp_path: Path) -> None:
+def test_what_a_training_writes_is_accepted(method, changes, small, tmp_path):
     training = small.training(method, "LL", epochs=1, **changes)
     out = small.train(training, tmp_path)
     for name in (WEIGHTS, METRICS, RUN):
@@ -65,7 +65,7 @@ def test_what_a_training_writes_is_accepted(method: str, changes: dict[str, Any]
 
 
 @pytest.mark.slow
-def test_a_killed_training_goes_on_to_the_same_bytes(small: Any, tmp_path: Path) -> None:
+def test_a_killed_training_goes_on_to_the_same_bytes(small, tmp_path):
     training = small.training(epochs=12)
     unbroken = small.train(training, tmp_path / "unbroken")
     kill_after(small, training, tmp_path / "killed", epochs=2)
@@ -76,12 +76,12 @@ def test_a_killed_training_goes_on_to_the_same_bytes(small: Any, tmp_path: Path)
         assert (resumed / name).read_bytes() == (unbroken / name).read_bytes()
 
 
-def test_a_training_that_diverges_gives_no_result(small: Any, tmp_path: Path) -> None:
+def test_a_training_that_diverges_gives_no_result(small, tmp_path):
     with pytest.raises(TrainingError):
         small.train(small.training(divergence_loss=-100.0), tmp_path)
     assert not (tmp_path / "out").exists()
 
 
-def test_too_few_samples_are_refused(small: Any, tmp_path: Path) -> None:
+def test_too_few_samples_are_refused(small, tmp_path):
     with pytest.raises(DataError, match="cannot fill a batch of 1000 streams"):
         small.train(small.training(batch_size=1000), tmp_path)

@@ -14,11 +14,9 @@ from made_notes import training_note
 from mobnet.check import Against, check
 from mobnet.core.columns import Epoch, Score, torque_columns
 from mobnet.core.errors import MobnetError
-from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording, write_recording
+from mobnet.core.recording import write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.observe import observe
-from mobnet.settings.settings import Settings
 
 RATE_HZ = 1000.0
 AGAINST = Against()  # reads the configuration once
@@ -26,7 +24,7 @@ META = {"scenario": "random_walk", "level": "all_uncertainty", "seed": 3}
 
 
 @pytest.fixture(scope="session")
-def sound(tmp_path_factory: pytest.TempPathFactory, made_up: Callable[..., Recording], layout: JointLayout) -> Path:
+def sound(tmp_path_factory, made_up, layout):
     """A folder with `recording`, `residual` and `estimate` of the same 1.2 s in two segments."""
     folder = tmp_path_factory.mktemp("sound")
     whole = replace(made_up(seed=4, seconds=1.2, segments=2), meta=META)
@@ -40,7 +38,7 @@ def sound(tmp_path_factory: pytest.TempPathFactory, made_up: Callable[..., Recor
 
 
 @pytest.fixture
-def copied(sound: Path, tmp_path: Path) -> Path:
+def copied(sound, tmp_path):
     """A copy of that folder, to damage."""
     for file in sound.iterdir():
         (tmp_path / file.name).write_bytes(file.read_bytes())
@@ -48,10 +46,10 @@ def copied(sound: Path, tmp_path: Path) -> Path:
 
 
 @pytest.fixture(scope="session")
-def refused(settings: Settings) -> Callable[[Path], str]:
+def refused(settings):
     """Return a function of a recording's stem: the lines with which rule `observe` and a check refuse it."""
 
-    def lines(stem: Path) -> str:
+    def lines(stem):
         out, level = stem.with_name("out"), settings.levels["all_uncertainty"]
         gravity = settings.plant.gravity_m_s2
         with pytest.raises(MobnetError) as found:
@@ -130,7 +128,7 @@ def put(name: str, row: int, value: float) -> Callable[[Any], Any]:
 
 
 @pytest.fixture
-def training(tmp_path: Path) -> Path:
+def training(tmp_path):
     """The folder of a training of three epochs."""
     folder = tmp_path / "GRU-LL-s1"
     folder.mkdir()
@@ -142,7 +140,7 @@ def training(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def scores(tmp_path: Path) -> Path:
+def scores(tmp_path):
     """A file of scores."""
     rows = [Score("walk", "ideal", "MOB", 0, test, "LL", joint, "rmse", 1.5, "N m") for test in (1, 2)
             for joint in ("LL1", "avg")]  # fmt: skip

@@ -5,7 +5,6 @@ A changed bit of a weight is a number like any other: `./reproduce verify` finds
 
 import json
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,7 +14,6 @@ from hypothesis import strategies as st
 from tests.outside.conftest import told
 
 from mobnet.core.errors import DataError
-from mobnet.core.joints import JointLayout
 from mobnet.core.recording import read_recording
 from mobnet.evaluation.measure.learning.trainings import read_training
 from mobnet.evaluation.number.rows import read_scores
@@ -66,9 +64,7 @@ def same(one: Any, two: Any) -> bool:
 
 @FEW
 @given(damage=damages())
-def test_damaged_samples_are_refused_or_are_the_same(
-    damage: Damage, sound: Path, tmp_path: Path, layout: JointLayout
-) -> None:
+def test_damaged_samples_are_refused_or_are_the_same(damage, sound, tmp_path, layout):
     whole = (sound / "recording.parquet").read_bytes()
     (tmp_path / "recording.json").write_bytes((sound / "recording.json").read_bytes())
     (tmp_path / "recording.parquet").write_bytes(damage(whole))
@@ -109,9 +105,7 @@ def changes(draw: st.DrawFn) -> Callable[[Any], Any]:
 
 @FEW
 @given(change=changes())
-def test_a_changed_note_of_an_array_is_refused_or_valid(
-    change: Callable[[Any], Any], sound: Path, tmp_path: Path, layout: JointLayout
-) -> None:
+def test_a_changed_note_of_an_array_is_refused_or_valid(change, sound, tmp_path, layout):
     """What is still valid has the same samples, in segments of them."""
     note = change(json.loads((sound / "recording.json").read_text()))
     (tmp_path / "recording.parquet").write_bytes((sound / "recording.parquet").read_bytes())
@@ -126,7 +120,7 @@ def test_a_changed_note_of_an_array_is_refused_or_valid(
 
 @FEW
 @given(change=changes())
-def test_a_changed_run_note_is_refused_or_typed(change: Callable[[Any], Any], training: Path) -> None:
+def test_a_changed_run_note_is_refused_or_typed(change, training):
     path = training / "run.json"
     sound = path.read_text()
     path.write_text(json.dumps(change(json.loads(sound))))
@@ -141,7 +135,7 @@ def test_a_changed_run_note_is_refused_or_typed(change: Callable[[Any], Any], tr
 @FEW
 @given(damage=damages())
 @pytest.mark.parametrize("name", ["run.json", "metrics.csv"])
-def test_damaged_files_of_a_training_are_refused_or_typed(name: str, damage: Damage, training: Path) -> None:
+def test_damaged_files_of_a_training_are_refused_or_typed(name, damage, training):
     sound = (training / name).read_bytes()
     (training / name).write_bytes(damage(sound))
     read = outcome(lambda: read_training(training))
@@ -153,7 +147,7 @@ def test_damaged_files_of_a_training_are_refused_or_typed(name: str, damage: Dam
 
 @FEW
 @given(damage=damages())
-def test_damaged_scores_are_refused_or_numbers(damage: Damage, scores: Path) -> None:
+def test_damaged_scores_are_refused_or_numbers(damage, scores):
     sound = scores.read_bytes()
     scores.write_bytes(damage(sound))
     read = outcome(lambda: read_scores(scores))

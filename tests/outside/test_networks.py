@@ -13,17 +13,15 @@ from tests.outside.conftest import AGAINST, refusal_of
 
 from mobnet.check import check
 from mobnet.core.errors import DataError
-from mobnet.core.joints import JointLayout
 from mobnet.learning.cells import build_cell
 from mobnet.learning.deployed.limbs import load_limb_networks
 from mobnet.learning.deployed.networks import WEIGHTS, load_network
 from mobnet.learning.deployed.weights import NOTE, shapes
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network
-from mobnet.settings.networks import SIZES, Cell, CellKind
-from mobnet.settings.settings import Settings
+from mobnet.settings.networks import SIZES, Cell
 
-CELLS: dict[str, dict[str, Any]] = {
+CELLS = {
     "GRU": {"hidden": 5},
     "LSTM": {"hidden": 5},
     "RNN": {"hidden": 5},
@@ -43,10 +41,10 @@ def write(folder: Path, tensors: Tensors, note: Any) -> Path:
 
 
 @pytest.fixture
-def made(settings: Settings, layout: JointLayout) -> Callable[[CellKind], tuple[Tensors, dict[str, Any]]]:
+def made(settings, layout):
     """Return a function of a kind of cell that returns tensors and note of a network of the left leg."""
 
-    def make(kind: CellKind) -> tuple[Tensors, dict[str, Any]]:
+    def make(kind):
         cell, inputs = Cell(cell=kind, **CELLS[kind]), limb_inputs(layout, settings.robot.networks["LL"]).names
         model = build_network(cell, len(inputs), 6, 1e-6, seed=0)
         tensors = {name: tensor.numpy() for name, tensor in model.deployable().items()}
@@ -68,14 +66,14 @@ def made(settings: Settings, layout: JointLayout) -> Callable[[CellKind], tuple[
 
 
 @pytest.mark.parametrize("kind", SIZES)
-def test_shapes_are_those_of_the_module(kind: CellKind) -> None:
+def test_shapes_are_those_of_the_module(kind):
     cell = Cell(cell=kind, **CELLS[kind])
     found = {f"cell.{k}": tuple(v.shape) for k, v in torch.nn.Module.state_dict(build_cell(cell, 7)).items()}  # pyright: ignore
     assert {k: v for k, v in shapes(cell, 7, 2).items() if k.startswith("cell.")} == found
 
 
 @pytest.mark.parametrize("kind", SIZES)
-def test_a_sound_network_is_accepted(kind: CellKind, made: Callable, layout: JointLayout, tmp_path: Path) -> None:
+def test_a_sound_network_is_accepted(kind, made, layout, tmp_path):
     tensors, note = made(kind)
     write(tmp_path, tensors, note)
     assert load_limb_networks({"LL": tmp_path}, layout).joints == layout.limb("LL")
@@ -154,10 +152,7 @@ DAMAGES = {
         lambda t, n: n["inputs"].pop() and None,
         r"tensor 'cell.weight_ih_l0': shape: \[15, 30\] .*\[15, 29\]",
     ),
-    "an input of another robot": (
-        lambda t, n: n["inputs"].__setitem__(0, "q.XX1"),
-        "input: 'q.XX1' is not accepted",
-    ),
+    "an input of another robot": (lambda t, n: n["inputs"].__setitem__(0, "q.XX1"), "input: 'q.XX1' is not accepted"),
     "an input twice": (lambda t, n: n["inputs"].__setitem__(1, n["inputs"][0]), "inputs: 'q.LL1' occurs 2 times"),
     "inputs as numbers": (noted(inputs=list(range(30))), "inputs.0: 0 is not accepted; accepted: a valid string"),
     "std_min zero": (noted(std_min=0.0), "std_min: 0.0 is not accepted; accepted: greater than 0"),
@@ -176,9 +171,7 @@ DAMAGES = {
 
 
 @pytest.mark.parametrize("name", DAMAGES)
-def test_weights_that_break_the_contract_are_refused(
-    name: str, made: Callable, layout: JointLayout, tmp_path: Path
-) -> None:
+def test_weights_that_break_the_contract_are_refused(name, made, layout, tmp_path):
     change, says = DAMAGES[name]
     tensors, note = made("GRU")
     change(tensors, note)
@@ -189,7 +182,7 @@ def test_weights_that_break_the_contract_are_refused(
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", "5", '{"limb": 1e999}', "[" * 100_000])
-def test_a_note_that_is_none_is_refused(text: str, made: Callable, tmp_path: Path) -> None:
+def test_a_note_that_is_none_is_refused(text, made, tmp_path):
     write(tmp_path, made("GRU")[0], text)
     with pytest.raises(DataError, match=rf"{WEIGHTS}: note|{WEIGHTS}: note: "):
         load_network(tmp_path)
@@ -199,14 +192,14 @@ def test_a_note_that_is_none_is_refused(text: str, made: Callable, tmp_path: Pat
 @pytest.mark.parametrize(
     "damage", [lambda d: b"", lambda d: d[:40], lambda d: d[:-1], lambda d: b"\xff" * 99, lambda d: d * 2]
 )
-def test_a_damaged_file_is_refused(damage: Callable[[bytes], bytes], made: Callable, tmp_path: Path) -> None:
+def test_a_damaged_file_is_refused(damage, made, tmp_path):
     path = write(tmp_path, *made("GRU")) / WEIGHTS
     path.write_bytes(damage(path.read_bytes()))
     with pytest.raises(DataError, match="not the weights of a limb network"):
         load_network(tmp_path)
 
 
-def test_weights_without_a_note_or_file_are_refused(made: Callable, tmp_path: Path) -> None:
+def test_weights_without_a_note_or_file_are_refused(made, tmp_path):
     path = write(tmp_path, *made("GRU")) / WEIGHTS
     save_file(load_file(path), path)
     with pytest.raises(DataError, match=r"metadata: \[\] is not accepted; accepted: just 'note'"):

@@ -3,7 +3,6 @@
 import json
 import re
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -24,7 +23,6 @@ from tests.outside.conftest import (
 from mobnet.check import check
 from mobnet.core.columns import recording_columns, recording_width
 from mobnet.core.errors import DataError
-from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Truth, read_sensed
 from mobnet.core.store import read_array, write_array
 from mobnet.estimation.estimate import estimate
@@ -32,7 +30,6 @@ from mobnet.learning.dataset import load_limb_data
 from mobnet.plan.parts import MethodRun
 from mobnet.running.stage import Stage
 from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.settings import Settings
 
 ROWS, WIDTH = 1200, recording_width(AGAINST.layout)
 Change = Callable[[Any], Any]
@@ -119,7 +116,7 @@ NOTES = {
 
 
 @pytest.mark.parametrize("name", NOTES)
-def test_a_note_that_breaks_the_contract_is_refused(name: str, copied: Path, refused: Callable[[Path], str]) -> None:
+def test_a_note_that_breaks_the_contract_is_refused(name, copied, refused):
     change, says = NOTES[name]
     changed_note(copied / "recording", change)
     lines = refused(copied / "recording")
@@ -164,14 +161,8 @@ TABLES = {
         lambda t: t.drop_columns(["q.LL3"]),
         rf"shape \(1200, {WIDTH - 1}\) \(columns of one alone: .*\) is not accepted; accepted: \(1200, {WIDTH}\)",
     ),
-    "a column more": (
-        lambda t: t.append_column("x", [np.zeros(ROWS)]),
-        r"\(columns of one alone: x\) is not",
-    ),
-    "rows are gone": (
-        lambda t: t.slice(0, 900),
-        rf"shape \(900, {WIDTH}\) is not accepted; accepted: \(1200,",
-    ),
+    "a column more": (lambda t: t.append_column("x", [np.zeros(ROWS)]), r"\(columns of one alone: x\) is not"),
+    "rows are gone": (lambda t: t.slice(0, 900), rf"shape \(900, {WIDTH}\) is not accepted; accepted: \(1200,"),
     "no rows": (lambda t: t.slice(0, 0), rf"shape \(0, {WIDTH}\) is not"),
     "another name": (
         lambda t: t.rename_columns(["p", *t.column_names[1:]]),
@@ -201,7 +192,7 @@ TABLES = {
 
 
 @pytest.mark.parametrize("name", TABLES)
-def test_a_table_that_breaks_the_contract_is_refused(name: str, copied: Path, refused: Callable[[Path], str]) -> None:
+def test_a_table_that_breaks_the_contract_is_refused(name, copied, refused):
     change, says = TABLES[name]
     changed_table(copied / "recording", change)
     lines = refused(copied / "recording")
@@ -219,7 +210,7 @@ UNREAD = {  # by rule `observe`, which takes of the truth the external torque al
 
 
 @pytest.mark.parametrize("name", UNREAD)
-def test_what_no_observer_reads_is_refused_by_a_check(name: str, copied: Path) -> None:
+def test_what_no_observer_reads_is_refused_by_a_check(name, copied):
     change, says = UNREAD[name]
     changed_table(copied / "recording", change)
     assert re.search(says, refusal_of(copied / "recording.json"))
@@ -243,7 +234,7 @@ FILES = {
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_a_damaged_file_is_refused(name: str, copied: Path, refused: Callable[[Path], str]) -> None:
+def test_a_damaged_file_is_refused(name, copied, refused):
     ending, damage, says = FILES[name]
     path = (copied / "recording").with_suffix(ending)
     path.write_bytes(damage(path.read_bytes()))
@@ -252,7 +243,7 @@ def test_a_damaged_file_is_refused(name: str, copied: Path, refused: Callable[[P
 
 @pytest.mark.parametrize("ending", [".parquet", ".json"])
 @pytest.mark.parametrize("how", ["missing", "folder", "link to nowhere"])
-def test_a_file_that_is_none_is_refused(ending: str, how: str, copied: Path, refused: Callable[[Path], str]) -> None:
+def test_a_file_that_is_none_is_refused(ending, how, copied, refused):
     path = (copied / "recording").with_suffix(ending)
     path.unlink()
     if how == "folder":
@@ -262,7 +253,7 @@ def test_a_file_that_is_none_is_refused(ending: str, how: str, copied: Path, ref
     assert refused(copied / "recording").count(path.name) >= 2
 
 
-def test_every_fault_of_a_file_is_told_and_there_are_not_too_many(copied: Path, refused: Callable[[Path], str]) -> None:
+def test_every_fault_of_a_file_is_told_and_there_are_not_too_many(copied, refused):
     changed_note(copied / "recording", lambda note: note.update(rows=-1, rate_hz="x", segments=[[0]]))
     lines = refused(copied / "recording").splitlines()
     assert [line.partition(": ")[2].partition(": ")[0] for line in lines[:3]] == ["rows", "segments.0", "rate_hz"]
@@ -271,7 +262,7 @@ def test_every_fault_of_a_file_is_told_and_there_are_not_too_many(copied: Path, 
     assert (len(lines), lines[-1].rpartition(": ")[2]) == (21, "136 further faults")
 
 
-def test_a_robots_log_may_lack_truth_and_have_more_columns_in_any_order(copied: Path, layout: JointLayout) -> None:
+def test_a_robots_log_may_lack_truth_and_have_more_columns_in_any_order(copied, layout):
     array, note = read_array(copied / "recording")
     columns = [tuple(column.values()) for column in note["columns"]]
     unseen = {name for field in Truth.__dataclass_fields__ for name, *_ in recording_columns(layout)[field]}
@@ -283,7 +274,7 @@ def test_a_robots_log_may_lack_truth_and_have_more_columns_in_any_order(copied: 
     assert check(copied / "log.json", AGAINST) == "recording, 1200 rows at 1000 Hz, 1.2 s in 1 segment, 158 columns"
 
 
-def test_a_name_may_have_dots(copied: Path, layout: JointLayout) -> None:
+def test_a_name_may_have_dots(copied, layout):
     for ending in (".json", ".parquet"):
         (copied / f"recording{ending}").rename(copied / f"log.v1.5{ending}")
     assert len(read_sensed(copied / "log.v1.5", layout).sensed) == ROWS
@@ -291,7 +282,7 @@ def test_a_name_may_have_dots(copied: Path, layout: JointLayout) -> None:
 
 
 @pytest.mark.parametrize("kind", ["recording", "residual", "estimate"])
-def test_a_sound_array_is_accepted(kind: str, copied: Path) -> None:
+def test_a_sound_array_is_accepted(kind, copied):
     assert check(copied / f"{kind}.parquet", AGAINST).startswith(f"{kind}, 1200 rows at 1000 Hz, 1.2 s in 2 segments")
 
 
@@ -305,9 +296,7 @@ def test_a_sound_array_is_accepted(kind: str, copied: Path) -> None:
         ("residual", lambda t: t.drop_columns(["r.LL3"]), r"shape \(1200, 77\)"),
     ],
 )
-def test_a_residual_or_an_estimate_that_breaks_the_contract_is_refused(
-    kind: str, change: Change, says: str, copied: Path
-) -> None:
+def test_a_residual_or_an_estimate_that_breaks_the_contract_is_refused(kind, change, says, copied):
     changed_table(copied / kind, change)
     with pytest.raises(DataError, match=says):
         read_array(copied / kind)
@@ -327,16 +316,14 @@ def test_a_residual_or_an_estimate_that_breaks_the_contract_is_refused(
         (key("rate_hz", 500.0), "residual.json: rate_hz: 500.0 is not accepted; accepted: 1000.0"),
     ],
 )
-def test_a_residual_of_another_recording_trains_no_network(
-    change: Change, says: str, copied: Path, settings: Settings
-) -> None:
+def test_a_residual_of_another_recording_trains_no_network(change, says, copied, settings):
     changed_note(copied / "residual", change)
     limb = Catalogue(settings).network("MOB-Net", "LL")
     with pytest.raises(DataError, match=says):
         load_limb_data(settings.layout, limb, "external", [copied / "recording"], [copied / "residual"], RATE_HZ)
 
 
-def test_networks_and_observers_take_recordings_of_the_configured_rate_alone(copied: Path, settings: Settings) -> None:
+def test_networks_and_observers_take_recordings_of_the_configured_rate_alone(copied, settings):
     changed_note(copied / "recording", key("rate_hz", 900.0))
     level, gravity = settings.levels["all_uncertainty"], settings.plant.gravity_m_s2
     runs = [MethodRun("MOB", {"MOB": Catalogue(settings).method("MOB")}, {}, None, (copied / "out",))]
@@ -363,7 +350,7 @@ def test_networks_and_observers_take_recordings_of_the_configured_rate_alone(cop
         )
 
 
-def test_the_writer_keeps_the_contract_too(tmp_path: Path) -> None:
+def test_the_writer_keeps_the_contract_too(tmp_path):
     columns = [("a", "m", "world")]
     for rows, meta, segments, says in (
         (0, {"rate_hz": 1.0}, None, "rows: 0 is not accepted"),
@@ -375,6 +362,6 @@ def test_the_writer_keeps_the_contract_too(tmp_path: Path) -> None:
     assert not list(tmp_path.iterdir())
 
 
-def test_json_that_names_no_kind_is_refused(tmp_path: Path) -> None:
+def test_json_that_names_no_kind_is_refused(tmp_path):
     (tmp_path / "x.json").write_text(json.dumps({"a": 1}))
     assert "accepted: a recording, residual" in refusal_of(tmp_path / "x.json")

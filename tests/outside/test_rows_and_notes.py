@@ -3,7 +3,6 @@
 import json
 import re
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -13,7 +12,6 @@ from tests.outside.conftest import AGAINST, refusal_of
 from mobnet.check import check
 from mobnet.core.detections import FILES as DETECTION_FILES
 from mobnet.core.errors import DataError
-from mobnet.core.joints import JointLayout
 from mobnet.estimation.kinds.friction import read_friction
 from mobnet.evaluation.measure.learning.trainings import read_training
 from mobnet.evaluation.number.rows import read_scores
@@ -68,15 +66,9 @@ RUNS = {
     "target unknown": (set_at("target", "residual"), "target: 'residual' is not .*: 'uncertainty' or 'ext"),
     "cell unknown": (set_at("settings.network.cell", "X"), "settings.network.cell: 'X' is not accepted"),
     "epochs of another": (set_at("settings.epochs", 5), "epochs: 3 in metrics.csv and 5 in run.json are not"),
-    "epochs too few": (
-        set_at("settings.epochs", 2),
-        "epochs: 3 in metrics.csv and 2 in run.json are not",
-    ),
+    "epochs too few": (set_at("settings.epochs", 2), "epochs: 3 in metrics.csv and 2 in run.json are not"),
     "device": (set_at("device", "abacus"), "device: 'abacus' is not accepted; accepted: 'cpu' or 'cuda'"),
-    "best of another": (
-        set_at("best.epoch", 1),
-        "the smallest validation_loss: 3 in metrics.csv and 1 in run.json",
-    ),
+    "best of another": (set_at("best.epoch", 1), "the smallest validation_loss: 3 in metrics.csv and 1 in run.json"),
     "best null": (set_at("best", None), "the smallest validation_loss: 3 in metrics.csv and None in run.json"),
     "best loss as text": (set_at("best.validation_loss", "-3"), "best.validation_loss: '-3' is not accepted"),
     "loss NaN": (set_at("on_windows.loss", float("nan")), "on_windows.loss: nan is not .*: finite numbers"),
@@ -99,7 +91,7 @@ RUNS = {
 
 
 @pytest.mark.parametrize("name", RUNS)
-def test_a_run_note_that_breaks_the_contract_is_refused(name: str, training: Path) -> None:
+def test_a_run_note_that_breaks_the_contract_is_refused(name, training):
     change, says = RUNS[name]
     note = json.loads((training / "run.json").read_text())
     change(note)
@@ -110,16 +102,13 @@ def test_a_run_note_that_breaks_the_contract_is_refused(name: str, training: Pat
     assert re.search(says, refusal_of(training / "run.json"))
 
 
-def test_a_sound_training_is_accepted(training: Path) -> None:
+def test_a_sound_training_is_accepted(training):
     for name in ("run.json", "metrics.csv"):
         assert check(training / name, AGAINST) == "training GRU-LL-s1, 3 epochs"
 
 
 METRICS = {
-    "a column is gone": (
-        ("gradient_norm", "norm"),
-        "metrics.csv: column 'gradient_norm' is missing; accepted: it, ",
-    ),
+    "a column is gone": (("gradient_norm", "norm"), "metrics.csv: column 'gradient_norm' is missing; accepted: it, "),
     "a column twice": (("gradient_norm", "epoch"), "metrics.csv: column 'epoch' occurs 2 times"),
     "NaN": (("-2.0,3.0", "nan,3.0"), "metrics.csv:3: validation_loss: 'nan' is not .*: a finite number"),
     "infinite": (("-2.0,3.0", "inf,3.0"), "metrics.csv:3: validation_loss: 'inf' is not accepted"),
@@ -142,7 +131,7 @@ METRICS = {
 
 
 @pytest.mark.parametrize("name", METRICS)
-def test_metrics_that_break_the_contract_are_refused(name: str, training: Path) -> None:
+def test_metrics_that_break_the_contract_are_refused(name, training):
     (old, new), says = METRICS[name]
     path = training / "metrics.csv"
     assert old in path.read_text()
@@ -154,7 +143,7 @@ def test_metrics_that_break_the_contract_are_refused(name: str, training: Path) 
 
 @pytest.mark.parametrize("damage", [b"", b"\xff\xfe\x00", b"epoch\n", b"epoch,train_loss"])
 @pytest.mark.parametrize("name", ["metrics.csv", "run.json"])
-def test_a_damaged_file_of_a_training_is_refused(name: str, damage: bytes, training: Path) -> None:
+def test_a_damaged_file_of_a_training_is_refused(name, damage, training):
     (training / name).write_bytes(damage)
     with pytest.raises(DataError, match=name):
         read_training(training)
@@ -191,7 +180,7 @@ SCORES = {
 
 
 @pytest.mark.parametrize("name", SCORES)
-def test_scores_that_break_the_contract_are_refused(name: str, scores: Path) -> None:
+def test_scores_that_break_the_contract_are_refused(name, scores):
     (old, new), says = SCORES[name]
     assert old in scores.read_text()
     scores.write_text(scores.read_text().replace(old, new))
@@ -200,11 +189,11 @@ def test_scores_that_break_the_contract_are_refused(name: str, scores: Path) -> 
     assert re.search(says, refusal_of(scores))
 
 
-def test_sound_scores_are_accepted(scores: Path) -> None:
+def test_sound_scores_are_accepted(scores):
     assert check(scores, AGAINST) == "scores, 4 rows"
 
 
-def test_a_limb_with_forces_and_torques_has_two_relative_means(scores: Path) -> None:
+def test_a_limb_with_forces_and_torques_has_two_relative_means(scores):
     mean = "walk,ideal,MOB,0,1,V,avg,r_rmse,{},%\n"
     scores.write_text(scores.read_text() + mean.format(4.25) + mean.format(5.22))
     assert len(read_scores(scores)) == 6
@@ -243,7 +232,7 @@ FITS = {
 
 
 @pytest.mark.parametrize("name", FITS)
-def test_a_fit_that_breaks_the_contract_is_refused(name: str, tmp_path: Path, layout: JointLayout) -> None:
+def test_a_fit_that_breaks_the_contract_is_refused(name, tmp_path, layout):
     change, says = FITS[name]
     fit, path = json.loads(json.dumps(FIT)), tmp_path / "MOB-fric.json"
     path.write_text(json.dumps(fit))
@@ -281,7 +270,7 @@ ACCOUNT = {
         ("more", 1),
     ],
 )
-def test_an_account_that_breaks_the_contract_is_refused(key: str, value: Any, tmp_path: Path) -> None:
+def test_an_account_that_breaks_the_contract_is_refused(key, value, tmp_path):
     path = tmp_path / "x.json"
     path.write_text(json.dumps(ACCOUNT))
     assert check(path, AGAINST) == "account of train/x"
@@ -292,7 +281,7 @@ def test_an_account_that_breaks_the_contract_is_refused(key: str, value: Any, tm
 
 
 @pytest.mark.parametrize("name", DETECTION_FILES)
-def test_what_detectors_find_is_accepted_and_refused_by_its_contract(name: str, tmp_path: Path) -> None:
+def test_what_detectors_find_is_accepted_and_refused_by_its_contract(name, tmp_path):
     path = write_detections(tmp_path)["robot_1"][name]
     rows = path.read_text().splitlines()
     assert check(path, AGAINST) == f"{name} of detectors, {len(rows) - 1} rows"
@@ -312,7 +301,7 @@ DETECTIONS = {
 
 
 @pytest.mark.parametrize("name", DETECTIONS)
-def test_rows_of_detectors_that_break_the_contract_are_refused(name: str, tmp_path: Path) -> None:
+def test_rows_of_detectors_that_break_the_contract_are_refused(name, tmp_path):
     file, (old, new), says = DETECTIONS[name]
     path = write_detections(tmp_path)["robot_1"][file]
     assert old in path.read_text()

@@ -28,7 +28,7 @@ def closed_form(arm: RobotDescription, q: np.ndarray, v: np.ndarray) -> tuple[np
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_both_models_equal_the_closed_form(arm: RobotDescription, seed: int) -> None:
+def test_both_models_equal_the_closed_form(arm, seed):
     """The reference is the equation of motion of a planar two-link arm; MuJoCo and Pinocchio must agree with it."""
     rng, nominal, plant = np.random.default_rng(seed), NominalModel(arm), robot_spec(arm).compile()
     q, v, data = rng.normal(size=2), rng.normal(size=2), mujoco.MjData(plant)
@@ -46,7 +46,7 @@ def test_both_models_equal_the_closed_form(arm: RobotDescription, seed: int) -> 
     np.testing.assert_allclose(beta, coriolis(nominal, q, v).T @ v - gravity(nominal, q), atol=1e-10)
 
 
-def test_models_have_hinges_and_motors_alone_and_no_foot_to_load(arm: RobotDescription) -> None:
+def test_models_have_hinges_and_motors_alone_and_no_foot_to_load(arm):
     plant = robot_spec(arm).compile()
     assert (plant.nq, plant.nv, plant.nu, plant.nsensor, plant.nsite, plant.ngeom) == (2, 2, 2, 0, 0, 0)
     assert [plant.actuator(i).name for i in range(plant.nu)] == list(arm.layout.actuated)

@@ -48,7 +48,7 @@ def told_of(root: Path, *texts: str, place: str = "rule_train/_MOB-Net_LL_0", si
         ("bash: python: command not found\n\n", "bash: python: command not found"),
     ],
 )
-def test_the_reason_is_told_with_a_remedy_where_there_is_one(tmp_path: Path, text: str, why: str) -> None:
+def test_the_reason_is_told_with_a_remedy_where_there_is_one(tmp_path, text, why):
     (told,) = told_of(tmp_path, BEGUN.format(rule="train", log="train/MOB-Net-LL-s0", number=0) + text)
     assert told.startswith("train")
     assert why in told
@@ -64,34 +64,30 @@ def test_the_reason_is_told_with_a_remedy_where_there_is_one(tmp_path: Path, tex
             f"train (MOB-Net_LL_0): ended by SLURM above its 100 MB; {MORE} train:mem_mb=200",
         ),
         ("", "rule_train/_MOB-Net_LL_0", "train (MOB-Net_LL_0): no word of why (log: "),
-        (
-            OVER,
-            "rule_table_05",
-            f"table_05: ended by SLURM above its limit; {MORE} table_05:mem_mb=MB",
-        ),
+        (OVER, "rule_table_05", f"table_05: ended by SLURM above its limit; {MORE} table_05:mem_mb=MB"),
     ],
     ids=["before Snakemake began", "without a word", "without a known limit"],
 )
-def test_a_job_is_named_by_its_place_whatever_it_says(tmp_path: Path, text: str, place: str, says: str) -> None:
+def test_a_job_is_named_by_its_place_whatever_it_says(tmp_path, text, place, says):
     (told,) = told_of(tmp_path, text, place=place)
     assert told.startswith(says)
 
 
-def test_of_a_group_the_job_is_named_that_did_not_end(tmp_path: Path) -> None:
+def test_of_a_group_the_job_is_named_that_did_not_end(tmp_path):
     text = BEGUN.format(rule="collect", log="collect/s1", number=3) + "Finished jobid: 3 (Rule: collect)\n"
     text += BEGUN.format(rule="train", log="train/robot_1/MOB-Net-LL-s0", number=4) + OVER
     (told,) = told_of(tmp_path, text, place="group_walks")
     assert told.startswith("train (robot_1/MOB-Net-LL-s0): ended by SLURM above its 100 MB")
 
 
-def test_of_a_group_the_job_is_named_that_snakemake_names(tmp_path: Path) -> None:
+def test_of_a_group_the_job_is_named_that_snakemake_names(tmp_path):
     text = "".join(BEGUN.format(rule="fit", log=f"fit/{name}", number=k) for k, name in enumerate(("a", "b")))
     text += "12:00:00 ERROR a.parquet: file is missing\n" + FAILED.format(rule="fit", log="fit/a", number=0)
     (told,) = told_of(tmp_path, text, place="group_fits")
     assert told.startswith("fit (a): a.parquet: file is missing (log: ")
 
 
-def test_only_the_last_attempt_of_jobs_of_this_run_counts(tmp_path: Path) -> None:
+def test_only_the_last_attempt_of_jobs_of_this_run_counts(tmp_path):
     texts = [HEADER.format(job=f"train:limb={limb}", attempt=attempt) for attempt in (1, 2) for limb in ("LL", "RL")]
     old, *new = told_of(tmp_path, *texts, place="group_networks")
     assert "3.log" in old
@@ -100,7 +96,7 @@ def test_only_the_last_attempt_of_jobs_of_this_run_counts(tmp_path: Path) -> Non
     assert told_of(tmp_path, *texts, place="group_networks", since_s=5.0) == []
 
 
-def test_a_job_that_succeeded_when_it_was_sent_again_is_not_told(tmp_path: Path) -> None:
+def test_a_job_that_succeeded_when_it_was_sent_again_is_not_told(tmp_path):
     own = tmp_path / "results" / "smoke" / "logs" / "train" / "MOB-Net-LL-s0.log"
     text = BEGUN.format(rule="train", log="train/MOB-Net-LL-s0", number=0) + OVER
     own.parent.mkdir(parents=True)
@@ -111,7 +107,7 @@ def test_a_job_that_succeeded_when_it_was_sent_again_is_not_told(tmp_path: Path)
     assert told_of(tmp_path, text) == []
 
 
-def test_code_is_compiled_before_many_jobs_and_not_before_few(tmp_path: Path) -> None:
+def test_code_is_compiled_before_many_jobs_and_not_before_few(tmp_path):
     script = tmp_path / "workflow" / "scripts" / "warm.py"
     script.parent.mkdir(parents=True)
     script.write_text("from pathlib import Path\nPath('compiled').touch()\n")

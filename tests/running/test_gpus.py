@@ -35,16 +35,12 @@ def devices_in(folder: Path, names: list[str]) -> Path:
         (CPU, None, ["nvidia0"], 0),
     ],
 )
-def test_gpus_are_those_that_torch_can_use(
-    tmp_path: Path, version: str, chosen: str | None, names: list[str], seen: int
-) -> None:
+def test_gpus_are_those_that_torch_can_use(tmp_path, version, chosen, names, seen):
     environment = {} if chosen is None else {"CUDA_VISIBLE_DEVICES": chosen}
     assert gpus_seen(version, environment, devices_in(tmp_path, names)) == seen
 
 
-def test_each_process_gets_a_gpu_of_its_own_until_there_is_none(
-    tmp_path: Path, caplog: pytest.LogCaptureFixture
-) -> None:
+def test_each_process_gets_a_gpu_of_its_own_until_there_is_none(tmp_path, caplog):
     names = ["GPU-a", "GPU-b"]
     assert [claimed(names, tmp_path) for _ in names] == [0, 1]  # a second call is as another process
     assert not caplog.records
@@ -54,7 +50,7 @@ def test_each_process_gets_a_gpu_of_its_own_until_there_is_none(
     assert "this one shares the GPU GPU-a" in warning
 
 
-def test_a_gpu_is_free_again_when_its_process_has_ended(tmp_path: Path) -> None:
+def test_a_gpu_is_free_again_when_its_process_has_ended(tmp_path):
     other = opened(tmp_path / "gpu-a.lock")
     assert taken(other)
     assert claimed(["a", "b"], tmp_path) == 1

@@ -2,7 +2,6 @@
 
 import copy
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import mujoco
@@ -69,13 +68,13 @@ def sole_torque(simulator: Simulator) -> np.ndarray:
 
 
 @pytest.fixture
-def pushed_walk(simulate: Callable) -> Callable[[str, Any], Simulator]:
+def pushed_walk(simulate):
     """A function (terrain, pushes) -> a random walk with random torque on a terrain, pushed again and again."""
     law = {"pause_s": [0.01, 0.1], "force_n": [20.0, 60.0], "duration_s": [0.05, 0.2], "shape": "half_sine"}
     points = {"left": "left_sole", "right": "right_sole", "torso": "torso", "hand": "right_hand"}
     laws = {name: {**law, "point": point, "direction": "any"} for name, point in points.items()}
 
-    def make(terrain: str, pushes: Any = tuple(points), level: str = "all_uncertainty") -> Simulator:
+    def make(terrain, pushes=tuple(points), level="all_uncertainty"):
         row = {"terrain": [terrain], "commands": "random", "random_torque": True, "pushes": list(pushes)}
         return simulate("pushed_walk", level, pushes=laws, scenarios={"pushed_walk": row})
 
@@ -83,7 +82,7 @@ def pushed_walk(simulate: Callable) -> Callable[[str, Any], Simulator]:
 
 
 @pytest.mark.parametrize("terrain", ["checks", "plates", "slope", "flat"])
-def test_contacts_and_pushes_are_the_external_torque(pushed_walk: Callable, run: Callable, terrain: str) -> None:
+def test_contacts_and_pushes_are_the_external_torque(pushed_walk, run, terrain):
     """The reference is MuJoCo's contact forces and the wrenches on bodies, through mj_jac (equation (2))."""
     simulator, pushed = pushed_walk(terrain), 0
     for _ in range(60):
@@ -97,7 +96,7 @@ def test_contacts_and_pushes_are_the_external_torque(pushed_walk: Callable, run:
 
 
 @pytest.mark.parametrize("terrain", ["checks", "plates", "slope", "flat"])
-def test_foot_sensors_feel_contacts_and_pushes_on_the_foot(pushed_walk: Callable, run: Callable, terrain: str) -> None:
+def test_foot_sensors_feel_contacts_and_pushes_on_the_foot(pushed_walk, run, terrain):
     """Mapped through their Jacobian the foot wrenches are J^T F of contacts and of pushes on the massless soles."""
     for pushes, felt in ((("left", "right"), True), (("torso", "hand"), False)):
         simulator = pushed_walk(terrain, pushes, "no_noise")
@@ -108,7 +107,7 @@ def test_foot_sensors_feel_contacts_and_pushes_on_the_foot(pushed_walk: Callable
 
 
 @pytest.mark.parametrize("terrain", ["checks", "slope"])
-def test_touch_is_the_normal_force_of_a_foot_s_own_contacts(pushed_walk: Callable, run: Callable, terrain: str) -> None:
+def test_touch_is_the_normal_force_of_a_foot_s_own_contacts(pushed_walk, run, terrain):
     """The reference is mj_contactForce; a pushed foot in the air touches nothing."""
     simulator, seen = pushed_walk(terrain), set()
     model, data, wrench = simulator.world.model, simulator.world.data, np.zeros(6)
@@ -125,7 +124,7 @@ def test_touch_is_the_normal_force_of_a_foot_s_own_contacts(pushed_walk: Callabl
     assert seen == {(True, False), (False, True), (True, True)}
 
 
-def test_contact_rows_equal_mujoco_s_contact_forces_without_friction_loss(simulate: Callable, run: Callable) -> None:
+def test_contact_rows_equal_mujoco_s_contact_forces_without_friction_loss(simulate, run):
     """The reference is mj_contactForce, mapped by mj_jac at each contact."""
     simulator, touched = simulate("forward_walk", "ideal"), 0
     for _ in range(30):
@@ -138,7 +137,7 @@ def test_contact_rows_equal_mujoco_s_contact_forces_without_friction_loss(simula
 
 @pytest.mark.sim
 @pytest.mark.parametrize("scenario", ["flat_place", "checks_place"])
-def test_standing_robot_stays_upright_and_weighs_its_weight(simulate: Callable, run: Callable, scenario: str) -> None:
+def test_standing_robot_stays_upright_and_weighs_its_weight(simulate, run, scenario):
     simulator = simulate(scenario, "ideal", standing=True)
     log = run(simulator, 5.0)
     assert log.done == 5000
@@ -154,7 +153,7 @@ def test_standing_robot_stays_upright_and_weighs_its_weight(simulate: Callable, 
 
 @pytest.mark.sim
 @pytest.mark.parametrize("yaw", [np.pi / 2, np.pi])
-def test_turned_start_gives_the_turned_motion(simulate: Callable, run: Callable, turned: Callable, yaw: float) -> None:
+def test_turned_start_gives_the_turned_motion(simulate, run, turned, yaw):
     """By right angles, under which the friction pyramid is invariant."""
     here, there = simulate("flat_walk", "ideal"), simulate("flat_walk", "ideal")
     start = turned(here.plant.qpos, here.plant.qvel, here.state, yaw, np.zeros(2))
@@ -168,7 +167,7 @@ def test_turned_start_gives_the_turned_motion(simulate: Callable, run: Callable,
 
 
 @pytest.mark.sim
-def test_mirrored_start_gives_the_mirrored_motion(simulate: Callable, run: Callable, mirrored: Callable) -> None:
+def test_mirrored_start_gives_the_mirrored_motion(simulate, run, mirrored):
     """Within what the table's own small asymmetry does in a second."""
     here, there = simulate("flat_walk", "ideal"), simulate("flat_walk", "ideal")
     put(there, *mirrored(here.plant.qpos, here.plant.qvel, here.state))
@@ -187,7 +186,7 @@ def put(simulator: Simulator, q: np.ndarray, v: np.ndarray, s: np.record) -> Non
     simulator.state = s
 
 
-def test_wrap_over_a_period_keeps_torques(simulate: Callable, run: Callable) -> None:
+def test_wrap_over_a_period_keeps_torques(simulate, run):
     """The controller is invariant to a shift by a period."""
     simulator = simulate("flat_walk", "all_uncertainty")
     run(simulator, 1.0)
@@ -205,7 +204,7 @@ def test_wrap_over_a_period_keeps_torques(simulate: Callable, run: Callable) -> 
 
 
 @pytest.mark.sim
-def test_robot_never_leaves_the_terrain(simulate: Callable, run: Callable) -> None:
+def test_robot_never_leaves_the_terrain(simulate, run):
     simulator = simulate("forward_walk", "all_uncertainty")
     log = run(simulator, 14.0)
     step = np.abs(np.diff(log["q"][:, :2], axis=0))
@@ -216,7 +215,7 @@ def test_robot_never_leaves_the_terrain(simulate: Callable, run: Callable) -> No
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
 @pytest.mark.parametrize("swinging", [0, 1])
-def test_random_torque_never_acts_on_a_support_leg(simulate: Callable, side: float, swinging: int) -> None:
+def test_random_torque_never_acts_on_a_support_leg(simulate, side, swinging):
     simulator = simulate("flat_walk", "ideal")
     walker, s, tau, added = simulator.walker, empty_state(), np.zeros(33), np.ones(33)
     torque = simulator.torque._replace(value=np.ones(33), left=np.full(33, 1.0))
@@ -246,7 +245,7 @@ def tick(simulator: Simulator, run: Callable, torque: np.ndarray) -> Any:
 
 
 @pytest.mark.sim
-def test_random_torque_is_part_of_the_desired_torque_but_not_on_support(simulate: Callable, run: Callable) -> None:
+def test_random_torque_is_part_of_the_desired_torque_but_not_on_support(simulate, run):
     """The reference is the same tick without it; section 4.3: never on the support leg, here 0 samples."""
     simulator, added, phases = simulate("random_walk_plain", "all_uncertainty"), np.linspace(4.0, 8.0, 33), set()
     simulator.torque.left[:] = np.inf  # nothing new is drawn
@@ -270,7 +269,7 @@ def test_random_torque_is_part_of_the_desired_torque_but_not_on_support(simulate
 
 
 @pytest.mark.sim
-def test_no_drive_is_asked_for_more_than_it_gives(simulate: Callable, run: Callable) -> None:
+def test_no_drive_is_asked_for_more_than_it_gives(simulate, run):
     """Random torque that is far beyond the limits is clipped before it is sent and logged."""
     simulator = simulate("random_walk", "all_uncertainty")
     simulator.torque.amplitude[:] = 1000.0
@@ -281,7 +280,7 @@ def test_no_drive_is_asked_for_more_than_it_gives(simulate: Callable, run: Calla
     np.testing.assert_array_equal(log["tau_des"], log["tau_motor"])
 
 
-def test_joint_limits_are_no_external_torque(simulate: Callable, run: Callable) -> None:
+def test_joint_limits_are_no_external_torque(simulate, run):
     """A robot in the air whose elbow is driven against the end of its range has no external torque."""
     simulator = simulate("flat_place", "ideal", standing=True)
     simulator.plant.qpos[2] += 3.0
@@ -297,7 +296,7 @@ def test_joint_limits_are_no_external_torque(simulate: Callable, run: Callable) 
 
 @pytest.mark.sim
 @pytest.mark.parametrize("scenario", ["forward_walk", "random_walk"])
-def test_walking_touches_no_joint_limit(simulate: Callable, run: Callable, scenario: str) -> None:
+def test_walking_touches_no_joint_limit(simulate, run, scenario):
     simulator = simulate(scenario, "all_uncertainty")
     log = run(simulator, 8.0)
     low, high = np.array([joint.range for joint in simulator.robot.joints]).T
@@ -306,9 +305,7 @@ def test_walking_touches_no_joint_limit(simulate: Callable, run: Callable, scena
     assert (joints < high - 0.05).all()
 
 
-def test_run_stops_at_a_fall(
-    simulate: Callable, run: Callable, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_run_stops_at_a_fall(simulate, run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # MuJoCo notes there that a number is not finite
     low = simulate("flat_walk", "ideal")
     low.plant.qpos[2] = 0.3

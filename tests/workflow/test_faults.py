@@ -8,14 +8,12 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import psutil
 import pytest
-
-from .conftest import Snakemake
 
 SMOKE = ("--config", "scale=smoke")
 QUICK, SLOW = "tables/smoke/table_01.csv", "results/smoke/recordings/forward_walk/ideal/s101.parquet"
@@ -31,7 +29,7 @@ pytestmark = [pytest.mark.slow, pytest.mark.sim]
 
 
 @pytest.fixture(scope="module")
-def project(make_project: Callable[..., Path]) -> Path:
+def project(make_project):
     """A copy of the project without results."""
     return make_project("faults")
 
@@ -67,7 +65,7 @@ def as_in_a_terminal() -> None:
 
 
 @pytest.mark.parametrize("moment_s", MOMENTS_S)
-def test_ctrl_c_ends_at_once_with_one_line(project: Path, moment_s: float) -> None:
+def test_ctrl_c_ends_at_once_with_one_line(project, moment_s):
     words = [sys.executable, str(project / "reproduce"), "all", *SMOKE]
     with (project / "out.log").open("w+") as out:
         run = subprocess.Popen(
@@ -90,7 +88,7 @@ def test_ctrl_c_ends_at_once_with_one_line(project: Path, moment_s: float) -> No
     assert processes(project) == left_behind(project) == []
 
 
-def test_a_run_waits_for_another_one_removes_what_it_left_and_plans_again(project: Path) -> None:
+def test_a_run_waits_for_another_one_removes_what_it_left_and_plans_again(project):
     unfinished, foreign = project / "results/smoke/.partial.abcd_123.s1.parquet", project / "results/smoke/.mine.s1"
     unfinished.parent.mkdir(parents=True, exist_ok=True)
     for path in (unfinished, foreign):
@@ -125,9 +123,7 @@ FULL, READ_ONLY = r"needed: \S+ MiB, free: ", "cannot be written: Read-only file
         ("tables/smoke", "1m", "ro", QUICK, READ_ONLY),
     ],
 )
-def test_a_disk_without_room_is_one_line(
-    project: Path, snakemake: Snakemake, folder: str, size: str, how: str, target: str, told: str
-) -> None:
+def test_a_disk_without_room_is_one_line(project, snakemake, folder, size, how, target, told):
     (project / target).unlink(missing_ok=True)
     with small_disk(project / folder, size, how):
         done = snakemake(*ONE_CORE, target, folder=project)
@@ -140,7 +136,7 @@ def test_a_disk_without_room_is_one_line(
     assert (project / QUICK).is_file()
 
 
-def test_a_disk_that_fills_while_a_job_writes_is_told_by_the_job(project: Path, snakemake: Snakemake) -> None:
+def test_a_disk_that_fills_while_a_job_writes_is_told_by_the_job(project, snakemake):
     with small_disk(project / "results", "16m"):
         words = [sys.executable, "-m", "snakemake", *ONE_CORE, SLOW]
         environment = {**os.environ, "PYTHONPATH": str(project / "src")}
@@ -159,7 +155,7 @@ def test_a_disk_that_fills_while_a_job_writes_is_told_by_the_job(project: Path, 
         assert snakemake(*ONE_CORE, SLOW, folder=project).returncode == 0
 
 
-def test_without_git_a_run_says_that_results_name_no_commit(project: Path, snakemake: Snakemake) -> None:
+def test_without_git_a_run_says_that_results_name_no_commit(project, snakemake):
     done = snakemake("--forceall", *ONE_CORE, QUICK, folder=project)
     assert done.returncode == 0
     assert (done.stdout + done.stderr).count("(commit: unknown)") == 1

@@ -5,7 +5,6 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -74,7 +73,7 @@ def refusal(folder: Path, *changes: str) -> str:
     return done.stderr.strip()
 
 
-def test_a_killed_run_that_went_on_is_one_run(make_project: Callable[..., Path]) -> None:
+def test_a_killed_run_that_went_on_is_one_run(make_project):
     folder = make_project("stopped")
     git(folder, "init", "--quiet")
     git(folder, "add", *PARTS)

@@ -1,6 +1,5 @@
 """The band-pass of MOB-fric-BPF: what it lets through, and what it cannot tell."""
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -9,11 +8,10 @@ from numpy.typing import NDArray
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.estimator import Estimate
-from mobnet.core.recording import Recording, Sensed
+from mobnet.core.recording import Sensed
 from mobnet.estimation.filter import FilteredEstimator
 from mobnet.estimation.kinds.band_pass import sections_of
 from mobnet.estimation.methods import build_estimator
-from mobnet.estimation.recipe import Recipe
 from mobnet.settings.methods import Method
 
 RATE_HZ, BAND_HZ, ORDER = 1000.0, (2.0, 15.0), 2
@@ -47,9 +45,7 @@ def passed(torque: NDArray[np.float64], sensed: Sensed) -> NDArray[Any]:
     ("frequency_hz", "smallest", "largest"),
     [(0.2, 0.0, 0.03), (2.0, 0.69, 0.72), (5.5, 0.97, 1.001), (15.0, 0.69, 0.72), (100.0, 0.0, 0.05)],
 )
-def test_gain_over_frequency(
-    frequency_hz: float, smallest: float, largest: float, made_up: Callable[..., Recording]
-) -> None:
+def test_gain_over_frequency(frequency_hz, smallest, largest, made_up):
     """One inside the band, 1 / sqrt 2 at its edges, small outside."""
     sensed = made_up(0, 15.0).sensed
     time = np.arange(len(sensed)) / RATE_HZ
@@ -57,7 +53,7 @@ def test_gain_over_frequency(
     assert smallest <= np.sqrt(2 * np.mean(settled**2)) <= largest
 
 
-def test_a_steady_load_fades(made_up: Callable[..., Recording]) -> None:
+def test_a_steady_load_fades(made_up):
     """It cannot estimate the constant part: a step shows, then tends to zero."""
     sensed = made_up(0, 3.0).sensed
     seen = passed(np.full(len(sensed), 30.0), sensed)
@@ -65,7 +61,7 @@ def test_a_steady_load_fades(made_up: Callable[..., Recording]) -> None:
     assert np.abs(seen[-1000:]).max() < 0.05
 
 
-def test_it_has_no_std_and_steps_as_it_runs(made_up: Callable[..., Recording]) -> None:
+def test_it_has_no_std_and_steps_as_it_runs(made_up):
     sensed = made_up(0, 0.2).sensed
     torque = np.random.default_rng(0).normal(0, 10, len(sensed))
     estimator = FilteredEstimator(Given(torque), SECTIONS)
@@ -78,7 +74,7 @@ def test_it_has_no_std_and_steps_as_it_runs(made_up: Callable[..., Recording]) -
 
 
 @pytest.mark.parametrize("band_hz", [(0.0, 15.0), (15.0, 2.0), (2.0, 500.0)])
-def test_bands_that_cannot_be_are_refused(band_hz: tuple[float, float]) -> None:
+def test_bands_that_cannot_be_are_refused(band_hz):
     with pytest.raises(ConfigError, match=r"band_hz: .* accepted: 0 < low < high < 500"):
         sections_of(band_hz, ORDER, RATE_HZ)
 
@@ -90,9 +86,7 @@ def test_bands_that_cannot_be_are_refused(band_hz: tuple[float, float]) -> None:
         ({"options": {}}, "methods.b.options.band_hz: key is missing; .*\nmethods.b.options.order: key is missing; "),
     ],
 )
-def test_a_method_without_another_one_or_a_band_is_refused(
-    change: dict[str, Any], message: str, recipe_of: Callable[..., Recipe]
-) -> None:
+def test_a_method_without_another_one_or_a_band_is_refused(change, message, recipe_of):
     whole = {"kind": "band_pass", "of": "MOB", "options": {"band_hz": list(BAND_HZ), "order": ORDER}}
     methods = {"MOB": Method(kind="residual"), "b": Method.model_validate({**whole, **change})}
     with pytest.raises(ConfigError, match=message):

@@ -1,15 +1,14 @@
 """Eq. (15): what a model of the uncertainty leaves of the residual."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 import pytest
 
-from mobnet.core.recording import Recording, Sensed
+from mobnet.core.recording import Sensed
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.learning.deployed.networks import Prediction
-from mobnet.robot.nominal import NominalModel
 
 LIMB = ("LL3", "LL1")  # not in the robot's order
 OFFSET = np.array([3.0, -2.0], dtype=np.float32)
@@ -31,11 +30,11 @@ class Constant:
 
 
 @pytest.fixture
-def observer(nominal: NominalModel) -> MomentumObserver:
+def observer(nominal):
     return MomentumObserver(nominal, 100.0, 1000.0)
 
 
-def test_without_a_model_it_is_the_observer(observer: MomentumObserver, made_up: Callable[..., Recording]) -> None:
+def test_without_a_model_it_is_the_observer(observer, made_up):
     """With no model it is equivalent to the observer alone, to the bit."""
     sensed = made_up(0, 0.1).sensed
     estimator = ResidualEstimator(observer, observer.nominal.robot.layout)
@@ -45,9 +44,7 @@ def test_without_a_model_it_is_the_observer(observer: MomentumObserver, made_up:
     np.testing.assert_array_equal(result.tau_ext, observer.residual(sensed))
 
 
-def test_a_model_is_subtracted_from_its_own_joints(
-    observer: MomentumObserver, made_up: Callable[..., Recording]
-) -> None:
+def test_a_model_is_subtracted_from_its_own_joints(observer, made_up):
     sensed = made_up(0, 0.1).sensed
     layout = observer.nominal.robot.layout
     estimator, columns = ResidualEstimator(observer, layout, Constant()), layout.columns(LIMB)

@@ -1,9 +1,7 @@
 """Limb networks side by side."""
 
 import json
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -12,8 +10,6 @@ from safetensors.numpy import save_file
 
 from mobnet.core.errors import DataError
 from mobnet.core.files import WEIGHTS
-from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording
 from mobnet.learning.deployed.limbs import LimbNetworks, check_limb, load_limb_networks
 from mobnet.learning.deployed.networks import load_network
 from mobnet.learning.deployed.weights import NOTE
@@ -22,13 +18,11 @@ from mobnet.settings.networks import Limb
 
 
 @pytest.fixture
-def folder(small: Any, tmp_path: Path) -> Path:
+def folder(small, tmp_path):
     return small.train(small.training("FTS-e2e", epochs=1), tmp_path)
 
 
-def test_together_they_predict_what_each_predicts(
-    folder: Path, layout: JointLayout, made_up: Callable[..., Recording]
-) -> None:
+def test_together_they_predict_what_each_predicts(folder, layout, made_up):
     """Limbs together and each alone are equivalent."""
     network, sensed = load_network(folder), made_up(3, 0.1).sensed
     x = limb_inputs(layout, Limb(joints=("LL",), Q=("LL",), T=("LL",)))(sensed)
@@ -37,7 +31,7 @@ def test_together_they_predict_what_each_predicts(
     np.testing.assert_array_equal(both.std, np.tile(network.run_all([x])[0].std, 2))
 
 
-def test_a_network_of_another_limb_is_refused(folder: Path, layout: JointLayout) -> None:
+def test_a_network_of_another_limb_is_refused(folder, layout):
     with pytest.raises(DataError, match=r"network of limb 'LL' with joints .* accepted: 'RL'"):
         load_limb_networks({"RL": folder}, layout)
 
@@ -52,20 +46,18 @@ def whole(folder: Path, tmp_path: Path, joints: tuple[str, ...]) -> Path:
     return tmp_path / "WB"
 
 
-def test_a_network_over_several_limbs_says_its_joints_itself(folder: Path, layout: JointLayout, tmp_path: Path) -> None:
+def test_a_network_over_several_limbs_says_its_joints_itself(folder, layout, tmp_path):
     joints = layout.limb("LL")[:3] + layout.limb("RA")[:3]
     assert load_limb_networks({"WB": whole(folder, tmp_path, joints)}, layout).joints == joints
 
 
-def test_a_network_with_joints_that_the_robot_lacks_is_refused(
-    folder: Path, layout: JointLayout, tmp_path: Path
-) -> None:
+def test_a_network_with_joints_that_the_robot_lacks_is_refused(folder, layout, tmp_path):
     joints = (*layout.limb("LL")[:5], "tail")
     with pytest.raises(DataError, match=r"network of limb 'WB' with joints .* tail; accepted: 'WB' with V1, "):
         load_limb_networks({"WB": whole(folder, tmp_path, joints)}, layout)
 
 
-def test_an_input_that_the_robot_lacks_is_named(folder: Path, layout: JointLayout) -> None:
+def test_an_input_that_the_robot_lacks_is_named(folder, layout):
     network = load_network(folder)
     network.input_names = ("q.tail", *network.input_names[1:])
     with pytest.raises(DataError, match=r"input: 'q\.tail' is not accepted; accepted: \.\.\., q\.LL1"):
