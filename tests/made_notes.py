@@ -23,3 +23,9 @@ def training_note(name: str, losses: Sequence[float], **changes: Any) -> dict[st
         "fingerprint": "<script>alert(1)</script>", "provenance": {"commit": "c"},
     }  # fmt: skip
     return note | changes
+
+
+def network_note(limb: str, joints: Sequence[str], inputs: Sequence[str], network: Any, std_min: float = 1e-6) -> Any:
+    """Return the note that weights have; a limb's name beside those of its joints and inputs, and the cell's sizes."""
+    names = {"limb": limb, "joints": list(joints), "inputs": list(inputs)}
+    return {"name": "MOB-Net-LL-s0", **names, "std_min": std_min, "network": network}

@@ -117,19 +117,16 @@ def test_cpu_that_is_asked_for_is_not_replaced(tools, monkeypatch):
         install.install(tools, "cpu", is_asked=True)
 
 
-@pytest.mark.parametrize(
-    ("output", "line"),
-    [
-        (OFFLINE, "no package registry can be reached; connect to a network"),
-        (
-            "WARNING: [Errno -3] Temporary failure in name resolution\nERROR: No matching distribution",
-            "no package registry",
-        ),
-        ("error: failed to copy: No space left on device (os error 28)", "the disk is full"),
-        ("error: Hash mismatch for `numpy==2.4.6`", "a package differs from its hash in environment.lock"),
-        ("error: Permission denied (os error 13)", "no right to write"),
-    ],
-)
+@pytest.mark.parametrize(("output", "line"), [
+    (OFFLINE, "no package registry can be reached; connect to a network"),
+    (
+        "WARNING: [Errno -3] Temporary failure in name resolution\nERROR: No matching distribution",
+        "no package registry",
+    ),
+    ("error: failed to copy: No space left on device (os error 28)", "the disk is full"),
+    ("error: Hash mismatch for `numpy==2.4.6`", "a package differs from its hash in environment.lock"),
+    ("error: Permission denied (os error 13)", "no right to write"),
+])  # fmt: skip
 def test_a_failure_is_one_line(tools, monkeypatch, output, line):
     answer(monkeypatch, pip=output)
     with pytest.raises(CommandError, match=line) as caught:

@@ -47,17 +47,14 @@ def test_a_whole_environment_is_left_alone(project):
     assert setup.fault_of(project, "cpu") is None
 
 
-@pytest.mark.parametrize(
-    ("gone", "fault"),
-    [
-        (".venv/bin/python", "the Python of .venv is gone"),
-        (".venv/installed", "the last set-up did not end"),
-        (f"{SITE}/one/__init__.py", "one/__init__.py of one-1.0 is missing in .venv"),
-        (f"{SITE}/one/data, more.txt", "one/data, more.txt of one-1.0 is missing in .venv"),
-        (f"{SITE}/one-1.0.dist-info/RECORD", "one-1.0.dist-info/RECORD of one-1.0 is missing in .venv"),
-        (f"{SITE}/mobnet.pth", "mobnet.pth is missing in .venv"),
-    ],
-)
+@pytest.mark.parametrize(("gone", "fault"), [
+    (".venv/bin/python", "the Python of .venv is gone"),
+    (".venv/installed", "the last set-up did not end"),
+    (f"{SITE}/one/__init__.py", "one/__init__.py of one-1.0 is missing in .venv"),
+    (f"{SITE}/one/data, more.txt", "one/data, more.txt of one-1.0 is missing in .venv"),
+    (f"{SITE}/one-1.0.dist-info/RECORD", "one-1.0.dist-info/RECORD of one-1.0 is missing in .venv"),
+    (f"{SITE}/mobnet.pth", "mobnet.pth is missing in .venv"),
+])  # fmt: skip
 def test_what_is_missing_is_named(project, gone, fault):
     (project / gone).unlink()
     assert setup.fault_of(project, None) == fault

@@ -7,23 +7,20 @@ from mobnet.core.errors import CommandError, ConfigError
 from mobnet.plan.places import check_scale, scale_of
 
 
-@pytest.mark.parametrize(
-    ("words", "handed"),
-    [
-        (["all", "-n"], ["all", "-n"]),
-        (["-n"], ["-n"]),
-        (["tables/table_05.tex"], ["tables/table_05.tex", "--config", "scale=default"]),
-        (["tables/smoke/table_05.tex", "-n"], ["tables/smoke/table_05.tex", "--config", "scale=smoke", "-n"]),
-        (["./results/paper/runs.html"], ["./results/paper/runs.html", "--config", "scale=paper"]),
-        (["report.html"], ["report.html"]),
-        (
-            ["all", "--config", "scale=smoke", "seed=1", "tables/smoke/table_05.tex", "-n"],
-            ["all", "tables/smoke/table_05.tex", "--config", "scale=smoke", "seed=1", "-n"],
-        ),
-        (["tables/smoke/x.md", "--config", "seed=1"], ["tables/smoke/x.md", "--config", "scale=smoke", "seed=1"]),
-        (["all", "--config", "scale=smoke", "--", "x.md"], ["all", "--config", "scale=smoke", "--", "x.md"]),
-    ],
-)
+@pytest.mark.parametrize(("words", "handed"), [
+    (["all", "-n"], ["all", "-n"]),
+    (["-n"], ["-n"]),
+    (["tables/table_05.tex"], ["tables/table_05.tex", "--config", "scale=default"]),
+    (["tables/smoke/table_05.tex", "-n"], ["tables/smoke/table_05.tex", "--config", "scale=smoke", "-n"]),
+    (["./results/paper/runs.html"], ["./results/paper/runs.html", "--config", "scale=paper"]),
+    (["report.html"], ["report.html"]),
+    (
+        ["all", "--config", "scale=smoke", "seed=1", "tables/smoke/table_05.tex", "-n"],
+        ["all", "tables/smoke/table_05.tex", "--config", "scale=smoke", "seed=1", "-n"],
+    ),
+    (["tables/smoke/x.md", "--config", "seed=1"], ["tables/smoke/x.md", "--config", "scale=smoke", "seed=1"]),
+    (["all", "--config", "scale=smoke", "--", "x.md"], ["all", "--config", "scale=smoke", "--", "x.md"]),
+])  # fmt: skip
 def test_targets_come_first_and_name_the_scale(words, handed):
     assert parse(words)[::2] == ("all", handed)
 
@@ -33,34 +30,28 @@ def test_trials_are_targets_of_their_own(command):
     assert parse([command, "--config", "scale=smoke"])[::2] == (command, [command, "--config", "scale=smoke"])
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        *(
-            (["all", "--config", "scale=smoke", word], f"--config: '{word}' is not accepted; accepted: KEY=VALUE")
-            for word in ("1x=3", "=3", "x=3", "observer.gain_hz=50", "a b=1")
-        ),
-        (["--config", "seed"], "--config: seed is not accepted; accepted: KEY=VALUE"),
-        (["tables/table_05.tex", "tables/smoke/table_05.tex"], "targets of the scales default, smoke: one scale"),
-    ],
-)
+@pytest.mark.parametrize(("words", "message"), [
+    *(
+        (["all", "--config", "scale=smoke", word], f"--config: '{word}' is not accepted; accepted: KEY=VALUE")
+        for word in ("1x=3", "=3", "x=3", "observer.gain_hz=50", "a b=1")
+    ),
+    (["--config", "seed"], "--config: seed is not accepted; accepted: KEY=VALUE"),
+    (["tables/table_05.tex", "tables/smoke/table_05.tex"], "targets of the scales default, smoke: one scale"),
+])  # fmt: skip
 def test_words_that_name_no_key_or_two_scales_are_refused(words, message):
     with pytest.raises(CommandError, match=message):
         in_order(words)
 
 
-@pytest.mark.parametrize(
-    ("target", "scale"),
-    [
-        ("tables/table_05.tex", "default"),
-        ("figures/smoke/figure_05.pdf", "smoke"),
-        ("results/MANIFEST.sha256", "default"),
-        ("./paper/main.pdf", "default"),
-        ("results/paper/networks/x", "paper"),
-        ("configs/config.yaml", None),
-        ("all", None),
-    ],
-)
+@pytest.mark.parametrize(("target", "scale"), [
+    ("tables/table_05.tex", "default"),
+    ("figures/smoke/figure_05.pdf", "smoke"),
+    ("results/MANIFEST.sha256", "default"),
+    ("./paper/main.pdf", "default"),
+    ("results/paper/networks/x", "paper"),
+    ("configs/config.yaml", None),
+    ("all", None),
+])  # fmt: skip
 def test_a_path_tells_its_scale(target, scale):
     assert scale_of(target) == scale
 

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 import torch
+from made_notes import network_note
 from safetensors.torch import save_file
 
 from mobnet.core.files import WEIGHTS
@@ -66,13 +67,6 @@ def _write_network(folder: Path, training: Training, layout: JointLayout, zero: 
     for name, count, std in (("input", len(names), INPUT_STD), ("target", len(joints), TARGET_STD)):
         tensors |= {f"{name}.mean": torch.zeros(count), f"{name}.std": torch.full((count,), std)}
     cell = network.model_dump(mode="json", exclude_defaults=True)
-    note = {
-        "name": "MOB-Net-LL-s0",
-        "limb": training.limb,
-        "joints": joints,
-        "inputs": names,
-        "std_min": std_min,
-        "network": cell,
-    }
+    note = network_note(training.limb, joints, names, cell, std_min)
     folder.mkdir()
     save_file(tensors, folder / WEIGHTS, {NOTE: json.dumps(note)})

@@ -73,16 +73,13 @@ def spoil(stem: str) -> None:
     note.write_text(json.dumps({key: value for key, value in said.items() if key != "footer"}))
 
 
-@pytest.mark.parametrize(
-    ("swings", "fault", "text"),
-    [
-        (0, "", "swings in which the leg is watched: 'none' is not accepted; accepted: some of those that calibrate"),
-        (40, "", "swings that calibrate: 40 is not accepted; accepted: 200 or more, some minutes of walking"),
-        (SWINGS, "constant", "walk: signal mean.LL3: every number: 7.0 is not accepted; accepted: numbers that change"),
-        (SWINGS, "saturated", "above 1 times their scales: 0 is not accepted; accepted: 1 or more, those of an"),
-        (SWINGS, "missing", "column 'tau_ext.LL5', row 1234: nan is not accepted; accepted: "),
-    ],
-)
+@pytest.mark.parametrize(("swings", "fault", "text"), [
+    (0, "", "swings in which the leg is watched: 'none' is not accepted; accepted: some of those that calibrate"),
+    (40, "", "swings that calibrate: 40 is not accepted; accepted: 200 or more, some minutes of walking"),
+    (SWINGS, "constant", "walk: signal mean.LL3: every number: 7.0 is not accepted; accepted: numbers that change"),
+    (SWINGS, "saturated", "above 1 times their scales: 0 is not accepted; accepted: 1 or more, those of an"),
+    (SWINGS, "missing", "column 'tau_ext.LL5', row 1234: nan is not accepted; accepted: "),
+])  # fmt: skip
 def test_a_walk_that_calibrates_nothing_is_one_line_and_no_threshold(write, caplog, swings, fault, text):
     words = write(swings, {"constant": constant, "saturated": saturated}.get(fault))
     if fault == "missing":
@@ -93,16 +90,13 @@ def test_a_walk_that_calibrates_nothing_is_one_line_and_no_threshold(write, capl
     assert "\n" not in line
 
 
-@pytest.mark.parametrize(
-    ("words", "text"),
-    [
-        (["--leg", "W"], "leg of 6 joints: 'W' is not accepted; accepted: "),
-        (["--rate", "0"], "--rate: 0.0 is not accepted; accepted: a number from 1e-06"),
-        (["--rate", "inf"], "--rate: inf is not accepted; accepted: a number from 1e-06"),
-        (["--rate", "nan"], "--rate: nan is not accepted; accepted: a number from 1e-06"),
-        (["--estimate", "more"], "--estimate: 2 is not accepted; accepted: 1, one for each --recording"),
-    ],
-)
+@pytest.mark.parametrize(("words", "text"), [
+    (["--leg", "W"], "leg of 6 joints: 'W' is not accepted; accepted: "),
+    (["--rate", "0"], "--rate: 0.0 is not accepted; accepted: a number from 1e-06"),
+    (["--rate", "inf"], "--rate: inf is not accepted; accepted: a number from 1e-06"),
+    (["--rate", "nan"], "--rate: nan is not accepted; accepted: a number from 1e-06"),
+    (["--estimate", "more"], "--estimate: 2 is not accepted; accepted: 1, one for each --recording"),
+])  # fmt: skip
 def test_words_that_fit_nothing_are_told(write, caplog, words, text):
     assert main([*write(3), *words]) == 1
     assert text in caplog.text

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from made_notes import network_note
 from safetensors.numpy import save_file
 
 from mobnet.core.errors import ConfigError, DataError
@@ -88,11 +89,6 @@ def test_std_columns_follow_if_there_are_any(layout):
     assert len(table_of(Estimate(tau), ["V1", "LL2"], layout)[1]) == 2
 
 
-def test_a_method_without_a_std_gets_none(recipe_of, made_up):
-    (result,) = run_segments(build_estimator(recipe_of("MOB", "ideal")), [Observed(made_up(0, 0.1))])
-    assert result.std is None
-
-
 def test_an_observer_that_ran_already_is_not_run_again(recipe_of, made_up):
     recording = made_up(0, 0.1)
     given = np.random.default_rng(0).normal(size=recording.sensed.v.shape).astype(np.float32)
@@ -149,14 +145,7 @@ def test_factors_are_told_joint_by_joint_and_are_one_where_none_are_stored(tmp_p
     tensors |= {name: np.ones(2 if name.startswith("target") else 1, np.float32) for name in Z_SCORES}
     for limb, more in (("LA", {}), ("RA", {STD_SCALE: np.array([0.5, 2.0], np.float32)})):
         (tmp_path / limb).mkdir()
-        note = {
-            "name": "MOB-Net-LL-s0",
-            "limb": limb,
-            "joints": [f"{limb}1", f"{limb}2"],
-            "inputs": ["q.W1"],
-            "std_min": 1e-6,
-        }
-        note["network"] = {"cell": "GRU", "hidden": 1}
+        note = network_note(limb, [f"{limb}1", f"{limb}2"], ["q.W1"], {"cell": "GRU", "hidden": 1})
         save_file(tensors | more, tmp_path / limb / WEIGHTS, {NOTE: json.dumps(note)})
     told = std_scales(tmp_path / limb / WEIGHTS for limb in ("LA", "RA"))
     assert told == {"LA1": 1.0, "LA2": 1.0, "RA1": 0.5, "RA2": 2.0}

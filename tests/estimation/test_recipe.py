@@ -5,18 +5,15 @@ import pytest
 from mobnet.core.errors import ConfigError
 
 
-@pytest.mark.parametrize(
-    ("method", "limbs", "fitted", "message"),
-    [
-        ("MOB2", [], False, "method: 'MOB2' is not accepted; accepted: MOB, FTS-e2e, "),
-        ("MOB", ["LL"], False, r"networks of method MOB: \['LL'\] is not accepted; accepted: none"),
-        ("FTS-e2e", ["LA", "LL"], False, r"\['LA', 'LL'\] is not accepted; accepted: some of \['LL'\]"),
-        ("FTS-e2e", [], False, r"networks of method FTS-e2e: \[\] is not accepted; accepted: some of \['LL'\]"),
-        ("MOB-fric", [], False, "'MOB-fric' with the fit None; accepted: the file that rule `fit` writes"),
-        ("MOB-fric-BPF", [], False, "'MOB-fric-BPF' with the fit None"),
-        ("MOB", [], True, "'MOB' with the fit .*; accepted: none"),
-    ],
-)
+@pytest.mark.parametrize(("method", "limbs", "fitted", "message"), [
+    ("MOB2", [], False, "method: 'MOB2' is not accepted; accepted: MOB, FTS-e2e, "),
+    ("MOB", ["LL"], False, r"networks of method MOB: \['LL'\] is not accepted; accepted: none"),
+    ("FTS-e2e", ["LA", "LL"], False, r"\['LA', 'LL'\] is not accepted; accepted: some of \['LL'\]"),
+    ("FTS-e2e", [], False, r"networks of method FTS-e2e: \[\] is not accepted; accepted: some of \['LL'\]"),
+    ("MOB-fric", [], False, "'MOB-fric' with the fit None; accepted: the file that rule `fit` writes"),
+    ("MOB-fric-BPF", [], False, "'MOB-fric-BPF' with the fit None"),
+    ("MOB", [], True, "'MOB' with the fit .*; accepted: none"),
+])  # fmt: skip
 def test_files_that_do_not_fit_the_method_are_refused(method, limbs, fitted, message, recipe_of, tmp_path):
     with pytest.raises(ConfigError, match=message):
         recipe_of(method, networks=dict.fromkeys(limbs, tmp_path), fitted=tmp_path if fitted else None)

@@ -84,11 +84,6 @@ def test_states_keep_more_than_the_products_have(cell, stretch):
     assert distance(moved, expected) < 0.05
 
 
-def test_same_twice(cell, stretch, precision):
-    first, second = (outcome(cell, run(cell, stretch, precision)[0]) for _ in range(2))
-    assert all(torch.equal(a, b) for a, b in zip(first, second, strict=True))
-
-
 def test_back_propagation_is_truncated_at_the_given_state(cell, stretch, precision):
     x, state = stretch
     first, carried = run(cell, (x[:25], state), precision)

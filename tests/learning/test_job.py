@@ -93,16 +93,12 @@ def test_only_a_gru_has_bfloat16_products(job, cell):
 
 
 @pytest.mark.parametrize("name", PRECISIONS)
-def test_a_named_format_is_that_format(name):
+def test_a_named_format_is_that_format_and_a_gpu_computes_in_float32(name):
     assert precision_name(precision_of(name, CPU)) == name
+    assert precision_of(name, GPU) == torch.float32
 
 
 def test_auto_names_no_format_of_a_training():
     """What it stands for is decided once for all trainings (`mobnet.plan.precision`)."""
     with pytest.raises(ConfigError, match=r"precision of a training: 'auto' is not accepted; accepted: bfloat"):
         precision_of("auto", CPU)
-
-
-@pytest.mark.parametrize("setting", PRECISIONS)
-def test_a_gpu_computes_in_float32(setting):
-    assert precision_of(setting, GPU) == torch.float32

@@ -1,6 +1,7 @@
 """Files from outside, each sound, and a function that says how the readers of jobs take them."""
 
 import json
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -20,6 +21,7 @@ from mobnet.estimation.observe import observe
 
 RATE_HZ = 1000.0
 AGAINST = Against()  # reads the configuration once
+Change = Callable[[Any], Any]
 META = {"scenario": "random_walk", "level": "all_uncertainty", "seed": 3}
 
 
@@ -79,6 +81,45 @@ def changed_note(stem: Path, change: Callable[[dict[str, Any]], Any]) -> None:
     note = json.loads(path.read_text())
     changed = change(note)
     path.write_text(json.dumps(note if changed is None else changed))
+
+
+def set_at(place: str, value: Any) -> Change:
+    """Return a change of a note that sets a value at a place, keys joined by dots."""
+
+    def change(note: Any) -> None:
+        parent, last = parent_of(note, place)
+        parent[last] = value
+
+    return change
+
+
+def lost(place: str) -> Change:
+    """Return a change of a note that deletes what is at a place."""
+
+    def change(note: Any) -> None:
+        parent, last = parent_of(note, place)
+        del parent[last]
+
+    return change
+
+
+def parent_of(note: Any, place: str) -> tuple[Any, Any]:
+    """Return what holds the value at a place of a note, and its key or number there."""
+    *inner, last = (int(key) if key.isdigit() else key for key in place.split("."))
+    for key in inner:
+        note = note[key]
+    return note, last
+
+
+def refusals(wrong: dict[str, tuple[Any, ...]], needed: str) -> dict[str, tuple[Change, str]]:
+    """Return changes of a note with what is told of them: values that a place does not accept, and places lost."""
+    values = [(place, value) for place, values in wrong.items() for value in values]
+    return {
+        **{
+            f"{k} as {v!r}": (set_at(k, v), f"{k}: {re.escape(repr(v))} is not accepted; accepted: ") for k, v in values
+        },
+        **{f"{place} is gone": (lost(place), f"{place}: key is missing; accepted: ") for place in needed.split()},
+    }
 
 
 def without_footer(note: dict[str, Any]) -> None:

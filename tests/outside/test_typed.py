@@ -35,14 +35,11 @@ def test_the_array_of_a_note_may_be_a_pipe(copied):
     assert done.stdout == "recording.parquet: a pipe or a device is not accepted; accepted: a file\n"
 
 
-@pytest.mark.parametrize(
-    ("words", "says"),
-    [
-        (["--rate", "nan", "x.csv"], "--rate: nan is not accepted; accepted: a number above 0"),
-        (["--rate", "-1", "x.csv"], "--rate: -1.0 is not accepted"),
-        ([f"{'x' * 300}.csv"], "File name too long; accepted: files that you may read"),
-    ],
-)
+@pytest.mark.parametrize(("words", "says"), [
+    (["--rate", "nan", "x.csv"], "--rate: nan is not accepted; accepted: a number above 0"),
+    (["--rate", "-1", "x.csv"], "--rate: -1.0 is not accepted"),
+    ([f"{'x' * 300}.csv"], "File name too long; accepted: files that you may read"),
+])  # fmt: skip
 def test_words_that_cannot_be_are_told(words, says, capsys):
     with pytest.raises(SystemExit, match="2"):
         main(words)

@@ -57,13 +57,9 @@ def test_a_composite_root_would_fail_that_property(nominal, random_state):
     assert np.abs(matrix + matrix.T - mass_matrix_rate(model, position, v)).max() > 1
 
 
-def test_momentum_and_beta_are_what_their_names_say(nominal, random_state):
-    """The momentum of the base is mass times velocity of the centre of mass."""
+def test_momentum_of_the_base_is_mass_times_velocity_of_the_centre_of_mass(nominal, random_state):
     q, v = random_state(3)
-    momentum, found = dynamics.momentum_and_beta(nominal, q, v)
-    np.testing.assert_allclose(momentum, dynamics.mass_matrix(nominal, q) @ v, atol=1e-10)
-    beta = dynamics.coriolis(nominal, q, v).T @ v - dynamics.gravity(nominal, q)
-    np.testing.assert_allclose(found, beta, atol=1e-10)
+    momentum, _ = dynamics.momentum_and_beta(nominal, q, v)
     pin.centerOfMass(nominal.model, nominal.data, to_pinocchio(q), v)
     np.testing.assert_allclose(momentum[:3], nominal.robot.mass * nominal.data.vcom[0], atol=1e-10)
 

@@ -95,15 +95,6 @@ def test_what_does_not_fit_is_refused(nominal, rows, column):
         momentum_and_beta(nominal, q[:, column:], v)
 
 
-def test_the_constants_are_those_of_the_robot(model_of):
-    for machine in ("robot", "arm"):
-        nominal = model_of(machine, 0.9)
-        links = nominal.linkage.links
-        assert links["behind"][0] == pytest.approx(0.9 * nominal.robot.mass)
-        np.testing.assert_allclose(links["armature"][1:], 0.9 * nominal.robot.armature)
-        assert (links["parent"][1:] < np.arange(1, len(links))).all()
-
-
 @pytest.mark.parametrize("machine", ["robot", "skew_robot"])
 def test_torque_of_a_wrench_is_that_of_pinocchio_s_jacobian(model_of, machine):
     nominal = model_of(machine)

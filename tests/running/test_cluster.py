@@ -37,17 +37,14 @@ def told_of(root: Path, *texts: str, place: str = "rule_train/_MOB-Net_LL_0", si
     return [line.replace(str(root), "") for line in failed_jobs(root, since_s, HAD)]
 
 
-@pytest.mark.parametrize(
-    ("text", "why"),
-    [
-        (f"17:11:11 INFO epoch 1\n{OVER}", "above its 100 MB; give it more with --set-resources train:mem_mb=200"),
-        ("error: *** JOB 6 CANCELLED AT x DUE TO TIME LIMIT ***\n", "after its 30 min; give it more with --set-"),
-        ("slurmstepd: error: Detected 1 oom_kill event in StepId=6.batch.\n", "--set-resources train:mem_mb=200 (log"),
-        ("12:00:00 ERROR results/: no room is left\n", "results/: no room is left (log"),
-        ("12:00:00 ERROR results/x.parquet: file is missing\nError in rule train:\n", "results/x.parquet: file is"),
-        ("bash: python: command not found\n\n", "bash: python: command not found"),
-    ],
-)
+@pytest.mark.parametrize(("text", "why"), [
+    (f"17:11:11 INFO epoch 1\n{OVER}", "above its 100 MB; give it more with --set-resources train:mem_mb=200"),
+    ("error: *** JOB 6 CANCELLED AT x DUE TO TIME LIMIT ***\n", "after its 30 min; give it more with --set-"),
+    ("slurmstepd: error: Detected 1 oom_kill event in StepId=6.batch.\n", "--set-resources train:mem_mb=200 (log"),
+    ("12:00:00 ERROR results/: no room is left\n", "results/: no room is left (log"),
+    ("12:00:00 ERROR results/x.parquet: file is missing\nError in rule train:\n", "results/x.parquet: file is"),
+    ("bash: python: command not found\n\n", "bash: python: command not found"),
+])  # fmt: skip
 def test_the_reason_is_told_with_a_remedy_where_there_is_one(tmp_path, text, why):
     (told,) = told_of(tmp_path, BEGUN.format(rule="train", log="train/MOB-Net-LL-s0", number=0) + text)
     assert told.startswith("train")

@@ -19,22 +19,19 @@ def devices_in(folder: Path, names: list[str]) -> Path:
     return folder
 
 
-@pytest.mark.parametrize(
-    ("version", "chosen", "names", "seen"),
-    [
-        (CUDA, None, [], 0),
-        (CUDA, None, ["nvidia0"], 1),
-        (CUDA, None, ["nvidia0", "nvidia1", "nvidia10"], 3),
-        (CUDA, "1", ["nvidia0", "nvidia1"], 1),
-        (CUDA, "0, 1", ["nvidia0", "nvidia1"], 2),
-        (CUDA, "0,1,2", ["nvidia0"], 1),
-        (CUDA, "GPU-8f3a,GPU-77b1", ["nvidia0", "nvidia1", "nvidia2"], 2),
-        (CUDA, "", ["nvidia0"], 0),
-        (CUDA, "0,-1,1", ["nvidia0", "nvidia1"], 1),
-        (CUDA, None, ["dxg"], 1),
-        (CPU, None, ["nvidia0"], 0),
-    ],
-)
+@pytest.mark.parametrize(("version", "chosen", "names", "seen"), [
+    (CUDA, None, [], 0),
+    (CUDA, None, ["nvidia0"], 1),
+    (CUDA, None, ["nvidia0", "nvidia1", "nvidia10"], 3),
+    (CUDA, "1", ["nvidia0", "nvidia1"], 1),
+    (CUDA, "0, 1", ["nvidia0", "nvidia1"], 2),
+    (CUDA, "0,1,2", ["nvidia0"], 1),
+    (CUDA, "GPU-8f3a,GPU-77b1", ["nvidia0", "nvidia1", "nvidia2"], 2),
+    (CUDA, "", ["nvidia0"], 0),
+    (CUDA, "0,-1,1", ["nvidia0", "nvidia1"], 1),
+    (CUDA, None, ["dxg"], 1),
+    (CPU, None, ["nvidia0"], 0),
+])  # fmt: skip
 def test_gpus_are_those_that_torch_can_use(tmp_path, version, chosen, names, seen):
     environment = {} if chosen is None else {"CUDA_VISIBLE_DEVICES": chosen}
     assert gpus_seen(version, environment, devices_in(tmp_path, names)) == seen

@@ -73,22 +73,19 @@ def test_ctrl_c_is_one_line(monkeypatch, caplog):
     assert [len(message.splitlines()) for message in caplog.messages] == [1]
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (["--seconds", "-1"], "--seconds: -1.0 is not accepted; accepted: > 0"),
-        (["--seconds", "0"], "--seconds: 0.0 is not accepted; accepted: > 0"),
-        (["--seconds", "nan"], "--seconds: nan is not accepted; accepted: > 0"),
-        (["--seed", "-1"], "--seed: -1 is not accepted; accepted: >= 0"),
-        (["--width", "10"], "--width: 10 is not accepted; accepted: 160 to 1920"),
-        (["--video", "walk.avi"], "--video: '.avi' is not accepted; accepted: .gif, .mp4, .webp"),
-        (["--picture", "walk.jpg"], "--picture: 'walk.jpg' is not accepted; accepted: NAME.png"),
-        (["--scenario", "moon"], "--scenario: 'moon' is not accepted; accepted: "),
-        (["--level", "perfect"], "--level: 'perfect' is not accepted; accepted: "),
-        (["--terrain", "stairs"], "terrain: 'stairs' is not accepted; accepted: checks, flat, plates, slope"),
-        (["--config", "nowhere"], "nowhere/config.yaml: file is missing"),
-    ],
-)
+@pytest.mark.parametrize(("words", "message"), [
+    (["--seconds", "-1"], "--seconds: -1.0 is not accepted; accepted: > 0"),
+    (["--seconds", "0"], "--seconds: 0.0 is not accepted; accepted: > 0"),
+    (["--seconds", "nan"], "--seconds: nan is not accepted; accepted: > 0"),
+    (["--seed", "-1"], "--seed: -1 is not accepted; accepted: >= 0"),
+    (["--width", "10"], "--width: 10 is not accepted; accepted: 160 to 1920"),
+    (["--video", "walk.avi"], "--video: '.avi' is not accepted; accepted: .gif, .mp4, .webp"),
+    (["--picture", "walk.jpg"], "--picture: 'walk.jpg' is not accepted; accepted: NAME.png"),
+    (["--scenario", "moon"], "--scenario: 'moon' is not accepted; accepted: "),
+    (["--level", "perfect"], "--level: 'perfect' is not accepted; accepted: "),
+    (["--terrain", "stairs"], "terrain: 'stairs' is not accepted; accepted: checks, flat, plates, slope"),
+    (["--config", "nowhere"], "nowhere/config.yaml: file is missing"),
+])  # fmt: skip
 def test_one_line_names_what_is_not_accepted(words, message, caplog):
     assert command.main(words) == 1
     assert len(caplog.messages) == 1

@@ -39,6 +39,16 @@ def external(simulator: Simulator) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return contacts, pushes, touch
 
 
+def normal_forces(simulator: Simulator) -> np.ndarray:
+    """Return the sum of the normal forces (2,) [N] of each foot's contacts, by mj_contactForce."""
+    model, data, wrench, forces = simulator.world.model, simulator.world.data, np.zeros(6), np.zeros(2)
+    soles = [model.geom(sole_name(side)).id for side in SIDES]
+    for index, contact in enumerate(data.contact):
+        mujoco.mj_contactForce(model, data, index, wrench)
+        forces[[sole in (contact.geom1, contact.geom2) for sole in soles].index(True)] += wrench[0]
+    return forces
+
+
 def assert_near(found: np.ndarray, expected: np.ndarray, share: float) -> None:
     """Check that torques or forces are as expected, up to a share of the largest one."""
     np.testing.assert_allclose(found, expected, atol=share * max(1.0, np.abs(expected).max()))
@@ -82,17 +92,23 @@ def pushed_walk(simulate):
 
 
 @pytest.mark.parametrize("terrain", ["checks", "plates", "slope", "flat"])
-def test_contacts_and_pushes_are_the_external_torque(pushed_walk, run, terrain):
-    """The reference is MuJoCo's contact forces and the wrenches on bodies, through mj_jac (equation (2))."""
-    simulator, pushed = pushed_walk(terrain), 0
+def test_contacts_and_pushes_are_the_external_torque_and_touch_is_ground_alone(pushed_walk, run, terrain):
+    """The reference is MuJoCo's contact forces and the wrenches on bodies, through mj_jac (equation (2)).
+
+    A pushed foot in the air touches nothing.
+    """
+    simulator, pushed, seen = pushed_walk(terrain), 0, set()
     for _ in range(60):
         run(simulator, 0.023)
         contact, push = contact_torque(simulator), pushed_torque(simulator)
-        contacts, pushes, _ = external(simulator)
+        contacts, pushes, touch = external(simulator)
         assert_near(contacts, contact, 1e-9)
         assert_near(pushes, push, 1e-9)
+        assert_near(touch, normal_forces(simulator), 1e-9)
         pushed += np.abs(push).max() > 5
+        seen.add(tuple(touch > engine.CONTACT_FORCE_N))
     assert pushed > 40
+    assert seen == {(True, False), (False, True), (True, True)}
 
 
 @pytest.mark.parametrize("terrain", ["checks", "plates", "slope", "flat"])
@@ -104,24 +120,6 @@ def test_foot_sensors_feel_contacts_and_pushes_on_the_foot(pushed_walk, run, ter
             run(simulator, 0.023)
             expected = contact_torque(simulator) + felt * pushed_torque(simulator)
             assert_near(sole_torque(simulator), expected, 1e-8)
-
-
-@pytest.mark.parametrize("terrain", ["checks", "slope"])
-def test_touch_is_the_normal_force_of_a_foot_s_own_contacts(pushed_walk, run, terrain):
-    """The reference is mj_contactForce; a pushed foot in the air touches nothing."""
-    simulator, seen = pushed_walk(terrain), set()
-    model, data, wrench = simulator.world.model, simulator.world.data, np.zeros(6)
-    soles = [model.geom(sole_name(side)).id for side in SIDES]
-    for _ in range(60):
-        run(simulator, 0.023)
-        expected = np.zeros(2)
-        for index, contact in enumerate(data.contact):
-            mujoco.mj_contactForce(model, data, index, wrench)
-            expected[[sole in (contact.geom1, contact.geom2) for sole in soles].index(True)] += wrench[0]
-        touch = external(simulator)[2]
-        assert_near(touch, expected, 1e-9)
-        seen.add(tuple(touch > engine.CONTACT_FORCE_N))
-    assert seen == {(True, False), (False, True), (True, True)}
 
 
 def test_contact_rows_equal_mujoco_s_contact_forces_without_friction_loss(simulate, run):

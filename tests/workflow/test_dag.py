@@ -48,13 +48,10 @@ def test_what_is_out_of_date_of_a_target_is_priced(snakemake):
     assert f"| all jobs | {len(listed)} |" in told
 
 
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        ("methods={MOB: {kind: magic}}", "'magic' is not accepted; accepted: "),
-        ("robot=configs/robots/none.yaml", "--config: robot: 'configs/robots/none.yaml' is not accepted"),
-    ],
-)
+@pytest.mark.parametrize(("given", "message"), [
+    ("methods={MOB: {kind: magic}}", "'magic' is not accepted; accepted: "),
+    ("robot=configs/robots/none.yaml", "--config: robot: 'configs/robots/none.yaml' is not accepted"),
+])  # fmt: skip
 def test_bad_configuration_stops_with_one_line(snakemake, given, message):
     done = snakemake("-n", "--config", given)
     assert done.returncode != 0

@@ -113,16 +113,13 @@ def test_a_run_waits_for_another_one_removes_what_it_left_and_plans_again(projec
 FULL, READ_ONLY = r"needed: \S+ MiB, free: ", "cannot be written: Read-only file system"
 
 
-@pytest.mark.parametrize(
-    ("folder", "size", "how", "target", "told"),
-    [
-        ("results", "4m", "rw", SLOW, FULL),
-        ("tables/smoke", "64k", "rw", QUICK, FULL),
-        (".cache", "64k", "rw", QUICK, FULL),
-        (".snakemake", "64k", "rw", QUICK, FULL),
-        ("tables/smoke", "1m", "ro", QUICK, READ_ONLY),
-    ],
-)
+@pytest.mark.parametrize(("folder", "size", "how", "target", "told"), [
+    ("results", "4m", "rw", SLOW, FULL),
+    ("tables/smoke", "64k", "rw", QUICK, FULL),
+    (".cache", "64k", "rw", QUICK, FULL),
+    (".snakemake", "64k", "rw", QUICK, FULL),
+    ("tables/smoke", "1m", "ro", QUICK, READ_ONLY),
+])  # fmt: skip
 def test_a_disk_without_room_is_one_line(project, snakemake, folder, size, how, target, told):
     (project / target).unlink(missing_ok=True)
     with small_disk(project / folder, size, how):

@@ -78,14 +78,11 @@ def test_numbers_are_read_by_name(fitted, layout):
     assert sum(np.count_nonzero(factors) for factors in friction.terms.values()) == len(TERMS)
 
 
-@pytest.mark.parametrize(
-    ("found", "message"),
-    [
-        ({"smoothing_rad_s": 0.02, "joints": {"LL9": KNEE}}, "'LL9' is not accepted; accepted: LL"),
-        ({"smoothing_rad_s": 0.02, "joints": {"LL4": {"coulomb_nm": 1.0}}}, r"joints\.LL4\.static_nm: key is missing"),
-        ({"joints": {}}, "smoothing_rad_s: key is missing; accepted: smoothing_rad_s, joints"),
-    ],
-)
+@pytest.mark.parametrize(("found", "message"), [
+    ({"smoothing_rad_s": 0.02, "joints": {"LL9": KNEE}}, "'LL9' is not accepted; accepted: LL"),
+    ({"smoothing_rad_s": 0.02, "joints": {"LL4": {"coulomb_nm": 1.0}}}, r"joints\.LL4\.static_nm: key is missing"),
+    ({"joints": {}}, "smoothing_rad_s: key is missing; accepted: smoothing_rad_s, joints"),
+])  # fmt: skip
 def test_files_that_are_no_fit_are_refused(found, message, tmp_path, layout):
     path = tmp_path / "fit.json"
     path.write_text(json.dumps(found))

@@ -50,7 +50,3 @@ def test_a_model_is_subtracted_from_its_own_joints(observer, made_up):
     estimator, columns = ResidualEstimator(observer, layout, Constant()), layout.columns(LIMB)
     result = estimator.estimate(sensed)
     np.testing.assert_allclose(result.tau_ext, observer.residual(sensed)[:, columns] - OFFSET)
-    state = estimator.init()
-    for k in range(len(sensed)):
-        state, one = estimator.step(state, sensed[k])
-        np.testing.assert_allclose(one.tau_ext, result.tau_ext[k], rtol=1e-9, atol=1e-9)
