@@ -68,7 +68,6 @@ class Browser:
         return answer["result"]
 
     def _message(self) -> dict[str, Any]:
-        """Return the next message."""
         while b"\0" not in self._rest:
             assert select.select([self._read], [], [], WAIT_S)[0], "the browser does not answer"
             part = os.read(self._read, 1 << 16)
@@ -78,7 +77,6 @@ class Browser:
         return json.loads(message)
 
     def value(self, script: str) -> Any:
-        """Return the value of an expression."""
         return self.tell("Runtime.evaluate", expression=script, returnByValue=True)["result"].get("value")
 
     def until(self, script: str, wanted: Any) -> None:

@@ -158,7 +158,6 @@ def mirrored(robot):
 
 @pytest.fixture(scope="session")
 def running(tmp_path_factory):
-    """A browser for all tests."""
     browser = Browser(BROWSER or "", tmp_path_factory.mktemp("browser"))
     yield browser
     browser.close()

@@ -23,7 +23,6 @@ def write_rows(path: Path, rows: Sequence[Any], kind: type[Any] = Score) -> None
 
 
 def read_table(path: Path) -> list[SimpleNamespace]:
-    """Read a CSV file."""
     with path.open(newline="", encoding="utf-8") as file:
         return [SimpleNamespace(**{name: _value(text) for name, text in row.items()}) for row in csv.DictReader(file)]
 

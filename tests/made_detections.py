@@ -91,7 +91,6 @@ def detected(scenario: str) -> list[Detected]:
 
 
 def thresholds() -> list[Threshold]:
-    """Return a threshold of each joint by each rule."""
     return [
         Threshold(name, "LL", kind, f"{'std' if name.endswith('sigma') else 'mean'}.LL{j}", 1, size * j, "N m")
         for name in FOUND
@@ -101,7 +100,6 @@ def thresholds() -> list[Threshold]:
 
 
 def promises() -> list[Promise]:
-    """Return what thresholds for a rate promise."""
     return [
         Promise(name, "LL", kind, SWINGS, HOURS, factor, rate, 0.2 * rate, 5.0 * rate)
         for name in FOUND

@@ -15,7 +15,6 @@ def maker(plan: Plan, *place: str) -> Step:
 
 
 def arguments(plan: Plan, *place: str) -> Any:
-    """Return the arguments of the job that makes a file."""
     return maker(plan, *place).job.call.arguments
 
 

@@ -2,7 +2,6 @@
 
 import fcntl
 import io
-from pathlib import Path
 
 import pytest
 
@@ -23,7 +22,7 @@ def project(tmp_path):
     return tmp_path
 
 
-def files(project: Path) -> set[str]:
+def files(project):
     """Return what is in a folder but its locks."""
     found = (path for path in project.rglob("*") if path.is_file() and path.suffix != ".lock")
     return {str(path.relative_to(project)) for path in found}

@@ -84,11 +84,11 @@ def tools(tmp_path, monkeypatch):
     return tooling.Tools(tmp_path, sys.executable, (sys.executable, "-m", "pip"), tmp_path / "uv", {})
 
 
-def answer(monkeypatch: pytest.MonkeyPatch, **outputs: str) -> list[str]:
+def answer(monkeypatch, **outputs):
     """Let every call fail with the output under the first name that it has a word of; return the calls."""
     calls = []
 
-    def run(words: tuple[str, ...], **_: object) -> subprocess.CompletedProcess[str]:
+    def run(words, **_):
         calls.append(" ".join(words))
         found = next((text for name, text in outputs.items() if name in calls[-1]), "")
         return subprocess.CompletedProcess(words, int(bool(found)), found)

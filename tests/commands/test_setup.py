@@ -22,7 +22,7 @@ def project(tmp_path):
     return tmp_path
 
 
-def fill(root: Path) -> None:
+def fill(root):
     """Put a Python and a package into .venv."""
     record = root / SITE / "one-1.0.dist-info" / "RECORD"
     texts = {
@@ -37,7 +37,7 @@ def fill(root: Path) -> None:
         path.write_text(text)
 
 
-def stamp(root: Path) -> None:
+def stamp(root):
     """Say that .venv is whole."""
     (root / ".venv" / setup.STAMP).write_text(f"{setup.lock_hash(root)} cpu\none-1.0.dist-info")
 
@@ -104,7 +104,7 @@ def test_a_stopped_setup_is_begun_again(project, stubs, monkeypatch, capsys):
     assert "of memory and 1 to 4 minutes" in told
 
 
-def stop(_: object) -> None:
+def stop(_):
     """Be Ctrl-C."""
     raise KeyboardInterrupt
 

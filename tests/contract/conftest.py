@@ -1,7 +1,6 @@
 """Untrained networks and small fits on disk, for every method of the configuration."""
 
 import json
-from pathlib import Path
 
 import pytest
 import torch
@@ -9,14 +8,12 @@ from made_notes import network_note
 from safetensors.torch import save_file
 
 from mobnet.core.files import WEIGHTS
-from mobnet.core.joints import JointLayout
 from mobnet.estimation.fitting import write_fit
 from mobnet.estimation.methods import build_estimator
 from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network
 from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.networks import Training
 
 SECONDS, FIT_SECONDS = 0.15, 0.3
 INPUT_STD, TARGET_STD = 2.0, 10.0
@@ -58,7 +55,7 @@ def sensed(made_up):
     return made_up(5, SECONDS).sensed
 
 
-def _write_network(folder: Path, training: Training, layout: JointLayout, zero: bool) -> None:
+def _write_network(folder, training, layout, zero):
     """Write an untrained network; a zero one predicts no uncertainty."""
     network, std_min = training.network, training.learning.std_min
     joints, names = layout.limbs(network.joints), limb_inputs(layout, network).names

@@ -83,7 +83,7 @@ class Block(NamedTuple):
     text: str
 
 
-def blocks(title: str) -> list[Block]:
+def blocks(title):
     """Return the blocks of a page of the guide."""
     page = (ROOT / "CONTRIBUTING.md").read_text().split(f"\n## {title}\n")[1].split("\n## ")[0]
     found = list(BLOCK.finditer(page))
@@ -98,7 +98,7 @@ MEASURE = blocks("Add a measure")
 FIGURE = blocks("Add a figure")
 
 
-def apply(block: Block, folder: Path) -> None:
+def apply(block, folder):
     """Write a block into its file below a folder."""
     path = folder / block.file
     if block.where is None:
@@ -126,7 +126,7 @@ def copy(tmp_path_factory):
     return folder
 
 
-def show_in_table_07(folder: Path) -> None:
+def show_in_table_07(folder):
     """Add the method of the guide: its file, its row, and one word in a row of Table 7."""
     (folder / "src/mobnet/estimation/kinds/dead_band.py").write_text(example("python"))
     row = "".join(f"  {line}\n" for line in example("yaml").splitlines())

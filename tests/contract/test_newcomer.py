@@ -20,7 +20,7 @@ ROOT = Path(__file__).parents[2]
 NAME = "MOB-quiet"
 
 
-def example(language: str) -> str:
+def example(language):
     """Return the only block of a language on the guide's page of methods."""
     page = (ROOT / "CONTRIBUTING.md").read_text().split("\n## Add a method")[1].split("\n## ")[0]
     (block,) = re.findall(rf"^ *```{language}\n(.*?)^ *```$", page, re.DOTALL | re.M)

@@ -5,7 +5,6 @@ Rules `observe` and `estimate` run on files, as in the workflow, in which all bu
 
 import json
 import shutil
-from pathlib import Path
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -21,13 +20,12 @@ from mobnet.plan.parts import MethodRun
 from mobnet.running.stage import Stage
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import load_settings
-from mobnet.settings.settings import Settings
 
 LEVEL, SECONDS, WRONG = "all_uncertainty", 0.12, 77.0
 METHODS = list(Catalogue(load_settings()).all_methods)
 
 
-def replaced(stem: Path, names: list[str], value: float | None = None) -> None:
+def replaced(stem, names, value=None):
     """Write a number in place of columns of an array on disk, or turn flags around where there is none."""
     path = stem.with_suffix(".parquet")
     table = pq.read_table(path)
@@ -41,8 +39,7 @@ def replaced(stem: Path, names: list[str], value: float | None = None) -> None:
     path.with_suffix(".json").write_text(json.dumps(note | {"footer": footer_hash(path)}))
 
 
-def observed(settings: Settings, folder: Path) -> None:
-    """Run rule `observe` on the recording of a folder."""
+def observed(settings, folder):
     given = settings.robot, settings.levels[LEVEL], settings.plant.gravity_m_s2, settings.observer
     observe(*given, folder / "recording", folder / "residual")
 
@@ -106,7 +103,7 @@ def test_residuals_need_none_either_but_labels_do(layout, folders):
     assert (wrong[-1, layout.nv :] != sound[-1, layout.nv :]).all()
 
 
-def read_residual(folder: Path) -> np.ndarray:
+def read_residual(folder):
     """Return the numbers of the residual of a folder, also those that are missing."""
     table = pq.read_table(folder / "residual.parquet")
     return np.stack([table.column(name).to_numpy() for name in table.column_names], axis=1)

@@ -18,7 +18,6 @@ def par(settings):
 
 @pytest.fixture
 def make(robot, settings):
-    """A function that makes controllers with buffers of their own."""
     return lambda: make_walker(robot, settings.walking, 1.0, GRAVITY)
 
 

@@ -6,7 +6,6 @@ import pytest
 from mobnet.control.balance import adapt_duration, adapt_foothold, ground_force, measure_dcm
 from mobnet.control.footsteps import plan_steps, reference
 from mobnet.control.geometry import to_yaw_frame
-from mobnet.control.parameters import State, WalkingParameters
 
 ANKLE = np.array([0.2, 0.1, 0.158])
 TICK_S, GRAVITY = 0.0005, 9.81
@@ -24,12 +23,12 @@ def swinging(par, stepping):
     return s
 
 
-def double_support(par: WalkingParameters, s: State) -> float:
+def double_support(par, s):
     """Return how long both feet stand [s]."""
     return par.double_support_share * s.commanded
 
 
-def leftwards(s: State) -> np.ndarray:
+def leftwards(s):
     """Return the direction (2,) to the left of the stance foot."""
     return np.array([-np.sin(s.stance_yaw), np.cos(s.stance_yaw)])
 
@@ -84,7 +83,6 @@ def test_zmp_shift_on_two_feet_is_bounded(walker, swinging, random_pose, standin
 
 
 def test_foothold_stays_without_an_error(par, swinging):
-    """A zero DCM error moves no foothold."""
     adapt_foothold(par, swinging, ANKLE, TICK_S, np.zeros(3))
     np.testing.assert_allclose(swinging.target, swinging.next_ankle, atol=1e-15)
     np.testing.assert_allclose(swinging.target_velocity, 0, atol=1e-12)

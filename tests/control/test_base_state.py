@@ -5,13 +5,12 @@ import pytest
 
 from mobnet.control.base_state import update_base
 from mobnet.control.kinematics import update
-from mobnet.control.walker import Walker
 
 TICK_S = 0.0005
 DRIFT = np.array([0.1, -0.05, 0.02])  # error of the base velocity at the start [m/s]
 
 
-def run(walker: Walker, q: np.ndarray, v: np.ndarray, acc: np.ndarray, seconds: float) -> None:
+def run(walker, q, v, acc, seconds):
     """Advance the filter; the joints move on with their velocities in v."""
     for _ in range(round(seconds / TICK_S)):
         update(walker.tree, q, v, walker.gravity, walker.pose)

@@ -116,7 +116,6 @@ def test_plan_is_symmetric_under_reflection(par, stepping):
 
 
 def test_steps_in_place_repeat_after_two(par, stepping):
-    """Steps in place are invariant to a shift by two."""
     stepping.command[:DURATION] = 0.0
     plan_steps(par, stepping, ANKLE)
     np.testing.assert_allclose(stepping.plan[2:4], stepping.plan[:2], atol=1e-14)

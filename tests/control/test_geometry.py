@@ -71,7 +71,6 @@ def test_yaw_frame_round_trip_also_in_place():
 
 
 def test_rotation_matrices_equal_mujoco_s():
-    """MuJoCo's quaternions are the reference."""
     rng = np.random.default_rng(0)
     axis = rng.normal(size=3)
     axis /= np.linalg.norm(axis)
@@ -85,7 +84,6 @@ def test_rotation_matrices_equal_mujoco_s():
 
 
 def test_yaw_pitch_roll_is_the_product_of_three_turns():
-    """The reference is the product of the turns about each axis."""
     yaw, roll, pitch = 0.4, -0.3, 0.7
     turns = [np.zeros((3, 3)) for _ in range(3)]
     for axis, angle, out in zip(np.eye(3), (roll, pitch, yaw), turns, strict=True):
@@ -96,7 +94,6 @@ def test_yaw_pitch_roll_is_the_product_of_three_turns():
 
 
 def test_products_equal_numpy_s():
-    """numpy is the reference."""
     rng = np.random.default_rng(1)
     a, b, force = rng.normal(size=(3, 3))
     m, n = rng.normal(size=(2, 3, 3))

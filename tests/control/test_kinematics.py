@@ -21,7 +21,7 @@ def data(model, random_pose, request):
     return mujoco_at(model, *random_pose(request.param))
 
 
-def mujoco_at(model: mujoco.MjModel, q: np.ndarray, v: np.ndarray) -> mujoco.MjData:
+def mujoco_at(model, q, v):
     """Return MuJoCo's data at q (nq,), v (nv,)."""
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:] = q, v
@@ -31,7 +31,6 @@ def mujoco_at(model: mujoco.MjModel, q: np.ndarray, v: np.ndarray) -> mujoco.MjD
 
 
 def test_bodies_stand_where_mujoco_puts_them(walker, robot, data):
-    """MuJoCo is the reference, at a random state."""
     pose = walker.pose
     for i, body in enumerate(robot.bodies):
         np.testing.assert_allclose(pose.position[i], data.body(body.name).xpos, atol=1e-12)
@@ -41,7 +40,6 @@ def test_bodies_stand_where_mujoco_puts_them(walker, robot, data):
 
 
 def test_bodies_move_as_mujoco_s(walker, robot, data):
-    """MuJoCo is the reference, at a random state."""
     pose = walker.pose
     model, linear, angular = data.model, np.zeros((3, 39)), np.zeros((3, 39))
     for i, body in enumerate(robot.bodies):
@@ -69,7 +67,6 @@ def test_spin_is_exact_for_round_links(walker, robot, random_pose, seed):
 
 
 def test_gravity_torque_is_mujoco_s_bias_at_rest(walker, model, data):
-    """MuJoCo is the reference, at a random state."""
     data.qvel[:] = 0
     mujoco.mj_forward(model, data)
     np.testing.assert_allclose(walker.pose.gravity, data.qfrc_bias[6:], atol=1e-10)

@@ -26,7 +26,6 @@ def test_round_trip_through_forward_kinematics(walker, random_pose, seed, k):
 
 
 def test_mirrored_pose_gives_mirrored_angles(walker):
-    """Both legs are symmetric in y."""
     left, right = np.zeros(6), np.zeros(6)
     ankle = np.array([0.15, 0.12, -0.75])
     leg_ik(walker.leg, 1.0, np.eye(3), np.zeros(3), np.eye(3), ankle, left)

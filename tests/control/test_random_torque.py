@@ -36,7 +36,7 @@ def test_a_scenario_may_ask_for_another_torque_on_legs_and_waist(settings, layou
     assert (own["LA1"] > 0.0) == (largest > 0.0)
 
 
-def periods(torque: np.ndarray) -> list[tuple[bool, int, float]]:
+def periods(torque):
     """Return on or off, length [ticks] and torque of the whole periods of one joint."""
     edges = np.flatnonzero(np.diff(torque)) + 1
     return [(torque[a] != 0, b - a, torque[a]) for a, b in pairwise(edges)]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mobnet.control.parameters import FOOT_HEIGHT, State, WalkingParameters
+from mobnet.control.parameters import FOOT_HEIGHT
 from mobnet.control.swing import swing_foot, swing_height
 
 DOUBLE_SUPPORT, SPAN, GROUND = 0.13, 0.67, 0.158
@@ -19,7 +19,7 @@ def swinging(stepping):
     return stepping
 
 
-def at(par: WalkingParameters, s: State, t: float) -> State:
+def at(par, s, t):
     """Return a copy of the state with the swing foot at time t [s]."""
     moved = s.copy()
     moved.t = t

@@ -15,7 +15,7 @@ def upper():
     return UpperBody(np.column_stack([np.sin(3 * time), time, np.full(51, 0.7)]), RATE_HZ, np.array([0.5]))
 
 
-def at(upper: UpperBody, clock: float) -> tuple[np.ndarray, np.ndarray]:
+def at(upper, clock):
     """Return wanted positions and velocities at a clock."""
     q, v = np.zeros(3), np.zeros(3)
     follow(upper, clock, q, v)

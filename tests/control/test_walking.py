@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 
 from mobnet.control.geometry import yaw_roll_pitch_matrix
-from mobnet.control.parameters import DURATION, State, empty_state
+from mobnet.control.parameters import DURATION, empty_state
 from mobnet.control.phases import correct_load, feel_slope
-from mobnet.control.walker import Walker, foot_yaw, vertical_force
+from mobnet.control.walker import foot_yaw, vertical_force
 from mobnet.control.walking import walk
-from mobnet.robot.description import RobotDescription
 from mobnet.simulation.start import start_standing, start_walking
 
 TICK_S, WEIGHT_N = 0.0005, 900.0
@@ -19,23 +18,22 @@ RIGHT = 1
 class Walk:
     """The controller, called with a body that stays where it is."""
 
-    def __init__(self, walker: Walker, robot: RobotDescription) -> None:
+    def __init__(self, walker, robot):
         self.walker, self.s = walker, empty_state()
         self.q, self.v = start_walking(walker, robot, self.s, COMMANDS[0])
         self.v[:] = 0
         self.wrenches, self.tau = np.zeros((2, 6)), np.zeros(robot.layout.nu)
         self.wrenches[0, 2] = WEIGHT_N
 
-    def tick(self) -> None:
-        """Advance by one tick."""
+    def tick(self):
         walk(self.walker, self.s, self.q, self.v, self.wrenches, COMMANDS, TICK_S, self.tau)
 
-    def land(self, force_n: float = WEIGHT_N) -> None:
+    def land(self, force_n=WEIGHT_N):
         """Advance by one tick with a vertical force on the right foot."""
         self.wrenches[RIGHT, 2] = force_n
         self.tick()
 
-    def to(self, t: float) -> None:
+    def to(self, t):
         """Advance until the step's time is t [s]."""
         while self.s.t < t - 1e-12:
             self.tick()
@@ -146,7 +144,7 @@ def test_load_error_decays_to_zero_while_one_foot_swings(walker, stepping):
     np.testing.assert_allclose(stepping.load_error, 0.0, atol=1e-9)
 
 
-def load_feet(walker: Walker, s: State, lacks: float) -> None:
+def load_feet(walker, s, lacks):
     """Let both feet be level, 0.6 and 0.4 of 900 N wanted on them; the left one has less by `lacks` [N]."""
     s.load, s.force, s.swinging = [0.6, 0.4], [30.0, -20.0, WEIGHT_N], 0
     walker.pose.rotation[walker.feet] = np.eye(3)
@@ -193,7 +191,7 @@ def test_foot_comes_down_where_the_slope_puts_the_ground(swinging, slope):
     assert s.foot[2] == pytest.approx(expected, abs=1e-3)
 
 
-def disturbed(walk: Walk, seed: int) -> None:
+def disturbed(walk, seed):
     """Move body, rates and sensors off the nominal motion, less than makes the foothold run at its largest speed.
 
     That speed is limited along each world axis, the one thing in the controller that knows where north is.

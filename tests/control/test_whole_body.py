@@ -6,8 +6,6 @@ import pytest
 
 from mobnet.control.geometry import yaw_roll_pitch_matrix
 from mobnet.control.kinematics import update
-from mobnet.control.parameters import State
-from mobnet.control.walker import Walker
 from mobnet.control.whole_body import (
     LEG_JOINTS,
     leg_jacobian,
@@ -38,7 +36,6 @@ def crouched(walker, robot):
 
 @pytest.mark.parametrize("k", LEGS)
 def test_jacobian_equals_differences_of_the_kinematics(walker, crouched, k):
-    """The reference is a central difference of order two."""
     q, v = crouched
     first, foot, pose = walker.first[k], walker.feet[k], walker.pose
     jacobian, column = np.zeros((6, 6)), np.zeros(6)
@@ -98,7 +95,7 @@ def test_reference_speed_is_limited_also_near_a_straight_leg(walker, crouched, s
     assert np.abs(stepping.v_reference[0]).max() <= walker.par.joint_speed_max_rad_s
 
 
-def stand(walker: Walker, crouched: tuple, s: State, k: int, dt: float = 0.0) -> np.ndarray:
+def stand(walker, crouched, s, k, dt=0.0):
     """Return the torques (nu,) of a stance leg that follows its reference, pushing below the ankle."""
     q, v = crouched
     first, tau = walker.first[k], np.zeros(len(q) - 7)

@@ -10,7 +10,6 @@ from mobnet.detection.detector import LegGate
 
 @pytest.fixture(scope="session")
 def gate(settings, robot):
-    """The gate of the left leg."""
     return LegGate.of(settings.detection.gate, robot, "LL", RATE_HZ)
 
 

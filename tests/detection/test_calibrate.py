@@ -52,17 +52,16 @@ def test_thresholds_rate_and_forces_are_printed(write, caplog):
     assert forces["left_knee_front"] > forces["left_foot_front"]
 
 
-def constant(torque: np.ndarray) -> None:
-    """Let a joint never change."""
+def constant(torque):
     torque[:, 2] = 7.0
 
 
-def saturated(torque: np.ndarray) -> None:
+def saturated(torque):
     """Let no joint show more than a half of the swings reach."""
     np.minimum(torque, np.array([1.0, 4.0, 3.0, 2.0, 1.5, 0.5]), out=torque)
 
 
-def spoil(stem: str) -> None:
+def spoil(stem):
     """Lose a sample of an estimate, as the log of another program may."""
     path, note = Path(f"{stem}.parquet"), Path(f"{stem}.json")
     table = pq.read_table(path)
@@ -105,10 +104,3 @@ def test_words_that_fit_nothing_are_told(write, caplog, words, text):
 def test_recordings_have_one_rate(write, caplog):
     assert main([*write(3), *write(3, rate_hz=500.0)]) == 1
     assert "walk: rate_hz: 500.0 is not accepted; accepted: 1000.0, that of the first" in caplog.text
-
-
-def test_help_says_what_it_takes(capsys):
-    with pytest.raises(SystemExit):
-        main(["--help"])
-    text = capsys.readouterr().out
-    assert all(word in text for word in ("--recording", "--estimate", "--leg", "--rate", "--robot", "false alarms"))

@@ -9,10 +9,7 @@ from mobnet.detection.detector import GateSignal, run_over, run_segments
 RATE_HZ = 1000.0
 
 
-def ratios(
-    signals: np.ndarray, thresholds: np.ndarray, watch: GateSignal | None = None, *, norm: bool = False
-) -> np.ndarray:
-    """Return the ratios of a chain."""
+def ratios(signals, thresholds, watch=None, *, norm=False):
     always = GateSignal(np.ones(len(signals), dtype=bool), np.zeros(len(signals)))
     return run_over(make_chain(15.0, 0.005, RATE_HZ, thresholds, norm=norm), signals, watch or always).ratio
 

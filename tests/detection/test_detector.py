@@ -8,7 +8,7 @@ from made_swings import AIR, GROUND, RATE_HZ
 
 from mobnet.core.estimator import Estimate
 from mobnet.detection.chain import make_chain
-from mobnet.detection.detector import ALARM_RATIO, LegDetector, LegGate
+from mobnet.detection.detector import ALARM_RATIO, LegDetector
 from mobnet.detection.signals import signal_names, whitening_of
 from mobnet.settings.detection import Detector
 
@@ -22,7 +22,7 @@ ROWS = {
 }
 
 
-def detector_of(row: Detector, gate: LegGate, estimate: Estimate) -> LegDetector:
+def detector_of(row, gate, estimate):
     """Return a detector with thresholds that noise crosses now and then."""
     names = signal_names(row, [f"LL{k}" for k in range(1, 7)])
     thresholds = np.full((row.phases, len(names)), 1.5)

@@ -4,12 +4,10 @@ import numpy as np
 import pytest
 from made_swings import AIR, GROUND
 
-from mobnet.detection.detector import LegGate
 from mobnet.detection.leg import foot_load, unit_torques
-from mobnet.robot.description import WalkingRobot
 
 
-def ground_torque(robot: WalkingRobot, gate: LegGate, q: np.ndarray, force: np.ndarray) -> np.ndarray:
+def ground_torque(robot, gate, q, force):
     """Return the torques of the leg's joints (6,) under a force on its foot (3,) [N], world axes."""
     assert foot_load(gate.leg, q, np.zeros(6))
     jacobian = np.zeros((6, 6))

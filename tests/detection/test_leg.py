@@ -6,11 +6,10 @@ import pytest
 
 from mobnet.core.errors import ConfigError
 from mobnet.detection.leg import ancestors, foot_load, make_leg, unit_torques
-from mobnet.robot.description import WalkingRobot
 from mobnet.robot.wrench import feet_torque
 
 
-def position(robot: WalkingRobot) -> np.ndarray:
+def position(robot):
     """Return a position of bent joints, the base turned."""
     q = np.zeros(robot.layout.nq)
     q[2], q[3:7] = 0.9, np.array([0.9, 0.1, -0.2, 0.3]) / np.linalg.norm([0.9, 0.1, -0.2, 0.3])

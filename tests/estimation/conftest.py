@@ -22,7 +22,7 @@ class Wave:
     frequency_hz: Array
     phase: Array
 
-    def __call__(self, t: float) -> tuple[Array, Array, Array]:
+    def __call__(self, t):
         """Return value, first and second derivative at t [s]."""
         rate = 2 * np.pi * self.frequency_hz
         angle = rate * t + self.phase
@@ -36,7 +36,7 @@ class Trajectory:
 
     wave: Wave
 
-    def __call__(self, t: float) -> tuple[Array, Array, Array]:
+    def __call__(self, t):
         """Return q (nq,), v (nv,) and its derivative (nv,) at t [s]."""
         x, dx, ddx = self.wave(t)
         quat, omega, alpha = base_rotation(x[3:6], dx[3:6], ddx[3:6])
@@ -45,7 +45,7 @@ class Trajectory:
         return q, v, np.concatenate([ddx[:3], alpha, ddx[6:]])
 
 
-def base_rotation(x: Array, dx: Array, ddx: Array) -> tuple[Array, Array, Array]:
+def base_rotation(x, dx, ddx):
     """Return quaternion w x y z, angular velocity and acceleration in base axes from roll, pitch, yaw (3,)."""
     (sr, cr), (sp, cp) = (np.sin(x[0]), np.cos(x[0])), (np.sin(x[1]), np.cos(x[1]))
     euler = np.array([[1, 0, -sp], [0, cr, cp * sr], [0, -sr, cp * cr]])
@@ -63,7 +63,7 @@ def trajectory(robot):
     return Trajectory(Wave(rng.uniform(0.1, 0.3, nv), rng.uniform(0.7, 2.0, nv), rng.uniform(0, 2 * np.pi, nv)))
 
 
-def sensed_of(q: Array, v: Array, tau: Array) -> Sensed:
+def sensed_of(q, v, tau):
     """Return what a robot senses from positions (T, nq), velocities (T, nv) and motor torques (T, nu)."""
     samples = len(q)
     flags, command = np.zeros((samples, len(FEET))), np.zeros((samples, len(COMMAND)))

@@ -1,20 +1,18 @@
 """The observer on a log of a two-link arm on a fixed base: no base, no feet, no walking."""
 
 from dataclasses import replace
-from typing import Literal
 
 import mujoco
 import numpy as np
 import pytest
 
 from mobnet.core.columns import recording_columns
-from mobnet.core.errors import ConfigError, DataError
+from mobnet.core.errors import ConfigError
 from mobnet.core.recording import Recording, Sensed, Truth, read_recording, read_sensed, write_recording
 from mobnet.core.store import read_array
 from mobnet.estimation.low_pass import low_pass
-from mobnet.estimation.observe import observe, observer_of
+from mobnet.estimation.observe import observe
 from mobnet.estimation.observer import MomentumObserver
-from mobnet.robot.description import RobotDescription
 from mobnet.robot.dynamics import inverse_dynamics
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.plant import robot_spec
@@ -48,12 +46,12 @@ def log(arm):
     )
 
 
-def swing(arm: RobotDescription, rate_hz: float) -> tuple[Sensed, Sensed]:
+def swing(arm, rate_hz):
     """Return two seconds of both joints on sines of 10 rad/s, pushed by PUSH: torques are means, or samples."""
     nominal, period = NominalModel(arm), 1 / rate_hz
     size, rate, phase = np.array([0.3, 0.2]), 10.0, np.array([0.0, 1.0])
 
-    def needed(t: float) -> np.ndarray:
+    def needed(t):
         angle = rate * t + phase
         return inverse_dynamics(
             nominal, size * np.sin(angle), size * rate * np.cos(angle), -size * rate**2 * np.sin(angle)
@@ -68,7 +66,7 @@ def swing(arm: RobotDescription, rate_hz: float) -> tuple[Sensed, Sensed]:
     return tuple(Sensed(q, v, none, tau, tau, none, none, none) for tau in (mean, sample))
 
 
-def error(arm: RobotDescription, kind: Literal["mean", "sample"], sensed: Sensed, rate_hz: float) -> np.ndarray:
+def error(arm, kind, sensed, rate_hz):
     """Return the largest departure (2,) from the answer (10) to a push, a share of the motors' torque."""
     residual = MomentumObserver(NominalModel(arm), GAIN_HZ, rate_hz, kind).residual(sensed)
     answer = PUSH * (1 - np.exp(-GAIN_HZ / rate_hz * np.arange(len(residual))))[:, None]
@@ -136,9 +134,3 @@ def test_residual_is_the_low_passed_torque_that_pushed_it(log, arm_table, settin
     assert pushed[-1, 1] == pytest.approx(3, abs=1e-9)
     np.testing.assert_allclose(array[:, 2:], pushed, atol=1e-6)
     np.testing.assert_allclose(array[:, :2], pushed, atol=0.004)
-
-
-def test_samples_of_another_robot_are_refused(log, robot, settings):
-    observer = observer_of(robot, settings.levels["ideal"], 9.81, 100.0, RATE_HZ)
-    with pytest.raises(DataError, match=r"\(600, 2\), .*accepted: .\(600, 40\), \(600, 39\), \(600, 33\)"):
-        observer.residual(log.sensed)

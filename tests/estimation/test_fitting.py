@@ -1,9 +1,5 @@
 """The rule `fit`: which methods it takes, and what it writes."""
 
-from collections.abc import Mapping
-from pathlib import Path
-from typing import Any
-
 import pytest
 
 from mobnet.core.errors import ConfigError
@@ -11,11 +7,9 @@ from mobnet.core.files import read_json
 from mobnet.estimation.fitting import write_fit
 from mobnet.estimation.kinds.friction import read_friction
 from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.settings import Settings
 
 
-def fit(settings: Settings, method: str, training: Mapping[str, Any], folder: Path) -> Path:
-    """Fit a method, and return the file."""
+def fit(settings, method, training, folder):
     networks, out = {limb: Catalogue(settings).network(method, limb) for limb in training}, folder / f"{method}.json"
     write_fit(settings.layout, settings.observer, Catalogue(settings).method(method), networks, training, out)
     return out

@@ -12,7 +12,6 @@ from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.methods import build_estimator, kind_names, method_problems
 from mobnet.settings.methods import Method
 from mobnet.settings.reading import dotted
-from mobnet.settings.settings import Settings
 
 HEAVY = {"torch", "pinocchio", "numba", "scipy.signal", "scipy.optimize"}
 FRICTION = {"terms": ["coulomb"], "smoothing_rad_s": 0.02, "stribeck_rad_s": [0.1]}
@@ -26,7 +25,7 @@ print(*sys.modules)
 TERMS = "accepted: 'coulomb', 'static', 'viscous', 'load'"
 
 
-def told(settings: Settings, methods: dict[str, dict[str, object]]) -> list[str]:
+def told(settings, methods):
     """Return what is not accepted in some methods, a line for each fault."""
     rows = {name: Method.model_validate({"kind": "residual", **row}) for name, row in methods.items()}
     found = method_problems(settings.model_copy(update={"methods": rows}))

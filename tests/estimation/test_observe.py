@@ -2,19 +2,16 @@
 
 from dataclasses import replace
 
-import mujoco
 import numpy as np
 import pytest
 
 from mobnet.core.columns import residual_columns
-from mobnet.core.recording import Recording, Sensed, Truth, write_recording
+from mobnet.core.recording import Recording, Truth, write_recording
 from mobnet.core.store import read_array
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observe import observe, observer_of, zeroed
 from mobnet.estimation.observer import MomentumObserver
-from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
-from mobnet.robot.plant import SOLE_TYPE, TERRAIN_TYPE, robot_spec
 from mobnet.robot.wrench import feet_torque
 
 RATE_HZ, GAIN_HZ = 1000.0, 100.0
@@ -96,14 +93,6 @@ def test_a_foots_sensor_is_zeroed_where_the_foot_swings():
     np.testing.assert_array_equal(zeroed(wrench, np.zeros(300)), wrench)
 
 
-def test_without_uncertainty_residual_is_the_low_passed_truth(run, recording, written, tmp_path):
-    run(written(recording), tmp_path / "out")
-    array, _ = read_array(tmp_path / "out")
-    residual, truth = np.split(np.asarray(array, dtype=np.float64), 2, axis=1)
-    assert np.abs(truth[:, :6]).max() > 100
-    assert np.abs(residual - truth).max() < 0.02
-
-
 def test_every_segment_starts_anew(run, recording, nominal, written, tmp_path):
     run(written(recording), tmp_path / "out")
     array, _ = read_array(tmp_path / "out")
@@ -140,41 +129,3 @@ def test_columns_carry_unit_and_frame(robot):
     assert described["r.V1"] == ("N", "world")
     assert described["tau_ext_lp.V4"] == ("N m", "joint")
     assert described["r.LL3"] == ("N m", "joint")
-
-
-@pytest.mark.sim
-def test_on_the_simulated_plant_the_scheme_meets_the_ideal_row(nominal, robot):
-    q, v, tau, tau_ext = _shaken(robot, samples=400)
-    zeros = np.zeros((len(q), 3))
-    sensed = Sensed(q, v, zeros, tau, tau, zeros[:, :2], np.zeros((len(q), 5)), zeros[:, :2])
-    error = MomentumObserver(nominal, GAIN_HZ, RATE_HZ).residual(sensed) - low_pass(tau_ext, GAIN_HZ, RATE_HZ)
-    rmse = np.sqrt(np.mean(error**2, axis=0))
-    layout = robot.layout
-    limits = {"LL": 0.01, "RL": 0.01, "W": 0.02, "LA": 0.01, "RA": 0.01}  # [N m], Table 5, row Ideal
-    assert np.abs(tau_ext[:, 2]).max() > 500
-    for limb, limit in limits.items():
-        assert rmse[layout.columns(layout.limb(limb))].mean() < limit, limb
-    assert rmse[:3].mean() < 0.07  # [N]
-    assert rmse[3:6].mean() < 0.03
-
-
-def _shaken(robot: RobotDescription, samples: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Return q, v after each sample of a standing robot, and means of motor and contact torque over its sub-steps."""
-    spec = robot_spec(robot)
-    plane = mujoco.mjtGeom.mjGEOM_PLANE
-    spec.worldbody.add_geom(type=plane, size=[5, 5, 1], contype=TERRAIN_TYPE, conaffinity=SOLE_TYPE)
-    spec.option.timestep = 1 / (2 * RATE_HZ)
-    model = spec.compile()
-    data, rng = mujoco.MjData(model), np.random.default_rng(2)
-    data.qpos[2] = robot.leg.link_length * 2 - robot.leg.hip_pos[2] - robot.sole.height
-    rows = []
-    for _ in range(samples):
-        push = 0.1 * robot.torque_limits * rng.normal(size=robot.layout.nu)
-        ticks = []
-        for _ in range(2):
-            data.ctrl[:] = push - robot.torque_limits * (12 * data.qpos[7:] + 0.25 * data.qvel[6:])
-            mujoco.mj_step(model, data)
-            ticks.append(np.concatenate([data.ctrl, data.qfrc_constraint]))  # soles: the only constraints
-        rows.append(np.concatenate([data.qpos, data.qvel, np.mean(ticks, axis=0)]))
-    nq, nv, nu = model.nq, model.nv, model.nu
-    return tuple(np.split(np.array(rows), [nq, nq + nv, nq + nv + nu], axis=1))

@@ -2,17 +2,14 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from mobnet.core.joints import JointLayout
-from mobnet.learning.dataset import LimbData, load_limb_data
+from mobnet.learning.dataset import load_limb_data
 from mobnet.learning.train import train_all
 from mobnet.plan.parts import Repetition
 from mobnet.running.stage import Stage
 from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.networks import Training
 from mobnet.settings.settings import Settings
 
 
@@ -25,10 +22,10 @@ class Small:
     residuals: list[Path]
 
     @property
-    def layout(self) -> JointLayout:
+    def layout(self):
         return self.settings.layout
 
-    def training(self, method: str = "MOB-Net", limb: str = "LL", *, epochs: int = 5, **learning: Any) -> Training:
+    def training(self, method="MOB-Net", limb="LL", *, epochs=5, **learning):
         """Return a method's training with a small GRU, and with changes of how it learns."""
         training = Catalogue(self.settings).training(method, limb)
         hidden = 16 if training.network.cell == "GRU" else training.network.hidden
@@ -40,17 +37,16 @@ class Small:
         }
         return training.model_copy(update=changes)
 
-    def data(self, training: Training) -> LimbData:
-        """Return the data of a training."""
+    def data(self, training):
         return load_limb_data(self.layout, training.network, training.target, self.recordings, self.residuals)
 
-    def arguments(self, training: Training, folder: Path, start: Path | None = None) -> dict[str, Any]:
+    def arguments(self, training, folder, start=None):
         """Return what `train_all` gets; results go below a folder."""
         network = Repetition(training, 0, folder / "out", folder / "state", start)
         data = {"recordings": self.recordings, "residuals": self.residuals}
         return {"root_seed": 1, "layout": self.layout, "networks": [network], **data, "stage": Stage(folder / "s", "")}
 
-    def train(self, training: Training, folder: Path) -> Path:
+    def train(self, training, folder):
         """Train, and return the folder of the result."""
         train_all(**self.arguments(training, folder))
         return folder / "out"

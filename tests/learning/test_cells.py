@@ -2,10 +2,10 @@
 
 import pytest
 import torch
-from torch import Tensor, nn
+from torch import nn
 
 from mobnet.learning.cells import CELLS, Block, Lstm
-from mobnet.learning.model import LimbNetwork, build_network, parameter_count
+from mobnet.learning.model import build_network, parameter_count
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.networks import SIZES, Cell
 
@@ -20,11 +20,11 @@ SMALL = {
 LOOKS_BACK = {"MLP": 4, "TCN": 4 + 2 * 2 * (1 + 2)}  # samples before the present one
 
 
-def _network(cell: Cell, inputs: int = 3, joints: int = 2) -> LimbNetwork:
+def _network(cell, inputs=3, joints=2):
     return build_network(cell, inputs, joints, STD_MIN, seed=0).eval()
 
 
-def _inputs(steps: int, lanes: int = 4, inputs: int = 3) -> Tensor:
+def _inputs(steps, lanes=4, inputs=3):
     return torch.randn(steps, lanes, inputs, generator=torch.Generator().manual_seed(0))
 
 

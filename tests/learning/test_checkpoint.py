@@ -13,10 +13,8 @@ from mobnet.learning.cells import Gru
 from mobnet.learning.checkpoint import Progress
 from mobnet.learning.model import LimbNetwork
 
-Pair = tuple[LimbNetwork, torch.optim.Adam]
 
-
-def trained(steps: int) -> Pair:
+def trained(steps):
     """Return a small network and its optimizer after some updates."""
     torch.manual_seed(0)
     network = LimbNetwork(Gru(3, 8), 2, 1e-6)
@@ -26,15 +24,14 @@ def trained(steps: int) -> Pair:
     return network, optimizer
 
 
-def advance(pair: Pair) -> None:
+def advance(pair):
     """Make one update towards zero."""
     pair[1].zero_grad()
     pair[0](torch.ones(5, 2, 3), pair[0].fresh_state(2))[0].square().sum().backward()
     pair[1].step()
 
 
-def epoch(number: int, validation_loss: float) -> Epoch:
-    """Return an epoch of some loss."""
+def epoch(number, validation_loss):
     return Epoch(number, 0.0, validation_loss, 0.0, 0.0, 0.0)
 
 
@@ -88,7 +85,6 @@ def test_the_same_training_writes_the_same_bytes(saved, tmp_path):
 
 
 def test_metrics_come_back_as_written(tmp_path):
-    """Writing and reading are a round trip."""
     epochs = [Epoch(number, *(10.0 * number + k for k in range(5))) for number in (1, 2, 3)]
     checkpoint.write_metrics(tmp_path / METRICS, epochs)
     with (tmp_path / METRICS).open() as file:

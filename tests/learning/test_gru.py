@@ -2,12 +2,11 @@
 
 import pytest
 import torch
-from torch import Tensor, nn
+from torch import nn
 
 from mobnet.learning.gru import run_gru
 
 STEPS, LANES, INPUTS, HIDDEN = 50, 5, 30, 24
-Stretch = tuple[Tensor, Tensor]
 
 
 @pytest.fixture
@@ -27,13 +26,13 @@ def precision(request):
     return request.param
 
 
-def run(cell: nn.GRU, stretch: Stretch, precision: torch.dtype) -> Stretch:
+def run(cell, stretch, precision):
     """Run in a number format."""
     with torch.autocast("cpu", precision, enabled=precision != torch.float32):
         return run_gru(cell, *stretch)
 
 
-def outcome(cell: nn.GRU, states: Tensor) -> list[Tensor]:
+def outcome(cell, states):
     """Return the states and the gradients of some loss of them."""
     weight = torch.randn(states.shape, generator=torch.Generator().manual_seed(2))
     cell.zero_grad()
@@ -41,13 +40,12 @@ def outcome(cell: nn.GRU, states: Tensor) -> list[Tensor]:
     return [states.detach().cpu(), *(parameter.grad.cpu() for parameter in cell.parameters())]
 
 
-def distance(found: Tensor, expected: Tensor) -> float:
+def distance(found, expected):
     """Return the norm of a difference over that of what is expected."""
     return float((found - expected).norm() / expected.norm())
 
 
 def test_states_are_those_of_torch(cell, stretch):
-    """Torch's own GRU is the reference."""
     states, last = run_gru(cell, *stretch)
     expected, expected_last = cell(*stretch)
     torch.testing.assert_close(states, expected, rtol=1e-5, atol=2e-6)
@@ -55,7 +53,6 @@ def test_states_are_those_of_torch(cell, stretch):
 
 
 def test_gradients_are_those_of_torch(cell, stretch):
-    """Torch's own GRU is the reference."""
     found, expected = (outcome(cell, states) for states in (run_gru(cell, *stretch)[0], cell(*stretch)[0]))
     for ours, theirs in zip(found[1:], expected[1:], strict=True):
         torch.testing.assert_close(ours, theirs, rtol=1e-4, atol=1e-5 * float(theirs.abs().max()))

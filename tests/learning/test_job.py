@@ -1,7 +1,6 @@
 """Random numbers, learning rates, number format and fingerprint of a repetition of a training."""
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -19,7 +18,7 @@ def job(settings):
     return TrainingJob(Catalogue(settings).training("MOB-Net", "LL"), seed=0, root_seed=2023)
 
 
-def changed(job: TrainingJob, **values: Any) -> TrainingJob:
+def changed(job, **values):
     """Return a job whose training, network or learning has other values."""
     parts = {name: getattr(job.training, name) for name in ("network", "learning")}
     training = {key: value for key, value in values.items() if key in type(job.training).model_fields}

@@ -9,19 +9,11 @@ import pytest
 import torch
 
 from mobnet.learning.cells import Gru
-from mobnet.learning.losses import (
-    CHOSEN_BY,
-    Objective,
-    beta_likelihood,
-    gaussian_loss,
-    likelihood,
-    objective_of,
-    squared,
-)
+from mobnet.learning.losses import CHOSEN_BY, beta_likelihood, gaussian_loss, likelihood, objective_of, squared
 from mobnet.learning.model import LimbNetwork
 from mobnet.learning.optimisation import Samples, train_epoch
 from mobnet.learning.streams import epoch_plan
-from mobnet.settings.networks import Learning, Loss
+from mobnet.settings.networks import Loss
 
 HORIZON = 10
 STEP = 1e-5  # of a finite difference
@@ -43,7 +35,7 @@ def predicted():
     return mean.requires_grad_(), std.requires_grad_(), target
 
 
-def network(precision: torch.dtype = torch.float32, *, apart: bool = False) -> LimbNetwork:
+def network(precision=torch.float32, *, apart=False):
     """Return a small network, its first weights always the same."""
     torch.manual_seed(0)
     made = LimbNetwork(Gru(3, 16), 2, 1e-6)
@@ -51,15 +43,14 @@ def network(precision: torch.dtype = torch.float32, *, apart: bool = False) -> L
     return made.train()
 
 
-def samples() -> Samples:
+def samples():
     """Return samples of which the inputs explain a part, with errors of very different sizes."""
     generator = torch.Generator().manual_seed(0)
     inputs, noise = torch.randn(600, 3, generator=generator), torch.randn(600, 2, generator=generator)
     return Samples(inputs, inputs[:, :2] - inputs[:, 1:] + noise * torch.tensor([0.01, 1.0]))
 
 
-def trained(learner: LimbNetwork, objective: Objective, epochs: int = 3) -> LimbNetwork:
-    """Return a network after some epochs."""
+def trained(learner, objective, epochs=3):
     optimizer, rng = torch.optim.Adam(learner.parameters(), lr=1e-2), np.random.default_rng(0)
     for _ in range(epochs):
         plan = epoch_plan([(0, 600)], 100, HORIZON, 4, rng)
@@ -181,8 +172,3 @@ def test_sigma_is_fitted_to_what_squared_errors_leave():
 def test_the_epoch_kept_is_chosen_by_22_where_that_is_minimised_and_else_by_the_rmse():
     assert set(CHOSEN_BY) == set(LOSSES)
     assert [loss for loss, column in CHOSEN_BY.items() if column == "validation_loss"] == ["likelihood"]
-
-
-def test_a_loss_that_does_not_exist_is_refused(learning):
-    with pytest.raises(ValueError, match="likelihood"):
-        Learning.model_validate({**vars(learning("likelihood")), "loss": "absolute"})

@@ -48,17 +48,7 @@ def test_a_lane_that_enters_a_stream_forgets(network, samples):
     assert carried != pytest.approx(two_lanes, rel=1e-5)
 
 
-def test_training_lowers_the_loss(network, samples):
-    optimizer = torch.optim.Adam(network.parameters(), lr=1e-2)
-    rng = np.random.default_rng(0)
-    losses = [
-        train_epoch(network, optimizer, samples, epoch_plan([(0, 600)], 100, HORIZON, 4, rng), HORIZON, 1.0)[0].mean()
-        for _ in range(20)
-    ]
-    assert losses[-1] < losses[0] - 0.3
-
-
-@pytest.mark.parametrize("kind", ["TCN", "MLP", "LSTM", "constant"])
+@pytest.mark.parametrize("kind", ["GRU", "TCN", "MLP", "LSTM", "constant"])
 def test_every_cell_learns_on_streams(kind, samples):
     sizes = {"hidden": 8, "window_steps": 4, "kernel_steps": 2, "dilations": (1, 2), "dropout": 0.1, "head": 8}
     cell = Cell(cell=kind, **{name: sizes[name] for name in SIZES[kind]})

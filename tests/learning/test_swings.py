@@ -1,7 +1,6 @@
 """Fine-tuning: a training that begins with a network, and learns from the free swings of a leg alone."""
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -90,7 +89,7 @@ def test_nothing_is_learned_where_the_target_is_unknown():
         train_epoch(*fresh(), Samples(inputs, torch.full_like(targets, torch.nan), partial=True), plan, 100, 1.0)
 
 
-def fresh() -> tuple[Any, Any]:
+def fresh():
     """Return a network, always the same, and its optimizer."""
     torch.manual_seed(1)
     network = LimbNetwork(Gru(3, 8), 2, 1e-6)
@@ -99,7 +98,6 @@ def fresh() -> tuple[Any, Any]:
 
 @pytest.fixture
 def trained(small, tmp_path):
-    """The weights of a small network."""
     return small.train(small.training(epochs=2), tmp_path / "first") / WEIGHTS
 
 

@@ -17,7 +17,7 @@ OLDER = {"NUMBA_CPU_NAME": "haswell", "NUMBA_CPU_FEATURES": "+sse4.2,+avx,+avx2,
 SHAPES = [(6, 4, 64), (13, 7, 80), (1, 1, 16), (5, 3, 144), (450, 150, 64)]
 
 
-def worst(shape: tuple[int, int, int], paired: bool) -> float:
+def worst(shape, paired):
     """Return the largest error of a product (m, k) (k, n), relative to the sum of the magnitudes of its terms."""
     m, k, n = shape
     generator = torch.Generator().manual_seed(sum(shape))

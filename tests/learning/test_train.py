@@ -7,25 +7,22 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
-from typing import Any
 
 import pytest
 import torch
 
 from mobnet.check import Against, check
-from mobnet.core.errors import DataError, TrainingError
+from mobnet.core.errors import TrainingError
 from mobnet.core.files import METRICS, RUN, WEIGHTS
 from mobnet.learning.checkpoint import CHECKPOINT
 from mobnet.learning.deployed.networks import load_network
 from mobnet.learning.job import precision_name, precision_of
-from mobnet.settings.networks import Training
 
 SCRIPT = "import pickle, sys; from mobnet.learning.train import train_all as a; a(**pickle.load(sys.stdin.buffer))"
 TIMEOUT_S = 120.0
 
 
-def kill_after(small: Any, training: Training, folder: Path, epochs: int) -> None:
+def kill_after(small, training, folder, epochs):
     """Train in another process and kill it, without warning, once some epochs are done."""
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "OMP_NUM_THREADS": "1"}
     process = subprocess.Popen([sys.executable, "-c", SCRIPT], stdin=subprocess.PIPE, env=environment)
@@ -80,8 +77,3 @@ def test_a_training_that_diverges_gives_no_result(small, tmp_path):
     with pytest.raises(TrainingError):
         small.train(small.training(divergence_loss=-100.0), tmp_path)
     assert not (tmp_path / "out").exists()
-
-
-def test_too_few_samples_are_refused(small, tmp_path):
-    with pytest.raises(DataError, match="cannot fill a batch of 1000 streams"):
-        small.train(small.training(batch_size=1000), tmp_path)

@@ -26,12 +26,14 @@ def trainer(small, data):
     return lambda epochs=EPOCHS, **learning: Trainer(TrainingJob(small.training(epochs=epochs, **learning), 0, 1), data)
 
 
-def test_it_learns_and_keeps_the_best_epoch(trainer, tmp_path):
+def test_it_learns_keeps_the_best_epoch_and_writes_every_one(trainer, tmp_path):
     done = trainer().run(tmp_path)
     losses = [epoch.validation_loss for epoch in done.epochs]
     assert [epoch.epoch for epoch in done.epochs] == list(range(1, EPOCHS + 1))
     assert losses[-1] < losses[0]
     assert done.best_epoch().validation_loss == min(losses)
+    assert len((tmp_path / METRICS).read_text().splitlines()) == EPOCHS + 1
+    assert (tmp_path / CHECKPOINT).exists()
 
 
 def test_scales_do_not_see_the_validation_blocks(trainer, data):
@@ -95,9 +97,3 @@ def test_re_run_windows_are_scored_in_physical_units(trainer, tmp_path):
     scored = trained.on_windows(done)
     assert scored == trained.on_windows(done)
     assert scored["rmse"] == pytest.approx(done.best_epoch().validation_rmse, rel=0.5)
-
-
-def test_every_epoch_is_on_disk(trainer, tmp_path):
-    trainer().run(tmp_path)
-    assert len((tmp_path / METRICS).read_text().splitlines()) == EPOCHS + 1
-    assert (tmp_path / CHECKPOINT).exists()

@@ -4,7 +4,6 @@ import json
 import re
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -62,20 +61,20 @@ def refused(settings):
     return lines
 
 
-def refusal_of(path: Path) -> str:
+def refusal_of(path):
     """Return the lines with which a check refuses a file."""
     with pytest.raises(MobnetError) as found:
         check(path, AGAINST)
     return told(str(found.value))
 
 
-def told(text: str) -> str:
+def told(text):
     """Return lines of faults, each of which begins with the place of a file."""
     assert all(line.startswith("/") and ": " in line and len(line) < 1000 for line in text.splitlines()), text
     return text
 
 
-def changed_note(stem: Path, change: Callable[[dict[str, Any]], Any]) -> None:
+def changed_note(stem, change):
     """Change the note of an array in place; what the function returns replaces it."""
     path = stem.with_suffix(".json")
     note = json.loads(path.read_text())
@@ -83,27 +82,27 @@ def changed_note(stem: Path, change: Callable[[dict[str, Any]], Any]) -> None:
     path.write_text(json.dumps(note if changed is None else changed))
 
 
-def set_at(place: str, value: Any) -> Change:
+def set_at(place, value):
     """Return a change of a note that sets a value at a place, keys joined by dots."""
 
-    def change(note: Any) -> None:
+    def change(note):
         parent, last = parent_of(note, place)
         parent[last] = value
 
     return change
 
 
-def lost(place: str) -> Change:
+def lost(place):
     """Return a change of a note that deletes what is at a place."""
 
-    def change(note: Any) -> None:
+    def change(note):
         parent, last = parent_of(note, place)
         del parent[last]
 
     return change
 
 
-def parent_of(note: Any, place: str) -> tuple[Any, Any]:
+def parent_of(note, place):
     """Return what holds the value at a place of a note, and its key or number there."""
     *inner, last = (int(key) if key.isdigit() else key for key in place.split("."))
     for key in inner:
@@ -111,7 +110,7 @@ def parent_of(note: Any, place: str) -> tuple[Any, Any]:
     return note, last
 
 
-def refusals(wrong: dict[str, tuple[Any, ...]], needed: str) -> dict[str, tuple[Change, str]]:
+def refusals(wrong, needed):
     """Return changes of a note with what is told of them: values that a place does not accept, and places lost."""
     values = [(place, value) for place, values in wrong.items() for value in values]
     return {
@@ -122,21 +121,21 @@ def refusals(wrong: dict[str, tuple[Any, ...]], needed: str) -> dict[str, tuple[
     }
 
 
-def without_footer(note: dict[str, Any]) -> None:
+def without_footer(note):
     """Take the hash of the array out of its note, as in that of somebody else's array."""
     del note["footer"]
 
 
-def changed_table(stem: Path, change: Callable[[Any], Any]) -> None:
+def changed_table(stem, change):
     """Replace the table of an array by what a function makes of it."""
     path = stem.with_suffix(".parquet")
     pq.write_table(change(pq.read_table(path)), path)
 
 
-def scaled(names: list[str], factor: float) -> Callable[[Any], Any]:
+def scaled(names, factor):
     """Return a change of a table that multiplies columns."""
 
-    def change(table: Any) -> Any:
+    def change(table):
         for name in names:
             place = table.schema.get_field_index(name)
             column = (table.column(name).to_numpy() * factor).astype(np.float32)
@@ -146,10 +145,10 @@ def scaled(names: list[str], factor: float) -> Callable[[Any], Any]:
     return change
 
 
-def moved(names: list[str]) -> Callable[[Any], Any]:
+def moved(names):
     """Return a change of a table that moves numbers from each column to the one before it, the first to the last."""
 
-    def change(table: Any) -> Any:
+    def change(table):
         for name, column in zip(names, [table.column(name) for name in (*names[1:], names[0])], strict=True):
             table = table.set_column(table.schema.get_field_index(name), table.schema.field(name), column)
         return table
@@ -157,10 +156,10 @@ def moved(names: list[str]) -> Callable[[Any], Any]:
     return change
 
 
-def put(name: str, row: int, value: float) -> Callable[[Any], Any]:
+def put(name, row, value):
     """Return a change of a table that sets one number."""
 
-    def change(table: Any) -> Any:
+    def change(table):
         column = table.column(name).to_numpy().copy()
         column[row] = value
         return table.set_column(table.schema.get_field_index(name), table.schema.field(name), [column])

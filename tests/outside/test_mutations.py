@@ -4,8 +4,6 @@ A changed bit of a weight is a number like any other: `./reproduce verify` finds
 """
 
 import json
-from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pytest
@@ -23,16 +21,15 @@ JUNK = st.one_of(
     st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=5), st.just([]), st.just({}),
     st.lists(st.integers(), max_size=3), st.lists(st.lists(st.integers(), max_size=3), max_size=3),
 )  # fmt: skip
-Damage = Callable[[bytes], bytes]
 
 
 @st.composite
-def damages(draw: st.DrawFn) -> Damage:
+def damages(draw):
     """Draw what happens to the bytes of a file: some flip, some are lost, some come twice."""
     place, size = draw(st.floats(0, 1, exclude_max=True)), draw(st.integers(1, 64))
     how, bit = draw(st.sampled_from(["flip", "lose", "double", "cut"])), draw(st.integers(0, 7))
 
-    def damage(data: bytes) -> bytes:
+    def damage(data):
         k = int(place * len(data))
         flipped = data[:k] + bytes([data[k] ^ (1 << bit)]) + data[k + 1 :]
         return {"flip": flipped, "lose": data[:k] + data[k + size :], "double": data[: k + size] + data[k:],
@@ -41,7 +38,7 @@ def damages(draw: st.DrawFn) -> Damage:
     return damage
 
 
-def outcome(read: Callable[[], Any]) -> Any:
+def outcome(read):
     """Return what is read, or None if it is refused in lines that name a file."""
     try:
         return read()
@@ -50,7 +47,7 @@ def outcome(read: Callable[[], Any]) -> Any:
         return None
 
 
-def same(one: Any, two: Any) -> bool:
+def same(one, two):
     """Return whether two recordings are equal to the bit."""
     arrays = [
         (getattr(r, part), name) for r in (one, two) for part in ("sensed", "truth") for name in vars(getattr(r, part))
@@ -72,25 +69,23 @@ def test_damaged_samples_are_refused_or_are_the_same(damage, sound, tmp_path, la
     assert read is None or same(read, read_recording(sound / "recording", layout))
 
 
-def places(value: Any, *above: str | int) -> list[tuple[str | int, ...]]:
-    """Return the places of all values in JSON."""
+def places(value, *above):
     inner = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
     return [above, *(place for key, below in inner for place in places(below, *above, key))]
 
 
-def at(value: Any, place: tuple[str | int, ...]) -> Any:
-    """Return the value at a place in JSON."""
+def at(value, place):
     for key in place:
         value = value[key]
     return value
 
 
 @st.composite
-def changes(draw: st.DrawFn) -> Callable[[Any], Any]:
+def changes(draw):
     """Draw a change of JSON: somewhere, a value becomes another one or is gone."""
     where, junk, gone = draw(st.floats(0, 1, exclude_max=True)), draw(JUNK), draw(st.booleans())
 
-    def change(value: Any) -> Any:
+    def change(value):
         found = places(value)
         *above, last = found[1 + int(where * (len(found) - 1))]
         parent = at(value, tuple(above))

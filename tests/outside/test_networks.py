@@ -1,9 +1,6 @@
 """Weights that break the contract are refused where an estimator is built, and by a check, in the tensor's name."""
 
 import json
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -30,12 +27,9 @@ CELLS = {
     "TCN": {"hidden": 5, "window_steps": 3, "kernel_steps": 2, "dilations": [1, 2], "dropout": 0.1, "head": 4},
     "constant": {},
 }
-Tensors = dict[str, np.ndarray]
-Change = Callable[[Tensors, dict[str, Any]], Any]
 
 
-def write(folder: Path, tensors: Tensors, note: Any) -> Path:
-    """Write weights as a training does."""
+def write(folder, tensors, note):
     folder.mkdir(exist_ok=True)
     save_file(tensors, folder / WEIGHTS, {NOTE: note if isinstance(note, str) else json.dumps(note)})
     return folder
@@ -75,28 +69,25 @@ def test_a_sound_network_is_accepted(kind, made, layout, tmp_path):
     assert load_network(tmp_path).joints == layout.limb("LL")
 
 
-def tensor(name: str, change: Callable[[np.ndarray], Any]) -> Change:
-    """Return a change of one tensor."""
+def tensor(name, change):
     return lambda tensors, note: tensors.update({name: np.ascontiguousarray(change(tensors[name]))})
 
 
-def entry(name: str, value: float) -> Change:
+def entry(name, value):
     """Return a change of the first number of a tensor."""
 
-    def change(tensors: Tensors, note: Any) -> None:
+    def change(tensors, note):
         tensors[name] = tensors[name].copy()
         tensors[name].ravel()[0] = value
 
     return change
 
 
-def noted(**values: Any) -> Change:
-    """Return a change of the note."""
+def noted(**values):
     return lambda tensors, note: note.update(values)
 
 
-def cell(**values: Any) -> Change:
-    """Return a change of the noted network."""
+def cell(**values):
     return lambda tensors, note: note["network"].update(values)
 
 

@@ -2,8 +2,6 @@
 
 import json
 import re
-from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -34,10 +32,9 @@ from mobnet.running.stage import Stage
 from mobnet.settings.catalogue import Catalogue
 
 ROWS, WIDTH = 1200, recording_width(AGAINST.layout)
-Change = Callable[[Any], Any]
 
 
-def column(index: int, **changes: Any) -> Change:
+def column(index, **changes):
     """Return a change of a note that sets keys of a column."""
     return lambda note: note["columns"][index].update(changes)
 

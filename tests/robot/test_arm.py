@@ -4,7 +4,6 @@ import mujoco
 import numpy as np
 import pytest
 
-from mobnet.robot.description import RobotDescription
 from mobnet.robot.dynamics import bias, coriolis, gravity, mass_matrix, momentum_and_beta
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.plant import robot_spec
@@ -12,7 +11,7 @@ from mobnet.robot.plant import robot_spec
 GRAVITY = 9.81
 
 
-def closed_form(arm: RobotDescription, q: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def closed_form(arm, q, v):
     """Return M (2, 2) and C v + g (2,) of links along x that hinges about y turn, gravity along -z."""
     _, upper, lower = arm.bodies
     length, reach, far = lower.pos[0], upper.com[0], lower.com[0]

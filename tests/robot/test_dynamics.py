@@ -13,7 +13,7 @@ BACK = [0, 1, 2, 6, 3, 4, 5, *range(7, 40)]  # Pinocchio has the real part of a 
 TOLERANCE = 1e-4  # on entries of about 100
 
 
-def mass_matrix_rate(model: pin.Model, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+def mass_matrix_rate(model, q, v):
     """Return Mdot (nv, nv) by a central difference along v."""
     data = model.createData()
     after, before = (pin.crba(model, data, pin.integrate(model, q, sign * STEP * v)).copy() for sign in (1, -1))
@@ -21,7 +21,7 @@ def mass_matrix_rate(model: pin.Model, q: np.ndarray, v: np.ndarray) -> np.ndarr
     return upper + np.triu(upper, 1).T
 
 
-def with_composite_root(model: pin.Model) -> pin.Model:
+def with_composite_root(model):
     """Return the same robot with translation and ball in one composite joint."""
     root = pin.JointModelComposite(2)
     root.addJoint(pin.JointModelTranslation())

@@ -18,7 +18,6 @@ def test_the_quaternion_s_real_part_goes_last_over_a_batch(random_state):
 
 
 def test_rotation_matches_both_libraries(nominal, random_state):
-    """MuJoCo and Pinocchio are the reference."""
     q, _ = random_state(1)
     matrix = np.empty(9)
     mujoco.mju_quat2Mat(matrix, q[3:7])

@@ -5,7 +5,7 @@ import pinocchio as pin
 import pytest
 
 from mobnet.core.errors import DataError
-from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.description import describe
 from mobnet.robot.dynamics import coriolis, gravity, mass_matrix, momentum_and_beta
 from mobnet.robot.momentum import LANES
 from mobnet.robot.nominal import NominalModel
@@ -31,7 +31,7 @@ def model_of(robot_table, arm_table):
     return make
 
 
-def states(robot: RobotDescription, count: int) -> tuple[np.ndarray, np.ndarray]:
+def states(robot, count):
     """Return random positions, whose quaternions are of any length, and velocities (count, ...)."""
     rng = np.random.default_rng(count)
     return rng.normal(size=(count, robot.layout.nq)), rng.normal(size=(count, robot.layout.nv))

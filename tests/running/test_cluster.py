@@ -1,7 +1,6 @@
 """A job that failed on a cluster is told in one line."""
 
 import os
-from pathlib import Path
 
 import pytest
 
@@ -27,7 +26,7 @@ OVER = "slurmstepd: error: Exceeded job memory limit\n"
 MORE = "give it more with --set-resources"
 
 
-def told_of(root: Path, *texts: str, place: str = "rule_train/_MOB-Net_LL_0", since_s: float = 0.0) -> list[str]:
+def told_of(root, *texts, place="rule_train/_MOB-Net_LL_0", since_s=0.0):
     """Return what is told of logs of one folder, each a second after the one before it."""
     for number, text in enumerate(texts, start=1):
         path = root / LOGS / place / f"{number}.log"

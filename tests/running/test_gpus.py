@@ -2,7 +2,6 @@
 
 import logging
 import os
-from pathlib import Path
 
 import pytest
 
@@ -12,7 +11,7 @@ from mobnet.running.lock import opened, taken
 CUDA, CPU = "2.13.0", "2.13.0+cpu"
 
 
-def devices_in(folder: Path, names: list[str]) -> Path:
+def devices_in(folder, names):
     """Make a folder with the files that a driver makes for its devices, besides its own."""
     for name in (*names, "nvidiactl", "null"):
         (folder / name).touch()

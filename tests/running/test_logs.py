@@ -5,7 +5,6 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import pytest
 
@@ -21,12 +20,11 @@ with job(sys.argv[1]):
 """
 
 
-def fail(error: Exception) -> None:
+def fail(error):
     raise error
 
 
-def account(path: Path) -> Account:
-    """Return the account beside a log."""
+def account(path):
     return Account(**read_json(path.with_suffix(".json")))
 
 

@@ -57,7 +57,7 @@ def test_the_path_of_python_may_have_spaces(monkeypatch):
     assert (sys.executable, patches.python()) == (shlex.quote("/my folder/python"), "/my folder/python")
 
 
-def record_of(message: str, **extra: object) -> logging.LogRecord:
+def record_of(message, **extra):
     record = logging.LogRecord("snakemake", logging.INFO, "", 0, message, None, None)
     vars(record).update(extra)
     return record

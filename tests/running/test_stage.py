@@ -18,7 +18,7 @@ def stage(tmp_path, monkeypatch):
     return made
 
 
-def write(stage: Stage, file: Path) -> None:
+def write(stage, file):
     stage.place(file).parent.mkdir(parents=True, exist_ok=True)
     stage.place(file).write_text(file.name)
 

@@ -1,7 +1,6 @@
 """Plants that walk or stand, and what they recorded."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import pytest
@@ -23,13 +22,13 @@ MADE_UP = {  # scenarios of the tests
 }
 
 
-def altered(settings: Settings, **sections: dict[str, Any]) -> Settings:
+def altered(settings, **sections):
     """Return a configuration with changed sections, key by key, also where they do not fit the others."""
     changed = {name: merged(getattr(settings, name), section) for name, section in sections.items()}
     return Settings.model_validate({**{name: getattr(settings, name) for name in Settings.model_fields}, **changed})
 
 
-def merged(value: Any, change: Any) -> Any:
+def merged(value, change):
     """Return a value with the keys of a change in place of its own."""
     if not isinstance(change, dict):
         return change
@@ -73,8 +72,7 @@ class Log:
     done: int
     columns: dict[str, slice]
 
-    def __getitem__(self, field: str) -> np.ndarray:
-        """Return one field of the samples."""
+    def __getitem__(self, field):
         return self.rows[:, self.columns[field]]
 
 

@@ -13,7 +13,6 @@ HAS_FFMPEG = shutil.which("ffmpeg") is not None
 
 
 def frames(count=5):
-    """Yield a bar that moves over two halves of other colours."""
     for k in range(count):
         pixels = np.full((24, 32, 3), 200, dtype=np.uint8)
         pixels[:12] = [40, 90, 160]

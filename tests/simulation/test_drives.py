@@ -29,7 +29,7 @@ def made():
     return make
 
 
-def push(drives: Drives, torque: float, seconds: float, q: float = 0.0, rate: float = 0.0) -> list[float]:
+def push(drives, torque, seconds, q=0.0, rate=0.0):
     """Drive a link that is held, or that moves at a rate [rad/s]; return the torques on it [N m]."""
     link, reported, out = np.zeros(1), np.zeros(1), []
     for _ in range(round(seconds / DT)):
@@ -39,7 +39,7 @@ def push(drives: Drives, torque: float, seconds: float, q: float = 0.0, rate: fl
     return out
 
 
-def held(drives: Drives, rate: float, load: float, turn: float = 0.5) -> float:
+def held(drives, rate, load, turn=0.5):
     """Return the friction [N m] against a rotor that keeps a rate [rad/s] over an angle [rad] under a spring's torque.
 
     The link is moved along so that the gear transmits `load` [N m]; what the motor has to give beyond is friction.

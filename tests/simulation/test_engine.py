@@ -1,8 +1,6 @@
 """The plant's loop: external torque, sensors, symmetries, limits."""
 
 import copy
-from collections.abc import Callable
-from typing import Any
 
 import mujoco
 import numpy as np
@@ -13,12 +11,11 @@ from mobnet.control.walking import walk
 from mobnet.robot.description import SIDES
 from mobnet.robot.plant import sole_name
 from mobnet.simulation import engine
-from mobnet.simulation.simulator import Simulator
 
 NV = 39
 
 
-def contact_torque(simulator: Simulator) -> np.ndarray:
+def contact_torque(simulator):
     """Return the sum of J^T F (nv,) over the contacts of the step just taken, by MuJoCo's own functions."""
     model, data = simulator.world.model, simulator.world.data
     torque, wrench, jacobian = np.zeros(NV), np.zeros(6), np.zeros((3, NV))
@@ -31,7 +28,7 @@ def contact_torque(simulator: Simulator) -> np.ndarray:
     return torque
 
 
-def external(simulator: Simulator) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def external(simulator):
     """Return the loop's torque of contacts and of pushes (nv,) and ground's force on each foot (2,) [N], one step's."""
     contacts, pushes, touch = np.zeros(NV), np.zeros(NV), np.zeros(2)
     engine._add_contacts(simulator.plant, simulator.walker, contacts, touch)
@@ -39,7 +36,7 @@ def external(simulator: Simulator) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return contacts, pushes, touch
 
 
-def normal_forces(simulator: Simulator) -> np.ndarray:
+def normal_forces(simulator):
     """Return the sum of the normal forces (2,) [N] of each foot's contacts, by mj_contactForce."""
     model, data, wrench, forces = simulator.world.model, simulator.world.data, np.zeros(6), np.zeros(2)
     soles = [model.geom(sole_name(side)).id for side in SIDES]
@@ -49,12 +46,12 @@ def normal_forces(simulator: Simulator) -> np.ndarray:
     return forces
 
 
-def assert_near(found: np.ndarray, expected: np.ndarray, share: float) -> None:
+def assert_near(found, expected, share):
     """Check that torques or forces are as expected, up to a share of the largest one."""
     np.testing.assert_allclose(found, expected, atol=share * max(1.0, np.abs(expected).max()))
 
 
-def pushed_torque(simulator: Simulator) -> np.ndarray:
+def pushed_torque(simulator):
     """Return what the wrenches on bodies of the step just taken do (nv,), by mj_jac at their centres of mass."""
     model, data, torque = simulator.world.model, simulator.world.data, np.zeros(NV)
     linear, angular = np.zeros((3, NV)), np.zeros((3, NV))
@@ -64,7 +61,7 @@ def pushed_torque(simulator: Simulator) -> np.ndarray:
     return torque
 
 
-def sole_torque(simulator: Simulator) -> np.ndarray:
+def sole_torque(simulator):
     """Return the foot sensors' wrenches mapped through their Jacobian (nv,)."""
     model, data, mapped = simulator.world.model, simulator.world.data, np.zeros(NV)
     linear, angular = np.zeros((3, NV)), np.zeros((3, NV))
@@ -177,8 +174,7 @@ def test_mirrored_start_gives_the_mirrored_motion(simulate, run, mirrored):
     assert (there.state.side, there.state.steps) == (s.side, s.steps)
 
 
-def put(simulator: Simulator, q: np.ndarray, v: np.ndarray, s: np.record) -> None:
-    """Set plant, sensors and controller."""
+def put(simulator, q, v, s):
     simulator.plant.qpos[:] = simulator.sensors.q[:] = q
     simulator.plant.qvel[:] = simulator.sensors.v[:] = v
     simulator.state = s
@@ -227,7 +223,7 @@ def test_random_torque_never_acts_on_a_support_leg(simulate, side, swinging):
     assert (tau[12:] == 1).all()
 
 
-def tick(simulator: Simulator, run: Callable, torque: np.ndarray) -> Any:
+def tick(simulator, run, torque):
     """Return what a tick from here would log under an exploration (nu,) [N m], and go back to where it began."""
     model, data, sensors = simulator.world.model, simulator.world.data, simulator.sensors
     kept = copy.copy(data), simulator.state.copy(), simulator.rng["noise"].bit_generator.state

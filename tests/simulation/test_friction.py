@@ -16,7 +16,6 @@ def friction(settings):
 @pytest.mark.parametrize("rate", [-3.0, -0.2, 0.2, 1.51, 6.0])
 @pytest.mark.parametrize("torque", [-100.0, 0.0, 30.0])
 def test_leg_friction_is_table_4_in_equation_23(friction, rate, torque):
-    """The closed form of (23) with the numbers of Table 4."""
     dry = 5.0 + (2.0 - 5.0) * np.exp(-abs(rate / 1.51)) + 0.002 * torque**2
     assert friction_torque(friction, LEG, rate, torque) == pytest.approx(-np.sign(rate) * dry - 4.0 * rate, rel=1e-6)
 
@@ -28,7 +27,6 @@ def test_arm_friction_has_less_damping_and_no_load_term(friction):
 
 @pytest.mark.parametrize("rate", [1e-3, 0.02, 0.5, 5.0])
 def test_friction_is_odd_in_the_rate_and_takes_energy(friction, rate):
-    """Forward and back are symmetric."""
     for torque in (-80.0, 20.0):
         forward, back = (friction_torque(friction, LEG, sign * rate, torque) for sign in (1, -1))
         assert forward == -back

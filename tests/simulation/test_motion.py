@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from mobnet.core.arrays import Array
 from mobnet.core.errors import SimulationError
 from mobnet.core.store import read_array
 from mobnet.plan.runs import FIRST_TRAINING_SEED
@@ -75,7 +74,7 @@ def test_knots_stay_apart_slow_and_in_the_working_range(made, motion, robot):
         assert (np.abs(np.diff(knots, axis=0)) * meta["rate_hz"] <= top + 1e-3).all()
 
 
-def spectrum(signal: Array, rate_hz: float) -> tuple[Array, Array]:
+def spectrum(signal, rate_hz):
     """Return the frequencies (F,) [Hz] of a windowed signal (T, n) and its power at them (F, n)."""
     power = np.abs(np.fft.rfft(signal * np.hanning(len(signal))[:, None], axis=0)) ** 2
     return np.fft.rfftfreq(len(signal), 1 / rate_hz), power

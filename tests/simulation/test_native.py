@@ -26,7 +26,6 @@ def world(settings, robot):
 
 
 def test_struct_offsets_read_what_python_s_views_hold(world):
-    """Python's own views are the reference."""
     raw, data = c_struct("mjData").from_address(world.data._address), world.data
     assert data.nefc > 0
     for field in ("nefc", "ncon", "ne", "nf"):
@@ -51,8 +50,6 @@ def test_compiled_code_reads_the_constraint_rows(world):
 
 
 def test_call_by_address_is_mujoco_s_step_to_the_bit(world):
-    """The reference is Python's own mj_step."""
-
     @njit
     def step(function, model, data):
         call_step(function, model, data)

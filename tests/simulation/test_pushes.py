@@ -1,25 +1,23 @@
 """Pushes: when they come, how hard, and that the external torque is theirs."""
 
-from collections.abc import Callable
 from itertools import pairwise
-from typing import Any, get_args
+from typing import get_args
 
 import numpy as np
 import pytest
 
 from mobnet.settings.data import Direction, Phase, Push
 from mobnet.simulation.pushes import DIRECTIONS, LAW, PHASES, SHAPES, STATE, Pushes, advance_impactor, hit, meet
-from mobnet.simulation.simulator import Simulator
 
 LL3 = 6 + 2
 
 
-def pushed(simulate: Callable, **rows: dict[str, Any]) -> Simulator:
+def pushed(simulate, **rows):
     """Return a started walk of the ideal plant in place with these pushes."""
     return simulate("flat_place", "ideal", pushes=rows, scenarios={"flat_place": {"pushes": list(rows)}})
 
 
-def watch(simulator: Simulator, run: Callable, seconds: float) -> list[dict[str, Any]]:
+def watch(simulator, run, seconds):
     """Return clock, walking state and pushes after every millisecond."""
     seen = []
     for _ in range(round(seconds * 1000)):

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from mobnet.core.arrays import Array
 from mobnet.simulation.motion import working_range
 from mobnet.simulation.reaching import Reacher, leg_space
 
@@ -30,7 +29,7 @@ def reacher(robot, motion, posture):
     return Reacher(robot, motion, working_range(motion), posture)
 
 
-def knots_to(reacher: Reacher, hands: Array, posture: Array) -> Array:
+def knots_to(reacher, hands, posture):
     """Return the knots (T, n) on the way to hands that stand still."""
     return np.array([reacher.step(hands, posture) for _ in range(KNOTS)])
 

@@ -113,7 +113,6 @@ def test_a_picture_has_the_size_asked_for(robot, terrain, upright, pixels):
 
 
 def test_the_terrain_that_was_drawn_is_seen(settings, robot, upright, pixels):
-    """Two draws of plates give two pictures, the same draw the same one."""
     a, b, c = (draw_terrain(settings.terrain.plates, np.random.default_rng(seed)) for seed in (1, 1, 2))
     a, b, c = (draw(render.picture_model(robot, terrain, (200, 150)), upright) for terrain in (a, b, c))
     np.testing.assert_array_equal(a, b)

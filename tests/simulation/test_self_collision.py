@@ -3,10 +3,8 @@
 import numpy as np
 import pytest
 
-from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
 from mobnet.core.joints import NQ_BASE
-from mobnet.robot.description import RobotDescription
 from mobnet.simulation.self_collision import REACH_M, Clearance, held_together
 
 HANDS = ("left_hand", "right_hand")
@@ -37,7 +35,7 @@ def standing(robot):
     return with_angles(robot, q, STANDING)
 
 
-def with_angles(robot: RobotDescription, q: Array, angles: dict[str, float]) -> Array:
+def with_angles(robot, q, angles):
     """Return q (nq,) with some joints at other angles [rad]."""
     q = q.copy()
     for name, angle in angles.items():
@@ -61,7 +59,6 @@ def test_nothing_is_near_in_the_posture_however_a_leg_walks(clearance, robot, st
 
 
 def test_where_the_robot_is_does_not_matter(clearance, robot, standing):
-    """The distance is invariant to the base's pose."""
     hit = with_angles(robot, standing, {"LL2": -0.15})
     moved = hit.copy()
     moved[:7] = 3.0, -2.0, 1.0, 0.5, -0.5, 0.5, 0.5

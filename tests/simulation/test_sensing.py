@@ -8,12 +8,11 @@ from mobnet.control.kinematics import update
 from mobnet.control.walker import move_wrenches
 from mobnet.settings.plant import OwnNoise
 from mobnet.simulation.sensing import read_sensors, reset_sensors
-from mobnet.simulation.simulator import Simulator
 
 READINGS, TICK_S = 3000, 0.0005
 
 
-def readings(simulator: Simulator) -> np.ndarray:
+def readings(simulator):
     """Return readings (n, C) of one state: orientation, joints, omega, rates, acceleration, wrenches."""
     plant, sensors, rng = simulator.plant, simulator.sensors, np.random.default_rng(0)
     rows = []
@@ -63,7 +62,7 @@ def test_encoders_orientation_and_feet_have_noise_of_our_own(simulate):
     np.testing.assert_allclose(np.std(offsets, axis=0), own.orientation_offset_rad, rtol=0.1)
 
 
-def error_of(sensed: np.ndarray, true: np.ndarray) -> np.ndarray:
+def error_of(sensed, true):
     """Return the rotation vectors (n, 3) [rad] in base axes from a true quaternion w x y z to sensed ones (n, 4)."""
     turn = Rotation.from_quat(true, scalar_first=True).inv() * Rotation.from_quat(sensed, scalar_first=True)
     return turn.as_rotvec()

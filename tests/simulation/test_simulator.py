@@ -1,7 +1,5 @@
 """Episodes of a scenario: what they share, what they draw, and that each begins on the ground."""
 
-from typing import Any
-
 import mujoco
 import numpy as np
 import pytest
@@ -33,12 +31,11 @@ def prepare(walk_of):
     return make
 
 
-def streams(simulator: Simulator) -> dict[str, Any]:
-    """Return the state of each stream of random numbers."""
+def streams(simulator):
     return {name: rng.bit_generator.state["state"] for name, rng in simulator.rng.items()}
 
 
-def begun(simulator: Simulator) -> tuple[Any, ...]:
+def begun(simulator):
     """Begin an episode; return its terrain, commands and start."""
     simulator.start()
     return simulator.setting.terrain, simulator.commands.tobytes(), simulator.plant.qpos.tobytes()
@@ -116,7 +113,7 @@ def test_episodes_begin_anywhere_on_any_terrain_facing_anywhere(prepare):
     assert (np.ptp(places, axis=0) > 0.9).all()
 
 
-def soles_over_ground(simulator: Simulator) -> list[float]:
+def soles_over_ground(simulator):
     """Return the least height of each sole over the ground under it [m], looked at every centimetre."""
     model, data, heights = simulator.world.model, simulator.world.data, []
     mujoco.mj_forward(model, data)

@@ -4,11 +4,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from mobnet.robot.description import WalkingRobot
 from mobnet.robot.plant import robot_spec
 from mobnet.settings.surrogate import SurrogateRobot
 from mobnet.simulation.faults import perceive
-from mobnet.simulation.simulator import Simulator
 from mobnet.simulation.surrogate import draw_hidden
 
 RATE_HZ = 2000.0
@@ -71,7 +69,7 @@ def test_numbers_lie_in_their_ranges(draw, robot, settings):
     assert not hidden.robot.armature.any()
 
 
-def mass_matrix(robot: WalkingRobot) -> np.ndarray:
+def mass_matrix(robot):
     """Return the mass matrix (nv, nv) of a robot's plant where it starts."""
     model = robot_spec(robot).compile()
     data, matrix = mujoco.MjData(model), np.zeros((model.nv, model.nv))
@@ -96,7 +94,7 @@ def test_the_controller_and_the_observer_know_the_table_alone(simulate):
     assert known.robot.bodies == other.robot.bodies
 
 
-def seen(simulator: Simulator) -> None:
+def seen(simulator):
     """Let the sensors of a surrogate robot look at the plant once more."""
     plant, faults = simulator.plant, simulator.hidden.faults
     perceive(

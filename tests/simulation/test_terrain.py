@@ -1,23 +1,19 @@
 """Uneven ground: heights, slopes, period, and what is drawn of it."""
 
-from collections.abc import Callable
-
 import mujoco
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from mobnet.core.errors import ConfigError
 from mobnet.robot.plant import SOLE_TYPE, TERRAIN_TYPE
 from mobnet.settings import data
-from mobnet.simulation.terrain import REACH_M, TERRAIN_GROUP, DrawnTerrain, add_terrain, draw_terrain, frustum
+from mobnet.simulation.terrain import REACH_M, TERRAIN_GROUP, add_terrain, draw_terrain, frustum
 
 SEEDS = range(4)
 TERRAINS = tuple(data.Terrain.model_fields)
-Heights = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 
-def build(terrain: DrawnTerrain, half_width: float | None = None) -> tuple[mujoco.MjModel, Heights]:
+def build(terrain, half_width=None):
     """Return a world with nothing but the terrain, and its height (n,) [m] under points (n, 2) [m]."""
     spec = mujoco.MjSpec()
     add_terrain(spec, terrain, half_width)
@@ -25,7 +21,7 @@ def build(terrain: DrawnTerrain, half_width: float | None = None) -> tuple[mujoc
     data, hit, down = mujoco.MjData(model), np.zeros(1, dtype=np.int32), np.array([0.0, 0.0, -1.0])
     mujoco.mj_kinematics(model, data)
 
-    def heights(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    def heights(points):
         starts = np.column_stack([points, np.ones(len(points))])
         return 1.0 - np.array([mujoco.mj_ray(model, data, start, down, None, 1, -1, hit) for start in starts])
 
@@ -126,7 +122,7 @@ def test_plates_keep_apart_all_over_the_world(draw, seed):
     np.testing.assert_allclose(areas, [0.54, 0.36, 0.27])
 
 
-def rotation(yaw: float) -> NDArray[np.float64]:
+def rotation(yaw):
     """Return the rotation (2, 2) by an angle [rad]."""
     return np.array([[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]])
 
@@ -141,7 +137,6 @@ def test_a_draw_is_the_generators(draw):
 
 
 def test_a_wider_terrain_is_the_same_terrain(draw):
-    """Pictures show more of the ground, but the same."""
     for name in TERRAINS:
         terrain = draw(name)
         points = np.random.default_rng(2).uniform(-REACH_M, REACH_M, (200, 2))

@@ -18,14 +18,14 @@ pytestmark = pytest.mark.sim
 class FakeViewer:
     """Stands in for MuJoCo's: notes what it is given to show, and is closed after some looks."""
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, looks: int) -> None:
+    def __init__(self, model, data, looks):
         self.model, self.data, self.looks = model, data, looks
         self.cam, self.shown, self.aims, self.locked = mujoco.MjvCamera(), [], [], False
 
-    def __enter__(self) -> FakeViewer:
+    def __enter__(self):
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, *_):
         self.closed = True
 
     @contextlib.contextmanager
@@ -34,11 +34,11 @@ class FakeViewer:
         yield
         self.locked = False
 
-    def is_running(self) -> bool:
+    def is_running(self):
         self.looks -= 1
         return self.looks >= 0
 
-    def sync(self) -> None:
+    def sync(self):
         assert not self.locked
         self.shown.append((time.perf_counter(), self.data.qpos.copy()))
         self.aims.append(self.cam.lookat.copy())
@@ -111,7 +111,7 @@ def test_when_the_time_is_over_the_window_stays(simulate, open_viewer):
     assert viewer.looks < 0
 
 
-def watched(simulator, opened: list[FakeViewer], seconds: float) -> list[FakeViewer]:
+def watched(simulator, opened, seconds):
     """Watch a simulator; return the viewers that were opened, all closed by now."""
     view.watch(simulator, seconds)
     assert all(viewer.closed for viewer in opened)

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from mobnet.simulation.terrain import draw_terrain
-from mobnet.simulation.world import World, ground_height, make_world
+from mobnet.simulation.world import ground_height, make_world
 
 
 @pytest.fixture
@@ -80,7 +80,7 @@ def test_a_sole_that_carries_hardly_creeps(simulate, run):
     assert np.abs(data.geom("left_sole").xpos - before)[:2].max() < 0.001
 
 
-def vertical_force(world: World) -> float:
+def vertical_force(world):
     """Return the sum of the contacts' normal forces [N]."""
     total, wrench = 0.0, np.zeros(6)
     for index in range(world.data.ncon):
@@ -153,7 +153,7 @@ def test_rays_find_the_heights_of_what_stands_there(build, name):
     np.testing.assert_array_equal(ground_height(world, points), found)
 
 
-def heights_of_pieces(world: World, points: np.ndarray) -> np.ndarray:
+def heights_of_pieces(world, points):
     """Return the height (n,) [m] of the highest piece under points (n, 2) [m], from the pieces' widths."""
     highest = np.zeros(len(points))
     for piece in world.terrain.pieces:

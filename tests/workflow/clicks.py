@@ -59,6 +59,5 @@ def text_of_frame(browser: Browser) -> str:
 
 
 def _frame(browser: Browser) -> dict[str, Any]:
-    """Return the frame of an HTML result."""
     (tree,) = browser.tell("Page.getFrameTree")["frameTree"]["childFrames"]
     return tree["frame"]

@@ -72,7 +72,6 @@ class Cluster:
         return subprocess.run(self.words(*words), capture_output=True, text=True, check=True).stdout
 
     def start(self, daemon: str) -> None:
-        """Start slurmctld or slurmd."""
         self.ask(daemon)
 
     def kill(self, daemon: str) -> None:

@@ -6,7 +6,6 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -54,7 +53,7 @@ def planned(snakemake):
     return jobs
 
 
-def job_of(rule: str, text: str) -> Job:
+def job_of(rule, text):
     """Return a job of what a dry run tells of it."""
     told = dict(line.strip().split(": ", 1) for line in text.splitlines() if ": " in line)
     outputs, resources = (told[key].split(", ") if key in told else [] for key in ("output", "resources"))
@@ -91,7 +90,7 @@ def make_project(tmp_path_factory):
     return make
 
 
-def compiled_in(root: Path, origin: Path, folder: Path) -> Iterator[tuple[Path, Path]]:
+def compiled_in(root, origin, folder):
     """Yield the folders of machine code below a root, and their places in a copy: numba names them by the source's."""
     sources = [path.relative_to(origin) for path in (origin / "src").rglob("*") if path.is_dir()]
     renamed = {named_by(origin / source): named_by(folder / source) for source in sources}
@@ -100,6 +99,6 @@ def compiled_in(root: Path, origin: Path, folder: Path) -> Iterator[tuple[Path, 
             yield path, Path(path.parent.name) / renamed[path.name]
 
 
-def named_by(source: Path) -> str:
+def named_by(source):
     """Return the name that numba gives to the machine code of the files of a folder."""
     return f"{source.name}_{hashlib.sha1(str(source).encode()).hexdigest()}"

@@ -3,7 +3,6 @@
 import re
 import subprocess
 import tomllib
-from pathlib import Path
 
 import pytest
 
@@ -20,13 +19,12 @@ FAKES = {  # program -> what it does in place of the machine's
 }
 
 
-def packages() -> list[str]:
-    """Return the packages that .ci/run installs."""
+def packages():
     (block,) = re.findall(r"PACKAGES=\((.*?)\n\)", RUN.read_text(), re.DOTALL)
     return re.sub(r"#.*", "", block).split()
 
 
-def run(folder: Path, user: int, updated: int = 0) -> tuple[list[str], str]:
+def run(folder, user, updated=0):
     """Return which programs a copy of .ci/run calls, where only ffmpeg is installed, and what it says."""
     for path in ("bin", ".ci"):
         (folder / path).mkdir()

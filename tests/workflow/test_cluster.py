@@ -8,7 +8,7 @@ import pytest
 
 from mobnet.core.files import METRICS, RUN, WEIGHTS
 
-from .cluster import Cluster, cluster_in, wait_for
+from .cluster import cluster_in, wait_for
 
 SMOKE = ("--config", "scale=smoke")
 PROFILE = ("--profile", "workflow/profiles/slurm", "--latency-wait", "5")
@@ -23,7 +23,6 @@ pytestmark = [pytest.mark.slow, pytest.mark.sim]
 
 @pytest.fixture(scope="module")
 def cluster(tmp_path_factory):
-    """A running cluster of one node."""
     with cluster_in(tmp_path_factory.mktemp("cluster")) as running:
         yield running
 
@@ -47,26 +46,25 @@ def project(make_project, trained):
     return folder
 
 
-def start(cluster: Cluster, folder: Path, *words: str) -> subprocess.Popen[str]:
+def start(cluster, folder, *words):
     """Start ./reproduce on the cluster; what it says is in out.log."""
     command = [sys.executable, str(folder / "reproduce"), *(words or TARGETS), *SMOKE, *PROFILE]
     with (folder / "out.log").open("a") as out:
         return subprocess.Popen(cluster.words(*command), cwd=folder, stdout=out, stderr=out, text=True)
 
 
-def told(folder: Path) -> str:
-    """Return what the runs in a folder said."""
+def told(folder):
     return (folder / "out.log").read_text()
 
 
-def wait_for_training(cluster: Cluster, folder: Path) -> str:
+def wait_for_training(cluster, folder):
     """Wait until a training runs; return the number of its job."""
     log = folder / "results" / "smoke" / "logs" / "train" / f"{JOB}.log"
     wait_for(lambda: log.exists() and "epoch" in log.read_text(), LONGEST_S)
     return next(job for job, state in cluster.jobs() if state == "RUNNING")
 
 
-def ended(run: subprocess.Popen[str], cluster: Cluster, folder: Path) -> int:
+def ended(run, cluster, folder):
     """Wait for the end of a run; return its status. Nothing of it is left in the queue, and no file is half written."""
     status = run.wait(LONGEST_S)
     wait_for(lambda: not cluster.jobs())
@@ -74,7 +72,7 @@ def ended(run: subprocess.Popen[str], cluster: Cluster, folder: Path) -> int:
     return status
 
 
-def assert_ends_the_same(run: subprocess.Popen[str], cluster: Cluster, folder: Path, trained: Path) -> None:
+def assert_ends_the_same(run, cluster, folder, trained):
     """Check that a run succeeds, with the network that was trained without a cluster."""
     assert ended(run, cluster, folder) == 0, told(folder)
     for name in (WEIGHTS, METRICS):

@@ -8,9 +8,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
 
 import psutil
 import pytest
@@ -35,7 +33,7 @@ def project(make_project):
 
 
 @contextmanager
-def small_disk(folder: Path, size: str, how: str = "rw") -> Iterator[None]:
+def small_disk(folder, size, how="rw"):
     """Mount an empty file system on a folder."""
     folder.mkdir(parents=True, exist_ok=True)
     words = ["mount", "-t", "tmpfs", "-o", f"size={size},{how}", "none", str(folder)]
@@ -47,19 +45,19 @@ def small_disk(folder: Path, size: str, how: str = "rw") -> Iterator[None]:
         subprocess.run(["umount", str(folder)], check=True)
 
 
-def processes(folder: Path) -> list[psutil.Process]:
+def processes(folder):
     """Return the processes that work in a project."""
     found = [process.info for process in psutil.process_iter(["cwd", "pid", "status"])]
     return [info for info in found if info["cwd"] == str(folder) and info["status"] != psutil.STATUS_ZOMBIE]
 
 
-def left_behind(folder: Path) -> list[Path]:
+def left_behind(folder):
     """Return unfinished files and the like."""
     places = ("results/**/.partial.*", ".snakemake/scripts/*", ".cache/tmp/run-*")
     return [path for place in places for path in folder.glob(place)]
 
 
-def as_in_a_terminal() -> None:
+def as_in_a_terminal():
     """Let Ctrl-C reach a new process; a shell lets its background processes, and all that these start, ignore it."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 

@@ -3,7 +3,7 @@
 import re
 from functools import reduce
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import pytest
 
@@ -42,7 +42,7 @@ class System(NamedTuple):
     state: str
 
 
-def rows(part: int) -> list[list[str]]:
+def rows(part):
     """Return the cells of one of the map's tables."""
     lines = [line for line in (ROOT / "docs/map.md").read_text().split("\n## ")[part].splitlines() if line[:1] == "|"]
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
@@ -55,7 +55,6 @@ MADE = [item for item in ITEMS if item.rule != "-"]
 
 @pytest.fixture(scope="module")
 def products():
-    """Every product at the main scale."""
     return list(make_plan(MAIN, with_pdf=True).products)
 
 
@@ -71,7 +70,7 @@ def test_the_map_names_the_function_that_a_rule_calls(products):
     assert [(item.rule, item.made_by) for item in MADE if item.made_by != made[item.rule]] == []
 
 
-def numbered(names: Any) -> set[str]:
+def numbered(names):
     """Return the numbered tables and figures among some names."""
     return {found for name in names for found in NUMBERED.findall(name)}
 
@@ -102,14 +101,14 @@ def test_a_system_exists_or_is_to_do(system):
         assert system[1:] == ("-", "-", "to do")
 
 
-def found(name: str) -> bool:
+def found(name):
     """Return whether a name is a file, a module or a key of the configuration."""
     if "/" in name:
         return (ROOT / name).exists()
     if name.startswith("mobnet."):
         return start_of(name).is_file()
 
-    def below(section: Any, key: str) -> Any:
+    def below(section, key):
         return section[key] if isinstance(section, dict) else getattr(section, key)
 
     return reduce(below, name.split("."), MAIN) is not None

@@ -24,7 +24,7 @@ TABLE_HTML = ROOT / TEMPLATES / "table.html"
 COUNTERPARTS = ["table_07", "table_08", "table_10", "table_11", "figure_08", "figure_09", "figure_10", "figure_12"]
 
 
-def in_report(made: dict[str, str]) -> dict[str, list[str]]:
+def in_report(made):
     """Return category -> names of what the report must show, of all files that the workflow makes."""
     endings = {
         "figures": r"figures/.*\.png",

@@ -6,7 +6,6 @@ import subprocess
 import sys
 import time
 from itertools import pairwise
-from pathlib import Path
 
 import pytest
 
@@ -20,7 +19,7 @@ ENTRY = str(ROOT / "reproduce")
 CHECK_S = 1.0  # 0.1 s on an idle machine
 
 
-def call(*words: str | Path, folder: Path = ROOT, **variables: str) -> subprocess.CompletedProcess[str]:
+def call(*words, folder=ROOT, **variables):
     """Run a command in a folder and return what it printed, its two streams together."""
     both = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True, "check": False}
     return subprocess.run(list(map(str, words)), cwd=folder, env={**os.environ, **variables}, **both)

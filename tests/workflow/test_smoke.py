@@ -8,7 +8,6 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -42,30 +41,29 @@ WHOLE_CLUSTER, LONGER = "MOBNET_WHOLE_CLUSTER", 1.5  # asks for the whole line o
 pytestmark = [pytest.mark.slow, pytest.mark.sim]
 
 
-def reproduce(folder: Path, *words: str, command: str = "all") -> subprocess.Popen[bytes]:
+def reproduce(folder, *words, command="all"):
     """Start ./reproduce in a process group of its own."""
     started = [sys.executable, str(folder / "reproduce"), command, *SMOKE, *words]
     with (folder / "out.log").open("ab") as out:
         return subprocess.Popen(started, cwd=folder, stdout=out, stderr=out, start_new_session=True)
 
 
-def told(folder: Path) -> str:
-    """Return what the runs in a folder printed last."""
+def told(folder):
     return (folder / "out.log").read_text()[-5000:]
 
 
-def products(folder: Path) -> dict[str, bytes]:
+def products(folder):
     """Return the content of every table, and of every figure's numbers."""
     found = [*(folder / "tables" / "smoke").iterdir(), *(folder / "figures" / "smoke").glob("*.csv")]
     return {path.name: path.read_bytes() for path in found}
 
 
-def manifest_of(folder: Path) -> str:
+def manifest_of(folder):
     """Return the list of results with their hashes; two runs of the same code have the same."""
     return (folder / "results" / "smoke" / "MANIFEST.sha256").read_text()
 
 
-def names(folder: Path) -> set[str]:
+def names(folder):
     """Return the names of all files but those that only some runs have: Snakemake's own, reports, caches."""
     places = ("results", "tables", "figures", "paper", ".snakemake/scripts", ".cache/tmp")
     return {str(path.relative_to(folder)) for place in places for path in (folder / place).rglob("*")}
@@ -73,7 +71,6 @@ def names(folder: Path) -> set[str]:
 
 @pytest.fixture(scope="module")
 def plan():
-    """What the smoke scale makes."""
     return make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False)
 
 
@@ -92,8 +89,7 @@ def test_smoke_makes_all_that_is_planned(unbroken, plan):
     assert "MOB-Net-LL-s0" in (unbroken / "results" / "smoke" / "runs.html").read_text()
 
 
-def accounts(folder: Path) -> list[Path]:
-    """Return the accounts that jobs wrote beside their logs."""
+def accounts(folder):
     return list((folder / "results" / "smoke" / "logs").rglob("*.json"))
 
 
@@ -118,7 +114,7 @@ def test_second_call_does_nothing(unbroken):
     assert "Nothing to be done" in told(unbroken)
 
 
-def kinds_of_files(names: list[str]) -> dict[str, str]:
+def kinds_of_files(names):
     """Return the last file of each folder's kind of file, such as results/smoke/networks and .csv."""
     return {f"{'/'.join(Path(name).parts[:3])}{Path(name).suffix}": name for name in names}
 
@@ -237,7 +233,7 @@ def test_damaged_recording_stops_with_one_line_and_nothing_half_written(unbroken
     assert not (folder / target).exists()
 
 
-def run_on_cluster(folder: Path, place: Path, *targets: str) -> float:
+def run_on_cluster(folder, place, *targets):
     """Make targets of a project on a cluster of this machine, whose files go to a place; return how long it took [s].
 
     At this scale trainings take seconds, so that they go into the queue together too.
@@ -252,7 +248,7 @@ def run_on_cluster(folder: Path, place: Path, *targets: str) -> float:
     return time.monotonic() - before
 
 
-def with_losses(make_project: Callable[..., Path], unbroken: Path, name: str) -> Path:
+def with_losses(make_project, unbroken, name):
     """Return a copy of a project with its results, of which some are lost."""
     folder = make_project(name, unbroken)
     for part in MADE:
@@ -262,7 +258,7 @@ def with_losses(make_project: Callable[..., Path], unbroken: Path, name: str) ->
     return folder
 
 
-def numbers_below(place: Path) -> dict[str, bytes]:
+def numbers_below(place):
     """Return the content of a file, or of all files of a folder but notes, which tell when and where they were made."""
     found = place.rglob("*") if place.is_dir() else [place]
     return {path.name: path.read_bytes() for path in found if path.is_file() and path.suffix != ".json"}

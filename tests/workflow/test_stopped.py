@@ -35,14 +35,14 @@ except DataError as error:
 pytestmark = [pytest.mark.slow, pytest.mark.sim]
 
 
-def start(folder: Path) -> subprocess.Popen[bytes]:
+def start(folder):
     """Start the run of the target in a process group of its own."""
     words = [sys.executable, str(folder / "reproduce"), TARGET, "--cores", "1"]
     with (folder / "out.log").open("ab") as out:
         return subprocess.Popen(words, cwd=folder, stdout=out, stderr=out, start_new_session=True)
 
 
-def kill_when(run: subprocess.Popen[bytes], began: Path) -> None:
+def kill_when(run, began):
     """Kill a run with all its processes as soon as a file is there."""
     end = time.monotonic() + LONGEST_S
     while not began.exists() and time.monotonic() < end:
@@ -52,19 +52,19 @@ def kill_when(run: subprocess.Popen[bytes], began: Path) -> None:
     run.wait()
 
 
-def arrays(folder: Path) -> dict[str, bytes]:
+def arrays(folder):
     """Return the content of the recordings and residuals."""
     places = [folder / "results" / "smoke" / kind for kind in ARRAYS]
     return {str(path): path.read_bytes() for place in places for path in place.rglob("*") if path.is_file()}
 
 
-def git(folder: Path, *words: str) -> None:
+def git(folder, *words):
     """Run git with a made-up author."""
     author = ("-c", "user.name=Somebody", "-c", "user.email=somebody@example.org", "-c", "commit.gpgsign=false")
     subprocess.run(["git", *author, *words], cwd=folder, check=True, capture_output=True)
 
 
-def refusal(folder: Path, *changes: str) -> str:
+def refusal(folder, *changes):
     """Return why the results are not those of the commit and of a configuration; nothing if they are."""
     python, changed = str(folder / ".venv" / "bin" / "python"), ("--config", "scale=smoke", *changes)
     words = [python, "-c", CHECK, TARGET, *changed]

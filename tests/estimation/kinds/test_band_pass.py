@@ -1,14 +1,10 @@
 """The band-pass of MOB-fric-BPF: what it lets through, and what it cannot tell."""
 
-from typing import Any
-
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.estimator import Estimate
-from mobnet.core.recording import Sensed
 from mobnet.estimation.filter import FilteredEstimator
 from mobnet.estimation.kinds.band_pass import sections_of
 from mobnet.estimation.methods import build_estimator
@@ -23,20 +19,20 @@ class Given:
 
     joints = ("LL3", "LL4")
 
-    def __init__(self, torque: NDArray[np.float64]) -> None:
+    def __init__(self, torque):
         self.torque = np.stack([torque, -torque], axis=1)
 
-    def init(self) -> int:
+    def init(self):
         return 0
 
-    def step(self, state: int, sample: Sensed) -> tuple[int, Estimate]:
+    def step(self, state, sample):
         return state + 1, Estimate(self.torque[state])
 
-    def estimate(self, sensed: Sensed) -> Estimate:
+    def estimate(self, sensed):
         return Estimate(self.torque, np.ones_like(self.torque))
 
 
-def passed(torque: NDArray[np.float64], sensed: Sensed) -> NDArray[Any]:
+def passed(torque, sensed):
     """Return what comes out for the first joint."""
     return FilteredEstimator(Given(torque), SECTIONS).estimate(sensed).tau_ext[:, 0]
 

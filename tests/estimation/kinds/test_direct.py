@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import ConfigError
-from mobnet.core.joints import JointLayout
 from mobnet.estimation.kinds.direct import DirectEstimator
 from mobnet.estimation.methods import build_estimator
 from mobnet.learning.deployed.limbs import LimbNetworks
@@ -17,7 +16,7 @@ from mobnet.settings.networks import Limb
 HIDDEN = 5
 
 
-def network(limb: str, layout: JointLayout, rng: np.random.Generator) -> GruNetwork:
+def network(limb, layout, rng):
     """Return a random network of a leg, z-scores included."""
     joints, inputs = layout.limb(limb), limb_inputs(layout, Limb(joints=(limb,), Q=(limb,), T=(limb,))).names
     gates, n_in, n_out = 3 * HIDDEN, len(inputs), len(joints)

@@ -5,7 +5,6 @@ import json
 import numpy as np
 import pytest
 
-from mobnet.core.errors import DataError
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.estimation.kinds.friction import FittedFriction, FrictionModel, Options, build, fit, read_friction
 from mobnet.estimation.low_pass import low_pass
@@ -76,18 +75,6 @@ def test_numbers_are_read_by_name(fitted, layout):
     }
     assert friction.stribeck[knee] == KNEE["stribeck_rad_s"]
     assert sum(np.count_nonzero(factors) for factors in friction.terms.values()) == len(TERMS)
-
-
-@pytest.mark.parametrize(("found", "message"), [
-    ({"smoothing_rad_s": 0.02, "joints": {"LL9": KNEE}}, "'LL9' is not accepted; accepted: LL"),
-    ({"smoothing_rad_s": 0.02, "joints": {"LL4": {"coulomb_nm": 1.0}}}, r"joints\.LL4\.static_nm: key is missing"),
-    ({"joints": {}}, "smoothing_rad_s: key is missing; accepted: smoothing_rad_s, joints"),
-])  # fmt: skip
-def test_files_that_are_no_fit_are_refused(found, message, tmp_path, layout):
-    path = tmp_path / "fit.json"
-    path.write_text(json.dumps(found))
-    with pytest.raises(DataError, match=message):
-        read_friction(path, layout.actuated)
 
 
 def test_load_needs_a_limb_whose_network_sees_the_torque(settings, made_up, write_pair, tmp_path):

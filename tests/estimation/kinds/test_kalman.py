@@ -16,7 +16,7 @@ RATE_HZ, GAIN_HZ = 1000.0, 100.0
 OPTIONS = Options(momentum_nms=0.3, walk_nm=2000.0)
 
 
-def by_the_book(options: Options, measured: np.ndarray, known: np.ndarray) -> np.ndarray:
+def by_the_book(options, measured, known):
     """Return d (T,) [N m] from momentum (T,) and the known torque (T,) of the interval before, long after the start."""
     step = 1 / RATE_HZ
     transition, seen = np.array([[1.0, step], [0.0, 1.0]]), np.array([[1.0, 0.0]])

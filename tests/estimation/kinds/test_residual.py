@@ -1,11 +1,8 @@
 """Eq. (15): what a model of the uncertainty leaves of the residual."""
 
-from collections.abc import Sequence
-
 import numpy as np
 import pytest
 
-from mobnet.core.recording import Sensed
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.learning.deployed.networks import Prediction
@@ -19,13 +16,13 @@ class Constant:
 
     joints = LIMB
 
-    def init(self) -> None:
+    def init(self):
         return None
 
-    def step(self, state: None, sample: Sensed) -> tuple[None, Prediction]:
+    def step(self, state, sample):
         return None, Prediction(OFFSET)
 
-    def run_all(self, recordings: Sequence[Sensed]) -> list[Prediction]:
+    def run_all(self, recordings):
         return [Prediction(np.tile(OFFSET, (len(sensed), 1))) for sensed in recordings]
 
 
@@ -35,7 +32,6 @@ def observer(nominal):
 
 
 def test_without_a_model_it_is_the_observer(observer, made_up):
-    """With no model it is equivalent to the observer alone, to the bit."""
     sensed = made_up(0, 0.1).sensed
     estimator = ResidualEstimator(observer, observer.nominal.robot.layout)
     result = estimator.estimate(sensed)

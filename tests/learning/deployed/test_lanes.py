@@ -11,13 +11,13 @@ LENGTHS = (300, 1200, 1, 700, 1200)
 INPUTS, HIDDEN = 5, 24
 
 
-def recordings(seed: int = 0) -> list[np.ndarray]:
+def recordings(seed=0):
     """Return inputs (T_i, n_in) of several recordings."""
     rng = np.random.default_rng(seed)
     return [rng.normal(size=(length, INPUTS)).astype(np.float32) for length in LENGTHS]
 
 
-def summed(state: np.ndarray, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def summed(state, x):
     """Advance a state (1, B, n_in) that adds up what it sees: exact in whatever order lanes are."""
     sums = state + np.cumsum(x, axis=0, dtype=np.float64)
     return sums[-1:], sums
