@@ -1,16 +1,18 @@
 """Made-up recordings: smooth random joint motion and an uncertainty torque that the inputs explain."""
 
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
 from browser import BROWSER, Browser
+from made_swings import unseen
 from numpy.typing import NDArray
 
 from mobnet.core.columns import residual_columns
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
-from mobnet.core.recording import Recording, Sensed, Truth, write_recording
+from mobnet.core.recording import Recording, Sensed, write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.recipe import Recipe
 from mobnet.plan.precision import with_precision
@@ -136,9 +138,7 @@ def mirrored(robot):
     images = [{"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:] for name in names]
     partner = np.array([names.index(name) for name in images])
     pseudo = np.array([-1.0, 1.0, -1.0])
-    sign = np.array(
-        [robot.joints[p].axis @ (pseudo * joint.axis) for p, joint in zip(partner, robot.joints, strict=True)]
-    )
+    sign = np.array([robot.joints[p].axis @ (pseudo * j.axis) for p, j in zip(partner, robot.joints, strict=True)])
 
     def mirror(q, v, s):
         q, v, s = q.copy(), v.copy(), s.copy()
@@ -191,17 +191,7 @@ def _recording(layout: JointLayout, rng: np.random.Generator, samples: int, segm
     torque, external = _sines(time, layout.nu, rng, 30.0)[0], _sines(time, layout.nv, rng, 20.0)[0]
     acc = _sines(time, 3, rng, 1.0)[0] + [0, 0, 9.81]
     sensed = Sensed(q, v, acc, torque, torque, np.zeros((samples, 2)), np.zeros((samples, 5)), np.zeros((samples, 2)))
-    none, wrench = np.zeros((samples, 1)), np.zeros((samples, 6))
-    truth = Truth(
-        external,
-        wrench,
-        wrench,
-        np.ones((samples, 2)),
-        none,
-        np.zeros_like(torque),
-        np.zeros_like(external),
-        np.zeros((samples, 4)),
-    )
+    truth = replace(unseen(layout, samples), tau_ext=external, contact=np.ones((samples, 2)))
     edges = np.linspace(0, samples, segments + 1).round().astype(int)
     spans = tuple((int(a), int(b)) for a, b in pairwise(edges))
     meta = {"scenario": "made_up", "level": "all_uncertainty", "seed": int(rng.integers(1 << 30))}

@@ -52,9 +52,7 @@ def test_caches_of_a_command_lie_beside_the_environment_unless_a_user_says_where
     (venv / "bin" / "python").write_text('#!/bin/sh\necho "$XDG_CACHE_HOME|$MPLCONFIGDIR"\n')
     relocate(venv)
     environment = {name: value for name, value in os.environ.items() if name not in ("XDG_CACHE_HOME", "MPLCONFIGDIR")}
-    done = subprocess.run(
-        [venv / "bin" / "plain"], capture_output=True, text=True, check=True, env={**environment, **given}
-    )
+    done = subprocess.run([venv / "bin" / "plain"], capture_output=True, text=True, check=True, env=environment | given)
     xdg, drawn = (Path(path).resolve() for path in done.stdout.strip().split("|"))
     cache = venv.parent / ".cache"
     assert (xdg, drawn) == ((Path("/mine"),) * 2 if given else (cache / "xdg", cache / "matplotlib"))

@@ -149,11 +149,7 @@ def told(copy):
 
 def test_each_task_of_the_guide_touches_few_files():
     assert [block.file for block in SCENARIO] == [DATA, DATA]
-    assert [list(yaml.safe_load(block.text)) for block in (*SCENARIO, *ERRORS)] == [
-        ["plates_walk"],
-        ["plates"],
-        ["roughness"],
-    ]
+    assert [[*yaml.safe_load(b.text)] for b in (*SCENARIO, *ERRORS)] == [["plates_walk"], ["plates"], ["roughness"]]
     assert [block.file for block in (*ERRORS, MEASURE[1])] == [EVALUATION] * 2
     assert Path(MEASURE[0].file).parent == Path("src/mobnet/evaluation/measure/estimates")
     assert len({block.file for block in FIGURE if not block.file.startswith("tests/")}) == 3

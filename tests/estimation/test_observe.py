@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from made_swings import unseen
 
 from mobnet.core.columns import residual_columns
-from mobnet.core.recording import Recording, Truth, write_recording
+from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import read_array
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observe import observe, observer_of, zeroed
@@ -22,11 +23,7 @@ META = {"scenario": "random_walk", "level": "ideal", "seed": 3}
 def recording(robot, follow):
     """Two segments of a tenth of a second each."""
     sensed, tau_ext = follow(RATE_HZ, 0.199, np.zeros(robot.layout.nu))
-    wrench = np.zeros((len(sensed), 6))
-    touch, pushed = np.zeros((len(sensed), 2)), np.zeros((len(sensed), 1))
-    truth = Truth(
-        tau_ext, wrench, wrench, touch, pushed, 0.0 * sensed.tau_des, 0.0 * tau_ext, np.zeros((len(sensed), 4))
-    )
+    truth = replace(unseen(robot.layout, len(sensed)), tau_ext=tau_ext)
     return Recording(sensed, ((0, 100), (100, 200)), RATE_HZ, META, truth)
 
 
@@ -111,9 +108,7 @@ def test_level_picks_the_nominal_model(settings, robot):
     assert {ratios[level] for level in ratios.keys() - lighter} == {1.0}
 
 
-def test_lighter_nominal_model_leaves_a_share_of_what_is_needed_in_the_residual(
-    run, recording, written, tmp_path, robot
-):
+def test_a_lighter_model_leaves_a_share_of_what_is_needed_in_the_residual(run, recording, written, tmp_path, robot):
     stem = written(replace(recording, meta={**META, "level": "all_uncertainty"}))
     run(stem, tmp_path / "out", "all_uncertainty")
     array, meta = read_array(tmp_path / "out")

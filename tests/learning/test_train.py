@@ -52,7 +52,7 @@ def test_it_writes_weights_metrics_and_a_note(small, tmp_path):
 
 @pytest.mark.parametrize(
     ("method", "changes"),
-    [("MOB-Net", {}), ("MOB-Net", {"divergence_loss": -100.0, "may_diverge": True}), ("GRU-spectral", {}), ("TCN", {})],
+    [("MOB-Net", {"divergence_loss": -100.0, "may_diverge": True}), ("GRU-spectral", {}), ("TCN", {})],
 )
 def test_what_a_training_writes_is_accepted(method, changes, small, tmp_path):
     training = small.training(method, "LL", epochs=1, **changes)

@@ -114,9 +114,7 @@ def refusals(wrong, needed):
     """Return changes of a note with what is told of them: values that a place does not accept, and places lost."""
     values = [(place, value) for place, values in wrong.items() for value in values]
     return {
-        **{
-            f"{k} as {v!r}": (set_at(k, v), f"{k}: {re.escape(repr(v))} is not accepted; accepted: ") for k, v in values
-        },
+        **{f"{k} as {v!r}": (set_at(k, v), f"{k}: {re.escape(repr(v))} is not accepted; ") for k, v in values},
         **{f"{place} is gone": (lost(place), f"{place}: key is missing; accepted: ") for place in needed.split()},
     }
 

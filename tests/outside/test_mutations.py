@@ -49,14 +49,9 @@ def outcome(read):
 
 def same(one, two):
     """Return whether two recordings are equal to the bit."""
-    arrays = [
-        (getattr(r, part), name) for r in (one, two) for part in ("sensed", "truth") for name in vars(getattr(r, part))
-    ]
-    half = len(arrays) // 2
-    pairs = zip(arrays[:half], arrays[half:], strict=True)
-    return one.segments == two.segments and one.rate_hz == two.rate_hz and all(
-        np.array_equal(getattr(a, name), getattr(b, name)) for (a, name), (b, _) in pairs
-    )  # fmt: skip
+    pairs = [(getattr(one, part), getattr(two, part)) for part in ("sensed", "truth")]
+    equal = (np.array_equal(getattr(a, name), getattr(b, name)) for a, b in pairs for name in vars(a))
+    return one.segments == two.segments and one.rate_hz == two.rate_hz and all(equal)
 
 
 @FEW

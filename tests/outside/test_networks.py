@@ -111,10 +111,7 @@ DAMAGES = {
         for name, values in ABOVE_0.items()
         for value in values
     },
-    "a tensor is gone": (
-        lambda t, n: t.pop("head.bias") is None,
-        r"tensor 'head.bias' is missing; accepted: shape \[12\]",
-    ),
+    "a tensor is gone": (lambda t, n: t.pop("head.bias") is None, r"tensor 'head.bias' is missing; .* \[12\]"),
     "z-scores are gone": (lambda t, n: t.pop("input.mean") is None, "tensor 'input.mean' is missing"),
     "a tensor more": (lambda t, n: t.update(extra=np.zeros(3, np.float32)), "tensor: 'extra' is not .*: cell"),
     "transposed": (tensor("head.weight", np.transpose), r"tensor 'head.weight': shape: \[5, 12\] is not .*: \[12, 5\]"),
@@ -126,19 +123,10 @@ DAMAGES = {
     "NaN in a weight": (entry("cell.weight_hh_l0", np.nan), r"tensor 'cell.weight_hh_l0', entry \[0, 0\]: nan is not"),
     "infinite bias": (entry("head.bias", np.inf), r"tensor 'head.bias', entry \[0\]: inf is not .*finite numbers"),
     "limb of another": (noted(limb="RL"), "'RL' with joints|network of limb 'RL' with joints LL1"),
-    "joints of another": (
-        noted(joints=[f"RL{i}" for i in range(1, 7)]),
-        "network of limb 'LL' with joints RL1.*accepted: 'LL'",
-    ),
+    "joints of another": (noted(joints=[f"RL{i}" for i in range(1, 7)]), "limb 'LL' with joints RL1.*accepted: 'LL'"),
     "a joint twice": (noted(joints=["LL1"] * 6), "joints: 'LL1' occurs 6 times; accepted: once"),
-    "a joint less": (
-        noted(joints=[f"LL{i}" for i in range(1, 6)]),
-        r"'head.weight': shape: \[12, 5\] is not .*\[10, 5\]",
-    ),
-    "an input less": (
-        lambda t, n: n["inputs"].pop() and None,
-        r"tensor 'cell.weight_ih_l0': shape: \[15, 30\] .*\[15, 29\]",
-    ),
+    "a joint less": (noted(joints=[f"LL{i}" for i in range(1, 6)]), r"'head.weight': shape: \[12, 5\] is not .*\[10"),
+    "an input less": (lambda t, n: n["inputs"].pop() and None, r"'cell.weight_ih_l0': shape: \[15, 30\] .*\[15, 29\]"),
     "an input of another robot": (lambda t, n: n["inputs"].__setitem__(0, "q.XX1"), "input: 'q.XX1' is not accepted"),
     "an input twice": (lambda t, n: n["inputs"].__setitem__(1, n["inputs"][0]), "inputs: 'q.LL1' occurs 2 times"),
     "a key more": (noted(colour="red"), "colour: 'red' is not accepted; accepted: no such key, but name, limb"),

@@ -89,29 +89,21 @@ def test_a_note_that_breaks_the_contract_is_refused(name, copied, refused):
     assert len(re.findall(says, lines)) >= 2, lines
 
 
-JOINTS = [f"LL{i}" for i in range(1, 7)]
+Q, V = ([f"{signal}.LL{i}" for i in range(1, 7)] for signal in "qv")
+QUAT = [f"q.quat_{a}" for a in "wxyz"]
 TABLES = {
     "NaN": (put("q.LL3", 5, np.nan), "column 'q.LL3', row 5: nan is not accepted; accepted: finite numbers"),
     "infinite": (put("tau_motor.LL3", 1199, np.inf), "column 'tau_motor.LL3', row 1199: inf is not accepted"),
-    "quaternion of norm 2": (
-        scaled([f"q.quat_{a}" for a in "wxyz"], 2.0),
-        "column 'q.quat_w', row 0: 2|q.quat_w'.*norm",
-    ),
-    "quaternion of norm 0.5": (scaled([f"q.quat_{a}" for a in "wxyz"], 0.5), "row 0: norm: 0.5 is not .*accepted: 1"),
+    "quaternion of norm 2": (scaled(QUAT, 2.0), "column 'q.quat_w', row 0: 2|q.quat_w'.*norm"),
+    "quaternion of norm 0.5": (scaled(QUAT, 0.5), "row 0: norm: 0.5 is not .*accepted: 1"),
     "one bad quaternion": (put("q.quat_x", 77, 0.9), "'q.quat_w' to 'q.quat_z', row 77: norm"),
-    "positions in degrees": (
-        scaled([f"q.{j}" for j in JOINTS], 57.3),
-        "v of LL1, LL2, LL3 and 3 more: an integral of 0.017",
-    ),
-    "velocities in degrees": (
-        scaled([f"v.{j}" for j in JOINTS], 57.3),
-        "v of LL1, .*: an integral of 57.3 x the change",
-    ),
+    "positions in degrees": (scaled(Q, 57.3), "v of LL1, LL2, LL3 and 3 more: an integral of 0.017"),
+    "velocities in degrees": (scaled(V, 57.3), "v of LL1, .*: an integral of 57.3 x the change"),
     "both in degrees": (scaled([f"{s}.LL4" for s in "qv"], 5730.0), "column 'q.LL4', row 0: .* is not .*3.24 rad"),
     "one velocity of wrong sign": (scaled(["v.LL4"], -1.0), "v of LL4: an integral of -1 x the change of q"),
     "omega in degrees": (scaled([f"v.omega_{a}" for a in "xyz"], 57.3), "v.omega of .*: an integral of 57.*q.quat"),
     "omega of wrong sign": (scaled([f"v.omega_{a}" for a in "xyz"], -1.0), "v.omega of x, y, z: an integral of -1"),
-    "quaternion x y z w": (moved([f"q.quat_{a}" for a in "wxyz"]), "v.omega of .* the change of q.quat"),
+    "quaternion x y z w": (moved(QUAT), "v.omega of .* the change of q.quat"),
     "two joints swapped": (moved(["q.LL3", "q.LL4"]), "v of LL3, LL4: an integral"),
     "no gravity": (scaled(["acc.z"], 0.0), "acc, turned into world axes: mean: .* is not .*: 1.5 to 30"),
     "gravity downwards": (scaled(["acc.z"], -1.0), "acc, turned into world axes: mean"),
@@ -134,17 +126,11 @@ TABLES = {
         lambda t: t.rename_columns(["p", *t.column_names[1:]]),
         "column: 'p' is not accepted; accepted: q.base_x, those that recording.json has",
     ),
-    "integers": (
-        lambda t: t.set_column(0, "q.base_x", [np.zeros(ROWS, int)]),
-        "column 'q.base_x': type: 'int64' is not",
-    ),
+    "integers": (lambda t: t.set_column(0, "q.base_x", [np.zeros(ROWS, int)]), "column 'q.base_x': type: 'int64'"),
     "text": (lambda t: t.set_column(0, "q.base_x", [["0"] * ROWS]), "column 'q.base_x': type: 'string' is not"),
     "lists": (lambda t: t.set_column(0, "q.base_x", [[[0.0]] * ROWS]), "column 'q.base_x': type: 'list<.*' is not"),
     "truth values": (lambda t: t.set_column(0, "q.base_x", [[True] * ROWS]), "column 'q.base_x': type: 'bool' is not"),
-    "dictionary": (
-        lambda t: t.set_column(0, "q.base_x", pa.array(["a"] * ROWS).dictionary_encode()),
-        "type: 'dictionary",
-    ),
+    "codes": (lambda t: t.set_column(0, "q.base_x", pa.array(["a"] * ROWS).dictionary_encode()), "type: 'dictionary"),
     "null": (lambda t: t.set_column(0, "q.base_x", [[None] + [0.0] * (ROWS - 1)]), "'q.base_x', row 0: nan is not"),
     "unit of the table": (
         lambda t: t.cast(t.schema.set(7, t.schema.field(7).with_metadata({"unit": "deg"}))),
@@ -168,10 +154,7 @@ def test_a_table_that_breaks_the_contract_is_refused(name, copied, refused):
 UNREAD = {  # by rule `observe`, which takes of the truth the external torque alone
     "contact of a half": (put("contact.left_foot", 3, 0.5), "'contact.left_foot', row 3: 0.5 is not accepted"),
     "pushed below zero": (put("pushed", 3, -1.0), "column 'pushed', row 3: -1.0 is not accepted; accepted: 0 or 1"),
-    "no force": (
-        put("wrench_left_foot.force_z", 3, np.nan),
-        "column 'wrench_left_foot.force_z', row 3: nan is not accepted",
-    ),
+    "no force": (put("wrench_left_foot.force_z", 3, np.nan), "column 'wrench_left_foot.force_z', row 3: nan is not"),
 }
 
 
@@ -270,7 +253,7 @@ def test_a_residual_or_an_estimate_that_breaks_the_contract_is_refused(kind, cha
 @pytest.mark.parametrize(("change", "says"), [
     (
         set_at("segments", [[0, ROWS]]),
-        r"residual.json: segments: \[\[0, 1200\]\] is not accepted; accepted: \[\[0, 600",
+        r"residual.json: segments: \[\[0, 1200\]\] is not .*: \[\[0, 600",
     ),
     (
         set_at("seed", 8),

@@ -79,10 +79,8 @@ def test_a_sample_is_the_same_to_the_bit_whatever_stands_beside_it(model_of, mac
 
 def test_leading_axes_are_kept(nominal):
     q, v = states(nominal.robot, 6)
-    flat, nested = (
-        momentum_and_beta(nominal, q, v),
-        momentum_and_beta(nominal, q.reshape(2, 3, -1), v.reshape(2, 3, -1)),
-    )
+    flat = momentum_and_beta(nominal, q, v)
+    nested = momentum_and_beta(nominal, q.reshape(2, 3, -1), v.reshape(2, 3, -1))
     for one, other in zip(flat, nested, strict=True):
         np.testing.assert_array_equal(one, other.reshape(6, -1))
 

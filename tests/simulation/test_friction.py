@@ -13,7 +13,7 @@ def friction(settings):
     return make_friction(settings.plant, np.array([True, False]), ["stribeck", "load"])
 
 
-@pytest.mark.parametrize("rate", [-3.0, -0.2, 0.2, 1.51, 6.0])
+@pytest.mark.parametrize("rate", [-3.0, -0.2, 0.2, 1.51, 6.0, 100.0])
 @pytest.mark.parametrize("torque", [-100.0, 0.0, 30.0])
 def test_leg_friction_is_table_4_in_equation_23(friction, rate, torque):
     dry = 5.0 + (2.0 - 5.0) * np.exp(-abs(rate / 1.51)) + 0.002 * torque**2
@@ -38,11 +38,6 @@ def test_friction_is_zero_at_rest_and_rises_smoothly(friction):
     half = friction_torque(friction, LEG, 0.0, 0.0), friction_torque(friction, LEG, 1e-6, 0.0)
     slope = (half[1] - half[0]) / 1e-6
     assert slope == pytest.approx(-2.0 / friction.smoothing - 4.0, rel=1e-4)
-
-
-def test_fast_joint_tends_to_coulomb_and_viscous_friction(friction):
-    """The closed form of (23) far from the Stribeck velocity."""
-    assert friction_torque(friction, LEG, 100.0, 0.0) == pytest.approx(-5.0 - 400.0, rel=1e-12)
 
 
 def test_absent_friction_is_zero(settings):

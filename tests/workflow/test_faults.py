@@ -18,10 +18,7 @@ QUICK, SLOW = "tables/smoke/table_01.csv", "results/smoke/recordings/forward_wal
 ONE_CORE = ("--cores", "1", *SMOKE, "--")
 MOMENTS_S = (0.3, 1.0, 2.0, 4.0, 8.0)  # after the start: before and while the workflow is planned, while jobs run
 SOON_S, LONGEST_S = 15.0, 300.0  # five and thirty on an idle machine
-STOPPED, AGAIN = (
-    "stopped; the same command goes on from here",
-    "held by another run in this folder; waiting for the end",
-)
+STOPPED, AGAIN = ("stopped; the same command goes on from here", "held by another run in this folder; waiting")
 
 pytestmark = [pytest.mark.slow, pytest.mark.sim]
 

@@ -84,12 +84,8 @@ def test_a_killed_run_that_went_on_is_one_run(make_project):
     assert start(folder).wait() == 0, (folder / "out.log").read_text()
     resumed = arrays(folder)
     assert refusal(folder) == ""
-    check = [
-        sys.executable,
-        str(folder / "reproduce"),
-        "check",
-        *(str(folder / "results/smoke" / kind) for kind in ARRAYS),
-    ]
+    places = [str(folder / "results/smoke" / kind) for kind in ARRAYS]
+    check = [sys.executable, str(folder / "reproduce"), "check", *places]
     assert subprocess.run(check, cwd=folder, check=False, capture_output=True).returncode == 0
     for path in map(Path, resumed):
         path.unlink()
