@@ -52,7 +52,6 @@ class Browser:
             self.tell(f"{part}.enable")
 
     def close(self) -> None:
-        """End the browser and wait until it has gone."""
         os.close(self._write)
         self.process.wait(WAIT_S)
         os.close(self._read)
@@ -93,7 +92,6 @@ class Browser:
         self.until("location.protocol + document.readyState", "file:complete")
 
     def click(self, selector: str) -> None:
-        """Press the mouse in the middle of an element."""
         box = self.value(
             f"(() => {{const e = document.querySelector({json.dumps(selector)}); e.scrollIntoView({{block: 'center'}});"
             "const b = e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]})()"
@@ -102,6 +100,5 @@ class Browser:
             self.tell("Input.dispatchMouseEvent", type=kind, x=box[0], y=box[1], button="left", clickCount=1)
 
     def press(self, key: str, code: int, text: str = "") -> None:
-        """Press a key."""
         for kind in ("keyDown", "keyUp"):
             self.tell("Input.dispatchKeyEvent", type=kind, key=key, code=key, windowsVirtualKeyCode=code, text=text)

@@ -70,7 +70,6 @@ def robot(robot_table):
 
 @pytest.fixture(scope="session")
 def arm_table():
-    """A two-link arm on a fixed base."""
     return load_section(ROOT / "tests" / "data" / "arm.yaml", RobotTable)
 
 

@@ -18,7 +18,6 @@ GOLDEN = Path(__file__).parent / "golden"
 
 
 def write_rows(path: Path, rows: Sequence[Any], kind: type[Any] = Score) -> None:
-    """Write dataclass rows, one column a field."""
     write_csv(path, [field.name for field in fields(kind)], [astuple(row) for row in rows])
 
 
@@ -36,7 +35,6 @@ def check_golden(*produced: Path) -> None:
 
 
 def _value(text: str) -> str | float | None:
-    """Return a field as a number if it is one, as None if it is empty."""
     try:
         return float(text) if text else None
     except ValueError:

@@ -100,14 +100,8 @@ def answer(monkeypatch, **outputs):
 def test_cpu_is_looked_for_everywhere_before_cuda_is_taken(tools, monkeypatch, capsys):
     calls = answer(monkeypatch, **{"--torch-backend=cpu": OFFLINE, "cpu.txt": NOTHING})
     assert install.install(tools, "cpu", is_asked=False) == "cuda"
-    tried = [("--offline" in call, "--torch-backend=cpu" in call, "-m pip" in call) for call in calls]
-    assert tried[:5] == [
-        (True, False, False),
-        (True, True, False),
-        (False, False, False),
-        (False, True, False),
-        (False, False, True),
-    ]
+    tried = [tuple(word in call for word in ("--offline", "--torch-backend=cpu", "-m pip")) for call in calls]
+    assert tried[:5] == [(1, 0, 0), (1, 1, 0), (0, 0, 0), (0, 1, 0), (0, 0, 1)]
     assert "the CUDA build is taken, 6.4 GB in all" in capsys.readouterr().err
 
 
@@ -119,10 +113,7 @@ def test_cpu_that_is_asked_for_is_not_replaced(tools, monkeypatch):
 
 @pytest.mark.parametrize(("output", "line"), [
     (OFFLINE, "no package registry can be reached; connect to a network"),
-    (
-        "WARNING: [Errno -3] Temporary failure in name resolution\nERROR: No matching distribution",
-        "no package registry",
-    ),
+    ("WARNING: Temporary failure in name resolution\nERROR: No matching distribution", "no package registry"),
     ("error: failed to copy: No space left on device (os error 28)", "the disk is full"),
     ("error: Hash mismatch for `numpy==2.4.6`", "a package differs from its hash in environment.lock"),
     ("error: Permission denied (os error 13)", "no right to write"),

@@ -105,7 +105,6 @@ def test_a_stopped_setup_is_begun_again(project, stubs, monkeypatch, capsys):
 
 
 def stop(_):
-    """Be Ctrl-C."""
     raise KeyboardInterrupt
 
 

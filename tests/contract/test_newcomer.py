@@ -29,7 +29,6 @@ def example(language):
 
 @pytest.fixture(scope="module")
 def extended():
-    """The configuration with the example's row."""
     return load_settings(overrides={"scale": "smoke", "methods": yaml.safe_load(example("yaml"))})
 
 

@@ -11,7 +11,6 @@ DRIFT = np.array([0.1, -0.05, 0.02])  # error of the base velocity at the start 
 
 
 def run(walker, q, v, acc, seconds):
-    """Advance the filter; the joints move on with their velocities in v."""
     for _ in range(round(seconds / TICK_S)):
         update(walker.tree, q, v, walker.gravity, walker.pose)
         update_base(walker, acc, TICK_S, q, v)

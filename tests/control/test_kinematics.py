@@ -17,7 +17,6 @@ def model(robot):
 
 @pytest.fixture(params=SEEDS)
 def data(model, random_pose, request):
-    """MuJoCo's data in the walker's pose, a random one."""
     return mujoco_at(model, *random_pose(request.param))
 
 

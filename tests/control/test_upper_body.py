@@ -16,7 +16,6 @@ def upper():
 
 
 def at(upper, clock):
-    """Return wanted positions and velocities at a clock."""
     q, v = np.zeros(3), np.zeros(3)
     follow(upper, clock, q, v)
     return q, v

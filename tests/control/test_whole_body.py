@@ -106,7 +106,6 @@ def stand(walker, crouched, s, k, dt=0.0):
 
 @pytest.mark.parametrize("k", LEGS)
 def test_stance_torque_is_the_force_through_mujoco_s_jacobian(walker, robot, crouched, stepping, k):
-    """MuJoCo's Jacobian of the point under the foot is the reference."""
     q, _ = crouched
     stepping.force, stepping.load = [40.0, -25.0, 900.0], [0.6, 0.4]
     foot = walker.feet[k]

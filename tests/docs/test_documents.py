@@ -18,7 +18,6 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 
 
 def links(page):
-    """Return the files and folders to which a page links."""
     return [(page.parent / name).resolve() for name in LINK.findall(page.read_text())]
 
 

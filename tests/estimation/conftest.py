@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.columns import COMMAND, FEET
 from mobnet.core.recording import Sensed
+from mobnet.estimation.observer import MomentumObserver
 from mobnet.robot.dynamics import inverse_dynamics
 
 SUB_STEPS = 2  # plant ticks in a sample
@@ -90,3 +91,8 @@ def follow(nominal, trajectory):
         return sensed_of(q, v, needed[:, 6:] - external), truth
 
     return run
+
+
+@pytest.fixture
+def observer(nominal):
+    return MomentumObserver(nominal, 100.0, 1000.0)

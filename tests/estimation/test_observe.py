@@ -29,8 +29,6 @@ def recording(robot, follow):
 
 @pytest.fixture
 def written(robot, tmp_path):
-    """A function that writes a recording and returns its stem."""
-
     def write(recording):
         write_recording(tmp_path / "s3", recording, robot.layout)
         return tmp_path / "s3"
@@ -40,8 +38,6 @@ def written(robot, tmp_path):
 
 @pytest.fixture
 def run(settings):
-    """A function recording, out, level that runs the rule."""
-
     def observed(recording, out, level="ideal"):
         gravity = settings.plant.gravity_m_s2
         observe(settings.robot, settings.levels[level], gravity, settings.observer, recording, out)

@@ -17,11 +17,6 @@ BOUND_NM = 0.004  # holds at 1 ms for the scheme and for none of its mutants
 
 
 @pytest.fixture
-def observer(nominal):
-    return MomentumObserver(nominal, GAIN_HZ, RATE_HZ)
-
-
-@pytest.fixture
 def pushed(nominal, follow):
     """A function rate_hz -> what is sensed and the true external torque while LL3 is pushed by 30 N m."""
     external = np.zeros(nominal.robot.layout.nu)
@@ -64,16 +59,12 @@ def test_converges_with_second_order(nominal, pushed):
     np.testing.assert_allclose(orders, 2, atol=0.1)
 
 
-@pytest.mark.parametrize(
-    "mutant",
-    [
-        {"pole": np.exp(-GAIN_HZ / RATE_HZ), "shift": 1},
-        {"pole": np.exp(-GAIN_HZ / RATE_HZ), "share": 1.0},
-        {"pole": np.exp(-GAIN_HZ / RATE_HZ), "share": 0.0},
-        {"pole": 1 - GAIN_HZ / RATE_HZ},
-    ],
-    ids=["late torque", "beta after the step", "beta before the step", "Euler's pole"],
-)
+@pytest.mark.parametrize("mutant", [
+    {"pole": np.exp(-GAIN_HZ / RATE_HZ), "shift": 1},
+    {"pole": np.exp(-GAIN_HZ / RATE_HZ), "share": 1.0},
+    {"pole": np.exp(-GAIN_HZ / RATE_HZ), "share": 0.0},
+    {"pole": 1 - GAIN_HZ / RATE_HZ},
+], ids=["late torque", "beta after the step", "beta before the step", "Euler's pole"])  # fmt: skip
 def test_mutants_of_the_scheme_miss_the_bound(nominal, pushed, mutant):
     assert push_error(nominal, recursion(nominal, pushed(RATE_HZ)[0], **mutant), RATE_HZ) > 10 * BOUND_NM
 

@@ -41,13 +41,11 @@ class Small:
         return load_limb_data(self.layout, training.network, training.target, self.recordings, self.residuals)
 
     def arguments(self, training, folder, start=None):
-        """Return what `train_all` gets; results go below a folder."""
         network = Repetition(training, 0, folder / "out", folder / "state", start)
         data = {"recordings": self.recordings, "residuals": self.residuals}
         return {"root_seed": 1, "layout": self.layout, "networks": [network], **data, "stage": Stage(folder / "s", "")}
 
     def train(self, training, folder):
-        """Train, and return the folder of the result."""
         train_all(**self.arguments(training, folder))
         return folder / "out"
 
@@ -56,3 +54,8 @@ class Small:
 def small(settings, tmp_path, made_up, write_pair):
     stems = [write_pair(tmp_path / "data", made_up(seed, 4.0, segments=2)) for seed in (0, 1)]
     return Small(settings, *map(list, zip(*stems, strict=True)))
+
+
+@pytest.fixture
+def data(small):
+    return small.data(small.training())

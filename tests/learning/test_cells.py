@@ -142,7 +142,6 @@ def test_gradients_in_bfloat16_are_those_of_float32(method, settings):
 
 
 def test_lstm_state_is_hidden_and_cell_state():
-    """Torch's own LSTM is the reference."""
     torch.manual_seed(0)
     cell, x = Lstm(3, 8), _inputs(10)
     state = torch.randn(2, 4, 8)

@@ -25,7 +25,6 @@ def trained(steps):
 
 
 def advance(pair):
-    """Make one update towards zero."""
     pair[1].zero_grad()
     pair[0](torch.ones(5, 2, 3), pair[0].fresh_state(2))[0].square().sum().backward()
     pair[1].step()

@@ -27,7 +27,6 @@ def precision(request):
 
 
 def run(cell, stretch, precision):
-    """Run in a number format."""
     with torch.autocast("cpu", precision, enabled=precision != torch.float32):
         return run_gru(cell, *stretch)
 

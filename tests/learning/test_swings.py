@@ -101,11 +101,6 @@ def trained(small, tmp_path):
     return small.train(small.training(epochs=2), tmp_path / "first") / WEIGHTS
 
 
-@pytest.fixture
-def data(small):
-    return small.data(small.training())
-
-
 def test_a_fine_tuning_begins_with_weights_and_scales_of_its_network(small, trained, data):
     """And no draw of its own: two seeds begin alike."""
     tensors, _ = read_weights(trained)

@@ -16,11 +16,6 @@ EPOCHS = 5
 
 
 @pytest.fixture
-def data(small):
-    return small.data(small.training())
-
-
-@pytest.fixture
 def trainer(small, data):
     """Return a function of changes of how a network learns that sets a training up."""
     return lambda epochs=EPOCHS, **learning: Trainer(TrainingJob(small.training(epochs=epochs, **learning), 0, 1), data)

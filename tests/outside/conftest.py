@@ -40,7 +40,6 @@ def sound(tmp_path_factory, made_up, layout):
 
 @pytest.fixture
 def copied(sound, tmp_path):
-    """A copy of that folder, to damage."""
     for file in sound.iterdir():
         (tmp_path / file.name).write_bytes(file.read_bytes())
     return tmp_path
@@ -62,7 +61,6 @@ def refused(settings):
 
 
 def refusal_of(path):
-    """Return the lines with which a check refuses a file."""
     with pytest.raises(MobnetError) as found:
         check(path, AGAINST)
     return told(str(found.value))
@@ -125,7 +123,6 @@ def without_footer(note):
 
 
 def changed_table(stem, change):
-    """Replace the table of an array by what a function makes of it."""
     path = stem.with_suffix(".parquet")
     pq.write_table(change(pq.read_table(path)), path)
 

@@ -77,7 +77,6 @@ def at(value, place):
 
 @st.composite
 def changes(draw):
-    """Draw a change of JSON: somewhere, a value becomes another one or is gone."""
     where, junk, gone = draw(st.floats(0, 1, exclude_max=True)), draw(JUNK), draw(st.booleans())
 
     def change(value):

@@ -251,14 +251,8 @@ def test_a_residual_or_an_estimate_that_breaks_the_contract_is_refused(kind, cha
 
 
 @pytest.mark.parametrize(("change", "says"), [
-    (
-        set_at("segments", [[0, ROWS]]),
-        r"residual.json: segments: \[\[0, 1200\]\] is not .*: \[\[0, 600",
-    ),
-    (
-        set_at("seed", 8),
-        "residual.json: seed: 8 is not accepted; accepted: 3, as in .*recording.json, its recording",
-    ),
+    (set_at("segments", [[0, ROWS]]), r"residual.json: segments: \[\[0, 1200\]\] is not .*: \[\[0, 600"),
+    (set_at("seed", 8), "residual.json: seed: 8 is not accepted; accepted: 3, as in .*recording.json, its recording"),
     (set_at("level", "ideal"), "residual.json: level: 'ideal' is not accepted; accepted: 'all_uncertainty'"),
     (set_at("rate_hz", 500.0), "residual.json: rate_hz: 500.0 is not accepted; accepted: 1000.0"),
 ])  # fmt: skip

@@ -14,7 +14,6 @@ WRENCH = np.array([10.0, -20.0, 300.0, 4.0, -5.0, 6.0])
 
 @pytest.mark.parametrize("side", SIDES)
 def test_torque_of_a_foot_equals_the_plant_s(nominal, plant, random_state, side):
-    """MuJoCo's mj_applyFT is the reference."""
     q, _ = random_state(0)
     data = mujoco.MjData(plant)
     data.qpos[:] = q

@@ -51,19 +51,15 @@ def test_the_reason_is_told_with_a_remedy_where_there_is_one(tmp_path, text, why
     assert "\n" not in told
 
 
-@pytest.mark.parametrize(
-    ("text", "place", "says"),
-    [
-        (
-            OVER,
-            "rule_train/_MOB-Net_LL_0",
-            f"train (MOB-Net_LL_0): ended by SLURM above its 100 MB; {MORE} train:mem_mb=200",
-        ),
-        ("", "rule_train/_MOB-Net_LL_0", "train (MOB-Net_LL_0): no word of why (log: "),
-        (OVER, "rule_table_05", f"table_05: ended by SLURM above its limit; {MORE} table_05:mem_mb=MB"),
-    ],
-    ids=["before Snakemake began", "without a word", "without a known limit"],
-)
+@pytest.mark.parametrize(("text", "place", "says"), [
+    (
+        OVER,
+        "rule_train/_MOB-Net_LL_0",
+        f"train (MOB-Net_LL_0): ended by SLURM above its 100 MB; {MORE} train:mem_mb=200",
+    ),
+    ("", "rule_train/_MOB-Net_LL_0", "train (MOB-Net_LL_0): no word of why (log: "),
+    (OVER, "rule_table_05", f"table_05: ended by SLURM above its limit; {MORE} table_05:mem_mb=MB"),
+], ids=["before Snakemake began", "without a word", "without a known limit"])  # fmt: skip
 def test_a_job_is_named_by_its_place_whatever_it_says(tmp_path, text, place, says):
     (told,) = told_of(tmp_path, text, place=place)
     assert told.startswith(says)

@@ -29,7 +29,6 @@ def altered(settings, **sections):
 
 
 def merged(value, change):
-    """Return a value with the keys of a change in place of its own."""
     if not isinstance(change, dict):
         return change
     own = {key: getattr(value, key) for key in value.model_fields_set} if isinstance(value, BaseModel) else value
@@ -91,3 +90,8 @@ def run():
         return Log(rows, done, columns)
 
     return advance
+
+
+@pytest.fixture(scope="session")
+def motion(settings):
+    return settings.motions["random_motion"]

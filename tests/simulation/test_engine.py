@@ -6,7 +6,6 @@ import mujoco
 import numpy as np
 import pytest
 
-from mobnet.control.parameters import empty_state
 from mobnet.control.walking import walk
 from mobnet.robot.description import SIDES
 from mobnet.robot.plant import sole_name
@@ -195,22 +194,6 @@ def test_robot_never_leaves_the_terrain(simulate, run):
     assert np.abs(log["q"][:, :2]).max() < simulator.plant.edge + 0.05
     assert ((step < 0.01) | (np.abs(step - simulator.plant.period) < 0.01)).all()
     assert (step > 0.01).any()  # it walked further than a period
-
-
-@pytest.mark.parametrize("side", [1.0, -1.0])
-@pytest.mark.parametrize("swinging", [0, 1])
-def test_random_torque_never_acts_on_a_support_leg(simulate, side, swinging):
-    simulator = simulate("flat_walk", "ideal")
-    walker, s, tau, added = simulator.walker, empty_state(), np.zeros(33), np.ones(33)
-    torque = simulator.torque._replace(value=np.ones(33), left=np.full(33, 1.0))
-    s.side, s.swinging = side, swinging
-    engine._explore(walker, s, torque, np.random.default_rng(0), 0.0005, tau, added)
-    np.testing.assert_array_equal(added, 1.0 + tau)
-    pushed = {"LL": tau[:6], "RL": tau[6:12]}
-    swing = {1.0: "RL", -1.0: "LL"}[side]
-    for leg, values in pushed.items():
-        assert (values == float(swinging == 1 and leg == swing)).all()
-    assert (tau[12:] == 1).all()
 
 
 def tick(simulator, run, torque):

@@ -21,11 +21,6 @@ NAME = "random_motion"
 
 
 @pytest.fixture(scope="module")
-def motion(settings):
-    return settings.motions[NAME]
-
-
-@pytest.fixture(scope="module")
 def make(settings):
     """A function (motion, seed, seconds, out) that writes a motion."""
     return lambda motion, *rest: make_motion(settings.seed, settings.robot, motion, NAME, *rest)
@@ -122,7 +117,6 @@ def test_targets_fill_their_range_evenly_within_the_band(motion):
 
 
 def test_arms_are_stretched_from_the_shoulder(robot, motion):
-    """Straight ahead and to the outside, at the distances of the configuration."""
     spans = {"hand_azimuth_rad": (0.0, np.pi), "hand_elevation_rad": (-1.0, 1.0), "hand_distance_m": (0.2, 0.6)}
     centre, motion = shoulder(robot), motion.model_copy(update=spans)
     ahead, aside = hand_targets(centre, motion, np.array([[-1, 0, 1, -1, 0, 1], [0, 0, -1, 0, 0, -1.0]]))

@@ -36,8 +36,6 @@ def test_struct_offsets_read_what_python_s_views_hold(world):
 
 
 def test_compiled_code_reads_the_constraint_rows(world):
-    """Python's own views are the reference."""
-
     @njit
     def read(data, nefc, kind, force, row):
         kinds, forces = ints_at(addresses_at(data + kind)[0]), doubles_at(addresses_at(data + force)[0])

@@ -13,12 +13,10 @@ LL3 = 6 + 2
 
 
 def pushed(simulate, **rows):
-    """Return a started walk of the ideal plant in place with these pushes."""
     return simulate("flat_place", "ideal", pushes=rows, scenarios={"flat_place": {"pushes": list(rows)}})
 
 
 def watch(simulator, run, seconds):
-    """Return clock, walking state and pushes after every millisecond."""
     seen = []
     for _ in range(round(seconds * 1000)):
         log = run(simulator, 0.001)

@@ -15,11 +15,6 @@ KNEES = np.array([[0.25, 0.1, -0.5], [0.25, -0.1, -0.5]])  # where thighs are wh
 
 
 @pytest.fixture
-def motion(settings):
-    return settings.motions["random_motion"]
-
-
-@pytest.fixture
 def posture(robot):
     return robot.posture.angle
 

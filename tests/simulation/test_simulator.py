@@ -36,7 +36,6 @@ def streams(simulator):
 
 
 def begun(simulator):
-    """Begin an episode; return its terrain, commands and start."""
     simulator.start()
     return simulator.setting.terrain, simulator.commands.tobytes(), simulator.plant.qpos.tobytes()
 

@@ -95,7 +95,6 @@ def test_the_controller_and_the_observer_know_the_table_alone(simulate):
 
 
 def seen(simulator):
-    """Let the sensors of a surrogate robot look at the plant once more."""
     plant, faults = simulator.plant, simulator.hidden.faults
     perceive(
         faults, simulator.sensors, plant.drives, plant.qpos, plant.qvel, plant.sensordata, plant.xmat, plant.gravity

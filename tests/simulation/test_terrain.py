@@ -123,7 +123,6 @@ def test_plates_keep_apart_all_over_the_world(draw, seed):
 
 
 def rotation(yaw):
-    """Return the rotation (2, 2) by an angle [rad]."""
     return np.array([[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]])
 
 

@@ -81,7 +81,6 @@ def test_a_sole_that_carries_hardly_creeps(simulate, run):
 
 
 def vertical_force(world):
-    """Return the sum of the contacts' normal forces [N]."""
     total, wrench = 0.0, np.zeros(6)
     for index in range(world.data.ncon):
         mujoco.mj_contactForce(world.model, world.data, index, wrench)
@@ -89,31 +88,31 @@ def vertical_force(world):
     return total
 
 
-@pytest.mark.parametrize("torque", [7.5, -7.5])
-def test_friction_loss_holds_a_light_joint_below_its_threshold(build, torque):
-    """MuJoCo's default lets the hand's joint turn at 0.5 rad/s below a loss of 8 N m (Table 4)."""
+@pytest.fixture
+def turn_hand(build):
+    """A function (law of speed [rad/s] -> torque [N m], ticks) -> speed of the hand of a robot that floats, at last."""
     world = build("flat", "all_uncertainty")
     model, data = world.model, world.data
-    model.opt.gravity[:] = 0.0
-    data.qpos[2] = 3.0
-    joint = model.joint("LA8").id
-    for _ in range(2000):
-        data.ctrl[model.actuator("LA8").id] = torque
-        mujoco.mj_step(model, data)
-    assert abs(data.qvel[model.jnt_dofadr[joint]]) < 0.01
+    model.opt.gravity[:], data.qpos[2] = 0.0, 3.0
+    motor, speed = model.actuator("LA8").id, model.jnt_dofadr[model.joint("LA8").id]
+
+    def turn(law, ticks):
+        for _ in range(ticks):
+            data.ctrl[motor] = law(data.qvel[speed])
+            mujoco.mj_step(model, data)
+        return data.qvel[speed]
+
+    return turn
 
 
-def test_friction_loss_takes_its_whole_torque_of_a_slow_light_joint(build):
-    """A drive of 10 N m s towards 0.9 rad/s then turns the hand at 0.1 rad/s; with MuJoCo's default at 0.4 rad/s."""
-    world = build("flat", "all_uncertainty")
-    model, data = world.model, world.data
-    model.opt.gravity[:] = 0.0
-    data.qpos[2] = 3.0
-    speed = model.jnt_dofadr[model.joint("LA8").id]
-    for _ in range(200):
-        data.ctrl[model.actuator("LA8").id] = 10.0 * (0.9 - data.qvel[speed])
-        mujoco.mj_step(model, data)
-    assert data.qvel[speed] == pytest.approx(0.1, abs=0.005)
+def test_friction_loss_holds_a_light_joint_and_takes_its_whole_torque_of_a_slow_one(turn_hand):
+    """MuJoCo's default lets the hand's joint turn at 0.5 rad/s below a loss of 8 N m (Table 4).
+
+    A drive of 10 N m s towards 0.9 rad/s then turns it at 0.1 rad/s; with MuJoCo's default at 0.4 rad/s.
+    """
+    for torque in (7.5, -7.5):
+        assert abs(turn_hand(lambda _, torque=torque: torque, 2000)) < 0.01
+    assert turn_hand(lambda speed: 10.0 * (0.9 - speed), 200) == pytest.approx(0.1, abs=0.005)
 
 
 def test_joints_stop_at_their_ranges(build, robot):

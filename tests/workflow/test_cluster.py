@@ -58,7 +58,6 @@ def told(folder):
 
 
 def wait_for_training(cluster, folder):
-    """Wait until a training runs; return the number of its job."""
     log = folder / "results" / "smoke" / "logs" / "train" / f"{JOB}.log"
     wait_for(lambda: log.exists() and "epoch" in log.read_text(), LONGEST_S)
     return next(job for job, state in cluster.jobs() if state == "RUNNING")

@@ -25,7 +25,6 @@ pytestmark = [pytest.mark.slow, pytest.mark.sim]
 
 @pytest.fixture(scope="module")
 def project(make_project):
-    """A copy of the project without results."""
     return make_project("faults")
 
 

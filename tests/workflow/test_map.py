@@ -43,7 +43,6 @@ class System(NamedTuple):
 
 
 def rows(part):
-    """Return the cells of one of the map's tables."""
     lines = [line for line in (ROOT / "docs/map.md").read_text().split("\n## ")[part].splitlines() if line[:1] == "|"]
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
 
@@ -60,7 +59,6 @@ def products():
 
 @pytest.fixture(scope="module")
 def outputs(products):
-    """File -> rule of every product."""
     return {name: product.name for product in products for name in product.outputs}
 
 
@@ -71,7 +69,6 @@ def test_the_map_names_the_function_that_a_rule_calls(products):
 
 
 def numbered(names):
-    """Return the numbered tables and figures among some names."""
     return {found for name in names for found in NUMBERED.findall(name)}
 
 

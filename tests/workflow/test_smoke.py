@@ -42,7 +42,6 @@ pytestmark = [pytest.mark.slow, pytest.mark.sim]
 
 
 def reproduce(folder, *words, command="all"):
-    """Start ./reproduce in a process group of its own."""
     started = [sys.executable, str(folder / "reproduce"), command, *SMOKE, *words]
     with (folder / "out.log").open("ab") as out:
         return subprocess.Popen(started, cwd=folder, stdout=out, stderr=out, start_new_session=True)
@@ -53,7 +52,6 @@ def told(folder):
 
 
 def products(folder):
-    """Return the content of every table, and of every figure's numbers."""
     found = [*(folder / "tables" / "smoke").iterdir(), *(folder / "figures" / "smoke").glob("*.csv")]
     return {path.name: path.read_bytes() for path in found}
 
@@ -190,16 +188,12 @@ PRODUCTS = {
 MUJOCO = {"environment.lock": ("\nmujoco==", "\nmujoco==9")}
 
 
-@pytest.mark.parametrize(
-    ("edits", "touched", "spared"),
-    [
-        (WORDS, set(), set()),
-        (LAW, {"collect"}, {"table_01", "deviations", "motion"}),
-        (PRODUCTS, {"figure_07", "steps"}, set()),
-        (MUJOCO, {"collect", "motion"}, {"table_01", "deviations"}),
-    ],
-    ids=["words", "friction law", "a figure's setting and a table's code", "version of MuJoCo"],
-)
+@pytest.mark.parametrize(("edits", "touched", "spared"), [
+    (WORDS, set(), set()),
+    (LAW, {"collect"}, {"table_01", "deviations", "motion"}),
+    (PRODUCTS, {"figure_07", "steps"}, set()),
+    (MUJOCO, {"collect", "motion"}, {"table_01", "deviations"}),
+], ids=["words", "friction law", "a figure's setting and a table's code", "version of MuJoCo"])  # fmt: skip
 def test_edits_rerun_exactly_what_depends_on_them(unbroken, snakemake, plan, edits, touched, spared):
     before = {path: (path.read_text(), path.stat()) for path in (unbroken / name for name in edits)}
     for (path, (text, _)), (old, new) in zip(before.items(), edits.values(), strict=True):

@@ -36,7 +36,6 @@ pytestmark = [pytest.mark.slow, pytest.mark.sim]
 
 
 def start(folder):
-    """Start the run of the target in a process group of its own."""
     words = [sys.executable, str(folder / "reproduce"), TARGET, "--cores", "1"]
     with (folder / "out.log").open("ab") as out:
         return subprocess.Popen(words, cwd=folder, stdout=out, stderr=out, start_new_session=True)
@@ -53,13 +52,11 @@ def kill_when(run, began):
 
 
 def arrays(folder):
-    """Return the content of the recordings and residuals."""
     places = [folder / "results" / "smoke" / kind for kind in ARRAYS]
     return {str(path): path.read_bytes() for place in places for path in place.rglob("*") if path.is_file()}
 
 
 def git(folder, *words):
-    """Run git with a made-up author."""
     author = ("-c", "user.name=Somebody", "-c", "user.email=somebody@example.org", "-c", "commit.gpgsign=false")
     subprocess.run(["git", *author, *words], cwd=folder, check=True, capture_output=True)
 

@@ -33,7 +33,6 @@ class Given:
 
 
 def passed(torque, sensed):
-    """Return what comes out for the first joint."""
     return FilteredEstimator(Given(torque), SECTIONS).estimate(sensed).tau_ext[:, 0]
 
 

@@ -40,7 +40,6 @@ def table_4(plant, layout):
 
 
 def test_it_has_the_plants_form(plant, layout, table_4):
-    """Equivalent to the simulator's own formula of (23)."""
     rng = np.random.default_rng(0)
     velocity, torque = rng.normal(0, 1, (20, layout.nu)), rng.normal(0, 50, (20, layout.nu))
     expected = [

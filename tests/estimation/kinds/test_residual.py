@@ -1,10 +1,8 @@
 """Eq. (15): what a model of the uncertainty leaves of the residual."""
 
 import numpy as np
-import pytest
 
 from mobnet.estimation.kinds.residual import ResidualEstimator
-from mobnet.estimation.observer import MomentumObserver
 from mobnet.learning.deployed.networks import Prediction
 
 LIMB = ("LL3", "LL1")  # not in the robot's order
@@ -24,11 +22,6 @@ class Constant:
 
     def run_all(self, recordings):
         return [Prediction(np.tile(OFFSET, (len(sensed), 1))) for sensed in recordings]
-
-
-@pytest.fixture
-def observer(nominal):
-    return MomentumObserver(nominal, 100.0, 1000.0)
 
 
 def test_without_a_model_it_is_the_observer(observer, made_up):

@@ -12,7 +12,6 @@ INPUTS, HIDDEN = 5, 24
 
 
 def recordings(seed=0):
-    """Return inputs (T_i, n_in) of several recordings."""
     rng = np.random.default_rng(seed)
     return [rng.normal(size=(length, INPUTS)).astype(np.float32) for length in LENGTHS]
 

@@ -58,7 +58,6 @@ def x():
 
 @pytest.mark.parametrize("kind", CELLS)
 def test_step_agrees_with_run(kind, x, tmp_path, monkeypatch):
-    """Sample by sample, in chunks and all at once are equivalent."""
     network = deployed(tmp_path, model_of(CELLS[kind]), CELLS[kind])
     assert isinstance(network, KINDS.get(kind, ModuleNetwork))
     whole, state = network.run_all([x])[0], network.init()
