@@ -79,7 +79,6 @@ class Browser:
         return self.tell("Runtime.evaluate", expression=script, returnByValue=True)["result"].get("value")
 
     def until(self, script: str, wanted: Any) -> None:
-        """Wait for an expression to have a value."""
         wait(lambda: self.value(script) == wanted)
         seen = self.value(script)
         assert seen == wanted, f"{script}: {seen}, expected {wanted}"

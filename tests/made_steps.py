@@ -19,5 +19,4 @@ def arguments(plan: Plan, *place: str) -> Any:
 
 
 def recording(scenario: str, level: str, seed: int | str, robot: str = "") -> str:
-    """Return the place of a recording below the results."""
     return str(Path(robot) / "recordings" / scenario / level / f"s{seed}.parquet")

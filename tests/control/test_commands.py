@@ -66,7 +66,3 @@ def test_each_kind_moves_only_what_it_says(commands, kind):
 def test_every_kind_of_the_configuration_is_known(commands):
     assert set(get_args(get_args(RandomCommands.model_fields["kinds"].annotation)[0])) == set(MOVING)
     assert sum(commands.random.kinds.values()) == pytest.approx(1)
-
-
-def test_same_generator_draws_the_same_commands(commands, drawn):
-    np.testing.assert_array_equal(random_commands(commands, np.random.default_rng(1), STEPS), drawn)

@@ -19,7 +19,6 @@ def test_quintic_has_zero_slope_and_curvature_at_both_ends():
 
 @pytest.mark.parametrize("x", np.linspace(0.01, 0.99, 9))
 def test_slope_is_the_derivative_of_the_quintic(x):
-    """The reference is a central difference."""
     assert geometry.rise_slope(x) == pytest.approx(
         (geometry.rise(x + SMALL) - geometry.rise(x - SMALL)) / (2 * SMALL), abs=1e-8
     )

@@ -25,9 +25,9 @@ def history(settings, layout):
     return law, rows
 
 
-@pytest.mark.parametrize(
-    ("scenario", "largest"), [("robot_walk_plain", 0.0), ("robot_walk", 50.0), ("robot_walk_25", 25.0)]
-)
+@pytest.mark.parametrize(("scenario", "largest"), [
+    ("robot_walk_plain", 0.0), ("robot_walk", 50.0), ("robot_walk_25", 25.0),
+])  # fmt: skip
 def test_a_scenario_may_ask_for_another_torque_on_legs_and_waist(settings, layout, scenario, largest):
     walk = walk_settings(settings, scenario, "robot_1")
     law = make_exploration(walk.random_torque, layout, bool(walk.scenario.random_torque))
@@ -79,14 +79,6 @@ def test_amplitudes_are_those_of_section_4_3(settings, layout):
     for limb in ("LA", "RA"):
         assert [amplitude[joint] for joint in layout.limb(limb)] == [3, 15, 15, 10, 10, 5, 5, 5]
     assert (law.shortest, law.longest) == (0.1, 0.5)
-
-
-def test_absent_exploration_stays_zero(settings, layout):
-    law = make_exploration(settings.random_torque, layout, False)
-    rng = np.random.default_rng(0)
-    for _ in range(3000):
-        advance_random_torque(law, rng, TICK_S)
-    assert not law.value.any()
 
 
 def test_amplitudes_that_do_not_fit_their_limb_are_refused(settings, layout):

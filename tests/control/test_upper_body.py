@@ -27,7 +27,6 @@ def test_reference_meets_every_knot(upper):
 
 
 def test_velocity_is_the_derivative_of_position_and_continuous(upper):
-    """The reference is a central difference."""
     clocks, small = np.linspace(-0.45, 0.45, 333), 1e-6
     for clock in clocks:
         slope = (at(upper, clock + small)[0] - at(upper, clock - small)[0]) / (2 * small)

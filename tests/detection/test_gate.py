@@ -38,11 +38,9 @@ def test_an_early_contact_closes_the_gate_for_the_rest_of_the_swing(gate, walk, 
     assert watch.watched[2 * GROUND + AIR + 100 : 2 * GROUND + 2 * AIR - 31].all()  # the next swing is watched again
 
 
-@pytest.mark.parametrize(
-    ("force", "samples"),
-    [([60.0, 0.0, 20.0], 50), ([0.0, 0.0, 30.0], 50), ([0.0, 0.0, 60.0], 4)],
-    ids=["flat", "weak", "short"],
-)
+@pytest.mark.parametrize(("force", "samples"), [
+    ([60.0, 0.0, 20.0], 50), ([0.0, 0.0, 30.0], 50), ([0.0, 0.0, 60.0], 4),
+], ids=["flat", "weak", "short"])  # fmt: skip
 def test_what_does_not_look_like_the_ground_leaves_the_gate_open(gate, walk, robot, force, samples):
     sensed = walk(1)
     tau = np.zeros((len(sensed), 6))

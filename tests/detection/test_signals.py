@@ -11,10 +11,9 @@ from mobnet.settings.detection import Detector
 ESTIMATE = Estimate(np.array([[4.0, -2.0]]), np.array([[2.0, 0.5]]))
 
 
-@pytest.mark.parametrize(
-    ("signals", "expected"),
-    [(("mean",), [4, -2]), (("std",), [2, 0.5]), (("ratio",), [2, -4]), (("mean", "std"), [4, -2, 2, 0.5])],
-)
+@pytest.mark.parametrize(("signals", "expected"), [
+    (("mean",), [4, -2]), (("std",), [2, 0.5]), (("ratio",), [2, -4]), (("mean", "std"), [4, -2, 2, 0.5]),
+])  # fmt: skip
 def test_signals_are_those_of_the_estimate(signals, expected):
     row = Detector.model_validate({"method": "MOB-Net", "signals": signals})
     assert signals_of(row, ESTIMATE).tolist() == [expected]

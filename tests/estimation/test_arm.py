@@ -124,7 +124,6 @@ def test_a_log_holds_joints_alone_and_is_read_back(log, arm, tmp_path):
 
 
 def test_residual_is_the_low_passed_torque_that_pushed_it(log, arm_table, settings, tmp_path):
-    """The reference is the external torque of the simulation."""
     write_recording(tmp_path / "log", log, arm_table.layout)
     level, gravity = settings.levels["ideal"], settings.plant.gravity_m_s2
     observe(arm_table, level, gravity, settings.observer, tmp_path / "log", tmp_path / "out")

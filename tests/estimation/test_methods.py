@@ -48,23 +48,20 @@ def test_the_configured_methods_are_accepted(settings):
     assert {"band_pass", "direct", "friction", "residual"} <= set(kind_names())
 
 
-@pytest.mark.parametrize(
-    ("kind", "options", "message"),
-    [
-        ("magic", {}, "kind: kind: 'magic' is not accepted; accepted: .*residual"),
-        ("residual", {"gain": 1.0}, "options.gain: key: 'gain' is not accepted; accepted: none"),
-        ("band_pass", {"band_hz": [15.0, 2.0], "order": 2}, "options.band_hz: .* accepted: two numbers, the lower one"),
-        ("band_pass", {"band_hz": [2.0, 15.0]}, "options.order: key is missing; accepted: a whole number from 1"),
-        ("band_pass", {"band_hz": [2.0, 15.0], "order": 0}, "options.order: 0 is not accepted; accepted: .* from 1"),
-        ("band_pass", {"band_hz": [2.0, 501.0], "order": 2}, "options.band_hz.1: 501.0 is not accepted; .* 500.0"),
-        ("friction", {**FRICTION, "terms": ["coulomb", "glue"]}, f"options.terms.1: 'glue' is not accepted; {TERMS}"),
-        ("friction", {**FRICTION, "terms": ["load", "load"]}, "options.terms: .* is not accepted; .*each value once"),
-        ("friction", {**FRICTION, "terms": []}, r"options.terms: \[\] is not accepted; accepted: a list of 1 or more"),
-        ("friction", {**FRICTION, "smoothing_rad_s": 0.0}, "options.smoothing_rad_s: 0.0 is not accepted; accepted"),
-        ("friction", {**FRICTION, "stribeck_rad_s": [-1.0]}, r"options.stribeck_rad_s.0: -1.0 is not accepted; acc"),
-        ("friction", FRICTION, "fitted: .* is not accepted; accepted: limbs to fit"),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("kind", "options", "message"), [
+    ("magic", {}, "kind: kind: 'magic' is not accepted; accepted: .*residual"),
+    ("residual", {"gain": 1.0}, "options.gain: key: 'gain' is not accepted; accepted: none"),
+    ("band_pass", {"band_hz": [15.0, 2.0], "order": 2}, "options.band_hz: .* accepted: two numbers, the lower one"),
+    ("band_pass", {"band_hz": [2.0, 15.0]}, "options.order: key is missing; accepted: a whole number from 1"),
+    ("band_pass", {"band_hz": [2.0, 15.0], "order": 0}, "options.order: 0 is not accepted; accepted: .* from 1"),
+    ("band_pass", {"band_hz": [2.0, 501.0], "order": 2}, "options.band_hz.1: 501.0 is not accepted; .* 500.0"),
+    ("friction", {**FRICTION, "terms": ["coulomb", "glue"]}, f"options.terms.1: 'glue' is not accepted; {TERMS}"),
+    ("friction", {**FRICTION, "terms": ["load", "load"]}, "options.terms: .* is not accepted; .*each value once"),
+    ("friction", {**FRICTION, "terms": []}, r"options.terms: \[\] is not accepted; accepted: a list of 1 or more"),
+    ("friction", {**FRICTION, "smoothing_rad_s": 0.0}, "options.smoothing_rad_s: 0.0 is not accepted; accepted"),
+    ("friction", {**FRICTION, "stribeck_rad_s": [-1.0]}, r"options.stribeck_rad_s.0: -1.0 is not accepted; acc"),
+    ("friction", FRICTION, "fitted: .* is not accepted; accepted: limbs to fit"),
+])  # fmt: skip
 def test_a_kind_or_an_option_that_is_not_accepted_is_one_line(settings, kind, options, message):
     row = {"of": "a"} if kind == "band_pass" else {}
     (line,) = told(settings, {"a": {}, "b": {"kind": kind, "options": options, **row}})

@@ -96,7 +96,6 @@ def test_a_kept_share_of_the_state_is_a_fresh_start(kind):
 
 
 def test_mlp_is_two_matrices_on_the_last_samples():
-    """The window laid out as one vector is the reference."""
     network, x = _network(SMALL["MLP"]), _inputs(20)
     layer = network.get_submodule("cell.layer")
     assert isinstance(layer, nn.Conv2d)
@@ -107,7 +106,6 @@ def test_mlp_is_two_matrices_on_the_last_samples():
 
 
 def test_block_is_the_one_of_bai_2018():
-    """Torch's one-dimensional convolution is the reference."""
     torch.manual_seed(0)
     block, x = Block(3, 4, 3, 2, 0.5).eval(), torch.randn(1, 3, 20, 1)
     convolve = nn.functional.conv1d

@@ -63,14 +63,11 @@ def test_a_checkpoint_of_another_run_is_not_used_and_says_so(saved, caplog):
     assert all(torch.equal(before[name], tensor) for name, tensor in network.state_dict().items())
 
 
-def test_a_damaged_checkpoint_is_not_used_and_says_so(saved, caplog):
+def test_a_damaged_checkpoint_is_not_used_and_says_so_nor_is_one_that_is_not_there(saved, caplog):
     saved[0].write_bytes(saved[0].read_bytes()[:100])
     assert checkpoint.resume(saved[0], "print", *trained(0)).epochs == []
     assert "damaged" in caplog.text
-
-
-def test_without_a_checkpoint_a_training_starts_at_the_first_epoch(tmp_path):
-    assert checkpoint.resume(tmp_path / "none", "print", *trained(0)).epochs == []
+    assert checkpoint.resume(saved[0].with_name("none"), "print", *trained(0)).epochs == []
 
 
 def test_the_first_of_equal_epochs_is_the_best():

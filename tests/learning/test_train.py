@@ -50,10 +50,9 @@ def test_it_writes_weights_metrics_and_a_note(small, tmp_path):
     assert load_network(out).joints == ("LL1", "LL2", "LL3", "LL4", "LL5", "LL6")
 
 
-@pytest.mark.parametrize(
-    ("method", "changes"),
-    [("MOB-Net", {"divergence_loss": -100.0, "may_diverge": True}), ("GRU-spectral", {}), ("TCN", {})],
-)
+@pytest.mark.parametrize(("method", "changes"), [
+    ("MOB-Net", {"divergence_loss": -100.0, "may_diverge": True}), ("GRU-spectral", {}), ("TCN", {}),
+])  # fmt: skip
 def test_what_a_training_writes_is_accepted(method, changes, small, tmp_path):
     training = small.training(method, "LL", epochs=1, **changes)
     out = small.train(training, tmp_path)

@@ -89,7 +89,6 @@ def test_segments_cover_all_rows_in_order_and_are_contiguous_in_time(episode_s):
 
 
 def test_terrain_of_each_segment_is_that_of_its_episode():
-    """Also where an episode between two left nothing."""
     rows, course, _ = fill([87, 25, 61, math.inf], 15)
     kept = [int(rows[start, 0]) for start, _ in course.segments]
     assert kept == [1, 3, 4]

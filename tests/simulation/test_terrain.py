@@ -126,15 +126,6 @@ def rotation(yaw):
     return np.array([[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]])
 
 
-def test_a_draw_is_the_generators(draw):
-    a, b, c = draw("plates", 1), draw("plates", 1), draw("plates", 2)
-    for one, same, another in zip(a.pieces, b.pieces, c.pieces, strict=True):
-        np.testing.assert_array_equal(one.place, same.place)
-        assert one.yaw == same.yaw
-        assert np.abs(one.place - another.place).max() > 1e-3
-        assert one.yaw != another.yaw
-
-
 def test_a_wider_terrain_is_the_same_terrain(draw):
     for name in TERRAINS:
         terrain = draw(name)

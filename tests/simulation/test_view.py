@@ -1,7 +1,5 @@
 """Walking for the eye: states at their times, and a viewer that shows the plant without touching it."""
 
-from __future__ import annotations
-
 import contextlib
 import time
 

@@ -9,7 +9,6 @@ from itertools import pairwise
 
 import pytest
 
-from mobnet.commands.main import environment
 from mobnet.commands.setup import fault_of
 from mobnet.commands.words import COMMANDS
 
@@ -63,12 +62,6 @@ def test_an_accepted_python_is_looked_for_on_path(tmp_path):
     (tmp_path / "bin" / "python3.12").symlink_to(sys.executable)
     (tmp_path / "src").symlink_to(ROOT / "src")
     assert "'al' is not accepted" in call(sys.executable, older, PATH=str(shim.parent)).stdout
-
-
-def test_environment_keeps_caches_inside_the_project():
-    variables = environment(ROOT)
-    assert variables["PATH"].startswith(str(ROOT / ".venv" / "bin"))
-    assert variables["OMP_NUM_THREADS"] == "1"
 
 
 def test_every_start_checks_the_environment_in_no_time():

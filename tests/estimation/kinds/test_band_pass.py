@@ -36,10 +36,9 @@ def passed(torque, sensed):
     return FilteredEstimator(Given(torque), SECTIONS).estimate(sensed).tau_ext[:, 0]
 
 
-@pytest.mark.parametrize(
-    ("frequency_hz", "smallest", "largest"),
-    [(0.2, 0.0, 0.03), (2.0, 0.69, 0.72), (5.5, 0.97, 1.001), (15.0, 0.69, 0.72), (100.0, 0.0, 0.05)],
-)
+@pytest.mark.parametrize(("frequency_hz", "smallest", "largest"), [
+    (0.2, 0.0, 0.03), (2.0, 0.69, 0.72), (5.5, 0.97, 1.001), (15.0, 0.69, 0.72), (100.0, 0.0, 0.05),
+])  # fmt: skip
 def test_gain_over_frequency(frequency_hz, smallest, largest, made_up):
     """One inside the band, 1 / sqrt 2 at its edges, small outside."""
     sensed = made_up(0, 15.0).sensed

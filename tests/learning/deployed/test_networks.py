@@ -106,10 +106,9 @@ def test_a_recording_longer_than_a_chunk_has_no_seam(x, tmp_path):
         np.testing.assert_allclose(period, periods[1], rtol=1e-5, atol=1e-5)
 
 
-@pytest.mark.parametrize(
-    ("method", "limb", "kind"),
-    [("TCN", "LL", ModuleNetwork), ("GRU-spectral", "LL", GruNetwork), ("MOB-Net", "N", ConstantNetwork)],
-)
+@pytest.mark.parametrize(("method", "limb", "kind"), [
+    ("TCN", "LL", ModuleNetwork), ("GRU-spectral", "LL", GruNetwork), ("MOB-Net", "N", ConstantNetwork),
+])  # fmt: skip
 def test_a_trained_network_on_a_robot_errs_as_in_its_validation(method, limb, kind, small, tmp_path):
     """From recordings to a network on a robot, whose error on the recordings is that of the last validation."""
     training = small.training(method, limb, epochs=1)
