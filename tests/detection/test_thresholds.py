@@ -8,7 +8,7 @@ from mobnet.core.errors import DataError
 from mobnet.detection.thresholds import Calibrated, Tail, calibrate, expected_counts, fit_tail
 
 SWINGS, DURATION_S = 870, 20 * 60.0  # of twenty minutes
-WALKS = 100
+WALKS = 200
 PER_H = SWINGS * 3600.0 / DURATION_S
 
 
