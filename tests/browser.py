@@ -43,7 +43,7 @@ class Browser:
         )  # fmt: skip
         os.close(read)
         os.close(write)
-        self.events: list[dict[str, Any]] = []
+        self.events = []
         self._rest, self._number, self._session = b"", count(1), {}
         target = self.tell("Target.createTarget", url="about:blank")["targetId"]
         attached = self.tell("Target.attachToTarget", targetId=target, flatten=True)
@@ -52,7 +52,6 @@ class Browser:
             self.tell(f"{part}.enable")
 
     def close(self) -> None:
-        """End the browser and wait until it has gone."""
         os.close(self._write)
         self.process.wait(WAIT_S)
         os.close(self._read)
@@ -68,7 +67,6 @@ class Browser:
         return answer["result"]
 
     def _message(self) -> dict[str, Any]:
-        """Return the next message."""
         while b"\0" not in self._rest:
             assert select.select([self._read], [], [], WAIT_S)[0], "the browser does not answer"
             part = os.read(self._read, 1 << 16)
@@ -78,11 +76,9 @@ class Browser:
         return json.loads(message)
 
     def value(self, script: str) -> Any:
-        """Return the value of an expression."""
         return self.tell("Runtime.evaluate", expression=script, returnByValue=True)["result"].get("value")
 
     def until(self, script: str, wanted: Any) -> None:
-        """Wait for an expression to have a value."""
         wait(lambda: self.value(script) == wanted)
         seen = self.value(script)
         assert seen == wanted, f"{script}: {seen}, expected {wanted}"
@@ -95,7 +91,6 @@ class Browser:
         self.until("location.protocol + document.readyState", "file:complete")
 
     def click(self, selector: str) -> None:
-        """Press the mouse in the middle of an element."""
         box = self.value(
             f"(() => {{const e = document.querySelector({json.dumps(selector)}); e.scrollIntoView({{block: 'center'}});"
             "const b = e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]})()"
@@ -104,6 +99,5 @@ class Browser:
             self.tell("Input.dispatchMouseEvent", type=kind, x=box[0], y=box[1], button="left", clickCount=1)
 
     def press(self, key: str, code: int, text: str = "") -> None:
-        """Press a key."""
         for kind in ("keyDown", "keyUp"):
             self.tell("Input.dispatchKeyEvent", type=kind, key=key, code=key, windowsVirtualKeyCode=code, text=text)

@@ -1,27 +1,26 @@
 """Made-up recordings: smooth random joint motion and an uncertainty torque that the inputs explain."""
 
-from collections.abc import Callable, Iterator
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from browser import BROWSER, Browser
+from made_swings import unseen
 from numpy.typing import NDArray
 
 from mobnet.core.columns import residual_columns
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
-from mobnet.core.recording import Recording, Sensed, Truth, write_recording
+from mobnet.core.recording import Recording, Sensed, write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.recipe import Recipe
 from mobnet.plan.precision import with_precision
-from mobnet.robot.description import RobotDescription, WalkingRobot, describe, for_walking
+from mobnet.robot.description import describe, for_walking
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import load_section, load_settings
 from mobnet.settings.robot import RobotTable
-from mobnet.settings.settings import Settings
 
 ROOT = Path(__file__).parents[1]
 RATE_HZ = 1000.0
@@ -37,21 +36,21 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 @pytest.fixture(scope="session")
-def settings() -> Settings:
+def settings():
     """The repository's configuration at its smoke scale, with this machine's number format."""
     return with_precision(load_settings(overrides={"scale": "smoke"}), ROOT / "results" / "none")
 
 
 @pytest.fixture(scope="session")
-def robot_table() -> RobotTable:
+def robot_table():
     return load_section(ROOT / "configs" / "robots" / "tocabi.yaml", RobotTable)
 
 
 @pytest.fixture(scope="session")
-def recipe_of(settings: Settings) -> Callable[..., Recipe]:
+def recipe_of(settings):
     """Return a function of a method's name, its level, its files and other methods that makes its recipe."""
 
-    def recipe(name: str, level: str = "all_uncertainty", **changes: Any) -> Recipe:
+    def recipe(name, level="all_uncertainty", **changes):
         methods = changes.pop("methods", Catalogue(settings).all_methods)
         observing = settings.levels[level], settings.plant.gravity_m_s2, settings.observer
         return Recipe(name, methods, settings.robot, *observing, RATE_HZ, **changes)
@@ -60,46 +59,45 @@ def recipe_of(settings: Settings) -> Callable[..., Recipe]:
 
 
 @pytest.fixture(scope="session")
-def layout(robot_table: RobotTable) -> JointLayout:
+def layout(robot_table):
     return robot_table.layout
 
 
 @pytest.fixture(scope="session")
-def robot(robot_table: RobotTable) -> WalkingRobot:
+def robot(robot_table):
     return for_walking(describe(robot_table))
 
 
 @pytest.fixture(scope="session")
-def arm_table() -> RobotTable:
-    """A two-link arm on a fixed base."""
+def arm_table():
     return load_section(ROOT / "tests" / "data" / "arm.yaml", RobotTable)
 
 
 @pytest.fixture(scope="session")
-def arm(arm_table: RobotTable) -> RobotDescription:
+def arm(arm_table):
     return describe(arm_table)
 
 
 @pytest.fixture(scope="session")
-def nominal(robot: WalkingRobot) -> NominalModel:
+def nominal(robot):
     return NominalModel(robot)
 
 
 @pytest.fixture(scope="session")
-def made_up(layout: JointLayout) -> Callable[..., Recording]:
+def made_up(layout):
     """Return a function of (seed, seconds, segments) that makes a recording up."""
 
-    def make(seed: int = 0, seconds: float = 2.0, segments: int = 1) -> Recording:
+    def make(seed=0, seconds=2.0, segments=1):
         return _recording(layout, np.random.default_rng(seed), round(seconds * RATE_HZ), segments)
 
     return make
 
 
 @pytest.fixture(scope="session")
-def write_pair(layout: JointLayout) -> Callable[[Path, Recording], tuple[Path, Path]]:
+def write_pair(layout):
     """Return a function that writes a recording and a residual, and returns their stems."""
 
-    def write(folder: Path, recording: Recording) -> tuple[Path, Path]:
+    def write(folder, recording):
         folder.mkdir(parents=True, exist_ok=True)
         stems = folder / f"recording{recording.meta['seed']}", folder / f"residual{recording.meta['seed']}"
         write_recording(stems[0], recording, layout)
@@ -112,10 +110,10 @@ def write_pair(layout: JointLayout) -> Callable[[Path, Recording], tuple[Path, P
 
 
 @pytest.fixture(scope="session")
-def turned() -> Callable[..., tuple[Array, Array, Any]]:
+def turned():
     """Return a function (q, v, s, yaw, shift) -> q, v and controller state turned about the world's z and shifted."""
 
-    def turn(q: Array, v: Array, s: Any, yaw: float, shift: Array) -> tuple[Array, Array, Any]:
+    def turn(q, v, s, yaw, shift):
         q, v, s, c, n = q.copy(), v.copy(), s.copy(), np.cos(yaw), np.sin(yaw)
         rotation = np.array([[c, -n], [n, c]])
         for place in (q, s.old_ankle, s.lift, s.foot, s.target):
@@ -133,17 +131,15 @@ def turned() -> Callable[..., tuple[Array, Array, Any]]:
 
 
 @pytest.fixture(scope="session")
-def mirrored(robot: WalkingRobot) -> Callable[..., tuple[Array, Array, Any]]:
+def mirrored(robot):
     """Return a function (q, v, s) -> q, v and controller state reflected in y: left becomes right."""
     names = [joint.id for joint in robot.joints]
     images = [{"L": "R", "R": "L"}.get(name[0], name[0]) + name[1:] for name in names]
     partner = np.array([names.index(name) for name in images])
     pseudo = np.array([-1.0, 1.0, -1.0])
-    sign = np.array(
-        [robot.joints[p].axis @ (pseudo * joint.axis) for p, joint in zip(partner, robot.joints, strict=True)]
-    )
+    sign = np.array([robot.joints[p].axis @ (pseudo * j.axis) for p, j in zip(partner, robot.joints, strict=True)])
 
-    def mirror(q: Array, v: Array, s: Any) -> tuple[Array, Array, Any]:
+    def mirror(q, v, s):
         q, v, s = q.copy(), v.copy(), s.copy()
         q[NQ_BASE:], v[N_VIRTUAL:] = (sign * q[NQ_BASE:])[partner], (sign * v[N_VIRTUAL:])[partner]
         for vector in (q, v, s.old_ankle, s.lift, s.foot, s.target, s.velocity, s.target_velocity, s.slope):
@@ -160,20 +156,19 @@ def mirrored(robot: WalkingRobot) -> Callable[..., tuple[Array, Array, Any]]:
 
 
 @pytest.fixture(scope="session")
-def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
-    """A browser for all tests."""
+def running(tmp_path_factory):
     browser = Browser(BROWSER or "", tmp_path_factory.mktemp("browser"))
     yield browser
     browser.close()
 
 
 @pytest.fixture
-def open_page(running: Browser) -> Iterator[Callable[..., Browser]]:
+def open_page(running):
     """A function that loads a file with a fragment; afterwards no script failed and nothing else was loaded."""
     running.events.clear()
     loaded = {"about:blank"}
 
-    def load(page: Path, fragment: str = "") -> Browser:
+    def load(page, fragment=""):
         loaded.add(page.as_uri())
         running.go(page.as_uri() + fragment)
         return running
@@ -195,17 +190,7 @@ def _recording(layout: JointLayout, rng: np.random.Generator, samples: int, segm
     torque, external = _sines(time, layout.nu, rng, 30.0)[0], _sines(time, layout.nv, rng, 20.0)[0]
     acc = _sines(time, 3, rng, 1.0)[0] + [0, 0, 9.81]
     sensed = Sensed(q, v, acc, torque, torque, np.zeros((samples, 2)), np.zeros((samples, 5)), np.zeros((samples, 2)))
-    none, wrench = np.zeros((samples, 1)), np.zeros((samples, 6))
-    truth = Truth(
-        external,
-        wrench,
-        wrench,
-        np.ones((samples, 2)),
-        none,
-        np.zeros_like(torque),
-        np.zeros_like(external),
-        np.zeros((samples, 4)),
-    )
+    truth = replace(unseen(layout, samples), tau_ext=external, contact=np.ones((samples, 2)))
     edges = np.linspace(0, samples, segments + 1).round().astype(int)
     spans = tuple((int(a), int(b)) for a, b in pairwise(edges))
     meta = {"scenario": "made_up", "level": "all_uncertainty", "seed": int(rng.integers(1 << 30))}

@@ -18,12 +18,10 @@ GOLDEN = Path(__file__).parent / "golden"
 
 
 def write_rows(path: Path, rows: Sequence[Any], kind: type[Any] = Score) -> None:
-    """Write dataclass rows, one column a field."""
     write_csv(path, [field.name for field in fields(kind)], [astuple(row) for row in rows])
 
 
 def read_table(path: Path) -> list[SimpleNamespace]:
-    """Read a CSV file."""
     with path.open(newline="", encoding="utf-8") as file:
         return [SimpleNamespace(**{name: _value(text) for name, text in row.items()}) for row in csv.DictReader(file)]
 
@@ -43,7 +41,6 @@ def check_golden(*produced: Path) -> None:
 
 
 def _value(text: str) -> str | float | None:
-    """Return a field as a number if it is one, as None if it is empty."""
     try:
         return float(text) if text else None
     except ValueError:

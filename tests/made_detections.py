@@ -44,7 +44,7 @@ def on_both_plants(settings: Settings) -> Settings:
 
 def write_detections(folder: Path, levels: Sequence[str] = LEVELS) -> Detections:
     """Write the files of detectors at some levels, and return them as products get them."""
-    found: dict[str, dict[str, Path]] = {}
+    found = {}
     for level in levels:
         rows = {
             "collisions": [*collisions("collisions"), *collisions("collision_sweep")],
@@ -62,7 +62,7 @@ def write_detections(folder: Path, levels: Sequence[str] = LEVELS) -> Detections
 
 def collisions(scenario: str) -> list[Collision]:
     """Return four collisions of each cell; forces of a sweep rise from 10 to 80 N."""
-    rows: list[Collision] = []
+    rows = []
     for k, cell in enumerate(CELLS * EACH):
         link, direction = cell.split()
         force = 10.0 * 2.0 ** (k // len(CELLS)) if scenario == "collision_sweep" else 120.0 + k
@@ -76,7 +76,7 @@ def collisions(scenario: str) -> list[Collision]:
 
 def detected(scenario: str) -> list[Detected]:
     """Return what each detector says: it finds the strongest, and MOB-Net-OR names each cell."""
-    rows: list[Detected] = []
+    rows = []
     for name, share in FOUND.items():
         for one in collisions(scenario):
             turn = (one.number - 1) // len(CELLS)
@@ -91,7 +91,6 @@ def detected(scenario: str) -> list[Detected]:
 
 
 def thresholds() -> list[Threshold]:
-    """Return a threshold of each joint by each rule."""
     return [
         Threshold(name, "LL", kind, f"{'std' if name.endswith('sigma') else 'mean'}.LL{j}", 1, size * j, "N m")
         for name in FOUND
@@ -101,7 +100,6 @@ def thresholds() -> list[Threshold]:
 
 
 def promises() -> list[Promise]:
-    """Return what thresholds for a rate promise."""
     return [
         Promise(name, "LL", kind, SWINGS, HOURS, factor, rate, 0.2 * rate, 5.0 * rate)
         for name in FOUND

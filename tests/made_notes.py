@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 FIT = {"coverage": [[0.5, 0.4]], "nll": [1.0, 1.5], "crps": [0.2, 0.3]}
-CALIBRATION: dict[str, Any] = {
+CALIBRATION = {
     "joints": ["LL1", "LL2"], "shares": [0.5], "scale": [0.9, 1.1], "likelihood_scale": [1.0, 1.2],
     "before": FIT, "after": FIT,
 }  # fmt: skip
@@ -23,3 +23,9 @@ def training_note(name: str, losses: Sequence[float], **changes: Any) -> dict[st
         "fingerprint": "<script>alert(1)</script>", "provenance": {"commit": "c"},
     }  # fmt: skip
     return note | changes
+
+
+def network_note(limb: str, joints: Sequence[str], inputs: Sequence[str], network: Any, std_min: float = 1e-6) -> Any:
+    """Return the note that weights have; a limb's name beside those of its joints and inputs, and the cell's sizes."""
+    names = {"limb": limb, "joints": list(joints), "inputs": list(inputs)}
+    return {"name": "MOB-Net-LL-s0", **names, "std_min": std_min, "network": network}

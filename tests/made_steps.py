@@ -15,10 +15,8 @@ def maker(plan: Plan, *place: str) -> Step:
 
 
 def arguments(plan: Plan, *place: str) -> Any:
-    """Return the arguments of the job that makes a file."""
     return maker(plan, *place).job.call.arguments
 
 
 def recording(scenario: str, level: str, seed: int | str, robot: str = "") -> str:
-    """Return the place of a recording below the results."""
     return str(Path(robot) / "recordings" / scenario / level / f"s{seed}.parquet")

@@ -2,7 +2,6 @@
 
 import fcntl
 import io
-from pathlib import Path
 
 import pytest
 
@@ -15,7 +14,7 @@ ENVIRONMENT = (".venv/bin/python", ".cache/uv/x")
 
 
 @pytest.fixture
-def project(tmp_path: Path) -> Path:
+def project(tmp_path):
     """A folder with products, sources and an environment, and without git."""
     for name in (*PRODUCTS, *SOURCES, *ENVIRONMENT):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
@@ -23,24 +22,24 @@ def project(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def files(project: Path) -> set[str]:
+def files(project):
     """Return what is in a folder but its locks."""
     found = (path for path in project.rglob("*") if path.is_file() and path.suffix != ".lock")
     return {str(path.relative_to(project)) for path in found}
 
 
-def test_products_go_and_sources_stay(project: Path) -> None:
+def test_products_go_and_sources_stay(project):
     assert clean(project, everything=False, is_dry=False, is_sure=True) == 0
     assert files(project) == {*SOURCES, *ENVIRONMENT}
 
 
-def test_all_removes_the_environment_too(project: Path) -> None:
+def test_all_removes_the_environment_too(project):
     assert clean(project, everything=True, is_dry=False, is_sure=True) == 0
     assert files(project) == set(SOURCES)
     assert clean(project, everything=True, is_dry=False, is_sure=True) == 0
 
 
-def test_dry_run_lists_with_sizes_and_removes_nothing(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_dry_run_lists_with_sizes_and_removes_nothing(project, capsys):
     before = files(project)
     (project / "results" / "big").write_bytes(bytes(3_000_000))
     assert clean(project, everything=False, is_dry=True, is_sure=True) == 0
@@ -51,7 +50,7 @@ def test_dry_run_lists_with_sizes_and_removes_nothing(project: Path, capsys: pyt
     assert files(project) == before | {"results/big"}
 
 
-def test_nobody_to_ask_means_no(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nobody_to_ask_means_no(project, monkeypatch):
     monkeypatch.setattr("sys.stdin", io.StringIO("y\n"))
     before = files(project)
     with pytest.raises(CommandError, match="--yes removes without a question"):
@@ -60,9 +59,7 @@ def test_nobody_to_ask_means_no(project: Path, monkeypatch: pytest.MonkeyPatch) 
 
 
 @pytest.mark.parametrize(("answer", "status"), [("y", 0), ("", 1), ("no", 1)])
-def test_a_question_is_asked_at_a_terminal(
-    project: Path, monkeypatch: pytest.MonkeyPatch, answer: str, status: int
-) -> None:
+def test_a_question_is_asked_at_a_terminal(project, monkeypatch, answer, status):
     monkeypatch.setattr("sys.stdin.isatty", lambda: True, raising=False)
     monkeypatch.setattr("builtins.input", lambda: answer)
     assert clean(project, everything=False, is_dry=False, is_sure=False) == status
@@ -70,7 +67,7 @@ def test_a_question_is_asked_at_a_terminal(
 
 
 @pytest.mark.parametrize("lock", ["run.lock", "jobs.lock"])
-def test_a_running_workflow_is_left_alone(project: Path, lock: str) -> None:
+def test_a_running_workflow_is_left_alone(project, lock):
     before = files(project)
     with (project / ".cache" / lock).open("w") as handle:
         fcntl.flock(handle, fcntl.LOCK_SH)
@@ -80,7 +77,7 @@ def test_a_running_workflow_is_left_alone(project: Path, lock: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["results", "tables", "results/smoke"])
-def test_what_a_link_names_stays(project: Path, tmp_path_factory: pytest.TempPathFactory, name: str) -> None:
+def test_what_a_link_names_stays(project, tmp_path_factory, name):
     elsewhere = tmp_path_factory.mktemp("disk") / "data"
     (project / name).rename(elsewhere)
     (project / name).symlink_to(elsewhere)

@@ -22,7 +22,7 @@ NOTHING = "error: No solution found\n  cause: torch==2.13.0+cpu has no wheels wi
 
 
 @pytest.mark.parametrize("name", LOCKS)
-def test_every_package_has_a_version_and_hashes(name: str) -> None:
+def test_every_package_has_a_version_and_hashes(name):
     lines = [line for line in (ROOT / name).read_text().splitlines() if not line.startswith("#")]
     packages = [line for line in lines if not line.startswith(" ")]
     assert all(re.fullmatch(r"[a-z0-9-]+==[0-9a-z.]+ \\", line) for line in packages)
@@ -30,7 +30,7 @@ def test_every_package_has_a_version_and_hashes(name: str) -> None:
     assert all(HASH.fullmatch(after) for line, after in pairwise(lines) if line in packages)
 
 
-def test_torch_has_the_hashes_of_both_builds_for_every_python() -> None:
+def test_torch_has_the_hashes_of_both_builds_for_every_python():
     versions, architectures, builds = 3, 2, 2
     lines = tooling.pinned_lines(ROOT, "torch").splitlines()
     assert len(lines) == 1 + versions * architectures * builds
@@ -38,7 +38,7 @@ def test_torch_has_the_hashes_of_both_builds_for_every_python() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("version", ["3.11", "3.12", "3.13"])
-def test_lock_is_complete_for_every_python(version: str, tmp_path: Path) -> None:
+def test_lock_is_complete_for_every_python(version, tmp_path):
     """Nothing is needed beyond the lock, and it has a wheel of everything but one package; needs a registry."""
     tools = tooling.Tools.find(ROOT)
     target = "--python-version", version, "--only-binary", ":all:", "--no-binary", "connection-pool"
@@ -51,19 +51,19 @@ def test_lock_is_complete_for_every_python(version: str, tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize(("build", "line"), [("cpu", "torch==2.13.0+cpu \\"), ("cuda", "torch===2.13.0 \\")])
-def test_a_build_is_a_version_of_torch(tmp_path: Path, build: str, line: str) -> None:
+def test_a_build_is_a_version_of_torch(tmp_path, build, line):
     (tmp_path / "environment.lock").write_text((ROOT / "environment.lock").read_text())
     chosen = Path(install.locked_packages(tmp_path, build)).read_text().splitlines()
     assert line in chosen
     assert len(set(chosen) - set((ROOT / "environment.lock").read_text().splitlines())) == 1
 
 
-def test_cuda_is_chosen_where_a_gpu_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_cuda_is_chosen_where_a_gpu_is_seen(monkeypatch):
     monkeypatch.setattr("shutil.which", lambda _: "/usr/bin/nvidia-smi")
     assert wanted_build() == "cuda"
 
 
-def test_pip_configuration_is_handed_to_uv(tmp_path: Path) -> None:
+def test_pip_configuration_is_handed_to_uv(tmp_path):
     pip = tmp_path / "pip"
     pip.write_text(
         "#!/bin/sh\ncat <<'E'\n:env:.find-links='/a'\nglobal.find-links='/wheels /more'\n"
@@ -77,18 +77,18 @@ def test_pip_configuration_is_handed_to_uv(tmp_path: Path) -> None:
 
 
 @pytest.fixture
-def tools(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> tooling.Tools:
+def tools(tmp_path, monkeypatch):
     """Tools in a folder with a lock, whose answers a test chooses."""
     (tmp_path / "environment.lock").write_text((ROOT / "environment.lock").read_text())
     monkeypatch.setattr(install, "relocate", lambda _: None)
     return tooling.Tools(tmp_path, sys.executable, (sys.executable, "-m", "pip"), tmp_path / "uv", {})
 
 
-def answer(monkeypatch: pytest.MonkeyPatch, **outputs: str) -> list[str]:
+def answer(monkeypatch, **outputs):
     """Let every call fail with the output under the first name that it has a word of; return the calls."""
-    calls: list[str] = []
+    calls = []
 
-    def run(words: tuple[str, ...], **_: object) -> subprocess.CompletedProcess[str]:
+    def run(words, **_):
         calls.append(" ".join(words))
         found = next((text for name, text in outputs.items() if name in calls[-1]), "")
         return subprocess.CompletedProcess(words, int(bool(found)), found)
@@ -97,42 +97,28 @@ def answer(monkeypatch: pytest.MonkeyPatch, **outputs: str) -> list[str]:
     return calls
 
 
-def test_cpu_is_looked_for_everywhere_before_cuda_is_taken(
-    tools: tooling.Tools, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_cpu_is_looked_for_everywhere_before_cuda_is_taken(tools, monkeypatch, capsys):
     calls = answer(monkeypatch, **{"--torch-backend=cpu": OFFLINE, "cpu.txt": NOTHING})
     assert install.install(tools, "cpu", is_asked=False) == "cuda"
-    tried = [("--offline" in call, "--torch-backend=cpu" in call, "-m pip" in call) for call in calls]
-    assert tried[:5] == [
-        (True, False, False),
-        (True, True, False),
-        (False, False, False),
-        (False, True, False),
-        (False, False, True),
-    ]
+    tried = [tuple(word in call for word in ("--offline", "--torch-backend=cpu", "-m pip")) for call in calls]
+    assert tried[:5] == [(1, 0, 0), (1, 1, 0), (0, 0, 0), (0, 1, 0), (0, 0, 1)]
     assert "the CUDA build is taken, 6.4 GB in all" in capsys.readouterr().err
 
 
-def test_cpu_that_is_asked_for_is_not_replaced(tools: tooling.Tools, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_cpu_that_is_asked_for_is_not_replaced(tools, monkeypatch):
     answer(monkeypatch, **{"cpu.txt": NOTHING})
     with pytest.raises(CommandError, match=r"cause: torch==2\.13\.0\+cpu has no wheels"):
         install.install(tools, "cpu", is_asked=True)
 
 
-@pytest.mark.parametrize(
-    ("output", "line"),
-    [
-        (OFFLINE, "no package registry can be reached; connect to a network"),
-        (
-            "WARNING: [Errno -3] Temporary failure in name resolution\nERROR: No matching distribution",
-            "no package registry",
-        ),
-        ("error: failed to copy: No space left on device (os error 28)", "the disk is full"),
-        ("error: Hash mismatch for `numpy==2.4.6`", "a package differs from its hash in environment.lock"),
-        ("error: Permission denied (os error 13)", "no right to write"),
-    ],
-)
-def test_a_failure_is_one_line(tools: tooling.Tools, monkeypatch: pytest.MonkeyPatch, output: str, line: str) -> None:
+@pytest.mark.parametrize(("output", "line"), [
+    (OFFLINE, "no package registry can be reached; connect to a network"),
+    ("WARNING: Temporary failure in name resolution\nERROR: No matching distribution", "no package registry"),
+    ("error: failed to copy: No space left on device (os error 28)", "the disk is full"),
+    ("error: Hash mismatch for `numpy==2.4.6`", "a package differs from its hash in environment.lock"),
+    ("error: Permission denied (os error 13)", "no right to write"),
+])  # fmt: skip
+def test_a_failure_is_one_line(tools, monkeypatch, output, line):
     answer(monkeypatch, pip=output)
     with pytest.raises(CommandError, match=line) as caught:
         install.install(tools, "cpu", is_asked=False)

@@ -18,7 +18,7 @@ HEADERS = {
 
 
 @pytest.fixture
-def venv(tmp_path: Path) -> Path:
+def venv(tmp_path):
     """An environment whose Python tells what it was called with."""
     folder = tmp_path / 'it\'s a "place"' / "bin"
     folder.mkdir(parents=True)
@@ -33,7 +33,7 @@ def venv(tmp_path: Path) -> Path:
 
 
 @pytest.mark.parametrize("name", HEADERS)
-def test_a_command_calls_the_python_beside_it(venv: Path, name: str) -> None:
+def test_a_command_calls_the_python_beside_it(venv, name):
     cached = venv.with_name("cached")
     os.link(venv / "bin" / name, cached)  # as uv does with its cache
     relocate(venv)
@@ -48,27 +48,23 @@ def test_a_command_calls_the_python_beside_it(venv: Path, name: str) -> None:
 
 
 @pytest.mark.parametrize("given", [{}, {"XDG_CACHE_HOME": "/mine", "MPLCONFIGDIR": "/mine"}])
-def test_caches_of_a_command_lie_beside_the_environment_unless_a_user_says_where(
-    venv: Path, given: dict[str, str]
-) -> None:
+def test_caches_of_a_command_lie_beside_the_environment_unless_a_user_says_where(venv, given):
     (venv / "bin" / "python").write_text('#!/bin/sh\necho "$XDG_CACHE_HOME|$MPLCONFIGDIR"\n')
     relocate(venv)
     environment = {name: value for name, value in os.environ.items() if name not in ("XDG_CACHE_HOME", "MPLCONFIGDIR")}
-    done = subprocess.run(
-        [venv / "bin" / "plain"], capture_output=True, text=True, check=True, env={**environment, **given}
-    )
+    done = subprocess.run([venv / "bin" / "plain"], capture_output=True, text=True, check=True, env=environment | given)
     xdg, drawn = (Path(path).resolve() for path in done.stdout.strip().split("|"))
     cache = venv.parent / ".cache"
     assert (xdg, drawn) == ((Path("/mine"),) * 2 if given else (cache / "xdg", cache / "matplotlib"))
 
 
-def test_other_files_stay(venv: Path) -> None:
+def test_other_files_stay(venv):
     relocate(venv)
     assert (venv / "bin" / "binary").read_bytes() == b"\x7fELF\xff"
     assert (venv / "bin" / "python").read_text().startswith('#!/bin/sh\necho "$0')
 
 
-def test_activation_unsets_foreign_packages_with_a_word(venv: Path) -> None:
+def test_activation_unsets_foreign_packages_with_a_word(venv):
     relocate(venv)
     script = "export PYTHONPATH=/opt/ros; . bin/activate; echo ${PYTHONPATH-none}; . bin/activate"
     done = subprocess.run(["sh", "-c", script], cwd=venv, capture_output=True, text=True, check=True)

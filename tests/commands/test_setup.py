@@ -1,6 +1,5 @@
 """When .venv is made again, what is checked before, and that a set-up that was stopped is begun again."""
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -13,7 +12,7 @@ SITE = Path(".venv/lib/python3.12/site-packages")
 
 
 @pytest.fixture
-def project(tmp_path: Path) -> Path:
+def project(tmp_path):
     """A folder with an environment of one package."""
     for path in (tmp_path / name for name in setup.LOCKS):
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -23,7 +22,7 @@ def project(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def fill(root: Path) -> None:
+def fill(root):
     """Put a Python and a package into .venv."""
     record = root / SITE / "one-1.0.dist-info" / "RECORD"
     texts = {
@@ -38,49 +37,46 @@ def fill(root: Path) -> None:
         path.write_text(text)
 
 
-def stamp(root: Path) -> None:
+def stamp(root):
     """Say that .venv is whole."""
     (root / ".venv" / setup.STAMP).write_text(f"{setup.lock_hash(root)} cpu\none-1.0.dist-info")
 
 
-def test_a_whole_environment_is_left_alone(project: Path) -> None:
+def test_a_whole_environment_is_left_alone(project):
     assert setup.fault_of(project, None) is None
     assert setup.fault_of(project, "cpu") is None
 
 
-@pytest.mark.parametrize(
-    ("gone", "fault"),
-    [
-        (".venv/bin/python", "the Python of .venv is gone"),
-        (".venv/installed", "the last set-up did not end"),
-        (f"{SITE}/one/__init__.py", "one/__init__.py of one-1.0 is missing in .venv"),
-        (f"{SITE}/one/data, more.txt", "one/data, more.txt of one-1.0 is missing in .venv"),
-        (f"{SITE}/one-1.0.dist-info/RECORD", "one-1.0.dist-info/RECORD of one-1.0 is missing in .venv"),
-        (f"{SITE}/mobnet.pth", "mobnet.pth is missing in .venv"),
-    ],
-)
-def test_what_is_missing_is_named(project: Path, gone: str, fault: str) -> None:
+@pytest.mark.parametrize(("gone", "fault"), [
+    (".venv/bin/python", "the Python of .venv is gone"),
+    (".venv/installed", "the last set-up did not end"),
+    (f"{SITE}/one/__init__.py", "one/__init__.py of one-1.0 is missing in .venv"),
+    (f"{SITE}/one/data, more.txt", "one/data, more.txt of one-1.0 is missing in .venv"),
+    (f"{SITE}/one-1.0.dist-info/RECORD", "one-1.0.dist-info/RECORD of one-1.0 is missing in .venv"),
+    (f"{SITE}/mobnet.pth", "mobnet.pth is missing in .venv"),
+])  # fmt: skip
+def test_what_is_missing_is_named(project, gone, fault):
     (project / gone).unlink()
     assert setup.fault_of(project, None) == fault
 
 
-def test_another_lock_or_build_is_told(project: Path) -> None:
+def test_another_lock_or_build_is_told(project):
     assert setup.fault_of(project, "cuda") == "--cuda is asked for, and .venv has the build cpu"
     (project / "environment.lock").write_text("one==1.1\n")
     assert setup.fault_of(project, None) == "environment.lock has changed"
 
 
-def test_the_environment_of_a_moved_folder_is_whole(project: Path, tmp_path: Path) -> None:
+def test_the_environment_of_a_moved_folder_is_whole(project, tmp_path):
     project.rename(tmp_path.with_name("it's moved"))
     assert setup.fault_of(tmp_path.with_name("it's moved"), None) is None
 
 
 @pytest.fixture
-def stubs(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[str]]:
+def stubs(monkeypatch):
     """The steps of an installation, noted; the last one fills .venv, or fails where it is told to."""
-    told: list[str] = []
+    told = []
 
-    def install(tools: Path, build: str, *, is_asked: bool) -> str:
+    def install(tools, build, *, is_asked):
         told.append(f"install {build}{' asked' * is_asked}")
         fill(tools)
         return build
@@ -92,9 +88,7 @@ def stubs(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[str]]:
     return told
 
 
-def test_a_stopped_setup_is_begun_again(
-    project: Path, stubs: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_stopped_setup_is_begun_again(project, stubs, monkeypatch, capsys):
     (project / "environment.lock").write_text("one==1.1\n")
     with monkeypatch.context() as context:
         context.setattr(setup, "make_venv", stop)
@@ -110,14 +104,11 @@ def test_a_stopped_setup_is_begun_again(
     assert "of memory and 1 to 4 minutes" in told
 
 
-def stop(_: object) -> None:
-    """Be Ctrl-C."""
+def stop(_):
     raise KeyboardInterrupt
 
 
-def test_a_linked_environment_of_another_folder_is_never_removed(
-    project: Path, stubs: list[str], tmp_path_factory: pytest.TempPathFactory
-) -> None:
+def test_a_linked_environment_of_another_folder_is_never_removed(project, stubs, tmp_path_factory):
     other = tmp_path_factory.mktemp("other") / ".venv"
     (project / ".venv").rename(other)
     (project / ".venv").symlink_to(other)
@@ -129,7 +120,7 @@ def test_a_linked_environment_of_another_folder_is_never_removed(
     assert stubs == ["venv", "install cuda asked"]
 
 
-def test_a_repair_keeps_the_build(project: Path, stubs: list[str]) -> None:
+def test_a_repair_keeps_the_build(project, stubs):
     path = project / ".venv" / setup.STAMP
     path.write_text(path.read_text().replace("cpu", "cuda"))
     (project / SITE / "one/__init__.py").unlink()
@@ -137,7 +128,7 @@ def test_a_repair_keeps_the_build(project: Path, stubs: list[str]) -> None:
     assert stubs == ["venv", "install cuda"]
 
 
-def test_too_little_disk_is_told_before_anything_is_loaded(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_too_little_disk_is_told_before_anything_is_loaded(project, monkeypatch):
     from mobnet.commands.builds import check_disk
 
     monkeypatch.setattr("shutil.disk_usage", lambda _: type("Usage", (), {"free": 1.2e9})())

@@ -1,43 +1,29 @@
 """Untrained networks and small fits on disk, for every method of the configuration."""
 
 import json
-from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 import torch
+from made_notes import network_note
 from safetensors.torch import save_file
 
-from mobnet.core.estimator import Estimator
 from mobnet.core.files import WEIGHTS
-from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording, Sensed
 from mobnet.estimation.fitting import write_fit
 from mobnet.estimation.methods import build_estimator
-from mobnet.estimation.recipe import Recipe
 from mobnet.learning.deployed.weights import NOTE
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network
 from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.networks import Training
-from mobnet.settings.settings import Settings
 
 SECONDS, FIT_SECONDS = 0.15, 0.3
 INPUT_STD, TARGET_STD = 2.0, 10.0
-Build = Callable[..., Estimator]
-Learned = Callable[..., tuple[dict[str, Path], Path | None]]
 
 
 @pytest.fixture(scope="session")
-def learned(
-    settings: Settings,
-    made_up: Callable[..., Recording],
-    write_pair: Callable[[Path, Recording], tuple[Path, Path]],
-    tmp_path_factory: pytest.TempPathFactory,
-) -> Learned:
+def learned(settings, made_up, write_pair, tmp_path_factory):
     """Return a function of (method, zero) that writes random or zero networks, or a fit to a few samples."""
 
-    def made(method: str, zero: bool = False) -> tuple[dict[str, Path], Path | None]:
+    def made(method, zero=False):
         folder, catalogue = tmp_path_factory.mktemp(method), Catalogue(settings)
         source, learned = catalogue.source_of(method), catalogue.network_source_of(method)
         row, networks = catalogue.method(source), {limb: folder / limb for limb in catalogue.method(learned).limbs}
@@ -54,10 +40,10 @@ def learned(
 
 
 @pytest.fixture(scope="session")
-def build(recipe_of: Callable[..., Recipe], learned: Learned) -> Build:
+def build(recipe_of, learned):
     """Return a function of (method, zero) that builds it with what `learned` writes."""
 
-    def made(method: str, zero: bool = False) -> Estimator:
+    def made(method, zero=False):
         networks, fitted = learned(method, zero)
         return build_estimator(recipe_of(method, networks=networks, fitted=fitted))
 
@@ -65,11 +51,11 @@ def build(recipe_of: Callable[..., Recipe], learned: Learned) -> Build:
 
 
 @pytest.fixture(scope="session")
-def sensed(made_up: Callable[..., Recording]) -> Sensed:
+def sensed(made_up):
     return made_up(5, SECONDS).sensed
 
 
-def _write_network(folder: Path, training: Training, layout: JointLayout, zero: bool) -> None:
+def _write_network(folder, training, layout, zero):
     """Write an untrained network; a zero one predicts no uncertainty."""
     network, std_min = training.network, training.learning.std_min
     joints, names = layout.limbs(network.joints), limb_inputs(layout, network).names
@@ -78,13 +64,6 @@ def _write_network(folder: Path, training: Training, layout: JointLayout, zero: 
     for name, count, std in (("input", len(names), INPUT_STD), ("target", len(joints), TARGET_STD)):
         tensors |= {f"{name}.mean": torch.zeros(count), f"{name}.std": torch.full((count,), std)}
     cell = network.model_dump(mode="json", exclude_defaults=True)
-    note = {
-        "name": "MOB-Net-LL-s0",
-        "limb": training.limb,
-        "joints": joints,
-        "inputs": names,
-        "std_min": std_min,
-        "network": cell,
-    }
+    note = network_note(training.limb, joints, names, cell, std_min)
     folder.mkdir()
     save_file(tensors, folder / WEIGHTS, {NOTE: json.dumps(note)})

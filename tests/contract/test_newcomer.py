@@ -1,24 +1,18 @@
 """The worked example of CONTRIBUTING.md: one file and one row make an estimator that keeps the contract."""
 
 import re
-import subprocess
 import sys
 import textwrap
-from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
 
-from mobnet.core.estimator import Estimator
-from mobnet.core.recording import Sensed
 from mobnet.estimation import kinds
 from mobnet.estimation.methods import build_estimator, method_problems
-from mobnet.estimation.recipe import Recipe
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import load_settings
-from mobnet.settings.settings import Settings
 
 from .checks import CHECKS
 
@@ -26,7 +20,7 @@ ROOT = Path(__file__).parents[2]
 NAME = "MOB-quiet"
 
 
-def example(language: str) -> str:
+def example(language):
     """Return the only block of a language on the guide's page of methods."""
     page = (ROOT / "CONTRIBUTING.md").read_text().split("\n## Add a method")[1].split("\n## ")[0]
     (block,) = re.findall(rf"^ *```{language}\n(.*?)^ *```$", page, re.DOTALL | re.M)
@@ -34,13 +28,12 @@ def example(language: str) -> str:
 
 
 @pytest.fixture(scope="module")
-def extended() -> Settings:
-    """The configuration with the example's row."""
+def extended():
     return load_settings(overrides={"scale": "smoke", "methods": yaml.safe_load(example("yaml"))})
 
 
 @pytest.fixture
-def added(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def added(tmp_path, monkeypatch):
     """The example's file among the kinds."""
     (tmp_path / "dead_band.py").write_text(example("python"))
     monkeypatch.setattr(kinds, "__path__", [*kinds.__path__, str(tmp_path)])
@@ -49,12 +42,12 @@ def added(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 
 
 @pytest.fixture
-def estimator(extended: Settings, recipe_of: Callable[..., Recipe], added: None) -> Estimator:
+def estimator(extended, recipe_of, added):
     return build_estimator(recipe_of(NAME, methods=extended.methods))
 
 
 @pytest.mark.usefixtures("added")
-def test_one_file_and_one_row_are_accepted_beside_all_other_methods(extended: Settings) -> None:
+def test_one_file_and_one_row_are_accepted_beside_all_other_methods(extended):
     assert not list(method_problems(extended))
     wide = Catalogue(extended).method(NAME).model_copy(update={"options": {"width_nm": -2.0}})
     (fault,) = method_problems(extended.model_copy(update={"methods": {**extended.methods, NAME: wide}}))
@@ -62,33 +55,19 @@ def test_one_file_and_one_row_are_accepted_beside_all_other_methods(extended: Se
     assert fault == (place, "-2.0 is not accepted; accepted: a number above 0")
 
 
-def test_without_its_file_the_kind_is_named(extended: Settings) -> None:
+def test_without_its_file_the_kind_is_named(extended):
     ((place, text),) = method_problems(extended)
     assert place == ("methods", NAME, "kind")
     assert text.startswith("kind: 'dead_band' is not accepted; accepted: ")
 
 
 @pytest.mark.parametrize("check", CHECKS, ids=[check.__name__ for check in CHECKS])
-def test_the_example_keeps_the_contract(
-    check: Callable[[Estimator, Sensed], None], estimator: Estimator, sensed: Sensed
-) -> None:
+def test_the_example_keeps_the_contract(check, estimator, sensed):
     check(estimator, sensed)
 
 
-def test_the_example_does_what_it_says(
-    extended: Settings, recipe_of: Callable[..., Recipe], estimator: Estimator, sensed: Sensed
-) -> None:
+def test_the_example_does_what_it_says(extended, recipe_of, estimator, sensed):
     """The residual, nearer to zero by the band's half width."""
     residual, quiet = (made.estimate(sensed).tau_ext for made in (build_estimator(recipe_of("MOB")), estimator))
     width = Catalogue(extended).method(NAME).options["width_nm"]
     np.testing.assert_allclose(np.abs(residual - quiet), np.minimum(np.abs(residual), width), atol=1e-9)
-
-
-def test_the_example_is_in_the_house_style(tmp_path: Path) -> None:
-    """What a newcomer copies passes the linter."""
-    path = tmp_path / "dead_band.py"
-    path.write_text(example("python"))
-    for check in (["check"], ["format", "--check"]):
-        command = [sys.executable, "-m", "ruff", *check, "--config", str(ROOT / "pyproject.toml"), str(path)]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        assert done.returncode == 0, done.stdout + done.stderr

@@ -5,16 +5,13 @@ Rules `observe` and `estimate` run on files, as in the workflow, in which all bu
 
 import json
 import shutil
-from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
 from mobnet.core.columns import EXTERNAL_LP, FEET, SWING, named, recording_columns
-from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording, Truth, write_recording
+from mobnet.core.recording import Truth, write_recording
 from mobnet.core.store import footer_hash, read_array
 from mobnet.estimation.estimate import estimate
 from mobnet.estimation.methods import kind_names
@@ -23,14 +20,12 @@ from mobnet.plan.parts import MethodRun
 from mobnet.running.stage import Stage
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import load_settings
-from mobnet.settings.settings import Settings
 
 LEVEL, SECONDS, WRONG = "all_uncertainty", 0.12, 77.0
 METHODS = list(Catalogue(load_settings()).all_methods)
-Runner = Callable[[str, Path], np.ndarray]
 
 
-def replaced(stem: Path, names: list[str], value: float | None = None) -> None:
+def replaced(stem, names, value=None):
     """Write a number in place of columns of an array on disk, or turn flags around where there is none."""
     path = stem.with_suffix(".parquet")
     table = pq.read_table(path)
@@ -44,26 +39,19 @@ def replaced(stem: Path, names: list[str], value: float | None = None) -> None:
     path.with_suffix(".json").write_text(json.dumps(note | {"footer": footer_hash(path)}))
 
 
-def observed(settings: Settings, folder: Path) -> None:
-    """Run rule `observe` on the recording of a folder."""
+def observed(settings, folder):
     given = settings.robot, settings.levels[LEVEL], settings.plant.gravity_m_s2, settings.observer
     observe(*given, folder / "recording", folder / "residual")
 
 
 @pytest.fixture(scope="module")
-def truth(layout: JointLayout) -> dict[str, list[str]]:
+def truth(layout):
     """Field of the truth -> its columns."""
     return {field: [name for name, *_ in recording_columns(layout)[field]] for field in Truth.__dataclass_fields__}
 
 
 @pytest.fixture(scope="module")
-def folders(
-    settings: Settings,
-    made_up: Callable[..., Recording],
-    layout: JointLayout,
-    truth: dict[str, list[str]],
-    tmp_path_factory: pytest.TempPathFactory,
-) -> dict[str, Path]:
+def folders(settings, made_up, layout, truth, tmp_path_factory):
     """Folders with a recording and its residual: `sound`, `missing` without all that is not sensed, and `wrong`.
 
     A residual needs the external torque for its label, so that is taken away after the observer. What the plan calls a
@@ -85,11 +73,11 @@ def folders(
 
 
 @pytest.fixture(scope="module")
-def run(settings: Settings, learned: Callable[..., tuple[dict[str, Path], Path | None]]) -> Runner:
+def run(settings, learned):
     """A function (method, folder) -> what rule `estimate` writes of the folder's recording; a method learns once."""
-    files: dict[str, tuple[dict[str, Path], Path | None]] = {}
+    files = {}
 
-    def estimated(method: str, folder: Path) -> np.ndarray:
+    def estimated(method, folder):
         networks, fitted = files[method] = files.get(method) or learned(method)
         given = settings.robot, settings.levels[LEVEL], settings.plant.gravity_m_s2, settings.observer
         read, residual, out = (folder / name for name in ("recording", "residual", "estimate"))
@@ -101,27 +89,27 @@ def run(settings: Settings, learned: Callable[..., tuple[dict[str, Path], Path |
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_estimates_need_no_force_and_no_truth(method: str, run: Runner, folders: dict[str, Path]) -> None:
+def test_estimates_need_no_force_and_no_truth(method, run, folders):
     sound = run(method, folders["sound"])
     assert np.isfinite(sound).all()
     for name in ("missing", "wrong"):
         np.testing.assert_array_equal(run(method, folders[name]), sound, err_msg=name)
 
 
-def test_residuals_need_none_either_but_labels_do(layout: JointLayout, folders: dict[str, Path]) -> None:
+def test_residuals_need_none_either_but_labels_do(layout, folders):
     sound, missing, wrong = (read_residual(folders[name]) for name in ("sound", "missing", "wrong"))
     np.testing.assert_array_equal(missing[:, : layout.nv], sound[:, : layout.nv])
     np.testing.assert_array_equal(wrong[:, : layout.nv], sound[:, : layout.nv])
     assert (wrong[-1, layout.nv :] != sound[-1, layout.nv :]).all()
 
 
-def read_residual(folder: Path) -> np.ndarray:
+def read_residual(folder):
     """Return the numbers of the residual of a folder, also those that are missing."""
     table = pq.read_table(folder / "residual.parquet")
     return np.stack([table.column(name).to_numpy() for name in table.column_names], axis=1)
 
 
-def test_a_poisoned_file_is_really_poisoned(truth: dict[str, list[str]], folders: dict[str, Path]) -> None:
+def test_a_poisoned_file_is_really_poisoned(truth, folders):
     """Every column that is not sensed is missing in one and another number in the other."""
     tables = {name: pq.read_table(folder / "recording.parquet") for name, folder in folders.items()}
     for column in (name for names in truth.values() for name in names):
@@ -130,5 +118,5 @@ def test_a_poisoned_file_is_really_poisoned(truth: dict[str, list[str]], folders
         assert (tables["sound"].column(column).to_numpy() != WRONG).all()
 
 
-def test_every_kind_is_among_the_methods(settings: Settings) -> None:
+def test_every_kind_is_among_the_methods(settings):
     assert {row.kind for row in Catalogue(settings).all_methods.values()} == set(kind_names())

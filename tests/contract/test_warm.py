@@ -10,7 +10,6 @@ from mobnet.estimation.observe import observer_of
 from mobnet.plan.jobs import walk_settings
 from mobnet.robot.description import describe
 from mobnet.robot.momentum import sweep
-from mobnet.settings.settings import Settings
 from mobnet.simulation import engine
 from mobnet.simulation.simulator import Simulator
 from mobnet.warm import warm
@@ -18,7 +17,7 @@ from mobnet.warm import warm
 
 @pytest.mark.slow
 @pytest.mark.sim
-def test_the_jobs_find_everything_compiled(settings: Settings) -> None:
+def test_the_jobs_find_everything_compiled(settings):
     warm(walk_settings(settings, "forward_walk", "ideal"), settings.detection)
     functions = engine.run, sweep, decay
     before = [list(function.signatures) for function in functions]

@@ -1,22 +1,18 @@
 """Ground force, foothold and step duration: their limits, and what they do without an error."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
 from mobnet.control.balance import adapt_duration, adapt_foothold, ground_force, measure_dcm
 from mobnet.control.footsteps import plan_steps, reference
 from mobnet.control.geometry import to_yaw_frame
-from mobnet.control.parameters import State, WalkingParameters
-from mobnet.control.walker import Walker
 
 ANKLE = np.array([0.2, 0.1, 0.158])
 TICK_S, GRAVITY = 0.0005, 9.81
 
 
 @pytest.fixture
-def swinging(par: WalkingParameters, stepping: State) -> State:
+def swinging(par, stepping):
     """On the reference, in the middle of the swing, the target on its foothold."""
     s = stepping
     plan_steps(par, s, ANKLE)
@@ -27,17 +23,17 @@ def swinging(par: WalkingParameters, stepping: State) -> State:
     return s
 
 
-def double_support(par: WalkingParameters, s: State) -> float:
+def double_support(par, s):
     """Return how long both feet stand [s]."""
     return par.double_support_share * s.commanded
 
 
-def leftwards(s: State) -> np.ndarray:
+def leftwards(s):
     """Return the direction (2,) to the left of the stance foot."""
     return np.array([-np.sin(s.stance_yaw), np.cos(s.stance_yaw)])
 
 
-def test_dcm_converges_to_com_plus_velocity_over_omega(walker: Walker, stepping: State, random_pose: Callable) -> None:
+def test_dcm_converges_to_com_plus_velocity_over_omega(walker, stepping, random_pose):
     random_pose(0)
     pose, par = walker.pose, walker.par
     pose.com[2], stepping.sole_height = 0.9, 0.05
@@ -52,7 +48,7 @@ def test_dcm_converges_to_com_plus_velocity_over_omega(walker: Walker, stepping:
     assert np.isfinite(stepping.omega)  # while the robot lies
 
 
-def test_no_error_means_the_nominal_zmp_and_the_weight(walker: Walker, swinging: State, random_pose: Callable) -> None:
+def test_no_error_means_the_nominal_zmp_and_the_weight(walker, swinging, random_pose):
     """A zero DCM error moves no ZMP; the force is the pendulum's closed form."""
     random_pose(1)
     pose, mass = walker.pose, walker.pose.weight[0]
@@ -64,7 +60,7 @@ def test_no_error_means_the_nominal_zmp_and_the_weight(walker: Walker, swinging:
 
 
 @pytest.mark.parametrize("error", [(0.3, 0.2), (-0.3, -0.2), (0.0, 1.0)])
-def test_zmp_stays_on_the_sole(walker: Walker, swinging: State, random_pose: Callable, error: tuple) -> None:
+def test_zmp_stays_on_the_sole(walker, swinging, random_pose, error):
     random_pose(1)
     par, local = walker.par, np.zeros(2)
     swinging.dcm = swinging.dcm_reference + np.array(error)
@@ -75,9 +71,7 @@ def test_zmp_stays_on_the_sole(walker: Walker, swinging: State, random_pose: Cal
 
 
 @pytest.mark.parametrize("standing", [0, 1])
-def test_zmp_shift_on_two_feet_is_bounded(
-    walker: Walker, swinging: State, random_pose: Callable, standing: int
-) -> None:
+def test_zmp_shift_on_two_feet_is_bounded(walker, swinging, random_pose, standing):
     random_pose(1)
     swinging.swinging, swinging.standing = 0, standing
     local, par = np.zeros(2), walker.par
@@ -88,8 +82,7 @@ def test_zmp_shift_on_two_feet_is_bounded(
     assert (np.abs(local) <= np.array(bound) + 1e-12).all()
 
 
-def test_foothold_stays_without_an_error(par: WalkingParameters, swinging: State) -> None:
-    """A zero DCM error moves no foothold."""
+def test_foothold_stays_without_an_error(par, swinging):
     adapt_foothold(par, swinging, ANKLE, TICK_S, np.zeros(3))
     np.testing.assert_allclose(swinging.target, swinging.next_ankle, atol=1e-15)
     np.testing.assert_allclose(swinging.target_velocity, 0, atol=1e-12)
@@ -97,7 +90,7 @@ def test_foothold_stays_without_an_error(par: WalkingParameters, swinging: State
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
 @pytest.mark.parametrize("error", [(2.0, 2.0), (-2.0, -2.0), (0.05, -0.02)])
-def test_foothold_keeps_its_reach_and_speed(par: WalkingParameters, swinging: State, error: tuple, side: float) -> None:
+def test_foothold_keeps_its_reach_and_speed(par, swinging, error, side):
     swinging.side = side
     plan_steps(par, swinging, ANKLE)
     swinging.target = swinging.next_ankle
@@ -114,7 +107,7 @@ def test_foothold_keeps_its_reach_and_speed(par: WalkingParameters, swinging: St
     assert par.foothold_y_m[0] - 1e-9 <= -side * local[1] <= par.foothold_y_m[1] + 1e-9
 
 
-def test_foothold_is_frozen_just_before_landing_and_free_when_late(par: WalkingParameters, swinging: State) -> None:
+def test_foothold_is_frozen_just_before_landing_and_free_when_late(par, swinging):
     swinging.error = (0.2, 0.0)
     swinging.t = swinging.total - par.foothold_freeze_s / 2
     adapt_foothold(par, swinging, ANKLE, TICK_S, np.zeros(3))
@@ -125,7 +118,7 @@ def test_foothold_is_frozen_just_before_landing_and_free_when_late(par: WalkingP
 
 
 @pytest.mark.parametrize("band_m", [None, 0.0])
-def test_duration_stays_without_an_error(par: WalkingParameters, swinging: State, band_m: float | None) -> None:
+def test_duration_stays_without_an_error(par, swinging, band_m):
     """A zero DCM error changes no duration, also without a dead band."""
     own = par.copy()
     own.timing_band_m = par.timing_band_m if band_m is None else band_m
@@ -134,7 +127,7 @@ def test_duration_stays_without_an_error(par: WalkingParameters, swinging: State
 
 
 @pytest.mark.parametrize("ahead_s", [-0.05, 0.0, 0.05])
-def test_duration_of_a_shifted_reference_is_exact(par: WalkingParameters, swinging: State, ahead_s: float) -> None:
+def test_duration_of_a_shifted_reference_is_exact(par, swinging, ahead_s):
     """Without dead band and ankle, a DCM that is `ahead_s` ahead of its reference ends the step that much sooner."""
     free = par.copy()
     free.timing_band_m = free.timing_ankle_m = 0.0
@@ -148,7 +141,7 @@ def test_duration_of_a_shifted_reference_is_exact(par: WalkingParameters, swingi
 
 
 @pytest.mark.parametrize("lateral", [-0.3, -0.06, -0.03, 0.03, 0.06, 0.3])
-def test_duration_keeps_its_limits_and_rate(par: WalkingParameters, swinging: State, lateral: float) -> None:
+def test_duration_keeps_its_limits_and_rate(par, swinging, lateral):
     swinging.dcm = swinging.dcm_reference + lateral * leftwards(swinging)
     for t in np.arange(0.2, 1.2, TICK_S):
         swinging.t, before = t, swinging.total
@@ -158,7 +151,7 @@ def test_duration_keeps_its_limits_and_rate(par: WalkingParameters, swinging: St
         assert shortest <= swinging.total <= swinging.commanded + par.step_longer_max_s
 
 
-def test_dcm_that_runs_ahead_shortens_the_step(par: WalkingParameters, swinging: State) -> None:
+def test_dcm_that_runs_ahead_shortens_the_step(par, swinging):
     """The lateral DCM nearer to the swing side than planned is sooner where the next foot wants it."""
     durations = []
     for ahead in (-0.04, 0.0, 0.04):
@@ -169,7 +162,7 @@ def test_dcm_that_runs_ahead_shortens_the_step(par: WalkingParameters, swinging:
     assert durations[0] > durations[1] > durations[2]
 
 
-def test_far_foothold_is_not_reached_faster_than_the_swing_limit(par: WalkingParameters, swinging: State) -> None:
+def test_far_foothold_is_not_reached_faster_than_the_swing_limit(par, swinging):
     swinging.lift[0] -= 0.6
     swinging.dcm = swinging.dcm_reference - swinging.side * 0.1 * leftwards(swinging)
     adapt_duration(par, swinging, double_support(par, swinging), TICK_S, np.zeros(3))

@@ -5,28 +5,25 @@ import pytest
 
 from mobnet.control.base_state import update_base
 from mobnet.control.kinematics import update
-from mobnet.control.walker import Walker
-from mobnet.robot.description import RobotDescription
 
 TICK_S = 0.0005
 DRIFT = np.array([0.1, -0.05, 0.02])  # error of the base velocity at the start [m/s]
 
 
-def run(walker: Walker, q: np.ndarray, v: np.ndarray, acc: np.ndarray, seconds: float) -> None:
-    """Advance the filter; the joints move on with their velocities in v."""
+def run(walker, q, v, acc, seconds):
     for _ in range(round(seconds / TICK_S)):
         update(walker.tree, q, v, walker.gravity, walker.pose)
         update_base(walker, acc, TICK_S, q, v)
 
 
 @pytest.fixture
-def standing(robot: RobotDescription) -> tuple[np.ndarray, np.ndarray]:
+def standing(robot):
     q, v = np.zeros(robot.layout.nq), np.zeros(robot.layout.nv)
     q[3:7] = [np.cos(0.4), 0, 0, np.sin(0.4)]
     return q, v
 
 
-def test_error_decays_with_the_time_constant(walker: Walker, standing: tuple) -> None:
+def test_error_decays_with_the_time_constant(walker, standing):
     """The reference is the closed form of a first-order decay; both soles say the same of a robot that stands."""
     q, v = standing
     v[:3] = DRIFT
@@ -36,7 +33,7 @@ def test_error_decays_with_the_time_constant(walker: Walker, standing: tuple) ->
     np.testing.assert_allclose(q[:3], DRIFT * walker.par.base_time_constant_s * (1 - left), rtol=2e-3)
 
 
-def test_acceleration_is_turned_into_the_world(walker: Walker, standing: tuple) -> None:
+def test_acceleration_is_turned_into_the_world(walker, standing):
     """The closed form is the rotated acceleration, which is held back with the time constant."""
     q, v = standing
     run(walker, q, v, np.array([1.0, 0, walker.gravity]), 0.1)
@@ -47,7 +44,7 @@ def test_acceleration_is_turned_into_the_world(walker: Walker, standing: tuple) 
 
 @pytest.mark.parametrize("moving", [0, 1])
 @pytest.mark.parametrize("speed", [0.3, 3.0])
-def test_the_sole_that_rests_decides(walker: Walker, standing: tuple, moving: int, speed: float) -> None:
+def test_the_sole_that_rests_decides(walker, standing, moving, speed):
     """A leg that swings hardly enters, from either side: its share is the fourth power of the ratio of speeds."""
     q, v = standing
     v[6 + walker.first[moving] + 2] = speed  # hip pitch [rad/s]; the sole moves by 0.86 m for each radian
@@ -56,7 +53,7 @@ def test_the_sole_that_rests_decides(walker: Walker, standing: tuple, moving: in
     assert np.abs(v[:3]).max() < 1.1 * share * 0.86 * speed * 0.1 / walker.par.base_time_constant_s
 
 
-def test_a_base_that_is_far_off_finds_back_while_a_leg_swings(walker: Walker, standing: tuple) -> None:
+def test_a_base_that_is_far_off_finds_back_while_a_leg_swings(walker, standing):
     """The foot that rests seems to move then, and the other one nearer to rest; later steps bring it back."""
     q, v = standing
     hips = 6 + walker.first + 2
@@ -67,7 +64,7 @@ def test_a_base_that_is_far_off_finds_back_while_a_leg_swings(walker: Walker, st
     assert np.abs(v[:3]).max() < 0.01
 
 
-def test_foot_that_rolls_about_its_sole_s_centre_counts_as_still(walker: Walker, standing: tuple) -> None:
+def test_foot_that_rolls_about_its_sole_s_centre_counts_as_still(walker, standing):
     """The ankle of such a foot moves; the sole's centre has zero velocity."""
     q, v = standing
     update(walker.tree, q, v, walker.gravity, walker.pose)

@@ -7,23 +7,22 @@ import pytest
 
 from mobnet.control.commands import MOVING, WIDTH, fixed_commands, random_commands
 from mobnet.control.parameters import DURATION, FOOT_HEIGHT, STEP_X, STEP_Y, TURN
-from mobnet.settings.data import Commands, FixedCommand, RandomCommands
-from mobnet.settings.settings import Settings
+from mobnet.settings.data import FixedCommand, RandomCommands
 
 STEPS = 3000
 
 
 @pytest.fixture
-def commands(settings: Settings) -> Commands:
+def commands(settings):
     return settings.commands
 
 
 @pytest.fixture
-def drawn(commands: Commands) -> np.ndarray:
+def drawn(commands):
     return random_commands(commands, np.random.default_rng(1), STEPS)
 
 
-def test_fixed_command_is_repeated_after_steps_in_place() -> None:
+def test_fixed_command_is_repeated_after_steps_in_place():
     fixed = FixedCommand(step_x_m=0.2, step_y_m=0.1, turn_deg=10.0, duration_s=0.7, foot_height_m=0.055)
     rows = fixed_commands(fixed, 3)
     assert rows.shape == (4, WIDTH)
@@ -32,7 +31,7 @@ def test_fixed_command_is_repeated_after_steps_in_place() -> None:
     np.testing.assert_array_equal(rows[:3, DURATION:], np.tile([0.7, 0.055], (3, 1)))
 
 
-def test_random_commands_stay_in_table_2(commands: Commands, drawn: np.ndarray) -> None:
+def test_random_commands_stay_in_table_2(commands, drawn):
     ranges = {STEP_X: commands.step_x_m, STEP_Y: commands.step_y_m, TURN: np.deg2rad(commands.turn_deg)}
     for column, (low, high) in ranges.items():
         assert drawn[:, column].min() == pytest.approx(low)  # the edges are reached
@@ -41,14 +40,14 @@ def test_random_commands_stay_in_table_2(commands: Commands, drawn: np.ndarray) 
     assert set(drawn[:, FOOT_HEIGHT]) == set(commands.foot_height_m)
 
 
-def test_random_commands_change_at_the_limited_rate(commands: Commands, drawn: np.ndarray) -> None:
+def test_random_commands_change_at_the_limited_rate(commands, drawn):
     law = commands.random
     slew = np.array([law.slew_step_x_m, law.slew_step_y_m, np.deg2rad(law.slew_turn_deg)])
     assert (np.abs(np.diff(drawn[:, :DURATION], axis=0)).max(axis=0) <= slew + 1e-12).all()
     np.testing.assert_array_equal(drawn[: law.in_place_steps, :DURATION], 0)
 
 
-def test_duration_and_height_are_held(commands: Commands, drawn: np.ndarray) -> None:
+def test_duration_and_height_are_held(commands, drawn):
     low, high = commands.random.hold_steps
     changes = np.flatnonzero(np.diff(drawn[:, [DURATION, FOOT_HEIGHT]], axis=0).any(axis=1))
     assert np.diff(changes).min() >= low
@@ -56,7 +55,7 @@ def test_duration_and_height_are_held(commands: Commands, drawn: np.ndarray) -> 
 
 
 @pytest.mark.parametrize("kind", MOVING)
-def test_each_kind_moves_only_what_it_says(commands: Commands, kind: str) -> None:
+def test_each_kind_moves_only_what_it_says(commands, kind):
     law = commands.random.model_copy(update={"kinds": {kind: 1.0}})
     rows = random_commands(commands.model_copy(update={"random": law}), np.random.default_rng(2), STEPS)
     np.testing.assert_array_equal(rows[:, :DURATION].any(axis=0), MOVING[kind])
@@ -64,10 +63,6 @@ def test_each_kind_moves_only_what_it_says(commands: Commands, kind: str) -> Non
         assert (rows[:, STEP_X] * (1 if kind == "forward" else -1) >= 0).all()
 
 
-def test_every_kind_of_the_configuration_is_known(commands: Commands) -> None:
+def test_every_kind_of_the_configuration_is_known(commands):
     assert set(get_args(get_args(RandomCommands.model_fields["kinds"].annotation)[0])) == set(MOVING)
     assert sum(commands.random.kinds.values()) == pytest.approx(1)
-
-
-def test_same_generator_draws_the_same_commands(commands: Commands, drawn: np.ndarray) -> None:
-    np.testing.assert_array_equal(random_commands(commands, np.random.default_rng(1), STEPS), drawn)

@@ -5,24 +5,24 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from mobnet.control.footsteps import decay, plan_steps, reference
-from mobnet.control.parameters import DURATION, STEP_X, STEP_Y, TURN, State, WalkingParameters
+from mobnet.control.parameters import DURATION, STEP_X, STEP_Y, TURN
 
 ANKLE = np.array([0.2, 0.1, 0.158])
 
 
 @pytest.fixture
-def planned(par: WalkingParameters, stepping: State) -> State:
+def planned(par, stepping):
     stepping.zmp_old = stepping.old_ankle[:2] + par.zmp_offset_x_m * np.array([np.cos(0.2), np.sin(0.2)])
     plan_steps(par, stepping, ANKLE)
     return stepping
 
 
-def test_decay_is_one_for_past_times() -> None:
+def test_decay_is_one_for_past_times():
     assert decay(3.0, -1.0) == 1.0
     assert decay(3.0, 0.5) == pytest.approx(np.exp(-1.5), rel=1e-15)
 
 
-def test_dcm_runs_from_its_planned_end_to_the_midpoint_of_the_last_feet(planned: State) -> None:
+def test_dcm_runs_from_its_planned_end_to_the_midpoint_of_the_last_feet(planned):
     """The reference is the closed form of the DCM over a ZMP that stands still."""
     dcm = np.array(planned.dcm_end)
     for k in (1, 2, 3):  # the ZMP stays on plan[k] for a step
@@ -31,11 +31,11 @@ def test_dcm_runs_from_its_planned_end_to_the_midpoint_of_the_last_feet(planned:
     np.testing.assert_allclose(dcm, (planned.plan[3] + planned.plan[4]) / 2, atol=1e-10)
 
 
-def test_reference_solves_the_dcm_equation_for_the_nominal_zmp(par: WalkingParameters, planned: State) -> None:
+def test_reference_solves_the_dcm_equation_for_the_nominal_zmp(par, planned):
     double_support = par.double_support_share * planned.commanded
     end = planned.total + double_support / 2
 
-    def rate(t: float, dcm: np.ndarray) -> np.ndarray:
+    def rate(t, dcm):
         planned.t = t
         reference(planned, double_support)
         zmp = planned.zmp_nominal if t >= 0 else planned.zmp_old
@@ -53,7 +53,7 @@ def test_reference_solves_the_dcm_equation_for_the_nominal_zmp(par: WalkingParam
 
 
 @pytest.mark.parametrize("share", [0.0, 1.0])
-def test_reference_and_zmp_are_continuous(par: WalkingParameters, planned: State, share: float) -> None:
+def test_reference_and_zmp_are_continuous(par, planned, share):
     double_support = par.double_support_share * planned.commanded
     values = []
     for t in (share * double_support - 1e-9, share * double_support + 1e-9):
@@ -63,7 +63,7 @@ def test_reference_and_zmp_are_continuous(par: WalkingParameters, planned: State
     np.testing.assert_allclose(values[0], values[1], atol=1e-7)
 
 
-def test_zmp_goes_from_the_old_to_the_new_foot(par: WalkingParameters, planned: State) -> None:
+def test_zmp_goes_from_the_old_to_the_new_foot(par, planned):
     double_support = par.double_support_share * planned.commanded
     for t, zmp in ((0.0, planned.zmp_old), (double_support, planned.plan[0]), (0.5, planned.plan[0])):
         planned.t = t
@@ -71,7 +71,7 @@ def test_zmp_goes_from_the_old_to_the_new_foot(par: WalkingParameters, planned: 
         np.testing.assert_allclose(planned.zmp_nominal, zmp, atol=1e-15)
 
 
-def test_next_foothold_is_the_command_in_the_stance_foot_s_frame(par: WalkingParameters, planned: State) -> None:
+def test_next_foothold_is_the_command_in_the_stance_foot_s_frame(par, planned):
     turned = planned.stance_yaw
     apart = planned.next_ankle - ANKLE[:2]
     forward = apart @ [np.cos(turned), np.sin(turned)]
@@ -83,7 +83,7 @@ def test_next_foothold_is_the_command_in_the_stance_foot_s_frame(par: WalkingPar
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
 @pytest.mark.parametrize("step_y", [-0.1, 0.1])
-def test_only_an_outer_foot_steps_sideways(par: WalkingParameters, stepping: State, side: float, step_y: float) -> None:
+def test_only_an_outer_foot_steps_sideways(par, stepping, side, step_y):
     stepping.side, stepping.stance_yaw = side, 0.0
     stepping.command[STEP_X] = stepping.command[TURN] = 0.0
     stepping.command[STEP_Y] = step_y
@@ -96,7 +96,7 @@ def test_only_an_outer_foot_steps_sideways(par: WalkingParameters, stepping: Sta
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
 @pytest.mark.parametrize("turn", [-0.35, 0.35])
-def test_toes_turn_in_less_than_out(par: WalkingParameters, stepping: State, side: float, turn: float) -> None:
+def test_toes_turn_in_less_than_out(par, stepping, side, turn):
     stepping.side, stepping.command[TURN] = side, turn
     plan_steps(par, stepping, ANKLE)
     inwards = turn * side > 0  # left stance: the right foot turns its toes to the left
@@ -104,7 +104,7 @@ def test_toes_turn_in_less_than_out(par: WalkingParameters, stepping: State, sid
     assert stepping.next_yaw - stepping.stance_yaw == pytest.approx(expected, abs=1e-14)
 
 
-def test_plan_is_symmetric_under_reflection(par: WalkingParameters, stepping: State) -> None:
+def test_plan_is_symmetric_under_reflection(par, stepping):
     image = stepping.copy()
     mirror = np.array([1.0, -1.0])
     image.side, image.stance_yaw = -stepping.side, -stepping.stance_yaw
@@ -115,8 +115,7 @@ def test_plan_is_symmetric_under_reflection(par: WalkingParameters, stepping: St
     np.testing.assert_allclose(image.dcm_end, stepping.dcm_end * mirror, atol=1e-15)
 
 
-def test_steps_in_place_repeat_after_two(par: WalkingParameters, stepping: State) -> None:
-    """Steps in place are invariant to a shift by two."""
+def test_steps_in_place_repeat_after_two(par, stepping):
     stepping.command[:DURATION] = 0.0
     plan_steps(par, stepping, ANKLE)
     np.testing.assert_allclose(stepping.plan[2:4], stepping.plan[:2], atol=1e-14)

@@ -1,14 +1,11 @@
 """Leg kinematics: inverse of the forward kinematics, in and out of reach."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
 from mobnet.control.kinematics import update
 from mobnet.control.leg_ik import leg_ik
 from mobnet.control.parameters import SIDES
-from mobnet.control.walker import Walker
 
 LOW = np.array([-0.6, -0.4, -1.2, 0.1, -0.8, -0.4])
 HIGH = np.array([0.6, 0.4, 0.6, 2.0, 0.4, 0.4])
@@ -16,7 +13,7 @@ HIGH = np.array([0.6, 0.4, 0.6, 2.0, 0.4, 0.4])
 
 @pytest.mark.parametrize("k", [0, 1])
 @pytest.mark.parametrize("seed", range(10))
-def test_round_trip_through_forward_kinematics(walker: Walker, random_pose: Callable, seed: int, k: int) -> None:
+def test_round_trip_through_forward_kinematics(walker, random_pose, seed, k):
     q, v = random_pose(seed)
     expected = np.random.default_rng(seed).uniform(LOW, HIGH)
     span = slice(7 + walker.first[k], 13 + walker.first[k])
@@ -28,8 +25,7 @@ def test_round_trip_through_forward_kinematics(walker: Walker, random_pose: Call
     np.testing.assert_allclose(found, expected, atol=1e-12)
 
 
-def test_mirrored_pose_gives_mirrored_angles(walker: Walker) -> None:
-    """Both legs are symmetric in y."""
+def test_mirrored_pose_gives_mirrored_angles(walker):
     left, right = np.zeros(6), np.zeros(6)
     ankle = np.array([0.15, 0.12, -0.75])
     leg_ik(walker.leg, 1.0, np.eye(3), np.zeros(3), np.eye(3), ankle, left)
@@ -37,7 +33,7 @@ def test_mirrored_pose_gives_mirrored_angles(walker: Walker) -> None:
     np.testing.assert_allclose(right, left * [-1, -1, 1, 1, 1, -1], atol=1e-15)
 
 
-def test_pose_out_of_reach_is_met_with_a_finite_nearly_straight_leg(walker: Walker) -> None:
+def test_pose_out_of_reach_is_met_with_a_finite_nearly_straight_leg(walker):
     found = np.zeros(6)
     leg_ik(walker.leg, 1.0, np.eye(3), np.zeros(3), np.eye(3), np.array([0.3, 0.1, -1.5]), found)
     assert np.isfinite(found).all()

@@ -10,20 +10,18 @@ NOTES = ROOT / "docs" / "notes"
 SOURCE = ROOT / "src" / "mobnet"
 
 
-@pytest.mark.parametrize(
-    ("note", "letter", "code"),
-    [
-        ("0019-walking-controller", "W", ["control/*.py", "simulation/start.py"]),
-        ("0034-observer", "O", ["estimation/**/*.py"]),
-        ("0035-networks", "N", ["learning/**/*.py"]),
-    ],
-)
-def test_every_equation_of_a_note_is_cited_in_the_code_and_no_other(note: str, letter: str, code: list[str]) -> None:
+@pytest.mark.parametrize(("note", "letter", "code"), [
+    ("0019-walking-controller", "W", ["control/*.py", "simulation/start.py"]),
+    ("0034-observer", "O", ["estimation/**/*.py"]),
+    ("0035-networks", "N", ["learning/**/*.py"]),
+    ("0036-detection", "D", ["detection/**/*.py", "evaluation/measure/**/*.py"]),
+])  # fmt: skip
+def test_every_equation_of_a_note_is_cited_in_the_code_and_no_other(note, letter, code):
     """A range such as (W2) to (W4) cites all that lie in it; a module's docstring, which names such a range, none."""
     text = (NOTES / f"{note}.md").read_text()
     numbers = [int(number) for number in re.findall(rf"^ {{4}}.*\({letter}(\d+)\)$", text, flags=re.MULTILINE)]
     assert numbers == list(range(1, len(numbers) + 1))
-    cited: set[int] = set()
+    cited = set()
     for path in (path for pattern in code for path in SOURCE.glob(pattern)):
         body = path.read_text().split('"""', 2)[2]
         for first, last in re.findall(rf"\({letter}(\d+)\)(?: to \({letter}(\d+)\))?", body):

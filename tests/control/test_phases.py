@@ -4,17 +4,14 @@ import numpy as np
 import pytest
 
 from mobnet.control.kinematics import update
-from mobnet.control.parameters import State
 from mobnet.control.phases import move_pelvis, reached_height
-from mobnet.control.walker import Walker
-from mobnet.robot.description import WalkingRobot
 from mobnet.simulation.start import place
 
 TICK_S = 0.0005
 
 
 @pytest.fixture
-def standing(walker: Walker, robot: WalkingRobot, stepping: State) -> State:
+def standing(walker, robot, stepping):
     """Feet together under a still robot, both on the ground."""
     q, ankles = place(walker, robot)
     update(walker.tree, q, np.zeros(robot.layout.nv), walker.gravity, walker.pose)
@@ -25,7 +22,7 @@ def standing(walker: Walker, robot: WalkingRobot, stepping: State) -> State:
     return stepping
 
 
-def test_legs_under_the_hips_leave_the_pelvis_at_its_height(walker: Walker, standing: State) -> None:
+def test_legs_under_the_hips_leave_the_pelvis_at_its_height(walker, standing):
     wanted = standing.sole_height + walker.par.pelvis_height_m
     for swinging in (0, 1):
         standing.swinging = swinging
@@ -33,7 +30,7 @@ def test_legs_under_the_hips_leave_the_pelvis_at_its_height(walker: Walker, stan
 
 
 @pytest.mark.parametrize("away", [0.25, 0.3])
-def test_pelvis_sinks_until_the_landing_leg_has_its_reach(walker: Walker, standing: State, away: float) -> None:
+def test_pelvis_sinks_until_the_landing_leg_has_its_reach(walker, standing, away):
     """The still pendulum over its ZMP stays: the hip at its new height is one reach from the target."""
     standing.swinging, standing.t = 1, 0.5
     hip = walker.pose.position[walker.tree.body_of_joint[walker.first[1]]].copy()
@@ -44,7 +41,7 @@ def test_pelvis_sinks_until_the_landing_leg_has_its_reach(walker: Walker, standi
     assert span == pytest.approx(walker.par.leg_reach_m, abs=1e-9)
 
 
-def test_reach_is_asked_where_the_pendulum_brings_the_hip(walker: Walker, standing: State) -> None:
+def test_reach_is_asked_where_the_pendulum_brings_the_hip(walker, standing):
     """A hip that moves towards a far target is over it when the step ends: integrated from (W2) as the reference."""
     standing.swinging, standing.t, standing.velocity = 1, 0.4, [0.5, 0.0]
     place_m, speed, omega = np.array([0.0, 0.0]), np.array([0.5, 0.0]), float(standing.omega)
@@ -60,7 +57,7 @@ def test_reach_is_asked_where_the_pendulum_brings_the_hip(walker: Walker, standi
     assert reached_height(walker, standing, 0) < wanted
 
 
-def test_pelvis_sinks_by_a_bounded_depth_and_speed(walker: Walker, standing: State) -> None:
+def test_pelvis_sinks_by_a_bounded_depth_and_speed(walker, standing):
     par = walker.par
     standing.swinging, standing.t, standing.target = 1, 0.5, [3.0, 0.0]
     lowest = standing.sole_height + par.pelvis_height_m - par.pelvis_sink_max_m

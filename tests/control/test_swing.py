@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mobnet.control.parameters import FOOT_HEIGHT, State, WalkingParameters
+from mobnet.control.parameters import FOOT_HEIGHT
 from mobnet.control.swing import swing_foot, swing_height
 
 DOUBLE_SUPPORT, SPAN, GROUND = 0.13, 0.67, 0.158
@@ -11,7 +11,7 @@ STEP = 1e-6
 
 
 @pytest.fixture
-def swinging(stepping: State) -> State:
+def swinging(stepping):
     stepping.lift = [0.0, -0.1, 0.163]
     stepping.lift_yaw, stepping.lift_roll, stepping.lift_pitch, stepping.next_yaw = 0.1, 0.05, -0.04, 0.4
     stepping.target = [0.3, -0.12]
@@ -19,7 +19,7 @@ def swinging(stepping: State) -> State:
     return stepping
 
 
-def at(par: WalkingParameters, s: State, t: float) -> State:
+def at(par, s, t):
     """Return a copy of the state with the swing foot at time t [s]."""
     moved = s.copy()
     moved.t = t
@@ -27,13 +27,13 @@ def at(par: WalkingParameters, s: State, t: float) -> State:
     return moved
 
 
-def test_starts_where_the_foot_left(par: WalkingParameters, swinging: State) -> None:
+def test_starts_where_the_foot_left(par, swinging):
     s = at(par, swinging, DOUBLE_SUPPORT)
     np.testing.assert_allclose(s.foot, swinging.lift, atol=1e-15)
     np.testing.assert_allclose(s.foot_velocity, 0.0, atol=1e-12)
 
 
-def test_ends_over_the_foothold_level_and_descending(par: WalkingParameters, swinging: State) -> None:
+def test_ends_over_the_foothold_level_and_descending(par, swinging):
     s = at(par, swinging, swinging.total)
     np.testing.assert_allclose(s.foot, [*swinging.target, GROUND], atol=1e-12)
     np.testing.assert_allclose(s.foot_velocity, [0.0, 0.0, -par.descent_speed_m_s], atol=1e-12)
@@ -44,28 +44,27 @@ def test_ends_over_the_foothold_level_and_descending(par: WalkingParameters, swi
 
 @pytest.mark.parametrize("slope", [(0.05, 0.0), (0.0, 0.05), (-0.03, 0.04)])
 @pytest.mark.parametrize("yaw", [0.0, 0.4, -2.0, 3.0])
-def test_sole_lands_along_the_slope(par: WalkingParameters, swinging: State, slope: tuple, yaw: float) -> None:
+def test_sole_lands_along_the_slope(par, swinging, slope, yaw):
     swinging.slope, swinging.next_yaw = slope, yaw
     normal = at(par, swinging, swinging.total).foot_rotation[:, 2]
     np.testing.assert_allclose(-normal[:2] / normal[2], slope, atol=2e-4)
 
 
-def test_foot_leaves_as_it_stood_whatever_the_slope(par: WalkingParameters, swinging: State) -> None:
+def test_foot_leaves_as_it_stood_whatever_the_slope(par, swinging):
     level, sloping = swinging.copy(), swinging.copy()
     sloping.slope = [0.05, -0.02]
     here, there = (at(par, s, DOUBLE_SUPPORT).foot_rotation for s in (level, sloping))
     np.testing.assert_array_equal(there, here)
 
 
-def test_apex_is_the_commanded_height_over_the_higher_foot(par: WalkingParameters, swinging: State) -> None:
+def test_apex_is_the_commanded_height_over_the_higher_foot(par, swinging):
     height, rate = swing_height(par, swinging, GROUND, SPAN, par.swing_apex)
     assert height == pytest.approx(max(swinging.lift[2], GROUND) + swinging.command[FOOT_HEIGHT], abs=1e-14)
     assert rate == pytest.approx(0.0, abs=1e-12)
 
 
 @pytest.mark.parametrize("t", [0.2, 0.3, 0.44, 0.6, 0.75, 0.82, 0.85])
-def test_velocity_is_the_derivative_of_the_position(par: WalkingParameters, swinging: State, t: float) -> None:
-    """The reference is a central difference."""
+def test_velocity_is_the_derivative_of_the_position(par, swinging, t):
     difference = (at(par, swinging, t + STEP).foot - at(par, swinging, t - STEP).foot) / (2 * STEP)
     s = at(par, swinging, t)
     np.testing.assert_allclose(s.foot_velocity, difference, atol=1e-6)
@@ -73,8 +72,7 @@ def test_velocity_is_the_derivative_of_the_position(par: WalkingParameters, swin
     assert s.foot_yaw_rate == pytest.approx((turned[1] - turned[0]) / (2 * STEP), abs=1e-6)
 
 
-def test_moving_target_enters_the_velocity(par: WalkingParameters, swinging: State) -> None:
-    """The reference is a difference along the target's own motion."""
+def test_moving_target_enters_the_velocity(par, swinging):
     swinging.target_velocity = [0.5, -0.2]
     moved = swinging.copy()
     moved.target = swinging.target + STEP * swinging.target_velocity
@@ -83,14 +81,13 @@ def test_moving_target_enters_the_velocity(par: WalkingParameters, swinging: Sta
     np.testing.assert_allclose(at(par, swinging, t).foot_velocity[:2], difference, atol=1e-5)
 
 
-@pytest.mark.parametrize("phase", ["apex", "end"])
-def test_position_and_velocity_are_continuous(par: WalkingParameters, swinging: State, phase: str) -> None:
-    u = par.swing_apex if phase == "apex" else 1.0
-    before, after = (swing_height(par, swinging, GROUND, SPAN, u + d) for d in (-1e-9, 1e-9))
-    np.testing.assert_allclose(before, after, atol=1e-6)
+def test_position_and_velocity_are_continuous_at_the_apex_and_the_end(par, swinging):
+    for u in (par.swing_apex, 1.0):
+        before, after = (swing_height(par, swinging, GROUND, SPAN, u + d) for d in (-1e-9, 1e-9))
+        np.testing.assert_allclose(before, after, atol=1e-6)
 
 
-def test_late_foot_goes_down_to_the_depth_and_no_further(par: WalkingParameters, swinging: State) -> None:
+def test_late_foot_goes_down_to_the_depth_and_no_further(par, swinging):
     heights = [swing_height(par, swinging, GROUND, SPAN, u)[0] for u in np.linspace(1.0, 1.5, 100)]
     assert (np.diff(heights) <= 0).all()
     assert heights[-1] == pytest.approx(GROUND - par.descent_depth_m, abs=1e-15)

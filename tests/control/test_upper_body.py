@@ -9,26 +9,24 @@ RATE_HZ = 50.0
 
 
 @pytest.fixture
-def upper() -> UpperBody:
+def upper():
     """A motion of three joints, 1 s long, that starts half a second into the clock."""
     time = np.arange(51) / RATE_HZ
     return UpperBody(np.column_stack([np.sin(3 * time), time, np.full(51, 0.7)]), RATE_HZ, np.array([0.5]))
 
 
-def at(upper: UpperBody, clock: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return wanted positions and velocities at a clock."""
+def at(upper, clock):
     q, v = np.zeros(3), np.zeros(3)
     follow(upper, clock, q, v)
     return q, v
 
 
-def test_reference_meets_every_knot(upper: UpperBody) -> None:
+def test_reference_meets_every_knot(upper):
     for k, knot in enumerate(upper.knots):
         np.testing.assert_allclose(at(upper, k / RATE_HZ - 0.5)[0], knot, atol=1e-12)
 
 
-def test_velocity_is_the_derivative_of_position_and_continuous(upper: UpperBody) -> None:
-    """The reference is a central difference."""
+def test_velocity_is_the_derivative_of_position_and_continuous(upper):
     clocks, small = np.linspace(-0.45, 0.45, 333), 1e-6
     for clock in clocks:
         slope = (at(upper, clock + small)[0] - at(upper, clock - small)[0]) / (2 * small)
@@ -38,7 +36,7 @@ def test_velocity_is_the_derivative_of_position_and_continuous(upper: UpperBody)
         np.testing.assert_allclose(before, after, atol=1e-5)
 
 
-def test_line_is_followed_exactly_and_a_constant_stays(upper: UpperBody) -> None:
+def test_line_is_followed_exactly_and_a_constant_stays(upper):
     """Linear motion is a cubic's closed form; a constant has zero velocity."""
     for clock in np.linspace(-0.48, 0.48, 77):
         q, v = at(upper, clock)
@@ -46,13 +44,13 @@ def test_line_is_followed_exactly_and_a_constant_stays(upper: UpperBody) -> None
 
 
 @pytest.mark.parametrize(("clock", "row"), [(-5.0, 0), (-0.5, 0), (0.5, -1), (9.0, -1)])
-def test_ends_are_held_still(upper: UpperBody, clock: float, row: int) -> None:
+def test_ends_are_held_still(upper, clock, row):
     q, v = at(upper, clock)
     np.testing.assert_array_equal(q, upper.knots[row])
     np.testing.assert_array_equal(v, 0)
 
 
-def test_single_knot_is_a_posture() -> None:
+def test_single_knot_is_a_posture():
     still = UpperBody(np.array([[0.1, 0.2, 0.3]]), 1.0, np.zeros(1))
     for clock in (-1.0, 0.0, 0.5, 1.0, 100.0):
         q, v = at(still, clock)

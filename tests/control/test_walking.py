@@ -1,16 +1,13 @@
 """One tick of the controller: events of the step, and symmetries of the whole."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
 from mobnet.control.geometry import yaw_roll_pitch_matrix
-from mobnet.control.parameters import DURATION, State, WalkingParameters, empty_state
+from mobnet.control.parameters import DURATION, empty_state
 from mobnet.control.phases import correct_load, feel_slope
-from mobnet.control.walker import Walker, foot_yaw, vertical_force
+from mobnet.control.walker import foot_yaw, vertical_force
 from mobnet.control.walking import walk
-from mobnet.robot.description import RobotDescription
 from mobnet.simulation.start import start_standing, start_walking
 
 TICK_S, WEIGHT_N = 0.0005, 900.0
@@ -21,42 +18,41 @@ RIGHT = 1
 class Walk:
     """The controller, called with a body that stays where it is."""
 
-    def __init__(self, walker: Walker, robot: RobotDescription) -> None:
+    def __init__(self, walker, robot):
         self.walker, self.s = walker, empty_state()
         self.q, self.v = start_walking(walker, robot, self.s, COMMANDS[0])
         self.v[:] = 0
         self.wrenches, self.tau = np.zeros((2, 6)), np.zeros(robot.layout.nu)
         self.wrenches[0, 2] = WEIGHT_N
 
-    def tick(self) -> None:
-        """Advance by one tick."""
+    def tick(self):
         walk(self.walker, self.s, self.q, self.v, self.wrenches, COMMANDS, TICK_S, self.tau)
 
-    def land(self, force_n: float = WEIGHT_N) -> None:
+    def land(self, force_n=WEIGHT_N):
         """Advance by one tick with a vertical force on the right foot."""
         self.wrenches[RIGHT, 2] = force_n
         self.tick()
 
-    def to(self, t: float) -> None:
+    def to(self, t):
         """Advance until the step's time is t [s]."""
         while self.s.t < t - 1e-12:
             self.tick()
 
 
 @pytest.fixture
-def walking(walker: Walker, robot: RobotDescription) -> Walk:
+def walking(walker, robot):
     return Walk(walker, robot)
 
 
 @pytest.fixture
-def swinging(walking: Walk) -> Walk:
+def swinging(walking):
     """Amid the first step, the right foot in the air; its duration is held."""
     walking.to(0.7 * COMMANDS[0, DURATION])
     assert walking.s.swinging == 1
     return walking
 
 
-def test_foot_leaves_at_the_end_of_double_support(walking: Walk) -> None:
+def test_foot_leaves_at_the_end_of_double_support(walking):
     end = walking.walker.par.double_support_share * COMMANDS[0, DURATION]
     walking.to(end - 2 * TICK_S)
     assert walking.s.swinging == 0
@@ -66,13 +62,13 @@ def test_foot_leaves_at_the_end_of_double_support(walking: Walk) -> None:
 
 
 @pytest.mark.parametrize(("share", "touches"), [(0.3, 10.0), (0.7, 0.9)])
-def test_contact_early_in_the_swing_or_light_is_ignored(walking: Walk, share: float, touches: float) -> None:
+def test_contact_early_in_the_swing_or_light_is_ignored(walking, share, touches):
     walking.to(share * COMMANDS[0, DURATION])
     walking.land(touches * walking.walker.par.touch_force_n)
     assert (walking.s.steps, walking.s.side) == (0, 1.0)
 
 
-def test_early_contact_swaps_the_feet_and_waits_for_the_schedule(swinging: Walk) -> None:
+def test_early_contact_swaps_the_feet_and_waits_for_the_schedule(swinging):
     left, remaining = swinging.walker.pose.position[swinging.walker.feet[0]].copy(), swinging.s.total - swinging.s.t
     swinging.land(1.1 * swinging.walker.par.touch_force_n)
     s = swinging.s
@@ -84,7 +80,7 @@ def test_early_contact_swaps_the_feet_and_waits_for_the_schedule(swinging: Walk)
     assert s.load[RIGHT] == 0.0  # all weight stays on the old foot while it waits
 
 
-def test_late_foot_keeps_going_down_and_lands_without_waiting(swinging: Walk) -> None:
+def test_late_foot_keeps_going_down_and_lands_without_waiting(swinging):
     swinging.to(swinging.s.total)
     before = swinging.s.foot[2]
     swinging.to(swinging.s.total + 0.5 * swinging.walker.par.late_max_s)
@@ -94,7 +90,7 @@ def test_late_foot_keeps_going_down_and_lands_without_waiting(swinging: Walk) ->
     assert (swinging.s.steps, swinging.s.t) == (1, 0.0)
 
 
-def test_missed_contact_ends_the_step_at_the_latest(swinging: Walk) -> None:
+def test_missed_contact_ends_the_step_at_the_latest(swinging):
     while swinging.s.steps == 0:
         latest = swinging.s.t - swinging.s.total
         swinging.tick()
@@ -102,7 +98,7 @@ def test_missed_contact_ends_the_step_at_the_latest(swinging: Walk) -> None:
     assert (swinging.s.side, swinging.s.t) == (-1.0, 0.0)
 
 
-def test_last_command_is_repeated(walking: Walk) -> None:
+def test_last_command_is_repeated(walking):
     walking.s.steps = 10
     walking.to(0.7 * COMMANDS[0, DURATION])
     walking.land()
@@ -111,7 +107,7 @@ def test_last_command_is_repeated(walking: Walk) -> None:
 
 @pytest.mark.parametrize(("share", "stumbles"), [(0.99, False), (1.01, True)])
 @pytest.mark.parametrize("way", [(1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.6, 0.8, 0.0), (0.0, 0.0, 1.0)])
-def test_only_the_step_after_a_stumble_is_in_place(swinging: Walk, share: float, stumbles: bool, way: tuple) -> None:
+def test_only_the_step_after_a_stumble_is_in_place(swinging, share, stumbles, way):
     """Step and turn are zero where the DCM error (x, y) is large or the pelvis has sunk: knees at their limits
     straighten only in place. The command's duration and foot height stay, and later steps are as commanded."""
     par = swinging.walker.par
@@ -131,14 +127,14 @@ def test_only_the_step_after_a_stumble_is_in_place(swinging: Walk, share: float,
 
 
 @pytest.mark.parametrize("lacks", [-120.0, 0.0, 200.0])
-def test_load_error_converges_to_what_a_foot_lacks_of_its_share(walker: Walker, stepping: State, lacks: float) -> None:
+def test_load_error_converges_to_what_a_foot_lacks_of_its_share(walker, stepping, lacks):
     load_feet(walker, stepping, lacks)
     for _ in range(200):
         correct_load(walker, stepping)
     np.testing.assert_allclose(stepping.load_error, [lacks, -lacks], atol=1e-6)
 
 
-def test_load_error_decays_to_zero_while_one_foot_swings(walker: Walker, stepping: State) -> None:
+def test_load_error_decays_to_zero_while_one_foot_swings(walker, stepping):
     load_feet(walker, stepping, 200.0)
     stepping.load_error, stepping.swinging = [200.0, -200.0], 1
     correct_load(walker, stepping)
@@ -148,7 +144,7 @@ def test_load_error_decays_to_zero_while_one_foot_swings(walker: Walker, steppin
     np.testing.assert_allclose(stepping.load_error, 0.0, atol=1e-9)
 
 
-def load_feet(walker: Walker, s: State, lacks: float) -> None:
+def load_feet(walker, s, lacks):
     """Let both feet be level, 0.6 and 0.4 of 900 N wanted on them; the left one has less by `lacks` [N]."""
     s.load, s.force, s.swinging = [0.6, 0.4], [30.0, -20.0, WEIGHT_N], 0
     walker.pose.rotation[walker.feet] = np.eye(3)
@@ -157,7 +153,7 @@ def load_feet(walker: Walker, s: State, lacks: float) -> None:
 
 
 @pytest.mark.parametrize("yaw", [0.0, 0.9, -2.5])
-def test_felt_slope_converges_to_the_foot_s_and_takes_a_time_constant(par: WalkingParameters, yaw: float) -> None:
+def test_felt_slope_converges_to_the_foot_s_and_takes_a_time_constant(par, yaw):
     s, foot, slope = empty_state(), np.zeros((3, 3)), np.array([0.04, -0.03])
     c, n = np.cos(yaw), np.sin(yaw)
     roll, pitch = np.arctan(slope @ [-n, c]), -np.arctan(slope @ [c, n])
@@ -171,7 +167,7 @@ def test_felt_slope_converges_to_the_foot_s_and_takes_a_time_constant(par: Walki
     np.testing.assert_allclose(s.slope, slope, rtol=3e-3)
 
 
-def test_felt_slope_stays_within_its_bound_under_a_foot_that_tips(par: WalkingParameters) -> None:
+def test_felt_slope_stays_within_its_bound_under_a_foot_that_tips(par):
     s, foot = empty_state(), np.zeros((3, 3))
     yaw_roll_pitch_matrix(0.3, 0.5, -0.6, foot)
     for _ in range(20_000):
@@ -181,7 +177,7 @@ def test_felt_slope_stays_within_its_bound_under_a_foot_that_tips(par: WalkingPa
 
 
 @pytest.mark.parametrize("slope", [(0.0, 0.0), (0.05, 0.0), (-0.02, 0.04)])
-def test_foot_comes_down_where_the_slope_puts_the_ground(swinging: Walk, slope: tuple[float, float]) -> None:
+def test_foot_comes_down_where_the_slope_puts_the_ground(swinging, slope):
     """At the end of its swing the ankle is over the foothold as high as a plane of that slope through the other."""
     swinging.to(swinging.s.total - 3 * TICK_S)
     s, stance = swinging.s, swinging.walker.pose.position[swinging.walker.feet[0]]
@@ -195,7 +191,7 @@ def test_foot_comes_down_where_the_slope_puts_the_ground(swinging: Walk, slope: 
     assert s.foot[2] == pytest.approx(expected, abs=1e-3)
 
 
-def disturbed(walk: Walk, seed: int) -> None:
+def disturbed(walk, seed):
     """Move body, rates and sensors off the nominal motion, less than makes the foothold run at its largest speed.
 
     That speed is limited along each world axis, the one thing in the controller that knows where north is.
@@ -210,9 +206,7 @@ def disturbed(walk: Walk, seed: int) -> None:
 
 @pytest.mark.parametrize("seconds", [0.1, 0.3, 0.6])
 @pytest.mark.parametrize("yaw", [0.0, 0.7, np.pi - 0.01])
-def test_torques_are_invariant_to_where_the_robot_is_and_looks(
-    walking: Walk, make: Callable, robot: RobotDescription, turned: Callable, seconds: float, yaw: float
-) -> None:
+def test_torques_are_invariant_to_where_the_robot_is_and_looks(walking, make, robot, turned, seconds, yaw):
     walking.to(seconds)
     disturbed(walking, 0)
     image = Walk(make(), robot)
@@ -225,9 +219,7 @@ def test_torques_are_invariant_to_where_the_robot_is_and_looks(
 
 
 @pytest.mark.parametrize("seconds", [0.1, 0.6])
-def test_mirrored_state_gives_mirrored_torques(
-    walking: Walk, make: Callable, robot: RobotDescription, mirrored: Callable, seconds: float
-) -> None:
+def test_mirrored_state_gives_mirrored_torques(walking, make, robot, mirrored, seconds):
     """Up to the table's own asymmetry, which moves the centre of mass a little."""
     walking.to(seconds)
     image = Walk(make(), robot)
@@ -239,7 +231,7 @@ def test_mirrored_state_gives_mirrored_torques(
     np.testing.assert_allclose(image.tau, expected, atol=0.2)
 
 
-def test_wrench_is_moved_from_the_sensor_to_the_ankle(walking: Walk) -> None:
+def test_wrench_is_moved_from_the_sensor_to_the_ankle(walking):
     rng = np.random.default_rng(0)
     walking.wrenches = rng.normal(size=(2, 6))
     walking.tick()
@@ -251,17 +243,17 @@ def test_wrench_is_moved_from_the_sensor_to_the_ankle(walking: Walk) -> None:
         assert vertical_force(walking.walker, k) == pytest.approx(turned[2], abs=1e-14)
 
 
-def test_foot_yaw_is_the_heading_of_its_x_axis(walker: Walker, random_pose: Callable) -> None:
+def test_foot_yaw_is_the_heading_of_its_x_axis(walker, random_pose):
     random_pose(3)
     heading = walker.pose.rotation[walker.feet[0]][:, 0]
     assert foot_yaw(walker.pose, walker.feet[0]) == pytest.approx(np.arctan2(heading[1], heading[0]), abs=1e-15)
 
 
-def test_standing_never_steps(walker: Walker, robot: RobotDescription) -> None:
+def test_standing_never_steps(walker, robot):
     stand = Walk(walker, robot)
     stand.q, stand.v = start_standing(walker, robot, stand.s, COMMANDS[0])
     for _ in range(2000):
         stand.tick()
-    s: State = stand.s
+    s = stand.s
     assert (s.t, s.steps, s.swinging) == (0.0, 0, 0)
     np.testing.assert_allclose(s.load, 0.5, atol=0.05)

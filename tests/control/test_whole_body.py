@@ -1,15 +1,11 @@
 """Joint torques and references of the legs."""
 
-from collections.abc import Callable
-
 import mujoco
 import numpy as np
 import pytest
 
 from mobnet.control.geometry import yaw_roll_pitch_matrix
 from mobnet.control.kinematics import update
-from mobnet.control.parameters import State
-from mobnet.control.walker import Walker
 from mobnet.control.whole_body import (
     LEG_JOINTS,
     leg_jacobian,
@@ -18,7 +14,6 @@ from mobnet.control.whole_body import (
     stance_torque,
     swing_torque,
 )
-from mobnet.robot.description import RobotDescription
 from mobnet.robot.plant import robot_spec
 
 SOLE = np.array([0.03, 0.01, -0.158])  # point below the ankle [m]
@@ -28,7 +23,7 @@ LEGS = [0, 1]
 
 
 @pytest.fixture
-def crouched(walker: Walker, robot: RobotDescription) -> tuple[np.ndarray, np.ndarray]:
+def crouched(walker, robot):
     """Position (nq,) and velocity (nv,), both legs bent, the base tilted a little and moving."""
     q, v = np.zeros(robot.layout.nq), np.zeros(robot.layout.nv)
     q[:7] = [0.3, -0.2, 0.9, *(np.array([1.0, 0.05, -0.04, 0.3]) / np.linalg.norm([1.0, 0.05, -0.04, 0.3]))]
@@ -40,8 +35,7 @@ def crouched(walker: Walker, robot: RobotDescription) -> tuple[np.ndarray, np.nd
 
 
 @pytest.mark.parametrize("k", LEGS)
-def test_jacobian_equals_differences_of_the_kinematics(walker: Walker, crouched: tuple, k: int) -> None:
-    """The reference is a central difference of order two."""
+def test_jacobian_equals_differences_of_the_kinematics(walker, crouched, k):
     q, v = crouched
     first, foot, pose = walker.first[k], walker.feet[k], walker.pose
     jacobian, column = np.zeros((6, 6)), np.zeros(6)
@@ -60,7 +54,7 @@ def test_jacobian_equals_differences_of_the_kinematics(walker: Walker, crouched:
 
 
 @pytest.mark.parametrize("k", LEGS)
-def test_swing_reference_moves_the_foot_as_asked(walker: Walker, crouched: tuple, stepping: State, k: int) -> None:
+def test_swing_reference_moves_the_foot_as_asked(walker, crouched, stepping, k):
     q, v = crouched
     pose, first, foot = walker.pose, walker.first[k], walker.feet[k]
     v[3:6] = [0.05, -0.03, 0.1]
@@ -76,7 +70,7 @@ def test_swing_reference_moves_the_foot_as_asked(walker: Walker, crouched: tuple
 
 
 @pytest.mark.parametrize("k", LEGS)
-def test_stance_reference_levels_a_pelvis_on_one_foot(walker: Walker, crouched: tuple, stepping: State, k: int) -> None:
+def test_stance_reference_levels_a_pelvis_on_one_foot(walker, crouched, stepping, k):
     q, v = crouched
     pose, first, foot = walker.pose, walker.first[k], walker.feet[k]
     stepping.height, stepping.yaw, stepping.height_rate = 0.93, 0.5, v[2]
@@ -91,7 +85,7 @@ def test_stance_reference_levels_a_pelvis_on_one_foot(walker: Walker, crouched: 
     np.testing.assert_allclose(pose.position[foot], still, atol=1e-12)
 
 
-def test_reference_speed_is_limited_also_near_a_straight_leg(walker: Walker, crouched: tuple, stepping: State) -> None:
+def test_reference_speed_is_limited_also_near_a_straight_leg(walker, crouched, stepping):
     q, v = crouched
     q[10] = 1e-3
     update(walker.tree, q, v, walker.gravity, walker.pose)
@@ -101,7 +95,7 @@ def test_reference_speed_is_limited_also_near_a_straight_leg(walker: Walker, cro
     assert np.abs(stepping.v_reference[0]).max() <= walker.par.joint_speed_max_rad_s
 
 
-def stand(walker: Walker, crouched: tuple, s: State, k: int, dt: float = 0.0) -> np.ndarray:
+def stand(walker, crouched, s, k, dt=0.0):
     """Return the torques (nu,) of a stance leg that follows its reference, pushing below the ankle."""
     q, v = crouched
     first, tau = walker.first[k], np.zeros(len(q) - 7)
@@ -111,10 +105,7 @@ def stand(walker: Walker, crouched: tuple, s: State, k: int, dt: float = 0.0) ->
 
 
 @pytest.mark.parametrize("k", LEGS)
-def test_stance_torque_is_the_force_through_mujoco_s_jacobian(
-    walker: Walker, robot: RobotDescription, crouched: tuple, stepping: State, k: int
-) -> None:
-    """MuJoCo's Jacobian of the point under the foot is the reference."""
+def test_stance_torque_is_the_force_through_mujoco_s_jacobian(walker, robot, crouched, stepping, k):
     q, _ = crouched
     stepping.force, stepping.load = [40.0, -25.0, 900.0], [0.6, 0.4]
     foot = walker.feet[k]
@@ -131,7 +122,7 @@ def test_stance_torque_is_the_force_through_mujoco_s_jacobian(
 
 
 @pytest.mark.parametrize("k", LEGS)
-def test_leg_that_lacks_load_pushes_by_a_share_more(walker: Walker, crouched: tuple, stepping: State, k: int) -> None:
+def test_leg_that_lacks_load_pushes_by_a_share_more(walker, crouched, stepping, k):
     """More torque is that of more vertical force: the same as of a wanted force greater by that much."""
     lacks = 80.0
     stepping.force, stepping.load = [40.0, -25.0, 900.0], [0.6, 0.4]
@@ -146,9 +137,7 @@ def test_leg_that_lacks_load_pushes_by_a_share_more(walker: Walker, crouched: tu
 
 
 @pytest.mark.parametrize("force", [4000.0, -4000.0])
-def test_a_stance_knee_asks_for_no_more_than_its_bound(
-    walker: Walker, crouched: tuple, stepping: State, force: float
-) -> None:
+def test_a_stance_knee_asks_for_no_more_than_its_bound(walker, crouched, stepping, force):
     """(W50): beyond the maximum of its friction law a knee that drives would get less of a greater torque."""
     stepping.force, stepping.load = [0.0, 0.0, force], [1.0, 0.0]
     tau = stand(walker, crouched, stepping, 0)
@@ -157,7 +146,7 @@ def test_a_stance_knee_asks_for_no_more_than_its_bound(
 
 
 @pytest.mark.parametrize("yaw", [0.0, 1.1, -2.6])
-def test_only_a_foot_off_the_slope_is_guarded(walker: Walker, crouched: tuple, stepping: State, yaw: float) -> None:
+def test_only_a_foot_off_the_slope_is_guarded(walker, crouched, stepping, yaw):
     stepping.load, stepping.force, stepping.slope = [1.0, 0.0], [0.0, 0.0, 0.0], [0.03, -0.02]
     foot, c, n = walker.feet[0], np.cos(yaw), np.sin(yaw)
     walker.pose.omega[foot] = 0
@@ -172,7 +161,7 @@ def test_only_a_foot_off_the_slope_is_guarded(walker: Walker, crouched: tuple, s
 
 
 @pytest.mark.parametrize("which", [0, 1])
-def test_ankle_integral_adds_a_missing_moment(walker: Walker, crouched: tuple, stepping: State, which: int) -> None:
+def test_ankle_integral_adds_a_missing_moment(walker, crouched, stepping, which):
     stepping.force, stepping.load = [0.0, 0.0, 900.0], [1.0, 0.0]
     walker.pose.rotation[walker.feet[0]] = np.eye(3)
     before = stand(walker, crouched, stepping, 0)[4 + which]
@@ -184,7 +173,7 @@ def test_ankle_integral_adds_a_missing_moment(walker: Walker, crouched: tuple, s
     assert abs(stepping.integral[0, which]) <= walker.par.ankle_integral_max_nm
 
 
-def test_integral_leaks_away_on_a_tilted_foot(walker: Walker, crouched: tuple, stepping: State) -> None:
+def test_integral_leaks_away_on_a_tilted_foot(walker, crouched, stepping):
     stepping.load, stepping.integral[0] = [1.0, 0.0], 20.0
     walker.pose.rotation[walker.feet[0]] = np.array(
         [[1, 0, 0], [0, np.cos(0.3), -np.sin(0.3)], [0, np.sin(0.3), np.cos(0.3)]]
@@ -195,7 +184,7 @@ def test_integral_leaks_away_on_a_tilted_foot(walker: Walker, crouched: tuple, s
     np.testing.assert_allclose(stepping.integral[0], 20 * (1 - rate * TICK_S), rtol=1e-12)
 
 
-def test_swing_torque_is_zero_on_the_reference(walker: Walker, crouched: tuple, stepping: State) -> None:
+def test_swing_torque_is_zero_on_the_reference(walker, crouched, stepping):
     q, v = crouched
     tau = np.zeros(len(q) - 7)
     stepping.q_reference[0], stepping.integral[0] = BENT, 5.0
@@ -207,7 +196,7 @@ def test_swing_torque_is_zero_on_the_reference(walker: Walker, crouched: tuple, 
     np.testing.assert_allclose(tau[:6], 0.1 * np.array(walker.par.leg_stiffness_nm_rad), rtol=1e-12)
 
 
-def test_posture_torque_is_a_spring_and_a_damper_about_a_moving_target(walker: Walker, random_pose: Callable) -> None:
+def test_posture_torque_is_a_spring_and_a_damper_about_a_moving_target(walker, random_pose):
     q, v = random_pose(0)
     tau, upper, (stiffness, damping) = np.zeros(len(q) - 7), walker.upper, np.random.default_rng(1).random((2, 21))
     walker = walker._replace(posture_stiffness=stiffness, posture_damping=damping)

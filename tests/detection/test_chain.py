@@ -9,22 +9,19 @@ from mobnet.detection.detector import GateSignal, run_over, run_segments
 RATE_HZ = 1000.0
 
 
-def ratios(
-    signals: np.ndarray, thresholds: np.ndarray, watch: GateSignal | None = None, *, norm: bool = False
-) -> np.ndarray:
-    """Return the ratios of a chain."""
+def ratios(signals, thresholds, watch=None, *, norm=False):
     always = GateSignal(np.ones(len(signals), dtype=bool), np.zeros(len(signals)))
     return run_over(make_chain(15.0, 0.005, RATE_HZ, thresholds, norm=norm), signals, watch or always).ratio
 
 
-def test_the_low_pass_is_that_of_first_order() -> None:
+def test_the_low_pass_is_that_of_first_order():
     signal, out = np.ones((400, 1)), np.zeros((400, 1))
     low_passed(make_chain(15.0, 0.005, RATE_HZ, np.ones((1, 1))).pole, signal, out)
     time = (np.arange(400) + 1) / RATE_HZ
     np.testing.assert_allclose(out[:, 0], 1 - np.exp(-2 * np.pi * 15.0 * time), atol=1e-12)
 
 
-def test_a_ratio_is_the_least_of_five_samples() -> None:
+def test_a_ratio_is_the_least_of_five_samples():
     signal = 10.0 * np.random.default_rng(0).normal(size=(500, 1))
     low = np.zeros((500, 1))
     low_passed(make_chain(15.0, 0.005, RATE_HZ, np.ones((1, 1))).pole, signal, low)
@@ -34,7 +31,7 @@ def test_a_ratio_is_the_least_of_five_samples() -> None:
     assert not ratios(signal, np.full((1, 1), 2.0))[:4].any()  # fewer than five samples are no time
 
 
-def test_the_highest_joint_counts_and_is_named() -> None:
+def test_the_highest_joint_counts_and_is_named():
     signals = np.zeros((300, 3))
     signals[100:, 1], signals[150:, 2] = 3.0, -9.0
     chain = make_chain(15.0, 0.005, RATE_HZ, np.ones((1, 3)))
@@ -43,7 +40,7 @@ def test_the_highest_joint_counts_and_is_named() -> None:
     assert (alarm.signal[140], alarm.signal[299]) == (1, 2)
 
 
-def test_what_is_not_watched_counts_as_zero_for_five_samples() -> None:
+def test_what_is_not_watched_counts_as_zero_for_five_samples():
     watched = np.ones(300, dtype=bool)
     watched[200] = False
     found = ratios(np.full((300, 1), 5.0), np.ones((1, 1)), GateSignal(watched, np.zeros(300)))
@@ -52,18 +49,18 @@ def test_what_is_not_watched_counts_as_zero_for_five_samples() -> None:
     assert found[205] > 4.9
 
 
-def test_thresholds_follow_the_phase_of_the_swing() -> None:
+def test_thresholds_follow_the_phase_of_the_swing():
     phase = np.linspace(0.0, 1.0, 400)
     found = ratios(np.full((400, 1), 4.0), np.array([[1.0], [2.0]]), GateSignal(np.ones(400, dtype=bool), phase))
     assert (found[190], found[390]) == (pytest.approx(4.0, rel=1e-3), pytest.approx(2.0, rel=1e-3))
 
 
-def test_the_norm_is_the_length_of_all_signals() -> None:
+def test_the_norm_is_the_length_of_all_signals():
     found = ratios(np.tile([3.0, -4.0], (300, 1)), np.full((1, 1), 2.0), norm=True)
     assert found[-1] == pytest.approx(2.5, rel=1e-3)
 
 
-def test_each_segment_begins_at_rest() -> None:
+def test_each_segment_begins_at_rest():
     signals, watch = np.full((600, 1), 4.0), GateSignal(np.ones(600, dtype=bool), np.zeros(600))
     chain = make_chain(15.0, 0.005, RATE_HZ, np.ones((1, 1)))
     found = run_segments(chain, signals, watch, ((0, 300), (300, 600))).ratio

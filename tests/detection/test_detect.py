@@ -1,8 +1,5 @@
 """The rule `detect` on made-up walks: an estimate that is the truth with noise, and one that sees nothing."""
 
-from collections.abc import Callable
-from pathlib import Path
-
 import numpy as np
 import pytest
 from csv_files import read_table
@@ -16,19 +13,16 @@ from mobnet.core.store import write_array
 from mobnet.detection.detect import detect
 from mobnet.detection.leg import make_leg, unit_torques
 from mobnet.plan.detection import Walk
-from mobnet.robot.description import WalkingRobot
-from mobnet.settings.detection import Detection, Detector
-from mobnet.settings.settings import Settings
+from mobnet.settings.detection import Detector
 
 POINTS = ("left_foot_front", "left_foot_side", "left_ankle_front", "left_knee_side")
 PEAK, LENGTH, LATE = 150.0, 78, 150  # of a hit [N], in samples, and samples after lift-off
 NOISE_NM, SWINGS = 0.3, 60
 SEED = 7
-Walks = dict[str, Walk]
 
 
 @pytest.fixture(scope="module")
-def section(settings: Settings) -> Detection:
+def section(settings):
     """Detectors of an estimate without and with standard deviations, and of one that sees nothing."""
     numbers = settings.detection.thresholds.model_copy(update={"least_swings": 10, "resamples": 50})
     detectors = {
@@ -42,13 +36,13 @@ def section(settings: Settings) -> Detection:
 
 
 @pytest.fixture(scope="module")
-def walks(settings: Settings, robot: WalkingRobot, tmp_path_factory: pytest.TempPathFactory) -> Walks:
+def walks(settings, robot, tmp_path_factory):
     """Two quiet walks; one with a hit of each point, each followed by a free swing; and an empty sweep."""
     folder = tmp_path_factory.mktemp("walks")
     pushes = {f"hit_{point}": settings.pushes["collision_left_foot_front"].model_copy(update={"point": point})
               for point in POINTS}  # fmt: skip
     quiet, hit = {"place_walk": SWINGS, "long_walk": SWINGS}, {"collisions": 2 * len(POINTS), "collision_sweep": 2}
-    found: Walks = {}
+    found = {}
     for number, (scenario, swings) in enumerate({**quiet, **hit}.items()):
         layout, sensed = settings.layout, swinging(settings.layout, swings)
         rows, rng = len(sensed), np.random.default_rng(number)
@@ -77,7 +71,7 @@ def walks(settings: Settings, robot: WalkingRobot, tmp_path_factory: pytest.Temp
 
 
 @pytest.fixture(scope="module")
-def made(section: Detection, settings: Settings, walks: Walks, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def made(section, settings, walks, tmp_path_factory):
     """The files of the rule."""
     out = tmp_path_factory.mktemp("detection")
     left = section.model_copy(update={"legs": ("LL",)})
@@ -86,7 +80,7 @@ def made(section: Detection, settings: Settings, walks: Walks, tmp_path_factory:
     return out
 
 
-def test_collisions_are_those_of_the_recording(made: Path) -> None:
+def test_collisions_are_those_of_the_recording(made):
     rows = read_table(made / "collisions.csv")
     assert [f"left_{row.link}_{row.direction}" for row in rows] == list(POINTS)
     assert [row.number for row in rows] == [1, 2, 3, 4]
@@ -99,7 +93,7 @@ def test_collisions_are_those_of_the_recording(made: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["mean", "OR", "norm", "phases"])
-def test_an_estimate_that_sees_finds_and_names_every_collision(made: Path, name: str) -> None:
+def test_an_estimate_that_sees_finds_and_names_every_collision(made, name):
     rows = [row for row in read_table(made / "detected.csv") if (row.detector, row.kind) == (name, "largest")]
     if name != "OR":  # its standard deviations jump before there is a torque that tells links apart
         assert [f"left_{row.link}_{row.direction}" for row in rows] == list(POINTS)
@@ -110,7 +104,7 @@ def test_an_estimate_that_sees_finds_and_names_every_collision(made: Path, name:
         assert 0.0 < row.named_n < PEAK
 
 
-def test_one_that_sees_nothing_finds_nothing(made: Path) -> None:
+def test_one_that_sees_nothing_finds_nothing(made):
     rows = [row for row in read_table(made / "detected.csv") if row.detector == "blind"]
     assert len(rows) == 3 * len(POINTS)
     found = [row for row in rows if row.delay_s is not None]
@@ -118,7 +112,7 @@ def test_one_that_sees_nothing_finds_nothing(made: Path) -> None:
     assert all(row.perfect_s is not None for row in rows)  # at its thresholds the truth would be found
 
 
-def test_thresholds_are_a_tenth_above_the_largest_and_multiples_of_a_quantile(made: Path, section: Detection) -> None:
+def test_thresholds_are_a_tenth_above_the_largest_and_multiples_of_a_quantile(made, section):
     rows = [row for row in read_table(made / "thresholds.csv") if row.detector == "mean"]
     value = {(row.kind, row.signal): row.value for row in rows}
     promises = {row.kind: row for row in read_table(made / "promises.csv") if row.detector == "mean"}
@@ -133,7 +127,7 @@ def test_thresholds_are_a_tenth_above_the_largest_and_multiples_of_a_quantile(ma
     assert {row.phase for row in phases} == {1, 2, 3, 4}
 
 
-def test_free_swings_are_those_that_nothing_pushes(made: Path, section: Detection) -> None:
+def test_free_swings_are_those_that_nothing_pushes(made, section):
     rows = [row for row in read_table(made / "swings.csv") if row.detector == "mean"]
     counts = {key: sum((row.scenario, row.part) == key for row in rows)
               for key in {(row.scenario, row.part) for row in rows}}  # fmt: skip
@@ -147,23 +141,19 @@ def test_free_swings_are_those_that_nothing_pushes(made: Path, section: Detectio
     assert max(row.ratio_largest for row in place) == pytest.approx(1 / section.thresholds.margin, rel=1e-4)
 
 
-def test_curves_find_less_at_higher_thresholds(made: Path) -> None:
+def test_curves_find_less_at_higher_thresholds(made):
     rows = [row for row in read_table(made / "curves.csv") if row.detector == "mean"]
     high = [row.found for row in rows if row.factor >= 1.0]
     assert high == sorted(high, reverse=True)
     assert {row.collisions for row in rows} == {len(POINTS)}
 
 
-def test_a_leg_that_no_method_estimates_is_left_out(
-    section: Detection, settings: Settings, walks: Walks, tmp_path: Path
-) -> None:
+def test_a_leg_that_no_method_estimates_is_left_out(section, settings, walks, tmp_path):
     detect(section.model_copy(update={"legs": ("RL",)}), settings.robot, RATE_HZ, walks, tmp_path)
     assert all(read_table(tmp_path / f"{name}.csv") == [] for name in FILES)
 
 
-def test_a_signal_that_never_changes_is_told(
-    section: Detection, settings: Settings, walks: Walks, tmp_path: Path, write_still: Callable[[Path, int], Path]
-) -> None:
+def test_a_signal_that_never_changes_is_told(section, settings, walks, tmp_path, write_still):
     long = walks["long_walk"]
     rows = len(swinging(settings.layout, SWINGS))
     still = {**long.estimates, "MOB": (write_still(tmp_path / "still", rows),)}
@@ -173,10 +163,10 @@ def test_a_signal_that_never_changes_is_told(
 
 
 @pytest.fixture
-def write_still(settings: Settings) -> Callable[[Path, int], Path]:
+def write_still(settings):
     """A function that writes an estimate whose LL4 never changes."""
 
-    def write(stem: Path, rows: int) -> Path:
+    def write(stem, rows):
         values = np.random.default_rng(0).normal(size=(rows, 6))
         values[:, 3] = 2.0
         columns = torque_columns(settings.layout, ["tau_ext"], settings.layout.limb("LL"))
@@ -186,9 +176,7 @@ def write_still(settings: Settings) -> Callable[[Path, int], Path]:
     return write
 
 
-def test_detectors_of_a_leg_that_is_never_watched_are_left_out(
-    section: Detection, settings: Settings, walks: Walks, tmp_path: Path, caplog: pytest.LogCaptureFixture
-) -> None:
+def test_detectors_of_a_leg_that_is_never_watched_are_left_out(section, settings, walks, tmp_path, caplog):
     closed = section.gate.model_copy(update={"lift_off_s": 0.4})  # longer than a swing
     left = section.model_copy(update={"legs": ("LL",), "gate": closed})
     detect(left, settings.robot, RATE_HZ, walks, tmp_path)

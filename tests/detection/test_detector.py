@@ -1,16 +1,14 @@
 """Step by step a detector says what it says of the whole recording, within the time of a tick."""
 
 import time
-from collections.abc import Callable
 
 import numpy as np
 import pytest
 from made_swings import AIR, GROUND, RATE_HZ
 
 from mobnet.core.estimator import Estimate
-from mobnet.core.recording import Sensed
 from mobnet.detection.chain import make_chain
-from mobnet.detection.detector import ALARM_RATIO, LegDetector, LegGate
+from mobnet.detection.detector import ALARM_RATIO, LegDetector
 from mobnet.detection.signals import signal_names, whitening_of
 from mobnet.settings.detection import Detector
 
@@ -24,7 +22,7 @@ ROWS = {
 }
 
 
-def detector_of(row: Detector, gate: LegGate, estimate: Estimate) -> LegDetector:
+def detector_of(row, gate, estimate):
     """Return a detector with thresholds that noise crosses now and then."""
     names = signal_names(row, [f"LL{k}" for k in range(1, 7)])
     thresholds = np.full((row.phases, len(names)), 1.5)
@@ -33,7 +31,7 @@ def detector_of(row: Detector, gate: LegGate, estimate: Estimate) -> LegDetector
 
 
 @pytest.fixture
-def estimate(walk: Callable[[int], Sensed]) -> Estimate:
+def estimate(walk):
     """An estimate of two swings: noise that changes slowly, and its standard deviation."""
     rng, count = np.random.default_rng(4), len(walk(2))
     slow = np.repeat(4.0 * rng.normal(size=(count // 50 + 1, 6)), 50, axis=0)[:count]
@@ -41,9 +39,7 @@ def estimate(walk: Callable[[int], Sensed]) -> Estimate:
 
 
 @pytest.mark.parametrize("name", ROWS)
-def test_in_steps_it_says_the_same_at_the_same_sample(
-    name: str, gate: LegGate, walk: Callable[[int], Sensed], estimate: Estimate
-) -> None:
+def test_in_steps_it_says_the_same_at_the_same_sample(name, gate, walk, estimate):
     sensed, detector = walk(2), detector_of(ROWS[name], gate, estimate)
     whole = detector.run(gate.run(sensed, estimate.tau_ext), estimate)
     state, std = detector.init(), estimate.std
@@ -60,7 +56,7 @@ def test_in_steps_it_says_the_same_at_the_same_sample(
     assert not over[GROUND + AIR : 2 * GROUND + AIR].any()
 
 
-def test_a_step_takes_a_twentieth_of_a_tick(gate: LegGate, walk: Callable[[int], Sensed], estimate: Estimate) -> None:
+def test_a_step_takes_a_twentieth_of_a_tick(gate, walk, estimate):
     sensed, detector = walk(1), detector_of(ROWS["OR"], gate, estimate)
     samples = [sensed[k] for k in range(GROUND, GROUND + AIR)]
     assert estimate.std is not None

@@ -1,20 +1,13 @@
 """The gate opens in the middle of a swing, as the plan has it, and closes for good when the foot meets the ground."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 from made_swings import AIR, GROUND
 
-from mobnet.core.recording import Sensed
-from mobnet.detection.detector import LegGate
 from mobnet.detection.leg import foot_load, unit_torques
-from mobnet.robot.description import WalkingRobot
-
-Walk = Callable[[int], Sensed]
 
 
-def ground_torque(robot: WalkingRobot, gate: LegGate, q: np.ndarray, force: np.ndarray) -> np.ndarray:
+def ground_torque(robot, gate, q, force):
     """Return the torques of the leg's joints (6,) under a force on its foot (3,) [N], world axes."""
     assert foot_load(gate.leg, q, np.zeros(6))
     jacobian = np.zeros((6, 6))
@@ -25,7 +18,7 @@ def ground_torque(robot: WalkingRobot, gate: LegGate, q: np.ndarray, force: np.n
     return np.linalg.solve(jacobian, np.concatenate([force, np.zeros(3)]))
 
 
-def test_a_leg_is_watched_away_from_both_ends_of_its_swing(gate: LegGate, walk: Walk) -> None:
+def test_a_leg_is_watched_away_from_both_ends_of_its_swing(gate, walk):
     sensed = walk(2)
     watch = gate.run(sensed, np.zeros((len(sensed), 6)))
     for first in (GROUND, 2 * GROUND + AIR):
@@ -35,9 +28,7 @@ def test_a_leg_is_watched_away_from_both_ends_of_its_swing(gate: LegGate, walk: 
     assert watch.phase[GROUND + 175] == pytest.approx(0.5, abs=0.01)
 
 
-def test_an_early_contact_closes_the_gate_for_the_rest_of_the_swing(
-    gate: LegGate, walk: Walk, robot: WalkingRobot
-) -> None:
+def test_an_early_contact_closes_the_gate_for_the_rest_of_the_swing(gate, walk, robot):
     sensed = walk(2)
     tau = np.zeros((len(sensed), 6))
     tau[GROUND + 150 : GROUND + 156] = ground_torque(robot, gate, sensed.q[0], np.array([5.0, 0.0, 60.0]))
@@ -47,21 +38,17 @@ def test_an_early_contact_closes_the_gate_for_the_rest_of_the_swing(
     assert watch.watched[2 * GROUND + AIR + 100 : 2 * GROUND + 2 * AIR - 31].all()  # the next swing is watched again
 
 
-@pytest.mark.parametrize(
-    ("force", "samples"),
-    [([60.0, 0.0, 20.0], 50), ([0.0, 0.0, 30.0], 50), ([0.0, 0.0, 60.0], 4)],
-    ids=["flat", "weak", "short"],
-)
-def test_what_does_not_look_like_the_ground_leaves_the_gate_open(
-    gate: LegGate, walk: Walk, robot: WalkingRobot, force: list[float], samples: int
-) -> None:
+@pytest.mark.parametrize(("force", "samples"), [
+    ([60.0, 0.0, 20.0], 50), ([0.0, 0.0, 30.0], 50), ([0.0, 0.0, 60.0], 4),
+], ids=["flat", "weak", "short"])  # fmt: skip
+def test_what_does_not_look_like_the_ground_leaves_the_gate_open(gate, walk, robot, force, samples):
     sensed = walk(1)
     tau = np.zeros((len(sensed), 6))
     tau[GROUND + 150 : GROUND + 150 + samples] = ground_torque(robot, gate, sensed.q[0], np.array(force))
     assert gate.run(sensed, tau).watched[GROUND + 100 : GROUND + AIR - 31].all()
 
 
-def test_a_hit_from_the_front_is_no_ground(gate: LegGate, walk: Walk, robot: WalkingRobot) -> None:
+def test_a_hit_from_the_front_is_no_ground(gate, walk, robot):
     sensed = walk(1)
     hit = 150.0 * unit_torques(robot, gate.leg, sensed.q[0], ["left_foot_front"], -1.0)[0]
     tau = np.zeros((len(sensed), 6))

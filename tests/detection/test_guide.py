@@ -1,25 +1,19 @@
 """The code of docs/detection.md runs, and finds and names a hit."""
 
 import re
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 from made_swings import GROUND
 
 from mobnet.core.estimator import Estimate
-from mobnet.core.recording import Sensed
-from mobnet.detection.detector import LegGate
 from mobnet.detection.leg import unit_torques
-from mobnet.robot.description import WalkingRobot
 
 GUIDE = Path(__file__).parents[2] / "docs" / "detection.md"
 LATE, FORCE_N = 150, 50.0  # samples after lift-off
 
 
-def test_the_code_of_the_guide_finds_and_names_a_hit(
-    walk: Callable[[int], Sensed], robot: WalkingRobot, gate: LegGate
-) -> None:
+def test_the_code_of_the_guide_finds_and_names_a_hit(walk, robot, gate):
     (code,) = re.findall(r"^```python\n(.*?)^```$", GUIDE.read_text(), flags=re.DOTALL | re.MULTILINE)
     sensed, start = walk(1), GROUND + LATE
     torque = np.zeros((len(sensed), 6))

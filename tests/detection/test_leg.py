@@ -6,12 +6,10 @@ import pytest
 
 from mobnet.core.errors import ConfigError
 from mobnet.detection.leg import ancestors, foot_load, make_leg, unit_torques
-from mobnet.robot.description import WalkingRobot
-from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import feet_torque
 
 
-def position(robot: WalkingRobot) -> np.ndarray:
+def position(robot):
     """Return a position of bent joints, the base turned."""
     q = np.zeros(robot.layout.nq)
     q[2], q[3:7] = 0.9, np.array([0.9, 0.1, -0.2, 0.3]) / np.linalg.norm([0.9, 0.1, -0.2, 0.3])
@@ -20,7 +18,7 @@ def position(robot: WalkingRobot) -> np.ndarray:
 
 
 @pytest.mark.parametrize(("limb", "side"), [("LL", "left"), ("RL", "right")])
-def test_the_force_on_the_foot_is_found_again(robot: WalkingRobot, nominal: NominalModel, limb: str, side: str) -> None:
+def test_the_force_on_the_foot_is_found_again(robot, nominal, limb, side):
     q, leg = position(robot), make_leg(robot, limb)
     wrench = np.array([20.0, -5.0, 60.0, 1.0, -2.0, 0.5])  # foot axes, about the sensor
     tau = feet_torque(nominal, q, {side: wrench})[robot.layout.columns(robot.layout.limb(limb))]
@@ -28,7 +26,7 @@ def test_the_force_on_the_foot_is_found_again(robot: WalkingRobot, nominal: Nomi
     np.testing.assert_allclose(leg.load[:3], leg.pose.rotation[leg.foot] @ wrench[:3], rtol=1e-6)
 
 
-def test_unit_torques_are_those_of_the_jacobian_of_the_point(robot: WalkingRobot, nominal: NominalModel) -> None:
+def test_unit_torques_are_those_of_the_jacobian_of_the_point(robot, nominal):
     q, leg, points = position(robot), make_leg(robot, "LL"), ["left_knee_front", "left_ankle_side", "left_foot_front"]
     found = unit_torques(robot, leg, q, points, -1.0)
     model, data = nominal.model, nominal.model.createData()
@@ -48,13 +46,13 @@ def test_unit_torques_are_those_of_the_jacobian_of_the_point(robot: WalkingRobot
         np.testing.assert_allclose(row, expected[columns], atol=1e-6)
 
 
-def test_a_point_does_not_load_the_joints_below_it(robot: WalkingRobot) -> None:
+def test_a_point_does_not_load_the_joints_below_it(robot):
     found = unit_torques(robot, make_leg(robot, "LL"), position(robot), ["left_knee_side", "left_ankle_front"], -1.0)
     assert not found[:, 4:].any()
     assert found[:, :4].any(axis=0).all()
 
 
-def test_left_and_right_are_mirror_images(robot: WalkingRobot) -> None:
+def test_left_and_right_are_mirror_images(robot):
     q = np.zeros(robot.layout.nq)
     q[3] = 1.0
     left = unit_torques(robot, make_leg(robot, "LL"), q, ["left_foot_side", "left_foot_front"], -1.0)
@@ -62,7 +60,7 @@ def test_left_and_right_are_mirror_images(robot: WalkingRobot) -> None:
     np.testing.assert_allclose(np.abs(left), np.abs(right), atol=1e-9)
 
 
-def test_what_is_no_leg_or_no_point_is_told(robot: WalkingRobot) -> None:
+def test_what_is_no_leg_or_no_point_is_told(robot):
     with pytest.raises(ConfigError, match=r"leg of 6 joints: 'W' is not accepted; accepted: .*LL.*RL"):
         make_leg(robot, "W")
     with pytest.raises(ConfigError, match="point of the robot: 'left_nose'"):

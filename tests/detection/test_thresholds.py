@@ -2,24 +2,24 @@
 
 import numpy as np
 import pytest
+from scipy.stats import lognorm
 
 from mobnet.core.errors import DataError
 from mobnet.detection.thresholds import Calibrated, Tail, calibrate, expected_counts, fit_tail
-from mobnet.settings.detection import Thresholds
-from mobnet.settings.settings import Settings
 
 SWINGS, DURATION_S = 870, 20 * 60.0  # of twenty minutes
+WALKS = 200
 PER_H = SWINGS * 3600.0 / DURATION_S
 
 
 @pytest.fixture
-def numbers(settings: Settings) -> Thresholds:
+def numbers(settings):
     """As configured, with fewer resamples: hundreds of walks are calibrated here."""
     return settings.detection.thresholds.model_copy(update={"resamples": 200})
 
 
 @pytest.mark.parametrize(("shape", "scale"), [(-0.2, 1.0), (0.0, 0.5), (0.2, 2.0)])
-def test_the_tail_of_a_known_law_is_found(shape: float, scale: float) -> None:
+def test_the_tail_of_a_known_law_is_found(shape, scale):
     uniform = np.random.default_rng(1).uniform(size=200_000)
     over = -np.log(uniform) if shape == 0 else (uniform**-shape - 1.0) / shape
     tail = fit_tail(3.0 + scale * over, 0.1)
@@ -30,40 +30,29 @@ def test_the_tail_of_a_known_law_is_found(shape: float, scale: float) -> None:
     assert tail.above(tail.size(1e-3)) == pytest.approx(1e-3)
 
 
-def test_a_law_with_an_end_gives_nothing_beyond_it() -> None:
+def test_a_law_with_an_end_gives_nothing_beyond_it():
     tail = Tail(level=1.0, share=0.1, scale=0.5, shape=-0.5)
     assert tail.above(2.0) == 0.0
     assert tail.size(1e-9) == pytest.approx(2.0, abs=1e-3)
 
 
 @pytest.mark.parametrize("spread", [0.2, 0.4], ids=["light tail", "heavy tail"])
-def test_the_interval_holds_the_rate_as_often_as_it_says(numbers: Thresholds, spread: float) -> None:
+def test_the_interval_holds_the_rate_as_often_as_it_says_and_counts_of_held_out_walks_too(numbers, spread):
     """Largest values of swings are lognormal; the true rate above the threshold is known."""
-    from scipy.stats import lognorm
-
-    held, rates = 0, []
-    for seed in range(200):
-        largest = np.random.default_rng(seed).lognormal(0.0, spread, SWINGS)
-        found = calibrate(largest, range(SWINGS), DURATION_S, 1.0, numbers)
-        rate = float(lognorm.sf(found.factor, spread)) * PER_H
-        held += found.low <= rate <= found.high
-        rates.append(rate)
-    assert held >= 0.90 * 200
+    held, counted, rates = 0, 0, []
+    for seed in range(WALKS):
+        rng = np.random.default_rng(seed)
+        found = calibrate(rng.lognormal(0.0, spread, SWINGS), range(SWINGS), DURATION_S, 1.0, numbers)
+        rates.append(float(lognorm.sf(found.factor, spread)) * PER_H)
+        held += found.low <= rates[-1] <= found.high
+        low, high = expected_counts(found, 2.0, 0.95)
+        counted += low <= (rng.lognormal(0.0, spread, 6 * SWINGS) > found.factor).sum() <= high
+    assert held >= 0.90 * WALKS
+    assert counted >= 0.95 * WALKS
     assert 0.3 < np.median(rates) < 3.0
 
 
-def test_counts_of_held_out_walks_lie_in_what_was_promised(numbers: Thresholds) -> None:
-    held = 0
-    for seed in range(200):
-        rng = np.random.default_rng(1000 + seed)
-        found = calibrate(rng.lognormal(0.0, 0.3, SWINGS), range(SWINGS), DURATION_S, 1.0, numbers)
-        alarms = int((rng.lognormal(0.0, 0.3, 6 * SWINGS) > found.factor).sum())
-        low, high = expected_counts(found, 2.0, 0.95)
-        held += low <= alarms <= high
-    assert held >= 0.95 * 200
-
-
-def test_episodes_that_differ_make_the_interval_wider(numbers: Thresholds) -> None:
+def test_episodes_that_differ_make_the_interval_wider(numbers):
     rng = np.random.default_rng(5)
     episodes = np.repeat(np.arange(15), 58)
     largest = rng.lognormal(0.0, 0.2, SWINGS) * np.repeat(rng.lognormal(0.0, 0.4, 15), 58)
@@ -73,41 +62,30 @@ def test_episodes_that_differ_make_the_interval_wider(numbers: Thresholds) -> No
     assert together.high > 1.2 * apart.high
 
 
-def test_a_wanted_rate_that_is_common_is_met_without_going_beyond_what_was_seen(numbers: Thresholds) -> None:
+def test_a_wanted_rate_that_is_common_is_met_without_going_beyond_what_was_seen(numbers):
     largest = np.random.default_rng(2).lognormal(0.0, 0.3, SWINGS)
     found = calibrate(largest, range(SWINGS), DURATION_S, 60.0, numbers)
     assert (largest > found.factor).sum() == pytest.approx(20, abs=4)
     assert found.low < 60.0 < found.high
 
 
-@pytest.mark.parametrize(
-    ("largest", "rate", "text"),
-    [
-        (
-            np.arange(1.0, 50.0),
-            1.0,
-            "swings that calibrate: 49 is not accepted; accepted: 200 or more, some",
-        ),
-        (np.ones(300), 1.0, "largest values: 1.0 is not accepted; accepted: numbers that change"),
-        (
-            np.minimum(np.arange(1.0, 301.0), 240.0),
-            1.0,
-            "above 240 times their scales: 0 is not accepted; accepted: 1 or",
-        ),
-        (
-            np.minimum(np.arange(1.0, 301.0), 280.0),
-            1.0,
-            "above 270 times their scales: 10 is not accepted; accepted: 15 or",
-        ),
-        (np.arange(1.0, 301.0), 500.0, "rate: '500 per hour' is not accepted; accepted: below 108"),
-    ],
-)
-def test_what_gives_no_threshold_is_told(largest: np.ndarray, rate: float, text: str, settings: Settings) -> None:
+@pytest.mark.parametrize(("largest", "rate", "text"), [
+    (np.arange(1.0, 50.0), 1.0, "swings that calibrate: 49 is not accepted; accepted: 200 or more, some"),
+    (np.ones(300), 1.0, "largest values: 1.0 is not accepted; accepted: numbers that change"),
+    (np.minimum(np.arange(1.0, 301.0), 240.0), 1.0, "above 240 times their scales: 0 is not accepted; accepted: 1 or"),
+    (
+        np.minimum(np.arange(1.0, 301.0), 280.0),
+        1.0,
+        "above 270 times their scales: 10 is not accepted; accepted: 15 or",
+    ),
+    (np.arange(1.0, 301.0), 500.0, "rate: '500 per hour' is not accepted; accepted: below 108"),
+])  # fmt: skip
+def test_what_gives_no_threshold_is_told(largest, rate, text, settings):
     with pytest.raises(DataError, match=text):
         calibrate(largest, range(len(largest)), 1000.0, rate, settings.detection.thresholds)
 
 
-def test_a_walk_drawn_anew_without_its_rare_swings_expects_no_alarm(numbers: Thresholds) -> None:
+def test_a_walk_drawn_anew_without_its_rare_swings_expects_no_alarm(numbers):
     """All swings that exceed a value that many share may lie in one episode, which a walk drawn anew may miss."""
     episodes, rng = np.repeat(np.arange(15), 58), np.random.default_rng(0)
     largest = np.minimum(rng.lognormal(0.0, 0.3, SWINGS), 1.3)
@@ -116,6 +94,6 @@ def test_a_walk_drawn_anew_without_its_rare_swings_expects_no_alarm(numbers: Thr
     assert 0.0 == found.low <= found.rate_per_h <= found.high < np.inf
 
 
-def test_expected_counts_reach_over_both_what_is_unknown_and_chance() -> None:
+def test_expected_counts_reach_over_both_what_is_unknown_and_chance():
     assert expected_counts(Calibrated(1.0, 1.0, 0.0, 3.0), 2.0, 0.95) == (0, 11)
     assert expected_counts(Calibrated(1.0, 60.0, 40.0, 80.0), 1.0, 0.95) == (28, 98)

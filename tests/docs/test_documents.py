@@ -17,24 +17,23 @@ LINK = re.compile(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)")
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 
 
-def links(page: Path) -> list[Path]:
-    """Return the files and folders to which a page links."""
+def links(page):
     return [(page.parent / name).resolve() for name in LINK.findall(page.read_text())]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
-def test_every_link_leads_somewhere(page: Path) -> None:
+def test_every_link_leads_somewhere(page):
     assert [path for path in links(page) if not path.exists()] == []
 
 
-def test_every_document_and_every_folder_of_documents_is_in_the_index_once() -> None:
+def test_every_document_and_every_folder_of_documents_is_in_the_index_once():
     folders = [path for path in (ROOT / "docs").iterdir() if path.is_dir() and path.name != "notes"]
     wanted = [*(set(PAGES) - {INDEX}), *folders]
     found = links(INDEX)
     assert [path for path in wanted if found.count(path) != 1] == []
 
 
-def test_the_index_says_one_sentence_of_each_note_and_which_numbers_have_none() -> None:
+def test_the_index_says_one_sentence_of_each_note_and_which_numbers_have_none():
     rows = re.findall(r"^\| \[(\d{4})\]\(notes/(\d{4})-[^)]*\) \| ([A-Z].*\.) \|$", INDEX.read_text(), re.MULTILINE)
     numbers = [int(number) for number, file, _ in rows if number == file]
     notes = [int(path.name[:4]) for path in sorted((ROOT / "docs" / "notes").glob("*.md"))]
@@ -45,12 +44,12 @@ def test_the_index_says_one_sentence_of_each_note_and_which_numbers_have_none() 
     assert [int(number) for number in re.findall(r"\d{4}", told[1])] == unused
 
 
-def test_a_note_begins_with_its_number_and_a_title() -> None:
+def test_a_note_begins_with_its_number_and_a_title():
     notes = (ROOT / "docs" / "notes").glob("*.md")
     assert [path for path in notes if not path.read_text().startswith(f"# {path.name[:4]}: ")] == []
 
 
-def test_the_newest_version_is_that_of_the_published_results_and_of_the_citation() -> None:
+def test_the_newest_version_is_that_of_the_published_results_and_of_the_citation():
     version, date, text = re.findall(
         r"^## ([\d.]+), ([\d-]+)\n(.*?)(?=^## |\Z)", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE | re.DOTALL
     )[0]
@@ -61,7 +60,7 @@ def test_the_newest_version_is_that_of_the_published_results_and_of_the_citation
     assert commit[:7] in text
 
 
-def test_the_guide_draws_the_packages_as_the_import_linter_checks_them() -> None:
+def test_the_guide_draws_the_packages_as_the_import_linter_checks_them():
     """Its arrows are the layers of the first contract, and its table names every package once."""
     layers = PROJECT["tool"]["importlinter"]["contracts"][0]["layers"]
     drawn = " -> ".join(re.sub(r"[()]", "", layer) for layer in layers)

@@ -1,6 +1,5 @@
 """A robot that follows a trajectory known in closed form, and what its sensors read on the way."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,9 +8,8 @@ from numpy.typing import NDArray
 
 from mobnet.core.columns import COMMAND, FEET
 from mobnet.core.recording import Sensed
-from mobnet.robot.description import RobotDescription
+from mobnet.estimation.observer import MomentumObserver
 from mobnet.robot.dynamics import inverse_dynamics
-from mobnet.robot.nominal import NominalModel
 
 SUB_STEPS = 2  # plant ticks in a sample
 Array = NDArray[np.float64]
@@ -25,7 +23,7 @@ class Wave:
     frequency_hz: Array
     phase: Array
 
-    def __call__(self, t: float) -> tuple[Array, Array, Array]:
+    def __call__(self, t):
         """Return value, first and second derivative at t [s]."""
         rate = 2 * np.pi * self.frequency_hz
         angle = rate * t + self.phase
@@ -39,7 +37,7 @@ class Trajectory:
 
     wave: Wave
 
-    def __call__(self, t: float) -> tuple[Array, Array, Array]:
+    def __call__(self, t):
         """Return q (nq,), v (nv,) and its derivative (nv,) at t [s]."""
         x, dx, ddx = self.wave(t)
         quat, omega, alpha = base_rotation(x[3:6], dx[3:6], ddx[3:6])
@@ -48,7 +46,7 @@ class Trajectory:
         return q, v, np.concatenate([ddx[:3], alpha, ddx[6:]])
 
 
-def base_rotation(x: Array, dx: Array, ddx: Array) -> tuple[Array, Array, Array]:
+def base_rotation(x, dx, ddx):
     """Return quaternion w x y z, angular velocity and acceleration in base axes from roll, pitch, yaw (3,)."""
     (sr, cr), (sp, cp) = (np.sin(x[0]), np.cos(x[0])), (np.sin(x[1]), np.cos(x[1]))
     euler = np.array([[1, 0, -sp], [0, cr, cp * sr], [0, -sr, cp * cr]])
@@ -60,13 +58,13 @@ def base_rotation(x: Array, dx: Array, ddx: Array) -> tuple[Array, Array, Array]
 
 
 @pytest.fixture(scope="session")
-def trajectory(robot: RobotDescription) -> Trajectory:
+def trajectory(robot):
     """All joints swing at a few tenths of a radian and one or two Hertz, each in its own time."""
     rng, nv = np.random.default_rng(7), robot.layout.nv
     return Trajectory(Wave(rng.uniform(0.1, 0.3, nv), rng.uniform(0.7, 2.0, nv), rng.uniform(0, 2 * np.pi, nv)))
 
 
-def sensed_of(q: Array, v: Array, tau: Array) -> Sensed:
+def sensed_of(q, v, tau):
     """Return what a robot senses from positions (T, nq), velocities (T, nv) and motor torques (T, nu)."""
     samples = len(q)
     flags, command = np.zeros((samples, len(FEET))), np.zeros((samples, len(COMMAND)))
@@ -74,14 +72,14 @@ def sensed_of(q: Array, v: Array, tau: Array) -> Sensed:
 
 
 @pytest.fixture
-def follow(nominal: NominalModel, trajectory: Trajectory) -> Callable[..., tuple[Sensed, Array]]:
+def follow(nominal, trajectory):
     """A function rate_hz, seconds, external (nu,) [N m] -> what is sensed, and the true external torque (T, nv).
 
     Motors give what the motion needs less the external torque, which starts with the first sample; the base has no
     motors, so all it needs is external. Torques are means over the sub-steps of a sample.
     """
 
-    def run(rate_hz: float, seconds: float, external: Array) -> tuple[Sensed, Array]:
+    def run(rate_hz, seconds, external):
         times = np.arange(round(seconds * rate_hz) + 1) / rate_hz
         states = [trajectory(t) for t in times]
         middles = (np.arange(SUB_STEPS) + 0.5) / SUB_STEPS - 1
@@ -93,3 +91,8 @@ def follow(nominal: NominalModel, trajectory: Trajectory) -> Callable[..., tuple
         return sensed_of(q, v, needed[:, 6:] - external), truth
 
     return run
+
+
+@pytest.fixture
+def observer(nominal):
+    return MomentumObserver(nominal, 100.0, 1000.0)

@@ -10,15 +10,13 @@ SPANS = [(0, 20_000), (20_000, 30_000)]
 
 
 @pytest.fixture
-def free() -> np.ndarray:
+def free():
     """A leg that swings every other second."""
     return np.arange(30_000) // 1000 % 2 == 1
 
 
 @pytest.mark.parametrize(("ratio", "low", "high"), [(1.0, 0.66, 0.70), (2.0, 0.35, 0.41), (0.5, 0.94, 0.97)])
-def test_the_share_is_the_nominal_one_where_the_deviation_is_right(
-    free: np.ndarray, ratio: float, low: float, high: float
-) -> None:
+def test_the_share_is_the_nominal_one_where_the_deviation_is_right(free, ratio, low, high):
     """A closed form of normal errors; what stands in stance does not matter."""
     std = np.full((30_000, 6), 0.8)
     estimate = ratio * std * np.random.default_rng(0).normal(size=std.shape)
@@ -29,7 +27,7 @@ def test_the_share_is_the_nominal_one_where_the_deviation_is_right(
     assert (shares <= high).all()
 
 
-def test_a_window_without_a_swing_tells_nothing(free: np.ndarray) -> None:
+def test_a_window_without_a_swing_tells_nothing(free):
     free[:10_000] = False
     shares = shares_inside(np.zeros((30_000, 2)), np.ones((30_000, 2)), free, SPANS, 10_000, SHARE)
     assert np.isnan(shares).tolist() == [True, False, False]

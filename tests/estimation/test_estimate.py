@@ -1,42 +1,34 @@
 """The rule `estimate`: columns, segments, and what a file says of itself."""
 
 import json
-from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
+from made_notes import network_note
 from safetensors.numpy import save_file
 
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.estimator import Estimate
 from mobnet.core.files import WEIGHTS
-from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording
 from mobnet.core.store import read_array, write_array
 from mobnet.estimation import estimate as estimate_module
 from mobnet.estimation.estimate import Observed, estimate, rate_of, read_observed, run_segments, table_of
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.observe import observe
-from mobnet.estimation.recipe import Recipe
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE, Z_SCORES, std_scales
 from mobnet.plan.parts import MethodRun
 from mobnet.running.stage import Stage
-from mobnet.settings.settings import Settings
-
-Write = Callable[[Path, Recording], tuple[Path, Path]]
 
 
 @pytest.fixture
-def run_methods(settings: Settings, tmp_path: Path) -> Callable[..., None]:
+def run_methods(settings, tmp_path):
     """Return a function that runs methods on recordings and their residuals: name -> where its estimates are written.
 
     A method that is not there fails when its turn comes.
     """
 
-    def run(recordings: Any, residuals: Any, outs: dict[str, list[Path]], joints: Any = None) -> None:
+    def run(recordings, residuals, outs, joints=None):
         level, gravity = settings.levels["all_uncertainty"], settings.plant.gravity_m_s2
         runs = [MethodRun(name, settings.methods, {}, None, tuple(own), joints) for name, own in outs.items()]
         stage = Stage(tmp_path / "stage", "given", tuple(f"{stem}.parquet" for stem in recordings))
@@ -45,14 +37,7 @@ def run_methods(settings: Settings, tmp_path: Path) -> Callable[..., None]:
     return run
 
 
-def test_each_segment_starts_from_a_fresh_state(
-    settings: Settings,
-    recipe_of: Callable[..., Recipe],
-    tmp_path: Path,
-    made_up: Callable[..., Recording],
-    write_pair: Write,
-    run_methods: Callable[..., None],
-) -> None:
+def test_each_segment_starts_from_a_fresh_state(settings, recipe_of, tmp_path, made_up, write_pair, run_methods):
     recording = made_up(0, 0.4, segments=2)
     stem, _ = write_pair(tmp_path, recording)
     given = settings.robot, settings.levels["all_uncertainty"], settings.plant.gravity_m_s2, settings.observer
@@ -69,9 +54,7 @@ def test_each_segment_starts_from_a_fresh_state(
     assert [column["name"] for column in meta["columns"]] == [f"tau_ext.{joint}" for joint in estimator.joints]
 
 
-def test_an_estimate_holds_the_joints_asked_for(
-    tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write, run_methods: Callable[..., None]
-) -> None:
+def test_an_estimate_holds_the_joints_asked_for(tmp_path, made_up, write_pair, run_methods):
     stem, residual = write_pair(tmp_path, made_up(0, 0.2))
     files = [stem], [residual], {"MOB": [tmp_path / "out"]}
     run_methods(*files, joints=("LL4", "W1"))
@@ -82,9 +65,7 @@ def test_an_estimate_holds_the_joints_asked_for(
         run_methods(*files, joints=("LL9",))
 
 
-def test_a_job_that_failed_goes_on_with_the_method_that_it_was_at(
-    tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write, run_methods: Callable[..., None]
-) -> None:
+def test_a_job_that_failed_goes_on_with_the_method_that_it_was_at(tmp_path, made_up, write_pair, run_methods):
     """Nothing stands in its place before all of it is there, and what is there is not made again."""
     stem, residual = write_pair(tmp_path, made_up(0, 0.2))
     outs = {name: [tmp_path / name] for name in ("MOB", "none")}
@@ -99,7 +80,7 @@ def test_a_job_that_failed_goes_on_with_the_method_that_it_was_at(
     assert not (tmp_path / "stage").exists()
 
 
-def test_std_columns_follow_if_there_are_any(layout: JointLayout) -> None:
+def test_std_columns_follow_if_there_are_any(layout):
     tau, std = np.zeros((3, 2)), np.ones((3, 2))
     array, columns = table_of(Estimate(tau, std), ["V1", "LL2"], layout)
     assert columns[0] == ("tau_ext.V1", "N", "world")
@@ -108,14 +89,7 @@ def test_std_columns_follow_if_there_are_any(layout: JointLayout) -> None:
     assert len(table_of(Estimate(tau), ["V1", "LL2"], layout)[1]) == 2
 
 
-def test_a_method_without_a_std_gets_none(recipe_of: Callable[..., Recipe], made_up: Callable[..., Recording]) -> None:
-    (result,) = run_segments(build_estimator(recipe_of("MOB", "ideal")), [Observed(made_up(0, 0.1))])
-    assert result.std is None
-
-
-def test_an_observer_that_ran_already_is_not_run_again(
-    recipe_of: Callable[..., Recipe], made_up: Callable[..., Recording]
-) -> None:
+def test_an_observer_that_ran_already_is_not_run_again(recipe_of, made_up):
     recording = made_up(0, 0.1)
     given = np.random.default_rng(0).normal(size=recording.sensed.v.shape).astype(np.float32)
     (result,) = run_segments(build_estimator(recipe_of("MOB")), [Observed(recording, given)])
@@ -123,9 +97,9 @@ def test_an_observer_that_ran_already_is_not_run_again(
 
 
 def test_recordings_side_by_side_and_in_batches_are_those_alone(
-    settings: Settings, recipe_of: Callable[..., Recipe], tmp_path: Path, made_up: Callable[..., Recording],
-    write_pair: Write, monkeypatch: pytest.MonkeyPatch, run_methods: Callable[..., None],
-) -> None:  # fmt: skip
+    settings, recipe_of, tmp_path, made_up,
+    write_pair, monkeypatch, run_methods
+):  # fmt: skip
     """Of different lengths, with falls, more of them than are held in memory at once."""
     recordings = [made_up(k, seconds, segments=k) for k, seconds in ((1, 0.3), (2, 0.5), (3, 0.2))]
     pairs = [write_pair(tmp_path, recording) for recording in recordings]
@@ -138,9 +112,7 @@ def test_recordings_side_by_side_and_in_batches_are_those_alone(
         np.testing.assert_array_equal(array, read_array(residual)[0][:, : settings.layout.nv])
 
 
-def test_of_a_residual_only_r_is_read(
-    settings: Settings, tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write
-) -> None:
+def test_of_a_residual_only_r_is_read(settings, tmp_path, made_up, write_pair):
     """The file has the true torque too, which no estimator may see."""
     pair = write_pair(tmp_path, made_up(1, 0.2))
     array, meta = read_array(pair[1])
@@ -154,35 +126,26 @@ def test_of_a_residual_only_r_is_read(
     np.testing.assert_array_equal(again.residual, read.residual)
 
 
-def test_a_residual_of_another_recording_is_refused(
-    settings: Settings, tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write
-) -> None:
+def test_a_residual_of_another_recording_is_refused(settings, tmp_path, made_up, write_pair):
     recording, residual = (write_pair(tmp_path, made_up(k, 0.2 * k))[k - 1] for k in (1, 2))
     with pytest.raises(DataError, match="is not accepted"):
         read_observed(settings.layout, recording, residual)
 
 
-def test_recordings_of_several_rates_are_not_run_together(made_up: Callable[..., Recording]) -> None:
+def test_recordings_of_several_rates_are_not_run_together(made_up):
     read = [Observed(replace(made_up(1, 0.1), rate_hz=rate)) for rate in (500.0, 1000.0)]
     with pytest.raises(DataError, match=r"recordings at \[500.0, 1000.0\] Hz cannot be run together"):
         rate_of(read)
 
 
-def test_factors_are_told_joint_by_joint_and_are_one_where_none_are_stored(tmp_path: Path) -> None:
+def test_factors_are_told_joint_by_joint_and_are_one_where_none_are_stored(tmp_path):
     tensors = {f"cell.weight_{side}_l0": np.zeros((3, 1), np.float32) for side in ("ih", "hh")}
     tensors |= {f"cell.bias_{side}_l0": np.zeros(3, np.float32) for side in ("ih", "hh")}
     tensors |= {"head.weight": np.zeros((4, 1), np.float32), "head.bias": np.zeros(4, np.float32)}
     tensors |= {name: np.ones(2 if name.startswith("target") else 1, np.float32) for name in Z_SCORES}
     for limb, more in (("LA", {}), ("RA", {STD_SCALE: np.array([0.5, 2.0], np.float32)})):
         (tmp_path / limb).mkdir()
-        note = {
-            "name": "MOB-Net-LL-s0",
-            "limb": limb,
-            "joints": [f"{limb}1", f"{limb}2"],
-            "inputs": ["q.W1"],
-            "std_min": 1e-6,
-        }
-        note["network"] = {"cell": "GRU", "hidden": 1}
+        note = network_note(limb, [f"{limb}1", f"{limb}2"], ["q.W1"], {"cell": "GRU", "hidden": 1})
         save_file(tensors | more, tmp_path / limb / WEIGHTS, {NOTE: json.dumps(note)})
     told = std_scales(tmp_path / limb / WEIGHTS for limb in ("LA", "RA"))
     assert told == {"LA1": 1.0, "LA2": 1.0, "RA1": 0.5, "RA2": 2.0}

@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-from typing import Literal
 
 import numpy as np
 import pytest
@@ -20,7 +19,7 @@ print("scipy.signal" in sys.modules)
 
 
 @pytest.mark.parametrize("shape", [(1000,), (1000, 39), (50, 3, 2), (1, 4), (0, 4), (7, 0)])
-def test_equal_to_scipy_to_the_bit(shape: tuple[int, ...]) -> None:
+def test_equal_to_scipy_to_the_bit(shape):
     x = 100 * np.random.default_rng(0).normal(size=shape)
     given = x.copy()
     for pole in (exact_pole(GAIN_HZ, RATE_HZ), 0.5, 0.0):
@@ -30,13 +29,13 @@ def test_equal_to_scipy_to_the_bit(shape: tuple[int, ...]) -> None:
 
 @pytest.mark.parametrize("order", ["C", "F"])
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
-def test_any_memory_order_and_float_type_is_taken(dtype: type, order: Literal["C", "F"]) -> None:
+def test_any_memory_order_and_float_type_is_taken(dtype, order):
     x = np.array(np.random.default_rng(0).normal(size=(50, 3)), dtype=dtype, order=order)
     expected = low_pass(x.astype(np.float64), GAIN_HZ, RATE_HZ)
     np.testing.assert_array_equal(low_pass(np.repeat(x, 2, axis=0)[::2], GAIN_HZ, RATE_HZ), expected)
     np.testing.assert_array_equal(low_pass(x, GAIN_HZ, RATE_HZ), expected)
 
 
-def test_it_starts_without_scipy_s_filters() -> None:
+def test_it_starts_without_scipy_s_filters():
     """Their import takes longer than the filter of a whole recording."""
     assert subprocess.check_output([sys.executable, "-c", START], text=True).strip() == "False"

@@ -1,46 +1,35 @@
 """The residual file: what it holds, how segments and levels enter, and the scheme's error on the simulated plant."""
 
-from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
-import mujoco
 import numpy as np
 import pytest
+from made_swings import unseen
 
 from mobnet.core.columns import residual_columns
-from mobnet.core.recording import Recording, Sensed, Truth, write_recording
+from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import read_array
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observe import observe, observer_of, zeroed
 from mobnet.estimation.observer import MomentumObserver
-from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
-from mobnet.robot.plant import SOLE_TYPE, TERRAIN_TYPE, robot_spec
 from mobnet.robot.wrench import feet_torque
-from mobnet.settings.settings import Settings
 
 RATE_HZ, GAIN_HZ = 1000.0, 100.0
 META = {"scenario": "random_walk", "level": "ideal", "seed": 3}
 
 
 @pytest.fixture
-def recording(robot: RobotDescription, follow: Callable) -> Recording:
+def recording(robot, follow):
     """Two segments of a tenth of a second each."""
     sensed, tau_ext = follow(RATE_HZ, 0.199, np.zeros(robot.layout.nu))
-    wrench = np.zeros((len(sensed), 6))
-    touch, pushed = np.zeros((len(sensed), 2)), np.zeros((len(sensed), 1))
-    truth = Truth(
-        tau_ext, wrench, wrench, touch, pushed, 0.0 * sensed.tau_des, 0.0 * tau_ext, np.zeros((len(sensed), 4))
-    )
+    truth = replace(unseen(robot.layout, len(sensed)), tau_ext=tau_ext)
     return Recording(sensed, ((0, 100), (100, 200)), RATE_HZ, META, truth)
 
 
 @pytest.fixture
-def written(robot: RobotDescription, tmp_path: Path) -> Callable[[Recording], Path]:
-    """A function that writes a recording and returns its stem."""
-
-    def write(recording: Recording) -> Path:
+def written(robot, tmp_path):
+    def write(recording):
         write_recording(tmp_path / "s3", recording, robot.layout)
         return tmp_path / "s3"
 
@@ -48,19 +37,15 @@ def written(robot: RobotDescription, tmp_path: Path) -> Callable[[Recording], Pa
 
 
 @pytest.fixture
-def run(settings: Settings) -> Callable[..., None]:
-    """A function recording, out, level that runs the rule."""
-
-    def observed(recording: Path, out: Path, level: str = "ideal") -> None:
+def run(settings):
+    def observed(recording, out, level="ideal"):
         gravity = settings.plant.gravity_m_s2
         observe(settings.robot, settings.levels[level], gravity, settings.observer, recording, out)
 
     return observed
 
 
-def test_file_has_residual_then_truth_and_says_where_from(
-    run: Callable, recording: Recording, robot: RobotDescription, written: Callable, tmp_path: Path
-) -> None:
+def test_file_has_residual_then_truth_and_says_where_from(run, recording, robot, written, tmp_path):
     run(written(recording), tmp_path / "out" / "s3")
     array, meta = read_array(tmp_path / "out" / "s3")
     names = [column["name"] for column in meta["columns"]]
@@ -72,9 +57,7 @@ def test_file_has_residual_then_truth_and_says_where_from(
     assert meta["segments"] == [[0, 100], [100, 200]]
 
 
-def test_the_label_of_foot_sensors_stands_beside_the_truth(
-    run: Callable, recording: Recording, robot: RobotDescription, written: Callable, tmp_path: Path
-) -> None:
+def test_the_label_of_foot_sensors_stands_beside_the_truth(run, recording, robot, written, tmp_path):
     """J^T F of (2) behind the observer's low-pass, segment by segment; r and the truth do not depend on the forces."""
     rng = np.random.default_rng(0)
     wrenches = {side: rng.normal(0.0, 100.0, (200, 6)) for side in ("left", "right")}
@@ -94,7 +77,7 @@ def test_the_label_of_foot_sensors_stands_beside_the_truth(
     assert [column["name"] for column in meta["columns"]][2 * robot.layout.nv] == "label_lp.V1"
 
 
-def test_a_foots_sensor_is_zeroed_where_the_foot_swings() -> None:
+def test_a_foots_sensor_is_zeroed_where_the_foot_swings():
     """A push on the foot in the swing does not matter; without a swing the reading stays as it is."""
     swing, wrench = np.repeat([0, 1, 0], 100), np.full((300, 6), 5.0)
     wrench[swing == 0] += 400.0
@@ -103,19 +86,7 @@ def test_a_foots_sensor_is_zeroed_where_the_foot_swings() -> None:
     np.testing.assert_array_equal(zeroed(wrench, np.zeros(300)), wrench)
 
 
-def test_without_uncertainty_residual_is_the_low_passed_truth(
-    run: Callable, recording: Recording, written: Callable, tmp_path: Path
-) -> None:
-    run(written(recording), tmp_path / "out")
-    array, _ = read_array(tmp_path / "out")
-    residual, truth = np.split(np.asarray(array, dtype=np.float64), 2, axis=1)
-    assert np.abs(truth[:, :6]).max() > 100
-    assert np.abs(residual - truth).max() < 0.02
-
-
-def test_every_segment_starts_anew(
-    run: Callable, recording: Recording, nominal: NominalModel, written: Callable, tmp_path: Path
-) -> None:
+def test_every_segment_starts_anew(run, recording, nominal, written, tmp_path):
     run(written(recording), tmp_path / "out")
     array, _ = read_array(tmp_path / "out")
     nv = nominal.model.nv
@@ -125,7 +96,7 @@ def test_every_segment_starts_anew(
     np.testing.assert_allclose(array[100:, nv:], low_pass(recording.truth.tau_ext[100:], GAIN_HZ, RATE_HZ), atol=0.01)
 
 
-def test_level_picks_the_nominal_model(settings: Settings, robot: RobotDescription) -> None:
+def test_level_picks_the_nominal_model(settings, robot):
     made = {name: observer_of(robot, level, 9.81, GAIN_HZ, RATE_HZ) for name, level in settings.levels.items()}
     ratios = {name: observer.nominal.mass_ratio for name, observer in made.items()}
     lighter = {level for level, ratio in ratios.items() if ratio == pytest.approx(0.9)}
@@ -133,9 +104,7 @@ def test_level_picks_the_nominal_model(settings: Settings, robot: RobotDescripti
     assert {ratios[level] for level in ratios.keys() - lighter} == {1.0}
 
 
-def test_lighter_nominal_model_leaves_a_share_of_what_is_needed_in_the_residual(
-    run: Callable, recording: Recording, written: Callable, tmp_path: Path, robot: RobotDescription
-) -> None:
+def test_a_lighter_model_leaves_a_share_of_what_is_needed_in_the_residual(run, recording, written, tmp_path, robot):
     stem = written(replace(recording, meta={**META, "level": "all_uncertainty"}))
     run(stem, tmp_path / "out", "all_uncertainty")
     array, meta = read_array(tmp_path / "out")
@@ -146,46 +115,8 @@ def test_lighter_nominal_model_leaves_a_share_of_what_is_needed_in_the_residual(
     np.testing.assert_allclose((residual - truth)[:100], error, atol=0.02)
 
 
-def test_columns_carry_unit_and_frame(robot: RobotDescription) -> None:
+def test_columns_carry_unit_and_frame(robot):
     described = {name: (unit, frame) for name, unit, frame in residual_columns(robot.layout)}
     assert described["r.V1"] == ("N", "world")
     assert described["tau_ext_lp.V4"] == ("N m", "joint")
     assert described["r.LL3"] == ("N m", "joint")
-
-
-@pytest.mark.sim
-def test_on_the_simulated_plant_the_scheme_meets_the_ideal_row(nominal: NominalModel, robot: RobotDescription) -> None:
-    q, v, tau, tau_ext = _shaken(robot, samples=400)
-    zeros = np.zeros((len(q), 3))
-    sensed = Sensed(q, v, zeros, tau, tau, zeros[:, :2], np.zeros((len(q), 5)), zeros[:, :2])
-    error = MomentumObserver(nominal, GAIN_HZ, RATE_HZ).residual(sensed) - low_pass(tau_ext, GAIN_HZ, RATE_HZ)
-    rmse = np.sqrt(np.mean(error**2, axis=0))
-    layout = robot.layout
-    limits = {"LL": 0.01, "RL": 0.01, "W": 0.02, "LA": 0.01, "RA": 0.01}  # [N m], Table 5, row Ideal
-    assert np.abs(tau_ext[:, 2]).max() > 500
-    for limb, limit in limits.items():
-        assert rmse[layout.columns(layout.limb(limb))].mean() < limit, limb
-    assert rmse[:3].mean() < 0.07  # [N]
-    assert rmse[3:6].mean() < 0.03
-
-
-def _shaken(robot: RobotDescription, samples: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Return q, v after each sample of a standing robot, and means of motor and contact torque over its sub-steps."""
-    spec = robot_spec(robot)
-    plane = mujoco.mjtGeom.mjGEOM_PLANE
-    spec.worldbody.add_geom(type=plane, size=[5, 5, 1], contype=TERRAIN_TYPE, conaffinity=SOLE_TYPE)
-    spec.option.timestep = 1 / (2 * RATE_HZ)
-    model = spec.compile()
-    data, rng = mujoco.MjData(model), np.random.default_rng(2)
-    data.qpos[2] = robot.leg.link_length * 2 - robot.leg.hip_pos[2] - robot.sole.height
-    rows = []
-    for _ in range(samples):
-        push = 0.1 * robot.torque_limits * rng.normal(size=robot.layout.nu)
-        ticks = []
-        for _ in range(2):
-            data.ctrl[:] = push - robot.torque_limits * (12 * data.qpos[7:] + 0.25 * data.qvel[6:])
-            mujoco.mj_step(model, data)
-            ticks.append(np.concatenate([data.ctrl, data.qfrc_constraint]))  # soles: the only constraints
-        rows.append(np.concatenate([data.qpos, data.qvel, np.mean(ticks, axis=0)]))
-    nq, nv, nu = model.nq, model.nv, model.nu
-    return tuple(np.split(np.array(rows), [nq, nq + nv, nq + nv + nu], axis=1))

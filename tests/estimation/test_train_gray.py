@@ -1,37 +1,31 @@
 """A gray box learns what its friction model leaves, and the fit reaches nothing else of the training."""
 
 import json
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from made_steps import maker
 
-from mobnet.core.recording import Recording
 from mobnet.estimation.fitting import write_fit
 from mobnet.estimation.kinds.friction import read_friction
 from mobnet.estimation.methods import build_estimator
-from mobnet.estimation.recipe import Recipe
 from mobnet.estimation.train_gray import filtered_friction, train_gray
 from mobnet.learning.dataset import load_limb_data
 from mobnet.plan.parts import Repetition
 from mobnet.plan.plan import make_plan
 from mobnet.running.stage import Stage
 from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.settings import Settings
 
 METHOD, LIMB = "MOB-Net-gray", "LL"
 
 
 @pytest.fixture
-def pair(tmp_path: Path, made_up: Callable[..., Recording], write_pair: Any) -> tuple[Path, Path]:
+def pair(tmp_path, made_up, write_pair):
     return write_pair(tmp_path, made_up(1, 2.0, segments=2))
 
 
 @pytest.fixture
-def fitted(settings: Settings, tmp_path: Path, pair: tuple[Path, Path]) -> Path:
+def fitted(settings, tmp_path, pair):
     """A fit of the method that the gray box builds upon."""
     source = Catalogue(settings).source_of(METHOD)
     row = Catalogue(settings).method(source)
@@ -40,14 +34,12 @@ def fitted(settings: Settings, tmp_path: Path, pair: tuple[Path, Path]) -> Path:
     return tmp_path / "fit.json"
 
 
-def test_the_target_lacks_what_the_method_subtracts_that_it_builds_upon(
-    settings: Settings, recipe_of: Callable[..., Recipe], made_up: Callable[..., Recording], pair: Any, fitted: Path
-) -> None:
+def test_the_target_lacks_what_the_method_subtracts_that_it_builds_upon(settings, recipe_of, made_up, pair, fitted):
     """By MOB - MOB-fric-load, segment by segment; so the gray box's target is the error of MOB-fric-load."""
     layout, training = settings.layout, Catalogue(settings).training(METHOD, LIMB)
     friction = read_friction(fitted, layout.actuated)
 
-    def known(recording: Path, joints: Any) -> Any:
+    def known(recording, joints):
         return filtered_friction(layout, friction, settings.observer.gain_hz, recording, joints)
 
     given = layout, training.network, training.target, [pair[0]], [pair[1]]
@@ -62,7 +54,7 @@ def test_the_target_lacks_what_the_method_subtracts_that_it_builds_upon(
         assert np.abs(found).max() > 1.0
 
 
-def test_the_base_has_no_friction(settings: Settings, pair: Any, fitted: Path) -> None:
+def test_the_base_has_no_friction(settings, pair, fitted):
     friction = read_friction(fitted, settings.layout.actuated)
     found = filtered_friction(settings.layout, friction, 100.0, pair[0], ["V1", "LL1"])
     assert found.shape == (2000, 2)
@@ -70,7 +62,7 @@ def test_the_base_has_no_friction(settings: Settings, pair: Any, fitted: Path) -
     assert found[:, 1].any()
 
 
-def test_it_trains(settings: Settings, pair: Any, fitted: Path, tmp_path: Path) -> None:
+def test_it_trains(settings, pair, fitted, tmp_path):
     training = Catalogue(settings).training(METHOD, LIMB)
     small = {
         "network": training.network.model_copy(update={"hidden": 8, "horizon_steps": 25}),
@@ -84,7 +76,7 @@ def test_it_trains(settings: Settings, pair: Any, fitted: Path, tmp_path: Path) 
     assert (note["method"], note["target"]) == (METHOD, "uncertainty")
 
 
-def test_a_training_reads_the_fit_that_it_builds_upon_and_no_other_does(settings: Settings) -> None:
+def test_a_training_reads_the_fit_that_it_builds_upon_and_no_other_does(settings):
     plan = make_plan(settings, with_pdf=False)
     gray, plain = (
         maker(plan, "networks", f"{method}-{LIMB}-s0", "weights.safetensors").job for method in (METHOD, "MOB-Net")

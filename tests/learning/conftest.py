@@ -1,20 +1,15 @@
 """A training small enough for a test."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording
-from mobnet.learning.dataset import LimbData, load_limb_data
+from mobnet.learning.dataset import load_limb_data
 from mobnet.learning.train import train_all
 from mobnet.plan.parts import Repetition
 from mobnet.running.stage import Stage
 from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.networks import Training
 from mobnet.settings.settings import Settings
 
 
@@ -27,10 +22,10 @@ class Small:
     residuals: list[Path]
 
     @property
-    def layout(self) -> JointLayout:
+    def layout(self):
         return self.settings.layout
 
-    def training(self, method: str = "MOB-Net", limb: str = "LL", *, epochs: int = 5, **learning: Any) -> Training:
+    def training(self, method="MOB-Net", limb="LL", *, epochs=5, **learning):
         """Return a method's training with a small GRU, and with changes of how it learns."""
         training = Catalogue(self.settings).training(method, limb)
         hidden = 16 if training.network.cell == "GRU" else training.network.hidden
@@ -42,28 +37,25 @@ class Small:
         }
         return training.model_copy(update=changes)
 
-    def data(self, training: Training) -> LimbData:
-        """Return the data of a training."""
+    def data(self, training):
         return load_limb_data(self.layout, training.network, training.target, self.recordings, self.residuals)
 
-    def arguments(self, training: Training, folder: Path, start: Path | None = None) -> dict[str, Any]:
-        """Return what `train_all` gets; results go below a folder."""
+    def arguments(self, training, folder, start=None):
         network = Repetition(training, 0, folder / "out", folder / "state", start)
         data = {"recordings": self.recordings, "residuals": self.residuals}
         return {"root_seed": 1, "layout": self.layout, "networks": [network], **data, "stage": Stage(folder / "s", "")}
 
-    def train(self, training: Training, folder: Path) -> Path:
-        """Train, and return the folder of the result."""
+    def train(self, training, folder):
         train_all(**self.arguments(training, folder))
         return folder / "out"
 
 
 @pytest.fixture
-def small(
-    settings: Settings,
-    tmp_path: Path,
-    made_up: Callable[..., Recording],
-    write_pair: Callable[[Path, Recording], tuple[Path, Path]],
-) -> Small:
+def small(settings, tmp_path, made_up, write_pair):
     stems = [write_pair(tmp_path / "data", made_up(seed, 4.0, segments=2)) for seed in (0, 1)]
     return Small(settings, *map(list, zip(*stems, strict=True)))
+
+
+@pytest.fixture
+def data(small):
+    return small.data(small.training())

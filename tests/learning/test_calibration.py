@@ -1,13 +1,10 @@
 """The factor puts the share it is asked for inside, and is measured where it was not learned."""
 
 import json
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 import torch
-from numpy.typing import NDArray
 from safetensors import safe_open
 from scipy.special import ndtr
 
@@ -18,23 +15,22 @@ from mobnet.learning.gaussian import coverage, half_width
 from mobnet.learning.optimisation import Samples
 from mobnet.learning.streams import deal
 
-Array = NDArray[np.float64]
 HORIZON = 10
 
 
 @pytest.fixture
-def rng() -> np.random.Generator:
+def rng():
     return np.random.default_rng(0)
 
 
-def test_scaled_deviations_cover_the_share_whatever_the_tails(rng: np.random.Generator) -> None:
+def test_scaled_deviations_cover_the_share_whatever_the_tails(rng):
     error, std = rng.standard_t(2, (9000, 2)), rng.uniform(0.2, 3.0, (9000, 2))
     for share in (0.5, 0.68):
         scaled = std * scale_for(error, std, share)
         np.testing.assert_allclose(coverage(error, scaled, [share])[0], share, atol=1e-3)
 
 
-def test_true_deviations_stay_and_wrong_ones_are_corrected(rng: np.random.Generator) -> None:
+def test_true_deviations_stay_and_wrong_ones_are_corrected(rng):
     std = rng.uniform(0.2, 3.0, (20000, 2))
     found = calibrate(std * rng.normal(size=std.shape), std * [0.5, 2.0], 0.68, [0.68])
     np.testing.assert_allclose(found.scale, [2.0, 0.5], rtol=0.03)
@@ -46,7 +42,7 @@ def test_true_deviations_stay_and_wrong_ones_are_corrected(rng: np.random.Genera
     assert (found.after.crps < found.before.crps).all()
 
 
-def test_large_errors_widen_the_likely_factor_alone(rng: np.random.Generator) -> None:
+def test_large_errors_widen_the_likely_factor_alone(rng):
     error = rng.normal(size=(5000, 1))
     error[::100] *= 50.0
     found = calibrate(error, np.ones_like(error), 0.68, [0.68])
@@ -54,21 +50,21 @@ def test_large_errors_widen_the_likely_factor_alone(rng: np.random.Generator) ->
     assert found.likelihood_scale[0] > 4.0
 
 
-def test_the_fit_is_measured_where_it_was_not_learned(rng: np.random.Generator) -> None:
+def test_the_fit_is_measured_where_it_was_not_learned(rng):
     """Errors that double half way: the first half's factor makes the second's interval half as wide as it should be."""
     error = rng.normal(size=(20000, 1)) * np.repeat([1.0, 2.0], 10000)[:, None]
     after = calibrate(error, np.ones_like(error), 0.68, [0.68]).after.coverage[0, 0]
     assert after == pytest.approx(2.0 * ndtr(half_width(0.68) / 2.0) - 1.0, abs=0.02)
 
 
-def test_predictions_come_in_the_order_of_time() -> None:
+def test_predictions_come_in_the_order_of_time():
     class Echo(torch.nn.Module):
         """Predicts zero with the input as its deviation, so that samples can be told apart."""
 
-        def forward(self, x: torch.Tensor, state: torch.Tensor) -> tuple[torch.Tensor, ...]:
+        def forward(self, x, state):
             return torch.zeros_like(x), x, state
 
-        def fresh_state(self, lanes: int, device: object = None) -> torch.Tensor:
+        def fresh_state(self, lanes, device=None):
             return torch.zeros(1, lanes, 1)
 
     rows = torch.arange(1.0, 121.0)[:, None]
@@ -78,9 +74,7 @@ def test_predictions_come_in_the_order_of_time() -> None:
 
 
 @pytest.mark.parametrize("wanted", [True, False])
-def test_factors_are_stored_where_they_are_declared_and_noted_in_any_case(
-    small: Any, tmp_path: Path, wanted: bool
-) -> None:
+def test_factors_are_stored_where_they_are_declared_and_noted_in_any_case(small, tmp_path, wanted):
     out = small.train(small.training(calibrate=wanted, epochs=1), tmp_path)
     note = json.loads((out / RUN).read_text())["calibration"]
     with safe_open(out / WEIGHTS, framework="numpy") as file:

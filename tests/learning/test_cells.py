@@ -2,13 +2,12 @@
 
 import pytest
 import torch
-from torch import Tensor, nn
+from torch import nn
 
 from mobnet.learning.cells import CELLS, Block, Lstm
-from mobnet.learning.model import LimbNetwork, build_network, parameter_count
+from mobnet.learning.model import build_network, parameter_count
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.networks import SIZES, NetworkCell
-from mobnet.settings.settings import Settings
 
 STD_MIN = 1e-6
 PUBLISHED = {"GRU": 83712, "LSTM": 83468, "RNN": 83628, "TCN": 83956, "MLP": 83227, "MLP-500": 756512}  # section 6.1
@@ -21,25 +20,25 @@ SMALL = {
 LOOKS_BACK = {"MLP": 4, "TCN": 4 + 2 * 2 * (1 + 2)}  # samples before the present one
 
 
-def _network(cell: NetworkCell, inputs: int = 3, joints: int = 2) -> LimbNetwork:
+def _network(cell, inputs=3, joints=2):
     return build_network(cell, inputs, joints, STD_MIN, seed=0).eval()
 
 
-def _inputs(steps: int, lanes: int = 4, inputs: int = 3) -> Tensor:
+def _inputs(steps, lanes=4, inputs=3):
     return torch.randn(steps, lanes, inputs, generator=torch.Generator().manual_seed(0))
 
 
-def test_every_kind_can_be_built() -> None:
+def test_every_kind_can_be_built():
     assert set(CELLS) == set(SIZES) == set(SMALL)
 
 
 @pytest.mark.parametrize("method", PUBLISHED)
-def test_size_is_the_published_one(method: str, settings: Settings) -> None:
+def test_size_is_the_published_one(method, settings):
     network = build_network(Catalogue(settings).network(method, "LL"), 30, 6, STD_MIN, seed=0)
     assert parameter_count(network) == PUBLISHED[method]
 
 
-def test_a_constant_learns_a_mean_and_a_deviation_per_joint_and_nothing_else() -> None:
+def test_a_constant_learns_a_mean_and_a_deviation_per_joint_and_nothing_else():
     network = _network(SMALL["constant"])
     assert parameter_count(network) == 2 * 2
     mean, std, _ = network(_inputs(5), network.fresh_state(4))
@@ -50,7 +49,7 @@ def test_a_constant_learns_a_mean_and_a_deviation_per_joint_and_nothing_else() -
 
 
 @pytest.mark.parametrize("kind", SMALL)
-def test_state_carries_the_past_over_a_cut(kind: str) -> None:
+def test_state_carries_the_past_over_a_cut(kind):
     """In pieces and in one run are equivalent, also for pieces shorter than what a window looks back."""
     network, x = _network(SMALL[kind]), _inputs(40)
     whole = network(x, network.fresh_state(4))
@@ -64,7 +63,7 @@ def test_state_carries_the_past_over_a_cut(kind: str) -> None:
 
 
 @pytest.mark.parametrize("kind", SMALL)
-def test_it_is_causal_and_lanes_do_not_mix(kind: str) -> None:
+def test_it_is_causal_and_lanes_do_not_mix(kind):
     network, x = _network(SMALL[kind]), _inputs(30)
     other = x.clone()
     other[20:] += 1.0
@@ -75,7 +74,7 @@ def test_it_is_causal_and_lanes_do_not_mix(kind: str) -> None:
 
 
 @pytest.mark.parametrize("kind", LOOKS_BACK)
-def test_a_window_ends_where_it_should(kind: str) -> None:
+def test_a_window_ends_where_it_should(kind):
     wide = SMALL[kind].model_copy(update={"hidden": 16})  # so wide that some path through the ReLUs is open
     network, x = _network(wide, inputs=1), _inputs(40, lanes=1, inputs=1).requires_grad_()
     network(x, network.fresh_state(1))[0][-1].sum().backward()
@@ -86,7 +85,7 @@ def test_a_window_ends_where_it_should(kind: str) -> None:
 
 
 @pytest.mark.parametrize("kind", SMALL)
-def test_a_kept_share_of_the_state_is_a_fresh_start(kind: str) -> None:
+def test_a_kept_share_of_the_state_is_a_fresh_start(kind):
     """The mask of training, 0 or 1 per lane, forgets lane by lane."""
     network, x = _network(SMALL[kind]), _inputs(20)
     _, _, state = network(x, network.fresh_state(4))
@@ -96,8 +95,7 @@ def test_a_kept_share_of_the_state_is_a_fresh_start(kind: str) -> None:
     torch.testing.assert_close(mixed[:, 1::2], carried[:, 1::2])
 
 
-def test_mlp_is_two_matrices_on_the_last_samples() -> None:
-    """The window laid out as one vector is the reference."""
+def test_mlp_is_two_matrices_on_the_last_samples():
     network, x = _network(SMALL["MLP"]), _inputs(20)
     layer = network.get_submodule("cell.layer")
     assert isinstance(layer, nn.Conv2d)
@@ -107,8 +105,7 @@ def test_mlp_is_two_matrices_on_the_last_samples() -> None:
     torch.testing.assert_close(network(x, network.fresh_state(4))[0], expected[..., :2], rtol=1e-5, atol=1e-6)
 
 
-def test_block_is_the_one_of_bai_2018() -> None:
-    """Torch's one-dimensional convolution is the reference."""
+def test_block_is_the_one_of_bai_2018():
     torch.manual_seed(0)
     block, x = Block(3, 4, 3, 2, 0.5).eval(), torch.randn(1, 3, 20, 1)
     convolve = nn.functional.conv1d
@@ -118,7 +115,7 @@ def test_block_is_the_one_of_bai_2018() -> None:
     torch.testing.assert_close(block(x)[..., 0], expected)
 
 
-def test_dropout_acts_in_training_alone() -> None:
+def test_dropout_acts_in_training_alone():
     network, x = _network(SMALL["TCN"]), _inputs(20)
     state = network.fresh_state(4)
     assert torch.equal(network(x, state)[0], network(x, state)[0])
@@ -127,7 +124,7 @@ def test_dropout_acts_in_training_alone() -> None:
 
 
 @pytest.mark.parametrize("method", PUBLISHED)
-def test_gradients_in_bfloat16_are_those_of_float32(method: str, settings: Settings) -> None:
+def test_gradients_in_bfloat16_are_those_of_float32(method, settings):
     """At the published sizes: one of them met a NaN in torch's bfloat16 convolution."""
     cell = Catalogue(settings).network(method, "LL").model_copy(update={"dropout": 0.0})
     network = build_network(cell, 30, 6, STD_MIN, seed=0)
@@ -142,8 +139,7 @@ def test_gradients_in_bfloat16_are_those_of_float32(method: str, settings: Setti
         torch.testing.assert_close(rounded, exact, rtol=0.05, atol=0.02 * float(exact.abs().max()))
 
 
-def test_lstm_state_is_hidden_and_cell_state() -> None:
-    """Torch's own LSTM is the reference."""
+def test_lstm_state_is_hidden_and_cell_state():
     torch.manual_seed(0)
     cell, x = Lstm(3, 8), _inputs(10)
     state = torch.randn(2, 4, 8)

@@ -1,33 +1,25 @@
 """Training data: the target of section 4.2.3, z-scores, and files that do not fit."""
 
-from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from mobnet.core.columns import residual_columns
 from mobnet.core.errors import DataError
-from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording
 from mobnet.core.store import read_array, write_array
-from mobnet.learning.dataset import LimbData, load_limb_data, scale_of
+from mobnet.learning.dataset import load_limb_data, scale_of
 from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.methods import Target
-from mobnet.settings.settings import Settings
-
-Write = Callable[[Path, Recording], tuple[Path, Path]]
 
 
 @pytest.fixture
-def stems(tmp_path: Path, made_up: Callable[..., Recording], write_pair: Write) -> list[tuple[Path, Path]]:
+def stems(tmp_path, made_up, write_pair):
     return [write_pair(tmp_path, made_up(seed, 1.0 + seed, segments=2)) for seed in (0, 1)]
 
 
 @pytest.fixture
-def load(stems: list[tuple[Path, Path]], settings: Settings) -> Callable[..., LimbData]:
-    def load(target: Target, rate_hz: float | None = None) -> LimbData:
+def load(stems, settings):
+    def load(target, rate_hz=None):
         recordings, residuals = zip(*stems, strict=True)
         limb = Catalogue(settings).network("MOB-Net", "LL")
         return load_limb_data(settings.layout, limb, target, recordings, residuals, rate_hz)
@@ -35,18 +27,14 @@ def load(stems: list[tuple[Path, Path]], settings: Settings) -> Callable[..., Li
     return load
 
 
-def test_uncertainty_and_external_torque_add_up_to_the_residual(
-    load: Callable[..., LimbData], stems: list[tuple[Path, Path]], layout: JointLayout
-) -> None:
+def test_uncertainty_and_external_torque_add_up_to_the_residual(load, stems, layout):
     """The identity of (15): the residual is conserved."""
     total = load("uncertainty").targets + load("external").targets
     residual = np.concatenate([read_array(stem)[0][:, layout.columns(layout.limb("LL"))] for _, stem in stems])
     np.testing.assert_allclose(total, residual, atol=1e-5)
 
 
-def test_what_foot_sensors_say_is_learned_where_they_label(
-    load: Callable[..., LimbData], stems: list[tuple[Path, Path]], layout: JointLayout
-) -> None:
+def test_what_foot_sensors_say_is_learned_where_they_label(load, stems, layout):
     """As on a robot: the residual less the label is the target, and the exact torque is not looked at."""
     before, error = load("external").targets, 2.5
     for _, stem in stems:
@@ -58,21 +46,21 @@ def test_what_foot_sensors_say_is_learned_where_they_label(
     np.testing.assert_allclose(load("external").targets, before + error, atol=1e-4)
 
 
-def test_recordings_are_laid_end_to_end_and_keep_their_segments(load: Callable[..., LimbData]) -> None:
+def test_recordings_are_laid_end_to_end_and_keep_their_segments(load):
     data = load("uncertainty")
     assert data.segments == ((0, 500), (500, 1000), (1000, 2000), (2000, 3000))
     assert data.inputs.shape == (3000, 30)
     assert data.targets.shape == (3000, 6)
 
 
-def test_digest_changes_with_any_number(load: Callable[..., LimbData]) -> None:
+def test_digest_changes_with_any_number(load):
     data, changed = load("uncertainty"), load("uncertainty")
     assert data.digest == load("uncertainty").digest != load("external").digest
     changed.inputs[17, 3] += 1e-3
     assert data.digest != changed.digest
 
 
-def test_z_scores_come_from_the_given_rows_alone() -> None:
+def test_z_scores_come_from_the_given_rows_alone():
     x = np.random.default_rng(0).normal(3.0, 2.0, (1000, 4)).astype(np.float32)
     x[:, 3] = 0.25
     used = np.concatenate([x[:200], x[500:700]])
@@ -82,14 +70,14 @@ def test_z_scores_come_from_the_given_rows_alone() -> None:
     assert scale.std[3] == 1.0
 
 
-def test_the_last_recordings_are_held_out(stems: list[tuple[Path, Path]], settings: Settings) -> None:
+def test_the_last_recordings_are_held_out(stems, settings):
     limb, columns = Catalogue(settings).network("MOB-Net", "LL"), tuple(zip(*stems, strict=True))
     data = load_limb_data(settings.layout, limb, "external", *columns, held_out=1)
     assert data.held_out == len(read_array(stems[0][0])[0])
     assert data.digest != load_limb_data(settings.layout, limb, "external", *columns).digest
 
 
-def test_a_missing_column_is_named(stems: list[tuple[Path, Path]], load: Callable[..., LimbData]) -> None:
+def test_a_missing_column_is_named(stems, load):
     array, meta = read_array(stems[1][1])
     columns = [tuple(column.values()) for column in meta["columns"]]
     others = [(name.replace("tau_ext_lp.LL4", "other.LL4"), unit, frame) for name, unit, frame in columns]
@@ -98,15 +86,13 @@ def test_a_missing_column_is_named(stems: list[tuple[Path, Path]], load: Callabl
         load("external")
 
 
-def test_a_residual_of_another_recording_is_refused(stems: list[tuple[Path, Path]], settings: Settings) -> None:
+def test_a_residual_of_another_recording_is_refused(stems, settings):
     limb = Catalogue(settings).network("MOB-Net", "LL")
     with pytest.raises(DataError, match=r"residual.*\.json: rows: 2000 is not accepted; accepted: 1000, as in"):
         load_limb_data(settings.layout, limb, "external", [stems[0][0]], [stems[1][1]])
 
 
-def test_recordings_at_two_rates_or_not_at_that_asked_for_are_refused(
-    stems: list[tuple[Path, Path]], load: Callable[..., LimbData], made_up: Callable[..., Recording], write_pair: Write
-) -> None:
+def test_recordings_at_two_rates_or_not_at_that_asked_for_are_refused(stems, load, made_up, write_pair):
     whole = made_up(1, 2.0)
     slow = replace(whole, sensed=whole.sensed[::2], truth=whole.truth[::2], segments=((0, 1000),), rate_hz=500.0)
     stems[1] = write_pair(stems[0][0].parent, slow)

@@ -1,32 +1,26 @@
 """Inputs of the limb networks, eq. (17) and Table 1."""
 
-from collections.abc import Callable
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from mobnet.core.errors import ConfigError
-from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
-from mobnet.core.recording import Recording, read_sensed, write_recording
+from mobnet.core.joints import N_VIRTUAL, NQ_BASE
+from mobnet.core.recording import read_sensed, write_recording
 from mobnet.core.store import read_array
 from mobnet.learning.features import limb_inputs, signal_names, signals
 from mobnet.robot.frames import rotation
 from mobnet.settings.networks import Limb
-from mobnet.settings.settings import Settings
 
 WIDTHS = {"LL": 30, "RL": 30, "RA": 34, "LA": 34, "W": 50, "V": 74}  # Table 1
 
 
 @pytest.mark.parametrize("limb", WIDTHS)
-def test_width_is_that_of_table_1(limb: str, settings: Settings, layout: JointLayout) -> None:
+def test_width_is_that_of_table_1(limb, settings, layout):
     inputs = limb_inputs(layout, settings.robot.networks[limb])
     assert len(inputs.names) == len(inputs.columns) == len(set(inputs.names)) == WIDTHS[limb]
 
 
-def test_leg_sees_its_own_joints_torques_and_the_pelvis(
-    settings: Settings, layout: JointLayout, made_up: Callable[..., Recording]
-) -> None:
+def test_leg_sees_its_own_joints_torques_and_the_pelvis(settings, layout, made_up):
     sensed = made_up().sensed
     leg = layout.columns(layout.limb("LL")) - N_VIRTUAL
     turned = rotation(sensed.q[:, 3:NQ_BASE])
@@ -45,23 +39,21 @@ def test_leg_sees_its_own_joints_torques_and_the_pelvis(
     np.testing.assert_array_equal(limb_inputs(layout, settings.robot.networks["LL"])(sensed), np.float32(expected))
 
 
-def test_arm_sees_the_waist_and_no_torque(settings: Settings, layout: JointLayout) -> None:
+def test_arm_sees_the_waist_and_no_torque(settings, layout):
     names = limb_inputs(layout, settings.robot.networks["LA"]).names
     assert [name for name in names if name.startswith("q.")] == [f"q.{j}" for j in layout.limb("LA") + layout.limb("W")]
     assert not any(name.startswith("tau_des") for name in names)
 
 
 @pytest.mark.parametrize("limb", ["LL", "V"])
-def test_few_columns_give_the_inputs_of_the_whole_recording(
-    limb: str, settings: Settings, layout: JointLayout, made_up: Callable[..., Recording], tmp_path: Path
-) -> None:
+def test_few_columns_give_the_inputs_of_the_whole_recording(limb, settings, layout, made_up, tmp_path):
     recording, inputs = made_up(), limb_inputs(layout, settings.robot.networks[limb])
     write_recording(tmp_path / "walk", recording, layout)
     few, _ = read_array(tmp_path / "walk", inputs.recorded)
     np.testing.assert_array_equal(inputs.from_recorded(few), inputs(read_sensed(tmp_path / "walk", layout).sensed))
 
 
-def test_a_sample_gives_its_row_of_the_recording(made_up: Callable[..., Recording], layout: JointLayout) -> None:
+def test_a_sample_gives_its_row_of_the_recording(made_up, layout):
     sensed = made_up().sensed
     whole = signals(sensed)
     assert whole.dtype == np.float32
@@ -70,6 +62,6 @@ def test_a_sample_gives_its_row_of_the_recording(made_up: Callable[..., Recordin
 
 
 @pytest.mark.parametrize("limb", ["V", "tail"])
-def test_a_limb_without_motors_is_refused(limb: str, layout: JointLayout) -> None:
+def test_a_limb_without_motors_is_refused(limb, layout):
     with pytest.raises(ConfigError, match=limb):
         limb_inputs(layout, Limb(joints=("LL",), Q=(limb,), T=()))

@@ -10,7 +10,7 @@ SEGMENTS = [(0, 10_000), (10_000, 13_337), (13_337, 13_360), (13_360, 20_000)]
 STREAM, HORIZON, LANES = 1000, 50, 8
 
 
-def test_split_is_9_to_1_in_blocks_and_loses_nothing() -> None:
+def test_split_is_9_to_1_in_blocks_and_loses_nothing():
     training, validation = split(SEGMENTS, 0.1)
     covered = np.concatenate([np.arange(a, b) for a, b in sorted(training + validation)])
     np.testing.assert_array_equal(covered, np.arange(20_000))
@@ -18,12 +18,12 @@ def test_split_is_9_to_1_in_blocks_and_loses_nothing() -> None:
     assert len(validation) == len(SEGMENTS)
 
 
-def test_recordings_that_are_held_out_validate_whole() -> None:
+def test_recordings_that_are_held_out_validate_whole():
     first = SEGMENTS[-1][0]
     assert split(SEGMENTS, 0.1, first) == (list(SEGMENTS[:-1]), [SEGMENTS[-1]])
 
 
-def test_no_training_row_is_seen_twice_in_an_epoch_and_few_are_left_out() -> None:
+def test_no_training_row_is_seen_twice_in_an_epoch_and_few_are_left_out():
     training, _ = split(SEGMENTS, 0.1)
     plan = epoch_plan(training, STREAM, HORIZON, LANES, np.random.default_rng(0))
     rows = (plan.rows[..., None] + np.arange(HORIZON)).ravel()
@@ -33,7 +33,7 @@ def test_no_training_row_is_seen_twice_in_an_epoch_and_few_are_left_out() -> Non
     assert len(rows) > 0.9 * len(allowed)
 
 
-def test_state_is_carried_only_from_one_sample_to_the_next() -> None:
+def test_state_is_carried_only_from_one_sample_to_the_next():
     plan = epoch_plan(SEGMENTS, STREAM, HORIZON, LANES, np.random.default_rng(1))
     follows = np.diff(plan.rows, axis=0) == HORIZON
     assert plan.fresh[0].all()
@@ -41,7 +41,7 @@ def test_state_is_carried_only_from_one_sample_to_the_next() -> None:
     assert plan.fresh.mean() < 3 * HORIZON / STREAM
 
 
-def test_a_state_never_crosses_a_segment() -> None:
+def test_a_state_never_crosses_a_segment():
     plan = epoch_plan(SEGMENTS, STREAM, HORIZON, LANES, np.random.default_rng(2))
     segment = np.searchsorted([start for start, _ in SEGMENTS], plan.rows, side="right")
     last = np.searchsorted([start for start, _ in SEGMENTS], plan.rows + HORIZON - 1, side="right")
@@ -49,31 +49,31 @@ def test_a_state_never_crosses_a_segment() -> None:
     assert plan.fresh[1:][np.diff(segment, axis=0) != 0].all()
 
 
-def test_epochs_differ_and_repeat_with_their_seed() -> None:
+def test_epochs_differ_and_repeat_with_their_seed():
     plans = [epoch_plan(SEGMENTS, STREAM, HORIZON, LANES, np.random.default_rng(seed)) for seed in (1, 1, 2)]
     np.testing.assert_array_equal(plans[0].rows, plans[1].rows)
     assert not np.array_equal(plans[0].rows[:10], plans[2].rows[:10])
     assert set(np.unique(plans[0].rows % HORIZON)) != set(np.unique(plans[2].rows % HORIZON))
 
 
-def test_validation_carries_the_state_through_a_whole_block() -> None:
+def test_validation_carries_the_state_through_a_whole_block():
     plan = validation_plan([(100, 1105)], 10_000, HORIZON, LANES)
     np.testing.assert_array_equal(plan.rows[:, 0], np.arange(100, 1100, HORIZON))
     assert plan.fresh.sum() == 1
 
 
-def test_pieces_shorter_than_a_horizon_are_left_out() -> None:
+def test_pieces_shorter_than_a_horizon_are_left_out():
     assert cut_streams([(0, 49), (60, 175)], STREAM, HORIZON) == [(60, 160)]
 
 
-def test_too_few_samples_for_a_batch_are_refused() -> None:
+def test_too_few_samples_for_a_batch_are_refused():
     with pytest.raises(DataError, match="2 horizons of 50 samples cannot fill a batch of 8"):
         deal([(0, 100)], LANES, HORIZON)
     with pytest.raises(DataError, match="0 horizons"):
         deal([], LANES, HORIZON)
 
 
-def test_windows_lie_whole_inside_blocks_and_start_from_zero() -> None:
+def test_windows_lie_whole_inside_blocks_and_start_from_zero():
     blocks = [(0, 30), (40, 45), (50, 65)]
     plan = window_plan(blocks, 100, 10, 4, np.random.default_rng(0), samples=4000)
     assert plan.rows.shape == (100, 4)
@@ -81,10 +81,10 @@ def test_windows_lie_whole_inside_blocks_and_start_from_zero() -> None:
     assert set(plan.rows.ravel()) == {*range(21), *range(50, 56)}
 
 
-def test_windows_of_an_epoch_have_as_many_samples_as_the_blocks() -> None:
+def test_windows_of_an_epoch_have_as_many_samples_as_the_blocks():
     assert len(window_plan([(0, 95)], 100, 10, 3, np.random.default_rng(0))) == 3
 
 
-def test_too_few_samples_for_a_batch_of_windows_are_refused() -> None:
+def test_too_few_samples_for_a_batch_of_windows_are_refused():
     with pytest.raises(DataError, match="11 windows of 10 samples cannot fill a batch of 4"):
         window_plan([(0, 20)], 100, 10, 4, np.random.default_rng(0))

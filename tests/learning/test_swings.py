@@ -1,9 +1,6 @@
 """Fine-tuning: a training that begins with a network, and learns from the free swings of a leg alone."""
 
-from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -11,11 +8,9 @@ import torch
 
 from mobnet.core.errors import DataError
 from mobnet.core.files import WEIGHTS
-from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording
 from mobnet.core.store import read_array
 from mobnet.learning.cells import Gru
-from mobnet.learning.dataset import LimbData, load_limb_data
+from mobnet.learning.dataset import load_limb_data
 from mobnet.learning.deployed.weights import GRU_TENSORS, read_weights
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.model import LimbNetwork
@@ -25,12 +20,11 @@ from mobnet.learning.swings import free_rows, hanging
 from mobnet.learning.train import train_all
 from mobnet.learning.trainer import Trainer
 from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.settings import Settings
 
 RATE_HZ, MARGINS = 1000.0, (0.09, 0.03)
 
 
-def test_a_foot_hangs_between_the_ends_of_its_swing() -> None:
+def test_a_foot_hangs_between_the_ends_of_its_swing():
     """Two swings; the second begins with a span, the third is too short to be sure of."""
     swing = np.zeros(1000)
     swing[100:400] = swing[500:800] = swing[900:950] = 1
@@ -39,7 +33,7 @@ def test_a_foot_hangs_between_the_ends_of_its_swing() -> None:
 
 
 @pytest.fixture
-def walked(tmp_path: Path, made_up: Callable[..., Recording], write_pair: Any) -> tuple[Path, Path]:
+def walked(tmp_path, made_up, write_pair):
     """A recording in which the left foot swings from 0.5 to 1.0 s and from 2.5 to 3.0 s, the right one never."""
     recording = made_up(0, 4.0)
     swing = np.zeros_like(recording.sensed.swing)
@@ -48,7 +42,7 @@ def walked(tmp_path: Path, made_up: Callable[..., Recording], write_pair: Any) -
     return write_pair(tmp_path, replace(recording, sensed=replace(recording.sensed, swing=swing)))
 
 
-def test_free_rows_are_those_of_the_leg_of_the_joints(walked: tuple[Path, Path], layout: JointLayout) -> None:
+def test_free_rows_are_those_of_the_leg_of_the_joints(walked, layout):
     left = free_rows(walked[0], layout, layout.limb("LL"), MARGINS)
     assert left.mean() == pytest.approx(2 * (0.5 - 0.09 - 0.03) / 4.0, abs=0.02)
     assert not free_rows(walked[0], layout, layout.limb("RL"), MARGINS).any()
@@ -56,9 +50,7 @@ def test_free_rows_are_those_of_the_leg_of_the_joints(walked: tuple[Path, Path],
         free_rows(walked[0], layout, layout.limb("W"), MARGINS)
 
 
-def test_the_target_of_a_free_swing_is_the_residual_whatever_the_label_says(
-    walked: tuple[Path, Path], settings: Settings, layout: JointLayout
-) -> None:
+def test_the_target_of_a_free_swing_is_the_residual_whatever_the_label_says(walked, settings, layout):
     recording, residual = walked
     limb = Catalogue(settings).network("MOB-Net", "LL")
     data = load_limb_data(layout, limb, "uncertainty", [recording], [residual], margins=MARGINS)
@@ -68,7 +60,7 @@ def test_the_target_of_a_free_swing_is_the_residual_whatever_the_label_says(
     np.testing.assert_array_equal(data.targets[free], expected[free])
 
 
-def test_only_the_first_seconds_are_read(small: Any) -> None:
+def test_only_the_first_seconds_are_read(small):
     """The second recording is left out whole, and the first one cut within its second segment."""
     training = small.training()
     whole = small.data(training)
@@ -81,7 +73,7 @@ def test_only_the_first_seconds_are_read(small: Any) -> None:
     np.testing.assert_array_equal(data.inputs, whole.inputs[:rows])
 
 
-def test_nothing_is_learned_where_the_target_is_unknown() -> None:
+def test_nothing_is_learned_where_the_target_is_unknown():
     """A horizon without a known target changes no weight; the state runs through it."""
     torch.manual_seed(0)
     inputs = torch.randn(400, 3)
@@ -97,7 +89,7 @@ def test_nothing_is_learned_where_the_target_is_unknown() -> None:
         train_epoch(*fresh(), Samples(inputs, torch.full_like(targets, torch.nan), partial=True), plan, 100, 1.0)
 
 
-def fresh() -> tuple[Any, Any]:
+def fresh():
     """Return a network, always the same, and its optimizer."""
     torch.manual_seed(1)
     network = LimbNetwork(Gru(3, 8), 2, 1e-6)
@@ -105,17 +97,11 @@ def fresh() -> tuple[Any, Any]:
 
 
 @pytest.fixture
-def trained(small: Any, tmp_path: Path) -> Path:
-    """The weights of a small network."""
+def trained(small, tmp_path):
     return small.train(small.training(epochs=2), tmp_path / "first") / WEIGHTS
 
 
-@pytest.fixture
-def data(small: Any) -> LimbData:
-    return small.data(small.training())
-
-
-def test_a_fine_tuning_begins_with_weights_and_scales_of_its_network(small: Any, trained: Path, data: LimbData) -> None:
+def test_a_fine_tuning_begins_with_weights_and_scales_of_its_network(small, trained, data):
     """And no draw of its own: two seeds begin alike."""
     tensors, _ = read_weights(trained)
     data.inputs[:] += 1.0  # other data, the same scales
@@ -128,7 +114,7 @@ def test_a_fine_tuning_begins_with_weights_and_scales_of_its_network(small: Any,
     assert trainers[0].fingerprint != Trainer(TrainingJob(small.training(), 0, 1), data).fingerprint
 
 
-def test_a_network_of_another_size_is_refused(small: Any, trained: Path, data: LimbData) -> None:
+def test_a_network_of_another_size_is_refused(small, trained, data):
     training = small.training()
     larger = training.model_copy(update={"network": training.network.model_copy(update={"hidden": 17})})
     with pytest.raises(DataError, match=r"cell: \('GRU', 16\) is not accepted; accepted: \('GRU', 17\)"):
@@ -137,9 +123,7 @@ def test_a_network_of_another_size_is_refused(small: Any, trained: Path, data: L
         Trainer(TrainingJob(small.training(limb="RL"), 0, 1), small.data(small.training(limb="RL")), trained)
 
 
-def test_swings_alone_train_and_calibrate_a_network(
-    small: Any, trained: Path, walked: tuple[Path, Path], tmp_path: Path
-) -> None:
+def test_swings_alone_train_and_calibrate_a_network(small, trained, walked, tmp_path):
     training = small.training(epochs=2, labels="swing", batch_size=2, validation_share=0.5)
     arguments = small.arguments(training, tmp_path / "tuned", trained) | {"margins": MARGINS}
     train_all(**arguments | {"recordings": [walked[0]], "residuals": [walked[1]]})

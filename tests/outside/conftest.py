@@ -1,9 +1,9 @@
 """Files from outside, each sound, and a function that says how the readers of jobs take them."""
 
 import json
+import re
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,19 +14,18 @@ from made_notes import training_note
 from mobnet.check import Against, check
 from mobnet.core.columns import Epoch, Score, torque_columns
 from mobnet.core.errors import MobnetError
-from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording, write_recording
+from mobnet.core.recording import write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.observe import observe
-from mobnet.settings.settings import Settings
 
 RATE_HZ = 1000.0
 AGAINST = Against()  # reads the configuration once
+Change = Callable[[Any], Any]
 META = {"scenario": "random_walk", "level": "all_uncertainty", "seed": 3}
 
 
 @pytest.fixture(scope="session")
-def sound(tmp_path_factory: pytest.TempPathFactory, made_up: Callable[..., Recording], layout: JointLayout) -> Path:
+def sound(tmp_path_factory, made_up, layout):
     """A folder with `recording`, `residual` and `estimate` of the same 1.2 s in two segments."""
     folder = tmp_path_factory.mktemp("sound")
     whole = replace(made_up(seed=4, seconds=1.2, segments=2), meta=META)
@@ -40,18 +39,17 @@ def sound(tmp_path_factory: pytest.TempPathFactory, made_up: Callable[..., Recor
 
 
 @pytest.fixture
-def copied(sound: Path, tmp_path: Path) -> Path:
-    """A copy of that folder, to damage."""
+def copied(sound, tmp_path):
     for file in sound.iterdir():
         (tmp_path / file.name).write_bytes(file.read_bytes())
     return tmp_path
 
 
 @pytest.fixture(scope="session")
-def refused(settings: Settings) -> Callable[[Path], str]:
+def refused(settings):
     """Return a function of a recording's stem: the lines with which rule `observe` and a check refuse it."""
 
-    def lines(stem: Path) -> str:
+    def lines(stem):
         out, level = stem.with_name("out"), settings.levels["all_uncertainty"]
         gravity = settings.plant.gravity_m_s2
         with pytest.raises(MobnetError) as found:
@@ -62,20 +60,19 @@ def refused(settings: Settings) -> Callable[[Path], str]:
     return lines
 
 
-def refusal_of(path: Path) -> str:
-    """Return the lines with which a check refuses a file."""
+def refusal_of(path):
     with pytest.raises(MobnetError) as found:
         check(path, AGAINST)
     return told(str(found.value))
 
 
-def told(text: str) -> str:
+def told(text):
     """Return lines of faults, each of which begins with the place of a file."""
     assert all(line.startswith("/") and ": " in line and len(line) < 1000 for line in text.splitlines()), text
     return text
 
 
-def changed_note(stem: Path, change: Callable[[dict[str, Any]], Any]) -> None:
+def changed_note(stem, change):
     """Change the note of an array in place; what the function returns replaces it."""
     path = stem.with_suffix(".json")
     note = json.loads(path.read_text())
@@ -83,21 +80,57 @@ def changed_note(stem: Path, change: Callable[[dict[str, Any]], Any]) -> None:
     path.write_text(json.dumps(note if changed is None else changed))
 
 
-def without_footer(note: dict[str, Any]) -> None:
+def set_at(place, value):
+    """Return a change of a note that sets a value at a place, keys joined by dots."""
+
+    def change(note):
+        parent, last = parent_of(note, place)
+        parent[last] = value
+
+    return change
+
+
+def lost(place):
+    """Return a change of a note that deletes what is at a place."""
+
+    def change(note):
+        parent, last = parent_of(note, place)
+        del parent[last]
+
+    return change
+
+
+def parent_of(note, place):
+    """Return what holds the value at a place of a note, and its key or number there."""
+    *inner, last = (int(key) if key.isdigit() else key for key in place.split("."))
+    for key in inner:
+        note = note[key]
+    return note, last
+
+
+def refusals(wrong, needed):
+    """Return changes of a note with what is told of them: values that a place does not accept, and places lost."""
+    values = [(place, value) for place, values in wrong.items() for value in values]
+    return {
+        **{f"{k} as {v!r}": (set_at(k, v), f"{k}: {re.escape(repr(v))} is not accepted; ") for k, v in values},
+        **{f"{place} is gone": (lost(place), f"{place}: key is missing; accepted: ") for place in needed.split()},
+    }
+
+
+def without_footer(note):
     """Take the hash of the array out of its note, as in that of somebody else's array."""
     del note["footer"]
 
 
-def changed_table(stem: Path, change: Callable[[Any], Any]) -> None:
-    """Replace the table of an array by what a function makes of it."""
+def changed_table(stem, change):
     path = stem.with_suffix(".parquet")
     pq.write_table(change(pq.read_table(path)), path)
 
 
-def scaled(names: list[str], factor: float) -> Callable[[Any], Any]:
+def scaled(names, factor):
     """Return a change of a table that multiplies columns."""
 
-    def change(table: Any) -> Any:
+    def change(table):
         for name in names:
             place = table.schema.get_field_index(name)
             column = (table.column(name).to_numpy() * factor).astype(np.float32)
@@ -107,10 +140,10 @@ def scaled(names: list[str], factor: float) -> Callable[[Any], Any]:
     return change
 
 
-def moved(names: list[str]) -> Callable[[Any], Any]:
+def moved(names):
     """Return a change of a table that moves numbers from each column to the one before it, the first to the last."""
 
-    def change(table: Any) -> Any:
+    def change(table):
         for name, column in zip(names, [table.column(name) for name in (*names[1:], names[0])], strict=True):
             table = table.set_column(table.schema.get_field_index(name), table.schema.field(name), column)
         return table
@@ -118,10 +151,10 @@ def moved(names: list[str]) -> Callable[[Any], Any]:
     return change
 
 
-def put(name: str, row: int, value: float) -> Callable[[Any], Any]:
+def put(name, row, value):
     """Return a change of a table that sets one number."""
 
-    def change(table: Any) -> Any:
+    def change(table):
         column = table.column(name).to_numpy().copy()
         column[row] = value
         return table.set_column(table.schema.get_field_index(name), table.schema.field(name), [column])
@@ -130,7 +163,7 @@ def put(name: str, row: int, value: float) -> Callable[[Any], Any]:
 
 
 @pytest.fixture
-def training(tmp_path: Path) -> Path:
+def training(tmp_path):
     """The folder of a training of three epochs."""
     folder = tmp_path / "GRU-LL-s1"
     folder.mkdir()
@@ -142,7 +175,7 @@ def training(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def scores(tmp_path: Path) -> Path:
+def scores(tmp_path):
     """A file of scores."""
     rows = [Score("walk", "ideal", "MOB", 0, test, "LL", joint, "rmse", 1.5, "N m") for test in (1, 2)
             for joint in ("LL1", "avg")]  # fmt: skip

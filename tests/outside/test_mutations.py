@@ -4,9 +4,6 @@ A changed bit of a weight is a number like any other: `./reproduce verify` finds
 """
 
 import json
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -15,7 +12,6 @@ from hypothesis import strategies as st
 from tests.outside.conftest import told
 
 from mobnet.core.errors import DataError
-from mobnet.core.joints import JointLayout
 from mobnet.core.recording import read_recording
 from mobnet.evaluation.measure.learning.trainings import read_training
 from mobnet.evaluation.number.rows import read_scores
@@ -25,16 +21,15 @@ JUNK = st.one_of(
     st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=5), st.just([]), st.just({}),
     st.lists(st.integers(), max_size=3), st.lists(st.lists(st.integers(), max_size=3), max_size=3),
 )  # fmt: skip
-Damage = Callable[[bytes], bytes]
 
 
 @st.composite
-def damages(draw: st.DrawFn) -> Damage:
+def damages(draw):
     """Draw what happens to the bytes of a file: some flip, some are lost, some come twice."""
     place, size = draw(st.floats(0, 1, exclude_max=True)), draw(st.integers(1, 64))
     how, bit = draw(st.sampled_from(["flip", "lose", "double", "cut"])), draw(st.integers(0, 7))
 
-    def damage(data: bytes) -> bytes:
+    def damage(data):
         k = int(place * len(data))
         flipped = data[:k] + bytes([data[k] ^ (1 << bit)]) + data[k + 1 :]
         return {"flip": flipped, "lose": data[:k] + data[k + size :], "double": data[: k + size] + data[k:],
@@ -43,7 +38,7 @@ def damages(draw: st.DrawFn) -> Damage:
     return damage
 
 
-def outcome(read: Callable[[], Any]) -> Any:
+def outcome(read):
     """Return what is read, or None if it is refused in lines that name a file."""
     try:
         return read()
@@ -52,23 +47,16 @@ def outcome(read: Callable[[], Any]) -> Any:
         return None
 
 
-def same(one: Any, two: Any) -> bool:
+def same(one, two):
     """Return whether two recordings are equal to the bit."""
-    arrays = [
-        (getattr(r, part), name) for r in (one, two) for part in ("sensed", "truth") for name in vars(getattr(r, part))
-    ]
-    half = len(arrays) // 2
-    pairs = zip(arrays[:half], arrays[half:], strict=True)
-    return one.segments == two.segments and one.rate_hz == two.rate_hz and all(
-        np.array_equal(getattr(a, name), getattr(b, name)) for (a, name), (b, _) in pairs
-    )  # fmt: skip
+    pairs = [(getattr(one, part), getattr(two, part)) for part in ("sensed", "truth")]
+    equal = (np.array_equal(getattr(a, name), getattr(b, name)) for a, b in pairs for name in vars(a))
+    return one.segments == two.segments and one.rate_hz == two.rate_hz and all(equal)
 
 
 @FEW
 @given(damage=damages())
-def test_damaged_samples_are_refused_or_are_the_same(
-    damage: Damage, sound: Path, tmp_path: Path, layout: JointLayout
-) -> None:
+def test_damaged_samples_are_refused_or_are_the_same(damage, sound, tmp_path, layout):
     whole = (sound / "recording.parquet").read_bytes()
     (tmp_path / "recording.json").write_bytes((sound / "recording.json").read_bytes())
     (tmp_path / "recording.parquet").write_bytes(damage(whole))
@@ -76,25 +64,22 @@ def test_damaged_samples_are_refused_or_are_the_same(
     assert read is None or same(read, read_recording(sound / "recording", layout))
 
 
-def places(value: Any, *above: str | int) -> list[tuple[str | int, ...]]:
-    """Return the places of all values in JSON."""
+def places(value, *above):
     inner = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
     return [above, *(place for key, below in inner for place in places(below, *above, key))]
 
 
-def at(value: Any, place: tuple[str | int, ...]) -> Any:
-    """Return the value at a place in JSON."""
+def at(value, place):
     for key in place:
         value = value[key]
     return value
 
 
 @st.composite
-def changes(draw: st.DrawFn) -> Callable[[Any], Any]:
-    """Draw a change of JSON: somewhere, a value becomes another one or is gone."""
+def changes(draw):
     where, junk, gone = draw(st.floats(0, 1, exclude_max=True)), draw(JUNK), draw(st.booleans())
 
-    def change(value: Any) -> Any:
+    def change(value):
         found = places(value)
         *above, last = found[1 + int(where * (len(found) - 1))]
         parent = at(value, tuple(above))
@@ -109,9 +94,7 @@ def changes(draw: st.DrawFn) -> Callable[[Any], Any]:
 
 @FEW
 @given(change=changes())
-def test_a_changed_note_of_an_array_is_refused_or_valid(
-    change: Callable[[Any], Any], sound: Path, tmp_path: Path, layout: JointLayout
-) -> None:
+def test_a_changed_note_of_an_array_is_refused_or_valid(change, sound, tmp_path, layout):
     """What is still valid has the same samples, in segments of them."""
     note = change(json.loads((sound / "recording.json").read_text()))
     (tmp_path / "recording.parquet").write_bytes((sound / "recording.parquet").read_bytes())
@@ -126,7 +109,7 @@ def test_a_changed_note_of_an_array_is_refused_or_valid(
 
 @FEW
 @given(change=changes())
-def test_a_changed_run_note_is_refused_or_typed(change: Callable[[Any], Any], training: Path) -> None:
+def test_a_changed_run_note_is_refused_or_typed(change, training):
     path = training / "run.json"
     sound = path.read_text()
     path.write_text(json.dumps(change(json.loads(sound))))
@@ -141,7 +124,7 @@ def test_a_changed_run_note_is_refused_or_typed(change: Callable[[Any], Any], tr
 @FEW
 @given(damage=damages())
 @pytest.mark.parametrize("name", ["run.json", "metrics.csv"])
-def test_damaged_files_of_a_training_are_refused_or_typed(name: str, damage: Damage, training: Path) -> None:
+def test_damaged_files_of_a_training_are_refused_or_typed(name, damage, training):
     sound = (training / name).read_bytes()
     (training / name).write_bytes(damage(sound))
     read = outcome(lambda: read_training(training))
@@ -153,7 +136,7 @@ def test_damaged_files_of_a_training_are_refused_or_typed(name: str, damage: Dam
 
 @FEW
 @given(damage=damages())
-def test_damaged_scores_are_refused_or_numbers(damage: Damage, scores: Path) -> None:
+def test_damaged_scores_are_refused_or_numbers(damage, scores):
     sound = scores.read_bytes()
     scores.write_bytes(damage(sound))
     read = outcome(lambda: read_scores(scores))

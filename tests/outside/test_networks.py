@@ -1,29 +1,25 @@
 """Weights that break the contract are refused where an estimator is built, and by a check, in the tensor's name."""
 
 import json
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 import torch
+from made_notes import network_note
 from safetensors.numpy import load_file, save_file
-from tests.outside.conftest import AGAINST, refusal_of
+from tests.outside.conftest import AGAINST, refusal_of, refusals
 
 from mobnet.check import check
 from mobnet.core.errors import DataError
-from mobnet.core.joints import JointLayout
 from mobnet.learning.cells import build_cell
 from mobnet.learning.deployed.limbs import load_limb_networks
 from mobnet.learning.deployed.networks import WEIGHTS, load_network
 from mobnet.learning.deployed.weights import NOTE, shapes
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network
-from mobnet.settings.networks import SIZES, CellKind, NetworkCell
-from mobnet.settings.settings import Settings
+from mobnet.settings.networks import SIZES, NetworkCell
 
-CELLS: dict[str, dict[str, Any]] = {
+CELLS = {
     "GRU": {"hidden": 5},
     "LSTM": {"hidden": 5},
     "RNN": {"hidden": 5},
@@ -31,22 +27,19 @@ CELLS: dict[str, dict[str, Any]] = {
     "TCN": {"hidden": 5, "window_steps": 3, "kernel_steps": 2, "dilations": [1, 2], "dropout": 0.1, "head": 4},
     "constant": {},
 }
-Tensors = dict[str, np.ndarray]
-Change = Callable[[Tensors, dict[str, Any]], Any]
 
 
-def write(folder: Path, tensors: Tensors, note: Any) -> Path:
-    """Write weights as a training does."""
+def write(folder, tensors, note):
     folder.mkdir(exist_ok=True)
     save_file(tensors, folder / WEIGHTS, {NOTE: note if isinstance(note, str) else json.dumps(note)})
     return folder
 
 
 @pytest.fixture
-def made(settings: Settings, layout: JointLayout) -> Callable[[CellKind], tuple[Tensors, dict[str, Any]]]:
+def made(settings, layout):
     """Return a function of a kind of cell that returns tensors and note of a network of the left leg."""
 
-    def make(kind: CellKind) -> tuple[Tensors, dict[str, Any]]:
+    def make(kind):
         cell, inputs = NetworkCell(cell=kind, **CELLS[kind]), limb_inputs(layout, settings.robot.networks["LL"]).names
         model = build_network(cell, len(inputs), 6, 1e-6, seed=0)
         tensors = {name: tensor.numpy() for name, tensor in model.deployable().items()}
@@ -54,28 +47,20 @@ def made(settings: Settings, layout: JointLayout) -> Callable[[CellKind], tuple[
             tensors |= {f"{name}.mean": np.zeros(width, np.float32), f"{name}.std": np.ones(width, np.float32)}
         tensors["std.scale"] = np.ones(6, np.float32)
         network = {"cell": kind, **CELLS[kind], "data": "walk", "horizon_steps": 150}
-        joints = list(layout.limb("LL"))
-        return tensors, {
-            "name": "GRU-LL-s0",
-            "limb": "LL",
-            "joints": joints,
-            "inputs": list(inputs),
-            "std_min": 1e-6,
-            "network": network,
-        }
+        return tensors, network_note("LL", layout.limb("LL"), inputs, network)
 
     return make
 
 
 @pytest.mark.parametrize("kind", SIZES)
-def test_shapes_are_those_of_the_module(kind: CellKind) -> None:
+def test_shapes_are_those_of_the_module(kind):
     cell = NetworkCell(cell=kind, **CELLS[kind])
     found = {f"cell.{k}": tuple(v.shape) for k, v in torch.nn.Module.state_dict(build_cell(cell, 7)).items()}  # pyright: ignore
     assert {k: v for k, v in shapes(cell, 7, 2).items() if k.startswith("cell.")} == found
 
 
 @pytest.mark.parametrize("kind", SIZES)
-def test_a_sound_network_is_accepted(kind: CellKind, made: Callable, layout: JointLayout, tmp_path: Path) -> None:
+def test_a_sound_network_is_accepted(kind, made, layout, tmp_path):
     tensors, note = made(kind)
     write(tmp_path, tensors, note)
     assert load_limb_networks({"LL": tmp_path}, layout).joints == layout.limb("LL")
@@ -84,91 +69,65 @@ def test_a_sound_network_is_accepted(kind: CellKind, made: Callable, layout: Joi
     assert load_network(tmp_path).joints == layout.limb("LL")
 
 
-def tensor(name: str, change: Callable[[np.ndarray], Any]) -> Change:
-    """Return a change of one tensor."""
+def tensor(name, change):
     return lambda tensors, note: tensors.update({name: np.ascontiguousarray(change(tensors[name]))})
 
 
-def entry(name: str, value: float) -> Change:
+def entry(name, value):
     """Return a change of the first number of a tensor."""
 
-    def change(tensors: Tensors, note: Any) -> None:
+    def change(tensors, note):
         tensors[name] = tensors[name].copy()
         tensors[name].ravel()[0] = value
 
     return change
 
 
-def noted(**values: Any) -> Change:
-    """Return a change of the note."""
+def noted(**values):
     return lambda tensors, note: note.update(values)
 
 
-def cell(**values: Any) -> Change:
-    """Return a change of the noted network."""
+def cell(**values):
     return lambda tensors, note: note["network"].update(values)
 
 
+ABOVE_0 = {"input.std": (0.0,), "target.std": (-1.0, np.nan), "std.scale": (0.0, np.inf)}
+NOTES = refusals(
+    {
+        "limb": (3,),
+        "joints": ([], "LL"),
+        "inputs.0": (0,),
+        "std_min": (0.0, np.nan, "small"),
+        "network": ("GRU",),
+        "network.cell": ("QRNN",),
+        "network.hidden": (5.5, 0),
+    },
+    "limb network",
+)
 DAMAGES = {
-    "a tensor is gone": (
-        lambda t, n: t.pop("head.bias") is None,
-        r"tensor 'head.bias' is missing; accepted: shape \[12\]",
-    ),
+    **{name: ((lambda t, n, change=change: change(n)), says) for name, (change, says) in NOTES.items()},
+    **{
+        f"{name} as {value}": (entry(name, value), rf"tensor '{name}', entry \[0\]: {value} is not .*numbers above 0")
+        for name, values in ABOVE_0.items()
+        for value in values
+    },
+    "a tensor is gone": (lambda t, n: t.pop("head.bias") is None, r"tensor 'head.bias' is missing; .* \[12\]"),
     "z-scores are gone": (lambda t, n: t.pop("input.mean") is None, "tensor 'input.mean' is missing"),
     "a tensor more": (lambda t, n: t.update(extra=np.zeros(3, np.float32)), "tensor: 'extra' is not .*: cell"),
     "transposed": (tensor("head.weight", np.transpose), r"tensor 'head.weight': shape: \[5, 12\] is not .*: \[12, 5\]"),
     "too short": (tensor("input.std", lambda x: x[:-1]), r"tensor 'input.std': shape: \[29\] is not .*\[30\]"),
     "a number": (tensor("target.std", lambda x: x[0]), r"tensor 'target.std': shape: \[\] is not|shape: \[1\] is not"),
     "double": (tensor("head.bias", lambda x: x.astype(np.float64)), "tensor 'head.bias': type: 'float64' is not"),
-    "half": (tensor("head.bias", lambda x: x.astype(np.float16)), "tensor 'head.bias': type: 'float16' is not"),
-    "integers": (tensor("head.bias", lambda x: x.astype(np.int32)), "tensor 'head.bias': type: 'int32' is not"),
     "NaN in a weight": (entry("cell.weight_hh_l0", np.nan), r"tensor 'cell.weight_hh_l0', entry \[0, 0\]: nan is not"),
     "infinite bias": (entry("head.bias", np.inf), r"tensor 'head.bias', entry \[0\]: inf is not .*finite numbers"),
-    "NaN in a mean": (entry("input.mean", np.nan), r"tensor 'input.mean', entry \[0\]: nan is not accepted"),
-    "std of inputs zero": (
-        entry("input.std", 0.0),
-        r"tensor 'input.std', entry \[0\]: 0.0 is not .* finite numbers above 0",
-    ),
-    "std of targets below zero": (entry("target.std", -1.0), r"tensor 'target.std', entry \[0\]: -1.0 is not accepted"),
-    "NaN in a std": (entry("target.std", np.nan), r"tensor 'target.std', entry \[0\]: nan is not accepted"),
-    "factor zero": (entry("std.scale", 0.0), r"tensor 'std.scale', entry \[0\]: 0.0 is not accepted"),
-    "factor infinite": (entry("std.scale", np.inf), r"tensor 'std.scale', entry \[0\]: inf is not accepted"),
-    "limb is gone": (
-        lambda t, n: n.pop("limb") is None,
-        "limb: key is missing; accepted: name, limb, joints, inputs, std_min",
-    ),
-    "limb as a number": (noted(limb=3), "limb: 3 is not accepted; accepted: a valid string"),
     "limb of another": (noted(limb="RL"), "'RL' with joints|network of limb 'RL' with joints LL1"),
-    "joints of another": (
-        noted(joints=[f"RL{i}" for i in range(1, 7)]),
-        "network of limb 'LL' with joints RL1.*accepted: 'LL'",
-    ),
+    "joints of another": (noted(joints=[f"RL{i}" for i in range(1, 7)]), "limb 'LL' with joints RL1.*accepted: 'LL'"),
     "a joint twice": (noted(joints=["LL1"] * 6), "joints: 'LL1' occurs 6 times; accepted: once"),
-    "no joints": (noted(joints=[]), "joints: .* is not accepted; accepted: at least 1 item"),
-    "joints as text": (noted(joints="LL"), "joints: 'LL' is not accepted; accepted: a valid list"),
-    "a joint less": (
-        noted(joints=[f"LL{i}" for i in range(1, 6)]),
-        r"'head.weight': shape: \[12, 5\] is not .*\[10, 5\]",
-    ),
-    "an input less": (
-        lambda t, n: n["inputs"].pop() and None,
-        r"tensor 'cell.weight_ih_l0': shape: \[15, 30\] .*\[15, 29\]",
-    ),
-    "an input of another robot": (
-        lambda t, n: n["inputs"].__setitem__(0, "q.XX1"),
-        "input: 'q.XX1' is not accepted",
-    ),
+    "a joint less": (noted(joints=[f"LL{i}" for i in range(1, 6)]), r"'head.weight': shape: \[12, 5\] is not .*\[10"),
+    "an input less": (lambda t, n: n["inputs"].pop() and None, r"'cell.weight_ih_l0': shape: \[15, 30\] .*\[15, 29\]"),
+    "an input of another robot": (lambda t, n: n["inputs"].__setitem__(0, "q.XX1"), "input: 'q.XX1' is not accepted"),
     "an input twice": (lambda t, n: n["inputs"].__setitem__(1, n["inputs"][0]), "inputs: 'q.LL1' occurs 2 times"),
-    "inputs as numbers": (noted(inputs=list(range(30))), "inputs.0: 0 is not accepted; accepted: a valid string"),
-    "std_min zero": (noted(std_min=0.0), "std_min: 0.0 is not accepted; accepted: greater than 0"),
-    "std_min NaN": (noted(std_min=np.nan), "std_min: nan is not accepted; accepted: finite numbers"),
-    "std_min as text": (noted(std_min="small"), "std_min: 'small' is not accepted; accepted: a valid number"),
-    "network is gone": (lambda t, n: n.pop("network") is None, "network: key is missing"),
-    "network as text": (noted(network="GRU"), "network: 'GRU' is not accepted"),
     "a key more": (noted(colour="red"), "colour: 'red' is not accepted; accepted: no such key, but name, limb"),
-    "cell unknown": (cell(cell="QRNN"), "network.cell: 'QRNN' is not accepted; accepted: 'GRU', 'LSTM'"),
-    "hidden as a fraction": (cell(hidden=5.5), "network.hidden: 5.5 is not accepted"),
-    "hidden zero": (cell(hidden=0), "network.hidden: 0 is not accepted"),
     "hidden of another": (cell(hidden=8), r"tensor 'cell.weight_ih_l0': shape: \[15, 30\] is not .*: \[24, 30\]"),
     "hidden null": (cell(hidden=None), "network: sizes none are not accepted; accepted: hidden of a cell GRU"),
     "cell of another kind": (cell(cell="LSTM"), r"'cell.weight_ih_l0': shape: \[15, 30\] is not .*: \[20, 30\]"),
@@ -176,9 +135,7 @@ DAMAGES = {
 
 
 @pytest.mark.parametrize("name", DAMAGES)
-def test_weights_that_break_the_contract_are_refused(
-    name: str, made: Callable, layout: JointLayout, tmp_path: Path
-) -> None:
+def test_weights_that_break_the_contract_are_refused(name, made, layout, tmp_path):
     change, says = DAMAGES[name]
     tensors, note = made("GRU")
     change(tensors, note)
@@ -189,24 +146,24 @@ def test_weights_that_break_the_contract_are_refused(
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", "5", '{"limb": 1e999}', "[" * 100_000])
-def test_a_note_that_is_none_is_refused(text: str, made: Callable, tmp_path: Path) -> None:
+def test_a_note_that_is_none_is_refused(text, made, tmp_path):
     write(tmp_path, made("GRU")[0], text)
     with pytest.raises(DataError, match=rf"{WEIGHTS}: note|{WEIGHTS}: note: "):
         load_network(tmp_path)
     refusal_of(tmp_path / WEIGHTS)
 
 
-@pytest.mark.parametrize(
-    "damage", [lambda d: b"", lambda d: d[:40], lambda d: d[:-1], lambda d: b"\xff" * 99, lambda d: d * 2]
-)
-def test_a_damaged_file_is_refused(damage: Callable[[bytes], bytes], made: Callable, tmp_path: Path) -> None:
+@pytest.mark.parametrize("damage", [
+    lambda d: b"", lambda d: d[:40], lambda d: d[:-1], lambda d: b"\xff" * 99, lambda d: d * 2,
+])  # fmt: skip
+def test_a_damaged_file_is_refused(damage, made, tmp_path):
     path = write(tmp_path, *made("GRU")) / WEIGHTS
     path.write_bytes(damage(path.read_bytes()))
     with pytest.raises(DataError, match="not the weights of a limb network"):
         load_network(tmp_path)
 
 
-def test_weights_without_a_note_or_file_are_refused(made: Callable, tmp_path: Path) -> None:
+def test_weights_without_a_note_or_file_are_refused(made, tmp_path):
     path = write(tmp_path, *made("GRU")) / WEIGHTS
     save_file(load_file(path), path)
     with pytest.raises(DataError, match=r"metadata: \[\] is not accepted; accepted: just 'note'"):

@@ -2,104 +2,55 @@
 
 import json
 import re
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
 
 import pytest
 from made_detections import write_detections
-from tests.outside.conftest import AGAINST, refusal_of
+from tests.outside.conftest import AGAINST, refusal_of, refusals, set_at
 
 from mobnet.check import check
 from mobnet.core.detections import FILES as DETECTION_FILES
 from mobnet.core.errors import DataError
-from mobnet.core.joints import JointLayout
 from mobnet.estimation.kinds.friction import read_friction
 from mobnet.evaluation.measure.learning.trainings import read_training
 from mobnet.evaluation.number.rows import read_scores
 from mobnet.evaluation.report.runs_page import read_training_run
 from mobnet.running.accounts import read_account
 
-KEYS = (
-    "name",
-    "method",
-    "limb",
-    "seed",
-    "target",
-    "settings",
-    "parameters",
-    "samples",
-    "diverged",
-    "best",
-    "on_windows",
-    "calibration",
-    "device",
-    "precision",
-    "fingerprint",
-    "provenance",
-)
-
-
-def set_at(place: str, value: Any) -> Callable[[dict[str, Any]], None]:
-    """Return a change of a note that sets a value at a place, keys joined by dots."""
-
-    def change(note: dict[str, Any]) -> None:
-        *inner, last = place.split(".")
-        for key in inner:
-            note = note[key]
-        note[last] = value
-
-    return change
-
-
 RUNS = {
-    **{
-        f"{key} is gone": (lambda note, key=key: note.pop(key) and None, f"run.json: {key}: key is missing")
-        for key in KEYS
-    },
-    "seed as text": (set_at("seed", "1"), "seed: '1' is not accepted; accepted: a valid integer"),
-    "seed below zero": (set_at("seed", -1), "seed: -1 is not accepted"),
-    "method as a number": (set_at("method", 1), "method: 1 is not accepted; accepted: a valid string"),
-    "parameters zero": (set_at("parameters", 0), "parameters: 0 is not accepted"),
-    "parameters as a fraction": (set_at("parameters", 1.5), "parameters: 1.5 is not accepted"),
-    "samples as truth": (set_at("samples", True), "samples: True is not accepted"),
-    "diverged as text": (set_at("diverged", "no"), "diverged: 'no' is not accepted; accepted: a valid boolean"),
-    "diverged as a number": (set_at("diverged", 0), "diverged: 0 is not accepted"),
-    "target unknown": (set_at("target", "residual"), "target: 'residual' is not .*: 'uncertainty' or 'ext"),
-    "cell unknown": (set_at("settings.network.cell", "X"), "settings.network.cell: 'X' is not accepted"),
+    **refusals(
+        {
+            "seed": ("1", -1),
+            "method": (1,),
+            "parameters": (0, 1.5),
+            "samples": (True,),
+            "diverged": ("no", 0),
+            "target": ("residual",),
+            "settings.network.cell": ("X",),
+            "device": ("abacus",),
+            "best.validation_loss": ("-3",),
+            "on_windows": ([1.0, 2.0],),
+            "on_windows.loss": (float("nan"),),
+            "on_windows.rmse": (-1.0,),
+            "calibration.scale": ([1.0],),
+            "calibration.scale.0": (0.0,),
+            "calibration.shares": ([],),
+            "calibration.after.coverage.0.1": (1.5,),
+            "calibration.before.nll": ("1",),
+        },
+        "name method limb seed target settings parameters samples diverged best on_windows calibration "
+        "device precision fingerprint provenance",
+    ),
     "epochs of another": (set_at("settings.epochs", 5), "epochs: 3 in metrics.csv and 5 in run.json are not"),
-    "epochs too few": (
-        set_at("settings.epochs", 2),
-        "epochs: 3 in metrics.csv and 2 in run.json are not",
-    ),
-    "device": (set_at("device", "abacus"), "device: 'abacus' is not accepted; accepted: 'cpu' or 'cuda'"),
-    "best of another": (
-        set_at("best.epoch", 1),
-        "the smallest validation_loss: 3 in metrics.csv and 1 in run.json",
-    ),
+    "epochs too few": (set_at("settings.epochs", 2), "epochs: 3 in metrics.csv and 2 in run.json are not"),
+    "best of another": (set_at("best.epoch", 1), "the smallest validation_loss: 3 in metrics.csv and 1 in run.json"),
     "best null": (set_at("best", None), "the smallest validation_loss: 3 in metrics.csv and None in run.json"),
-    "best loss as text": (set_at("best.validation_loss", "-3"), "best.validation_loss: '-3' is not accepted"),
-    "loss NaN": (set_at("on_windows.loss", float("nan")), "on_windows.loss: nan is not .*: finite numbers"),
-    "rmse below zero": (set_at("on_windows.rmse", -1.0), "on_windows.rmse: -1.0 is not accepted"),
-    "windows as a list": (set_at("on_windows", [1.0, 2.0]), "on_windows: .* is not accepted; accepted: a JSON object"),
-    "scale zero": (set_at("calibration.scale", [0.0, 1.0]), "calibration.scale.0: 0.0 is not accepted"),
-    "scale too short": (set_at("calibration.scale", [1.0]), r"calibration.scale: \[1.0\] is not .*: 2 numbers"),
     "joint twice": (set_at("calibration.joints", ["LL1", "LL1"]), "calibration.joints: 'LL1' occurs 2 times"),
-    "coverage above one": (
-        set_at("calibration.after.coverage", [[0.5, 1.5]]),
-        "calibration.after.coverage.0.1: 1.5 is not",
-    ),
-    "coverage too long": (
-        set_at("calibration.after.coverage", [[0.5] * 2] * 2),
-        "calibration.after.coverage: .*: 1 rows",
-    ),
-    "nll as text": (set_at("calibration.before.nll", "1"), "calibration.before.nll: '1' is not accepted"),
-    "shares empty": (set_at("calibration.shares", []), "calibration.shares: .* is not accepted"),
+    "coverage too long": (set_at("calibration.after.coverage", [[0.5] * 2] * 2), "after.coverage: .*: 1 rows"),
 }
 
 
 @pytest.mark.parametrize("name", RUNS)
-def test_a_run_note_that_breaks_the_contract_is_refused(name: str, training: Path) -> None:
+def test_a_run_note_that_breaks_the_contract_is_refused(name, training):
     change, says = RUNS[name]
     note = json.loads((training / "run.json").read_text())
     change(note)
@@ -110,23 +61,18 @@ def test_a_run_note_that_breaks_the_contract_is_refused(name: str, training: Pat
     assert re.search(says, refusal_of(training / "run.json"))
 
 
-def test_a_sound_training_is_accepted(training: Path) -> None:
+def test_a_sound_training_is_accepted(training):
     for name in ("run.json", "metrics.csv"):
         assert check(training / name, AGAINST) == "training GRU-LL-s1, 3 epochs"
 
 
 METRICS = {
-    "a column is gone": (
-        ("gradient_norm", "norm"),
-        "metrics.csv: column 'gradient_norm' is missing; accepted: it, ",
-    ),
+    "a column is gone": (("gradient_norm", "norm"), "metrics.csv: column 'gradient_norm' is missing; accepted: it, "),
     "a column twice": (("gradient_norm", "epoch"), "metrics.csv: column 'epoch' occurs 2 times"),
-    "NaN": (("-2.0,3.0", "nan,3.0"), "metrics.csv:3: validation_loss: 'nan' is not .*: a finite number"),
-    "infinite": (("-2.0,3.0", "inf,3.0"), "metrics.csv:3: validation_loss: 'inf' is not accepted"),
-    "too large": (("-2.0,3.0", "1e999,3.0"), "metrics.csv:3: validation_loss: '1e999' is not accepted"),
-    "text": (("-2.0,3.0", "low,3.0"), "metrics.csv:3: validation_loss: 'low' is not accepted"),
-    "empty": (("-2.0,3.0", ",3.0"), "metrics.csv:3: validation_loss: '' is not accepted"),
-    "digits in groups": (("-2.0,3.0", "1_0,3.0"), "metrics.csv:3: validation_loss: '1_0' is not accepted"),
+    **{
+        f"{text!r}": (("-2.0,3.0", f"{text},3.0"), f"metrics.csv:3: validation_loss: '{text}' is not accepted; ")
+        for text in ("nan", "inf", "1e999", "low", "", "1_0")
+    },
     "a decimal comma": (("-2.0,3.0", "-2,0,3.0"), "metrics.csv:3: .*7 fields; accepted: 6"),
     "epoch as a fraction": (("\n2,", "\n2.0,"), "metrics.csv:3: epoch: '2.0' is not .*: a whole number"),
     "epoch left out": (("\n2,", "\n3,"), "metrics.csv:3: epoch: 3 is not accepted; accepted: 2"),
@@ -142,7 +88,7 @@ METRICS = {
 
 
 @pytest.mark.parametrize("name", METRICS)
-def test_metrics_that_break_the_contract_are_refused(name: str, training: Path) -> None:
+def test_metrics_that_break_the_contract_are_refused(name, training):
     (old, new), says = METRICS[name]
     path = training / "metrics.csv"
     assert old in path.read_text()
@@ -154,7 +100,7 @@ def test_metrics_that_break_the_contract_are_refused(name: str, training: Path) 
 
 @pytest.mark.parametrize("damage", [b"", b"\xff\xfe\x00", b"epoch\n", b"epoch,train_loss"])
 @pytest.mark.parametrize("name", ["metrics.csv", "run.json"])
-def test_a_damaged_file_of_a_training_is_refused(name: str, damage: bytes, training: Path) -> None:
+def test_a_damaged_file_of_a_training_is_refused(name, damage, training):
     (training / name).write_bytes(damage)
     with pytest.raises(DataError, match=name):
         read_training(training)
@@ -164,34 +110,21 @@ def test_a_damaged_file_of_a_training_is_refused(name: str, damage: bytes, train
 SCORES = {
     "NaN": ((",1.5,", ",nan,"), "walk.csv:2: value: 'nan' is not accepted; accepted: a finite number"),
     "below zero": ((",1.5,", ",-1.5,"), "walk.csv:2: value: -1.5 is not accepted; accepted: 0 or more"),
-    "text": ((",1.5,", ",much,"), "walk.csv:2: value: 'much' is not accepted"),
-    "seed as text": (
-        (",0,1,", ",zero,1,"),
-        "walk.csv:2: network_seed: 'zero' is not accepted; accepted: a whole number",
-    ),
+    "seed as text": ((",0,1,", ",zero,1,"), "walk.csv:2: network_seed: 'zero' is not .*: a whole number"),
     "seed below zero": ((",0,1,", ",-1,1,"), "walk.csv:2: network_seed: -1 is not accepted"),
     "twice": ((",0,2,", ",0,1,"), "walk.csv:4: row: .* is not accepted; accepted: once; it stands in line 2"),
     "unit unknown": (("N m", "Nm"), "walk.csv:2: unit: 'Nm' is not accepted; accepted: N, N m"),
-    "metric unknown": (
-        (",rmse,", ",rmse_push_0,"),
-        "walk.csv:2: metric: 'rmse_push_0' is not accepted; accepted: a name",
-    ),
+    "metric unknown": ((",rmse,", ",rmse_push_0,"), "walk.csv:2: metric: 'rmse_push_0' is not .*: a name"),
     "unit of another": ((",rmse,", ",r_rmse,"), "walk.csv:2: unit: 'N m' is not accepted; accepted: %"),
-    "correlation": (
-        (",rmse,1.5,N m", ",acf_10ms,1.5,-"),
-        "walk.csv:2: value: 1.5 is not accepted; accepted: 1 or less",
-    ),
-    "share": ((",rmse,1.5,N m", ",cover,1.5,-"), "walk.csv:2: value: 1.5 is not accepted; accepted: 1 or less"),
+    "correlation": ((",rmse,1.5,N m", ",acf_10ms,1.5,-"), "walk.csv:2: value: 1.5 is not .*: 1 or less"),
+    "share": ((",rmse,1.5,N m", ",cover,1.5,-"), "walk.csv:2: value: 1.5 is not .*: 1 or less"),
     "no joint": (("LL1", ""), "walk.csv:2: joint: '' is not accepted; accepted: a name"),
     "no method": (("MOB", ""), "walk.csv:2: method: '' is not accepted"),
-    "a column is gone": (("metric", "measure"), "walk.csv: column 'metric' is missing"),
-    "cut off": ((",N m\n", "\n"), "walk.csv:2: line is cut off"),
-    "not CSV": (("walk,", '"walk,'), "walk.csv"),
 }
 
 
 @pytest.mark.parametrize("name", SCORES)
-def test_scores_that_break_the_contract_are_refused(name: str, scores: Path) -> None:
+def test_scores_that_break_the_contract_are_refused(name, scores):
     (old, new), says = SCORES[name]
     assert old in scores.read_text()
     scores.write_text(scores.read_text().replace(old, new))
@@ -200,52 +133,37 @@ def test_scores_that_break_the_contract_are_refused(name: str, scores: Path) -> 
     assert re.search(says, refusal_of(scores))
 
 
-def test_sound_scores_are_accepted(scores: Path) -> None:
+def test_sound_scores_are_accepted(scores):
     assert check(scores, AGAINST) == "scores, 4 rows"
 
 
-def test_a_limb_with_forces_and_torques_has_two_relative_means(scores: Path) -> None:
+def test_a_limb_with_forces_and_torques_has_two_relative_means(scores):
     mean = "walk,ideal,MOB,0,1,V,avg,r_rmse,{},%\n"
     scores.write_text(scores.read_text() + mean.format(4.25) + mean.format(5.22))
     assert len(read_scores(scores)) == 6
 
 
-FIT = {
-    "smoothing_rad_s": 0.02,
-    "joints": {
-        "LL4": {
-            "coulomb_nm": 1.0,
-            "static_nm": 2.0,
-            "viscous_nms": 0.0,
-            "load_per_nm": 0.0,
-            "stribeck_rad_s": 0.1,
-            "target_rms_nm": 3.0,
-            "left_rms_nm": 1.0,
-        }
-    },
-}
+KNEE = {"coulomb_nm": 1.0, "static_nm": 2.0, "viscous_nms": 0.0, "load_per_nm": 0.0, "stribeck_rad_s": 0.1,
+        "target_rms_nm": 3.0, "left_rms_nm": 1.0}  # fmt: skip
 FITS = {
-    "no smoothing": (lambda fit: fit.pop("smoothing_rad_s") and None, "smoothing_rad_s: key is missing"),
-    "smoothing zero": (set_at("smoothing_rad_s", 0.0), "smoothing_rad_s: 0.0 is not .*: greater than 0"),
-    "smoothing as text": (set_at("smoothing_rad_s", "0.02"), "smoothing_rad_s: '0.02' is not accepted"),
-    "no joints": (lambda fit: fit.pop("joints") and None, "joints: key is missing"),
-    "joints as a list": (set_at("joints", []), r"joints: \[\] is not accepted; accepted: a JSON object"),
-    "joint unknown": (set_at("joints.XX1", FIT["joints"]["LL4"]), "joint: 'XX1' is not accepted; accepted: LA1"),
-    "a number is gone": (
-        lambda fit: fit["joints"]["LL4"].pop("static_nm") and None,
-        "joints.LL4.static_nm: key is missing",
+    **refusals(
+        {
+            "smoothing_rad_s": (0.0, "0.02"),
+            "joints": ([],),
+            "joints.LL4.coulomb_nm": (-1.0, float("nan")),
+            "joints.LL4.stribeck_rad_s": (0.0,),
+            "joints.LL4.colour": (1,),
+        },
+        "smoothing_rad_s joints joints.LL4.static_nm",
     ),
-    "a number below zero": (set_at("joints.LL4.coulomb_nm", -1.0), "joints.LL4.coulomb_nm: -1.0 is not accepted"),
-    "NaN": (set_at("joints.LL4.coulomb_nm", float("nan")), "joints.LL4.coulomb_nm: nan is not accepted"),
-    "velocity zero": (set_at("joints.LL4.stribeck_rad_s", 0.0), "joints.LL4.stribeck_rad_s: 0.0 is not accepted"),
-    "a key more": (set_at("joints.LL4.colour", 1), "joints.LL4.colour: 1 is not accepted"),
+    "joint unknown": (set_at("joints.XX1", KNEE), "joint: 'XX1' is not accepted; accepted: LA1"),
 }
 
 
 @pytest.mark.parametrize("name", FITS)
-def test_a_fit_that_breaks_the_contract_is_refused(name: str, tmp_path: Path, layout: JointLayout) -> None:
+def test_a_fit_that_breaks_the_contract_is_refused(name, tmp_path, layout):
     change, says = FITS[name]
-    fit, path = json.loads(json.dumps(FIT)), tmp_path / "MOB-fric.json"
+    fit, path = {"smoothing_rad_s": 0.02, "joints": {"LL4": dict(KNEE)}}, tmp_path / "MOB-fric.json"
     path.write_text(json.dumps(fit))
     assert check(path, AGAINST) == "fit of 1 joints"
     change(fit)
@@ -255,33 +173,15 @@ def test_a_fit_that_breaks_the_contract_is_refused(name: str, tmp_path: Path, la
     assert re.search(says, refusal_of(path))
 
 
-ACCOUNT = {
-    "job": "train/x",
-    "start_s": 1.0,
-    "end_s": 2.0,
-    "wall_s": 1.0,
-    "cpu_s": 0.5,
-    "peak_mib": 9.0,
-    "succeeded": True,
-}
+ACCOUNT = {"job": "train/x", "start_s": 1.0, "end_s": 2.0, "wall_s": 1.0, "cpu_s": 0.5, "peak_mib": 9.0,
+           "succeeded": True}  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("key", "value"),
-    [
-        ("job", ""),
-        ("job", 3),
-        ("start_s", -1.0),
-        ("end_s", 0.5),
-        ("wall_s", "1"),
-        ("cpu_s", float("inf")),
-        ("peak_mib", -1),
-        ("succeeded", 1),
-        ("succeeded", None),
-        ("more", 1),
-    ],
-)
-def test_an_account_that_breaks_the_contract_is_refused(key: str, value: Any, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("key", "value"), [
+    ("job", ""), ("job", 3), ("start_s", -1.0), ("end_s", 0.5), ("wall_s", "1"), ("cpu_s", float("inf")),
+    ("peak_mib", -1), ("succeeded", 1), ("succeeded", None), ("more", 1),
+])  # fmt: skip
+def test_an_account_that_breaks_the_contract_is_refused(key, value, tmp_path):
     path = tmp_path / "x.json"
     path.write_text(json.dumps(ACCOUNT))
     assert check(path, AGAINST) == "account of train/x"
@@ -292,7 +192,7 @@ def test_an_account_that_breaks_the_contract_is_refused(key: str, value: Any, tm
 
 
 @pytest.mark.parametrize("name", DETECTION_FILES)
-def test_what_detectors_find_is_accepted_and_refused_by_its_contract(name: str, tmp_path: Path) -> None:
+def test_what_detectors_find_is_accepted_and_refused_by_its_contract(name, tmp_path):
     path = write_detections(tmp_path)["robot_1"][name]
     rows = path.read_text().splitlines()
     assert check(path, AGAINST) == f"{name} of detectors, {len(rows) - 1} rows"
@@ -312,7 +212,7 @@ DETECTIONS = {
 
 
 @pytest.mark.parametrize("name", DETECTIONS)
-def test_rows_of_detectors_that_break_the_contract_are_refused(name: str, tmp_path: Path) -> None:
+def test_rows_of_detectors_that_break_the_contract_are_refused(name, tmp_path):
     file, (old, new), says = DETECTIONS[name]
     path = write_detections(tmp_path)["robot_1"][file]
     assert old in path.read_text()

@@ -3,7 +3,6 @@
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -12,7 +11,7 @@ from mobnet.check import main
 LONGEST_S = 60.0
 
 
-def test_pipes_and_folders_are_one_line_each(tmp_path: Path) -> None:
+def test_pipes_and_folders_are_one_line_each(tmp_path):
     for name in ("pipe.yaml", "pipe.csv", "pipe.json", "pipe.safetensors", "full/pipe.csv"):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         os.mkfifo(tmp_path / name)
@@ -28,7 +27,7 @@ def test_pipes_and_folders_are_one_line_each(tmp_path: Path) -> None:
     assert (done.returncode, done.stderr) == (1, "")
 
 
-def test_the_array_of_a_note_may_be_a_pipe(copied: Path) -> None:
+def test_the_array_of_a_note_may_be_a_pipe(copied):
     (copied / "recording.parquet").unlink()
     os.mkfifo(copied / "recording.parquet")
     run = [sys.executable, "-m", "mobnet.check", "recording.json"]
@@ -36,15 +35,12 @@ def test_the_array_of_a_note_may_be_a_pipe(copied: Path) -> None:
     assert done.stdout == "recording.parquet: a pipe or a device is not accepted; accepted: a file\n"
 
 
-@pytest.mark.parametrize(
-    ("words", "says"),
-    [
-        (["--rate", "nan", "x.csv"], "--rate: nan is not accepted; accepted: a number above 0"),
-        (["--rate", "-1", "x.csv"], "--rate: -1.0 is not accepted"),
-        ([f"{'x' * 300}.csv"], "File name too long; accepted: files that you may read"),
-    ],
-)
-def test_words_that_cannot_be_are_told(words: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize(("words", "says"), [
+    (["--rate", "nan", "x.csv"], "--rate: nan is not accepted; accepted: a number above 0"),
+    (["--rate", "-1", "x.csv"], "--rate: -1.0 is not accepted"),
+    ([f"{'x' * 300}.csv"], "File name too long; accepted: files that you may read"),
+])  # fmt: skip
+def test_words_that_cannot_be_are_told(words, says, capsys):
     with pytest.raises(SystemExit, match="2"):
         main(words)
     assert says in capsys.readouterr().err.splitlines()[-1]

@@ -1,31 +1,26 @@
 """The robot, its two models and random states."""
 
-from collections.abc import Callable, Iterator
-
 import mujoco
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
-from mobnet.robot.description import RobotDescription
 from mobnet.robot.plant import SOLE_TYPE, TERRAIN_TYPE, robot_spec
 
-Array = NDArray[np.float64]
 TIME_STEP_S = 0.0005
 STIFFNESS, DAMPING = 12.0, 0.25  # per N m of torque limit, 1/rad and s/rad
 PUSH = np.array([10.0, 5.0, 3.0])  # on the left sole [N]
 
 
 @pytest.fixture(scope="session")
-def plant(robot: RobotDescription) -> mujoco.MjModel:
+def plant(robot):
     return robot_spec(robot).compile()
 
 
 @pytest.fixture
-def random_state(robot: RobotDescription) -> Callable[[int], tuple[Array, Array]]:
+def random_state(robot):
     """A function seed -> position (nq,), velocity (nv,)."""
 
-    def draw(seed: int) -> tuple[Array, Array]:
+    def draw(seed):
         rng = np.random.default_rng(seed)
         q = rng.normal(size=robot.layout.nq)
         q[3:7] /= np.linalg.norm(q[3:7])
@@ -35,7 +30,7 @@ def random_state(robot: RobotDescription) -> Callable[[int], tuple[Array, Array]
 
 
 @pytest.fixture
-def standing(robot: RobotDescription) -> Callable[[int], Iterator[tuple[mujoco.MjModel, mujoco.MjData, Array]]]:
+def standing(robot):
     """A function steps -> iterator over model, data and the position (nq,) before the step, of a robot held upright."""
     spec = robot_spec(robot)
     plane = mujoco.mjtGeom.mjGEOM_PLANE
@@ -43,7 +38,7 @@ def standing(robot: RobotDescription) -> Callable[[int], Iterator[tuple[mujoco.M
     spec.option.timestep = TIME_STEP_S
     model = spec.compile()
 
-    def simulate(steps: int) -> Iterator[tuple[mujoco.MjModel, mujoco.MjData, Array]]:
+    def simulate(steps):
         data = mujoco.MjData(model)
         data.qpos[2] = robot.leg.link_length * 2 - robot.leg.hip_pos[2] - robot.sole.height
         for _ in range(steps):

@@ -4,7 +4,6 @@ import mujoco
 import numpy as np
 import pytest
 
-from mobnet.robot.description import RobotDescription
 from mobnet.robot.dynamics import bias, coriolis, gravity, mass_matrix, momentum_and_beta
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.plant import robot_spec
@@ -12,7 +11,7 @@ from mobnet.robot.plant import robot_spec
 GRAVITY = 9.81
 
 
-def closed_form(arm: RobotDescription, q: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def closed_form(arm, q, v):
     """Return M (2, 2) and C v + g (2,) of links along x that hinges about y turn, gravity along -z."""
     _, upper, lower = arm.bodies
     length, reach, far = lower.pos[0], upper.com[0], lower.com[0]
@@ -28,7 +27,7 @@ def closed_form(arm: RobotDescription, q: np.ndarray, v: np.ndarray) -> tuple[np
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_both_models_equal_the_closed_form(arm: RobotDescription, seed: int) -> None:
+def test_both_models_equal_the_closed_form(arm, seed):
     """The reference is the equation of motion of a planar two-link arm; MuJoCo and Pinocchio must agree with it."""
     rng, nominal, plant = np.random.default_rng(seed), NominalModel(arm), robot_spec(arm).compile()
     q, v, data = rng.normal(size=2), rng.normal(size=2), mujoco.MjData(plant)
@@ -46,7 +45,7 @@ def test_both_models_equal_the_closed_form(arm: RobotDescription, seed: int) -> 
     np.testing.assert_allclose(beta, coriolis(nominal, q, v).T @ v - gravity(nominal, q), atol=1e-10)
 
 
-def test_models_have_hinges_and_motors_alone_and_no_foot_to_load(arm: RobotDescription) -> None:
+def test_models_have_hinges_and_motors_alone_and_no_foot_to_load(arm):
     plant = robot_spec(arm).compile()
     assert (plant.nq, plant.nv, plant.nu, plant.nsensor, plant.nsite, plant.ngeom) == (2, 2, 2, 0, 0, 0)
     assert [plant.actuator(i).name for i in range(plant.nu)] == list(arm.layout.actuated)

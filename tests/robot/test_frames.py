@@ -1,16 +1,13 @@
 """The one conversion, and both models put the base the same way round."""
 
-from collections.abc import Callable
-
 import mujoco
 import numpy as np
 import pinocchio as pin
 
 from mobnet.robot.frames import rotation, to_pinocchio
-from mobnet.robot.nominal import NominalModel
 
 
-def test_the_quaternion_s_real_part_goes_last_over_a_batch(random_state: Callable) -> None:
+def test_the_quaternion_s_real_part_goes_last_over_a_batch(random_state):
     q = np.stack([random_state(seed)[0] for seed in range(4)])
     order = [0, 1, 2, 4, 5, 6, 3, *range(7, q.shape[1])]
     np.testing.assert_allclose(to_pinocchio(q), q[:, order], atol=1e-15)
@@ -20,8 +17,7 @@ def test_the_quaternion_s_real_part_goes_last_over_a_batch(random_state: Callabl
     np.testing.assert_array_equal(longer, before, err_msg="the argument is not left alone")
 
 
-def test_rotation_matches_both_libraries(nominal: NominalModel, random_state: Callable) -> None:
-    """MuJoCo and Pinocchio are the reference."""
+def test_rotation_matches_both_libraries(nominal, random_state):
     q, _ = random_state(1)
     matrix = np.empty(9)
     mujoco.mju_quat2Mat(matrix, q[3:7])
@@ -30,7 +26,7 @@ def test_rotation_matches_both_libraries(nominal: NominalModel, random_state: Ca
     np.testing.assert_allclose(rotation(q[3:7]), nominal.data.oMi[2].rotation, atol=1e-14)
 
 
-def test_rotation_of_a_batch_is_orthonormal(random_state: Callable) -> None:
+def test_rotation_of_a_batch_is_orthonormal(random_state):
     quats = np.stack([random_state(seed)[0][3:7] for seed in range(5)])
     matrices = rotation(quats)
     identity = np.broadcast_to(np.eye(3), matrices.shape)

@@ -1,30 +1,26 @@
 """The compiled sweeps over the tree against Pinocchio, against the kinetic energy, and for any number of samples."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pinocchio as pin
 import pytest
 
 from mobnet.core.errors import DataError
-from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.description import describe
 from mobnet.robot.dynamics import coriolis, gravity, mass_matrix, momentum_and_beta
 from mobnet.robot.momentum import LANES
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import feet_torque
-from mobnet.settings.robot import RobotTable
 
 STEP = 1e-5  # for differences along a joint [rad]
 SKEW = ((0.6, 0.0, 0.8), (-2.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0))
 MACHINES = ("robot", "arm", "skew_arm", "skew_robot")
-Models = Callable[..., NominalModel]
 
 
 @pytest.fixture
-def model_of(robot_table: RobotTable, arm_table: RobotTable) -> Models:
+def model_of(robot_table, arm_table):
     """A function of a machine's name and of what else a nominal model takes; axes of skew machines are not aligned."""
 
-    def make(name: str, *known: float) -> NominalModel:
+    def make(name, *known):
         table = arm_table if name.endswith("arm") else robot_table
         if name.startswith("skew"):
             joints = [row.model_copy(update={"axis": SKEW[i % 2]}) for i, row in enumerate(table.joints)]
@@ -35,7 +31,7 @@ def model_of(robot_table: RobotTable, arm_table: RobotTable) -> Models:
     return make
 
 
-def states(robot: RobotDescription, count: int) -> tuple[np.ndarray, np.ndarray]:
+def states(robot, count):
     """Return random positions, whose quaternions are of any length, and velocities (count, ...)."""
     rng = np.random.default_rng(count)
     return rng.normal(size=(count, robot.layout.nq)), rng.normal(size=(count, robot.layout.nv))
@@ -43,7 +39,7 @@ def states(robot: RobotDescription, count: int) -> tuple[np.ndarray, np.ndarray]
 
 @pytest.mark.parametrize("known", [(), (0.9, 9.7), (0.9, 0.0)])
 @pytest.mark.parametrize("machine", MACHINES)
-def test_equal_to_pinocchio(model_of: Models, machine: str, known: tuple[float, ...]) -> None:
+def test_equal_to_pinocchio(model_of, machine, known):
     """Mass matrix, Coriolis matrix and gravity are the reference, rotor inertia included."""
     nominal = model_of(machine, *known)
     q, v = states(nominal.robot, LANES + 3)
@@ -56,7 +52,7 @@ def test_equal_to_pinocchio(model_of: Models, machine: str, known: tuple[float, 
 
 
 @pytest.mark.parametrize("machine", MACHINES)
-def test_beta_of_a_hinge_is_the_slope_of_the_kinetic_energy(model_of: Models, machine: str) -> None:
+def test_beta_of_a_hinge_is_the_slope_of_the_kinetic_energy(model_of, machine):
     """Lagrange: without gravity the rate of p_k is dT/dq_k, where T = v . p / 2; no other library is needed."""
     nominal = model_of(machine, 1.0, 0.0)
     (q,), (v,) = states(nominal.robot, 1)
@@ -72,7 +68,7 @@ def test_beta_of_a_hinge_is_the_slope_of_the_kinetic_energy(model_of: Models, ma
 
 @pytest.mark.parametrize("count", [0, 1, LANES - 1, LANES, LANES + 1, 2 * LANES + 5])
 @pytest.mark.parametrize("machine", ["robot", "arm"])
-def test_a_sample_is_the_same_to_the_bit_whatever_stands_beside_it(model_of: Models, machine: str, count: int) -> None:
+def test_a_sample_is_the_same_to_the_bit_whatever_stands_beside_it(model_of, machine, count):
     nominal = model_of(machine)
     q, v = states(nominal.robot, count)
     found = momentum_and_beta(nominal, q, v)
@@ -81,35 +77,24 @@ def test_a_sample_is_the_same_to_the_bit_whatever_stands_beside_it(model_of: Mod
         np.testing.assert_array_equal([part[k] for part in found], momentum_and_beta(nominal, q[k], v[k]))
 
 
-def test_leading_axes_are_kept(nominal: NominalModel) -> None:
+def test_leading_axes_are_kept(nominal):
     q, v = states(nominal.robot, 6)
-    flat, nested = (
-        momentum_and_beta(nominal, q, v),
-        momentum_and_beta(nominal, q.reshape(2, 3, -1), v.reshape(2, 3, -1)),
-    )
+    flat = momentum_and_beta(nominal, q, v)
+    nested = momentum_and_beta(nominal, q.reshape(2, 3, -1), v.reshape(2, 3, -1))
     for one, other in zip(flat, nested, strict=True):
         np.testing.assert_array_equal(one, other.reshape(6, -1))
 
 
 @pytest.mark.parametrize(("rows", "column"), [((2, 3), 0), ((3, 3), 1)])
-def test_what_does_not_fit_is_refused(nominal: NominalModel, rows: tuple[int, int], column: int) -> None:
+def test_what_does_not_fit_is_refused(nominal, rows, column):
     """Compiled code would read beyond the arrays."""
     q, v = (states(nominal.robot, count)[i] for i, count in enumerate(rows))
     with pytest.raises(DataError, match=r"shape of q: .* is not accepted; accepted: \(3, 40\)"):
         momentum_and_beta(nominal, q[:, column:], v)
 
 
-def test_the_constants_are_those_of_the_robot(model_of: Models) -> None:
-    for machine in ("robot", "arm"):
-        nominal = model_of(machine, 0.9)
-        links = nominal.linkage.links
-        assert links["behind"][0] == pytest.approx(0.9 * nominal.robot.mass)
-        np.testing.assert_allclose(links["armature"][1:], 0.9 * nominal.robot.armature)
-        assert (links["parent"][1:] < np.arange(1, len(links))).all()
-
-
 @pytest.mark.parametrize("machine", ["robot", "skew_robot"])
-def test_torque_of_a_wrench_is_that_of_pinocchio_s_jacobian(model_of: Models, machine: str) -> None:
+def test_torque_of_a_wrench_is_that_of_pinocchio_s_jacobian(model_of, machine):
     nominal = model_of(machine)
     q, _ = states(nominal.robot, 5)
     wrench = np.random.default_rng(0).normal(size=(5, 6))

@@ -1,28 +1,23 @@
 """The nominal model: the plant's twin at ratio 1, a lighter one below, and roots that would not do."""
 
-from collections.abc import Callable
-
 import mujoco
 import numpy as np
 import pinocchio as pin
 import pytest
 
-from mobnet.robot.description import RobotDescription
 from mobnet.robot.dynamics import bias, gravity, mass_matrix
 from mobnet.robot.frames import to_pinocchio
 from mobnet.robot.nominal import NominalModel
 
 
-def test_velocities_stand_in_layout_order(nominal: NominalModel, robot: RobotDescription) -> None:
+def test_velocities_stand_in_layout_order(nominal, robot):
     assert (nominal.model.nq, nominal.model.nv) == (robot.layout.nq, robot.layout.nv)
     where = {nominal.model.names[i]: nominal.model.idx_vs[i] for i in range(1, nominal.model.njoints)}
     assert [where[name] for name in robot.layout.actuated] == list(range(6, nominal.model.nv))
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_inertia_and_bias_equal_the_plant_s(
-    nominal: NominalModel, plant: mujoco.MjModel, random_state: Callable, seed: int
-) -> None:
+def test_inertia_and_bias_equal_the_plant_s(nominal, plant, random_state, seed):
     q, v = random_state(seed)
     data = mujoco.MjData(plant)
     data.qpos[:], data.qvel[:] = q, v
@@ -33,9 +28,7 @@ def test_inertia_and_bias_equal_the_plant_s(
     assert np.abs(bias(nominal, q, v) - data.qfrc_bias).max() < 1e-10 * np.abs(data.qfrc_bias).max()
 
 
-def test_mass_ratio_scales_links_and_rotors_alike_and_gravity_is_the_asked_one(
-    robot: RobotDescription, nominal: NominalModel, random_state: Callable
-) -> None:
+def test_mass_ratio_scales_links_and_rotors_alike_and_gravity_is_the_asked_one(robot, nominal, random_state):
     q, v = random_state(4)
     light, moon = NominalModel(robot, mass_ratio=0.9), NominalModel(robot, gravity_m_s2=1.62)
     np.testing.assert_allclose(mass_matrix(light, q), 0.9 * mass_matrix(nominal, q), rtol=1e-10, atol=1e-10)
@@ -43,9 +36,7 @@ def test_mass_ratio_scales_links_and_rotors_alike_and_gravity_is_the_asked_one(
     np.testing.assert_allclose(gravity(moon, q), gravity(nominal, q) * 1.62 / 9.81, rtol=1e-9, atol=1e-9)
 
 
-def test_sensor_frames_stand_where_the_plant_s_sites_do(
-    nominal: NominalModel, plant: mujoco.MjModel, random_state: Callable
-) -> None:
+def test_sensor_frames_stand_where_the_plant_s_sites_do(nominal, plant, random_state):
     q, _ = random_state(6)
     data = mujoco.MjData(plant)
     data.qpos[:] = q

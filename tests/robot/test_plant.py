@@ -4,11 +4,11 @@ import mujoco
 import numpy as np
 import pytest
 
-from mobnet.robot.description import SIDES, RobotDescription
+from mobnet.robot.description import SIDES
 from mobnet.robot.plant import SOLE_TYPE, TERRAIN_TYPE, sole_name
 
 
-def test_velocity_and_motors_stand_in_layout_order(plant: mujoco.MjModel, robot: RobotDescription) -> None:
+def test_velocity_and_motors_stand_in_layout_order(plant, robot):
     hinges = [plant.joint(i).name for i in range(plant.njnt) if plant.jnt_type[i] == mujoco.mjtJoint.mjJNT_HINGE]
     assert tuple(hinges) == robot.layout.actuated
     assert tuple(plant.actuator(i).name for i in range(plant.nu)) == robot.layout.actuated
@@ -17,7 +17,7 @@ def test_velocity_and_motors_stand_in_layout_order(plant: mujoco.MjModel, robot:
     assert (plant.nq, plant.nv) == (robot.layout.nq, robot.layout.nv)
 
 
-def test_motor_torque_arrives_unchanged_and_unclipped(plant: mujoco.MjModel) -> None:
+def test_motor_torque_arrives_unchanged_and_unclipped(plant):
     data = mujoco.MjData(plant)
     data.ctrl[:] = np.arange(plant.nu) * 1e3
     mujoco.mj_forward(plant, data)
@@ -25,7 +25,7 @@ def test_motor_torque_arrives_unchanged_and_unclipped(plant: mujoco.MjModel) -> 
     np.testing.assert_array_equal(data.qfrc_actuator[:6], 0)
 
 
-def test_joints_have_rotors_alone_and_the_weight_is_the_table_s(plant: mujoco.MjModel, robot: RobotDescription) -> None:
+def test_joints_have_rotors_alone_and_the_weight_is_the_table_s(plant, robot):
     np.testing.assert_array_equal(plant.dof_armature[6:], robot.armature)
     for figure in (plant.dof_damping, plant.dof_frictionloss, plant.jnt_stiffness):
         assert not figure.any()
@@ -33,7 +33,7 @@ def test_joints_have_rotors_alone_and_the_weight_is_the_table_s(plant: mujoco.Mj
     assert all(plant.body(sole_name(side)).mass == 0 for side in SIDES)
 
 
-def test_only_soles_collide_and_only_with_terrain(plant: mujoco.MjModel) -> None:
+def test_only_soles_collide_and_only_with_terrain(plant):
     soles = {plant.geom(sole_name(side)).id for side in SIDES}
     for geom in range(plant.ngeom):
         kind = (plant.geom_contype[geom], plant.geom_conaffinity[geom])
@@ -41,7 +41,7 @@ def test_only_soles_collide_and_only_with_terrain(plant: mujoco.MjModel) -> None
     assert not SOLE_TYPE & TERRAIN_TYPE
 
 
-def test_stands_as_tall_as_the_robot(plant: mujoco.MjModel, robot: RobotDescription) -> None:
+def test_stands_as_tall_as_the_robot(plant, robot):
     data = mujoco.MjData(plant)
     mujoco.mj_forward(plant, data)
     head, sole = plant.geom("head"), data.body(sole_name("left")).xpos[2] + robot.sole.height
@@ -49,7 +49,7 @@ def test_stands_as_tall_as_the_robot(plant: mujoco.MjModel, robot: RobotDescript
     assert top - sole == pytest.approx(1.8, abs=0.05)
 
 
-def test_imu_reads_specific_force_and_turning_rate_in_the_base(plant: mujoco.MjModel) -> None:
+def test_imu_reads_specific_force_and_turning_rate_in_the_base(plant):
     data = mujoco.MjData(plant)
     data.qpos[3:7] = np.array([np.cos(0.3), np.sin(0.3), 0, 0])
     data.qvel[3:6] = [0.1, 0.2, 0.3]

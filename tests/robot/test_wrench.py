@@ -1,14 +1,11 @@
 """J^T F of (2) against MuJoCo, against power, and against the contact solver of a standing robot."""
 
-from collections.abc import Callable
-
 import mujoco
 import numpy as np
 import pytest
 
 from mobnet.core.errors import ConfigError
 from mobnet.robot.description import SIDES
-from mobnet.robot.nominal import NominalModel
 from mobnet.robot.plant import sole_name
 from mobnet.robot.wrench import feet_torque
 
@@ -16,10 +13,7 @@ WRENCH = np.array([10.0, -20.0, 300.0, 4.0, -5.0, 6.0])
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_torque_of_a_foot_equals_the_plant_s(
-    nominal: NominalModel, plant: mujoco.MjModel, random_state: Callable, side: str
-) -> None:
-    """MuJoCo's mj_applyFT is the reference."""
+def test_torque_of_a_foot_equals_the_plant_s(nominal, plant, random_state, side):
     q, _ = random_state(0)
     data = mujoco.MjData(plant)
     data.qpos[:] = q
@@ -33,7 +27,7 @@ def test_torque_of_a_foot_equals_the_plant_s(
         feet_torque(nominal, q, {"tail": WRENCH})
 
 
-def test_sum_over_feet_keeps_each_leg_to_itself(nominal: NominalModel, random_state: Callable) -> None:
+def test_sum_over_feet_keeps_each_leg_to_itself(nominal, random_state):
     q = np.stack([random_state(seed)[0] for seed in range(3)])
     wrenches = {side: np.tile(WRENCH, (3, 1)) for side in SIDES}
     layout = nominal.robot.layout
@@ -45,9 +39,7 @@ def test_sum_over_feet_keeps_each_leg_to_itself(nominal: NominalModel, random_st
 
 
 @pytest.mark.sim
-def test_sensor_wrenches_give_the_contact_solver_s_torque_and_the_weight(
-    nominal: NominalModel, standing: Callable
-) -> None:
+def test_sensor_wrenches_give_the_contact_solver_s_torque_and_the_weight(nominal, standing):
     lift = []
     for _, data, q in standing(600):
         reading = {

@@ -11,7 +11,7 @@ from mobnet.core.code import ROOT
 from mobnet.running.environment import CACHES, child_environment, fault_of_place, quieten
 
 
-def test_caches_lie_inside_the_project_and_each_process_has_one_thread(tmp_path: Path) -> None:
+def test_caches_lie_inside_the_project_and_each_process_has_one_thread(tmp_path):
     variables = child_environment(tmp_path)
     for name in CACHES.keys() - {"TMPDIR"}:
         assert Path(variables[name]).is_relative_to(tmp_path)
@@ -21,12 +21,12 @@ def test_caches_lie_inside_the_project_and_each_process_has_one_thread(tmp_path:
 
 
 @pytest.mark.parametrize("sign", ':{}"\\\n')
-def test_a_path_with_a_sign_of_other_tools_is_not_accepted(sign: str) -> None:
+def test_a_path_with_a_sign_of_other_tools_is_not_accepted(sign):
     assert fault_of_place(Path("/place/it's a [copy] ü")) is None
     assert "is not accepted in the path" in str(fault_of_place(Path(f"/place/a{sign}b")))
 
 
-def test_what_a_user_set_stays(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_a_user_set_stays(tmp_path, monkeypatch):
     monkeypatch.setattr(os, "environ", {"OMP_NUM_THREADS": "4"})
     quieten(tmp_path)
     assert os.environ["OMP_NUM_THREADS"] == "4"
@@ -58,7 +58,7 @@ assert not outside, outside
 
 
 @pytest.mark.slow
-def test_importing_changes_nothing(tmp_path: Path) -> None:
+def test_importing_changes_nothing(tmp_path):
     """All modules: no variable, no setting, no log, no file but in the caches of other packages."""
     environment = {**os.environ, **child_environment(tmp_path)}
     subprocess.run([sys.executable, "-B", "-c", IMPORT_ALL], check=True, env=environment)
@@ -82,7 +82,7 @@ CALLED = {
 
 
 @pytest.fixture
-def home(tmp_path: Path) -> dict[str, str]:
+def home(tmp_path):
     """Variables of a user with a fresh home, who says nothing about caches."""
     kept = {name: value for name, value in os.environ.items() if name not in CACHES}
     (tmp_path / "home").mkdir()
@@ -91,12 +91,12 @@ def home(tmp_path: Path) -> dict[str, str]:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", CALLED)
-def test_a_command_that_is_called_directly_writes_nothing_at_home(name: str, home: dict[str, str]) -> None:
+def test_a_command_that_is_called_directly_writes_nothing_at_home(name, home):
     subprocess.run([sys.executable, *CALLED[name]], cwd=ROOT, env=home, check=False, capture_output=True)
     assert os.listdir(home["HOME"]) == []
 
 
-def test_a_set_up_writes_nothing_at_home_where_rust_is_installed(home: dict[str, str], tmp_path: Path) -> None:
+def test_a_set_up_writes_nothing_at_home_where_rust_is_installed(home, tmp_path):
     """The proxy of `rustup`, which pip asks for its version, makes its home."""
     proxy = tmp_path / "bin" / "rustc"
     proxy.parent.mkdir()

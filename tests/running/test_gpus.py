@@ -2,7 +2,6 @@
 
 import logging
 import os
-from pathlib import Path
 
 import pytest
 
@@ -12,39 +11,32 @@ from mobnet.running.lock import opened, taken
 CUDA, CPU = "2.13.0", "2.13.0+cpu"
 
 
-def devices_in(folder: Path, names: list[str]) -> Path:
+def devices_in(folder, names):
     """Make a folder with the files that a driver makes for its devices, besides its own."""
     for name in (*names, "nvidiactl", "null"):
         (folder / name).touch()
     return folder
 
 
-@pytest.mark.parametrize(
-    ("version", "chosen", "names", "seen"),
-    [
-        (CUDA, None, [], 0),
-        (CUDA, None, ["nvidia0"], 1),
-        (CUDA, None, ["nvidia0", "nvidia1", "nvidia10"], 3),
-        (CUDA, "1", ["nvidia0", "nvidia1"], 1),
-        (CUDA, "0, 1", ["nvidia0", "nvidia1"], 2),
-        (CUDA, "0,1,2", ["nvidia0"], 1),
-        (CUDA, "GPU-8f3a,GPU-77b1", ["nvidia0", "nvidia1", "nvidia2"], 2),
-        (CUDA, "", ["nvidia0"], 0),
-        (CUDA, "0,-1,1", ["nvidia0", "nvidia1"], 1),
-        (CUDA, None, ["dxg"], 1),
-        (CPU, None, ["nvidia0"], 0),
-    ],
-)
-def test_gpus_are_those_that_torch_can_use(
-    tmp_path: Path, version: str, chosen: str | None, names: list[str], seen: int
-) -> None:
+@pytest.mark.parametrize(("version", "chosen", "names", "seen"), [
+    (CUDA, None, [], 0),
+    (CUDA, None, ["nvidia0"], 1),
+    (CUDA, None, ["nvidia0", "nvidia1", "nvidia10"], 3),
+    (CUDA, "1", ["nvidia0", "nvidia1"], 1),
+    (CUDA, "0, 1", ["nvidia0", "nvidia1"], 2),
+    (CUDA, "0,1,2", ["nvidia0"], 1),
+    (CUDA, "GPU-8f3a,GPU-77b1", ["nvidia0", "nvidia1", "nvidia2"], 2),
+    (CUDA, "", ["nvidia0"], 0),
+    (CUDA, "0,-1,1", ["nvidia0", "nvidia1"], 1),
+    (CUDA, None, ["dxg"], 1),
+    (CPU, None, ["nvidia0"], 0),
+])  # fmt: skip
+def test_gpus_are_those_that_torch_can_use(tmp_path, version, chosen, names, seen):
     environment = {} if chosen is None else {"CUDA_VISIBLE_DEVICES": chosen}
     assert gpus_seen(version, environment, devices_in(tmp_path, names)) == seen
 
 
-def test_each_process_gets_a_gpu_of_its_own_until_there_is_none(
-    tmp_path: Path, caplog: pytest.LogCaptureFixture
-) -> None:
+def test_each_process_gets_a_gpu_of_its_own_until_there_is_none(tmp_path, caplog):
     names = ["GPU-a", "GPU-b"]
     assert [claimed(names, tmp_path) for _ in names] == [0, 1]  # a second call is as another process
     assert not caplog.records
@@ -54,7 +46,7 @@ def test_each_process_gets_a_gpu_of_its_own_until_there_is_none(
     assert "this one shares the GPU GPU-a" in warning
 
 
-def test_a_gpu_is_free_again_when_its_process_has_ended(tmp_path: Path) -> None:
+def test_a_gpu_is_free_again_when_its_process_has_ended(tmp_path):
     other = opened(tmp_path / "gpu-a.lock")
     assert taken(other)
     assert claimed(["a", "b"], tmp_path) == 1

@@ -5,7 +5,6 @@ import fcntl
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -21,7 +20,7 @@ time.sleep(60)
 
 
 @pytest.mark.parametrize("name", LOCKS)
-def test_who_holds_a_lock_is_told(tmp_path: Path, name: str) -> None:
+def test_who_holds_a_lock_is_told(tmp_path, name):
     (tmp_path / ".cache").mkdir()
     words = [sys.executable, "-c", HOLD, str(tmp_path / name)]
     with subprocess.Popen(words, stdout=subprocess.PIPE) as other:
@@ -32,7 +31,7 @@ def test_who_holds_a_lock_is_told(tmp_path: Path, name: str) -> None:
     assert holder(tmp_path) is None
 
 
-def test_a_job_holds_its_lock_in_a_folder_of_any_name_and_leaves_ctrl_c_to_its_run(tmp_path: Path) -> None:
+def test_a_job_holds_its_lock_in_a_folder_of_any_name_and_leaves_ctrl_c_to_its_run(tmp_path):
     root = tmp_path / "a folder's name"
     root.mkdir()
     begin_run(root)
@@ -47,7 +46,7 @@ def test_a_job_holds_its_lock_in_a_folder_of_any_name_and_leaves_ctrl_c_to_its_r
     assert job.returncode == 0
 
 
-def test_a_job_of_an_earlier_run_ends_at_once_with_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_job_of_an_earlier_run_ends_at_once_with_one_line(tmp_path, monkeypatch):
     begin_run(tmp_path)
     words = ["bash", "-c", f"{job_prefix(tmp_path)} echo works"]
     assert subprocess.run(words, capture_output=True, text=True, check=True).stdout == "works\n"
@@ -61,10 +60,8 @@ def test_a_job_of_an_earlier_run_ends_at_once_with_one_line(tmp_path: Path, monk
     assert done.stderr == "the run that asked for this job has ended, and another one has begun\n"
 
 
-def test_a_file_system_without_locks_is_told_once(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
-) -> None:
-    def refuse(*_: object) -> None:
+def test_a_file_system_without_locks_is_told_once(tmp_path, monkeypatch, caplog):
+    def refuse(*_):
         raise OSError(errno.ENOLCK, "No locks available")
 
     monkeypatch.setattr("fcntl.flock", refuse)
@@ -74,7 +71,7 @@ def test_a_file_system_without_locks_is_told_once(
     assert holder(tmp_path) is None
 
 
-def test_only_unfinished_files_are_removed(tmp_path: Path) -> None:
+def test_only_unfinished_files_are_removed(tmp_path):
     kept = ["results/a.parquet", "results/.partial.md", "results/.mine.parquet", "configs/.partial.abcdefgh.x"]
     gone = ["results/smoke/.partial.ab_12345.s1.parquet", "tables/.partial.abcdefgh.t.csv", ".cache/tmp/run-1/x"]
     gone += [".snakemake/scripts/tmpabcdefgh.call.py", "results/.partial.abcdefgh.wandb/a/b"]

@@ -5,7 +5,6 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import pytest
 
@@ -21,16 +20,15 @@ with job(sys.argv[1]):
 """
 
 
-def fail(error: Exception) -> None:
+def fail(error):
     raise error
 
 
-def account(path: Path) -> Account:
-    """Return the account beside a log."""
+def account(path):
     return Account(**read_json(path.with_suffix(".json")))
 
 
-def test_expected_error_is_one_line_in_log_and_terminal(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_expected_error_is_one_line_in_log_and_terminal(tmp_path, capsys):
     path = tmp_path / "logs" / "a.log"
     with pytest.raises(SystemExit) as caught, job(path):
         fail(DataError("a.parquet: truncated"))
@@ -39,12 +37,12 @@ def test_expected_error_is_one_line_in_log_and_terminal(tmp_path: Path, capsys: 
     assert capsys.readouterr().err == path.read_text()
 
 
-def test_a_fault_of_the_program_keeps_its_traceback(tmp_path: Path) -> None:
+def test_a_fault_of_the_program_keeps_its_traceback(tmp_path):
     with pytest.raises(ZeroDivisionError), job(tmp_path / "a.log"):
         fail(ZeroDivisionError())
 
 
-def test_logging_and_signals_are_as_before_afterwards(tmp_path: Path) -> None:
+def test_logging_and_signals_are_as_before_afterwards(tmp_path):
     before = logging.getLogger().handlers[:], signal.getsignal(signal.SIGTERM)
     with job(tmp_path / "a.log"):
         logging.getLogger("mobnet.some").info("progress")
@@ -53,7 +51,7 @@ def test_logging_and_signals_are_as_before_afterwards(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("log", "name"), [("logs/collect/walk-s1.log", "collect/walk-s1"), ("paper.log", "paper")])
-def test_account_says_when_and_how_long(tmp_path: Path, log: str, name: str) -> None:
+def test_account_says_when_and_how_long(tmp_path, log, name):
     before = time.time()
     with job(tmp_path / log):
         time.sleep(0.2)
@@ -65,7 +63,7 @@ def test_account_says_when_and_how_long(tmp_path: Path, log: str, name: str) -> 
     assert told.cpu_s < 0.15
 
 
-def test_children_count(tmp_path: Path) -> None:
+def test_children_count(tmp_path):
     subprocess.run([sys.executable, "-c", GREEDY, tmp_path / "a.log"], check=True)
     told = account(tmp_path / "a.log")
     assert 300 < told.peak_mib < 400
@@ -73,13 +71,13 @@ def test_children_count(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("number", [None, signal.SIGTERM, signal.SIGINT])
-def test_a_job_that_fails_or_is_interrupted_says_so(tmp_path: Path, number: signal.Signals | None) -> None:
+def test_a_job_that_fails_or_is_interrupted_says_so(tmp_path, number):
     with pytest.raises((SystemExit, KeyboardInterrupt)), job(tmp_path / "a.log"):
         signal.raise_signal(number) if number else fail(DataError("damaged"))
     assert not account(tmp_path / "a.log").succeeded
 
 
-def test_a_job_that_is_killed_leaves_no_account_of_the_run_before(tmp_path: Path) -> None:
+def test_a_job_that_is_killed_leaves_no_account_of_the_run_before(tmp_path):
     with job(tmp_path / "a.log"):
         pass
     with job(tmp_path / "a.log"):

@@ -2,17 +2,15 @@
 
 from pathlib import Path
 
-import pytest
-
 from mobnet.running.provenance import commit, provenance
 
 
-def test_provenance_names_commit_and_lock() -> None:
+def test_provenance_names_commit_and_lock():
     assert list(provenance()) == ["commit", "lock"]
     assert all(provenance().values())
 
 
-def test_outside_of_git_and_without_a_lock_both_are_unknown(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_outside_of_git_and_without_a_lock_both_are_unknown(tmp_path, monkeypatch):
     commit.cache_clear()
     monkeypatch.setattr("mobnet.running.provenance.ROOT", Path("/"))
     monkeypatch.setattr("mobnet.running.provenance.LOCK", tmp_path / "environment.lock")

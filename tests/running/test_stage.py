@@ -8,7 +8,7 @@ from mobnet.running.stage import Stage
 
 
 @pytest.fixture
-def stage(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Stage:
+def stage(tmp_path, monkeypatch):
     """A stage that has the first of two files, in a folder with a file that the job reads."""
     monkeypatch.chdir(tmp_path)
     Path("read.csv").write_text("1")
@@ -18,18 +18,18 @@ def stage(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Stage:
     return made
 
 
-def write(stage: Stage, file: Path) -> None:
+def write(stage, file):
     stage.place(file).parent.mkdir(parents=True, exist_ok=True)
     stage.place(file).write_text(file.name)
 
 
-def test_another_start_keeps_what_is_there(stage: Stage) -> None:
+def test_another_start_keeps_what_is_there(stage):
     Stage(stage.folder, "given", ("read.csv",)).begin()
     assert stage.has([Path("out/a")])
     assert not stage.has([Path("out/a"), Path("out/b")])
 
 
-def test_other_arguments_other_files_and_a_damaged_note_keep_nothing(stage: Stage) -> None:
+def test_other_arguments_other_files_and_a_damaged_note_keep_nothing(stage):
     note = (stage.folder / "stage.json").read_text()
     Stage(stage.folder, "other", ("read.csv",)).begin()
     assert not stage.has([Path("out/a")])
@@ -44,7 +44,7 @@ def test_other_arguments_other_files_and_a_damaged_note_keep_nothing(stage: Stag
     assert not stage.has([Path("out/a")])
 
 
-def test_files_appear_together_and_the_folder_goes(stage: Stage, tmp_path: Path) -> None:
+def test_files_appear_together_and_the_folder_goes(stage, tmp_path):
     write(stage, tmp_path / "b")  # an absolute path has a place in it too
     assert not Path("out").exists()
     assert not (tmp_path / "b").exists()

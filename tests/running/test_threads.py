@@ -53,8 +53,7 @@ print((time.process_time() - process) / (time.thread_time() - threads))
 
 @pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="one core: no library takes two threads")
 @pytest.mark.parametrize("script", [DEPLOYED, TRAINED], ids=["deployed", "trained"])
-def test_a_network_multiplies_in_the_thread_that_asks(script: str) -> None:
-    """The processor time of the process is that of the one thread."""
+def test_a_network_multiplies_in_the_thread_that_asks(script):
     inherited = {name: value for name, value in os.environ.items() if name.partition("_")[0] not in THREADED}
     told = subprocess.run(
         [sys.executable, "-c", script + SHARE],

@@ -1,8 +1,6 @@
 """Plants that walk or stand, and what they recorded."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import pytest
@@ -11,7 +9,7 @@ from pydantic import BaseModel
 from mobnet.core.columns import recording_columns, recording_width
 from mobnet.plan.jobs import walk_settings
 from mobnet.settings.load import load_settings
-from mobnet.settings.settings import Settings, WalkSettings
+from mobnet.settings.settings import Settings
 from mobnet.simulation.simulator import Simulator
 from mobnet.simulation.start import start_standing
 
@@ -24,14 +22,13 @@ MADE_UP = {  # scenarios of the tests
 }
 
 
-def altered(settings: Settings, **sections: dict[str, Any]) -> Settings:
+def altered(settings, **sections):
     """Return a configuration with changed sections, key by key, also where they do not fit the others."""
     changed = {name: merged(getattr(settings, name), section) for name, section in sections.items()}
     return Settings.model_validate({**{name: getattr(settings, name) for name in Settings.model_fields}, **changed})
 
 
-def merged(value: Any, change: Any) -> Any:
-    """Return a value with the keys of a change in place of its own."""
+def merged(value, change):
     if not isinstance(change, dict):
         return change
     own = {key: getattr(value, key) for key in value.model_fields_set} if isinstance(value, BaseModel) else value
@@ -39,10 +36,10 @@ def merged(value: Any, change: Any) -> Any:
 
 
 @pytest.fixture(scope="session")
-def walk_of() -> Callable[..., WalkSettings]:
+def walk_of():
     """A function (scenario, level, **sections) -> what its walk takes of the configuration, changed by the sections."""
 
-    def make(scenario: str, level: str, **sections: dict[str, Any]) -> WalkSettings:
+    def make(scenario, level, **sections):
         scenarios = sections.pop("scenarios", {})
         changed = {name: {**MADE_UP.get(name, {}), **scenarios.get(name, {})} for name in {**MADE_UP, **scenarios}}
         return walk_settings(altered(load_settings(), **sections, scenarios=changed), scenario, level)
@@ -51,10 +48,10 @@ def walk_of() -> Callable[..., WalkSettings]:
 
 
 @pytest.fixture
-def simulate(walk_of: Callable[..., WalkSettings]) -> Callable[..., Simulator]:
+def simulate(walk_of):
     """A function (scenario, level, seed, standing, **sections) -> a started simulator."""
 
-    def make(scenario: str, level: str, seed: int = 1, standing: bool = False, **sections: dict[str, Any]) -> Simulator:
+    def make(scenario, level, seed=1, standing=False, **sections):
         simulator = Simulator(walk_of(scenario, level, **sections), seed)
         simulator.start()
         if standing:
@@ -74,16 +71,15 @@ class Log:
     done: int
     columns: dict[str, slice]
 
-    def __getitem__(self, field: str) -> np.ndarray:
-        """Return one field of the samples."""
+    def __getitem__(self, field):
         return self.rows[:, self.columns[field]]
 
 
 @pytest.fixture
-def run() -> Callable[[Simulator, float], Log]:
+def run():
     """A function (simulator, seconds) -> what it logged."""
 
-    def advance(simulator: Simulator, seconds: float) -> Log:
+    def advance(simulator, seconds):
         layout = simulator.robot.layout
         rows = np.zeros((round(seconds * 1000), recording_width(layout)), dtype=np.float32)
         done = simulator.run(rows)
@@ -94,3 +90,8 @@ def run() -> Callable[[Simulator, float], Log]:
         return Log(rows, done, columns)
 
     return advance
+
+
+@pytest.fixture(scope="session")
+def motion(settings):
+    return settings.motions["random_motion"]

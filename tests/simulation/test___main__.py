@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(autouse=True)
-def at_home(monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture) -> None:
+def at_home(monkeypatch, caplog):
     """Run in the repository, without a display, and keep what is said."""
     monkeypatch.chdir(ROOT)
     monkeypatch.setattr(command, "has_display", lambda: False)
@@ -25,7 +25,7 @@ def at_home(monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture) -
 
 @pytest.mark.slow
 @pytest.mark.sim
-def test_it_draws_a_walking_robot(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+def test_it_draws_a_walking_robot(tmp_path, caplog):
     clip, picture = tmp_path / "walk.gif", tmp_path / "walk.png"
     words = f"--seconds 1.2 --video {clip} --width 201 --picture {picture} --terrain plates"
     assert command.main(words.split()) == 0
@@ -39,10 +39,8 @@ def test_it_draws_a_walking_robot(tmp_path: Path, caplog: pytest.LogCaptureFixtu
 
 @pytest.mark.slow
 @pytest.mark.sim
-def test_undrawn_is_still_walked(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
-) -> None:
-    def refuse(*_: object) -> None:
+def test_undrawn_is_still_walked(tmp_path, monkeypatch, caplog):
+    def refuse(*_):
         raise DrawingError("no drawing off screen")
 
     monkeypatch.setattr(command, "draw_frames", refuse)
@@ -58,7 +56,7 @@ def test_undrawn_is_still_walked(
 @pytest.mark.slow
 @pytest.mark.sim
 @pytest.mark.parametrize(("words", "wanted"), [([], float("inf")), (["--seconds", "2"], 2.0)])
-def test_the_viewer_opens_on_a_display(monkeypatch: pytest.MonkeyPatch, words: list[str], wanted: float) -> None:
+def test_the_viewer_opens_on_a_display(monkeypatch, words, wanted):
     watched = []
     monkeypatch.setattr(command, "has_display", lambda: True)
     monkeypatch.setattr(command, "watch", lambda simulator, seconds: watched.append(seconds))
@@ -66,8 +64,8 @@ def test_the_viewer_opens_on_a_display(monkeypatch: pytest.MonkeyPatch, words: l
     assert watched == [wanted]
 
 
-def test_ctrl_c_is_one_line(monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture) -> None:
-    def stop(_: object) -> None:
+def test_ctrl_c_is_one_line(monkeypatch, caplog):
+    def stop(_):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(command, "load_settings", stop)
@@ -75,23 +73,20 @@ def test_ctrl_c_is_one_line(monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogC
     assert [len(message.splitlines()) for message in caplog.messages] == [1]
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (["--seconds", "-1"], "--seconds: -1.0 is not accepted; accepted: > 0"),
-        (["--seconds", "0"], "--seconds: 0.0 is not accepted; accepted: > 0"),
-        (["--seconds", "nan"], "--seconds: nan is not accepted; accepted: > 0"),
-        (["--seed", "-1"], "--seed: -1 is not accepted; accepted: >= 0"),
-        (["--width", "10"], "--width: 10 is not accepted; accepted: 160 to 1920"),
-        (["--video", "walk.avi"], "--video: '.avi' is not accepted; accepted: .gif, .mp4, .webp"),
-        (["--picture", "walk.jpg"], "--picture: 'walk.jpg' is not accepted; accepted: NAME.png"),
-        (["--scenario", "moon"], "--scenario: 'moon' is not accepted; accepted: "),
-        (["--level", "perfect"], "--level: 'perfect' is not accepted; accepted: "),
-        (["--terrain", "stairs"], "terrain: 'stairs' is not accepted; accepted: checks, flat, plates, slope"),
-        (["--config", "nowhere"], "nowhere/config.yaml: file is missing"),
-    ],
-)
-def test_one_line_names_what_is_not_accepted(words: list[str], message: str, caplog: pytest.LogCaptureFixture) -> None:
+@pytest.mark.parametrize(("words", "message"), [
+    (["--seconds", "-1"], "--seconds: -1.0 is not accepted; accepted: > 0"),
+    (["--seconds", "0"], "--seconds: 0.0 is not accepted; accepted: > 0"),
+    (["--seconds", "nan"], "--seconds: nan is not accepted; accepted: > 0"),
+    (["--seed", "-1"], "--seed: -1 is not accepted; accepted: >= 0"),
+    (["--width", "10"], "--width: 10 is not accepted; accepted: 160 to 1920"),
+    (["--video", "walk.avi"], "--video: '.avi' is not accepted; accepted: .gif, .mp4, .webp"),
+    (["--picture", "walk.jpg"], "--picture: 'walk.jpg' is not accepted; accepted: NAME.png"),
+    (["--scenario", "moon"], "--scenario: 'moon' is not accepted; accepted: "),
+    (["--level", "perfect"], "--level: 'perfect' is not accepted; accepted: "),
+    (["--terrain", "stairs"], "terrain: 'stairs' is not accepted; accepted: checks, flat, plates, slope"),
+    (["--config", "nowhere"], "nowhere/config.yaml: file is missing"),
+])  # fmt: skip
+def test_one_line_names_what_is_not_accepted(words, message, caplog):
     assert command.main(words) == 1
     assert len(caplog.messages) == 1
     assert caplog.messages[0].startswith("error: ")
@@ -99,7 +94,7 @@ def test_one_line_names_what_is_not_accepted(words: list[str], message: str, cap
     assert "\n" not in caplog.messages[0]
 
 
-def test_what_the_readme_draws_is_written_where_git_does_not_look() -> None:
+def test_what_the_readme_draws_is_written_where_git_does_not_look():
     drawn = re.findall(r"--(?:video|picture) (\S+)", (ROOT / "README.md").read_text())
     assert drawn
     assert all(name.startswith("results/") for name in drawn)

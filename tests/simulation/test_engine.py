@@ -1,25 +1,20 @@
 """The plant's loop: external torque, sensors, symmetries, limits."""
 
 import copy
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
 
 import mujoco
 import numpy as np
 import pytest
 
-from mobnet.control.parameters import empty_state
 from mobnet.control.walking import walk
 from mobnet.robot.description import SIDES
 from mobnet.robot.plant import sole_name
 from mobnet.simulation import engine
-from mobnet.simulation.simulator import Simulator
 
 NV = 39
 
 
-def contact_torque(simulator: Simulator) -> np.ndarray:
+def contact_torque(simulator):
     """Return the sum of J^T F (nv,) over the contacts of the step just taken, by MuJoCo's own functions."""
     model, data = simulator.world.model, simulator.world.data
     torque, wrench, jacobian = np.zeros(NV), np.zeros(6), np.zeros((3, NV))
@@ -32,7 +27,7 @@ def contact_torque(simulator: Simulator) -> np.ndarray:
     return torque
 
 
-def external(simulator: Simulator) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def external(simulator):
     """Return the loop's torque of contacts and of pushes (nv,) and ground's force on each foot (2,) [N], one step's."""
     contacts, pushes, touch = np.zeros(NV), np.zeros(NV), np.zeros(2)
     engine._add_contacts(simulator.plant, simulator.walker, contacts, touch)
@@ -40,12 +35,22 @@ def external(simulator: Simulator) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return contacts, pushes, touch
 
 
-def assert_near(found: np.ndarray, expected: np.ndarray, share: float) -> None:
+def normal_forces(simulator):
+    """Return the sum of the normal forces (2,) [N] of each foot's contacts, by mj_contactForce."""
+    model, data, wrench, forces = simulator.world.model, simulator.world.data, np.zeros(6), np.zeros(2)
+    soles = [model.geom(sole_name(side)).id for side in SIDES]
+    for index, contact in enumerate(data.contact):
+        mujoco.mj_contactForce(model, data, index, wrench)
+        forces[[sole in (contact.geom1, contact.geom2) for sole in soles].index(True)] += wrench[0]
+    return forces
+
+
+def assert_near(found, expected, share):
     """Check that torques or forces are as expected, up to a share of the largest one."""
     np.testing.assert_allclose(found, expected, atol=share * max(1.0, np.abs(expected).max()))
 
 
-def pushed_torque(simulator: Simulator) -> np.ndarray:
+def pushed_torque(simulator):
     """Return what the wrenches on bodies of the step just taken do (nv,), by mj_jac at their centres of mass."""
     model, data, torque = simulator.world.model, simulator.world.data, np.zeros(NV)
     linear, angular = np.zeros((3, NV)), np.zeros((3, NV))
@@ -55,7 +60,7 @@ def pushed_torque(simulator: Simulator) -> np.ndarray:
     return torque
 
 
-def sole_torque(simulator: Simulator) -> np.ndarray:
+def sole_torque(simulator):
     """Return the foot sensors' wrenches mapped through their Jacobian (nv,)."""
     model, data, mapped = simulator.world.model, simulator.world.data, np.zeros(NV)
     linear, angular = np.zeros((3, NV)), np.zeros((3, NV))
@@ -69,35 +74,42 @@ def sole_torque(simulator: Simulator) -> np.ndarray:
 
 
 @pytest.fixture
-def pushed_walk(simulate: Callable) -> Callable[[str, Any], Simulator]:
+def pushed_walk(simulate):
     """A function (terrain, pushes) -> a random walk with random torque on a terrain, pushed again and again."""
     law = {"pause_s": [0.01, 0.1], "force_n": [20.0, 60.0], "duration_s": [0.05, 0.2], "shape": "half_sine"}
     points = {"left": "left_sole", "right": "right_sole", "torso": "torso", "hand": "right_hand"}
     laws = {name: {**law, "point": point, "direction": "any"} for name, point in points.items()}
 
-    def make(terrain: str, pushes: Any = tuple(points), level: str = "all_uncertainty") -> Simulator:
+    def make(terrain, pushes=tuple(points), level="all_uncertainty"):
         row = {"terrain": [terrain], "commands": "random", "random_torque": True, "pushes": list(pushes)}
         return simulate("pushed_walk", level, pushes=laws, scenarios={"pushed_walk": row})
 
     return make
 
 
+@pytest.mark.parametrize("level", ["ideal", "all_uncertainty"])
 @pytest.mark.parametrize("terrain", ["checks", "plates", "slope", "flat"])
-def test_contacts_and_pushes_are_the_external_torque(pushed_walk: Callable, run: Callable, terrain: str) -> None:
-    """The reference is MuJoCo's contact forces and the wrenches on bodies, through mj_jac (equation (2))."""
-    simulator, pushed = pushed_walk(terrain), 0
+def test_contacts_and_pushes_are_the_external_torque_and_touch_is_ground_alone(pushed_walk, run, terrain, level):
+    """The reference is MuJoCo's contact forces and the wrenches on bodies, through mj_jac (equation (2)).
+
+    A pushed foot in the air touches nothing.
+    """
+    simulator, pushed, seen = pushed_walk(terrain, level=level), 0, set()
     for _ in range(60):
         run(simulator, 0.023)
         contact, push = contact_torque(simulator), pushed_torque(simulator)
-        contacts, pushes, _ = external(simulator)
+        contacts, pushes, touch = external(simulator)
         assert_near(contacts, contact, 1e-9)
         assert_near(pushes, push, 1e-9)
+        assert_near(touch, normal_forces(simulator), 1e-9)
         pushed += np.abs(push).max() > 5
+        seen.add(tuple(touch > engine.CONTACT_FORCE_N))
     assert pushed > 40
+    assert seen == {(True, False), (False, True), (True, True)}
 
 
 @pytest.mark.parametrize("terrain", ["checks", "plates", "slope", "flat"])
-def test_foot_sensors_feel_contacts_and_pushes_on_the_foot(pushed_walk: Callable, run: Callable, terrain: str) -> None:
+def test_foot_sensors_feel_contacts_and_pushes_on_the_foot(pushed_walk, run, terrain):
     """Mapped through their Jacobian the foot wrenches are J^T F of contacts and of pushes on the massless soles."""
     for pushes, felt in ((("left", "right"), True), (("torso", "hand"), False)):
         simulator = pushed_walk(terrain, pushes, "no_noise")
@@ -107,38 +119,9 @@ def test_foot_sensors_feel_contacts_and_pushes_on_the_foot(pushed_walk: Callable
             assert_near(sole_torque(simulator), expected, 1e-8)
 
 
-@pytest.mark.parametrize("terrain", ["checks", "slope"])
-def test_touch_is_the_normal_force_of_a_foot_s_own_contacts(pushed_walk: Callable, run: Callable, terrain: str) -> None:
-    """The reference is mj_contactForce; a pushed foot in the air touches nothing."""
-    simulator, seen = pushed_walk(terrain), set()
-    model, data, wrench = simulator.world.model, simulator.world.data, np.zeros(6)
-    soles = [model.geom(sole_name(side)).id for side in SIDES]
-    for _ in range(60):
-        run(simulator, 0.023)
-        expected = np.zeros(2)
-        for index, contact in enumerate(data.contact):
-            mujoco.mj_contactForce(model, data, index, wrench)
-            expected[[sole in (contact.geom1, contact.geom2) for sole in soles].index(True)] += wrench[0]
-        touch = external(simulator)[2]
-        assert_near(touch, expected, 1e-9)
-        seen.add(tuple(touch > engine.CONTACT_FORCE_N))
-    assert seen == {(True, False), (False, True), (True, True)}
-
-
-def test_contact_rows_equal_mujoco_s_contact_forces_without_friction_loss(simulate: Callable, run: Callable) -> None:
-    """The reference is mj_contactForce, mapped by mj_jac at each contact."""
-    simulator, touched = simulate("forward_walk", "ideal"), 0
-    for _ in range(30):
-        run(simulator, 0.03)
-        expected = contact_torque(simulator)
-        assert_near(external(simulator)[0], expected, 1e-9)
-        touched += np.abs(expected).max() > 100
-    assert touched > 20
-
-
 @pytest.mark.sim
 @pytest.mark.parametrize("scenario", ["flat_place", "checks_place"])
-def test_standing_robot_stays_upright_and_weighs_its_weight(simulate: Callable, run: Callable, scenario: str) -> None:
+def test_standing_robot_stays_upright_and_weighs_its_weight(simulate, run, scenario):
     simulator = simulate(scenario, "ideal", standing=True)
     log = run(simulator, 5.0)
     assert log.done == 5000
@@ -154,7 +137,7 @@ def test_standing_robot_stays_upright_and_weighs_its_weight(simulate: Callable, 
 
 @pytest.mark.sim
 @pytest.mark.parametrize("yaw", [np.pi / 2, np.pi])
-def test_turned_start_gives_the_turned_motion(simulate: Callable, run: Callable, turned: Callable, yaw: float) -> None:
+def test_turned_start_gives_the_turned_motion(simulate, run, turned, yaw):
     """By right angles, under which the friction pyramid is invariant."""
     here, there = simulate("flat_walk", "ideal"), simulate("flat_walk", "ideal")
     start = turned(here.plant.qpos, here.plant.qvel, here.state, yaw, np.zeros(2))
@@ -168,7 +151,7 @@ def test_turned_start_gives_the_turned_motion(simulate: Callable, run: Callable,
 
 
 @pytest.mark.sim
-def test_mirrored_start_gives_the_mirrored_motion(simulate: Callable, run: Callable, mirrored: Callable) -> None:
+def test_mirrored_start_gives_the_mirrored_motion(simulate, run, mirrored):
     """Within what the table's own small asymmetry does in a second."""
     here, there = simulate("flat_walk", "ideal"), simulate("flat_walk", "ideal")
     put(there, *mirrored(here.plant.qpos, here.plant.qvel, here.state))
@@ -180,14 +163,13 @@ def test_mirrored_start_gives_the_mirrored_motion(simulate: Callable, run: Calla
     assert (there.state.side, there.state.steps) == (s.side, s.steps)
 
 
-def put(simulator: Simulator, q: np.ndarray, v: np.ndarray, s: np.record) -> None:
-    """Set plant, sensors and controller."""
+def put(simulator, q, v, s):
     simulator.plant.qpos[:] = simulator.sensors.q[:] = q
     simulator.plant.qvel[:] = simulator.sensors.v[:] = v
     simulator.state = s
 
 
-def test_wrap_over_a_period_keeps_torques(simulate: Callable, run: Callable) -> None:
+def test_wrap_over_a_period_keeps_torques(simulate, run):
     """The controller is invariant to a shift by a period."""
     simulator = simulate("flat_walk", "all_uncertainty")
     run(simulator, 1.0)
@@ -205,7 +187,7 @@ def test_wrap_over_a_period_keeps_torques(simulate: Callable, run: Callable) -> 
 
 
 @pytest.mark.sim
-def test_robot_never_leaves_the_terrain(simulate: Callable, run: Callable) -> None:
+def test_robot_never_leaves_the_terrain(simulate, run):
     simulator = simulate("forward_walk", "all_uncertainty")
     log = run(simulator, 14.0)
     step = np.abs(np.diff(log["q"][:, :2], axis=0))
@@ -214,23 +196,7 @@ def test_robot_never_leaves_the_terrain(simulate: Callable, run: Callable) -> No
     assert (step > 0.01).any()  # it walked further than a period
 
 
-@pytest.mark.parametrize("side", [1.0, -1.0])
-@pytest.mark.parametrize("swinging", [0, 1])
-def test_random_torque_never_acts_on_a_support_leg(simulate: Callable, side: float, swinging: int) -> None:
-    simulator = simulate("flat_walk", "ideal")
-    walker, s, tau, added = simulator.walker, empty_state(), np.zeros(33), np.ones(33)
-    torque = simulator.torque._replace(value=np.ones(33), left=np.full(33, 1.0))
-    s.side, s.swinging = side, swinging
-    engine._explore(walker, s, torque, np.random.default_rng(0), 0.0005, tau, added)
-    np.testing.assert_array_equal(added, 1.0 + tau)
-    pushed = {"LL": tau[:6], "RL": tau[6:12]}
-    swing = {1.0: "RL", -1.0: "LL"}[side]
-    for leg, values in pushed.items():
-        assert (values == float(swinging == 1 and leg == swing)).all()
-    assert (tau[12:] == 1).all()
-
-
-def tick(simulator: Simulator, run: Callable, torque: np.ndarray) -> Any:
+def tick(simulator, run, torque):
     """Return what a tick from here would log under an exploration (nu,) [N m], and go back to where it began."""
     model, data, sensors = simulator.world.model, simulator.world.data, simulator.sensors
     kept = copy.copy(data), simulator.state.copy(), simulator.rng["noise"].bit_generator.state
@@ -246,7 +212,7 @@ def tick(simulator: Simulator, run: Callable, torque: np.ndarray) -> Any:
 
 
 @pytest.mark.sim
-def test_random_torque_is_part_of_the_desired_torque_but_not_on_support(simulate: Callable, run: Callable) -> None:
+def test_random_torque_is_part_of_the_desired_torque_but_not_on_support(simulate, run):
     """The reference is the same tick without it; section 4.3: never on the support leg, here 0 samples."""
     simulator, added, phases = simulate("random_walk_plain", "all_uncertainty"), np.linspace(4.0, 8.0, 33), set()
     simulator.torque.left[:] = np.inf  # nothing new is drawn
@@ -270,7 +236,7 @@ def test_random_torque_is_part_of_the_desired_torque_but_not_on_support(simulate
 
 
 @pytest.mark.sim
-def test_no_drive_is_asked_for_more_than_it_gives(simulate: Callable, run: Callable) -> None:
+def test_no_drive_is_asked_for_more_than_it_gives(simulate, run):
     """Random torque that is far beyond the limits is clipped before it is sent and logged."""
     simulator = simulate("random_walk", "all_uncertainty")
     simulator.torque.amplitude[:] = 1000.0
@@ -281,7 +247,7 @@ def test_no_drive_is_asked_for_more_than_it_gives(simulate: Callable, run: Calla
     np.testing.assert_array_equal(log["tau_des"], log["tau_motor"])
 
 
-def test_joint_limits_are_no_external_torque(simulate: Callable, run: Callable) -> None:
+def test_joint_limits_are_no_external_torque(simulate, run):
     """A robot in the air whose elbow is driven against the end of its range has no external torque."""
     simulator = simulate("flat_place", "ideal", standing=True)
     simulator.plant.qpos[2] += 3.0
@@ -297,7 +263,7 @@ def test_joint_limits_are_no_external_torque(simulate: Callable, run: Callable) 
 
 @pytest.mark.sim
 @pytest.mark.parametrize("scenario", ["forward_walk", "random_walk"])
-def test_walking_touches_no_joint_limit(simulate: Callable, run: Callable, scenario: str) -> None:
+def test_walking_touches_no_joint_limit(simulate, run, scenario):
     simulator = simulate(scenario, "all_uncertainty")
     log = run(simulator, 8.0)
     low, high = np.array([joint.range for joint in simulator.robot.joints]).T
@@ -306,9 +272,7 @@ def test_walking_touches_no_joint_limit(simulate: Callable, run: Callable, scena
     assert (joints < high - 0.05).all()
 
 
-def test_run_stops_at_a_fall(
-    simulate: Callable, run: Callable, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_run_stops_at_a_fall(simulate, run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # MuJoCo notes there that a number is not finite
     low = simulate("flat_walk", "ideal")
     low.plant.qpos[2] = 0.3

@@ -6,19 +6,17 @@ import pytest
 from numba import njit
 
 from mobnet.core.errors import SimulationError
-from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Flat
-from mobnet.settings.settings import Settings
 from mobnet.simulation import native
 from mobnet.simulation.native import READ, addresses_at, bind, c_struct, call_step, doubles_at, ints_at, offsets
 from mobnet.simulation.terrain import draw_terrain
-from mobnet.simulation.world import World, make_world
+from mobnet.simulation.world import make_world
 
 POINTERS = ("qpos", "qvel", "ctrl", "qfrc_applied", "xpos", "sensordata", *set(READ) - {"nefc"})
 
 
 @pytest.fixture
-def world(settings: Settings, robot: RobotDescription) -> World:
+def world(settings, robot):
     """Feet on the ground, so that there are contact rows."""
     flat = draw_terrain(Flat(), np.random.default_rng(0))
     world = make_world(robot, flat, settings.plant, settings.levels["ideal"], settings.rates.plant_hz)
@@ -27,8 +25,7 @@ def world(settings: Settings, robot: RobotDescription) -> World:
     return world
 
 
-def test_struct_offsets_read_what_python_s_views_hold(world: World) -> None:
-    """Python's own views are the reference."""
+def test_struct_offsets_read_what_python_s_views_hold(world):
     raw, data = c_struct("mjData").from_address(world.data._address), world.data
     assert data.nefc > 0
     for field in ("nefc", "ncon", "ne", "nf"):
@@ -38,11 +35,9 @@ def test_struct_offsets_read_what_python_s_views_hold(world: World) -> None:
         assert getattr(raw, field) == getattr(data, field).ctypes.data
 
 
-def test_compiled_code_reads_the_constraint_rows(world: World) -> None:
-    """Python's own views are the reference."""
-
+def test_compiled_code_reads_the_constraint_rows(world):
     @njit
-    def read(data: int, nefc: int, kind: int, force: int, row: int) -> tuple[int, int, float]:
+    def read(data, nefc, kind, force, row):
         kinds, forces = ints_at(addresses_at(data + kind)[0]), doubles_at(addresses_at(data + force)[0])
         return ints_at(data + nefc)[0], kinds[row], forces[row]
 
@@ -52,11 +47,9 @@ def test_compiled_code_reads_the_constraint_rows(world: World) -> None:
         assert found == (data.nefc, data.efc_type[row], data.efc_force[row])
 
 
-def test_call_by_address_is_mujoco_s_step_to_the_bit(world: World) -> None:
-    """The reference is Python's own mj_step."""
-
+def test_call_by_address_is_mujoco_s_step_to_the_bit(world):
     @njit
-    def step(function: int, model: int, data: int) -> None:
+    def step(function, model, data):
         call_step(function, model, data)
 
     at = bind(world.model, world.data)
@@ -72,7 +65,7 @@ def test_call_by_address_is_mujoco_s_step_to_the_bit(world: World) -> None:
 
 @pytest.mark.parametrize("shift", [-8, 4, 8])
 @pytest.mark.parametrize("field", READ)
-def test_a_field_that_lies_elsewhere_is_refused(monkeypatch: pytest.MonkeyPatch, field: str, shift: int) -> None:
+def test_a_field_that_lies_elsewhere_is_refused(monkeypatch, field, shift):
     offset = native.offset
     monkeypatch.setattr(native, "offset", lambda name: offset(name) + shift * (name == field))
     with pytest.raises(SimulationError, match=rf"^mjData\.{field}: \d+ by its address, Python says \d+$"):
@@ -80,7 +73,7 @@ def test_a_field_that_lies_elsewhere_is_refused(monkeypatch: pytest.MonkeyPatch,
 
 
 @pytest.mark.parametrize("field", [name for name in READ if name != "nefc"])
-def test_a_field_of_another_type_is_refused(monkeypatch: pytest.MonkeyPatch, field: str) -> None:
+def test_a_field_of_another_type_is_refused(monkeypatch, field):
     monkeypatch.setitem(READ, field, np.int64)
     with pytest.raises(SimulationError, match=rf"^mjData\.{field}: type \w+ is not accepted; accepted: int64$"):
         offsets.__wrapped__()

@@ -1,26 +1,22 @@
 """Pushes: when they come, how hard, and that the external torque is theirs."""
 
-from collections.abc import Callable
 from itertools import pairwise
-from typing import Any, get_args
+from typing import get_args
 
 import numpy as np
 import pytest
 
 from mobnet.settings.data import Direction, Phase, Push
 from mobnet.simulation.pushes import DIRECTIONS, LAW, PHASES, SHAPES, STATE, Pushes, advance_impactor, hit, meet
-from mobnet.simulation.simulator import Simulator
 
 LL3 = 6 + 2
 
 
-def pushed(simulate: Callable, **rows: dict[str, Any]) -> Simulator:
-    """Return a started walk of the ideal plant in place with these pushes."""
+def pushed(simulate, **rows):
     return simulate("flat_place", "ideal", pushes=rows, scenarios={"flat_place": {"pushes": list(rows)}})
 
 
-def watch(simulator: Simulator, run: Callable, seconds: float) -> list[dict[str, Any]]:
-    """Return clock, walking state and pushes after every millisecond."""
+def watch(simulator, run, seconds):
     seen = []
     for _ in range(round(seconds * 1000)):
         log = run(simulator, 0.001)
@@ -35,7 +31,7 @@ def watch(simulator: Simulator, run: Callable, seconds: float) -> list[dict[str,
     return seen
 
 
-def test_force_at_a_point_is_a_wrench_about_the_centre_of_mass_of_its_body(simulate: Callable, run: Callable) -> None:
+def test_force_at_a_point_is_a_wrench_about_the_centre_of_mass_of_its_body(simulate, run):
     """What such a wrench does to the external torque is tested with the plant's loop."""
     row = {"point": "left_hand", "at_s": [0.0], "force_n": [30.0, 30.0], "duration_s": [9.0, 9.0], "direction": "down"}
     simulator = pushed(simulate, load={**row, "shape": "step"})
@@ -47,7 +43,7 @@ def test_force_at_a_point_is_a_wrench_about_the_centre_of_mass_of_its_body(simul
     np.testing.assert_allclose(moment, np.cross(arm, force), atol=0.02)  # the point is of the step before
 
 
-def test_torque_on_a_joint_is_external_torque_of_that_joint_alone(simulate: Callable, run: Callable) -> None:
+def test_torque_on_a_joint_is_external_torque_of_that_joint_alone(simulate, run):
     row = {"joint": "LL3", "during": "left_swing", "share": [0.4, 0.4], "at_s": [0.0], "torque_nm": [30.0, 30.0]}
     seen = watch(pushed(simulate, step={**row, "duration_s": [0.1, 0.1], "shape": "step"}), run, 4.0)
     torque = np.array([moment["tau_ext"] for moment in seen])
@@ -63,7 +59,7 @@ def test_torque_on_a_joint_is_external_torque_of_that_joint_alone(simulate: Call
     assert first["share"] == pytest.approx(0.4, abs=0.05)
 
 
-def test_half_sine_has_its_peak_and_length_and_the_foot_feels_it(simulate: Callable, run: Callable) -> None:
+def test_half_sine_has_its_peak_and_length_and_the_foot_feels_it(simulate, run):
     row = {"point": "left_sole", "during": "left_swing", "share": [0.4, 0.4], "at_s": [0.0], "force_n": [50.0, 50.0]}
     row |= {"duration_s": [0.1, 0.1], "direction": "horizontal", "shape": "half_sine"}
     seen = watch(pushed(simulate, foot=row), run, 4.0)
@@ -76,7 +72,7 @@ def test_half_sine_has_its_peak_and_length_and_the_foot_feels_it(simulate: Calla
 
 
 @pytest.mark.parametrize(("phase", "side"), [("left_support", 1.0), ("right_support", -1.0), ("right_swing", 1.0)])
-def test_phase_and_time_of_a_push_are_kept(simulate: Callable, run: Callable, phase: str, side: float) -> None:
+def test_phase_and_time_of_a_push_are_kept(simulate, run, phase, side):
     row = {"point": "torso", "during": phase, "share": [0.5, 0.5], "at_s": [0.5, 2.0], "force_n": [5.0, 5.0]}
     row |= {"duration_s": [0.05, 0.05], "direction": "any", "shape": "step"}
     seen = watch(pushed(simulate, torso=row), run, 6.0)
@@ -87,7 +83,7 @@ def test_phase_and_time_of_a_push_are_kept(simulate: Callable, run: Callable, ph
         assert (moment["side"], moment["swinging"]) == (side, 1)
 
 
-def test_random_pushes_pause_as_asked_and_point_anywhere(simulate: Callable, run: Callable) -> None:
+def test_random_pushes_pause_as_asked_and_point_anywhere(simulate, run):
     row = {"point": "torso", "pause_s": [0.05, 0.2], "force_n": [1.0, 2.0], "duration_s": [0.01, 0.02]}
     seen = watch(pushed(simulate, torso={**row, "direction": "any", "shape": "step"}), run, 12.0)
     starts = [b for a, b in pairwise(seen) if b["state"]["count"][0] > a["state"]["count"][0]]
@@ -103,7 +99,7 @@ def test_random_pushes_pause_as_asked_and_point_anywhere(simulate: Callable, run
     assert 1.0 <= sizes.min() < 1.1 < 1.9 < sizes.max() <= 2.0
 
 
-def test_sines_are_the_sum_of_their_lines_on_their_joint_alone(simulate: Callable, run: Callable) -> None:
+def test_sines_are_the_sum_of_their_lines_on_their_joint_alone(simulate, run):
     """Equation: size times the sum of share sin(2 pi f t + phase), t from the push's start."""
     lines = {"frequency_hz": [2.0, 11.0], "phase_deg": [0.0, 90.0], "share": [1.0, 0.5]}
     row = {"joint": "LL4", "at_s": [0.0], "torque_nm": [3.0, 3.0], "duration_s": [1.0, 1.0], "shape": "sines"}
@@ -121,7 +117,7 @@ def test_sines_are_the_sum_of_their_lines_on_their_joint_alone(simulate: Callabl
     assert not np.delete(torque, on, axis=0).any()
 
 
-def test_torque_of_pushes_is_the_external_torque_where_nothing_touches(simulate: Callable, run: Callable) -> None:
+def test_torque_of_pushes_is_the_external_torque_where_nothing_touches(simulate, run):
     row = {"point": "left_knee_front", "during": "left_swing", "share": [0.4, 0.4], "at_s": [0.0]}
     row |= {"force_n": [20.0, 20.0], "duration_s": [0.05, 0.05], "direction": "backward", "shape": "step"}
     seen = watch(pushed(simulate, knee=row), run, 4.0)
@@ -133,7 +129,7 @@ def test_torque_of_pushes_is_the_external_torque_where_nothing_touches(simulate:
     assert not any(moment["tau_push"].any() for moment in seen if not moment["pushed"])
 
 
-def test_push_of_the_knee_goes_against_its_front(simulate: Callable, run: Callable) -> None:
+def test_push_of_the_knee_goes_against_its_front(simulate, run):
     row = {"point": "left_knee_front", "at_s": [0.0], "force_n": [9.0, 9.0], "duration_s": [1.0, 1.0]}
     simulator = pushed(simulate, knee={**row, "direction": "backward", "shape": "step"})
     forward = None
@@ -144,14 +140,14 @@ def test_push_of_the_knee_goes_against_its_front(simulate: Callable, run: Callab
     np.testing.assert_allclose(simulator.pushes.state["direction"][0], -forward, atol=0.01)
 
 
-def test_words_of_the_configuration_are_all_known() -> None:
+def test_words_of_the_configuration_are_all_known():
     assert set(get_args(Phase)) == set(PHASES)
     assert set(get_args(Direction)) == set(DIRECTIONS)
     assert set(get_args(Push.model_fields["shape"].annotation)) == set(SHAPES)
 
 
 @pytest.mark.parametrize(("force", "seconds"), [(200.0, 0.1), (150.0, 0.4)])
-def test_an_impactor_pushes_a_wall_as_hard_and_as_long_as_it_says(force: float, seconds: float) -> None:
+def test_an_impactor_pushes_a_wall_as_hard_and_as_long_as_it_says(force, seconds):
     """The closed form of a mass that meets a wall on a spring: half a sine of F and T."""
     p, place, dt, felt = np.zeros(1, STATE)[0], np.array([1.0, 0.0, 0.0]), 0.0005, []
     p["size"], p["start"], p["end"], p["direction"], p["place"] = force, 0.0, seconds, [-1.0, 0.0, 0.0], place
@@ -163,7 +159,7 @@ def test_an_impactor_pushes_a_wall_as_hard_and_as_long_as_it_says(force: float, 
     assert sum(felt) * dt == pytest.approx(2.0 / np.pi * force * seconds, rel=0.02)
 
 
-def test_an_impactor_pushes_less_a_point_that_gives_way() -> None:
+def test_an_impactor_pushes_less_a_point_that_gives_way():
     """A free mass as large as the impactor's takes it over: half the mass acts on the spring."""
     p, dt, mass, felt, x, rate = np.zeros(1, STATE)[0], 0.0005, 20.0, [0.0], 0.0, 0.0
     p["size"], p["end"], p["direction"] = 200.0, 0.1, [1.0, 0.0, 0.0]
@@ -176,7 +172,7 @@ def test_an_impactor_pushes_less_a_point_that_gives_way() -> None:
     assert len(felt) * dt == pytest.approx(0.1 / np.sqrt(2.0), rel=0.03)
 
 
-def test_an_impactor_stays_until_it_has_parted() -> None:
+def test_an_impactor_stays_until_it_has_parted():
     """At its start it just touches the point, up to rounding; it must not be gone then."""
     rng = np.random.default_rng(7)
     for _ in range(200):
@@ -192,7 +188,7 @@ def test_an_impactor_stays_until_it_has_parted() -> None:
         assert min(forces[1:]) > 0.0
 
 
-def test_an_impactor_hits_the_swinging_knee_and_leaves_it(simulate: Callable, run: Callable) -> None:
+def test_an_impactor_hits_the_swinging_knee_and_leaves_it(simulate, run):
     """The force is part of the external torque, begins and ends at zero, and comes once for each of its times."""
     row = {"point": "left_knee_front", "during": "left_swing", "share": [0.4, 0.4], "at_s": [0.0, 2.5]}
     row |= {"force_n": [100.0, 100.0], "duration_s": [0.1, 0.1], "direction": "backward", "shape": "impactor"}

@@ -3,10 +3,6 @@
 import numpy as np
 import pytest
 
-from mobnet.core.arrays import Array
-from mobnet.robot.description import RobotDescription
-from mobnet.settings.data import Motion
-from mobnet.settings.settings import Settings
 from mobnet.simulation.motion import working_range
 from mobnet.simulation.reaching import Reacher, leg_space
 
@@ -19,26 +15,21 @@ KNEES = np.array([[0.25, 0.1, -0.5], [0.25, -0.1, -0.5]])  # where thighs are wh
 
 
 @pytest.fixture
-def motion(settings: Settings) -> Motion:
-    return settings.motions["random_motion"]
-
-
-@pytest.fixture
-def posture(robot: RobotDescription) -> Array:
+def posture(robot):
     return robot.posture.angle
 
 
 @pytest.fixture
-def reacher(robot: RobotDescription, motion: Motion, posture: Array) -> Reacher:
+def reacher(robot, motion, posture):
     return Reacher(robot, motion, working_range(motion), posture)
 
 
-def knots_to(reacher: Reacher, hands: Array, posture: Array) -> Array:
+def knots_to(reacher, hands, posture):
     """Return the knots (T, n) on the way to hands that stand still."""
     return np.array([reacher.step(hands, posture) for _ in range(KNOTS)])
 
 
-def test_hands_come_to_targets_that_are_free(reacher: Reacher, posture: Array) -> None:
+def test_hands_come_to_targets_that_are_free(reacher, posture):
     before = np.linalg.norm(reacher.hand_positions() - ASIDE, axis=1)
     knots_to(reacher, ASIDE, posture)
     assert before.min() > 0.25
@@ -46,12 +37,12 @@ def test_hands_come_to_targets_that_are_free(reacher: Reacher, posture: Array) -
 
 
 @pytest.mark.parametrize("hands", [INSIDE, THROUGH, KNEES], ids=["chest", "each other", "knees"])
-def test_hands_stop_before_the_robot(reacher: Reacher, posture: Array, motion: Motion, hands: Array) -> None:
+def test_hands_stop_before_the_robot(reacher, posture, motion, hands):
     nearest, _ = reacher.look(knots_to(reacher, hands, posture))
     assert motion.clearance_m - 0.015 < nearest.min() < motion.clearance_m + 0.01
 
 
-def test_joints_keep_their_limits(reacher: Reacher, posture: Array, motion: Motion, robot: RobotDescription) -> None:
+def test_joints_keep_their_limits(reacher, posture, motion, robot):
     limits = working_range(motion)
     knots = np.concatenate([knots_to(reacher, hands, posture) for hands in (-2 * ASIDE, 3 * ASIDE, INSIDE)])
     assert (knots >= limits[:, 0] - TOLERANCE).all()
@@ -62,7 +53,7 @@ def test_joints_keep_their_limits(reacher: Reacher, posture: Array, motion: Moti
     assert (speed / limit).max() == pytest.approx(1.0, abs=0.01)
 
 
-def test_a_mirrored_target_gives_a_mirrored_motion(robot: RobotDescription, motion: Motion, posture: Array) -> None:
+def test_a_mirrored_target_gives_a_mirrored_motion(robot, motion, posture):
     """Left hand aside and right hand down, and the other way round."""
     hands = np.array([[0.35, 0.45, 0.1], [0.1, -0.4, -0.2]])
     ends = []
@@ -73,7 +64,7 @@ def test_a_mirrored_target_gives_a_mirrored_motion(robot: RobotDescription, moti
     np.testing.assert_allclose(ends[0][waist], ends[1][waist] * [-1, 1, -1], atol=1e-4)
 
 
-def test_the_space_of_the_legs_holds_lifted_knees(robot: RobotDescription) -> None:
+def test_the_space_of_the_legs_holds_lifted_knees(robot):
     """A thigh raised to the horizontal has its knee one link before the hip, on both sides."""
     capsules = leg_space(robot, [[0.0, 0.0, -np.pi / 2, 0.0]])
     for side in (1.0, -1.0):

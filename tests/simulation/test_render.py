@@ -80,10 +80,6 @@ def test_the_robot_fills_the_frame_and_is_not_cut_off(model, upright, pixels):
     assert rows[-1] - rows[0] > 0.8 * len(pixels)
 
 
-def test_the_same_state_gives_the_same_picture(model, upright, pixels):
-    np.testing.assert_array_equal(draw(model, upright), pixels)
-
-
 def test_camera_and_shadow_follow_a_robot_that_walked_some_periods(model, terrain, upright, pixels):
     """The picture then is the same but for rounding: the robot's shadow, and the ground near it, moved along."""
     moved = upright.copy()
@@ -117,7 +113,6 @@ def test_a_picture_has_the_size_asked_for(robot, terrain, upright, pixels):
 
 
 def test_the_terrain_that_was_drawn_is_seen(settings, robot, upright, pixels):
-    """Two draws of plates give two pictures, the same draw the same one."""
     a, b, c = (draw_terrain(settings.terrain.plates, np.random.default_rng(seed)) for seed in (1, 1, 2))
     a, b, c = (draw(render.picture_model(robot, terrain, (200, 150)), upright) for terrain in (a, b, c))
     np.testing.assert_array_equal(a, b)

@@ -3,11 +3,8 @@
 import numpy as np
 import pytest
 
-from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
 from mobnet.core.joints import NQ_BASE
-from mobnet.robot.description import RobotDescription
-from mobnet.settings.settings import Settings
 from mobnet.simulation.self_collision import REACH_M, Clearance, held_together
 
 HANDS = ("left_hand", "right_hand")
@@ -25,12 +22,12 @@ HITS = {  # joint angles [rad] besides the standing posture -> the solids that o
 
 
 @pytest.fixture(scope="module")
-def clearance(robot: RobotDescription) -> Clearance:
+def clearance(robot):
     return Clearance(robot)
 
 
 @pytest.fixture(scope="module")
-def standing(robot: RobotDescription) -> Array:
+def standing(robot):
     """Standing with bent knees in the walking posture (nq,)."""
     q = np.zeros(robot.layout.nq)
     q[3] = 1.0
@@ -38,7 +35,7 @@ def standing(robot: RobotDescription) -> Array:
     return with_angles(robot, q, STANDING)
 
 
-def with_angles(robot: RobotDescription, q: Array, angles: dict[str, float]) -> Array:
+def with_angles(robot, q, angles):
     """Return q (nq,) with some joints at other angles [rad]."""
     q = q.copy()
     for name, angle in angles.items():
@@ -47,15 +44,13 @@ def with_angles(robot: RobotDescription, q: Array, angles: dict[str, float]) -> 
 
 
 @pytest.mark.parametrize("pair", HITS)
-def test_a_hit_is_seen(clearance: Clearance, robot: RobotDescription, standing: Array, pair: tuple[str, str]) -> None:
+def test_a_hit_is_seen(clearance, robot, standing, pair):
     q = with_angles(robot, standing, HITS[pair])
     assert clearance.nearest(q[None])[0] < -0.02
     assert set(clearance.pair(q) or ()) == set(pair)
 
 
-def test_nothing_is_near_in_the_posture_however_a_leg_walks(
-    clearance: Clearance, robot: RobotDescription, standing: Array, settings: Settings
-) -> None:
+def test_nothing_is_near_in_the_posture_however_a_leg_walks(clearance, robot, standing, settings):
     assert clearance.pair(standing) is None
     assert clearance.nearest(np.stack([standing, standing])).tolist() == [REACH_M, REACH_M]
     for yaw, roll, pitch, knee in settings.motions["random_motion"].leg_poses_rad:
@@ -63,15 +58,14 @@ def test_nothing_is_near_in_the_posture_however_a_leg_walks(
         assert clearance.nearest(with_angles(robot, standing, lifted)[None])[0] > 0.02
 
 
-def test_where_the_robot_is_does_not_matter(clearance: Clearance, robot: RobotDescription, standing: Array) -> None:
-    """The distance is invariant to the base's pose."""
+def test_where_the_robot_is_does_not_matter(clearance, robot, standing):
     hit = with_angles(robot, standing, {"LL2": -0.15})
     moved = hit.copy()
     moved[:7] = 3.0, -2.0, 1.0, 0.5, -0.5, 0.5, 0.5
     np.testing.assert_allclose(clearance.nearest(moved[None]), clearance.nearest(hit[None]), atol=1e-6)
 
 
-def test_distance_of_capsules_is_that_of_their_axes_less_their_radii(robot: RobotDescription, standing: Array) -> None:
+def test_distance_of_capsules_is_that_of_their_axes_less_their_radii(robot, standing):
     """Both thighs are parallel, hips 0.205 m apart, and nothing else is as near."""
     clearance = Clearance(robot, 0.1)
     radius = next(shape.size[0] for shape in robot.shapes if shape.name == "left_thigh")
@@ -79,7 +73,7 @@ def test_distance_of_capsules_is_that_of_their_axes_less_their_radii(robot: Robo
     assert clearance.pair(standing) == ("left_thigh", "right_thigh")
 
 
-def test_distance_never_jumps_while_hands_meet(clearance: Clearance, robot: RobotDescription, standing: Array) -> None:
+def test_distance_never_jumps_while_hands_meet(clearance, robot, standing):
     """MuJoCo's own test of two boxes misses some that are near: the distance then falls from out of reach at once."""
     rng = np.random.default_rng(0)
     meeting, share = with_angles(robot, standing, HITS[HANDS]), np.linspace(0, 1, 300)[:, None]
@@ -93,7 +87,7 @@ def test_distance_never_jumps_while_hands_meet(clearance: Clearance, robot: Robo
         assert np.abs(np.diff(np.maximum(distance, 0))).max() < 0.004
 
 
-def test_neighbours_are_left_out_and_legs_are_not(robot: RobotDescription) -> None:
+def test_neighbours_are_left_out_and_legs_are_not(robot):
     bodies = {body.name: body for body in robot.bodies}
     for one, other, held in [
         ("L_Elbow_Link", "L_Forearm_Link", True),
@@ -108,6 +102,6 @@ def test_neighbours_are_left_out_and_legs_are_not(robot: RobotDescription) -> No
         assert held_together(robot, bodies[other], bodies[one]) == held
 
 
-def test_another_shape_is_refused(clearance: Clearance) -> None:
+def test_another_shape_is_refused(clearance):
     with pytest.raises(DataError, match=r"shape \(3, 39\) is not accepted; accepted: \(T, 40\)"):
         clearance.nearest(np.zeros((3, 39)))

@@ -1,7 +1,5 @@
 """Sensors: the noise of Table 3 as measured, and a base state that stays near the truth."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -10,12 +8,11 @@ from mobnet.control.kinematics import update
 from mobnet.control.walker import move_wrenches
 from mobnet.settings.plant import OwnNoise
 from mobnet.simulation.sensing import read_sensors, reset_sensors
-from mobnet.simulation.simulator import Simulator
 
 READINGS, TICK_S = 3000, 0.0005
 
 
-def readings(simulator: Simulator) -> np.ndarray:
+def readings(simulator):
     """Return readings (n, C) of one state: orientation, joints, omega, rates, acceleration, wrenches."""
     plant, sensors, rng = simulator.plant, simulator.sensors, np.random.default_rng(0)
     rows = []
@@ -32,7 +29,7 @@ EXACT = dict.fromkeys(OwnNoise.model_fields, 0.0)
 @pytest.mark.parametrize(("level", "order", "power"), [
     ("sensor_noise", [0, 1, 2, 3], 1.0), ("swapped_noise", [0, 1, 3, 2], 1.0), ("printed_noise", [0, 1, 2, 3], 0.5),
 ])  # fmt: skip
-def test_measured_noise_is_that_of_table_3(simulate: Callable, level: str, order: list[int], power: float) -> None:
+def test_measured_noise_is_that_of_table_3(simulate, level, order, power):
     """Its numbers are standard deviations, so with two exchanged, or, to the letter, variances."""
     simulator = simulate("flat_place", level, standing=True, plant={"own_noise": EXACT})
     _, joints, omega, rates, acc, _ = np.split(readings(simulator), np.cumsum([4, 33, 3, 33, 3]), axis=1)
@@ -43,7 +40,7 @@ def test_measured_noise_is_that_of_table_3(simulate: Callable, level: str, order
     assert np.abs(correlation).max() < 0.1
 
 
-def test_encoders_orientation_and_feet_have_noise_of_our_own(simulate: Callable) -> None:
+def test_encoders_orientation_and_feet_have_noise_of_our_own(simulate):
     """The orientation's error has a constant part, drawn for each episode, and a white one."""
     simulator = simulate("flat_place", "sensor_noise", standing=True)
     own, sensors, rng = simulator.settings.plant.own_noise, simulator.sensors, np.random.default_rng(0)
@@ -65,13 +62,13 @@ def test_encoders_orientation_and_feet_have_noise_of_our_own(simulate: Callable)
     np.testing.assert_allclose(np.std(offsets, axis=0), own.orientation_offset_rad, rtol=0.1)
 
 
-def error_of(sensed: np.ndarray, true: np.ndarray) -> np.ndarray:
+def error_of(sensed, true):
     """Return the rotation vectors (n, 3) [rad] in base axes from a true quaternion w x y z to sensed ones (n, 4)."""
     turn = Rotation.from_quat(true, scalar_first=True).inv() * Rotation.from_quat(sensed, scalar_first=True)
     return turn.as_rotvec()
 
 
-def test_ideal_sensors_read_the_truth(simulate: Callable, run: Callable) -> None:
+def test_ideal_sensors_read_the_truth(simulate, run):
     simulator = simulate("flat_walk", "ideal")
     run(simulator, 0.3)
     np.testing.assert_array_equal(simulator.sensors.q, simulator.plant.qpos)
@@ -79,7 +76,7 @@ def test_ideal_sensors_read_the_truth(simulate: Callable, run: Callable) -> None
 
 
 @pytest.mark.parametrize("level", ["sensor_noise", "all_uncertainty"])
-def test_no_foot_sensor_is_behind_position_velocity_and_acceleration(simulate: Callable, level: str) -> None:
+def test_no_foot_sensor_is_behind_position_velocity_and_acceleration(simulate, level):
     """Wrenches may read anything, or nothing at all: what the observer and the networks get stays the same."""
     found = []
     for reading in (0.0, 1e3, np.nan):
@@ -100,7 +97,7 @@ def test_no_foot_sensor_is_behind_position_velocity_and_acceleration(simulate: C
 @pytest.mark.sim
 @pytest.mark.slow
 @pytest.mark.parametrize(("scenario", "bound"), [("forward_walk", 4e-3), ("random_walk", 2e-2)])
-def test_sensed_base_velocity_stays_near_truth(simulate: Callable, run: Callable, scenario: str, bound: float) -> None:
+def test_sensed_base_velocity_stays_near_truth(simulate, run, scenario, bound):
     """Root mean square of seven walks of 8 s with all uncertainty [m/s]; single ones lie between 1.5 and 5 mm/s.
 
     A support foot that slips in a hard turn costs most. The error of a tilted base is the next test's.
@@ -116,7 +113,7 @@ def test_sensed_base_velocity_stays_near_truth(simulate: Callable, run: Callable
     assert np.median(np.abs(errors)) < 2e-3
 
 
-def test_sensed_base_converges_to_the_error_of_its_tilt(simulate: Callable, run: Callable) -> None:
+def test_sensed_base_converges_to_the_error_of_its_tilt(simulate, run):
     """A tilt turns gravity into a horizontal acceleration, g sin(tilt); the soles hold it to tau times that."""
     simulator = simulate("flat_place", "sensor_noise", standing=True)
     walker, sensors, tilt = simulator.walker, simulator.sensors, np.array([1e-3, -2e-3, 0.0])

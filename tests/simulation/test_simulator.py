@@ -1,8 +1,5 @@
 """Episodes of a scenario: what they share, what they draw, and that each begins on the ground."""
 
-from collections.abc import Callable
-from typing import Any
-
 import mujoco
 import numpy as np
 import pytest
@@ -12,7 +9,6 @@ from mobnet.control.parameters import DURATION, FOOT_HEIGHT
 from mobnet.control.upper_body import UpperBody, follow
 from mobnet.robot.description import SIDES
 from mobnet.robot.plant import sole_name
-from mobnet.settings.settings import WalkSettings
 from mobnet.simulation.simulator import STREAMS, Simulator
 from mobnet.simulation.start import CLEARANCE_M
 from mobnet.simulation.world import ground_height
@@ -24,10 +20,10 @@ P_VALUE = 1e-3
 
 
 @pytest.fixture
-def prepare(walk_of: Callable[..., WalkSettings]) -> Callable[..., Simulator]:
+def prepare(walk_of):
     """A function (name, level, seed, upper, sections, **row) -> a random walk over all terrains, changed by the row."""
 
-    def make(name: str, level: str = LEVEL, seed: int = 7, upper: Any = None, sections: Any = None, **row: Any) -> Any:
+    def make(name, level=LEVEL, seed=7, upper=None, sections=None, **row):
         alone = {"terrain": TERRAINS, "commands": "random", "random_torque": False}
         settings = walk_of(name, level, scenarios={"alone": alone, name: {**alone, **row}}, **(sections or {}))
         return Simulator(settings, seed, upper)
@@ -35,21 +31,17 @@ def prepare(walk_of: Callable[..., WalkSettings]) -> Callable[..., Simulator]:
     return make
 
 
-def streams(simulator: Simulator) -> dict[str, Any]:
-    """Return the state of each stream of random numbers."""
+def streams(simulator):
     return {name: rng.bit_generator.state["state"] for name, rng in simulator.rng.items()}
 
 
-def begun(simulator: Simulator) -> tuple[Any, ...]:
-    """Begin an episode; return its terrain, commands and start."""
+def begun(simulator):
     simulator.start()
     return simulator.setting.terrain, simulator.commands.tobytes(), simulator.plant.qpos.tobytes()
 
 
 @pytest.mark.parametrize("change", [{"pushes": ["shove"]}, {"random_torque": True}])
-def test_scenarios_that_draw_the_same_differ_in_pushes(
-    prepare: Callable, run: Callable, change: dict[str, Any]
-) -> None:
+def test_scenarios_that_draw_the_same_differ_in_pushes(prepare, run, change):
     """Terrain, place, commands and noise are the same, to the bit until the first push or random torque."""
     pushes = {"pushes": {"shove": {**PUSH, "shape": "half_sine"}}}
     alone, disturbed = prepare("alone"), prepare("disturbed", sections=pushes, draws="alone", **change)
@@ -65,14 +57,14 @@ def test_scenarios_that_draw_the_same_differ_in_pushes(
     assert theirs == ours
 
 
-def test_other_scenarios_and_other_seeds_draw_otherwise(prepare: Callable) -> None:
+def test_other_scenarios_and_other_seeds_draw_otherwise(prepare):
     first = begun(prepare("alone"))
     for simulator in (prepare("another"), prepare("alone", seed=8)):
         other = begun(simulator)
         assert (other[1] != first[1], other[2] != first[2]) == (True, True)
 
 
-def test_streams_of_random_numbers_are_independent_of_each_other(prepare: Callable) -> None:
+def test_streams_of_random_numbers_are_independent_of_each_other(prepare):
     simulator = prepare("alone")
     assert set(simulator.rng) == set(STREAMS)
     draws = np.array([rng.standard_normal(2000) for rng in simulator.rng.values()])
@@ -80,7 +72,7 @@ def test_streams_of_random_numbers_are_independent_of_each_other(prepare: Callab
 
 
 @pytest.mark.parametrize("seed", [1000, 1001])
-def test_kinds_of_episodes_take_turns_in_an_order_that_the_seed_decides(prepare: Callable, seed: int) -> None:
+def test_kinds_of_episodes_take_turns_in_an_order_that_the_seed_decides(prepare, seed):
     kinds = ["stand", "random"]
     simulator = prepare("both", seed=seed, terrain=["flat"], commands=kinds)
     seen = []
@@ -90,7 +82,7 @@ def test_kinds_of_episodes_take_turns_in_an_order_that_the_seed_decides(prepare:
     assert seen == [kinds[(seed + episode) % 2] for episode in range(5)]
 
 
-def test_narrowed_commands_replace_their_range_alone(prepare: Callable) -> None:
+def test_narrowed_commands_replace_their_range_alone(prepare):
     ranges = {"duration_s": [0.7], "foot_height_m": [0.055]}
     wide, narrow = prepare("wide", terrain=["flat"]), prepare("narrow", terrain=["flat"], narrowed=ranges)
     wide.start()
@@ -102,7 +94,7 @@ def test_narrowed_commands_replace_their_range_alone(prepare: Callable) -> None:
         assert narrow.commands[:, column].max() == pytest.approx(wide.commands[:, column].max())
 
 
-def test_episodes_begin_anywhere_on_any_terrain_facing_anywhere(prepare: Callable) -> None:
+def test_episodes_begin_anywhere_on_any_terrain_facing_anywhere(prepare):
     """Yaw and place are uniform; a terrain is drawn anew each time and comes once a round, in random order."""
     simulator = prepare("walk", terrain=["flat", "checks"], sections={"recording": {"episode_steps": 10}})
     yaws, places, settings = [], [], []
@@ -120,7 +112,7 @@ def test_episodes_begin_anywhere_on_any_terrain_facing_anywhere(prepare: Callabl
     assert (np.ptp(places, axis=0) > 0.9).all()
 
 
-def soles_over_ground(simulator: Simulator) -> list[float]:
+def soles_over_ground(simulator):
     """Return the least height of each sole over the ground under it [m], looked at every centimetre."""
     model, data, heights = simulator.world.model, simulator.world.data, []
     mujoco.mj_forward(model, data)
@@ -137,7 +129,7 @@ def soles_over_ground(simulator: Simulator) -> list[float]:
 @pytest.mark.sim
 @pytest.mark.parametrize("commands", ["stand", "random"])
 @pytest.mark.parametrize("terrain", TERRAINS)
-def test_start_stands_on_the_ground_anywhere(prepare: Callable, run: Callable, terrain: str, commands: str) -> None:
+def test_start_stands_on_the_ground_anywhere(prepare, run, terrain, commands):
     """Just over the highest point under a sole, in no solid; the feet soon carry the weight, after a bump at most."""
     simulator = prepare("begin", "ideal", 3, terrain=[terrain], commands=commands)
     weight = simulator.robot.mass * simulator.walker.gravity
@@ -156,16 +148,14 @@ def test_start_stands_on_the_ground_anywhere(prepare: Callable, run: Callable, t
 
 
 @pytest.fixture
-def motion() -> UpperBody:
+def motion():
     """Twenty seconds of small sines of the 21 joints above the legs about zero, 50 knots a second."""
     time, joint = np.arange(1000)[:, None] / 50.0, np.arange(21)
     return UpperBody(0.05 * np.sin((1.0 + 0.1 * joint) * time + joint), 50.0, np.zeros(1))
 
 
 @pytest.mark.parametrize("motion_s", [0.0, 3.0, 7.25])
-def test_motion_meets_the_first_kept_sample(
-    prepare: Callable, run: Callable, motion: UpperBody, motion_s: float
-) -> None:
+def test_motion_meets_the_first_kept_sample(prepare, run, motion, motion_s):
     """The episode begins the time to settle earlier, with the joints where the motion is then."""
     simulator = prepare("move", "ideal", 1, motion, terrain=["flat"], commands="stand")
     simulator.start(motion_s)
@@ -180,7 +170,7 @@ def test_motion_meets_the_first_kept_sample(
     np.testing.assert_allclose(simulator.plant.qpos[7 + upper :], q, atol=0.02)
 
 
-def test_motors_can_move_what_friction_holds_and_keep_the_table_s_limit(simulate: Callable) -> None:
+def test_motors_can_move_what_friction_holds_and_keep_the_table_s_limit(simulate):
     simulator = simulate("flat_place", "all_uncertainty")
     plant, table, limits = simulator.settings.plant, simulator.robot.torque_limits, simulator.plant.limits
     least = plant.motor_limit_min_nm
@@ -189,7 +179,7 @@ def test_motors_can_move_what_friction_holds_and_keep_the_table_s_limit(simulate
     np.testing.assert_array_equal(limits[table >= least], table[table >= least])
 
 
-def test_nothing_of_an_episode_is_left_in_the_next(prepare: Callable, run: Callable) -> None:
+def test_nothing_of_an_episode_is_left_in_the_next(prepare, run):
     pushes = {"shove": {**PUSH, "duration_s": [90.0, 90.0], "shape": "step"}}
     simulator = prepare("pushed", "ideal", 1, sections={"pushes": pushes}, terrain=["flat"], pushes=["shove"])
     simulator.start()

@@ -1,22 +1,19 @@
 """Starts: feet on the ground, weight over the nominal ZMP, and a sway that repeats."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
 from mobnet.control.kinematics import update
 from mobnet.control.parameters import DURATION
-from mobnet.simulation.simulator import Simulator
 from mobnet.simulation.start import CLEARANCE_M, place, raise_start, start_standing, start_walking, turn
 
 
 @pytest.fixture
-def simulator(simulate: Callable) -> Simulator:
+def simulator(simulate):
     return simulate("checks_place", "ideal")
 
 
-def test_feet_stand_level_side_by_side_just_over_the_ground(simulator: Simulator) -> None:
+def test_feet_stand_level_side_by_side_just_over_the_ground(simulator):
     walker, robot = simulator.walker, simulator.robot
     q, ankles = place(walker, robot)
     update(walker.tree, q, np.zeros(39), walker.gravity, walker.pose)
@@ -29,7 +26,7 @@ def test_feet_stand_level_side_by_side_just_over_the_ground(simulator: Simulator
     assert walker.pose.com[0] == pytest.approx(ankles[0, 0] + walker.par.zmp_offset_x_m, abs=1e-9)
 
 
-def test_feet_do_not_move_while_the_pelvis_sways(simulator: Simulator) -> None:
+def test_feet_do_not_move_while_the_pelvis_sways(simulator):
     walker = simulator.walker
     q, v = start_walking(walker, simulator.robot, simulator.state, simulator.commands[0])
     update(walker.tree, q, v, walker.gravity, walker.pose)
@@ -38,7 +35,7 @@ def test_feet_do_not_move_while_the_pelvis_sways(simulator: Simulator) -> None:
     np.testing.assert_allclose(walker.pose.omega[walker.feet], 0, atol=1e-10)
 
 
-def test_pendulum_that_starts_so_returns_after_two_steps(simulator: Simulator) -> None:
+def test_pendulum_that_starts_so_returns_after_two_steps(simulator):
     """The ZMP stands a step on the left foot, then on the right one: a linear inverted pendulum's motion."""
     walker, state, command = simulator.walker, simulator.state, simulator.commands[0]
     _, v = start_walking(walker, simulator.robot, state, command)
@@ -54,7 +51,7 @@ def test_pendulum_that_starts_so_returns_after_two_steps(simulator: Simulator) -
     np.testing.assert_allclose(middle, [(0, -v[1]), (0, v[1])], atol=1e-9)
 
 
-def test_start_is_amid_double_support_of_the_left_foot(simulator: Simulator) -> None:
+def test_start_is_amid_double_support_of_the_left_foot(simulator):
     walker, state, command = simulator.walker, simulator.state, simulator.commands[0]
     state.integral[:], state.steps = 9.0, 7  # of an episode before
     start_walking(walker, simulator.robot, state, command)
@@ -64,14 +61,14 @@ def test_start_is_amid_double_support_of_the_left_foot(simulator: Simulator) -> 
     assert state.total == state.commanded == command[DURATION]
 
 
-def test_standing_start_is_at_rest(simulator: Simulator) -> None:
+def test_standing_start_is_at_rest(simulator):
     _, v = start_standing(simulator.walker, simulator.robot, simulator.state, simulator.commands[0])
     assert not v.any()
     assert simulator.state.standing == 1
 
 
 @pytest.mark.parametrize("begin", [start_walking, start_standing])
-def test_moving_upper_body_starts_at_the_reference_and_its_velocity(simulator: Simulator, begin: Callable) -> None:
+def test_moving_upper_body_starts_at_the_reference_and_its_velocity(simulator, begin):
     walker = simulator.walker
     rng = np.random.default_rng(0)
     walker.posture[:] = simulator.robot.posture.angle + rng.uniform(-0.2, 0.2, len(walker.posture))
@@ -82,7 +79,7 @@ def test_moving_upper_body_starts_at_the_reference_and_its_velocity(simulator: S
 
 
 @pytest.mark.parametrize("yaw", [-3.0, -0.4, 0.0, 2.2])
-def test_turned_and_raised_start_is_the_same_start_elsewhere(simulator: Simulator, yaw: float) -> None:
+def test_turned_and_raised_start_is_the_same_start_elsewhere(simulator, yaw):
     """Feet, centre of mass and their velocities are those of the start at the origin, rotated, moved and lifted."""
     walker, s, where, height = simulator.walker, simulator.state, np.array([0.7, -0.3]), 0.012
     q, v = start_walking(walker, simulator.robot, s, simulator.commands[0])
@@ -103,7 +100,7 @@ def test_turned_and_raised_start_is_the_same_start_elsewhere(simulator: Simulato
 
 
 @pytest.mark.sim
-def test_steps_in_place_stay_in_place(simulate: Callable, run: Callable) -> None:
+def test_steps_in_place_stay_in_place(simulate, run):
     simulator = simulate("flat_place", "ideal")
     log = run(simulator, 6.0)
     assert log.done == 6000

@@ -1,36 +1,30 @@
 """A surrogate robot: drawn from its seed, part by part, and seen by its sensors alone."""
 
-from collections.abc import Callable
-
 import mujoco
 import numpy as np
 import pytest
 
-from mobnet.robot.description import WalkingRobot
 from mobnet.robot.plant import robot_spec
-from mobnet.settings.settings import Settings
 from mobnet.settings.surrogate import SurrogateRobot
 from mobnet.simulation.faults import perceive
-from mobnet.simulation.simulator import Simulator
-from mobnet.simulation.surrogate import Hidden, draw_hidden
+from mobnet.simulation.surrogate import draw_hidden
 
 RATE_HZ = 2000.0
 WHOLE = ("drives", "body", "sensors")
-Draw = Callable[..., Hidden]
 
 
 @pytest.fixture
-def draw(settings: Settings, robot: WalkingRobot) -> Draw:
+def draw(settings, robot):
     """A function of a seed and the hidden parts -> a surrogate robot."""
 
-    def make(seed: int, *parts: str) -> Hidden:
+    def make(seed, *parts):
         chosen = SurrogateRobot.model_validate({"seed": seed, "parts": parts, "running_s": (0.0, 0.0)})
         return draw_hidden(robot, settings.plant, RATE_HZ, settings.surrogate, chosen, settings.seed)
 
     return make
 
 
-def test_a_seed_is_a_robot(draw: Draw) -> None:
+def test_a_seed_is_a_robot(draw):
     """The same whenever it is drawn; another one differs in every part."""
     first, again, other = draw(1, *WHOLE), draw(1, *WHOLE), draw(2, *WHOLE)
     assert first.robot.bodies == again.robot.bodies
@@ -42,7 +36,7 @@ def test_a_seed_is_a_robot(draw: Draw) -> None:
 
 
 @pytest.mark.parametrize("part", WHOLE)
-def test_a_part_is_the_same_by_itself(draw: Draw, robot: WalkingRobot, settings: Settings, part: str) -> None:
+def test_a_part_is_the_same_by_itself(draw, robot, settings, part):
     """So that a level can show what a part costs; the others are then those of the plant of section 5.1."""
     whole, single = draw(1, *WHOLE), draw(1, part)
     same = {
@@ -58,7 +52,7 @@ def test_a_part_is_the_same_by_itself(draw: Draw, robot: WalkingRobot, settings:
     assert single.faults.hidden == (part == "sensors")
 
 
-def test_numbers_lie_in_their_ranges(draw: Draw, robot: WalkingRobot, settings: Settings) -> None:
+def test_numbers_lie_in_their_ranges(draw, robot, settings):
     """Every joint draws its own drive, every link its own mass and centre of mass."""
     hidden, ranges = draw(1, *WHOLE), settings.surrogate
     law = hidden.drives.law
@@ -75,7 +69,7 @@ def test_numbers_lie_in_their_ranges(draw: Draw, robot: WalkingRobot, settings: 
     assert not hidden.robot.armature.any()
 
 
-def mass_matrix(robot: WalkingRobot) -> np.ndarray:
+def mass_matrix(robot):
     """Return the mass matrix (nv, nv) of a robot's plant where it starts."""
     model = robot_spec(robot).compile()
     data, matrix = mujoco.MjData(model), np.zeros((model.nv, model.nv))
@@ -84,7 +78,7 @@ def mass_matrix(robot: WalkingRobot) -> np.ndarray:
     return matrix
 
 
-def test_the_mass_matrix_is_that_of_links_and_rotors(draw: Draw, robot: WalkingRobot, settings: Settings) -> None:
+def test_the_mass_matrix_is_that_of_links_and_rotors(draw, robot, settings):
     """A rotor's inertia is in its drive and no longer in the joint, where it would count twice."""
     hidden, least = draw(1, "drives"), settings.surrogate.drive.rotor_min_kg_m2
     gone = mass_matrix(robot) - mass_matrix(hidden.robot)
@@ -92,7 +86,7 @@ def test_the_mass_matrix_is_that_of_links_and_rotors(draw: Draw, robot: WalkingR
     np.testing.assert_allclose(hidden.drives.law["rotor"], np.maximum(robot.armature, least))
 
 
-def test_the_controller_and_the_observer_know_the_table_alone(simulate: Callable[..., Simulator]) -> None:
+def test_the_controller_and_the_observer_know_the_table_alone(simulate):
     """Nothing of a surrogate robot is in what they are built from."""
     known, other = (simulate("flat_place", level, standing=True) for level in ("robot_1", "robot_2"))
     for name in known.walker.tree._fields:
@@ -100,15 +94,14 @@ def test_the_controller_and_the_observer_know_the_table_alone(simulate: Callable
     assert known.robot.bodies == other.robot.bodies
 
 
-def seen(simulator: Simulator) -> None:
-    """Let the sensors of a surrogate robot look at the plant once more."""
+def seen(simulator):
     plant, faults = simulator.plant, simulator.hidden.faults
     perceive(
         faults, simulator.sensors, plant.drives, plant.qpos, plant.qvel, plant.sensordata, plant.xmat, plant.gravity
     )
 
 
-def test_encoders_see_the_rotors(simulate: Callable[..., Simulator]) -> None:
+def test_encoders_see_the_rotors(simulate):
     """With the error of their zeros."""
     simulator = simulate("flat_place", "robot_1", standing=True)
     drives, faults = simulator.hidden.drives, simulator.hidden.faults
@@ -119,7 +112,7 @@ def test_encoders_see_the_rotors(simulate: Callable[..., Simulator]) -> None:
     np.testing.assert_array_equal(faults.qvel[6:], 0.5)
 
 
-def test_inertial_readings_are_late_and_biased(simulate: Callable[..., Simulator]) -> None:
+def test_inertial_readings_are_late_and_biased(simulate):
     simulator = simulate("flat_place", "robot_1", standing=True)
     faults, plant, acc = simulator.hidden.faults, simulator.plant, simulator.sensors.acc
     faults.steps[0] = 0
@@ -132,7 +125,7 @@ def test_inertial_readings_are_late_and_biased(simulate: Callable[..., Simulator
     np.testing.assert_allclose(np.array(found), wanted[:, None] * np.ones(3), atol=1e-12)
 
 
-def test_a_foot_at_rest_in_the_air_reads_what_its_calibration_left(simulate: Callable[..., Simulator]) -> None:
+def test_a_foot_at_rest_in_the_air_reads_what_its_calibration_left(simulate):
     """Upright and at rest: the error of the calibrated mass, times gravity, times the gain, plus the constant error."""
     simulator = simulate("flat_place", "robot_1", standing=True)
     faults, plant, sensors = simulator.hidden.faults, simulator.plant, simulator.sensors
@@ -151,7 +144,7 @@ def test_a_foot_at_rest_in_the_air_reads_what_its_calibration_left(simulate: Cal
         np.testing.assert_allclose(wrench, expected, rtol=1e-9, atol=1e-12)
 
 
-def test_the_gears_go_on_running(simulate: Callable[..., Simulator]) -> None:
+def test_the_gears_go_on_running(simulate):
     """From one episode to the next, from a time that is drawn for the recording."""
     simulator = simulate("flat_place", "robot_1")
     low, high = simulator.settings.level.surrogate.running_s

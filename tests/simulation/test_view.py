@@ -1,10 +1,7 @@
 """Walking for the eye: states at their times, and a viewer that shows the plant without touching it."""
 
-from __future__ import annotations
-
 import contextlib
 import time
-from collections.abc import Callable
 
 import mujoco
 import mujoco.viewer
@@ -19,14 +16,14 @@ pytestmark = pytest.mark.sim
 class FakeViewer:
     """Stands in for MuJoCo's: notes what it is given to show, and is closed after some looks."""
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, looks: int) -> None:
+    def __init__(self, model, data, looks):
         self.model, self.data, self.looks = model, data, looks
         self.cam, self.shown, self.aims, self.locked = mujoco.MjvCamera(), [], [], False
 
-    def __enter__(self) -> FakeViewer:
+    def __enter__(self):
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, *_):
         self.closed = True
 
     @contextlib.contextmanager
@@ -35,23 +32,23 @@ class FakeViewer:
         yield
         self.locked = False
 
-    def is_running(self) -> bool:
+    def is_running(self):
         self.looks -= 1
         return self.looks >= 0
 
-    def sync(self) -> None:
+    def sync(self):
         assert not self.locked
         self.shown.append((time.perf_counter(), self.data.qpos.copy()))
         self.aims.append(self.cam.lookat.copy())
 
 
 @pytest.fixture
-def open_viewer(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], list[FakeViewer]]:
+def open_viewer(monkeypatch):
     """A function (looks until it is closed) -> viewers opened."""
-    opened: list[FakeViewer] = []
+    opened = []
 
-    def install(looks: int) -> list[FakeViewer]:
-        def launch(model: mujoco.MjModel, data: mujoco.MjData, **_: object) -> FakeViewer:
+    def install(looks):
+        def launch(model, data, **_):
             opened.append(FakeViewer(model, data, looks))
             return opened[-1]
 
@@ -61,7 +58,7 @@ def open_viewer(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], list[FakeVie
     return install
 
 
-def test_walk_yields_the_start_and_then_every_time_asked_for(simulate: Callable) -> None:
+def test_walk_yields_the_start_and_then_every_time_asked_for(simulate):
     simulator, twin = simulate("flat_walk", "ideal"), simulate("flat_walk", "ideal")
     states = list(view.walk(simulator, 0.4, 0.1))
     assert len(states) == 5
@@ -69,7 +66,7 @@ def test_walk_yields_the_start_and_then_every_time_asked_for(simulate: Callable)
     np.testing.assert_array_equal(states[2], twin.world.data.qpos)
 
 
-def test_walk_ends_with_a_fall(simulate: Callable) -> None:
+def test_walk_ends_with_a_fall(simulate):
     simulator = simulate("flat_walk", "ideal")
     simulator.world.data.qvel[1] = 6.0
     states = list(view.walk(simulator, 10.0, 0.1))
@@ -77,7 +74,7 @@ def test_walk_ends_with_a_fall(simulate: Callable) -> None:
     assert not view.upright(simulator)
 
 
-def test_mid_stride_has_the_left_foot_in_the_air(simulate: Callable) -> None:
+def test_mid_stride_has_the_left_foot_in_the_air(simulate):
     simulator = simulate("flat_walk", "ideal")
     assert view.upright(simulator)
     view.walk_to_mid_stride(simulator)
@@ -85,7 +82,7 @@ def test_mid_stride_has_the_left_foot_in_the_air(simulate: Callable) -> None:
     assert simulator.state.side < 0
 
 
-def test_the_viewer_shows_the_walk_in_real_time_until_it_is_closed(simulate: Callable, open_viewer: Callable) -> None:
+def test_the_viewer_shows_the_walk_in_real_time_until_it_is_closed(simulate, open_viewer):
     """What a mouse can pull there is not the plant."""
     simulator, twin = simulate("checks_place", "ideal"), simulate("checks_place", "ideal")
     (viewer,) = watched(simulator, open_viewer(41), np.inf)
@@ -98,28 +95,28 @@ def test_the_viewer_shows_the_walk_in_real_time_until_it_is_closed(simulate: Cal
         np.testing.assert_array_equal(shown, wanted)
 
 
-def test_the_viewers_camera_goes_with_the_robot(simulate: Callable, open_viewer: Callable) -> None:
+def test_the_viewers_camera_goes_with_the_robot(simulate, open_viewer):
     simulator = simulate("flat_walk", "ideal")
     (viewer,) = watched(simulator, open_viewer(20), np.inf)
     offsets = np.array(viewer.aims) - [shown[:3] for _, shown in viewer.shown]
     np.testing.assert_allclose(offsets, np.tile(offsets[0], (len(offsets), 1)), atol=1e-12)
 
 
-def test_when_the_time_is_over_the_window_stays(simulate: Callable, open_viewer: Callable) -> None:
+def test_when_the_time_is_over_the_window_stays(simulate, open_viewer):
     simulator = simulate("checks_place", "ideal")
     (viewer,) = watched(simulator, open_viewer(30), 0.1)
     assert len(viewer.shown) == 11
     assert viewer.looks < 0
 
 
-def watched(simulator, opened: list[FakeViewer], seconds: float) -> list[FakeViewer]:
+def watched(simulator, opened, seconds):
     """Watch a simulator; return the viewers that were opened, all closed by now."""
     view.watch(simulator, seconds)
     assert all(viewer.closed for viewer in opened)
     return opened
 
 
-def test_no_display_and_one_that_does_not_answer_are_none(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_display_and_one_that_does_not_answer_are_none(monkeypatch):
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     monkeypatch.setenv("DISPLAY", ":987")
     assert not view.has_display()

@@ -43,7 +43,6 @@ def explain(browser: Browser, name: str) -> str:
 
 
 def _button(name: str, place: int) -> str:
-    """Return a script that finds one of the two buttons beside a result."""
     rows = "[...document.querySelectorAll('#app tbody tr')]"
     row = f"{rows}.find((row) => row.cells[0].textContent === {json.dumps(name)})"
     return f"{row}?.querySelectorAll('td:last-child a')[{place}]"
@@ -59,6 +58,5 @@ def text_of_frame(browser: Browser) -> str:
 
 
 def _frame(browser: Browser) -> dict[str, Any]:
-    """Return the frame of an HTML result."""
     (tree,) = browser.tell("Page.getFrameTree")["frameTree"]["childFrames"]
     return tree["frame"]

@@ -68,11 +68,9 @@ class Cluster:
         return ["nsenter", "--mount", "--pid", f"--target={self.process}", f"--wd={Path.cwd()}", "--", *words]
 
     def ask(self, *words: str) -> str:
-        """Run a command and return what it printed."""
         return subprocess.run(self.words(*words), capture_output=True, text=True, check=True).stdout
 
     def start(self, daemon: str) -> None:
-        """Start slurmctld or slurmd."""
         self.ask(daemon)
 
     def kill(self, daemon: str) -> None:
@@ -80,7 +78,6 @@ class Cluster:
         self.ask("pkill", "-KILL", "-x", daemon)
 
     def jobs(self) -> list[list[str]]:
-        """Return number and state of each job that waits or runs."""
         return [line.split("|") for line in self.ask("squeue", "--noheader", "--format=%i|%T").splitlines()]
 
 

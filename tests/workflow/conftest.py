@@ -6,7 +6,6 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -19,7 +18,6 @@ ROOT = Path(__file__).parents[2]
 PARTS = ("Snakefile", "workflow", "profiles", "configs", "src", "docs", "paper", "reproduce", "environment.lock")
 COMPILED = Path(".cache") / "numba"
 JOB = re.compile(r"^ *(?:local)?rule (\w+):\n((?: {4,}\w+: .*\n)*)", re.MULTILINE)
-Snakemake = Callable[..., subprocess.CompletedProcess[str]]
 
 
 class Job(NamedTuple):
@@ -31,10 +29,10 @@ class Job(NamedTuple):
 
 
 @pytest.fixture(scope="session")
-def snakemake() -> Snakemake:
+def snakemake():
     """Return a function that runs snakemake in a folder and returns what it printed."""
 
-    def run(*words: str, folder: Path = ROOT) -> subprocess.CompletedProcess[str]:
+    def run(*words, folder=ROOT):
         words = (str(folder / ".venv" / "bin" / "python"), "-m", "snakemake", *words)
         environment = {**os.environ, **({} if folder == ROOT else {"NUMBA_CACHE_DIR": str(folder / COMPILED)})}
         return subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True, check=False)
@@ -43,11 +41,11 @@ def snakemake() -> Snakemake:
 
 
 @pytest.fixture(scope="session")
-def planned(snakemake: Snakemake) -> Callable[[str], list[Job]]:
+def planned(snakemake):
     """Return a function of a scale that returns all jobs of a dry run of everything."""
 
     @cache
-    def jobs(scale: str) -> list[Job]:
+    def jobs(scale):
         done = snakemake("-n", "--forceall", "--quiet", "host", "--config", f"scale={scale}")
         assert done.returncode == 0, done.stderr
         return [job_of(*found) for found in JOB.findall(done.stdout + done.stderr)]
@@ -55,7 +53,7 @@ def planned(snakemake: Snakemake) -> Callable[[str], list[Job]]:
     return jobs
 
 
-def job_of(rule: str, text: str) -> Job:
+def job_of(rule, text):
     """Return a job of what a dry run tells of it."""
     told = dict(line.strip().split(": ", 1) for line in text.splitlines() if ": " in line)
     outputs, resources = (told[key].split(", ") if key in told else [] for key in ("output", "resources"))
@@ -63,19 +61,19 @@ def job_of(rule: str, text: str) -> Job:
 
 
 @pytest.fixture(scope="session")
-def outputs(planned: Callable[[str], list[Job]]) -> Callable[[str], dict[str, str]]:
+def outputs(planned):
     """Return a function of a scale that returns file -> rule of everything the workflow makes."""
     return lambda scale: {name: job.rule for job in planned(scale) for name in job.outputs}
 
 
 @pytest.fixture(scope="session")
-def make_project(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
+def make_project(tmp_path_factory):
     """Return a function of a name that copies the project, or a copy, without its environment.
 
     The copy has the machine code that its origin has compiled, as its code is the same.
     """
 
-    def make(name: str, origin: Path = ROOT) -> Path:
+    def make(name, origin=ROOT):
         folder = tmp_path_factory.mktemp(name)
         for part in PARTS:
             source = origin / part
@@ -92,7 +90,7 @@ def make_project(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path
     return make
 
 
-def compiled_in(root: Path, origin: Path, folder: Path) -> Iterator[tuple[Path, Path]]:
+def compiled_in(root, origin, folder):
     """Yield the folders of machine code below a root, and their places in a copy: numba names them by the source's."""
     sources = [path.relative_to(origin) for path in (origin / "src").rglob("*") if path.is_dir()]
     renamed = {named_by(origin / source): named_by(folder / source) for source in sources}
@@ -101,6 +99,6 @@ def compiled_in(root: Path, origin: Path, folder: Path) -> Iterator[tuple[Path, 
             yield path, Path(path.parent.name) / renamed[path.name]
 
 
-def named_by(source: Path) -> str:
+def named_by(source):
     """Return the name that numba gives to the machine code of the files of a folder."""
     return f"{source.name}_{hashlib.sha1(str(source).encode()).hexdigest()}"

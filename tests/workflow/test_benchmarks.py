@@ -26,9 +26,9 @@ def test_the_table_marks_a_missed_bar(runner):
     assert "missed" not in runner.table([{**row, "bar": 0.5}, row])
 
 
-@pytest.mark.parametrize(
-    ("ours", "missed"), [(2.0, False), (2.1, True), (0.9, True), (1.0, False), (float("nan"), True)]
-)
+@pytest.mark.parametrize(("ours", "missed"), [
+    (2.0, False), (2.1, True), (0.9, True), (1.0, False), (float("nan"), True),
+])  # fmt: skip
 def test_a_quantity_outside_its_bounds_or_not_measured_misses(runner, ours, missed):
     row = {"name": "falls", "ours": ours, "unit": "", "at_least": 1.0, "at_most": 2.0}
     assert runner.misses(row) == missed

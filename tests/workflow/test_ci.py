@@ -3,7 +3,6 @@
 import re
 import subprocess
 import tomllib
-from pathlib import Path
 
 import pytest
 
@@ -20,13 +19,12 @@ FAKES = {  # program -> what it does in place of the machine's
 }
 
 
-def packages() -> list[str]:
-    """Return the packages that .ci/run installs."""
+def packages():
     (block,) = re.findall(r"PACKAGES=\((.*?)\n\)", RUN.read_text(), re.DOTALL)
     return re.sub(r"#.*", "", block).split()
 
 
-def run(folder: Path, user: int, updated: int = 0) -> tuple[list[str], str]:
+def run(folder, user, updated=0):
     """Return which programs a copy of .ci/run calls, where only ffmpeg is installed, and what it says."""
     for path in ("bin", ".ci"):
         (folder / path).mkdir()
@@ -43,26 +41,26 @@ def run(folder: Path, user: int, updated: int = 0) -> tuple[list[str], str]:
 
 
 @pytest.mark.parametrize("updated", [0, 100])
-def test_root_installs_what_is_missing_and_goes_on_without_what_cannot_be_had(tmp_path: Path, updated: int) -> None:
+def test_root_installs_what_is_missing_and_goes_on_without_what_cannot_be_had(tmp_path, updated):
     calls, told = run(tmp_path, user=0, updated=updated)
     installed = [f"apt-get install -y -qq {package}" for package in packages() if package != "ffmpeg"]
     assert calls == ["apt-get update -qq", *installed, "reproduce test -k some"]
     assert told == ".ci/run: chromium cannot be had, and what needs it is skipped\n"
 
 
-def test_others_are_told_in_one_line_what_will_be_skipped(tmp_path: Path) -> None:
+def test_others_are_told_in_one_line_what_will_be_skipped(tmp_path):
     calls, told = run(tmp_path, user=1000)
     missing = " ".join(package for package in packages() if package != "ffmpeg")
     assert calls == ["reproduce test -k some"]
     assert told == f".ci/run: only root can install what is missing, and what needs it is skipped: {missing}\n"
 
 
-def test_the_summary_says_what_was_skipped_and_why() -> None:
+def test_the_summary_says_what_was_skipped_and_why():
     options = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["pytest"]["ini_options"]["addopts"]
     assert {"-ra", "-rs"}.intersection(options)
 
 
-def test_packages_are_those_that_the_readme_and_the_code_name() -> None:
+def test_packages_are_those_that_the_readme_and_the_code_name():
     named = re.findall(r"\(Debian: ([^)]*)\)", " ".join((ROOT / "README.md").read_text().split()))
     assert sorted(" ".join(named).split()) == sorted(packages())
     assert {*paper.PACKAGES, *render.PACKAGES.split()} <= set(packages())

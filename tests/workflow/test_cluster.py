@@ -2,14 +2,13 @@
 
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
 from mobnet.core.files import METRICS, RUN, WEIGHTS
 
-from .cluster import Cluster, cluster_in, wait_for
+from .cluster import cluster_in, wait_for
 
 SMOKE = ("--config", "scale=smoke")
 PROFILE = ("--profile", "workflow/profiles/slurm", "--latency-wait", "5")
@@ -23,14 +22,13 @@ pytestmark = [pytest.mark.slow, pytest.mark.sim]
 
 
 @pytest.fixture(scope="module")
-def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
-    """A running cluster of one node."""
+def cluster(tmp_path_factory):
     with cluster_in(tmp_path_factory.mktemp("cluster")) as running:
         yield running
 
 
 @pytest.fixture(scope="module")
-def trained(make_project: Callable[..., Path], cluster: Cluster) -> Path:
+def trained(make_project, cluster):
     """A project in which one network was trained without a cluster."""
     folder = make_project("trained")
     words = [sys.executable, str(folder / "reproduce"), *TARGETS, *SMOKE]
@@ -39,7 +37,7 @@ def trained(make_project: Callable[..., Path], cluster: Cluster) -> Path:
 
 
 @pytest.fixture
-def project(make_project: Callable[..., Path], trained: Path) -> Path:
+def project(make_project, trained):
     """A copy of the project with the data of the network, which is not trained."""
     folder = make_project("project")
     for part in ("recordings", "residuals"):
@@ -48,26 +46,24 @@ def project(make_project: Callable[..., Path], trained: Path) -> Path:
     return folder
 
 
-def start(cluster: Cluster, folder: Path, *words: str) -> subprocess.Popen[str]:
+def start(cluster, folder, *words):
     """Start ./reproduce on the cluster; what it says is in out.log."""
     command = [sys.executable, str(folder / "reproduce"), *(words or TARGETS), *SMOKE, *PROFILE]
     with (folder / "out.log").open("a") as out:
         return subprocess.Popen(cluster.words(*command), cwd=folder, stdout=out, stderr=out, text=True)
 
 
-def told(folder: Path) -> str:
-    """Return what the runs in a folder said."""
+def told(folder):
     return (folder / "out.log").read_text()
 
 
-def wait_for_training(cluster: Cluster, folder: Path) -> str:
-    """Wait until a training runs; return the number of its job."""
+def wait_for_training(cluster, folder):
     log = folder / "results" / "smoke" / "logs" / "train" / f"{JOB}.log"
     wait_for(lambda: log.exists() and "epoch" in log.read_text(), LONGEST_S)
     return next(job for job, state in cluster.jobs() if state == "RUNNING")
 
 
-def ended(run: subprocess.Popen[str], cluster: Cluster, folder: Path) -> int:
+def ended(run, cluster, folder):
     """Wait for the end of a run; return its status. Nothing of it is left in the queue, and no file is half written."""
     status = run.wait(LONGEST_S)
     wait_for(lambda: not cluster.jobs())
@@ -75,21 +71,21 @@ def ended(run: subprocess.Popen[str], cluster: Cluster, folder: Path) -> int:
     return status
 
 
-def assert_ends_the_same(run: subprocess.Popen[str], cluster: Cluster, folder: Path, trained: Path) -> None:
+def assert_ends_the_same(run, cluster, folder, trained):
     """Check that a run succeeds, with the network that was trained without a cluster."""
     assert ended(run, cluster, folder) == 0, told(folder)
     for name in (WEIGHTS, METRICS):
         assert (folder / NETWORK / name).read_bytes() == (trained / NETWORK / name).read_bytes()
 
 
-def test_a_cancelled_training_is_sent_again_and_ends_the_same(cluster: Cluster, project: Path, trained: Path) -> None:
+def test_a_cancelled_training_is_sent_again_and_ends_the_same(cluster, project, trained):
     run = start(cluster, project)
     cluster.ask("scancel", wait_for_training(cluster, project))
     assert_ends_the_same(run, cluster, project, trained)
     assert "Trying to restart job" in told(project)
 
 
-def test_a_node_that_fails_and_returns_does_not_lose_its_job(cluster: Cluster, project: Path, trained: Path) -> None:
+def test_a_node_that_fails_and_returns_does_not_lose_its_job(cluster, project, trained):
     run = start(cluster, project)
     wait_for_training(cluster, project)
     cluster.kill("slurmd")
@@ -98,7 +94,7 @@ def test_a_node_that_fails_and_returns_does_not_lose_its_job(cluster: Cluster, p
     assert_ends_the_same(run, cluster, project, trained)
 
 
-def test_a_controller_that_fails_and_returns_is_waited_for(cluster: Cluster, project: Path, trained: Path) -> None:
+def test_a_controller_that_fails_and_returns_is_waited_for(cluster, project, trained):
     run = start(cluster, project)
     wait_for_training(cluster, project)
     cluster.kill("slurmctld")
@@ -106,7 +102,7 @@ def test_a_controller_that_fails_and_returns_is_waited_for(cluster: Cluster, pro
     assert_ends_the_same(run, cluster, project, trained)
 
 
-def test_a_killed_run_started_again_ends_the_same(cluster: Cluster, project: Path, trained: Path) -> None:
+def test_a_killed_run_started_again_ends_the_same(cluster, project, trained):
     run = start(cluster, project)
     wait_for_training(cluster, project)
     cluster.ask("pkill", "-KILL", "-f", "mobnet.running.run")
@@ -115,7 +111,7 @@ def test_a_killed_run_started_again_ends_the_same(cluster: Cluster, project: Pat
     assert_ends_the_same(again, cluster, project, trained)
 
 
-def test_ctrl_c_empties_the_queue(cluster: Cluster, project: Path) -> None:
+def test_ctrl_c_empties_the_queue(cluster, project):
     run = start(cluster, project)
     wait_for_training(cluster, project)
     cluster.ask("pkill", "-INT", "-f", "mobnet.running.run")
@@ -125,7 +121,7 @@ def test_ctrl_c_empties_the_queue(cluster: Cluster, project: Path) -> None:
     assert f"train ({JOB}): " not in said
 
 
-def test_a_job_over_its_memory_is_named_with_a_remedy(cluster: Cluster, project: Path) -> None:
+def test_a_job_over_its_memory_is_named_with_a_remedy(cluster, project):
     run = start(cluster, project, *TARGETS, "--set-resources", "train:mem_mb=500")
     assert ended(run, cluster, project) != 0
     said = [line.split(" (log: ")[0] for line in told(project).splitlines() if "--set-resources" in line]
@@ -133,7 +129,7 @@ def test_a_job_over_its_memory_is_named_with_a_remedy(cluster: Cluster, project:
     assert said == [f"train ({JOB}): {limit}"]
 
 
-def test_a_full_disk_is_told_in_one_line(cluster: Cluster, project: Path) -> None:
+def test_a_full_disk_is_told_in_one_line(cluster, project):
     target = str(project / "results")
     cluster.ask("mount", "-t", "tmpfs", "-o", "size=1M", "none", target)
     try:

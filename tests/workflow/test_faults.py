@@ -8,36 +8,28 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 
 import psutil
 import pytest
-
-from .conftest import Snakemake
 
 SMOKE = ("--config", "scale=smoke")
 QUICK, SLOW = "tables/smoke/table_01.csv", "results/smoke/recordings/forward_walk/ideal/s101.parquet"
 ONE_CORE = ("--cores", "1", *SMOKE, "--")
 MOMENTS_S = (0.3, 1.0, 2.0, 4.0, 8.0)  # after the start: before and while the workflow is planned, while jobs run
 SOON_S, LONGEST_S = 15.0, 300.0  # five and thirty on an idle machine
-STOPPED, AGAIN = (
-    "stopped; the same command goes on from here",
-    "held by another run in this folder; waiting for the end",
-)
+STOPPED, AGAIN = ("stopped; the same command goes on from here", "held by another run in this folder; waiting")
 
 pytestmark = [pytest.mark.slow, pytest.mark.sim]
 
 
 @pytest.fixture(scope="module")
-def project(make_project: Callable[..., Path]) -> Path:
-    """A copy of the project without results."""
+def project(make_project):
     return make_project("faults")
 
 
 @contextmanager
-def small_disk(folder: Path, size: str, how: str = "rw") -> Iterator[None]:
+def small_disk(folder, size, how="rw"):
     """Mount an empty file system on a folder."""
     folder.mkdir(parents=True, exist_ok=True)
     words = ["mount", "-t", "tmpfs", "-o", f"size={size},{how}", "none", str(folder)]
@@ -49,25 +41,25 @@ def small_disk(folder: Path, size: str, how: str = "rw") -> Iterator[None]:
         subprocess.run(["umount", str(folder)], check=True)
 
 
-def processes(folder: Path) -> list[psutil.Process]:
+def processes(folder):
     """Return the processes that work in a project."""
     found = [process.info for process in psutil.process_iter(["cwd", "pid", "status"])]
     return [info for info in found if info["cwd"] == str(folder) and info["status"] != psutil.STATUS_ZOMBIE]
 
 
-def left_behind(folder: Path) -> list[Path]:
+def left_behind(folder):
     """Return unfinished files and the like."""
     places = ("results/**/.partial.*", ".snakemake/scripts/*", ".cache/tmp/run-*")
     return [path for place in places for path in folder.glob(place)]
 
 
-def as_in_a_terminal() -> None:
+def as_in_a_terminal():
     """Let Ctrl-C reach a new process; a shell lets its background processes, and all that these start, ignore it."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 @pytest.mark.parametrize("moment_s", MOMENTS_S)
-def test_ctrl_c_ends_at_once_with_one_line(project: Path, moment_s: float) -> None:
+def test_ctrl_c_ends_at_once_with_one_line(project, moment_s):
     words = [sys.executable, str(project / "reproduce"), "all", *SMOKE]
     with (project / "out.log").open("w+") as out:
         run = subprocess.Popen(
@@ -90,7 +82,7 @@ def test_ctrl_c_ends_at_once_with_one_line(project: Path, moment_s: float) -> No
     assert processes(project) == left_behind(project) == []
 
 
-def test_a_run_waits_for_another_one_removes_what_it_left_and_plans_again(project: Path) -> None:
+def test_a_run_waits_for_another_one_removes_what_it_left_and_plans_again(project):
     unfinished, foreign = project / "results/smoke/.partial.abcd_123.s1.parquet", project / "results/smoke/.mine.s1"
     unfinished.parent.mkdir(parents=True, exist_ok=True)
     for path in (unfinished, foreign):
@@ -115,19 +107,14 @@ def test_a_run_waits_for_another_one_removes_what_it_left_and_plans_again(projec
 FULL, READ_ONLY = r"needed: \S+ MiB, free: ", "cannot be written: Read-only file system"
 
 
-@pytest.mark.parametrize(
-    ("folder", "size", "how", "target", "told"),
-    [
-        ("results", "4m", "rw", SLOW, FULL),
-        ("tables/smoke", "64k", "rw", QUICK, FULL),
-        (".cache", "64k", "rw", QUICK, FULL),
-        (".snakemake", "64k", "rw", QUICK, FULL),
-        ("tables/smoke", "1m", "ro", QUICK, READ_ONLY),
-    ],
-)
-def test_a_disk_without_room_is_one_line(
-    project: Path, snakemake: Snakemake, folder: str, size: str, how: str, target: str, told: str
-) -> None:
+@pytest.mark.parametrize(("folder", "size", "how", "target", "told"), [
+    ("results", "4m", "rw", SLOW, FULL),
+    ("tables/smoke", "64k", "rw", QUICK, FULL),
+    (".cache", "64k", "rw", QUICK, FULL),
+    (".snakemake", "64k", "rw", QUICK, FULL),
+    ("tables/smoke", "1m", "ro", QUICK, READ_ONLY),
+])  # fmt: skip
+def test_a_disk_without_room_is_one_line(project, snakemake, folder, size, how, target, told):
     (project / target).unlink(missing_ok=True)
     with small_disk(project / folder, size, how):
         done = snakemake(*ONE_CORE, target, folder=project)
@@ -140,7 +127,7 @@ def test_a_disk_without_room_is_one_line(
     assert (project / QUICK).is_file()
 
 
-def test_a_disk_that_fills_while_a_job_writes_is_told_by_the_job(project: Path, snakemake: Snakemake) -> None:
+def test_a_disk_that_fills_while_a_job_writes_is_told_by_the_job(project, snakemake):
     with small_disk(project / "results", "16m"):
         words = [sys.executable, "-m", "snakemake", *ONE_CORE, SLOW]
         environment = {**os.environ, "PYTHONPATH": str(project / "src")}
@@ -159,7 +146,7 @@ def test_a_disk_that_fills_while_a_job_writes_is_told_by_the_job(project: Path, 
         assert snakemake(*ONE_CORE, SLOW, folder=project).returncode == 0
 
 
-def test_without_git_a_run_says_that_results_name_no_commit(project: Path, snakemake: Snakemake) -> None:
+def test_without_git_a_run_says_that_results_name_no_commit(project, snakemake):
     done = snakemake("--forceall", *ONE_CORE, QUICK, folder=project)
     assert done.returncode == 0
     assert (done.stdout + done.stderr).count("(commit: unknown)") == 1

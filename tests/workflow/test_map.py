@@ -3,13 +3,13 @@
 import re
 from functools import reduce
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import pytest
 
 from mobnet.core.code import start_of
 from mobnet.plan.plan import make_plan
-from mobnet.plan.products import CAPTIONS, Product
+from mobnet.plan.products import CAPTIONS
 from mobnet.settings.load import load_settings
 
 from .conftest import ROOT
@@ -42,8 +42,7 @@ class System(NamedTuple):
     state: str
 
 
-def rows(part: int) -> list[list[str]]:
-    """Return the cells of one of the map's tables."""
+def rows(part):
     lines = [line for line in (ROOT / "docs/map.md").read_text().split("\n## ")[part].splitlines() if line[:1] == "|"]
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
 
@@ -54,35 +53,32 @@ MADE = [item for item in ITEMS if item.rule != "-"]
 
 
 @pytest.fixture(scope="module")
-def products() -> list[Product]:
-    """Every product at the main scale."""
+def products():
     return list(make_plan(MAIN, with_pdf=True).products)
 
 
 @pytest.fixture(scope="module")
-def outputs(products: list[Product]) -> dict[str, str]:
-    """File -> rule of every product."""
+def outputs(products):
     return {name: product.name for product in products for name in product.outputs}
 
 
-def test_the_map_names_the_function_that_a_rule_calls(products: list[Product]) -> None:
+def test_the_map_names_the_function_that_a_rule_calls(products):
     """So two files lead from Table 7 to its code: the map and the module."""
     made = {product.name: product.job.call.function for product in products}
     assert [(item.rule, item.made_by) for item in MADE if item.made_by != made[item.rule]] == []
 
 
-def numbered(names: Any) -> set[str]:
-    """Return the numbered tables and figures among some names."""
+def numbered(names):
     return {found for name in names for found in NUMBERED.findall(name)}
 
 
-def test_everything_the_paper_numbers_is_on_the_map_once() -> None:
+def test_everything_the_paper_numbers_is_on_the_map_once():
     named = [item.paper for item in ITEMS]
     assert [name for name in (*TABLES, *FIGURES, *SECTIONS) if named.count(name) != 1] == []
 
 
 @pytest.mark.parametrize("item", ITEMS, ids=[item.paper for item in ITEMS])
-def test_an_item_is_made_or_an_input_or_to_do(item: Item, outputs: dict[str, str]) -> None:
+def test_an_item_is_made_or_an_input_or_to_do(item, outputs):
     if item.state == "done":
         assert outputs[item.file] == item.rule
         assert (ROOT / item.test).is_file()
@@ -94,7 +90,7 @@ def test_an_item_is_made_or_an_input_or_to_do(item: Item, outputs: dict[str, str
 
 
 @pytest.mark.parametrize("system", SYSTEMS, ids=[system.paper for system in SYSTEMS])
-def test_a_system_exists_or_is_to_do(system: System) -> None:
+def test_a_system_exists_or_is_to_do(system):
     if system.state == "done":
         assert [name for name in re.findall(r"`([^`]+)`", f"{system.here} {system.test}") if not found(name)] == []
         assert system.test != "-"
@@ -102,20 +98,20 @@ def test_a_system_exists_or_is_to_do(system: System) -> None:
         assert system[1:] == ("-", "-", "to do")
 
 
-def found(name: str) -> bool:
+def found(name):
     """Return whether a name is a file, a module or a key of the configuration."""
     if "/" in name:
         return (ROOT / name).exists()
     if name.startswith("mobnet."):
         return start_of(name).is_file()
 
-    def below(section: Any, key: str) -> Any:
+    def below(section, key):
         return section[key] if isinstance(section, dict) else getattr(section, key)
 
     return reduce(below, name.split("."), MAIN) is not None
 
 
-def test_no_numbered_table_or_figure_is_an_orphan(outputs: dict[str, str]) -> None:
+def test_no_numbered_table_or_figure_is_an_orphan(outputs):
     evaluation = MAIN.evaluation
     configured = numbered((*type(evaluation).model_fields, *evaluation.tables))
     assert numbered(item.file for item in MADE) == numbered(outputs) == configured
@@ -123,7 +119,7 @@ def test_no_numbered_table_or_figure_is_an_orphan(outputs: dict[str, str]) -> No
     assert [name for name in configured if name not in text] == []
 
 
-def test_every_table_and_figure_of_ours_begins_with_the_question_that_it_answers(outputs: dict[str, str]) -> None:
+def test_every_table_and_figure_of_ours_begins_with_the_question_that_it_answers(outputs):
     """What is not the paper's has to answer one; its caption is the one place that asks it."""
     places = {".md": "tables", ".png": "figures"}
     ours = {
@@ -140,7 +136,7 @@ def test_every_table_and_figure_of_ours_begins_with_the_question_that_it_answers
         assert first[0].endswith("?"), name
 
 
-def test_the_readme_says_what_each_scale_takes() -> None:
+def test_the_readme_says_what_each_scale_takes():
     """Time, core-hours, memory and disk."""
     lines = [
         [cell.strip() for cell in line.strip("|").split("|")] for line in (ROOT / "README.md").read_text().splitlines()

@@ -5,12 +5,11 @@ The files shown are made up here; the workflow itself marks them for the report.
 
 import re
 import shutil
-from collections.abc import Callable
 from html import unescape
 from pathlib import Path
 
 import pytest
-from browser import Browser, with_browser
+from browser import with_browser
 
 from mobnet.evaluation.report.pages import pages, table_page
 from mobnet.evaluation.tables.layout import markdown_table
@@ -18,16 +17,14 @@ from mobnet.plan.products import TEMPLATES
 from mobnet.settings.load import load_settings
 
 from .clicks import MENU, ROWS, choose, explain, show, text_of_frame
-from .conftest import ROOT, Snakemake
+from .conftest import ROOT
 
 CAPTIONS = ROOT / "workflow" / "report"
 TABLE_HTML = ROOT / TEMPLATES / "table.html"
 COUNTERPARTS = ["table_07", "table_08", "table_10", "table_11", "figure_08", "figure_09", "figure_10", "figure_12"]
-Outputs = Callable[[str], dict[str, str]]
-OpenPage = Callable[..., Browser]
 
 
-def in_report(made: dict[str, str]) -> dict[str, list[str]]:
+def in_report(made):
     """Return category -> names of what the report must show, of all files that the workflow makes."""
     endings = {
         "figures": r"figures/.*\.png",
@@ -38,7 +35,7 @@ def in_report(made: dict[str, str]) -> dict[str, list[str]]:
     return {kind: sorted(Path(name).stem for name in made if re.fullmatch(end, name)) for kind, end in endings.items()}
 
 
-def test_everything_shown_has_a_caption_and_every_caption_is_shown(outputs: Outputs) -> None:
+def test_everything_shown_has_a_caption_and_every_caption_is_shown(outputs):
     kept = Path(load_settings().evaluation.learning_curve.data)
     waiting = set[str]() if kept.exists() else {"learning_curve"}  # of trials that `./reproduce lengths` makes
     for kind, names in in_report(outputs("smoke")).items():
@@ -47,7 +44,7 @@ def test_everything_shown_has_a_caption_and_every_caption_is_shown(outputs: Outp
 
 
 @pytest.mark.parametrize("path", sorted(CAPTIONS.glob("*/*.rst")), ids=lambda path: f"{path.parent.name}/{path.stem}")
-def test_a_caption_has_a_title_of_its_own_and_is_sound(path: Path) -> None:
+def test_a_caption_has_a_title_of_its_own_and_is_sound(path):
     title, gap, *text = path.read_text().splitlines()
     assert 10 < len(title) < 60  # the menu is as wide as its longest line
     assert gap == ""
@@ -61,13 +58,13 @@ def test_a_caption_has_a_title_of_its_own_and_is_sound(path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", COUNTERPARTS)
-def test_what_the_paper_took_from_the_robot_is_called_one_of_surrogate_robots(name: str) -> None:
+def test_what_the_paper_took_from_the_robot_is_called_one_of_surrogate_robots(name):
     (path,) = CAPTIONS.glob(f"*/{name}.rst")
     assert "surrogate robot" in path.read_text().splitlines()[0]
 
 
 @pytest.fixture(scope="module")
-def report(make_project: Callable[..., Path], snakemake: Snakemake, outputs: Outputs) -> Path:
+def report(make_project, snakemake, outputs):
     """The report of made-up files: each table has one cell that names it, each figure is the same picture."""
     folder = make_project("report")
     made = outputs("smoke")
@@ -88,9 +85,7 @@ def report(make_project: Callable[..., Path], snakemake: Snakemake, outputs: Out
 
 
 @with_browser
-def test_the_first_page_says_what_it_is_and_lists_all_categories(
-    report: Path, open_page: OpenPage, outputs: Outputs
-) -> None:
+def test_the_first_page_says_what_it_is_and_lists_all_categories(report, open_page, outputs):
     browser = open_page(report)
     browser.until("document.querySelector('#app .prose h1')?.textContent", "MOB-Net reproduced in simulation")
     assert "Scale smoke" in browser.value("document.body.innerText")
@@ -100,14 +95,14 @@ def test_the_first_page_says_what_it_is_and_lists_all_categories(
 
 @with_browser
 @pytest.mark.parametrize("kind", ["figures", "tables"])
-def test_a_category_lists_all_its_results(kind: str, report: Path, open_page: OpenPage, outputs: Outputs) -> None:
+def test_a_category_lists_all_its_results(kind, report, open_page, outputs):
     browser = open_page(report)
     choose(browser, kind.capitalize())
     browser.until(ROWS, in_report(outputs("smoke"))[kind])
 
 
 @with_browser
-def test_a_table_is_shown_and_says_where_it_comes_from(report: Path, open_page: OpenPage) -> None:
+def test_a_table_is_shown_and_says_where_it_comes_from(report, open_page):
     browser = open_page(report)
     choose(browser, "Tables")
     show(browser, "table_07", "iframe")
@@ -118,7 +113,7 @@ def test_a_table_is_shown_and_says_where_it_comes_from(report: Path, open_page: 
 
 
 @with_browser
-def test_a_figure_fits_beside_the_menu_and_says_which_rule_made_it(report: Path, open_page: OpenPage) -> None:
+def test_a_figure_fits_beside_the_menu_and_says_which_rule_made_it(report, open_page):
     browser = open_page(report)
     choose(browser, "Figures")
     show(browser, "figure_05", ".p-3 > img")

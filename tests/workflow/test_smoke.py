@@ -8,22 +8,20 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from browser import Browser, with_browser
+from browser import with_browser
 
 from mobnet.evaluation.report.compute import HOUR_S, WHOLE
 from mobnet.evaluation.report.cost import costs
 from mobnet.evaluation.report.rates import measured
-from mobnet.plan.plan import Plan, make_plan
+from mobnet.plan.plan import make_plan
 from mobnet.running.accounts import read_account
 from mobnet.settings.load import load_settings
 
 from .clicks import choose, explain, show, text_of_frame
 from .cluster import cluster_in
-from .conftest import Snakemake
 
 SMOKE = ("--config", "scale=smoke")
 NO_OP_S = 10.0
@@ -43,62 +41,57 @@ WHOLE_CLUSTER, LONGER = "MOBNET_WHOLE_CLUSTER", 1.5  # asks for the whole line o
 pytestmark = [pytest.mark.slow, pytest.mark.sim]
 
 
-def reproduce(folder: Path, *words: str, command: str = "all") -> subprocess.Popen[bytes]:
-    """Start ./reproduce in a process group of its own."""
+def reproduce(folder, *words, command="all"):
     started = [sys.executable, str(folder / "reproduce"), command, *SMOKE, *words]
     with (folder / "out.log").open("ab") as out:
         return subprocess.Popen(started, cwd=folder, stdout=out, stderr=out, start_new_session=True)
 
 
-def told(folder: Path) -> str:
-    """Return what the runs in a folder printed last."""
+def told(folder):
     return (folder / "out.log").read_text()[-5000:]
 
 
-def products(folder: Path) -> dict[str, bytes]:
-    """Return the content of every table, and of every figure's numbers."""
+def products(folder):
     found = [*(folder / "tables" / "smoke").iterdir(), *(folder / "figures" / "smoke").glob("*.csv")]
     return {path.name: path.read_bytes() for path in found}
 
 
-def manifest_of(folder: Path) -> str:
+def manifest_of(folder):
     """Return the list of results with their hashes; two runs of the same code have the same."""
     return (folder / "results" / "smoke" / "MANIFEST.sha256").read_text()
 
 
-def names(folder: Path) -> set[str]:
+def names(folder):
     """Return the names of all files but those that only some runs have: Snakemake's own, reports, caches."""
     places = ("results", "tables", "figures", "paper", ".snakemake/scripts", ".cache/tmp")
     return {str(path.relative_to(folder)) for place in places for path in (folder / place).rglob("*")}
 
 
 @pytest.fixture(scope="module")
-def plan() -> Plan:
-    """What the smoke scale makes."""
+def plan():
     return make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False)
 
 
 @pytest.fixture(scope="module")
-def unbroken(make_project: Callable[..., Path]) -> Path:
+def unbroken(make_project):
     """A project in which the smoke scale ran on two cores."""
     folder = make_project("unbroken")
     assert reproduce(folder).wait() == 0, told(folder)
     return folder
 
 
-def test_smoke_makes_all_that_is_planned(unbroken: Path, plan: Plan) -> None:
+def test_smoke_makes_all_that_is_planned(unbroken, plan):
     names = [*plan.stored, *(name for product in plan.products for name in product.outputs)]
     assert [name for name in names if not (unbroken / name).exists()] == []
     assert (unbroken / "figures" / "smoke" / "figure_05.pdf").read_bytes().startswith(b"%PDF")
     assert "MOB-Net-LL-s0" in (unbroken / "results" / "smoke" / "runs.html").read_text()
 
 
-def accounts(folder: Path) -> list[Path]:
-    """Return the accounts that jobs wrote beside their logs."""
+def accounts(folder):
     return list((folder / "results" / "smoke" / "logs").rglob("*.json"))
 
 
-def test_every_job_left_a_log_and_an_account(unbroken: Path, plan: Plan) -> None:
+def test_every_job_left_a_log_and_an_account(unbroken, plan):
     folder = unbroken / "results" / "smoke" / "logs"
     logs = {path.with_suffix(".json") for path in folder.rglob("*.log")}
     assert logs == set(accounts(unbroken))
@@ -106,25 +99,25 @@ def test_every_job_left_a_log_and_an_account(unbroken: Path, plan: Plan) -> None
     assert names == {work.job for work in plan.work}
 
 
-def test_the_run_can_be_priced_by_its_own_accounts(unbroken: Path, plan: Plan) -> None:
+def test_the_run_can_be_priced_by_its_own_accounts(unbroken, plan):
     rates = measured(plan, map(read_account, accounts(unbroken)))
     priced = costs(plan.work, rates.kinds)[WHOLE][1]
     assert priced / HOUR_S == pytest.approx(rates.core_h, rel=0.1)
 
 
-def test_second_call_does_nothing(unbroken: Path) -> None:
+def test_second_call_does_nothing(unbroken):
     before = time.monotonic()
     assert reproduce(unbroken).wait() == 0
     assert time.monotonic() - before < NO_OP_S
     assert "Nothing to be done" in told(unbroken)
 
 
-def kinds_of_files(names: list[str]) -> dict[str, str]:
+def kinds_of_files(names):
     """Return the last file of each folder's kind of file, such as results/smoke/networks and .csv."""
     return {f"{'/'.join(Path(name).parts[:3])}{Path(name).suffix}": name for name in names}
 
 
-def test_verify_names_every_file_in_which_a_byte_is_flipped_and_no_other(unbroken: Path) -> None:
+def test_verify_names_every_file_in_which_a_byte_is_flipped_and_no_other(unbroken):
     manifest = "results/smoke/MANIFEST.sha256"
     words = [sys.executable, str(unbroken / "reproduce"), "verify", "--manifest", manifest]
     assert subprocess.run(words, cwd=unbroken, check=False, capture_output=True).returncode == 0
@@ -144,7 +137,7 @@ def test_verify_names_every_file_in_which_a_byte_is_flipped_and_no_other(unbroke
     assert sorted(line.split(": hash ")[0] for line in done.stdout.splitlines() if ": hash " in line) == flipped
 
 
-def test_every_file_of_results_passes_a_check(unbroken: Path, plan: Plan) -> None:
+def test_every_file_of_results_passes_a_check(unbroken, plan):
     folders = {str(unbroken.joinpath(*Path(name).parts[:3])) for name in plan.stored}
     words = [sys.executable, str(unbroken / "reproduce"), "check", *folders, str(unbroken / "results/smoke/logs")]
     done = subprocess.run(words, cwd=unbroken, check=False, capture_output=True, text=True)
@@ -153,7 +146,7 @@ def test_every_file_of_results_passes_a_check(unbroken: Path, plan: Plan) -> Non
     assert accepted >= {str(unbroken / name) for name in plan.stored if not name.endswith(".parquet")}
 
 
-def test_compute_counts_every_job_before_it(unbroken: Path) -> None:
+def test_compute_counts_every_job_before_it(unbroken):
     rows = (unbroken / "results" / "smoke" / "compute.csv").read_text().splitlines()
     after = {"compute", "paper", "pages", "manifest"}
     jobs = [path for path in accounts(unbroken) if path.stem not in after]
@@ -161,13 +154,13 @@ def test_compute_counts_every_job_before_it(unbroken: Path) -> None:
     assert any(row.startswith("elapsed,cores,") for row in rows)
 
 
-def test_report_is_made_by_one_command(unbroken: Path) -> None:
+def test_report_is_made_by_one_command(unbroken):
     assert reproduce(unbroken, command="report").wait() == 0, told(unbroken)
     assert (unbroken / "report.html").stat().st_size > 1_000_000
 
 
 @with_browser
-def test_report_shows_tables_figures_and_trainings(unbroken: Path, open_page: Callable[..., Browser]) -> None:
+def test_report_shows_tables_figures_and_trainings(unbroken, open_page):
     browser = open_page(unbroken / "report.html")
     choose(browser, "Tables")
     show(browser, "table_05", "iframe")
@@ -195,24 +188,13 @@ PRODUCTS = {
 MUJOCO = {"environment.lock": ("\nmujoco==", "\nmujoco==9")}
 
 
-@pytest.mark.parametrize(
-    ("edits", "touched", "spared"),
-    [
-        (WORDS, set(), set()),
-        (LAW, {"collect"}, {"table_01", "deviations", "motion"}),
-        (PRODUCTS, {"figure_07", "steps"}, set()),
-        (MUJOCO, {"collect", "motion"}, {"table_01", "deviations"}),
-    ],
-    ids=["words", "friction law", "a figure's setting and a table's code", "version of MuJoCo"],
-)
-def test_edits_rerun_exactly_what_depends_on_them(
-    unbroken: Path,
-    snakemake: Snakemake,
-    plan: Plan,
-    edits: dict[str, tuple[str, str]],
-    touched: set[str],
-    spared: set[str],
-) -> None:
+@pytest.mark.parametrize(("edits", "touched", "spared"), [
+    (WORDS, set(), set()),
+    (LAW, {"collect"}, {"table_01", "deviations", "motion"}),
+    (PRODUCTS, {"figure_07", "steps"}, set()),
+    (MUJOCO, {"collect", "motion"}, {"table_01", "deviations"}),
+], ids=["words", "friction law", "a figure's setting and a table's code", "version of MuJoCo"])  # fmt: skip
+def test_edits_rerun_exactly_what_depends_on_them(unbroken, snakemake, plan, edits, touched, spared):
     before = {path: (path.read_text(), path.stat()) for path in (unbroken / name for name in edits)}
     for (path, (text, _)), (old, new) in zip(before.items(), edits.values(), strict=True):
         assert old in text
@@ -231,9 +213,7 @@ def test_edits_rerun_exactly_what_depends_on_them(
     assert not spared & set(planned.split())
 
 
-def test_damaged_recording_stops_with_one_line_and_nothing_half_written(
-    unbroken: Path, make_project: Callable[..., Path], snakemake: Snakemake
-) -> None:
+def test_damaged_recording_stops_with_one_line_and_nothing_half_written(unbroken, make_project, snakemake):
     folder = make_project("damaged", unbroken)
     place = Path("results") / "smoke" / "recordings" / "forward_walk" / "ideal"
     for made in (place, Path("results") / "smoke" / "residuals" / "forward_walk" / "ideal"):
@@ -247,7 +227,7 @@ def test_damaged_recording_stops_with_one_line_and_nothing_half_written(
     assert not (folder / target).exists()
 
 
-def run_on_cluster(folder: Path, place: Path, *targets: str) -> float:
+def run_on_cluster(folder, place, *targets):
     """Make targets of a project on a cluster of this machine, whose files go to a place; return how long it took [s].
 
     At this scale trainings take seconds, so that they go into the queue together too.
@@ -262,7 +242,7 @@ def run_on_cluster(folder: Path, place: Path, *targets: str) -> float:
     return time.monotonic() - before
 
 
-def with_losses(make_project: Callable[..., Path], unbroken: Path, name: str) -> Path:
+def with_losses(make_project, unbroken, name):
     """Return a copy of a project with its results, of which some are lost."""
     folder = make_project(name, unbroken)
     for part in MADE:
@@ -272,15 +252,13 @@ def with_losses(make_project: Callable[..., Path], unbroken: Path, name: str) ->
     return folder
 
 
-def numbers_below(place: Path) -> dict[str, bytes]:
+def numbers_below(place):
     """Return the content of a file, or of all files of a folder but notes, which tell when and where they were made."""
     found = place.rglob("*") if place.is_dir() else [place]
     return {path.name: path.read_bytes() for path in found if path.is_file() and path.suffix != ".json"}
 
 
-def test_a_cluster_makes_the_same_files(
-    unbroken: Path, make_project: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory
-) -> None:
+def test_a_cluster_makes_the_same_files(unbroken, make_project, tmp_path_factory):
     folder = with_losses(make_project, unbroken, "on_cluster")
     run_on_cluster(folder, tmp_path_factory.mktemp("cluster"), *FIGURES)
     for place in LOST:
@@ -290,9 +268,7 @@ def test_a_cluster_makes_the_same_files(
 
 if WHOLE_CLUSTER in os.environ:  # it takes as long as all other tests together
 
-    def test_a_cluster_makes_all_files_in_half_as_much_time_again(
-        unbroken: Path, make_project: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory
-    ) -> None:
+    def test_a_cluster_makes_all_files_in_half_as_much_time_again(unbroken, make_project, tmp_path_factory):
         folder = make_project("all_on_cluster", unbroken)
         took_s = run_on_cluster(folder, tmp_path_factory.mktemp("cluster"), "all")
         assert products(folder) == products(unbroken)
@@ -301,7 +277,7 @@ if WHOLE_CLUSTER in os.environ:  # it takes as long as all other tests together
         assert took_s <= LONGER * (max(job.end_s for job in jobs) - min(job.start_s for job in jobs))
 
 
-def test_killed_at_random_moments_ends_with_the_same_tables(unbroken: Path, make_project: Callable[..., Path]) -> None:
+def test_killed_at_random_moments_ends_with_the_same_tables(unbroken, make_project):
     folder = with_losses(make_project, unbroken, "killed")
     moments = random.Random(2023)
     for kill in range(KILLS):

@@ -8,7 +8,7 @@ import pytest
 
 from mobnet.commands.setup import LOCKS
 
-from .conftest import ROOT, Snakemake
+from .conftest import ROOT
 
 CHECKS = {
     "ruff check": ["-m", "ruff", "check", "."],
@@ -21,17 +21,17 @@ ONE_ENVIRONMENT = "Specify a conda environment or container for each rule."  # e
 
 
 @pytest.mark.parametrize("check", CHECKS)
-def test_check_passes(check: str) -> None:
+def test_check_passes(check):
     done = subprocess.run([sys.executable, *CHECKS[check]], cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-def test_snakemake_lint_passes(snakemake: Snakemake) -> None:
+def test_snakemake_lint_passes(snakemake):
     done = snakemake("--lint")
     faults = re.findall(r"^    \* (.+):$", done.stdout + done.stderr, re.MULTILINE)
     assert [fault for fault in faults if fault != ONE_ENVIRONMENT] == []
 
 
-def test_no_committed_file_names_a_package_host() -> None:
+def test_no_committed_file_names_a_package_host():
     for name in (*LOCKS, "reproduce", "pyproject.toml"):
         assert "://" not in (ROOT / name).read_text(), name

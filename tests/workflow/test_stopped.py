@@ -5,7 +5,6 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -36,14 +35,13 @@ except DataError as error:
 pytestmark = [pytest.mark.slow, pytest.mark.sim]
 
 
-def start(folder: Path) -> subprocess.Popen[bytes]:
-    """Start the run of the target in a process group of its own."""
+def start(folder):
     words = [sys.executable, str(folder / "reproduce"), TARGET, "--cores", "1"]
     with (folder / "out.log").open("ab") as out:
         return subprocess.Popen(words, cwd=folder, stdout=out, stderr=out, start_new_session=True)
 
 
-def kill_when(run: subprocess.Popen[bytes], began: Path) -> None:
+def kill_when(run, began):
     """Kill a run with all its processes as soon as a file is there."""
     end = time.monotonic() + LONGEST_S
     while not began.exists() and time.monotonic() < end:
@@ -53,19 +51,17 @@ def kill_when(run: subprocess.Popen[bytes], began: Path) -> None:
     run.wait()
 
 
-def arrays(folder: Path) -> dict[str, bytes]:
-    """Return the content of the recordings and residuals."""
+def arrays(folder):
     places = [folder / "results" / "smoke" / kind for kind in ARRAYS]
     return {str(path): path.read_bytes() for place in places for path in place.rglob("*") if path.is_file()}
 
 
-def git(folder: Path, *words: str) -> None:
-    """Run git with a made-up author."""
+def git(folder, *words):
     author = ("-c", "user.name=Somebody", "-c", "user.email=somebody@example.org", "-c", "commit.gpgsign=false")
     subprocess.run(["git", *author, *words], cwd=folder, check=True, capture_output=True)
 
 
-def refusal(folder: Path, *changes: str) -> str:
+def refusal(folder, *changes):
     """Return why the results are not those of the commit and of a configuration; nothing if they are."""
     python, changed = str(folder / ".venv" / "bin" / "python"), ("--config", "scale=smoke", *changes)
     words = [python, "-c", CHECK, TARGET, *changed]
@@ -74,7 +70,7 @@ def refusal(folder: Path, *changes: str) -> str:
     return done.stderr.strip()
 
 
-def test_a_killed_run_that_went_on_is_one_run(make_project: Callable[..., Path]) -> None:
+def test_a_killed_run_that_went_on_is_one_run(make_project):
     folder = make_project("stopped")
     git(folder, "init", "--quiet")
     git(folder, "add", *PARTS)
@@ -85,12 +81,8 @@ def test_a_killed_run_that_went_on_is_one_run(make_project: Callable[..., Path])
     assert start(folder).wait() == 0, (folder / "out.log").read_text()
     resumed = arrays(folder)
     assert refusal(folder) == ""
-    check = [
-        sys.executable,
-        str(folder / "reproduce"),
-        "check",
-        *(str(folder / "results/smoke" / kind) for kind in ARRAYS),
-    ]
+    places = [str(folder / "results/smoke" / kind) for kind in ARRAYS]
+    check = [sys.executable, str(folder / "reproduce"), "check", *places]
     assert subprocess.run(check, cwd=folder, check=False, capture_output=True).returncode == 0
     for path in map(Path, resumed):
         path.unlink()

@@ -1,16 +1,11 @@
 """The end-to-end rival has no observer: it is its networks."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
 from mobnet.core.errors import ConfigError
-from mobnet.core.joints import JointLayout
-from mobnet.core.recording import Recording
 from mobnet.estimation.kinds.direct import DirectEstimator
 from mobnet.estimation.methods import build_estimator
-from mobnet.estimation.recipe import Recipe
 from mobnet.learning.deployed.limbs import LimbNetworks
 from mobnet.learning.deployed.networks import GruNetwork
 from mobnet.learning.deployed.weights import GRU_TENSORS, Z_SCORES
@@ -21,7 +16,7 @@ from mobnet.settings.networks import Limb
 HIDDEN = 5
 
 
-def network(limb: str, layout: JointLayout, rng: np.random.Generator) -> GruNetwork:
+def network(limb, layout, rng):
     """Return a random network of a leg, z-scores included."""
     joints, inputs = layout.limb(limb), limb_inputs(layout, Limb(joints=(limb,), Q=(limb,), T=(limb,))).names
     gates, n_in, n_out = 3 * HIDDEN, len(inputs), len(joints)
@@ -32,7 +27,7 @@ def network(limb: str, layout: JointLayout, rng: np.random.Generator) -> GruNetw
     return GruNetwork(tensors, limb, joints, inputs, 1e-6)
 
 
-def test_it_returns_what_its_networks_predict(layout: JointLayout, made_up: Callable[..., Recording]) -> None:
+def test_it_returns_what_its_networks_predict(layout, made_up):
     rng = np.random.default_rng(0)
     networks = LimbNetworks([network(limb, layout, rng) for limb in ("RL", "LL")], layout)
     sensed = made_up(0, 0.1).sensed
@@ -43,6 +38,6 @@ def test_it_returns_what_its_networks_predict(layout: JointLayout, made_up: Call
     np.testing.assert_array_equal(result.std, predicted.std)
 
 
-def test_a_method_without_networks_is_refused(recipe_of: Callable[..., Recipe]) -> None:
+def test_a_method_without_networks_is_refused(recipe_of):
     with pytest.raises(ConfigError, match="method 'b' of kind 'direct' names no limbs"):
         build_estimator(recipe_of("b", methods={"b": Method(kind="direct")}))

@@ -1,30 +1,23 @@
 """The friction model of MOB-fric obeys (23) and corrects the residual by its filtered torque."""
 
 import json
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
-from mobnet.core.errors import DataError
-from mobnet.core.joints import N_VIRTUAL, JointLayout
-from mobnet.core.recording import Recording
+from mobnet.core.joints import N_VIRTUAL
 from mobnet.estimation.kinds.friction import FittedFriction, FrictionModel, Options, build, fit, read_friction
 from mobnet.estimation.low_pass import low_pass
-from mobnet.estimation.recipe import Recipe
 from mobnet.estimation.regression import TERMS
 from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.settings import Settings
-from mobnet.simulation.friction import PlantFriction, friction_torque, make_friction
+from mobnet.simulation.friction import friction_torque, make_friction
 
 GAIN_HZ, RATE_HZ = 100.0, 1000.0
 KNEE = {"coulomb_nm": 12.0, "static_nm": 9.0, "viscous_nms": 3.0, "load_per_nm": 0.002, "stribeck_rad_s": 0.3}
 
 
 @pytest.fixture
-def fitted(tmp_path: Path) -> Path:
+def fitted(tmp_path):
     """A fit of the left knee alone."""
     path = tmp_path / "fit.json"
     path.write_text(json.dumps({"smoothing_rad_s": 0.02, "joints": {"LL4": KNEE}}))
@@ -32,22 +25,21 @@ def fitted(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def plant(settings: Settings, layout: JointLayout) -> PlantFriction:
+def plant(settings, layout):
     """Friction of the plant with Table 4's numbers."""
     legs = np.array([joint[1] == "L" for joint in layout.actuated])
     return make_friction(settings.plant, legs, ["stribeck", "load"])
 
 
 @pytest.fixture
-def table_4(plant: PlantFriction, layout: JointLayout) -> FittedFriction:
+def table_4(plant, layout):
     """The same in the form of the fit."""
     dry = {"coulomb": np.full(layout.nu, plant.coulomb), "static": np.full(layout.nu, plant.static)}
     terms = {**dry, "viscous": plant.viscous, "load": plant.load}
     return FittedFriction(terms, np.full(layout.nu, plant.stribeck), plant.smoothing)
 
 
-def test_it_has_the_plants_form(plant: PlantFriction, layout: JointLayout, table_4: FittedFriction) -> None:
-    """Equivalent to the simulator's own formula of (23)."""
+def test_it_has_the_plants_form(plant, layout, table_4):
     rng = np.random.default_rng(0)
     velocity, torque = rng.normal(0, 1, (20, layout.nu)), rng.normal(0, 50, (20, layout.nu))
     expected = [
@@ -57,9 +49,7 @@ def test_it_has_the_plants_form(plant: PlantFriction, layout: JointLayout, table
     np.testing.assert_allclose(table_4.torque(velocity, torque), expected, rtol=1e-12)
 
 
-def test_prediction_is_the_filtered_torque_and_the_base_has_none(
-    layout: JointLayout, table_4: FittedFriction, made_up: Callable[..., Recording]
-) -> None:
+def test_prediction_is_the_filtered_torque_and_the_base_has_none(layout, table_4, made_up):
     sensed = made_up(2, 0.2).sensed
     prediction = FrictionModel(layout, table_4, GAIN_HZ, RATE_HZ).run_all([sensed])[0]
     torque = table_4.torque(sensed.v[:, N_VIRTUAL:], sensed.tau_motor)
@@ -68,9 +58,7 @@ def test_prediction_is_the_filtered_torque_and_the_base_has_none(
     np.testing.assert_allclose(prediction.mean[:, N_VIRTUAL:], low_pass(torque, GAIN_HZ, RATE_HZ), rtol=1e-12)
 
 
-def test_joints_that_were_not_fitted_are_those_of_the_observer(
-    recipe_of: Callable[..., Recipe], layout: JointLayout, fitted: Path, made_up: Callable[..., Recording]
-) -> None:
+def test_joints_that_were_not_fitted_are_those_of_the_observer(recipe_of, layout, fitted, made_up):
     recipe, sensed = recipe_of("MOB-fric", fitted=fitted), made_up(2, 0.1).sensed
     estimator = build(recipe)
     difference = estimator.estimate(sensed).tau_ext - recipe.observer().residual(sensed)
@@ -79,7 +67,7 @@ def test_joints_that_were_not_fitted_are_those_of_the_observer(
     assert changed == ["LL4"]
 
 
-def test_numbers_are_read_by_name(fitted: Path, layout: JointLayout) -> None:
+def test_numbers_are_read_by_name(fitted, layout):
     friction, knee = read_friction(fitted, layout.actuated), layout.actuated.index("LL4")
     assert {key: friction.terms[term][knee] for term, key in TERMS.items()} == {
         key: KNEE[key] for key in TERMS.values()
@@ -88,29 +76,7 @@ def test_numbers_are_read_by_name(fitted: Path, layout: JointLayout) -> None:
     assert sum(np.count_nonzero(factors) for factors in friction.terms.values()) == len(TERMS)
 
 
-@pytest.mark.parametrize(
-    ("found", "message"),
-    [
-        ({"smoothing_rad_s": 0.02, "joints": {"LL9": KNEE}}, "'LL9' is not accepted; accepted: LL"),
-        ({"smoothing_rad_s": 0.02, "joints": {"LL4": {"coulomb_nm": 1.0}}}, r"joints\.LL4\.static_nm: key is missing"),
-        ({"joints": {}}, "smoothing_rad_s: key is missing; accepted: smoothing_rad_s, joints"),
-    ],
-)
-def test_files_that_are_no_fit_are_refused(
-    found: dict[str, Any], message: str, tmp_path: Path, layout: JointLayout
-) -> None:
-    path = tmp_path / "fit.json"
-    path.write_text(json.dumps(found))
-    with pytest.raises(DataError, match=message):
-        read_friction(path, layout.actuated)
-
-
-def test_load_needs_a_limb_whose_network_sees_the_torque(
-    settings: Settings,
-    made_up: Callable[..., Recording],
-    write_pair: Callable[[Path, Recording], tuple[Path, Path]],
-    tmp_path: Path,
-) -> None:
+def test_load_needs_a_limb_whose_network_sees_the_torque(settings, made_up, write_pair, tmp_path):
     """Section 4.2.2: load-dependent friction in the legs alone."""
     pair, layout, limbs = write_pair(tmp_path, made_up(3, 1.0)), settings.layout, ("LA", "LL")
     options = Options(terms=("coulomb", "load"), smoothing_rad_s=0.02, stribeck_rad_s=(0.1, 0.3))

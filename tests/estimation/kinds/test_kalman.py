@@ -1,27 +1,22 @@
 """The disturbance Kalman filter against a filter by the book, with covariances, and against closed forms."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 import scipy.signal
 
 from mobnet.core.errors import ConfigError
-from mobnet.core.recording import Recording
 from mobnet.estimation.kinds.kalman import Options, build, check, gains, sections_of
 from mobnet.estimation.low_pass import exact_pole, filtered
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.observe import observer_of
-from mobnet.estimation.recipe import Recipe
 from mobnet.robot.description import describe
 from mobnet.settings.methods import Method
-from mobnet.settings.settings import Settings
 
 RATE_HZ, GAIN_HZ = 1000.0, 100.0
 OPTIONS = Options(momentum_nms=0.3, walk_nm=2000.0)
 
 
-def by_the_book(options: Options, measured: np.ndarray, known: np.ndarray) -> np.ndarray:
+def by_the_book(options, measured, known):
     """Return d (T,) [N m] from momentum (T,) and the known torque (T,) of the interval before, long after the start."""
     step = 1 / RATE_HZ
     transition, seen = np.array([[1.0, step], [0.0, 1.0]]), np.array([[1.0, 0.0]])
@@ -38,7 +33,7 @@ def by_the_book(options: Options, measured: np.ndarray, known: np.ndarray) -> np
     return np.array([0.0, *found])
 
 
-def test_it_is_the_filter_by_the_book_on_what_the_observer_filters_at_first_order() -> None:
+def test_it_is_the_filter_by_the_book_on_what_the_observer_filters_at_first_order():
     rng = np.random.default_rng(0)
     disturbance, known = rng.standard_normal((2, 400)).cumsum(axis=1)
     momentum = np.cumsum(disturbance + known) / RATE_HZ + 0.05 * rng.standard_normal(400)
@@ -48,7 +43,7 @@ def test_it_is_the_filter_by_the_book_on_what_the_observer_filters_at_first_orde
     np.testing.assert_allclose(ours, by_the_book(OPTIONS, momentum, known), atol=1e-8 * np.abs(ours).max())
 
 
-def test_its_filter_alone_passes_a_steady_torque_whole_and_is_of_second_order() -> None:
+def test_its_filter_alone_passes_a_steady_torque_whole_and_is_of_second_order():
     """In continuous time the poles lie at sqrt(walk / noise) rad/s in size, damped by 1 / sqrt(2)."""
     first, second = gains(OPTIONS, RATE_HZ)
     poles = np.roots([1.0, first + second - 2.0, 1.0 - first])
@@ -61,14 +56,12 @@ def test_its_filter_alone_passes_a_steady_torque_whole_and_is_of_second_order() 
 
 
 @pytest.mark.parametrize("factor", [0.1, 10.0])
-def test_the_ratio_alone_matters(factor: float) -> None:
+def test_the_ratio_alone_matters(factor):
     scaled = Options(momentum_nms=factor * OPTIONS.momentum_nms, walk_nm=factor * OPTIONS.walk_nm)
     np.testing.assert_allclose(gains(scaled, RATE_HZ), gains(OPTIONS, RATE_HZ), rtol=1e-6)
 
 
-def test_on_the_observer_it_estimates_the_torque_before_the_low_pass(
-    settings: Settings, recipe_of: Callable[..., Recipe], made_up: Callable[..., Recording]
-) -> None:
+def test_on_the_observer_it_estimates_the_torque_before_the_low_pass(settings, recipe_of, made_up):
     """With hardly any noise d is the torque of the last interval, which the residual follows late."""
     row = Method(kind="kalman", of="MOB", options={"momentum_nms": 1e-6, "walk_nm": 1e3})
     recipe = recipe_of("quick", "ideal", methods={"MOB": settings.methods["MOB"], "quick": row})
@@ -81,7 +74,7 @@ def test_on_the_observer_it_estimates_the_torque_before_the_low_pass(
     np.testing.assert_allclose(found, raw, atol=0.02 * np.abs(raw).max())
 
 
-def test_it_needs_a_method_to_filter(settings: Settings, recipe_of: Callable[..., Recipe]) -> None:
+def test_it_needs_a_method_to_filter(settings, recipe_of):
     row = Method(kind="kalman", options=dict(OPTIONS))
     ((place, text),) = check(row, OPTIONS, RATE_HZ)
     assert place == ("of",)
