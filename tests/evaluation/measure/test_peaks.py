@@ -5,9 +5,9 @@ import pytest
 
 from mobnet.estimation.low_pass import low_pass
 from mobnet.evaluation.measure.estimates.peaks import first_above, medians, push_rows, rises
-from mobnet.settings.evaluation import LimbRuns, Peaks
+from mobnet.settings.evaluation import Peaks, PushedLimbRuns
 
-TEST = LimbRuns(scenario="knee_swing", level="ideal", methods=("MOB",), limbs=("LL",))
+TEST = PushedLimbRuns(scenario="knee_swing", level="ideal", methods=("MOB",), limbs=("LL",))
 SETTINGS = Peaks(turned_share=0.5, after_s=0.05, longest_s=0.2, tests=(TEST,))
 COUNTED = np.array([True])
 
