@@ -1,6 +1,11 @@
 """The calibrator prints thresholds, rate and forces of a walk, and one clear line where it cannot."""
 
+import json
+from pathlib import Path
+
 import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 from made_swings import AIR, GROUND, RATE_HZ, unseen
 
@@ -54,6 +59,20 @@ def test_a_walk_that_calibrates_nothing_is_one_line_and_no_threshold(write, capl
     (line,) = caplog.messages
     assert text in line
     assert "\n" not in line
+
+
+def test_a_lost_sample_of_an_estimate_is_told(write, caplog):
+    """As the log of another program may have one."""
+    words = write()
+    path, note = (Path(words[-1]).with_suffix(ending) for ending in (".parquet", ".json"))
+    table = pq.read_table(path)
+    values = [np.array(column) for column in table.columns]
+    values[4][1234] = np.nan
+    pq.write_table(pa.table([pa.array(column) for column in values], schema=table.schema), path)
+    said = json.loads(note.read_text())
+    note.write_text(json.dumps({key: value for key, value in said.items() if key != "footer"}))
+    assert main(words) == 1
+    assert "column 'tau_ext.LL5', row 1234: nan is not accepted; accepted: " in caplog.text
 
 
 @pytest.mark.parametrize(("words", "text"), [

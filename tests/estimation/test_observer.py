@@ -70,9 +70,16 @@ def test_all_joints_and_the_base_follow_the_low_passed_truth(observer, pushed):
     assert np.abs(error).max() < 0.02  # second order in 1 ms of forces of some 1000 N
 
 
-def test_batch_equals_the_recursion(nominal, observer, pushed):
+def test_batch_equals_the_recursion_and_stepping(nominal, observer, pushed):
+    """Three forms of the observer are equivalent; the recursion of (7) is the reference."""
     sensed, _ = pushed(RATE_HZ)
-    np.testing.assert_allclose(recursion(nominal, sensed, observer.pole), observer.residual(sensed), atol=1e-9)
+    batch = observer.residual(sensed)
+    np.testing.assert_allclose(recursion(nominal, sensed, observer.pole), batch, atol=1e-9)
+    state, rows = observer.init(), []
+    for k in range(len(sensed)):
+        state, residual = observer.step(state, sensed[k])
+        rows.append(residual)
+    np.testing.assert_allclose(rows, batch, atol=1e-9)
 
 
 def test_is_the_form_of_bledt_2018(nominal, observer, pushed):
