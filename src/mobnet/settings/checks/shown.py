@@ -6,8 +6,8 @@ from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.claims import claim_problems
 from mobnet.settings.checks.detection import detection_problems
-from mobnet.settings.checks.estimated import asked_problems
-from mobnet.settings.checks.measured import measured_problems
+from mobnet.settings.checks.estimates import asked_problems
+from mobnet.settings.checks.measures import measured_problems
 from mobnet.settings.checks.results import Results
 from mobnet.settings.evaluation import ErrorTable, Mean
 from mobnet.settings.reading import Place
