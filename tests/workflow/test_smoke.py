@@ -183,7 +183,7 @@ WORDS = {  # file -> what is replaced in it by what: none of these can change a 
 LAW = {f"{SIMULATION}/friction.py": (DECORATED, f"\nADDED = 1\n\n{DECORATED}")}
 PRODUCTS = {
     "configs/evaluation.yaml": ("every: 10\n", "every: 11\n"),
-    "src/mobnet/evaluation/tables/steps.py": (DEFINED, f"\n\nADDED = 1{DEFINED}"),
+    "src/mobnet/evaluation/tables/further/steps.py": (DEFINED, f"\n\nADDED = 1{DEFINED}"),
 }
 MUJOCO = {"environment.lock": ("\nmujoco==", "\nmujoco==9")}
 
