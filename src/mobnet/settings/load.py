@@ -17,7 +17,7 @@ from mobnet.settings.checks.robot import robot_problems
 from mobnet.settings.checks.sections import inconsistencies, refused_changes, unknown_names
 from mobnet.settings.claims import place_of, spelt_out
 from mobnet.settings.faults import problems
-from mobnet.settings.reading import Document, Place, dotted, read_override
+from mobnet.settings.reading import Document, Place, Problem, dotted, read_override
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.settings import Settings
 
@@ -41,7 +41,6 @@ PARTS: Mapping[str, tuple[str, ...]] = {  # file -> the sections that stand in i
 NAMED_FILES = ("robot", "published", "claims")  # sections that stand in files which config.yaml names
 WITH_NULLS = ("published", "claims")  # null: the paper prints no number; a range has no bound
 Kind = TypeVar("Kind", bound=Section)
-Problem = tuple[Place, str]
 Check = Callable[[Settings], Iterable[Problem]]
 
 

@@ -16,6 +16,7 @@ from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.files import check_regular
 
 Place = tuple[str | int, ...]
+Problem = tuple[Place, str]  # what does not fit at a place
 TAG = "tag:yaml.org,2002:"
 MERGE = f"{TAG}merge"
 LARGEST = 100_000  # values, aliases written out: a few lines of nested aliases can stand for billions

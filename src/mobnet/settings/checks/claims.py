@@ -9,9 +9,7 @@ from typing import get_args
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.checks.results import Results
 from mobnet.settings.claims import Cell, TrainingMetric
-from mobnet.settings.reading import Place
-
-Problem = tuple[Place, str]
+from mobnet.settings.reading import Problem
 
 
 def claim_problems(results: Results) -> Iterator[Problem]:

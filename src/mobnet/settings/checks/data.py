@@ -8,14 +8,13 @@ from typing import cast
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.checks.limits import as_many, at_least, at_most, below, within
 from mobnet.settings.data import FixedCommand, Motion, Push, Scenario
-from mobnet.settings.reading import Place
+from mobnet.settings.reading import Place, Problem
 from mobnet.settings.settings import Settings
 
 PACKED = 0.5  # share of the ground that plates drawn one by one can cover
 
 FIRST_SETS = ("walk", "walk_plain")  # training sets that tables and figures of the paper compare by name
 NARROW = 1e-9
-Problem = tuple[Place, str]
 
 
 def data_problems(settings: Settings) -> Iterator[Problem]:

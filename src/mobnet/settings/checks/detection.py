@@ -6,11 +6,10 @@ from collections.abc import Iterator
 from mobnet.core.errors import misfit
 from mobnet.settings.checks.limits import below
 from mobnet.settings.checks.results import Results
-from mobnet.settings.reading import Place
+from mobnet.settings.reading import Place, Problem
 
 POINT = re.compile(r"(left|right)_[a-z]+_[a-z]+")  # side, link and direction of what a collision meets
 LARGEST, COLLISION = "largest", "collision"  # rules that are always there
-Problem = tuple[Place, str]
 ROOT: Place = ("detection",)
 
 

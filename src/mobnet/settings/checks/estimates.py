@@ -5,9 +5,8 @@ from collections.abc import Iterator
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.asked import Asked
 from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.reading import Place
+from mobnet.settings.reading import Place, Problem
 
-Problem = tuple[Place, str]
 ROOT: Place = ("evaluation",)
 
 

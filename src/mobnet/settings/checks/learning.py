@@ -7,10 +7,8 @@ from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.limits import at_most
 from mobnet.settings.methods import Method, swept_names
 from mobnet.settings.networks import Learning, Network, NetworkCell
-from mobnet.settings.reading import Place
+from mobnet.settings.reading import Problem
 from mobnet.settings.settings import Settings
-
-Problem = tuple[Place, str]
 
 
 def learning_problems(catalogue: Catalogue) -> Iterator[Problem]:

@@ -3,9 +3,7 @@
 from collections.abc import Iterator
 
 from mobnet.core.errors import misfit
-from mobnet.settings.reading import Place
-
-Problem = tuple[Place, str]
+from mobnet.settings.reading import Place, Problem
 
 
 def at_most(place: Place, value: float, most: float, what: str) -> Iterator[Problem]:

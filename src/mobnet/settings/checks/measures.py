@@ -7,9 +7,8 @@ from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.checks.limits import at_most
 from mobnet.settings.checks.results import Results
 from mobnet.settings.evaluation import AmplitudeTest, FineTuning, MethodsRow
-from mobnet.settings.reading import Place
+from mobnet.settings.reading import Place, Problem
 
-Problem = tuple[Place, str]
 ROOT: Place = ("evaluation",)
 MS = 1000.0
 

@@ -18,10 +18,9 @@ from mobnet.settings.checks.walking import walking_problems
 from mobnet.settings.methods import swept_names
 from mobnet.settings.names import Use, unknown, uses
 from mobnet.settings.networks import Learning, Network
-from mobnet.settings.reading import Place
+from mobnet.settings.reading import Place, Problem
 from mobnet.settings.settings import Settings
 
-Problem = tuple[Place, str]
 Refused = tuple[Place, type[BaseModel], Mapping[str, Any], ValidationError]
 
 

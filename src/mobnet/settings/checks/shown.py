@@ -10,10 +10,9 @@ from mobnet.settings.checks.estimates import asked_problems
 from mobnet.settings.checks.measures import measured_problems
 from mobnet.settings.checks.results import Results
 from mobnet.settings.evaluation import ErrorTable, Mean
-from mobnet.settings.reading import Place
+from mobnet.settings.reading import Place, Problem
 from mobnet.settings.settings import Settings
 
-Problem = tuple[Place, str]
 ROOT: Place = ("evaluation",)
 LEAST_DRAWN = 10  # samples of a figure
 

@@ -8,14 +8,13 @@ from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.limits import at_most
 from mobnet.settings.checks.walking import is_whole
 from mobnet.settings.evaluation import Figure05, GaitFigure, HandFigure
-from mobnet.settings.reading import Place
+from mobnet.settings.reading import Place, Problem
 from mobnet.settings.scales import Scale
 from mobnet.settings.settings import Settings
 
 RESULTS_MAX = 50_000  # of one scale: its files are twice as many, and each has a place in Snakemake's plan
 PASSES_MAX = 20  # of an epoch through a training set
 CYCLES = 3  # a whole gait cycle follows a start within so many
-Problem = tuple[Place, str]
 
 
 def size_problems(catalogue: Catalogue) -> Iterator[Problem]:

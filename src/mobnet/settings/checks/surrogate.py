@@ -4,10 +4,8 @@ from collections.abc import Iterator
 
 from mobnet.core.errors import misfit
 from mobnet.settings.checks.limits import as_many
-from mobnet.settings.reading import Place
+from mobnet.settings.reading import Problem
 from mobnet.settings.settings import Settings
-
-Problem = tuple[Place, str]
 
 
 def surrogate_problems(settings: Settings) -> Iterator[Problem]:

@@ -5,13 +5,12 @@ from math import isclose
 
 from mobnet.core.errors import misfit
 from mobnet.settings.checks.limits import as_many, at_least, at_most, below, within
-from mobnet.settings.reading import Place
+from mobnet.settings.reading import Problem
 from mobnet.settings.settings import Settings
 
 LEG_JOINTS = 6
 WALKS = "a floating base, two feet with six joints each, first in `order`, leg, hands, imu, posture of all other joints"
 SOLREF_STEPS = 2  # MuJoCo: the time constant of a contact is at least two steps
-Problem = tuple[Place, str]
 
 
 def walking_problems(settings: Settings) -> Iterator[Problem]:
