@@ -6,21 +6,21 @@ from mobnet.settings import base
 from mobnet.settings.base import Section
 
 
-class DetectorTable(Section):
-    """Detectors on the collisions of a leg, by a rule of thresholds; `levels` are those at which they are tried."""
-
-    levels: base.Distinct[base.WatchedLevelName]
-    leg: base.WatchedLegName
-    kind: base.ThresholdsName
-    detectors: base.Distinct[base.DetectorName]
-
-
 class AlarmTable(Section):
-    """False alarms of detectors of a leg, by the rules of thresholds for wanted rates and by the paper's."""
+    """False alarms of detectors of a leg, by the rules of thresholds for wanted rates and by the paper's.
+
+    `levels` are those at which the detectors are tried.
+    """
 
     levels: base.Distinct[base.WatchedLevelName]
     leg: base.WatchedLegName
     detectors: base.Distinct[base.DetectorName]
+
+
+class DetectorTable(AlarmTable):
+    """Detectors on the collisions of a leg, by a rule of thresholds."""
+
+    kind: base.ThresholdsName
 
 
 class SmallestForce(DetectorTable):
