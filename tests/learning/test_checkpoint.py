@@ -30,8 +30,8 @@ def advance(pair):
     pair[1].step()
 
 
-def epoch(number, validation_loss):
-    return Epoch(number, 0.0, validation_loss, 0.0, 0.0, 0.0)
+def epoch(number, validation_loss, stride=1):
+    return Epoch(number, 0.0, validation_loss, 0.0, 0.0, 0.0, stride)
 
 
 @pytest.fixture
@@ -75,13 +75,18 @@ def test_the_first_of_equal_epochs_is_the_best():
     assert Progress(epochs).best_epoch() is epochs[1]
 
 
+def test_the_best_epoch_is_one_of_the_finest_time():
+    epochs = [epoch(1, 0.5, stride=8), epoch(2, 3.0), epoch(3, 2.0)]
+    assert Progress(epochs).best_epoch() is epochs[2]
+
+
 def test_the_same_training_writes_the_same_bytes(saved, tmp_path):
     checkpoint.save(tmp_path / "again", "print", *saved[1], saved[2])
     assert (tmp_path / "again").read_bytes() == saved[0].read_bytes()
 
 
 def test_metrics_come_back_as_written(tmp_path):
-    epochs = [Epoch(number, *(10.0 * number + k for k in range(5))) for number in (1, 2, 3)]
+    epochs = [Epoch(number, *(10.0 * number + k for k in range(5)), 1) for number in (1, 2, 3)]
     checkpoint.write_metrics(tmp_path / METRICS, epochs)
     with (tmp_path / METRICS).open() as file:
         read = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]

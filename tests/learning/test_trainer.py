@@ -1,5 +1,6 @@
 """The course of a training: the best epoch is kept, and a run that diverges stops."""
 
+import math
 import re
 
 import numpy as np
@@ -11,6 +12,7 @@ from mobnet.core.files import METRICS
 from mobnet.learning.checkpoint import CHECKPOINT
 from mobnet.learning.job import PRECISIONS, TrainingJob
 from mobnet.learning.trainer import Trainer
+from mobnet.settings.networks import Coarse
 
 EPOCHS = 5
 
@@ -92,3 +94,69 @@ def test_re_run_windows_are_scored_in_physical_units(trainer, tmp_path):
     scored = trained.on_windows(done)
     assert scored == trained.on_windows(done)
     assert scored["rmse"] == pytest.approx(done.best_epoch().validation_rmse, rel=0.5)
+
+
+COARSE = ({"stride": 4, "share": 0.4}, {"stride": 2, "share": 0.2})
+
+
+def test_strides_fall_to_every_sample_and_only_those_epochs_are_kept(trainer, tmp_path):
+    done = trainer(coarse=tuple(Coarse(**phase) for phase in COARSE)).run(tmp_path)
+    assert [epoch.stride for epoch in done.epochs] == [4, 4, 2, 1, 1]
+    assert done.best_epoch().stride == 1
+    assert done.best_epoch().validation_loss == min(epoch.validation_loss for epoch in done.epochs[3:])
+
+
+def test_an_epoch_at_coarse_time_has_as_many_updates(small, data):
+    coarse = tuple(Coarse(**phase) for phase in COARSE)
+    trained = Trainer(TrainingJob(small.training(coarse=coarse), 0, 1), data)
+    plans = [trained._plan(0, stride)[0] for stride in (1, 2, 4)]
+    assert {plan.stride for plan in plans} == {1, 2, 4}
+    updates = [len(plan) for plan in plans]
+    assert max(updates) <= min(updates) + 1
+    ends = [int(plan.rows.max()) + plan.stride * (trained.job.horizon - 1) for plan in plans]
+    assert max(ends) < len(data.inputs)
+
+
+@pytest.mark.parametrize("method", ["GRU", "LSTM"])
+def test_the_gate_that_keeps_the_state_keeps_it_for_the_same_time(small, data, method):
+    """Where nothing else moves it, a state that decays to a half in 8 ms at one stride does so at another, too."""
+    trained = Trainer(TrainingJob(small.training(method), 0, 1), data)
+    cell = trained.network.cell
+    width, before = cell.width, {name: weight.detach().clone() for name, weight in cell.named_parameters()}
+    trained.network.keep_longer(4.0)
+    for name, weight in cell.named_parameters():
+        moved = weight.detach() - before[name]
+        if name == "bias_ih_l0":
+            assert torch.allclose(moved[width : 2 * width], torch.full((width,), math.log(4.0)), atol=1e-6)
+            moved[width : 2 * width] = 0.0
+        assert not moved.any()
+
+
+@pytest.mark.parametrize("method", ["RNN", "MLP"])
+def test_cells_that_do_not_learn_how_long_to_keep_their_state_see_every_sample(small, method):
+    coarse = tuple(Coarse(**phase) for phase in COARSE)
+    job = TrainingJob(small.training(method, coarse=coarse), 0, 1)
+    assert [job.stride(epoch) for epoch in range(EPOCHS)] == [1] * EPOCHS
+
+
+@pytest.mark.parametrize("optimizer", ["adam", "soap"])
+def test_a_training_that_is_killed_goes_on_across_strides_to_the_same_weights(
+    small, data, optimizer, monkeypatch, tmp_path
+):
+    def stop(_):
+        raise KeyboardInterrupt
+
+    def fresh():
+        coarse = tuple(Coarse(**phase) for phase in COARSE)
+        return Trainer(TrainingJob(small.training(optimizer=optimizer, coarse=coarse), 0, 1), data)
+
+    whole = fresh().run(tmp_path / "whole")
+    for _ in range(EPOCHS):
+        killed = fresh()
+        monkeypatch.setattr(killed, "_report", stop)  # behind each checkpoint
+        with pytest.raises(KeyboardInterrupt):
+            killed.run(tmp_path / "killed")
+    done = fresh().run(tmp_path / "killed")
+    assert done.epochs == whole.epochs
+    assert (tmp_path / "killed" / METRICS).read_bytes() == (tmp_path / "whole" / METRICS).read_bytes()
+    assert all(torch.equal(done.best[name], tensor) for name, tensor in whole.best.items())

@@ -117,7 +117,7 @@ class Epoch:
 
     Losses are means of (22) over the samples of the training, and over those held out; `validation_rmse` is the mean
     over the joints of their root-mean-square errors [N m], V1..V3 [N]; `gradient_norm` is the mean norm of the gradient
-    before the clip.
+    before the clip; `stride` is the distance between two steps [samples], in training and validation.
     """
 
     epoch: int
@@ -126,21 +126,26 @@ class Epoch:
     validation_rmse: float
     rate: float
     gradient_norm: float
+    stride: int
 
 
 @dataclass(frozen=True)
 class TrialError:
-    """The error of a variant of a method on the development walks: a row of a table of trials.
+    """The error of a variant of a method on the development walks of a task: a row of a table of trials.
 
-    `tried` says what is changed, `steps` how many time steps its network has learned from, `state` whether that
-    diverged. `joint` is a joint of the limb, or `avg`; `rmse_nm` is the mean over so many walks [N m], `std_nm` their
-    standard deviation. `best` marks the variant of its method with the smallest mean error.
+    `tried` says what is changed, `recipe` how the network learns, `steps` from how many time steps, `seconds` in which
+    processor time [s], `state` whether that diverged. `joint` is a joint of the limb, or `avg`; `rmse_nm` is the mean
+    over so many walks [N m], `std_nm` their standard deviation. `best` marks the variant of its method with the
+    smallest mean error.
     """
 
+    task: str
     method: str
     tried: str
+    recipe: str
     network_seed: int
     steps: int | None
+    seconds: float | None
     state: str
     validation_loss: float | None
     joint: str

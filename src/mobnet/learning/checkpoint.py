@@ -29,10 +29,10 @@ log = logging.getLogger(__name__)
 
 @dataclass
 class Progress:
-    """How far a training has come: finished epochs, weights of the best one, time of all starts [s].
+    """How far a training has come: finished epochs, weights of the best one, processor time of all starts [s].
 
-    The best epoch has the smallest number in the column `chosen_by`. A training whose loss ran away stopped there: it
-    has `diverged`, and is never resumed.
+    The best epoch has the smallest number in the column `chosen_by`, of those at the finest time. A training whose loss
+    ran away stopped there: it has `diverged`, and is never resumed.
     """
 
     epochs: list[Epoch] = field(default_factory=list)
@@ -43,7 +43,7 @@ class Progress:
 
     def best_epoch(self) -> Epoch:
         """Return the epoch whose weights are kept, the first of equals."""
-        return min(self.epochs, key=attrgetter(self.chosen_by))
+        return min(self.epochs, key=attrgetter("stride", self.chosen_by))
 
 
 def copy_weights(network: nn.Module) -> dict[str, Tensor]:

@@ -6,6 +6,7 @@ gates and states stay float32, and so do sums; only what goes into a product is 
 
 import hashlib
 from dataclasses import dataclass
+from itertools import accumulate
 
 import numpy as np
 import torch
@@ -14,6 +15,8 @@ from mobnet.core.code import SHORT, code_hash
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.settings.networks import Precision, Training
 
+KEEPING_CELLS = ("GRU", "LSTM")  # a gate of theirs says how much of the state is kept
+SLACK = 1e-9  # of a sum of shares
 PRECISIONS = {"float32": torch.float32, "bfloat16": torch.bfloat16}
 
 
@@ -53,6 +56,20 @@ class TrainingJob:
         # (N22) with a share of our own: half of a short training at the last rate would teach nothing (note 0009).
         passed = min(1.0, epoch / max(1.0, learning.rate_decay_share * self.training.epochs))
         return learning.rate_first * (1.0 - (1.0 - learning.rate_last_ratio) * passed)
+
+    def stride(self, epoch: int) -> int:
+        """Return the distance between two steps [samples] of an epoch, 1 in the last one.
+
+        Coarse time is for cells that learn how long they keep their state, on streams.
+        """
+        network, learning = self.training.network, self.training.learning
+        if network.cell not in KEEPING_CELLS or learning.sequences != "carried":
+            return 1
+        ends = accumulate(phase.share for phase in learning.coarse)
+        passed = (epoch + 1) / self.training.epochs
+        return next(
+            (phase.stride for phase, end in zip(learning.coarse, ends, strict=True) if passed <= end + SLACK), 1
+        )
 
     def precision(self, device: torch.device) -> torch.dtype:
         """Return the number format of a GRU's products on a device; in other cells torch would round states too."""

@@ -1,5 +1,6 @@
 """The limb network as it is trained: cell, linear layer, softplus (section 4.1, Table 1)."""
 
+import math
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -74,6 +75,17 @@ class LimbNetwork(nn.Module):
         """Return the zero state (rows, B, columns) of some lanes, such as (1, B, hidden) of a GRU."""
         rows, columns = self.cell.state_size
         return torch.zeros(rows, lanes, columns, device=device)
+
+    def keep_longer(self, factor: float) -> None:
+        """Let the cell keep its state for so many times as many steps, where a gate says how long: GRU and LSTM.
+
+        Of the torque that the state stands for, as much is left then after the same time at a stride that is smaller by
+        the same factor (docs/notes/0037).
+        """
+        # The second gate of both keeps the state, and g / (1 - g) is the time that it is kept for, in steps.
+        bias = self.get_parameter("cell.bias_ih_l0")
+        with torch.no_grad():
+            bias[self.cell.width : 2 * self.cell.width] += math.log(factor)
 
     def normalise(self, input_gain: float) -> None:
         """Multiply inputs with a gain, and keep the largest singular values of all matrices at 1 (authors' code)."""

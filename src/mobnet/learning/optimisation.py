@@ -42,7 +42,7 @@ class Samples:
                 lane enters a stream.
         """
         device = self.inputs.device
-        steps = torch.arange(horizon, device=device)[:, None]
+        steps = plan.stride * torch.arange(horizon, device=device)[:, None]
         rows = torch.from_numpy(plan.rows).to(device)
         kept = torch.from_numpy(~plan.fresh).to(device, self.inputs.dtype)
         for first, keep in zip(rows, kept, strict=True):

@@ -24,10 +24,12 @@ class EpochPlan:
     Attributes:
         rows: first row of each horizon of steps, (updates, lanes).
         fresh: True where a lane enters a stream there and its state starts from zero, (updates, lanes).
+        stride: distance between two steps of a horizon [samples].
     """
 
     rows: NDArray[np.int64]
     fresh: NDArray[np.bool_]
+    stride: int = 1
 
     def __len__(self) -> int:
         return len(self.rows)

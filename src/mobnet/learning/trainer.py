@@ -3,6 +3,7 @@
 import logging
 import math
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +23,7 @@ from mobnet.learning.job import TrainingJob
 from mobnet.learning.losses import CHOSEN_BY, objective_of
 from mobnet.learning.model import build_network, seeded
 from mobnet.learning.optimisation import EVERY_STEP, LAST_STEP, SEQUENCES, Samples, train_epoch, validate
+from mobnet.learning.soap import optimizer_of
 from mobnet.learning.start import read_start
 from mobnet.learning.streams import EpochPlan, some_of, split, validation_plan, window_plan
 
@@ -47,7 +49,7 @@ class Trainer:
         self.fingerprint = job.fingerprint(data.digest + (first.digest if first else ""), self.device)
         network, learning = job.training.network, job.training.learning
         blocks, held_out = split(data.segments, learning.validation_share, data.held_out)
-        stream = job.stream(data.rate_hz)
+        self._held_out, stream = held_out, job.stream(data.rate_hz)
         self._blocks = some_of(blocks, stream, learning.data_parts, job.shared_generator("data"))
         arrays = data.inputs, data.targets
         # A network that goes on learning keeps its z-scores: with others its weights would mean something else.
@@ -55,7 +57,7 @@ class Trainer:
         inputs, targets = (self._scaled(*pair) for pair in zip(arrays, self.scales, strict=True))
         self._samples = Samples(inputs, targets, partial=learning.labels == "swing")
         self._shape = (stream, job.horizon, learning.batch_size)
-        self._validation = validation_plan(held_out, *self._shape)
+        self._validation = self._validation_at(1)
         lanes = self._validation.rows.shape[1]
         self._windows = window_plan(held_out, stream, job.horizon, lanes, job.generator("windows"))
         sizes = len(data.input_names), len(data.joints)
@@ -64,8 +66,7 @@ class Trainer:
         self.network.std_apart = learning.loss == "squared"
         if first:
             self.network.load_state_dict(first.weights)
-        parameters, betas = self.network.parameters(), learning.optimizer_betas
-        self._optimizer = torch.optim.Adam(parameters, lr=job.rate(0), betas=betas, fused=True)
+        self._optimizer = optimizer_of(self.network, learning)
 
     @property
     def samples(self) -> int:
@@ -96,7 +97,7 @@ class Trainer:
         done = checkpoint.resume(path, self.fingerprint, self.network, self._optimizer)
         done.chosen_by = self.chosen_by
         while len(done.epochs) < self.job.training.epochs:
-            started = time.monotonic()
+            started = time.process_time()
             try:
                 epoch = self._epoch(len(done.epochs))
             except TrainingError as error:
@@ -108,7 +109,7 @@ class Trainer:
             done.epochs.append(epoch)
             if done.best_epoch() is epoch:
                 done.best = checkpoint.copy_weights(self.network)
-            done.seconds += time.monotonic() - started
+            done.seconds += time.process_time() - started
             checkpoint.save(path, self.fingerprint, self.network, self._optimizer, done)
             write_metrics(state_dir / METRICS, done.epochs)
             self._report(done)
@@ -142,8 +143,10 @@ class Trainer:
         job, rate, learning = self.job, self.job.rate(epoch), self.job.training.learning
         for group in self._optimizer.param_groups:
             group["lr"] = rate
-        plan_of, scored = SEQUENCES[learning.sequences]
-        plan = plan_of(self._blocks, *self._shape, job.generator("epoch", epoch), job.training.epoch_samples)
+        stride = job.stride(epoch)
+        if epoch and (before := job.stride(epoch - 1)) != stride:
+            self.network.keep_longer(before / stride)
+        plan, scored = self._plan(epoch, stride)
         with seeded(self._seed("dropout", epoch)):
             losses, norms = train_epoch(
                 self.network, self._optimizer, self._samples, plan, job.horizon, learning.gradient_norm, scored,
@@ -151,9 +154,28 @@ class Trainer:
             )  # fmt: skip
         # The median: a few updates of a training that goes well can have losses of thousands.
         self._check("median training", epoch, losses.median().item(), rate, learning.divergence_loss)
-        validation, rmse = self._validate(self._validation)
+        validation, rmse = self._validate(self._validation_at(stride))
         self._check("validation", epoch, validation, rate)
-        return Epoch(epoch + 1, losses.mean().item(), validation, rmse, rate, norms.mean().item())
+        return Epoch(epoch + 1, losses.mean().item(), validation, rmse, rate, norms.mean().item(), stride)
+
+    def _plan(self, epoch: int, stride: int) -> tuple[EpochPlan, slice]:
+        """Return the course of an epoch, and which steps of a horizon are in the loss.
+
+        An epoch at coarse time goes through the data as many times more often as it has fewer of their samples, so that
+        it has as many updates as the others.
+        """
+        job, (stream, horizon, lanes) = self.job, self._shape
+        plan_of, scored = SEQUENCES[job.training.learning.sequences]
+        samples = job.training.epoch_samples
+        if stride > 1:
+            samples = stride * (samples or self.samples)
+        plan = plan_of(self._blocks, stream, stride * horizon, lanes, job.generator("epoch", epoch), samples)
+        return replace(plan, stride=stride), scored
+
+    def _validation_at(self, stride: int) -> EpochPlan:
+        """Return the course of a validation at a stride [samples]."""
+        stream, horizon, lanes = self._shape
+        return replace(validation_plan(self._held_out, stream, stride * horizon, lanes), stride=stride)
 
     def _check(self, kind: str, epoch: int, loss: float, rate: float, bound: float = math.inf) -> None:
         """Raise if a loss (22) is not finite or above a bound."""

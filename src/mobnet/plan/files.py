@@ -68,9 +68,9 @@ class Files(Seeds):
         """Return the recordings of a test, or their residuals or estimates."""
         return tuple(self.array(kind, scenario, level, seed) for seed in self.test_seeds)
 
-    def development(self, kind: str) -> tuple[Path, ...]:
+    def development(self, kind: str, task: str) -> tuple[Path, ...]:
         """Return the recordings or residuals of the walks on which methods are chosen; no table shows them."""
-        walk = self.settings.development
+        walk = self.settings.development[task]
         return tuple(self.array(kind, walk.scenario, walk.level, seed) for seed in self.development_seeds)
 
     def recorded(self) -> Iterator[Place]:
@@ -168,10 +168,10 @@ class Files(Seeds):
 
     @cached_property
     def tried_networks(self) -> tuple[NetworkName, ...]:
-        """The networks that the trials train."""
-        rows = self.catalogue.tried.items()
-        pairs = [(name, limb) for name, row in rows for limb in row.limbs]
-        return tuple(NetworkName(*pair, seed) for pair in pairs for seed in self.network_seeds(*pair))
+        """The networks of these files' own tasks that the trials train."""
+        trials = [trial for trial in self.catalogue.trials if self.has(self.settings.development[trial.task].level)]
+        pairs = [(trial.name, limb) for trial in trials for limb in trial.method.limbs]
+        return tuple(NetworkName(*pair, seed) for pair in dict.fromkeys(pairs) for seed in self.network_seeds(*pair))
 
     @cached_property
     def own_fits(self) -> tuple[str, ...]:

@@ -121,8 +121,9 @@ def _calibration(files: Files, section: Any) -> Needs:
     """Return every network by the level that it learned at, and the runs of each test of the standard deviations."""
     robots = tuple(folder for own in files.robots.values() for folder in own.all_networks())
     plant = tuple(folder for folder in files.all_networks() if folder not in robots)
+    first = next(iter(files.settings.training_sets.values()))
     return {
-        "folders": {files.settings.development.level: plant, files.settings.fleet.name: robots},
+        "folders": {first.level: plant, files.settings.fleet.name: robots},
         "runs": tuple(files.runs(test.scenario, test.level, test.methods) for test in section.tests),
     }
 

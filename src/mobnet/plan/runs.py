@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mobnet.settings.methods import Method
+from mobnet.settings.plant import Level
 
 
 @dataclass(frozen=True)
@@ -42,6 +43,20 @@ class Tried:
     networks: Mapping[str, Path]
     fitted: Path | None
     network_seed: int
+
+
+@dataclass(frozen=True)
+class TriedTask:
+    """Variants that are tried at a task: the joints of its limb, and the walks of its plant on which they are judged.
+
+    Recordings and the observer's residuals of them are named without the ending of their files.
+    """
+
+    level: Level
+    joints: tuple[str, ...]
+    tried: tuple[Tried, ...]
+    recordings: tuple[Path, ...]
+    residuals: tuple[Path, ...]
 
 
 @dataclass(frozen=True)

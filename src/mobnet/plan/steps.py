@@ -46,7 +46,7 @@ class Step:
 
 def all_steps(files: Files) -> Iterator[Step]:
     """Yield the steps behind everything that products are made from, those of robots last."""
-    yield from _motions(files)
+    yield from _motions(files, (place for own in files.owners for place in own.recorded()))
     for own in files.owners:
         yield from _walks(own, own.recorded())
         yield from (_fit(own, method) for method in own.own_fits)
@@ -58,15 +58,19 @@ def all_steps(files: Files) -> Iterator[Step]:
 
 def trial_steps(files: Files) -> Iterator[Step]:
     """Yield the steps that the trials need besides: their walks, and what learns in them."""
-    walk, fits = files.settings.development, dict.fromkeys(map(files.catalogue.source_of, files.catalogue.tried))
-    yield from _walks(files, ((walk.scenario, walk.level, seed) for seed in files.development_seeds))
-    yield from (_fit(files, name) for name in fits if files.fit(name) and name not in files.own_fits)
-    yield from _trainings(files, files.tried_networks)
+    walks = files.settings.development.values()
+    walked = [(walk.scenario, walk.level, seed) for walk in walks for seed in files.development_seeds]
+    yield from _motions(files, walked)
+    for own in files.owners:
+        yield from _walks(own, (place for place in walked if own.has(place[1])))
+        fits = dict.fromkeys(own.catalogue.source_of(name) for name, *_ in own.tried_networks)
+        yield from (_fit(own, name) for name in fits if own.fit(name) and name not in own.own_fits)
+        yield from _trainings(own, own.tried_networks)
 
 
-def _motions(files: Files) -> Iterator[Step]:
+def _motions(files: Files, recorded: Iterable[Place]) -> Iterator[Step]:
     """Yield the motions of the upper body, which all robots share."""
-    taken = {(own.settings.scenarios[name].motion, seed) for own in files.owners for name, _, seed in own.recorded()}
+    taken = {(files.settings.scenarios[name].motion, seed) for name, _, seed in recorded}
     for motion, is_test in sorted({(name, seed < FIRST_TRAINING_SEED) for name, seed in taken if name}):
         seeds = sorted(seed for name, seed in taken if (name, seed < FIRST_TRAINING_SEED) == (motion, is_test))
         for part in _parts(seeds, lambda seed, name=motion: files.motion_s(name, seed), PART_S):

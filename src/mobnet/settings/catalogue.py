@@ -10,7 +10,7 @@ from mobnet.settings.methods import Method, Sweep, swept_name
 from mobnet.settings.networks import Learning, Network, Training
 from mobnet.settings.scales import Experiment
 from mobnet.settings.settings import Settings
-from mobnet.settings.trials import of_lengths, tuned
+from mobnet.settings.trials import Trial, compared, tuned
 
 Names = tuple[str, ...]
 ByTest = Mapping[str, Mapping[str, Names]]  # scenario -> level -> names
@@ -96,11 +96,18 @@ class Catalogue:
         return {**methods, **swept}
 
     @cached_property
+    def trials(self) -> tuple[Trial, ...]:
+        """Every variant that is tried."""
+        given = self.settings.trials, self.settings.methods, self.settings.development
+        return (*tuned(*given), *compared(*given))
+
+    @cached_property
     def tried(self) -> dict[str, Method]:
-        """The methods of the trials, which no table shows."""
-        given = self.settings.trials, self.settings.methods
-        trials = [*tuned(*given), *of_lengths(*given, self.settings.learning.rate_first)]
-        return {trial.name: trial.method for trial in trials}
+        """The methods of the trials, which no table shows, each with the limbs of all tasks that it is tried at."""
+        limbs: dict[str, dict[str, None]] = {}
+        for trial in self.trials:
+            limbs.setdefault(trial.name, {}).update(dict.fromkeys(trial.method.limbs))
+        return {one.name: one.method.model_copy(update={"limbs": tuple(limbs[one.name])}) for one in self.trials}
 
     def method(self, name: str) -> Method:
         """Return a method, one of the trials too; a ConfigError names an unknown one."""

@@ -230,10 +230,11 @@ class TrainingSet(Section):
 
 
 class Development(Section):
-    """Walks on which methods are chosen, apart from all tests."""
+    """Networks of a limb of one plant, and the walks on which they are chosen, apart from all tests."""
 
     scenario: base.ScenarioName
     level: base.SingleLevelName
+    limb: base.NetworkName
 
 
 class RecordingSettings(Section):

@@ -214,10 +214,10 @@ class MethodsRow(Runs):
 
 
 class LearningCurve(Section):
-    """Error over the length of the training: a table of trials that is kept, and the joint shown, or `avg`."""
+    """Error over the length of the training: a table of trials that is kept, and the title of each task's panels."""
 
     data: base.Text
-    joint: base.Text
+    titles: dict[base.TaskName, base.Text]
 
 
 class CoverageTest(Section):

@@ -6,6 +6,7 @@ from mobnet.settings.catalogue import ByTest, Catalogue, Names
 from mobnet.settings.plant import Level
 from mobnet.settings.scales import Experiment
 from mobnet.settings.surrogate import Fleet, SurrogateRobot, Variant
+from mobnet.settings.trials import experiments_of
 
 FIRST_SEED = 101  # of the networks of the fleet's robots, one for each: their names differ from all others
 
@@ -22,8 +23,12 @@ def as_robot(catalogue: Catalogue, robot: str) -> Catalogue:
     rows = {name: settings.training_sets[other] for name, other in fleet.sets.items()}
     sets = {name: row.model_copy(update={"level": fleet.level_of(robot, row.level)}) for name, row in rows.items()}
     lengths = {**settings.sizes.experiments, **settings.sizes.robots}
+    # What is tried has as many networks on a robot as on the plant, all others one.
+    seeds = {name: settings.sizes.experiments[name].seeds for name in experiments_of(settings.trials)}
     experiments = {
-        name: Experiment(epochs=row.epochs, epoch_samples=row.epoch_samples, seeds=(FIRST_SEED + index,))
+        name: Experiment(
+            epochs=row.epochs, epoch_samples=row.epoch_samples, seeds=seeds.get(name, (FIRST_SEED + index,))
+        )
         for name, row in lengths.items()
     }
     test = settings.sizes.test.model_copy(update={"shards": settings.sizes.fleet_shards or settings.sizes.test.shards})

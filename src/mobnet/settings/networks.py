@@ -13,6 +13,7 @@ CellKind = Literal["GRU", "LSTM", "RNN", "TCN", "MLP", "constant"]
 Units = Annotated[base.Count, Field(le=8192)]
 Steps = Annotated[base.Count, Field(le=10_000)]
 Precision = Literal["auto", "float32", "bfloat16"]
+Optimizer = Literal["adam", "soap"]
 Loss = Literal["likelihood", "beta_likelihood", "squared"]
 SIZES: dict[CellKind, tuple[str, ...]] = {  # what a kind of cell needs to be told
     "GRU": ("hidden",),
@@ -83,17 +84,30 @@ class Network(NetworkRow, Limb):
     """A network of Table 1 on a robot, with a method's changes laid over it."""
 
 
+class Coarse(Section):
+    """A phase of a training in which a step is one of `stride` samples, for a `share` of the epochs."""
+
+    stride: base.Whole = Field(ge=2, le=1000)
+    share: base.InnerShare
+
+
 class Learning(Section):
     """Optimisation and calibration of every network, section 4.4; `data_parts` is that of section 6.3.
 
-    A fine-tuning learns from the first `data_s` [s] of its training data, by their `labels` or, in `swing`, where the
-    walking plan has the leg in the air and nothing else is told.
+    A recurrent network may learn with SOAP instead of Adam, which renews the bases of its gates' matrices at every
+    `basis_every`-th update, and may begin at `coarse` time. A fine-tuning learns from the first `data_s` [s] of its
+    training data, by their `labels` or, in `swing`, where the walking plan has the leg in the air and nothing else is
+    told.
     """
 
     loss: Loss
     loss_beta: base.Share
     batch_size: base.Whole = Field(ge=1, le=4096)
+    optimizer: Optimizer
     optimizer_betas: base.Range[Annotated[base.Share, Field(lt=1)]]
+    basis_beta: base.Share = Field(lt=1)
+    basis_every: base.Whole = Field(ge=1, le=10_000)
+    coarse: tuple[Coarse, ...]
     rate_first: base.Positive = Field(le=1)
     rate_last_ratio: base.Share
     rate_decay_share: base.Share
@@ -111,6 +125,16 @@ class Learning(Section):
     data_parts: base.Whole = Field(default=1, ge=1, le=1000)
     data_s: Annotated[base.Positive, Field(le=1e6)] | None = None
     labels: Literal["all", "swing"] = "all"
+
+    @model_validator(mode="after")
+    def _ends_with_every_sample(self) -> Learning:
+        """Check that strides fall and that the last epochs see every sample."""
+        strides = [phase.stride for phase in self.coarse]
+        if strides != sorted(set(strides), reverse=True):
+            raise ValueError(f"coarse: strides {strides} are not accepted; accepted: each smaller than the one before")
+        if (share := sum(phase.share for phase in self.coarse)) >= 1.0:
+            raise ValueError(f"coarse: shares of {share:g} in sum are not accepted; accepted: less than 1")
+        return self
 
 
 class Training(Section):

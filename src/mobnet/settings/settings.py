@@ -62,7 +62,7 @@ class Settings(Section):
     learning: Learning
     methods: Annotated[dict[RowName, Method], Field(min_length=1)]
     sweeps: dict[Annotated[str, Field(pattern="^[a-z_]+$")], Sweep]
-    development: Development
+    development: Annotated[dict[LowerName, Development], Field(min_length=1)]
     trials: Trials
     detection: Detection
     evaluation: Evaluation

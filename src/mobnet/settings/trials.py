@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from itertools import product
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from mobnet.settings import base
 from mobnet.settings.base import Section
+from mobnet.settings.data import Development
 from mobnet.settings.methods import Method
 
 Value = bool | int | float | str
+EXPERIMENT, RECIPE = "experiment", "recipe"  # what a comparison changes
 
 
 class Grid(Section):
@@ -23,34 +25,38 @@ class Grid(Section):
 class Tuning(Section):
     """What is tried for each method, all of them in trainings of one length, and methods beside which they stand."""
 
+    task: base.TaskName
+    recipe: base.RecipeName
     references: base.MethodNames
     experiment: base.ExperimentName
     grids: dict[base.MethodName, Grid]
 
 
-class Lengths(Section):
-    """Methods whose networks are trained at each length, and with each of some shares of their first learning rate."""
+class Comparison(Section):
+    """Methods whose networks learn a task by each of some recipes, for each of some lengths."""
 
+    task: base.TaskName
     methods: base.Distinct[base.LearnedName]
+    recipes: base.Distinct[base.RecipeName]
     experiments: base.Distinct[base.ExperimentName]
-    rate_shares: base.Distinct[base.PositiveShare]
 
 
 class Trials(Section):
-    """The trials, of networks of one limb."""
+    """The trials: recipes, which are keys of `learning` over those of a method, and tables of comparisons by name."""
 
-    limb: base.NetworkName
+    recipes: dict[str, base.Change]
     tuning: Tuning
-    lengths: Lengths
+    compared: dict[base.LowerName, tuple[Comparison, ...]]
 
 
 class Trial(NamedTuple):
-    """A variant of the method `base`: its name, the keys that it changes with their new values, and the variant."""
+    """A variant of the method `base` at a task: its name, the keys that it changes with their values, the method."""
 
     base: str
     name: str
     changes: Mapping[str, Value]
     method: Method
+    task: str
 
 
 def combinations(grid: Grid) -> Iterator[dict[str, Value]]:
@@ -65,49 +71,50 @@ def trial_name(base: str, changes: Mapping[str, Value]) -> str:
     return "-".join([base, *map(str, changes.values())]).replace("_", "-").replace(".", "-")
 
 
-def references(trials: Trials, methods: Mapping[str, Method]) -> Iterator[Trial]:
+def references(trials: Trials, methods: Mapping[str, Method], task: str) -> Iterator[Trial]:
     """Yield the methods that stand beside what is tried, unchanged."""
     for name in trials.tuning.references:
-        yield Trial(name, name, {}, methods[name])
+        yield Trial(name, name, {}, methods[name], task)
 
 
-def tuned(trials: Trials, methods: Mapping[str, Method]) -> Iterator[Trial]:
+def tuned(trials: Trials, methods: Mapping[str, Method], tasks: Mapping[str, Development]) -> Iterator[Trial]:
     """Yield every combination of what is tried for each method; a training that diverges is a result."""
-    grids = {name: grid for name, grid in trials.tuning.grids.items() if name in methods}
-    for name, grid in grids.items():
-        for changes in combinations(grid):
-            learning = {key: changes[key] for key in grid.learning}
+    tuning = trials.tuning
+    for name, grid in tuning.grids.items():
+        for changes in combinations(grid) if name in methods else ():
+            learning = {**trials.recipes.get(tuning.recipe, {}), **{key: changes[key] for key in grid.learning}}
             options = {key: changes[key] for key in grid.options}
-            method = _changed(methods[name], trials, trials.tuning.experiment, learning, options)
-            yield Trial(name, trial_name(name, changes), changes, method)
+            method = _changed(methods[name], tasks.get(tuning.task), tuning.experiment, learning, options)
+            yield Trial(name, trial_name(name, changes), changes, method, tuning.task)
 
 
-def of_lengths(trials: Trials, methods: Mapping[str, Method], rate_first: float) -> Iterator[Trial]:
-    """Yield every method at every length and share of its first learning rate.
+def compared(
+    trials: Trials, methods: Mapping[str, Method], tasks: Mapping[str, Development], table: str | None = None
+) -> Iterator[Trial]:
+    """Yield every method by every recipe at every length, of one table or of all."""
+    rows = [row for name, rows in trials.compared.items() if table in (name, None) for row in rows]
+    for row in rows:
+        known = [name for name in row.methods if name in methods]
+        for name, experiment, recipe in product(known, row.experiments, row.recipes):
+            changes: dict[str, Value] = {EXPERIMENT: experiment, RECIPE: recipe}
+            method = _changed(methods[name], tasks.get(row.task), experiment, trials.recipes.get(recipe, {}), {})
+            yield Trial(name, trial_name(name, changes), changes, method, row.task)
 
-    That rate is `rate_first` for a method without one of its own.
-    """
-    known = [name for name in trials.lengths.methods if name in methods]
-    for name, experiment, share in product(known, trials.lengths.experiments, trials.lengths.rate_shares):
-        learning = {} if share == 1.0 else {"rate_first": share * _rate_of(methods[name], rate_first)}
-        changes = {"experiment": experiment, **learning}
-        yield Trial(name, trial_name(name, changes), changes, _changed(methods[name], trials, experiment, learning, {}))
 
-
-def _rate_of(method: Method, rate_first: float) -> float:
-    """Return a method's first learning rate; a value that is no number is refused elsewhere, at its own place."""
-    own = method.learning.get("rate_first", rate_first)
-    return float(own) if isinstance(own, int | float) else rate_first
+def experiments_of(trials: Trials) -> set[str]:
+    """Return the names of the lengths that are tried."""
+    rows = [row for rows in trials.compared.values() for row in rows]
+    return {trials.tuning.experiment, *(name for row in rows for name in row.experiments)}
 
 
 def _changed(
-    method: Method, trials: Trials, experiment: str, learning: Mapping[str, Value], options: Mapping[str, Value]
+    method: Method, task: Development | None, experiment: str, learning: Mapping[str, Any], options: Mapping[str, Value]
 ) -> Method:
-    """Return a method after changes, with networks, if it has any, of the limb and the experiment of the trials."""
+    """Return a method after changes, with networks, if it has any, of the limb of the task; without one as it is."""
     changes: dict[str, object] = {"options": {**method.options, **options}}
-    if method.limbs:
+    if method.limbs and task:
         changes |= {
-            "limbs": (trials.limb,),
+            "limbs": (task.limb,),
             "network": {**method.network, "experiment": experiment},
             "learning": {**method.learning, **learning, "may_diverge": True},
         }

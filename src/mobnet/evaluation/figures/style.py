@@ -95,10 +95,14 @@ def looks(labels: Iterable[str]) -> dict[str, Look]:
     return {name: LOOKS[name] if name in LOOKS else free[others.index(name) % len(free)] for name in names}
 
 
-def stacked(units: Sequence[str], panel_inch: float, legend_inch: float) -> tuple[Figure, list[Axes]]:
-    """Return a figure of one column's width with panels below one another, those of a unit on one scale; in [inch]."""
-    figure = Figure(figsize=(COLUMN_INCH, panel_inch * len(units) + legend_inch), layout="constrained")
-    axes: list[Axes] = figure.subplots(len(units), 1, squeeze=False)[:, 0].tolist()
+def stacked(units: Sequence[str], panel_inch: float, legend_inch: float, columns: int = 1) -> tuple[Figure, list[Axes]]:
+    """Return a figure of one column's width with panels below one another, those of a unit on one scale; in [inch].
+
+    With several `columns` of panels it has the width of the page.
+    """
+    rows, width = ceil(len(units) / columns), COLUMN_INCH if columns == 1 else PAGE_INCH
+    figure = Figure(figsize=(width, panel_inch * rows + legend_inch), layout="constrained")
+    axes: list[Axes] = figure.subplots(rows, columns, squeeze=False).ravel().tolist()
     for axis, unit in zip(axes, units, strict=True):
         if axis is not (first := axes[units.index(unit)]):
             axis.sharey(first)

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from mobnet.core.columns import Epoch
-from mobnet.core.files import METRICS, RUN, TIME, read_json, write_text
-from mobnet.evaluation.measure.learning.trainings import TrainedNetwork, read_training
+from mobnet.core.files import METRICS, RUN, read_json, write_text
+from mobnet.evaluation.measure.learning.trainings import TrainedNetwork, read_training, training_seconds
 from mobnet.evaluation.report.charts import Chart, line_chart
 from mobnet.evaluation.report.html import rendered
 
@@ -83,14 +83,13 @@ def read_training_run(folder: Path) -> TrainingRun:
         DataError: a file is missing or damaged, or lacks a key or a column.
     """
     training, note = read_training(folder), read_json(folder / RUN)
-    time = folder.parent.with_name("state") / folder.name / TIME  # beside the training's checkpoint
     return TrainingRun(
         **vars(training),
         **{key: note[key] for key in SHOWN},
         cell=note["settings"]["network"]["cell"],
         settings=dict(pair for key in SETTINGS for pair in flattened(key, note[key])),
         metrics=folder / METRICS,
-        seconds=read_json(time)["seconds"] if time.is_file() else None,
+        seconds=training_seconds(folder),
     )
 
 

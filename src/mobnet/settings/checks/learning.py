@@ -40,11 +40,12 @@ def _trial_problems(catalogue: Catalogue) -> Iterator[Problem]:
     for index, name in enumerate(settings.trials.tuning.references):
         if name not in plain:
             yield ("trials", "tuning", "references", index), not_accepted("method without networks", name, plain)
-    walked = settings.development.scenario
     taken = {*catalogue.tests, *(row.scenario for row in settings.training_sets.values())}
-    if walked in taken:
-        accepted = [name for name in settings.scenarios if name not in taken]
-        yield ("development", "scenario"), not_accepted("scenario apart from tests and training", walked, accepted)
+    accepted = [name for name in settings.scenarios if name not in taken]
+    for task, walk in settings.development.items():
+        if walk.scenario in taken:
+            text = not_accepted("scenario apart from tests and training", walk.scenario, accepted)
+            yield ("development", task, "scenario"), text
 
 
 def _method_problems(catalogue: Catalogue, name: str, method: Method) -> Iterator[Problem]:

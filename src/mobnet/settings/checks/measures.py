@@ -47,12 +47,9 @@ def _push_problems(results: Results) -> Iterator[Problem]:
 
 def _learned_problems(results: Results) -> Iterator[Problem]:
     """Yield a learning curve of trials that there are not."""
-    settings, curve = results.settings, results.settings.evaluation.learning_curve
+    curve = results.settings.evaluation.learning_curve
     if not re.fullmatch(r"docs/trials/[a-z0-9_]+\.csv", curve.data):
         yield (*ROOT, "learning_curve", "data"), not_accepted("file", curve.data, ["a .csv file of docs/trials"])
-    accepted = [*results.layout.limbs(settings.robot.networks[settings.trials.limb].joints), "avg"]
-    if curve.joint not in accepted:
-        yield (*ROOT, "learning_curve", "joint"), not_accepted("joint", curve.joint, accepted)
 
 
 def _line_problems(results: Results) -> Iterator[Problem]:

@@ -42,6 +42,7 @@ def accepted_names(catalogue: Catalogue) -> dict[str, Collection[str]]:
         "scenario with pushes": pushed, "scenario without pushes": settings.scenarios.keys() - {*pushed},
         "test with a window around pushes": settings.evaluation.windows,
         "training set": settings.training_sets, "experiment": set(experiments),
+        "task of development": settings.development, "recipe": settings.trials.recipes,
         "network": settings.networks, "sweep": settings.sweeps, "method": catalogue.all_methods,
         "method with networks": learned,
         "method that runs on its own": [name for name, row in settings.methods.items() if row.of is None],

@@ -14,6 +14,7 @@ from mobnet.evaluation.figures.style import Look, entitle, legend, looks, stacke
 from mobnet.evaluation.number.number import Number
 
 PANEL_INCH, LEGEND_INCH = 1.6, 0.45  # height of a panel and of the legend above all
+MOST_PLACES = 8  # that are named on an axis, one by one
 MARGIN = 0.08  # above and below all means [share of their range]
 LEGEND: Mapping[str, Any] = {"columns": 3, "handlelength": 2.6, "columnspacing": 1.2, "handletextpad": 0.5}
 
@@ -49,11 +50,11 @@ class LinePanel:
 
 
 @styled
-def draw_lines(panels: Sequence[LinePanel]) -> Figure:
-    """Draw panels of lines with the spread of their runs below one another (Figures 17 and 20)."""
+def draw_lines(panels: Sequence[LinePanel], columns: int = 1) -> Figure:
+    """Draw panels of lines with the spread of their runs below one another (Figures 17 and 20), or in `columns`."""
     styles = looks(line.label for panel in panels for line in panel.lines)
     logarithmic = all(min(line.x) > 0.0 for panel in panels for line in panel.lines)
-    figure, axes = stacked([panel.unit for panel in panels], PANEL_INCH, LEGEND_INCH)
+    figure, axes = stacked([panel.unit for panel in panels], PANEL_INCH, LEGEND_INCH, columns)
     for k, (axis, panel) in enumerate(zip(axes, panels, strict=True)):
         for line in panel.lines:
             _line(axis, line, styles[line.label], panel.sizes)
@@ -92,5 +93,7 @@ def _places(axis: Axes, panel: LinePanel, logarithmic: bool) -> None:
     places = np.unique(np.concatenate([line.x for line in panel.lines]))
     if logarithmic:
         axis.set_xscale("log")
-        axis.minorticks_off()
+    if len(places) > MOST_PLACES:
+        return
+    axis.minorticks_off()
     axis.set_xticks(places, [f"{place:.0f}" for place in places])

@@ -13,7 +13,7 @@ from pydantic import Field
 
 from mobnet.core.columns import Epoch
 from mobnet.core.errors import not_accepted, refuse
-from mobnet.core.files import METRICS, RUN
+from mobnet.core.files import METRICS, RUN, TIME, read_json
 from mobnet.core.notes import Count, Index, Names, Note, NotNegative, Positive, Text, read_note
 from mobnet.evaluation.number.rows import read_epochs
 from mobnet.settings.networks import CellKind
@@ -137,7 +137,7 @@ class TrainedNetwork:
     @property
     def kept(self) -> Epoch:
         """The epoch that validated best, whose weights are kept."""
-        return min(self.epochs, key=attrgetter(self.chosen_by))
+        return min(self.epochs, key=attrgetter("stride", self.chosen_by))
 
 
 def read_training(folder: Path) -> TrainedNetwork:
@@ -165,12 +165,18 @@ def read_training_note(folder: Path) -> TrainingNote:
     return note
 
 
+def training_seconds(folder: Path) -> float | None:
+    """Return the processor time of the training of a network's folder [s]; None where it was not trained here."""
+    time = folder.parent.with_name("state") / folder.name / TIME  # beside the training's checkpoint
+    return read_json(time)["seconds"] if time.is_file() else None
+
+
 def _disagreements(note: TrainingNote, epochs: Sequence[Epoch]) -> Iterator[str]:
     """Yield where the epochs are not what the note says: how many, and which one is kept."""
     count = note.settings.epochs
     if (not note.diverged and len(epochs) != count) or len(epochs) > count:
         yield _apart("epochs", len(epochs), count)
-    kept = min(epochs, key=attrgetter(note.chosen_by), default=None)
+    kept = min(epochs, key=attrgetter("stride", note.chosen_by), default=None)
     noted = note.best.epoch if note.best else None
     if noted != (kept.epoch if kept else None):
         yield _apart(f"epoch of the smallest {note.chosen_by}", kept and kept.epoch, noted)

@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
@@ -13,8 +12,8 @@ from mobnet.estimation.estimate import Observed, rate_of, read_observed, run_seg
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe
 from mobnet.evaluation.compare.rmse import rmse
-from mobnet.evaluation.measure.learning.trainings import TrainedNetwork, read_training
-from mobnet.plan.runs import Tried
+from mobnet.evaluation.measure.learning.trainings import TrainedNetwork, read_training, training_seconds
+from mobnet.plan.runs import Tried, TriedTask
 from mobnet.robot.description import describe
 from mobnet.settings.methods import Observer
 from mobnet.settings.plant import Level
@@ -23,18 +22,21 @@ from mobnet.settings.robot import RobotTable
 
 @dataclass(frozen=True)
 class Known:
-    """What every estimator knows: the robot, how wrong its model is, gravity [m/s^2] and the observer's settings."""
+    """What every estimator knows: the robot, gravity [m/s^2] and the observer's settings."""
 
     robot: RobotTable
-    level: Level
     gravity_m_s2: float
     observer: Observer
 
 
 @dataclass(frozen=True)
 class Walks:
-    """Recordings that were observed, and the true torque of n joints behind the low-pass, (T_i, n) [N m]."""
+    """Recordings that were observed, and the true torque of n joints behind the low-pass, (T_i, n) [N m].
 
+    `level` says how wrong the observer's nominal model is.
+    """
+
+    level: Level
     joints: Sequence[str]
     read: Sequence[Observed]
     truths: Sequence[Array]
@@ -42,10 +44,14 @@ class Walks:
 
 @dataclass(frozen=True)
 class Outcome:
-    """A variant with the training of its network, if it has one, and its RMSE by walk and joint (w, n) [N m]."""
+    """A variant with the training of its network, if it has one, and its RMSE by walk and joint (w, n) [N m].
+
+    `seconds` is the processor time of that training [s].
+    """
 
     tried: Tried
     training: TrainedNetwork | None
+    seconds: float | None
     errors: Array
 
     @property
@@ -54,19 +60,18 @@ class Outcome:
         return float(self.errors.mean())
 
 
-def read_walks(
-    known: Known, joints: Sequence[str], recordings: Sequence[Path], residuals: Sequence[Path], rate_hz: float
-) -> Walks:
+def read_walks(known: Known, task: TriedTask, rate_hz: float) -> Walks:
     """Read the walks on which methods are chosen, all at a rate [Hz]."""
     layout = describe(known.robot).layout
-    read = [read_observed(layout, *pair, rate_hz) for pair in zip(recordings, residuals, strict=True)]
-    truths = [read_array(residual, named(EXTERNAL_LP, joints))[0].astype(np.float64) for residual in residuals]
-    return Walks(joints, read, truths)
+    read = [read_observed(layout, *pair, rate_hz) for pair in zip(task.recordings, task.residuals, strict=True)]
+    names = named(EXTERNAL_LP, task.joints)
+    truths = [read_array(residual, names)[0].astype(np.float64) for residual in task.residuals]
+    return Walks(task.level, task.joints, read, truths)
 
 
 def outcome_of(tried: Tried, known: Known, walks: Walks) -> Outcome:
     """Run a variant on all walks side by side."""
-    given = known.robot, known.level, known.gravity_m_s2, known.observer
+    given = known.robot, walks.level, known.gravity_m_s2, known.observer
     recipe = Recipe(tried.name, tried.methods, *given, rate_of(walks.read), tried.networks, tried.fitted)
     estimator = build_estimator(recipe)
     columns = [estimator.joints.index(joint) for joint in walks.joints]
@@ -76,4 +81,5 @@ def outcome_of(tried: Tried, known: Known, walks: Walks) -> Outcome:
         for result, truth, one in zip(results, walks.truths, walks.read, strict=True)
     ]
     folder = next(iter(tried.networks.values()), None)
-    return Outcome(tried, read_training(folder) if folder else None, np.array(errors))
+    training, seconds = (read_training(folder), training_seconds(folder)) if folder else (None, None)
+    return Outcome(tried, training, seconds, np.array(errors))

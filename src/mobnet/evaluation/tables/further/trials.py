@@ -1,7 +1,7 @@
-"""Table of what was tried for each method: errors on the development walks, the best variant of each marked."""
+"""Tables of what was tried for each method: errors on the development walks, the best variant of each marked."""
 
 import logging
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import astuple
 from pathlib import Path
 
@@ -12,76 +12,115 @@ from mobnet.evaluation.measure.estimates.scores import AVERAGE
 from mobnet.evaluation.measure.learning.trials import Known, Outcome, outcome_of, read_walks
 from mobnet.evaluation.number.number import number_text
 from mobnet.evaluation.tables.layout import Line, Table, in_blocks, write_table
-from mobnet.plan.runs import Tried
+from mobnet.plan.runs import TriedTask
 from mobnet.settings.methods import Observer
-from mobnet.settings.plant import Level
 from mobnet.settings.robot import RobotTable
+from mobnet.settings.trials import EXPERIMENT, RECIPE
 
 BEST, DIVERGED, MILLION = "best", "diverged", 1e6
 log = logging.getLogger(__name__)
 
 
 def trials(
-    robot: RobotTable, level: Level, gravity_m_s2: float, observer: Observer, joints: Sequence[str],
-    tried: Sequence[Tried], recordings: Sequence[Path], residuals: Sequence[Path], rate_hz: float, out: Path,
+    robot: RobotTable, gravity_m_s2: float, observer: Observer, tasks: Mapping[str, TriedTask], rate_hz: float,
+    out: Path,
 ) -> None:  # fmt: skip
-    """Write a CSV, .tex and .md: RMSE [N m] of each variant by joint, means over the development walks.
+    """Write a CSV, .tex and .md: RMSE [N m] of each variant at each task, means over its development walks.
 
-    Recordings and residuals, at a rate [Hz], and `out` are paths without a suffix; gravity is in [m/s^2].
+    The CSV has every joint and network, the text means over the joints. Recordings and residuals, at a rate [Hz], and
+    `out` are paths without a suffix; gravity is in [m/s^2].
     """
-    known = Known(robot, level, gravity_m_s2, observer)
-    walks = read_walks(known, joints, recordings, residuals, rate_hz)
-    outcomes: list[Outcome] = []
-    for one in tried:
-        outcomes.append(outcome_of(one, known, walks))
-        log.info("%s: %.3f N m", one.name, outcomes[-1].average)
-    header = ["Method", "Tried", "Steps [million]", "Val. loss", *joints, AVERAGE, ""]
-    records = [astuple(row) for outcome in outcomes for row in rows_of(outcome, joints, outcomes)]
-    write_table(out, Table(TRIALS, records, header, trial_lines(outcomes), left=2))
+    known = Known(robot, gravity_m_s2, observer)
+    rows, lines = list[TrialError](), list[Line]()
+    for name, task in tasks.items():
+        walks, outcomes = read_walks(known, task, rate_hz), list[Outcome]()
+        for tried in task.tried:
+            outcomes.append(outcome_of(tried, known, walks))
+            log.info("%s, %s, network %d: %.3f N m", name, tried.name, tried.network_seed, outcomes[-1].average)
+        rows += [row for outcome in outcomes for row in rows_of(name, task.joints, outcome, outcomes)]
+        lines += trial_lines(name, outcomes)
+    write_table(out, Table(TRIALS, [astuple(row) for row in rows], HEADER, lines, left=3))
 
 
 def is_best(outcome: Outcome, outcomes: Sequence[Outcome]) -> bool:
     """Return whether a variant has the smallest mean error of its method, among those of its length where they differ.
 
-    A method that is not changed is no choice.
+    The mean is over its networks. A method that is not changed is no choice.
     """
-    rivals = [one for one in outcomes if _kind_of(one) == _kind_of(outcome)]
-    return bool(outcome.tried.changes) and outcome is min(rivals, key=lambda one: one.average)
+    rivals: dict[str, list[float]] = {}
+    for one in outcomes:
+        if _kind_of(one) == _kind_of(outcome):
+            rivals.setdefault(one.tried.name, []).append(one.average)
+    return bool(outcome.tried.changes) and outcome.tried.name == min(rivals, key=lambda name: np.mean(rivals[name]))
 
 
 def _kind_of(outcome: Outcome) -> tuple[str, object]:
     """Return the method of which a variant is, and its length if that is what is tried."""
-    return outcome.tried.base, outcome.tried.changes.get("experiment")
+    return outcome.tried.base, outcome.tried.changes.get(EXPERIMENT)
 
 
-def rows_of(outcome: Outcome, joints: Sequence[str], outcomes: Sequence[Outcome]) -> Iterator[TrialError]:
+def rows_of(task: str, joints: Sequence[str], outcome: Outcome, outcomes: Sequence[Outcome]) -> Iterator[TrialError]:
     """Yield the rows of a variant: each joint, then their mean; with the standard deviation over the walks [N m]."""
     by_walk = np.column_stack([outcome.errors, outcome.errors.mean(axis=1)])
     changes, steps, loss, state = facts_of(outcome)
+    recipe = str(outcome.tried.changes.get(RECIPE, ""))
     for joint, errors in zip((*joints, AVERAGE), by_walk.T, strict=True):
         std = float(errors.std(ddof=1)) if len(errors) > 1 else None
         yield TrialError(
-            outcome.tried.base, changes, outcome.tried.network_seed, steps, state, loss, joint, float(errors.mean()),
-            std, len(errors), int(is_best(outcome, outcomes)),
+            task, outcome.tried.base, changes, recipe, outcome.tried.network_seed, steps, outcome.seconds, state, loss,
+            joint, float(errors.mean()), std, len(errors), int(is_best(outcome, outcomes)),
         )  # fmt: skip
 
 
-def trial_lines(outcomes: Sequence[Outcome]) -> list[Line]:
-    """Return the rows of text, method by method."""
-    methods = dict.fromkeys(outcome.tried.base for outcome in outcomes)
+HEADER = [
+    "Task",
+    "Method",
+    "Tried",
+    "Steps [million]",
+    "Processor time [s]",
+    "Networks",
+    "Val. loss",
+    "RMSE",
+    "Std.",
+    "",
+]
+
+
+def trial_lines(task: str, outcomes: Sequence[Outcome]) -> list[Line]:
+    """Return the rows of text of a task, method by method, each variant with the mean of its networks."""
+    variants: dict[tuple[str, str], list[Outcome]] = {}
+    for one in outcomes:
+        variants.setdefault((one.tried.base, one.tried.name), []).append(one)
+    methods = dict.fromkeys(base for base, _ in variants)
     blocks = [
-        ([method], [_cells(one, is_best(one, outcomes)) for one in outcomes if one.tried.base == method])
+        ([task, method], [_cells(own, outcomes) for (base, _), own in variants.items() if base == method])
         for method in methods
     ]
     return in_blocks(blocks)
 
 
-def _cells(outcome: Outcome, best: bool) -> list[str]:
-    """Return the cells of a variant after its method."""
-    changes, steps, loss, state = facts_of(outcome)
-    errors = [number_text(value) for value in (*outcome.errors.mean(axis=0).tolist(), outcome.average)]
-    sizes = [number_text(None if steps is None else steps / MILLION, 1), number_text(loss)]
-    return [changes, *sizes, *errors, BEST if best else state]
+def _cells(networks: Sequence[Outcome], outcomes: Sequence[Outcome]) -> list[str]:
+    """Return the cells of a variant after its method: means over its networks, and their spread [N m]."""
+    facts = [facts_of(one) for one in networks]
+    changes, steps, _, _ = facts[0]
+    losses, seconds = [loss for _, _, loss, _ in facts], [one.seconds for one in networks]
+    errors = [one.average for one in networks]
+    cells = [
+        changes,
+        number_text(None if steps is None else steps / MILLION, 1),
+        number_text(_mean(seconds), 0),
+        str(len(networks)) if steps is not None else number_text(None),
+        number_text(_mean(losses)),
+        number_text(float(np.mean(errors))),
+        number_text(float(np.std(errors, ddof=1)) if len(errors) > 1 else None),
+    ]
+    state = next((state for *_, state in facts if state), "")
+    return [*cells, BEST if is_best(networks[0], outcomes) else state]
+
+
+def _mean(values: Sequence[float | None]) -> float | None:
+    known = [value for value in values if value is not None]
+    return float(np.mean(known)) if known else None
 
 
 def facts_of(outcome: Outcome) -> tuple[str, int | None, float | None, str]:

@@ -1,0 +1,130 @@
+"""SOAP: Adam in the eigenbasis of a matrix's gradients, for the matrix of each gate by itself (docs/notes/0037).
+
+Vyas et al. (2024), arXiv:2409.11321, algorithm 3. G is the gradient of one gate's matrix, W_ir, W_iz, W_in, W_hr, W_hz
+or W_hn of a GRU; L and R are averages of G G' and G' G. In the eigenvectors of L and R the moments of Adam belong to
+directions that learn apart from each other, where Adam's belong to single weights.
+"""
+
+from collections.abc import Iterable
+
+import torch
+from torch import Tensor, nn
+
+from mobnet.learning.model import LimbNetwork
+from mobnet.settings.networks import Learning
+
+EPSILON = 1e-8  # of Adam, beside the root of the second moment
+
+
+class Soap(torch.optim.Optimizer):
+    """SOAP for matrices that gates share, Adam for all other weights.
+
+    The state of a parameter is a flat table of tensors, so that a checkpoint holds it as it does Adam's. Moments are
+    kept in the basis: `first` and `second`, (gates, rows, columns), as the gradient.
+    """
+
+    def __init__(
+        self,
+        gated: Iterable[nn.Parameter],
+        others: Iterable[nn.Parameter],
+        gates: int,
+        betas: tuple[float, float],
+        beta_basis: float,
+        basis_every: int,
+    ) -> None:
+        """Take matrices (gates * rows, columns), one gate below the other as in torch's modules, and other weights.
+
+        `betas` are the decay rates of Adam's moments and `beta_basis` that of L and R; their eigenvectors are renewed
+        every so many updates. The learning rate is set before each update, in `param_groups`.
+        """
+        self._betas, self._beta_basis, self._basis_every = betas, beta_basis, basis_every
+        groups = [{"params": list(gated), "gates": gates}, {"params": list(others), "gates": 0}]
+        super().__init__([group for group in groups if group["params"]], {"lr": 0.0})
+
+    @torch.no_grad()
+    def step(self, closure: None = None) -> None:  # type: ignore[override]
+        """Make one update with the gradients of all parameters."""
+        for group in self.param_groups:
+            for weight in group["params"]:
+                gates, rate, state = group["gates"], group["lr"], self.state[weight]
+                shape = (gates, -1, weight.shape[-1]) if gates else weight.shape
+                self._update(weight.view(shape), weight.grad.view(shape), state, rate, gated=gates > 0)
+
+    def _update(self, weight: Tensor, gradient: Tensor, state: dict[str, Tensor], rate: float, *, gated: bool) -> None:
+        """Move a weight in place, (gates, rows, columns) of a gated matrix, any shape of the others.
+
+        The first gradient of a gated matrix only gives the basis: a gradient is nearly diagonal in a basis of its own,
+        and what is left beside the diagonal would be divided by a second moment as small as itself.
+        """
+        if not state:
+            state |= {"steps": torch.zeros(()), "first": torch.zeros_like(weight), "second": torch.zeros_like(weight)}
+            if gated:
+                self._gather(gradient, state)
+                return
+        state["steps"] += 1
+        turned = state["left"].mT @ gradient @ state["right"] if gated else gradient
+        slow, fast = self._betas
+        first, second = state["first"].lerp_(turned, 1 - slow), state["second"]
+        second.mul_(fast).addcmul_(turned, turned, value=1 - fast)
+        count = int(state["steps"])
+        root = (second / (1 - fast**count)).sqrt_().add_(EPSILON)
+        step = first / root
+        if gated:
+            step = state["left"] @ step @ state["right"].mT
+        weight.add_(step, alpha=-rate / (1 - slow**count))
+        if gated:
+            self._gather(gradient, state)
+            if count % self._basis_every == 0:
+                _renew(state)
+
+    def _gather(self, gradient: Tensor, state: dict[str, Tensor]) -> None:
+        """Take a gradient (gates, rows, columns) into L and R; the first one gives the first basis."""
+        new = 1 - self._beta_basis
+        squares = {"L": (gradient, gradient.mT), "R": (gradient.mT, gradient)}
+        if "L" not in state:
+            state |= {name: new * (a @ b) for name, (a, b) in squares.items()}
+            state |= {side: _eigenvectors(state[name]) for side, name in SIDES.items()}
+            return
+        for name, (a, b) in squares.items():
+            torch.baddbmm(state[name], a, b, beta=self._beta_basis, alpha=new, out=state[name])
+
+
+SIDES = {"left": "L", "right": "R"}  # basis -> the average that it diagonalises
+
+
+def _eigenvectors(average: Tensor) -> Tensor:
+    """Return orthogonal eigenvectors (gates, n, n), columns, the largest eigenvalue first."""
+    if not average.isfinite().all():  # the loss is not finite either, which ends the training
+        return torch.eye(average.shape[-1]).to(average).expand_as(average).contiguous()
+    return torch.linalg.eigh(average).eigenvectors.flip(-1).contiguous()
+
+
+def _renew(state: dict[str, Tensor]) -> None:
+    """Renew both bases with one power iteration and QR, and turn the moments along.
+
+    The first moment is a vector and turns exactly. The second belongs to directions: it moves to where the direction
+    that it belonged to stands after sorting by eigenvalue.
+    """
+    for side, name in SIDES.items():
+        old, axis = state[side], -2 if side == "left" else -1
+        powered = state[name] @ old
+        order = (old * powered).sum(-2).argsort(dim=-1, descending=True, stable=True)
+        columns = order[:, None, :].expand_as(old)
+        new = torch.linalg.qr(powered.gather(-1, columns)).Q.contiguous()
+        turn = new.mT @ old
+        first = state["first"]
+        state["first"] = turn @ first if side == "left" else first @ turn.mT
+        index = (order[:, :, None] if side == "left" else order[:, None, :]).expand_as(state["second"])
+        state["second"] = state["second"].gather(axis, index)
+        state[side] = new
+
+
+def optimizer_of(network: LimbNetwork, learning: Learning) -> torch.optim.Optimizer:
+    """Return the optimiser of a network that section `learning` names; its rate is set before each epoch."""
+    if learning.optimizer == "adam":
+        return torch.optim.Adam(network.parameters(), lr=0.0, betas=learning.optimizer_betas, fused=True)
+    # Matrices of a recurrent cell, one gate below the other; those of windows are convolutions.
+    gated = [weight for weight in network.cell.parameters() if weight.dim() == 2]
+    others = [weight for weight in network.parameters() if all(weight is not matrix for matrix in gated)]
+    gates = len(gated[0]) // network.cell.width if gated else 0
+    return Soap(gated, others, gates, learning.optimizer_betas, learning.basis_beta, learning.basis_every)
