@@ -89,7 +89,7 @@ def test_training_and_test_recordings_are_disjoint(plans: dict[str, Plan]) -> No
     assert [path.name for path in train] == [f"s{1000 + k}" for k in range(files.training_size("walk").shards)]
     sizes = files.settings.sizes.test
     assert [path.name for path in test] == [f"s{sizes.first_seed + k}" for k in range(sizes.shards)]
-    chosen_on = files.development("recordings")
+    chosen_on = files.development("recordings", "plant_leg")
     assert [path.name for path in chosen_on] == [f"s{501 + k}" for k in range(files.settings.sizes.development.shards)]
 
 

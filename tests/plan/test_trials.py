@@ -8,7 +8,7 @@ import pytest
 from mobnet.plan.plan import Plan, make_plan
 from mobnet.plan.products import Product
 from mobnet.settings.load import load_settings
-from mobnet.settings.trials import of_lengths, trial_name, tuned
+from mobnet.settings.trials import compared, trial_name, tuned
 
 
 @pytest.fixture(scope="module")
@@ -22,19 +22,20 @@ def products(plan: Plan) -> dict[str, Product]:
 
 
 def test_every_method_is_tried_as_often_as_every_other(plan: Plan) -> None:
-    trials = list(tuned(plan.settings.trials, plan.settings.methods))
+    given = plan.settings.trials, plan.settings.methods, plan.settings.development
+    trials = list(tuned(*given))
     counts = {base: sum(trial.base == base for trial in trials) for base in plan.settings.trials.tuning.grids}
     assert len(set(counts.values())) == 1, counts
-    lengths = list(of_lengths(plan.settings.trials, plan.settings.methods, plan.settings.learning.rate_first))
-    wanted = plan.settings.trials.lengths
-    assert len(lengths) == len(wanted.methods) * len(wanted.experiments) * len(wanted.rate_shares)
+    for table, rows in plan.settings.trials.compared.items():
+        sizes = [len(row.methods) * len(row.recipes) * len(row.experiments) for row in rows]
+        assert len(list(compared(*given, table))) == sum(sizes)
 
 
 def test_names_are_distinct_and_can_be_folders(plan: Plan) -> None:
     settings, catalogue = plan.settings, plan.files.catalogue
-    given = settings.trials, settings.methods
-    trials = [*tuned(*given), *of_lengths(*given, settings.learning.rate_first)]
-    assert len(catalogue.tried) == len(trials)
+    grids = list(tuned(settings.trials, settings.methods, settings.development))
+    assert len({trial.name for trial in grids}) == len(grids)
+    assert len({(trial.name, trial.task) for trial in catalogue.trials}) == len(catalogue.trials)
     assert not set(catalogue.tried) & set(catalogue.all_methods)
     assert not [name for name in catalogue.tried if Path(f"{name}-LL-s0").suffix]
     assert trial_name("A", {"loss": "beta_likelihood", "rate_first": 0.005}) == "A-beta-likelihood-0-005"
@@ -46,18 +47,17 @@ def test_a_trial_changes_what_it_says_and_its_length(plan: Plan) -> None:
     assert (training.learning.loss, training.learning.rate_first) == ("squared", 0.01)
     assert training.target == "external"
     assert training.learning.may_diverge
-    lengths = [catalogue.training(f"MOB-Net-steps-{steps}m", "LL") for steps in (3, 10, 39, 150)]
-    assert [one.epochs * (one.epoch_samples or 0) for one in lengths] == [3e6, 10e6, 39e6, 150e6]
-    slower = [one for one in catalogue.tried if one.startswith("FTS-e2e-steps-39m-")]
-    chosen = catalogue.learned("FTS-e2e").rate_first
-    assert [catalogue.training(name, "LL").learning.rate_first for name in slower] == [chosen / 2]
+    lengths = [catalogue.training(f"MOB-Net-steps-{steps}m-adam", "LL") for steps in (3, 10, 39)]
+    assert [one.epochs * (one.epoch_samples or 0) for one in lengths] == [3e6, 10e6, 39e6]
+    assert {(one.learning.optimizer, one.learning.coarse) for one in lengths} == {("adam", ())}
     assert catalogue.method("MOB-Kalman-300-0").options["walk_nm"] == 300.0
 
 
-def test_trials_read_development_walks_and_no_test(products: dict[str, Product]) -> None:
+def test_trials_read_development_walks_and_no_test(plan: Plan, products: dict[str, Product]) -> None:
+    tasks = plan.settings.development
     for product in products.values():
         recorded = [Path(name) for name in product.job.inputs if "/recordings/" in name or "/residuals/" in name]
-        assert {path.parts[-3] for path in recorded} == {"development"}
+        assert {path.parts[-3] for path in recorded} <= {walk.scenario for walk in tasks.values()}
         assert all(501 <= int(path.stem.removeprefix("s")) < 1000 for path in recorded)
 
 
@@ -74,12 +74,12 @@ def test_tables_of_trials_are_results_of_their_scale(products: dict[str, Product
         trials = make_plan(load_settings(overrides={"scale": scale}), with_pdf=False).trials
         folder = f"results/{scale}/trials"
         assert {name for one in trials for name in one.outputs} == {
-            f"{folder}/{name}.{ending}" for name in ("tuning", "lengths") for ending in ("csv", "tex", "md")
+            f"{folder}/{name}.{ending}" for name in ("tuning", "recipes", "lengths") for ending in ("csv", "tex", "md")
         }
 
 
 def test_a_gray_box_is_tried_on_its_fit_and_a_filter_without_networks(products: dict[str, Product]) -> None:
-    tried: Any = products["tuning"].job.call.arguments["tried"]
+    tried: Any = products["tuning"].job.call.arguments["tasks"]["plant_leg"].tried
     gray = next(one for one in tried if one.base == "MOB-Net-gray")
     kalman = next(one for one in tried if one.base == "MOB-Kalman")
     assert [path.name for path in (gray.fitted, kalman.fitted)] == ["MOB-fric-load.json"] * 2

@@ -102,10 +102,11 @@ def test_seeds_of_the_tests_of_two_scales_never_meet(settings: Settings) -> None
 
 
 def test_methods_are_chosen_on_walks_that_no_test_has(settings: Settings) -> None:
-    row = settings.scenarios[settings.development.scenario]
-    assert settings.development.scenario not in Catalogue(settings).tests
-    assert row.commands == "uniform"
-    assert not row.narrowed.model_fields_set  # uniform over all of Table 2
+    for task in settings.development.values():
+        row = settings.scenarios[task.scenario]
+        assert task.scenario not in Catalogue(settings).tests
+        assert row.commands == "uniform"
+        assert not row.narrowed.model_fields_set  # uniform over all of Table 2
 
 
 def test_scenarios_that_draw_the_same_differ_in_pushes_or_random_torque_alone(settings: Settings) -> None:

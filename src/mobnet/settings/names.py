@@ -24,7 +24,8 @@ def uses(value: Any, kind: Any, place: Place = ()) -> Iterator[Use]:
     """Yield every name that a value of an annotated kind holds, below the keys that lead to it."""
     origin, args = get_origin(kind), get_args(kind)
     if origin is Annotated:
-        yield from ((place, mark.kind, value) for mark in args[1:] if isinstance(mark, Named))
+        if isinstance(value, str):  # anything else is refused where the section is made
+            yield from ((place, mark.kind, value) for mark in args[1:] if isinstance(mark, Named))
         yield from uses(value, args[0], place)
     elif isinstance(value, BaseModel):
         for name, field in type(value).model_fields.items():

@@ -6,20 +6,21 @@ from pathlib import Path
 from csv_files import read_table
 
 from mobnet.core.columns import TRIALS, TrialError
-from mobnet.evaluation.figures.further.learning_curve import curve_of, learning_curve
+from mobnet.evaluation.figures.further.learning_curve import AXES, curves_of, learning_curve
 from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.evaluation import LearningCurve
 
 
-def row(steps: int, error: float, seed: int = 0, state: str = "", joint: str = "avg", best: int = 1) -> TrialError:
-    return TrialError("LSTM", f"experiment {steps}", seed, steps, state, -3.0, joint, error, 0.1, 6, best)
+def row(steps: int, error: float, seed: int = 0, state: str = "", joint: str = "avg") -> TrialError:
+    changes = "plant_leg", "LSTM", f"experiment {steps}", "adam"
+    return TrialError(*changes, seed, steps, 2e-6 * steps, state, -3.0, joint, error, 0.1, 6, 1)
 
 
-def test_it_shows_the_mean_over_joints_at_the_best_rate_of_trainings_that_did_not_diverge(tmp_path: Path) -> None:
-    rows = [row(10, 2.0), row(3, 4.0), row(3, 9.0, joint="LL1"), row(39, 99.0, state="diverged"), row(3, 5.0, best=0)]
+def test_it_shows_the_mean_over_joints_of_trainings_that_did_not_diverge(tmp_path: Path) -> None:
+    rows = [row(10, 2.0), row(3, 4.0), row(3, 9.0, joint="LL1"), row(39, 99.0, state="diverged")]
     write_csv(tmp_path / "lengths.csv", TRIALS, [astuple(one) for one in rows])
-    settings = LearningCurve(data=str(tmp_path / "lengths.csv"), joint="avg")
+    settings = LearningCurve(data=str(tmp_path / "lengths.csv"), titles={"plant_leg": "left leg"})
     learning_curve(settings, tmp_path / "lengths.csv", tmp_path)
     shown = read_table(tmp_path / "learning_curve.csv")
     assert [(one.steps, one.rmse_nm) for one in shown] == [(10, 2.0), (3, 4.0)]
@@ -27,8 +28,9 @@ def test_it_shows_the_mean_over_joints_at_the_best_rate_of_trainings_that_did_no
 
 
 def test_a_place_is_the_mean_of_its_networks() -> None:
-    line = curve_of("LSTM", [row(3_000_000, 2.0), row(3_000_000, 4.0, seed=1), row(1_000_000, 5.0)])
-    assert line.x == [1.0, 3.0]
+    rows = [row(3_000_000, 2.0), row(3_000_000, 4.0, seed=1), row(1_000_000, 5.0)]
+    (line,), (timed,) = (curves_of(rows, place) for place in AXES.values())
+    assert (line.label, line.x, timed.x) == ("LSTM, adam", [1.0, 3.0], [2.0, 6.0])
     assert line.numbers == [
         Number(5.0, 5.0, 5.0, networks=(1,), walks=(1,)), Number(3.0, 2.0, 4.0, networks=(2,), walks=(1,)),
     ]  # fmt: skip
