@@ -9,6 +9,7 @@ import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import torch
@@ -20,15 +21,18 @@ from mobnet.learning.job import PRECISIONS, TrainingJob
 from mobnet.learning.losses import gaussian_loss
 from mobnet.learning.model import LimbNetwork, build_network
 from mobnet.learning.optimisation import Samples, train_epoch
+from mobnet.learning.soap import optimizer_of
 from mobnet.learning.streams import epoch_plan
 from mobnet.plan.precision import with_precision
 from mobnet.running.threads import one_thread
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.load import load_settings
+from mobnet.settings.networks import Optimizer
 
 UPDATES, ROUNDS = 40, 5  # updates in a turn, turns
 BAR = 2.8  # times nn.GRU + DataLoader
 OF_PRODUCTS = 0.7  # of the speed of the products alone
+OF_ADAM = 1 / 1.2  # of the speed with Adam
 
 
 def main() -> list[dict[str, float | str]]:
@@ -53,6 +57,8 @@ def main() -> list[dict[str, float | str]]:
     formats = PRECISIONS.values()
     epochs = [_ours(job, network(precision), *data) for precision in formats]
     epochs += [_products(job, sizes[0], precision) for precision in formats]
+    chosen = network(PRECISIONS[learning.precision])
+    epochs += [_ours(job, chosen, *data, optimizer) for optimizer in get_args(Optimizer)]
     epochs.append(_theirs(job, network(torch.float32), *data))
     turns = [[_speed(epoch, len(data[0])) for epoch in epochs] for _ in range(ROUNDS + 1)][1:]  # the first one compiles
     rows = []
@@ -60,6 +66,7 @@ def main() -> list[dict[str, float | str]]:
         what, kept = f"training, leg network in {name}, against ", name == learning.precision
         rows.append(_row(what + "nn.GRU + DataLoader", turns, k, -1, BAR if kept else None))
         rows.append(_row(what + "its products alone", turns, k, len(formats) + k, OF_PRODUCTS if kept else None))
+    rows.append(_row("training, SOAP against Adam", turns, -2, -3, OF_ADAM))
     return rows + _on_gpu(job, network(torch.float32), *data)
 
 
@@ -130,10 +137,14 @@ def _on_gpu(job: TrainingJob, network: LimbNetwork, inputs: Tensor, targets: Ten
     return [{"name": name, "ours": statistics.median(speeds[1:]), "unit": "1000 time steps/s"}]
 
 
-def _ours(job: TrainingJob, network: LimbNetwork, inputs: Tensor, targets: Tensor) -> Callable[[], object]:
-    """Return one epoch as this package trains."""
-    optimizer = torch.optim.Adam(network.parameters(), lr=job.rate(0), fused=True)
+def _ours(
+    job: TrainingJob, network: LimbNetwork, inputs: Tensor, targets: Tensor, kind: Optimizer = "adam"
+) -> Callable[[], object]:
+    """Return one epoch as this package trains, with an optimiser of this kind."""
     samples, horizon, learning = Samples(inputs, targets), job.horizon, job.training.learning
+    optimizer = optimizer_of(network, learning.model_copy(update={"optimizer": kind}))
+    for group in optimizer.param_groups:
+        group["lr"] = job.rate(0)
     rng = np.random.default_rng(0)
 
     def epoch() -> object:

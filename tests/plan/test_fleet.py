@@ -138,7 +138,10 @@ def test_products_can_show_the_fleet(plan: Plan) -> None:
     ({"levels": {"robot_1": {"friction": ["load"]}}}, "levels.robot_1.friction: ['load'] is not accepted"),
     ({"surrogate": {"limbs": {"N": {"coulomb_nm": [1.0]}}}}, "1 numbers is not accepted; accepted: 2"),
     ({"training_sets": {"walk": {"level": "robots"}}}, "training_sets.walk.level: robots is not accepted"),
-    ({"development": {"plant_leg": {"level": "robots"}}}, "development.plant_leg.level: level of one plant: 'robots' is not accepted"),
+    (
+        {"development": {"plant_leg": {"level": "robots"}}},
+        "development.plant_leg.level: level of one plant: 'robots' is not accepted",
+    ),
 ])  # fmt: skip
 def test_what_does_not_fit_is_told(sections: dict[str, Any], text: str) -> None:
     with pytest.raises(ConfigError) as told:

@@ -18,6 +18,7 @@ COMMANDS = {
     "check": "check recordings, weights and configurations from outside: ./reproduce check FILE...",
     "calibrate": "print thresholds of collision detection for a wanted rate of false alarms; --help says how",
     "tuning": "train what configs/trials.yaml lists, write results/default/trials/tuning.md; no part of all",
+    "recipes": "train each method with each recipe, write results/default/trials/recipes.md; no part of all",
     "lengths": "train for longer and longer, write results/default/trials/lengths.md; no part of all",
     "report": "make everything, then report.html: every table and figure with its caption, in one file",
     "compare": "print what differs between docs/results and the fresh tables",
@@ -33,7 +34,11 @@ EXAMPLES = """
   ./reproduce all --config scale=quick   every table and figure in about an hour, with shorter walks and trainings
   ./reproduce tables/table_05.tex        make one file and what it needs; tables/smoke/table_05.tex at that scale"""
 OWN = {"clean", "setup"}  # commands with options of their own
-TARGETS = {"all": "all", "report": "all", "tuning": "tuning", "lengths": "lengths"}  # command -> rule of the workflow
+TARGETS = {
+    "all": "all",
+    "report": "all",
+    **{name: name for name in ("tuning", "recipes", "lengths")},
+}  # command -> rule of the workflow
 HELP = {"-h", "--help"}
 CONFIG = {"-C", "--config"}
 KEY = re.compile(r"[a-zA-Z_]\w+")  # as Snakemake takes it: of two signs or more

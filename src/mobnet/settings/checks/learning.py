@@ -83,6 +83,11 @@ def _tuning_problems(catalogue: Catalogue, name: str, method: Method) -> Iterato
         yield ("learning", "labels"), misfit("swing", "`labels: swing` of a method with `start` and target uncertainty")
     if first is None:
         return
+    if method.limbs and catalogue.learned(name).coarse:
+        yield (
+            ("learning", "coarse"),
+            misfit("coarse time", "[] of a method with `start`, whose state is kept as long as it is"),
+        )
     if first.start or first.of or method.of or first.target != method.target:
         yield ("start",), misfit(method.start, "a method with the same target, without `start`; neither with `of`")
     for limb in method.limbs:
