@@ -237,7 +237,7 @@ def write_training(tmp_path: Path) -> Callable[..., Path]:
     def write(method: str, seed: int = 0, loss: float = -4.0, epochs: int = 3, **changes: Any) -> Path:
         folder = tmp_path / f"{method}-LL-s{seed}"
         course = [loss + epochs - 2 - k for k in range(epochs - 1)] + [loss + 0.5] * (epochs > 0)
-        epochs_done = [Epoch(k + 1, x - 0.25, x, 10.0 + x, 0.005, 1.5) for k, x in enumerate(course)]
+        epochs_done = [Epoch(k + 1, x - 0.25, x, 10.0 + x, 0.005, 1.5, 1) for k, x in enumerate(course)]
         write_rows(folder / "metrics.csv", epochs_done, Epoch)
         own = {"samples": 1620000, "on_windows": {"loss": loss + 0.125, "rmse": 7.0}, **changes}
         write_json(folder / "run.json", training_note(folder.name, course, **own))

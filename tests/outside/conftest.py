@@ -167,7 +167,7 @@ def training(tmp_path):
     """The folder of a training of three epochs."""
     folder = tmp_path / "GRU-LL-s1"
     folder.mkdir()
-    epochs = [Epoch(k, 1.0 - k, -float(k), 3.0, 0.005, 1.5) for k in (1, 2, 3)]
+    epochs = [Epoch(k, 1.0 - k, -float(k), 3.0, 0.005, 1.5, 1) for k in (1, 2, 3)]
     rows = [",".join(map(str, vars(epoch).values())) for epoch in epochs]
     (folder / "metrics.csv").write_text("\n".join([",".join(vars(epochs[0])), *rows, ""]))
     (folder / "run.json").write_text(json.dumps(training_note(folder.name, [-1.0, -2.0, -3.0])))
