@@ -73,13 +73,13 @@ METRICS = {
         f"{text!r}": (("-2.0,3.0", f"{text},3.0"), f"metrics.csv:3: validation_loss: '{text}' is not accepted; ")
         for text in ("nan", "inf", "1e999", "low", "", "1_0")
     },
-    "a decimal comma": (("-2.0,3.0", "-2,0,3.0"), "metrics.csv:3: .*7 fields; accepted: 6"),
+    "a decimal comma": (("-2.0,3.0", "-2,0,3.0"), "metrics.csv:3: .*8 fields; accepted: 7"),
     "epoch as a fraction": (("\n2,", "\n2.0,"), "metrics.csv:3: epoch: '2.0' is not .*: a whole number"),
     "epoch left out": (("\n2,", "\n3,"), "metrics.csv:3: epoch: 3 is not accepted; accepted: 2"),
     "epoch from zero": (("\n1,", "\n0,"), "metrics.csv:2: epoch: 0 is not accepted; accepted: 1"),
     "rate below zero": (("0.005", "-0.005"), "metrics.csv:2: rate: -0.005 is not accepted; accepted: 0 or more"),
-    "rmse below zero": ((",3.0,0.005,1.5\n2", ",-3.0,0.005,1.5\n2"), "metrics.csv:2: validation_rmse: -3.0 is not"),
-    "cut off": (("0.005,1.5\n3", "0.005\n3"), "metrics.csv:3: line is cut off or too long: 5 fields"),
+    "rmse below zero": ((",3.0,0.005,1.5,1\n2", ",-3.0,0.005,1.5,1\n2"), "metrics.csv:2: validation_rmse: -3.0 is not"),
+    "cut off": (("0.005,1.5,1\n3", "0.005,1.5\n3"), "metrics.csv:3: line is cut off or too long: 6 fields"),
     "a NUL": (("-2.0,3.0", "\0,3.0"), "metrics.csv"),
     "a quote": (("-2.0,3.0", '"-2.0,3.0'), "metrics.csv"),
     "a blank line": (("\n2,", "\n\n2,"), "metrics.csv:3: line is cut off or too long: 0 fields"),

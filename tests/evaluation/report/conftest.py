@@ -17,7 +17,7 @@ from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
 GOLDEN = Path(__file__).parents[2] / "golden"
-HEAD = "epoch,train_loss,validation_loss,validation_rmse,rate,gradient_norm"
+HEAD = "epoch,train_loss,validation_loss,validation_rmse,rate,gradient_norm,stride"
 
 
 @pytest.fixture(scope="session")
@@ -35,7 +35,7 @@ def write_run() -> Callable[..., Path]:
         rows = list(lines)
         note = training_note(name, [float(row.split(",")[2]) for row in rows], **changed)
         (networks / name / "run.json").write_text(json.dumps(note))
-        (networks / name / "metrics.csv").write_text("\n".join([HEAD, *rows, ""]))
+        (networks / name / "metrics.csv").write_text("\n".join([HEAD, *(f"{row},1" for row in rows), ""]))
         return networks / name
 
     return write
