@@ -31,7 +31,7 @@ class Small:
         hidden = 16 if training.network.cell == "GRU" else training.network.hidden
         changes = {
             "network": training.network.model_copy(update={"hidden": hidden, "horizon_steps": 25}),
-            "learning": training.learning.model_copy(update={"stream_s": 0.5, **learning}),
+            "learning": training.learning.model_copy(update={"stream_s": 0.5, "coarse": (), **learning}),
             "epochs": epochs,
             "epoch_samples": None,
         }

@@ -21,10 +21,7 @@ EPOCHS = 5
 def trainer(small, data):
     """Return a function of changes of how a network learns that sets a training up."""
 
-    def trainer(epochs=EPOCHS, **learning):
-        return Trainer(TrainingJob(small.training(epochs=epochs, **{"coarse": (), **learning}), 0, 1), data)
-
-    return trainer
+    return lambda epochs=EPOCHS, **learning: Trainer(TrainingJob(small.training(epochs=epochs, **learning), 0, 1), data)
 
 
 def test_it_learns_keeps_the_best_epoch_and_writes_every_one(trainer, tmp_path):
