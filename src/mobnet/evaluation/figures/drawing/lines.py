@@ -14,7 +14,7 @@ from mobnet.evaluation.figures.style import Look, entitle, legend, looks, stacke
 from mobnet.evaluation.number.number import Number
 
 PANEL_INCH, LEGEND_INCH = 1.6, 0.45  # height of a panel and of the legend above all
-MOST_PLACES = 8  # that are named on an axis, one by one
+LEAST_APART = 0.08  # between the names of two places [share of the axis]
 MARGIN = 0.08  # above and below all means [share of their range]
 LEGEND: Mapping[str, Any] = {"columns": 3, "handlelength": 2.6, "columnspacing": 1.2, "handletextpad": 0.5}
 
@@ -93,7 +93,15 @@ def _places(axis: Axes, panel: LinePanel, logarithmic: bool) -> None:
     places = np.unique(np.concatenate([line.x for line in panel.lines]))
     if logarithmic:
         axis.set_xscale("log")
-    if len(places) > MOST_PLACES:
-        return
     axis.minorticks_off()
-    axis.set_xticks(places, [f"{place:.0f}" for place in places])
+    named = _apart(places, np.log(places) if logarithmic else places)
+    axis.set_xticks(named, [f"{place:.0f}" for place in named])
+
+
+def _apart(places: NDArray[np.float64], drawn: NDArray[np.float64]) -> list[float]:
+    """Return the places (n,) of which each is drawn so far right of the one before that both can be named."""
+    kept = [0]
+    for k in range(1, len(places)):
+        if drawn[k] - drawn[kept[-1]] >= LEAST_APART * np.ptp(drawn):
+            kept.append(k)
+    return places[kept].tolist()
