@@ -129,7 +129,7 @@ def add_product(out: NDArray[np.float32], left: Factor, right: Factor) -> None:
 
 @compiled
 def rounded(value: np.float32) -> np.uint32:
-    """Return the bits of the bfloat16 number, float32's upper half, next to a value, unitless; ties to even."""
+    """Return the bits of the bfloat16 number, float32's upper half, nearest to a value; ties go to even."""
     word = np.float32(value).view(np.uint32)
     even = (word >> np.uint32(16)) & np.uint32(1)
     return (word + np.uint32(0x7FFF) + even) >> np.uint32(16)

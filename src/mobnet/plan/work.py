@@ -89,7 +89,7 @@ def fitted(files: Files, method: str) -> tuple[Amounts, float]:
 
 
 def detected(files: Files) -> tuple[Amounts, float]:
-    """Return the work of detectors, and the seconds [s] of the longest of their walks."""
+    """Return the work of detectors, and the duration of all recordings of their longest test [s]."""
     seconds = [files.settings.test_s(name) * len(files.test_seeds) for name in files.settings.detection_walks]
     return {SECONDS: sum(seconds)}, max(seconds)
 

@@ -63,7 +63,7 @@ def set_resources_by_kind(workflow: Any, kinds: Mapping[str, str]) -> None:
 
 
 def by_kind(kinds: Mapping[str, str]) -> Callable[[logging.LogRecord], bool]:
-    """Return a filter of Snakemake's logger that has a row for each kind, of rule -> kind, in its table of jobs."""
+    """Return a log filter that counts jobs in Snakemake's table by kind, not by rule; `kinds` is rule -> kind."""
 
     def shorten(record: logging.LogRecord) -> bool:
         counts = getattr(record, "stats", None)  # rule -> jobs, and `total`

@@ -40,7 +40,7 @@ class Wanted:
 
 
 def run_grid(scores: Sequence[Score], wanted: Wanted) -> RunGrid:
-    """Return the runs of a number, (networks, walks) [N m] (or the metric's unit), seeds ascending.
+    """Return the runs of a number, (networks, walks) in the unit of its metric, seeds ascending.
 
     Raises:
         DataError: no run, two rows of the same run, or a network that misses a test.
