@@ -174,8 +174,8 @@ def test_a_fit_that_breaks_the_contract_is_refused(name, tmp_path, layout):
     assert re.search(says, refusal_of(path))
 
 
-DAHL = {"breakaway_rad": 0.004, "forward_nm": 1.0, "backward_nm": 2.0, "driving": 0.2, "driven": 0.3, "viscous_nms": 0.0,
-        "constant_nm": -1.0, "gain": -0.1, "target_rms_nm": 3.0, "left_rms_nm": 1.0}  # fmt: skip
+DAHL = {"breakaway_rad": 0.004, "forward_nm": 1.0, "backward_nm": 2.0, "driving": 0.2, "driven": 0.3,
+        "viscous_nms": 0.0, "constant_nm": -1.0, "gain": -0.1, "target_rms_nm": 3.0, "left_rms_nm": 1.0}  # fmt: skip
 DAHL_FITS = {
     **refusals(
         {
