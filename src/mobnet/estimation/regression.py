@@ -135,8 +135,10 @@ def _factors(products: Array, terms: Sequence[str], static: int) -> tuple[dict[s
     return non_negative(products, {term: mixed[term] for term in terms})
 
 
-def non_negative(products: Array, columns: Mapping[str, Array]) -> tuple[dict[str, float], float]:
-    """Return the factors, none negative, with the smallest mean square error, and the root of that [N m].
+def non_negative(
+    products: Array, columns: Mapping[str, Array], free: Sequence[str] = ()
+) -> tuple[dict[str, float], float]:
+    """Return the factors, none negative but `free` ones, with the smallest mean square error, and its root [N m].
 
     Mean products are (m, m), the target's last; a column (m,) of each factor says how it mixes those of the products.
     """
@@ -148,5 +150,11 @@ def non_negative(products: Array, columns: Mapping[str, Array]) -> tuple[dict[st
     # N m s and 1 / (N m) differ by orders of magnitude, which would spoil the condition of the problem.
     size = np.linalg.norm(root[:, :-1], axis=0)
     size[size == 0] = 1.0  # a joint that never moved
-    factors, left = scipy.optimize.nnls(root[:, :-1] / size, root[:, -1])
-    return dict(zip(columns, (factors / size).tolist(), strict=True)), float(left)
+    scaled = root[:, :-1] / size
+    # A factor of either sign is the difference of two that are not negative. The second column is the first one negated
+    # to the bit: columns that rounding makes differ could both be taken, with huge factors that cancel.
+    either = [name in free for name in columns]
+    factors, left = scipy.optimize.nnls(np.hstack([scaled, -scaled[:, either]]), root[:, -1])
+    found, negated = np.split(factors, [len(columns)])
+    found[either] -= negated
+    return dict(zip(columns, (found / size).tolist(), strict=True)), float(left)

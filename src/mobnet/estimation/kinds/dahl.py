@@ -155,7 +155,7 @@ def _solve(products: Array, terms: Sequence[str], angles: Array) -> dict[str, fl
     factors, left = found[best]
     return {
         "breakaway_rad": float(angles[best]),
-        **{term: factors.get(term, 0.0) - factors.get(f"-{term}", 0.0) for term in TERMS},
+        **{term: factors.get(term, 0.0) for term in TERMS},
         "target_rms_nm": float(np.sqrt(products[-1, -1])),
         "left_rms_nm": left,
     }
@@ -166,10 +166,8 @@ def _at_angle(products: Array, terms: Sequence[str], i: int, count: int) -> tupl
     unit = np.eye(len(products))
     bending, others = unit[i : len(BENT) * count : count], unit[len(BENT) * count :]
     columns: dict[str, Array] = dict(zip(TERMS, (*bending, *others), strict=False))  # without the target's
-    moved = [term for term in terms if columns[term] @ products @ columns[term] > STILL**2]
-    # A factor of either sign is the difference of two that are not negative.
-    chosen = {term: columns[term] for term in moved} | {f"-{term}": -columns[term] for term in moved if term in FREE}
-    return non_negative(products, chosen)
+    moved = {term: columns[term] for term in terms if columns[term] @ products @ columns[term] > STILL**2}
+    return non_negative(products, moved, FREE)
 
 
 def read_dahl(path: Path, joints: Sequence[str]) -> DahlFriction:
