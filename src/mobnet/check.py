@@ -35,6 +35,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.notes import ArrayNote, read_array_note, read_note
 from mobnet.core.recording import Sensed, Truth
 from mobnet.core.store import ARRAY, NOTE, check_rate, file_of, read_pieces
+from mobnet.estimation.kinds.dahl import DahlNote, read_dahl
 from mobnet.estimation.kinds.friction import FrictionNote, read_friction
 from mobnet.estimation.methods import method_problems
 from mobnet.evaluation.measure.learning.trainings import TrainingNote, read_training, read_training_note
@@ -57,7 +58,8 @@ KINDS = (
     "a recording, residual, estimate or motion (.parquet with its .json), weights.safetensors, run.json, metrics.csv, "
     "scores, what detectors find, a fit, an account of a job, a file of configs, a robot's table, a folder of these"
 )
-NOTES = (ArrayNote, TrainingNote, AccountNote, FrictionNote)
+FITS = {FrictionNote: read_friction, DahlNote: read_dahl}
+NOTES = (ArrayNote, TrainingNote, AccountNote, *FITS)
 HALF = 0.5  # of the columns of a kind, which a file of rows has to pass to be one
 REPORT_S = 5.0  # between two lines of progress
 log = logging.getLogger(__name__)
@@ -173,9 +175,9 @@ def _note(path: Path, against: Against) -> str:
         return _training(path.parent)
     if kind is AccountNote:
         return f"account of {read_account(path).job}"
-    if kind is FrictionNote:
-        read_friction(path, against.layout.actuated)
-        return f"fit of {len(read_note(path, FrictionNote).joints)} joints"
+    if kind in FITS:
+        FITS[kind](path, against.layout.actuated)
+        return f"fit of {len(read_note(path, kind).joints)} joints"
     return _array(path, against)
 
 

@@ -6,7 +6,9 @@ import pytest
 from mobnet.core.columns import COMMAND, FEET, recording_width
 from mobnet.core.recording import Sensed
 from mobnet.estimation.first_order import decay
+from mobnet.estimation.kinds.dahl import bent
 from mobnet.estimation.observe import observer_of
+from mobnet.estimation.presliding import follow
 from mobnet.plan.jobs import walk_settings
 from mobnet.robot.description import describe
 from mobnet.robot.momentum import sweep
@@ -19,7 +21,7 @@ from mobnet.warm import warm
 @pytest.mark.sim
 def test_the_jobs_find_everything_compiled(settings):
     warm(walk_settings(settings, "forward_walk", "ideal"), settings.detection)
-    functions = engine.run, sweep, decay
+    functions = engine.run, sweep, decay, follow
     before = [list(function.signatures) for function in functions]
     assert all(before)
     simulator = Simulator(walk_settings(settings, "robot_walk", "robot_1"), seed=3)
@@ -30,4 +32,5 @@ def test_the_jobs_find_everything_compiled(settings):
     rows = np.ones((20, sum(widths)), dtype=np.float32)  # a recording is read as views of one array
     sensed = Sensed(*np.split(rows, np.cumsum(widths)[:-1], axis=1))
     observer_of(simulator.robot, settings.levels["robot_1"], 9.81, 50.0, 500.0).residual(sensed)
+    bent(np.zeros(layout.nu), sensed.v[:, -layout.nu :], np.ones(layout.nu), 500.0)
     assert [list(function.signatures) for function in functions] == before

@@ -61,6 +61,12 @@ def test_the_configured_methods_are_accepted(settings):
     ("friction", {**FRICTION, "smoothing_rad_s": 0.0}, "options.smoothing_rad_s: 0.0 is not accepted; accepted"),
     ("friction", {**FRICTION, "stribeck_rad_s": [-1.0]}, r"options.stribeck_rad_s.0: -1.0 is not accepted; acc"),
     ("friction", FRICTION, "fitted: .* is not accepted; accepted: limbs to fit"),
+    ("dahl", {}, "options.breakaway_rad: key is missing; accepted: a list of 1 or more"),
+    ("dahl", {"breakaway_rad": []}, r"options.breakaway_rad: \[\] is not accepted; accepted: a list of 1 or more"),
+    ("dahl", {"breakaway_rad": [0.0]}, "options.breakaway_rad.0: 0.0 is not accepted; accepted: "),
+    ("dahl", {"breakaway_rad": [0.004, 0.002]}, "options.breakaway_rad: .* accepted: numbers that rise"),
+    ("dahl", {"breakaway_rad": [0.004], "terms": ["load"]}, "options.terms: key: 'terms' is not accepted; accepted: "),
+    ("dahl", {"breakaway_rad": [0.004]}, "fitted: .* is not accepted; accepted: limbs to fit"),
 ])  # fmt: skip
 def test_a_kind_or_an_option_that_is_not_accepted_is_one_line(settings, kind, options, message):
     row = {"of": "a"} if kind == "band_pass" else {}
@@ -89,4 +95,4 @@ def test_an_estimate_does_not_depend_on_how_networks_are_trained(settings):
     learning = {file.stem for file in files if "learning" in file.parts} - {"__init__"}
     run = {"features", "limbs", "lanes", "networks", "weights", "module_network"}
     assert learning == run | {"model", "cells", "gru", "gates", "tiles"}
-    assert not {file.stem for file in files} & {"friction", "band_pass", "regression"}
+    assert not {file.stem for file in files} & {"friction", "dahl", "band_pass", "regression"}

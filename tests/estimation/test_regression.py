@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import scipy
 
 from mobnet.core.columns import residual_columns
 from mobnet.core.errors import DataError
@@ -11,7 +12,7 @@ from mobnet.core.joints import N_VIRTUAL
 from mobnet.core.recording import write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.low_pass import low_pass
-from mobnet.estimation.regression import TERMS, Law, regress
+from mobnet.estimation.regression import TERMS, Law, non_negative, regress
 
 GAIN_HZ, RATE_HZ, SMOOTHING = 100.0, 1000.0, 0.02
 TRUE = {"coulomb_nm": 12.0, "static_nm": 9.0, "viscous_nms": 3.0, "load_per_nm": 0.002, "stribeck_rad_s": 0.3}
@@ -106,3 +107,18 @@ def test_a_residual_of_another_recording_is_refused(pair, write, made_up):
     other = write("short", short, friction(short, TRUE))
     with pytest.raises(DataError, match=r"one-residual\.json: rows: 4000 is not accepted; accepted: 500, as in "):
         fit((other[0], pair[1]))
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_factors_of_either_sign_are_those_of_bounded_least_squares(seed):
+    """Columns of sizes from 0.01 to 1000, as velocities and torques have; the first and the last may be negative."""
+    rng, sizes = np.random.default_rng(seed), np.array([1e3, 1e-2, 1.0, 30.0, 1.0])
+    columns = (rng.normal(0, 1, (500, 5)) + rng.normal(0, 3, (500, 1))) * sizes
+    target = columns @ (rng.normal(0, 1, 5) / sizes) + rng.normal(0, 0.1, 500)
+    table = np.column_stack([columns, target])
+    names = dict(zip("abcde", np.eye(6), strict=False))
+    factors, left = non_negative(table.T @ table / 500, names, free="ae")
+    lowest = np.array([-np.inf, 0.0, 0.0, 0.0, -np.inf])
+    expected = scipy.optimize.lsq_linear(columns / sizes, target, (lowest, np.inf), method="bvls")
+    np.testing.assert_allclose([factors[name] for name in "abcde"] * sizes, expected.x, atol=1e-3)
+    assert left == pytest.approx(np.sqrt(2 * expected.cost / 500), rel=1e-3)

@@ -34,7 +34,7 @@ FURTHER = ["zero", "MOB-fric-load", "MOB-Kalman", "MOB-Net-gray"]  # baselines, 
 LEVELS = {"ideal": ["MOB"], "sensor_noise": ["MOB"], "all_uncertainty": ["MOB", "MOB-Net", "FTS-e2e", *FURTHER]}
 MEANS = {"ideal": 0.01, "sensor_noise": 1.2, "MOB": 19.0, "MOB-Net": 1.5, "FTS-e2e": 2.0, "zero": 40.0,
          "MOB-fric-load": 2.5, "MOB-Kalman": 3.0, "MOB-Net-gray": 1.4}  # avg [N m]  # fmt: skip
-ALONE = ("MOB", "MOB-fric", "zero", "MOB-fric-load", "MOB-Kalman")  # methods without networks
+ALONE = ("MOB", "MOB-fric", "zero", "MOB-fric-load", "MOB-fric-dahl", "MOB-Kalman")  # methods without networks
 OFF = {"all_uncertainty": 1.0, "exact_model": 0.8, "no_friction": 0.5, "no_load_friction": 1.0, "no_noise": 1.1}
 
 

@@ -10,6 +10,7 @@ from tests.outside.conftest import AGAINST, refusal_of, refusals, set_at
 from mobnet.check import check
 from mobnet.core.detections import FILES as DETECTION_FILES
 from mobnet.core.errors import DataError
+from mobnet.estimation.kinds.dahl import read_dahl
 from mobnet.estimation.kinds.friction import read_friction
 from mobnet.evaluation.measure.learning.trainings import read_training
 from mobnet.evaluation.number.rows import read_scores
@@ -170,6 +171,36 @@ def test_a_fit_that_breaks_the_contract_is_refused(name, tmp_path, layout):
     path.write_text(json.dumps(fit))
     with pytest.raises(DataError, match=says):
         read_friction(path, layout.actuated)
+    assert re.search(says, refusal_of(path))
+
+
+DAHL = {"breakaway_rad": 0.004, "forward_nm": 1.0, "backward_nm": 2.0, "driving": 0.2, "driven": 0.3,
+        "viscous_nms": 0.0, "constant_nm": -1.0, "gain": -0.1, "target_rms_nm": 3.0, "left_rms_nm": 1.0}  # fmt: skip
+DAHL_FITS = {
+    **refusals(
+        {
+            "law": ("stribeck",),
+            "joints": ([],),
+            "joints.LL4.driven": (-1.0, float("nan")),
+            "joints.LL4.breakaway_rad": (0.0, 2.0),
+            "joints.LL4.colour": (1,),
+        },
+        "joints joints.LL4.gain",
+    ),
+    "joint unknown": (set_at("joints.XX1", DAHL), "joint: 'XX1' is not accepted; accepted: LA1"),
+}
+
+
+@pytest.mark.parametrize("name", DAHL_FITS)
+def test_a_fit_with_a_memory_that_breaks_the_contract_is_refused(name, tmp_path, layout):
+    change, says = DAHL_FITS[name]
+    fit, path = {"law": "dahl", "joints": {"LL4": dict(DAHL)}}, tmp_path / "MOB-fric-dahl.json"
+    path.write_text(json.dumps(fit))
+    assert check(path, AGAINST) == "fit of 1 joints"
+    change(fit)
+    path.write_text(json.dumps(fit))
+    with pytest.raises(DataError, match=says):
+        read_dahl(path, layout.actuated)
     assert re.search(says, refusal_of(path))
 
 

@@ -1,11 +1,12 @@
-"""Regression of the friction model of (23) on r - tau_e, joint by joint, one recording at a time.
+"""Regression of models of friction, that of (23) first, on r - tau_e, joint by joint, one recording at a time.
 
 Derived in docs/notes/0034-observer.md, (O10) to (O13); note 0015 has what it finds.
 """
 
 import logging
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,8 @@ from mobnet.core.store import check_pair, label_of, read_array, spans_and_rate
 from mobnet.estimation.low_pass import low_pass
 
 Pair = tuple[Path, Path]  # stems of a recording and of its residual
+# Of a joint's velocity [rad/s] and motor torque [N m], (T,) each, at a rate [Hz]: the regressors (T, m - 1).
+Columns = Callable[[Array, Array, float], Array]
 TERMS = {"coulomb": "coulomb_nm", "static": "static_nm", "viscous": "viscous_nms", "load": "load_per_nm"}
 SIGN, VISCOUS, LOAD, STATIC = range(4)  # columns; one of `static` for each Stribeck velocity, then the target
 log = logging.getLogger(__name__)
@@ -44,10 +47,14 @@ def regress(law: Law, joints: Mapping[str, Sequence[str]], pairs: Sequence[Pair]
 
     Return joint -> factors of (23), units in the keys, and the root mean squares of the target and of the error [N m].
     """
-    found = {}
-    for joint, products in _sums(law, list(joints), pairs).items():
-        found[joint] = _solve(products, [term for term in TERMS if term in joints[joint]], law.stribeck)
-        log.info("%s: %.2f of %.2f N m left", joint, found[joint]["left_rms_nm"], found[joint]["target_rms_nm"])
+    sums = square_sums(partial(_columns, law), list(joints), law.gain_hz, pairs)
+    chosen = {joint: [term for term in TERMS if term in joints[joint]] for joint in joints}
+    return {joint: told(joint, _solve(sums[joint], chosen[joint], law.stribeck)) for joint in joints}
+
+
+def told(joint: str, found: dict[str, float]) -> dict[str, float]:
+    """Log how much friction a fit leaves of a joint, and return it."""
+    log.info("%s: %.2f of %.2f N m left", joint, found["left_rms_nm"], found["target_rms_nm"])
     return found
 
 
@@ -63,11 +70,11 @@ def regressors(
     return {"coulomb": sign * (1 - fade), "static": sign * fade, "viscous": velocity, "load": sign * torque**2}
 
 
-def _sums(law: Law, joints: Sequence[str], pairs: Sequence[Pair]) -> dict[str, Array]:
-    """Return joint -> mean products (m, m) of the columns of `_columns` over all recordings."""
+def square_sums(columns: Columns, joints: Sequence[str], gain_hz: float, pairs: Sequence[Pair]) -> dict[str, Array]:
+    """Return joint -> mean products (m, m) over recordings of its regressors behind the low-pass of K_0, and target."""
     # Sums of products are all that (O13) needs, and do not grow with the hours of data.
-    m = STATIC + len(law.stribeck) + 1
-    sums, count = {joint: np.zeros((m, m)) for joint in joints}, 0
+    sums: dict[str, Any] = dict.fromkeys(joints, 0.0)
+    count = 0
     for recording, residual in pairs:
         check_pair(recording, residual)
         velocity, torque, spans, rate_hz = _halves(recording, (VELOCITY, MOTOR), joints)
@@ -75,9 +82,9 @@ def _sums(law: Law, joints: Sequence[str], pairs: Sequence[Pair]) -> dict[str, A
         for span in (slice(*ends) for ends in spans):
             # (O11): the factors are constant, so filtered columns have the factors of unfiltered ones.
             for i, joint in enumerate(joints):
-                columns = low_pass(_columns(law, velocity[span, i], torque[span, i]), law.gain_hz, rate_hz)
-                columns = np.column_stack([columns, external[span, i] - observed[span, i]])
-                sums[joint] += columns.T @ columns
+                filtered = low_pass(columns(velocity[span, i], torque[span, i], rate_hz), gain_hz, rate_hz)
+                with_target = np.column_stack([filtered, external[span, i] - observed[span, i]])
+                sums[joint] += with_target.T @ with_target
             count += span.stop - span.start
         log.info("%s: %d joints", recording, len(joints))
     return {joint: products / max(1, count) for joint, products in sums.items()}
@@ -92,7 +99,7 @@ def _halves(
     return first, second, *spans_and_rate(meta)
 
 
-def _columns(law: Law, velocity: Array, torque: Array) -> Array:
+def _columns(law: Law, velocity: Array, torque: Array, _: float) -> Array:
     """Return the regressors of one joint, (T, m - 1): sign, viscous, load, static for each Stribeck velocity."""
     tried = regressors(velocity[:, None], torque[:, None], law.smoothing, np.array(law.stribeck))
     # Coulomb friction depends on v_s too; (O12) needs one column for all v_s instead of one for each.
@@ -106,7 +113,7 @@ def _solve(products: Array, terms: Sequence[str], grid: Sequence[float]) -> dict
     The mean products of the columns are (m, m), the grid has Stribeck velocities [rad/s].
     """
     # v_s is the only number that does not enter linearly: the grid is searched, the rest is solved.
-    found = [_non_negative(products, terms, STATIC + i) for i in range(len(grid))]
+    found = [_factors(products, terms, STATIC + i) for i in range(len(grid))]
     best = min(range(len(grid)), key=lambda i: found[i][1])
     factors, left = found[best]
     # Without a static term sgn v is not split, (O12): friction at rest is then that of motion.
@@ -120,12 +127,22 @@ def _solve(products: Array, terms: Sequence[str], grid: Sequence[float]) -> dict
     }
 
 
-def _non_negative(products: Array, terms: Sequence[str], static: int) -> tuple[dict[str, float], float]:
-    """Return the factors, none negative, with the smallest mean square error, and the root of that [N m]."""
+def _factors(products: Array, terms: Sequence[str], static: int) -> tuple[dict[str, float], float]:
+    """Return the factors of (23) with the Stribeck velocity of a column of `static`, and what they leave [N m]."""
     unit = np.eye(len(products))
     faded = unit[static] if "static" in terms else 0.0
     mixed = {"coulomb": unit[SIGN] - faded, "static": unit[static], "viscous": unit[VISCOUS], "load": unit[LOAD]}
-    chosen = np.array([*(mixed[term] for term in terms), unit[-1]])
+    return non_negative(products, {term: mixed[term] for term in terms})
+
+
+def non_negative(
+    products: Array, columns: Mapping[str, Array], free: Sequence[str] = ()
+) -> tuple[dict[str, float], float]:
+    """Return the factors, none negative but `free` ones, with the smallest mean square error, and its root [N m].
+
+    Mean products are (m, m), the target's last; a column (m,) of each factor says how it mixes those of the products.
+    """
+    chosen = np.array([*columns.values(), np.eye(len(products))[-1]])
     # (O13): this root has the products of the columns, so it gives their least squares without them. Rounding can make
     # the least eigenvalue of nearly collinear columns negative.
     values, vectors = np.linalg.eigh(chosen @ products @ chosen.T)
@@ -133,5 +150,11 @@ def _non_negative(products: Array, terms: Sequence[str], static: int) -> tuple[d
     # N m s and 1 / (N m) differ by orders of magnitude, which would spoil the condition of the problem.
     size = np.linalg.norm(root[:, :-1], axis=0)
     size[size == 0] = 1.0  # a joint that never moved
-    factors, left = scipy.optimize.nnls(root[:, :-1] / size, root[:, -1])
-    return dict(zip(terms, (factors / size).tolist(), strict=True)), float(left)
+    scaled = root[:, :-1] / size
+    # A factor of either sign is the difference of two that are not negative. The second column is the first one negated
+    # to the bit: columns that rounding makes differ could both be taken, with huge factors that cancel.
+    either = [name in free for name in columns]
+    factors, left = scipy.optimize.nnls(np.hstack([scaled, -scaled[:, either]]), root[:, -1])
+    found, negated = np.split(factors, [len(columns)])
+    found[either] -= negated
+    return dict(zip(columns, (found / size).tolist(), strict=True)), float(left)

@@ -3,10 +3,10 @@
 The model has the form of (23); (O10) and (O11) of docs/notes/0034-observer.md say how it is regressed and subtracted.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +30,7 @@ from mobnet.settings.reading import Place
 
 Velocity = Annotated[Positive, Field(ge=0.0001, le=20)]
 Term = Literal["coulomb", "static", "viscous", "load"]
+Named = TypeVar("Named", bound=str)
 LARGEST = 1e9  # of a fitted number
 
 
@@ -72,6 +73,18 @@ class FrictionNote(Note):
     stamp: Text = "-"
 
 
+class Friction(Protocol):
+    """A model of the friction of all actuated joints (nu,), with what it remembers as its state."""
+
+    def init(self) -> Any:
+        """Return the state before the first sample."""
+        ...
+
+    def run(self, state: Any, velocity: NDArray[Any], torque: NDArray[Any], rate_hz: float) -> tuple[Any, NDArray[Any]]:
+        """Return the state after samples of joint velocity [rad/s] and motor torque [N m], and tau_f [N m], (T, nu)."""
+        ...
+
+
 @dataclass(frozen=True)
 class FittedFriction:
     """Numbers of (23) of every actuated joint; zero for a joint that was not fitted.
@@ -92,37 +105,48 @@ class FittedFriction:
         columns = regressors(velocity, torque, self.smoothing, self.stribeck)
         return -sum((self.terms[term] * columns[term] for term in TERMS), start=np.zeros(self.stribeck.shape))
 
+    def init(self) -> None:
+        """Return the state before the first sample: (23) has none."""
+
+    def run(self, state: None, velocity: NDArray[Any], torque: NDArray[Any], rate_hz: float) -> tuple[None, Array]:
+        """Return tau_f of samples, (T, nu) [N m], and no state."""
+        return None, self.torque(velocity, torque)
+
+
+State = tuple[Any, Array | None]  # of the friction, and the filtered torque (nv,) [N, N m]
+
 
 class FrictionModel:
     """The filtered friction torque as an uncertainty model of (15), for all joints (nv,); the base has none."""
 
-    def __init__(self, layout: JointLayout, friction: FittedFriction, gain_hz: float, rate_hz: float) -> None:
+    def __init__(self, layout: JointLayout, friction: Friction, gain_hz: float, rate_hz: float) -> None:
         """Take a fitted friction model, and the observer's gain K_0 of (7) [1/s]."""
         self.joints = layout.names
         self._base = len(layout.virtual)  # generalized velocities without a motor
         self._friction = friction
         self._gain_hz, self._rate_hz, self._pole = gain_hz, rate_hz, exact_pole(gain_hz, rate_hz)
 
-    def init(self) -> Array | None:
-        """Return the state before the first sample: none."""
-        return None
+    def init(self) -> State:
+        """Return the state before the first sample: nothing is filtered yet."""
+        return self._friction.init(), None
 
-    def step(self, state: Array | None, sample: Sensed) -> tuple[Array, Prediction]:
-        """Take one sample (1-D arrays); return the filtered friction as new state and as prediction (nv,) [N, N m]."""
-        now = self._torque(sample)
+    def step(self, state: State, sample: Sensed) -> tuple[State, Prediction]:
+        """Take one sample (1-D arrays); return the new state and the filtered friction (nv,) [N, N m]."""
+        remembered, before = state
+        remembered, (now,) = self._run(remembered, sample.v[None], sample.tau_motor[None])
         # (O11): the residual's share of friction has passed the observer's low-pass, so this must, with the same start.
-        filtered = np.zeros_like(now) if state is None else self._pole * state + (1 - self._pole) * now
-        return filtered, Prediction(filtered)
+        filtered = np.zeros_like(now) if before is None else self._pole * before + (1 - self._pole) * now
+        return (remembered, filtered), Prediction(filtered)
 
     def run_all(self, recordings: Sequence[Sensed]) -> list[Prediction]:
         """Run over contiguous recordings, each from a fresh state; return the filtered friction (T_i, nv) [N, N m]."""
-        torques = [self._torque(sensed) for sensed in recordings]
+        torques = [self._run(self._friction.init(), sensed.v, sensed.tau_motor)[1] for sensed in recordings]
         return [Prediction(low_pass(torque, self._gain_hz, self._rate_hz)) for torque in torques]
 
-    def _torque(self, sensed: Sensed) -> Array:
-        """Return the friction torque before the filter, (..., nv) [N, N m]."""
-        friction = self._friction.torque(sensed.v[..., self._base :], sensed.tau_motor)
-        return np.concatenate([np.zeros((*friction.shape[:-1], self._base)), friction], axis=-1)
+    def _run(self, remembered: Any, v: NDArray[Any], torque: NDArray[Any]) -> tuple[Any, Array]:
+        """Return the state of the friction after samples, and its torque before the filter, (T, nv) [N, N m]."""
+        remembered, friction = self._friction.run(remembered, v[:, self._base :], torque, self._rate_hz)
+        return remembered, np.concatenate([np.zeros((len(v), self._base)), friction], axis=-1)
 
 
 def check(method: Method, options: Options, rate_hz: float) -> Iterator[tuple[Place, str]]:
@@ -133,18 +157,18 @@ def check(method: Method, options: Options, rate_hz: float) -> Iterator[tuple[Pl
 
 def build(recipe: Recipe) -> ResidualEstimator:
     """Build MOB-fric: the residual minus the fitted friction."""
-    return ResidualEstimator(recipe.observer(), recipe.layout, friction_model(recipe))
+    return ResidualEstimator(recipe.observer(), recipe.layout, friction_model(recipe, read_friction))
 
 
-def friction_model(recipe: Recipe) -> FrictionModel:
-    """Return the fitted friction of a method.
+def friction_model(recipe: Recipe, read: Callable[[Path, Sequence[str]], Friction]) -> FrictionModel:
+    """Return the fitted friction of a method, whose file `read` reads for the robot's actuated joints.
 
     Raises:
         DataError: there is no fit, or its file is damaged.
     """
     if recipe.fitted is None:
         raise DataError(f"method {recipe.name!r} has no fitted friction; accepted: a method that names `fitted` limbs")
-    friction = read_friction(recipe.fitted, recipe.layout.actuated)
+    friction = read(recipe.fitted, recipe.layout.actuated)
     return FrictionModel(recipe.layout, friction, recipe.observing.gain_hz, recipe.rate_hz)
 
 
@@ -164,19 +188,24 @@ def fit(
     law = Law(options.smoothing_rad_s, options.stribeck_rad_s, observer.gain_hz)
     found: dict[str, Mapping[str, float]] = {}
     for limb, pairs in training.items():
-        found |= regress(law, fitted_joints(layout, options, [networks[limb]]), pairs)
+        found |= regress(law, fitted_joints(layout, options.terms, ("load",), [networks[limb]]), pairs)
     ordered = {joint: found[joint] for joint in layout.actuated if joint in found}
     return {"smoothing_rad_s": options.smoothing_rad_s, "joints": ordered}
 
 
-def fitted_joints(layout: JointLayout, options: Options, limbs: Iterable[Limb]) -> dict[str, list[Term]]:
-    """Return joint -> terms of (23) that are fitted, of the actuated joints of some networks; see `Options`."""
-    found: dict[str, list[Term]] = {}
+def fitted_joints(
+    layout: JointLayout, terms: Sequence[Named], of_torque: Collection[str], limbs: Iterable[Limb]
+) -> dict[str, list[Named]]:
+    """Return joint -> terms that are fitted, of the actuated joints of some networks.
+
+    Terms `of_torque` are those of joints alone whose network sees the torque.
+    """
+    found: dict[str, list[Named]] = {}
     for limb in limbs:
         learned, seen = layout.limbs(limb.joints), layout.limbs(limb.T)
         for joint in learned:
             if joint in layout.actuated:
-                found[joint] = [term for term in options.terms if term != "load" or joint in seen]
+                found[joint] = [term for term in terms if term not in of_torque or joint in seen]
     return found
 
 

@@ -6,7 +6,7 @@ from typing import Any
 from mobnet.core.errors import ConfigError, misfit
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
-from mobnet.estimation.kinds.friction import FrictionModel, friction_model
+from mobnet.estimation.kinds.friction import FrictionModel, friction_model, read_friction
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.estimation.recipe import Recipe
 from mobnet.learning.deployed.limbs import LimbNetworks
@@ -59,5 +59,5 @@ def build(recipe: Recipe) -> ResidualEstimator:
     networks = recipe.limb_networks()
     if networks is None:
         raise ConfigError(f"method {recipe.name!r} of kind 'gray' names no limbs; accepted: one or more networks")
-    model = FrictionAndNetworks(recipe.layout, friction_model(recipe), networks)
+    model = FrictionAndNetworks(recipe.layout, friction_model(recipe, read_friction), networks)
     return ResidualEstimator(recipe.observer(), recipe.layout, model)

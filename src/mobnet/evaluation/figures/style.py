@@ -74,7 +74,12 @@ PALETTE = (
 )
 METHODS = ("MOB-Net", "MOB", "MOB-Net-Single", "FTS-e2e", "MOB-fric-BPF", "MOB-fric")
 # method -> that whose look it shares, because no figure has both
-BASELINES = {"MOB-fric-load": "MOB-fric-BPF", "MOB-Kalman": "MOB-fric", "MOB-Net-gray": "MOB-Net-Single"}
+BASELINES = {
+    "MOB-fric-load": "MOB-fric-BPF",
+    "MOB-fric-dahl": "MOB-Net-Single",
+    "MOB-Kalman": "MOB-fric",
+    "MOB-Net-gray": "MOB-Net-Single",
+}
 KINDS = ("GRU", "LSTM", "RNN", "TCN", "MLP", "MLP-500")  # of networks; never in a figure with the methods above
 LOOKS: Mapping[str, Look] = {
     **dict(zip(METHODS, PALETTE, strict=False)),
