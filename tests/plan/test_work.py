@@ -45,7 +45,7 @@ def test_a_job_has_the_recordings_that_it_makes_or_reads(works: dict[str, Work],
 
 
 def test_an_estimate_runs_the_networks_of_the_test_s_limbs(works: dict[str, Work]) -> None:
-    """Both legs' of MOB-Net, the left one of two without random torque and FTS-e2e's of the left leg alone; MOB has none."""
+    """Both legs' of MOB-Net, the left one of two without random torque, the gray box and FTS-e2e; MOB has none."""
     work = works["estimate/robot_2/walk_test-robot_2"]
     assert work.amounts["residual s"] == 4 * 6 * 30.0
     assert work.amounts["residual step"] == 30_000.0 * (2 + 1 + 1)
