@@ -1,11 +1,12 @@
 """Commands stay in Table 2 and change at the limited rate."""
 
+from itertools import pairwise
 from typing import get_args
 
 import numpy as np
 import pytest
 
-from mobnet.control.commands import MOVING, WIDTH, fixed_commands, random_commands
+from mobnet.control.commands import MOVING, WIDTH, fixed_commands, joystick_law, random_commands
 from mobnet.control.parameters import DURATION, FOOT_HEIGHT, STEP_X, STEP_Y, TURN
 from mobnet.settings.data import FixedCommand, RandomCommands
 
@@ -61,6 +62,14 @@ def test_each_kind_moves_only_what_it_says(commands, kind):
     np.testing.assert_array_equal(rows[:, :DURATION].any(axis=0), MOVING[kind])
     if kind in ("forward", "backward"):
         assert (rows[:, STEP_X] * (1 if kind == "forward" else -1) >= 0).all()
+
+
+def test_a_person_with_a_joystick_repeats_few_directions_for_long(commands):
+    rows = random_commands(joystick_law(commands), np.random.default_rng(3), STEPS)
+    held = {tuple(row) for row, after in pairwise(np.round(rows[:, :DURATION], 9)) if (row == after).all()}
+    assert len(held - {(0.0, 0.0, 0.0)}) == 6  # ahead, back, to both sides, and turning both ways
+    ends = np.array([commands.step_x_m, commands.step_y_m, np.deg2rad(commands.turn_deg)]).T
+    np.testing.assert_allclose([rows[:, :DURATION].min(axis=0), rows[:, :DURATION].max(axis=0)], ends)
 
 
 def test_every_kind_of_the_configuration_is_known(commands):

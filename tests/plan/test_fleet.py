@@ -28,11 +28,11 @@ def folders(paths: Sequence[Path]) -> set[str]:
     return {path.relative_to(RESULTS).parts[0] for path in paths}
 
 
-def test_each_robot_is_a_run_and_its_number_the_seed(plan: Plan) -> None:
+def test_each_robot_is_a_run_and_has_one_seed(plan: Plan) -> None:
     """Of a method without networks too, so that an interval is over robots."""
     for method in ("MOB", "MOB-Net"):
         runs = plan.files.runs("walk_test", "robots", [method])
-        assert [run.network_seed for run in runs] == [1, 2, 3]
+        assert [run.network_seed for run in runs] == [101, 102, 103]
         assert [run.recording.relative_to(RESULTS).parts[:-1] for run in runs] == [
             (robot, "recordings", "walk_test", robot) for robot in ROBOTS
         ]
@@ -47,7 +47,7 @@ def test_a_variant_is_another_plant_for_the_same_networks(plan: Plan) -> None:
     def level(robot: str, name: str) -> Any:
         return arguments(plan, recording("changed_walk", f"{robot}_{name}", 101, robot))["settings"].level
 
-    assert [level(robot, "robots_other").surrogate.seed for robot in ROBOTS] == [2, 3, 1]
+    assert [level(robot, "robots_other").surrogate.seed for robot in ROBOTS] == [2, 3, 4]
     law = level("robot_1", "robots_law")
     assert (law.surrogate.parts, law.friction) == (("body", "sensors"), ("stribeck", "load", "loss"))
     same, other = (plan.files.robots["robot_1"].networks("MOB-Net", 101, "changed_walk", name)
@@ -67,7 +67,7 @@ def test_a_robot_learns_from_its_own_recordings(plan: Plan, robot: str) -> None:
 def test_a_level_of_one_robot_is_walked_by_it_alone(plan: Plan) -> None:
     """Its methods are those of all robots and its own."""
     runs = plan.files.runs("motion_test", "robot_1", ["MOB-Net", "MOB-Net-Single"])
-    assert {(run.level, run.network_seed, run.recording.parts[2]) for run in runs} == {("robot_1", 1, "robot_1")}
+    assert {(run.level, run.network_seed, run.recording.parts[2]) for run in runs} == {("robot_1", 101, "robot_1")}
     assert {run.estimate for run in runs} >= {plan.files.runs("motion_test", "robots", ["MOB-Net"])[0].estimate}
     trained = [{method for method, _ in plan.files.robots[robot].learned} for robot in ROBOTS]
     assert ["MOB-Net-Single" in methods for methods in trained] == [True, False, False]

@@ -143,8 +143,8 @@ def test_the_manifest_lists_every_result(plan: Plan) -> None:
 def test_a_walk_gets_the_terrains_and_pushes_that_it_names(plan: Plan) -> None:
     walk = arguments(plan, recording("knee_swing", "robot_1", 101, "robot_1"))["settings"]
     assert set(walk.pushes) == {"left_knee_swing"}
-    assert walk.terrain.checks is not None
-    assert walk.terrain.plates is None
+    assert walk.terrain.flat is not None
+    assert walk.terrain.checks is None
 
 
 def estimated(plan: Plan, scenario: str, level: str, robot: str = "") -> Step:

@@ -137,6 +137,7 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("scales.smoke.stream_s", 60.0, "shard_s"),
     ("scales.default.experiments.kinds.epoch_samples", 100, "a batch"),
     ("scales.paper.experiments.sweep.seeds", [1, 1], "each value once"),
+    ("scales.paper.experiments.sweep.seeds", [101], "below 101, the seeds of robots"),
     ("scales.default.experiments.left_leg.epochs", 18_000, "to 1000"),
     # networks, learning, methods and sweeps
     ("networks.LL.hidden", 150.0, "a whole number"),

@@ -1,4 +1,4 @@
-"""Walking commands, one row a step: one command repeated, or random ones over Table 2 in place of a joystick."""
+"""Walking commands, one row a step: one command repeated, or ones over Table 2 by a law, in place of a person."""
 
 import numpy as np
 
@@ -45,6 +45,11 @@ def random_commands(settings: Commands, rng: np.random.Generator, steps: int) ->
         rows[k, :DURATION] = current
         rows[k, DURATION:] = goal[DURATION:]
     return rows
+
+
+def joystick_law(settings: Commands) -> Commands:
+    """Return the ranges of Table 2 with the law of a person who aims at no variety."""
+    return settings.model_copy(update={"random": settings.joystick})
 
 
 def uniform_law(settings: Commands) -> Commands:

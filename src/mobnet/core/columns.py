@@ -95,8 +95,9 @@ def residual_columns(layout: JointLayout, labelled: bool = False) -> list[Column
 class Score:
     """One number measured on one run: a row of a file of scores.
 
-    The network seed of a method without networks is 0; `joint` is a joint of the limb, or `avg`, the mean over the
-    limb's joints of this unit; `metric` is a name of `metrics.METRICS`, or of a push.
+    The network seed of a method without networks is 0; on a surrogate robot every method has the seed of the robot's
+    networks. `joint` is a joint of the limb, or `avg`, the mean over the limb's joints of this unit; `metric` is a name
+    of `metrics.METRICS`, or of a push.
     """
 
     scenario: str

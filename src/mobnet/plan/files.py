@@ -11,6 +11,7 @@ from mobnet.plan.runs import Run, SweptSize
 from mobnet.plan.seeds import Seeds
 from mobnet.settings.asked import tests_in
 from mobnet.settings.evaluation import Runs
+from mobnet.settings.fleet import FIRST_SEED
 from mobnet.settings.methods import swept_name, swept_names
 
 ARRAY, NOTE = ".parquet", ".json"  # endings of the two files of an array
@@ -212,8 +213,8 @@ class Files(Seeds):
         fleet = self.settings.fleet
         if not self.has(level):
             return tuple(
-                replace(run, level=level, network_seed=number)
-                for number, (robot, files) in enumerate(self.robots.items(), start=1)
+                replace(run, level=level, network_seed=seed)
+                for seed, (robot, files) in enumerate(self.robots.items(), start=FIRST_SEED)
                 if level in (*fleet.levels, robot)
                 for run in files.runs(scenario, fleet.level_of(robot, level), methods)
             )

@@ -12,10 +12,10 @@ from mobnet.settings.plant import Level
 class Run:
     """One run of a method on a test: a network seed, 0 for a method without networks, on a recording.
 
-    On a fleet, the network seed is the number of the robot, counted from 1, for any method. The recording, the
-    observer's residual of it and the method's estimate are named without the ending of their files. `repeated` are
-    limbs whose network has run on the recording under an earlier seed: they have fewer networks than others, and these
-    numbers must not count again.
+    On a robot of the fleet, the network seed is that of the robot's networks for any method: runs of a robot belong
+    together. The recording, the observer's residual of it and the method's estimate are named without the ending of
+    their files. `repeated` are limbs whose network has run on the recording under an earlier seed: they have fewer
+    networks than others, and these numbers must not count again.
     """
 
     scenario: str

@@ -11,7 +11,7 @@ from mobnet.settings.base import Section
 
 Phase = Literal["always", "left_swing", "right_swing", "left_support", "right_support"]
 Direction = Literal["any", "horizontal", "down", "backward", "leftward", "rightward"]
-CommandSource = Literal["random", "uniform", "stand"]
+CommandSource = Literal["random", "joystick", "uniform", "stand"]
 
 
 Height = Annotated[base.Real, Field(ge=0.0005, le=0.2)]
@@ -87,6 +87,7 @@ class Commands(Section):
     duration_s: Annotated[base.Rising[StepTime], Field(min_length=2)]
     foot_height_m: Annotated[base.Rising[FootHeight], Field(min_length=2)]
     random: RandomCommands
+    joystick: RandomCommands
 
 
 class Narrowed(Section):

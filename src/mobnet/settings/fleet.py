@@ -8,7 +8,7 @@ from mobnet.settings.scales import Experiment
 from mobnet.settings.surrogate import Fleet, SurrogateRobot, Variant
 from mobnet.settings.trials import experiments_of
 
-FIRST_SEED = 101  # of the networks of the fleet's robots, one for each: their names differ from all others
+FIRST_SEED = 101  # of the networks of the fleet's robots, one for each; all other networks have lower ones
 
 
 def as_robot(catalogue: Catalogue, robot: str) -> Catalogue:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mobnet.control.commands import fixed_commands, random_commands, uniform_law
+from mobnet.control.commands import fixed_commands, joystick_law, random_commands, uniform_law
 from mobnet.control.parameters import empty_state
 from mobnet.control.random_torque import make_exploration
 from mobnet.control.upper_body import UpperBody, follow
@@ -29,7 +29,8 @@ from mobnet.simulation.terrain import draw_terrain
 from mobnet.simulation.world import World, ground_height, leg_mask, make_world
 
 Rows = NDArray[np.float32]
-STAND, UNIFORM = "stand", "uniform"  # commands of an episode that does not walk, and that draws them evenly
+STAND = "stand"  # commands of an episode that does not walk
+LAWS = {"joystick": joystick_law, "uniform": uniform_law}  # commands that are drawn, but not by `commands.random`
 SOLE_POINTS = (5, 3)  # along and across a sole, where the ground under a start is looked for
 # Streams of random numbers, in the order spawned.
 STREAMS = ("commands", "noise", "torque", "place", "pushes", "terrain", "running")
@@ -69,7 +70,9 @@ class Simulator:
         self.running_s = self.rng["running"].uniform(*chosen.running_s) if chosen else 0.0
         self.episode = seed  # the first of the scenario's kinds of episodes depends on the seed
         self.commands: Array = np.zeros((0, 0))
-        self.coming: list[str] = []  # terrains until all have been walked once more
+        # terrains until all have been walked once more; seeds that follow each other begin on each in turn, so that
+        # walks of one episode come to all of them equally often
+        self.coming = [scenario.terrain[seed % len(scenario.terrain)]]
         self._enter(scenario.terrain[0])
 
     @property
@@ -96,8 +99,8 @@ class Simulator:
     def start(self, motion_s: float = 0.0) -> None:
         """Begin an episode on one of the scenario's terrains, amid a step or standing, anywhere, facing anywhere.
 
-        Terrains come in rounds: each once, in random order, before any comes again. The upper body
-        begins where its motion is at motion_s [s] less the time to settle.
+        After that of the first episode, terrains come in rounds: each once, in random order, before any comes again.
+        The upper body begins where its motion is at motion_s [s] less the time to settle.
         """
         if not self.coming:
             self.coming = self.rng["place"].permutation(self.settings.scenario.terrain).tolist()
@@ -125,7 +128,7 @@ class Simulator:
         if isinstance(kind, FixedCommand):
             return fixed_commands(kind, commands.random.in_place_steps)
         ranges = commands.model_copy(update={name: value for name, value in narrowed if value is not None})
-        law = uniform_law(ranges) if kind == UNIFORM else ranges
+        law = LAWS[kind](ranges) if kind in LAWS else ranges
         return random_commands(law, self.rng["commands"], self.settings.recording.episode_steps)
 
     def _sole_points(self, yaw: float) -> Array:

@@ -9,6 +9,7 @@ import pytest
 from mobnet.core.columns import Score
 from mobnet.core.errors import DataError
 from mobnet.evaluation.number.grid import Wanted, number_of, run_grid
+from mobnet.settings.fleet import FIRST_SEED
 from mobnet.settings.settings import Settings
 
 WANTED = Wanted("forward_walk", "LL", "all_uncertainty", "MOB-Net", "avg")
@@ -20,6 +21,14 @@ def test_grid_has_networks_as_rows_and_tests_as_columns(make_scores: Scores) -> 
     assert grid.shape == (2, 3)
     assert np.all(np.diff(grid, axis=0) > 0)
     assert np.all(np.diff(grid, axis=1) > 0)
+
+
+def test_robots_are_the_rows_of_every_method_and_networks_those_of_one(make_scores: Scores) -> None:
+    scores = make_scores(3, 2)
+    robots = [replace(row, network_seed=FIRST_SEED + row.network_seed) for row in scores]
+    both = WANTED, replace(WANTED, method="FTS-e2e")
+    networks, paired = ([run_grid(rows, each).rows for each in both] for rows in (scores, robots))
+    assert (networks, len(set(paired))) == (["MOB-Net", "FTS-e2e"], 1)
 
 
 def test_order_of_rows_does_not_matter(make_scores: Scores, rng: np.random.Generator) -> None:

@@ -17,6 +17,7 @@ from mobnet.settings.evaluation import Statistics
 
 STATISTICS = Statistics(confidence=0.95)
 DRAWS, LEAST = 200, 0.90
+ROBOTS = "robots"  # what the rows of grids are whose methods share them
 SPREADS = {
     "equal": (0.1, 0.1, 0.05),
     "networks": (0.2, 0.05, 0.05),
@@ -24,7 +25,7 @@ SPREADS = {
     "rest": (0.02, 0.02, 0.1),
 }
 SKEW = 0.8  # standard deviation of the logarithm of the effects of skewed walks
-PAIRED = 0.7  # correlation of the effects of a walk on two methods
+PAIRED = 0.7  # correlation of the effects of a walk, or of a robot, on two methods
 Array = NDArray[np.float64]
 
 
@@ -46,23 +47,29 @@ def effects_of_walks(rng: np.random.Generator, methods: int, walks: int, skewed:
 
 
 def draw(
-    rng: np.random.Generator, shape: tuple[int, int], means: Sequence[float], spread: str, skewed: bool
+    rng: np.random.Generator, shape: tuple[int, int], means: Sequence[float], spread: str, skewed: bool, rows: str
 ) -> list[RunGrid]:
-    """Return runs of methods whose means are given, each with networks of its own; one network has no effect."""
+    """Return runs of methods whose means are given, each with networks of its own; one network has no effect.
+
+    Where the rows are robots, a network's effect is that of its robot, which all methods share, and its own.
+    """
     networks, walks = shape
     of_network, of_walk, rest = SPREADS[spread]
     common = effects_of_walks(rng, len(means), walks, skewed)
+    paired = PAIRED if rows else 0.0
+    robots = rng.normal(size=(networks, 1)) if rows else 0.0
     grids = []
     for k, mean in enumerate(means):
-        own = of_network * (networks > 1) * rng.normal(size=(networks, 1))
-        errors = 1.0 + own + of_walk * common[k] + rest * rng.normal(size=shape)
-        grids.append(RunGrid(mean * errors, f"method {k}"))
+        own = sqrt(paired) * robots + sqrt(1 - paired) * rng.normal(size=(networks, 1))
+        errors = 1.0 + of_network * (networks > 1) * own + of_walk * common[k] + rest * rng.normal(size=shape)
+        grids.append(RunGrid(mean * errors, rows or f"method {k}"))
     return grids
 
 
 def simulate(
-    formula: Formula, means: Sequence[float], shape: tuple[int, int], spread: str, skewed: bool, draws: int = DRAWS
-) -> tuple[float, float]:
+    formula: Formula, means: Sequence[float], shape: tuple[int, int], spread: str, skewed: bool, rows: str = "",
+    draws: int = DRAWS,
+) -> tuple[float, float]:  # fmt: skip
     """Return the share of intervals that hold the true number, and their median width over that of an oracle.
 
     The oracle knows the standard deviation of the number and takes 1.96 of it to each side.
@@ -70,7 +77,7 @@ def simulate(
     rng = np.random.default_rng([*shape, len(means), skewed, len(spread)])
     true = float(formula.shown(formula.parts(np.array(means))).min())
     found = np.array(
-        [ends(summarise(draw(rng, shape, means, spread, skewed), STATISTICS, formula)) for _ in range(draws)]
+        [ends(summarise(draw(rng, shape, means, spread, skewed, rows), STATISTICS, formula)) for _ in range(draws)]
     )
     low, value, high = found.T
     width = float(np.median(high - low) / (2 * 1.96 * value.std()))
@@ -105,6 +112,16 @@ def test_simulated_intervals_hold_the_number_and_are_not_absurdly_wide(name: str
         covered, width = simulate(formula, means, shape, spread, skewed)
         assert covered >= LEAST, (spread, skewed)
         assert width <= WIDEST[shape[0]], (spread, skewed)
+
+
+@pytest.mark.parametrize(("name", "robots"), [(name, 3) for name in FORMULAS] + [("ratio", 4), ("ratio", 5)])
+def test_intervals_of_methods_that_share_robots_hold_the_number(name: str, robots: int) -> None:
+    """The design of section 5.2: a few robots on six walks each, with networks of every method of their own."""
+    formula, means = FORMULAS[name]
+    for spread, skewed in itertools.product(SPREADS, (False, True)):
+        covered, width = simulate(formula, means, (robots, 6), spread, skewed, ROBOTS)
+        assert covered >= LEAST, (spread, skewed)
+        assert width <= WIDEST[3], (spread, skewed)
 
 
 @pytest.mark.parametrize("true", [0.1, 0.3, 0.5, 0.9])
@@ -188,6 +205,14 @@ def test_networks_are_paired_within_a_method_and_not_between_methods() -> None:
     low, value, high = ends(summarise([own, other], STATISTICS, RATIO))
     assert value == pytest.approx(1.0)
     assert low < value < high
+
+
+def test_robots_are_paired_between_methods() -> None:
+    """Errors that differ from robot to robot alone, by the same factor for both methods, have an exact ratio."""
+    runs = np.array([[1.0, 1.0], [2.0, 2.0], [3.0, 3.0]])
+    number = summarise([RunGrid(2.0 * runs, ROBOTS), RunGrid(runs, ROBOTS)], STATISTICS, RATIO)
+    assert ends(number) == pytest.approx([2.0, 2.0, 2.0])
+    assert (number.networks, number.walks) == ((3,), (2,))
 
 
 def test_a_limb_with_one_network_is_no_second_one() -> None:

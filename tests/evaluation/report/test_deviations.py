@@ -50,8 +50,9 @@ def test_choices_about_robots_and_networks_have_a_row() -> None:
 
 def test_terrains_are_told_as_they_are_walked(settings: Settings) -> None:
     terrains = {name: set(scenario.terrain) for name, scenario in settings.scenarios.items()}
-    assert (terrains["random_walk"], terrains["walk_test"]) == ({"checks"}, {"checks"})
-    assert terrains["robot_walk"] == {"plates", "slope", "flat"}
+    assert (terrains["random_walk"], terrains["random_motion"], terrains["motion_test"]) == ({"checks"},) * 3
+    assert terrains["robot_walk"] == terrains["robot_joystick"] == terrains["walk_test"] == {"plates", "slope", "flat"}
+    assert terrains["knee_swing"] == terrains["collisions"] == {"flat"}
     (row,) = (row for row in markdown_rows(DOC.read_text(), "d") if row[0] == "Terrain")
     assert "The legs of the surrogate robots learn on plates, a slope and flat ground" in row[3]
     text = " ".join(MAIN.read_text().split())

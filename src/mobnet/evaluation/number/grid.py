@@ -10,6 +10,7 @@ from mobnet.core.errors import DataError
 from mobnet.evaluation.number.intervals import MEAN, Formula, RunGrid, summarise
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.evaluation import Statistics
+from mobnet.settings.fleet import FIRST_SEED
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,13 @@ def run_grid(scores: Sequence[Score], wanted: Wanted) -> RunGrid:
         raise DataError(
             f"scores: {len(rows)} rows for {wanted}; expected one for each of networks {networks} on tests {tests}"
         )
-    return RunGrid(np.array([[values[network, test] for test in tests] for network in networks]), wanted.method)
+    rows = rows_of(wanted.method, networks)
+    return RunGrid(np.array([[values[network, test] for test in tests] for network in networks]), rows)
+
+
+def rows_of(method: str, seeds: Sequence[int]) -> str:
+    """Return what the rows of a method's runs with some network seeds are: its own networks, or robots, as of all."""
+    return f"robots {seeds}" if min(seeds) >= FIRST_SEED else method
 
 
 def number_of(

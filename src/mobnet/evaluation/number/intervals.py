@@ -4,6 +4,7 @@ Runs are a grid, every network on every walk: a run's error is a mean, an effect
 and a rest. The variance of a number is estimated as the sum of two: that of its rows over the networks, for each method
 apart because networks of different methods have nothing in common, and that of its columns over the walks, for all
 methods together because they share the walks. The sum has the rest twice and so is rather too large than too small.
+Of surrogate robots a row is a robot with its networks, and all methods together have the rows, too.
 
 An interval reaches sqrt(sum t^2 s^2 / n) to each side, where each variance s^2 over n has a quantile t of its own of
 Student's law with n - 1 degrees of freedom. With normal effects it covers what it prints or more (Banerjee 1960,
@@ -30,12 +31,12 @@ Combine = Callable[[Array], Array]
 class RunGrid:
     """Runs of one number, (networks, walks) [its unit]; a method without networks has one row.
 
-    Grids of one method with equally many rows have the same networks, row by row. Grids with equally many columns have
-    walks of the same seeds, column by column.
+    `rows` says what the rows are: networks of a method, or robots. Grids with the same and with equally many rows have
+    them in common, row by row. Grids with equally many columns have walks of the same seeds, column by column.
     """
 
     values: Array
-    method: str = ""
+    rows: str = ""
 
     @property
     def mean(self) -> float:
@@ -101,14 +102,14 @@ def slopes_of(made: Combine, at: Array) -> Array:
 
 
 def effects_of(grids: Sequence[RunGrid], slopes: Array, axis: int) -> list[Effects]:
-    """Return the variances of parts over networks (axis 0), method by method, or over walks (axis 1).
+    """Return the variances of parts over networks or robots (axis 0), kind by kind, or over walks (axis 1).
 
     The slopes (P, K) are those of the parts by the means of the grids.
     """
     groups: dict[tuple[str, int], Array] = {}
     for grid, slope in zip(grids, slopes.T, strict=True):
         means = grid.values.mean(axis=1 - axis)
-        key = ("" if axis else grid.method, len(means))
+        key = ("" if axis else grid.rows, len(means))
         groups[key] = groups.get(key, 0.0) + slope[:, None] * (means - grid.mean)
     return [Effects(count, (own**2).sum(axis=1) / max(1, count - 1)) for (_, count), own in groups.items()]
 

@@ -53,9 +53,10 @@ def _command_problems(settings: Settings) -> Iterator[Problem]:
         low, high = getattr(commands, name)
         if not low <= 0.0 <= high:
             yield ("commands", name), misfit([low, high], "a range that contains 0")
-    total = sum(commands.random.kinds.values())
-    if not isclose(total, 1.0, abs_tol=NARROW):
-        yield ("commands", "random", "kinds"), misfit(f"a sum of {total:g}", "probabilities with the sum 1")
+    for name, law in (("random", commands.random), ("joystick", commands.joystick)):
+        total = sum(law.kinds.values())
+        if not isclose(total, 1.0, abs_tol=NARROW):
+            yield ("commands", name, "kinds"), misfit(f"a sum of {total:g}", "probabilities with the sum 1")
     steps = (settings.recording.episode_s + settings.recording.settle_s) / settings.walking.step_min_s
     place, most = ("recording", "episode_steps"), settings.recording.episode_steps
     yield from at_least(place, most, steps, "the steps of an episode")
@@ -161,8 +162,8 @@ def _push_faults(push: Push) -> Iterator[Problem]:
 def _scenario_problems(settings: Settings, name: str, row: Scenario) -> Iterator[Problem]:
     """Yield what does not fit in a scenario."""
     commands = row.commands if isinstance(row.commands, tuple) else (row.commands,)
-    if row.narrowed.model_fields_set and not {"random", "uniform"} & set(map(str, commands)):
-        yield ("narrowed",), misfit("`narrowed`", "`narrowed` with commands `random` or `uniform` only")
+    if row.narrowed.model_fields_set and not {"random", "joystick", "uniform"} & set(map(str, commands)):
+        yield ("narrowed",), misfit("`narrowed`", "`narrowed` with commands `random`, `joystick` or `uniform` only")
     asked = row.commands if isinstance(row.commands, FixedCommand) else row.narrowed
     place = "commands" if isinstance(row.commands, FixedCommand) else "narrowed"
     for key, value in asked:

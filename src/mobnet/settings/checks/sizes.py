@@ -5,9 +5,10 @@ from itertools import chain
 
 from mobnet.core.errors import misfit
 from mobnet.settings.catalogue import Catalogue
-from mobnet.settings.checks.limits import at_most
+from mobnet.settings.checks.limits import at_most, below
 from mobnet.settings.checks.walking import is_whole
 from mobnet.settings.evaluation import Figure05, GaitFigure, HandFigure
+from mobnet.settings.fleet import FIRST_SEED
 from mobnet.settings.reading import Place, Problem
 from mobnet.settings.scales import Scale
 from mobnet.settings.settings import Settings
@@ -30,6 +31,9 @@ def size_problems(catalogue: Catalogue) -> Iterator[Problem]:
             return
     for name, scale in settings.scales.items():
         scaled = catalogue.at_scale(name)
+        for experiment, row in scale.experiments.items():
+            place = ("scales", name, "experiments", experiment, "seeds")
+            yield from below(place, max(row.seeds), FIRST_SEED, "the seeds of robots")
         yield from _length_problems(scaled.settings, scale)
         yield from _time_problems(scaled, scale)
         yield from _training_problems(scaled)

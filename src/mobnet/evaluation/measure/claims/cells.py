@@ -14,7 +14,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.learning.trainings import MEASURES, TrainedNetwork, read_trainings, sound
 from mobnet.evaluation.number.averages import column_of, members
 from mobnet.evaluation.number.files import read_texts
-from mobnet.evaluation.number.grid import Wanted, run_grid
+from mobnet.evaluation.number.grid import Wanted, rows_of, run_grid
 from mobnet.evaluation.number.intervals import RunGrid
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.rows import read_scores
@@ -74,9 +74,10 @@ class Evidence:
         if method not in self.trainings:
             raise DataError(not_accepted("trainings", method, self.trainings))
         if metric == DIVERGED:
-            return [RunGrid(np.array([[float(training.diverged)] for training in self.trainings[method]]), method)]
+            return [RunGrid(np.array([[float(training.diverged)] for training in self.trainings[method]]))]
         good = sound(self.trainings[method])
-        return [RunGrid(np.array([[MEASURES[metric][0](training)] for training in good]), method)] if good else None
+        rows = rows_of(method, [training.seed for training in good]) if good else ""
+        return [RunGrid(np.array([[MEASURES[metric][0](training)] for training in good]), rows)] if good else None
 
     def entry(self, cell: Cell) -> Number:
         """Return the number in a field of a table [its unit], with its interval; no number where the row has none.
