@@ -320,9 +320,10 @@ class LearnedRuns(LimbRuns):
 
 
 class Peaks(Section):
-    """Peak ratio and delay of the rise under pushes, at joints that take a share of the largest torque, or more."""
+    """Share and delay of pushes in estimates, at joints that take a share of the largest torque, or more."""
 
     turned_share: base.PositiveShare
+    before_s: base.NotNegative = Field(le=10)
     after_s: base.NotNegative = Field(le=10)
     longest_s: base.Real = Field(ge=0.01, le=10)
     tests: base.Some[PushedLimbRuns]
