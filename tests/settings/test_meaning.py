@@ -118,6 +118,7 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("pushes.torso.at_s", [1.0], "`pause_s` or `at_s`"),
     ("pushes.torso.force_n", [60.0, 10.0], "the lower one first"),
     ("pushes.left_hand_10.force_n", [-10.0, -10.0], "from 0"),
+    ("pushes.hip_pitch.moment_nm", [1.0, 2.0], "beside a force only"),
     ("pushes.hip_pitch.direction", "any", "`joint` and `torq"),
     ("scenarios.stand.pushes", ["left_foot"], "where nobody walks"),
     ("scenarios.hand_load_10.terrain", ["flat"], "the same"),

@@ -60,10 +60,13 @@ def test_terrains_are_told_as_they_are_walked(settings: Settings) -> None:
 
 def test_numbers_of_sentences_are_those_of_the_configuration(settings: Settings) -> None:
     text = " ".join(MAIN.read_text().split())
-    force_n = settings.pushes["right_hand"].force_n
-    assert force_n
-    low, high = force_n
-    assert rf"random forces of {low:g} to {high:g}\,N push the right hand" in text
+    hand = settings.pushes["right_hand"]
+    assert hand.force_n
+    assert hand.moment_nm
+    (low, high), (least, most) = hand.force_n, hand.moment_nm
+    assert rf"forces of {low:g} to {high:g}\,N with a moment of {least:g} to {most:g}\,N\,m, act on the right" in text
+    assert f"a force of {low:g} to {high:g} N, the load" in DOC.read_text()
+    assert f"a moment of {least:g} to {most:g} N m" in DOC.read_text()
     limbs, spread = settings.surrogate.limbs.values(), settings.surrogate.drive.spread
     largest = (1.0 + spread) * max(share for limb in limbs for share in limb.load_share)
     assert f"up to {largest / PUBLISHED_LOAD_SHARE:.1f}~times the published one" in text
