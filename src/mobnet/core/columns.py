@@ -163,6 +163,7 @@ CLAIMS = (
     "claim", "statement", "score", "printed", "says", "published", "value", "low", "high", *SPREAD, "unit",
     "from", "to", "side_from", "side_to", "verdict", "cause",
 )  # fmt: skip
+HOURLY = ("event", "walks", "method", "hours", "count", "value", "low", "high", "unit")
 CLAIMED = ("score", "outcome", "statements", "claims")  # `outcome`: a verdict, all of them, or one of the next line
 UNEXPLAINED, PRINTED, INSIDE = "without a cause", "printed", "inside"  # of what fails, and of the paper's number
 VERDICTS = ("not reproduced", "inconclusive", "direction", "reproduced", "not measured")  # of a claim, also in order of

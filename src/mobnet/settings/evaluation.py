@@ -387,6 +387,12 @@ class Changed(Section):
     tests: Annotated[dict[base.Text, LegRuns], Field(min_length=1)]
 
 
+class Hourly(Section):
+    """Events in an hour: falls, and flags in the tests of section `changed` on robots that their networks know."""
+
+    known: base.Distinct[base.Text]
+
+
 class Measure(Section):
     """A measure without a product of its own: the `Options` of the module of its name, and where it is taken."""
 
@@ -487,6 +493,7 @@ class Evaluation(Section):
     phases: Phases
     sigma: Sigma
     changed: Changed
+    hourly: Hourly
     measures: dict[base.LowerName, Measure] = {}
     figures: dict[base.LowerName, LimbRuns] = {}
     table_09: DetectorTable

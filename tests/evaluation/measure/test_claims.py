@@ -24,6 +24,7 @@ CAUSED: dict[str, Any] = {
         for name, joint in (("given", "LL1"), ("without", "LL2"))
     },
 }  # fmt: skip
+SHOWN = "Cold: 2.00 [1.90, 2.10] with it, 1.00 [0.90, 1.10] without it."
 Ends = tuple[str, str, str]
 
 
@@ -90,11 +91,7 @@ def test_a_claim_counts_where_its_methods_say(name: str, score: str, settings: S
 @pytest.mark.parametrize(
     ("given", "without", "text"),
     [
-        (
-            ("2.0", "1.9", "2.1"),
-            ("1.0", "0.9", "1.1"),
-            "Cold: 2.00 [1.90, 2.10] with it, 1.00 [0.90, 1.10] without it.",
-        ),
+        (("2.0", "1.9", "2.1"), ("1.0", "0.9", "1.1"), SHOWN),
         (("2.0", "1.9", "2.1"), ("1.9", "1.8", "2.0"), ""),
         (("2.0", "1.9", "2.1"), ("1.0", "", ""), ""),
         (("2.0", "", ""), ("1.0", "0.9", "1.1"), ""),

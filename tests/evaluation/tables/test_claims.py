@@ -25,12 +25,8 @@ from mobnet.settings.settings import Settings
 
 BRANCHES = {"MOB": 19.0, "MOB-fric": 15.0, "MOB-fric-load": 3.0, "MOB-Net": 1.5, "FTS-e2e": 2.0, "MOB-Net-plain": 2.5}
 MEANS = BRANCHES | {
-    "MOB-Net-Single": 2.0,
-    "MOB-Net-Single-2X": 2.1,
-    "MOB-Net-gray": 1.4,
-    "MOB-Net-100": 1.6,
-    "zero": 5.0,
-}
+    "MOB-Net-Single": 2.0, "MOB-Net-Single-2X": 2.1, "MOB-Net-gray": 1.4, "MOB-Net-100": 1.6, "zero": 5.0,
+}  # fmt: skip
 PLACES = {  # scenario -> tables of the paper and places of its methods there
     "forward_walk": [("table_05", "{}")],
     "hip_pitch_step": [("figure_06", "{}")],
