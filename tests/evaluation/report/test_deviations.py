@@ -12,7 +12,8 @@ REPO = Path(__file__).parents[3]
 DOC, MAIN = REPO / "docs/deviations.md", REPO / "paper/main.tex"
 PUBLISHED_LOAD_SHARE = 0.166  # friction over the transmitted torque of a harmonic drive (note 0028)
 CHOICES = {  # that a reader of the paper's text would not expect
-    "Robot of sections 5.2 to 7", "Results on the robot", "Learning for the robot",
+    "Robot of sections 5.2 to 7", "What the surrogate robots are not", "Results on the robot", "Learning for the robot",
+    "Self-collision, section 4.3",
     "Push on the hand, Table 8 and Figure 12", "Collisions, Table 9",
     "Acceleration of the pelvis", "Output for the spread", "Number format", "Epoch that is kept",
 }  # fmt: skip
