@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from csv_files import read_table
+from csv_files import check_golden, read_table
 
 from mobnet.core.files import write_json
 from mobnet.evaluation.number.single import rate
@@ -45,6 +45,7 @@ def test_events_of_all_walks_are_counted_together(
     assert (FLAG, "changed") not in rows
     assert both.count == single.count + rows[FLAG, "in place"].count
     assert both.value == pytest.approx(both.count / both.hours, rel=1e-4)
+    check_golden(table)
 
 
 @pytest.mark.parametrize(("count", "ends"), [(0, (0.0, 3.689)), (1, (0.0253, 5.572)), (10, (4.795, 18.39))])
