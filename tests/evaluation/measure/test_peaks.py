@@ -24,7 +24,8 @@ def half_sine(size: float, rows: int = 78, length: int = 200) -> np.ndarray:
 def test_what_is_shown_of_a_push_is_the_slope_on_it(size: float) -> None:
     push = half_sine(size)
     behind = low_pass(push, 100.0, 1000.0)
-    shown = ShownPushes(push, behind, 0.8 * behind + 5.0)  # a constant error is no part of it
+    slow = 5.0 + 0.1 * np.arange(200)[:, None]  # an error that is constant or grows is no part of it
+    shown = ShownPushes(push, behind, 0.8 * behind + slow)
     assert slopes(shown, [slice(0, 200)], [COUNTED]) == pytest.approx([0.8])
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 
 import numpy as np
+import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are imported where they are used first
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
@@ -64,12 +65,12 @@ def turned_joints(push: NDArray[np.float64], share: float, counted: NDArray[np.b
 def slopes(shown: ShownPushes, windows: Sequence[slice], turned: Sequence[NDArray[np.bool_]]) -> Array:
     """Return the slope of what is shown on the low-passed push, over the pushes that turn a joint, (n,) [-].
 
-    That is by least squares, with a constant of each window: 1 of an estimate that follows the push, 0 of one that
-    shows nothing of it, however large its noise. It is nan of joints that no push turns.
+    That is by least squares, with a line over time of each window, which slow errors follow: 1 of an estimate that
+    follows the push, 0 of one that shows nothing of it, however noisy it is. It is nan of joints that no push turns.
     """
     products, squares = np.zeros((2, shown.push.shape[1]))
     for rows, own in zip(windows, turned, strict=True):
-        push, estimate = (signal[rows] - signal[rows].mean(axis=0) for signal in (shown.behind, shown.estimate))
+        push, estimate = (scipy.signal.detrend(signal[rows], axis=0) for signal in (shown.behind, shown.estimate))
         products += own * (push * estimate).sum(axis=0)
         squares += own * (push * push).sum(axis=0)
     return np.divide(products, squares, out=np.full(len(squares), np.nan), where=squares > 0.0)
