@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Iterator, Sequence
-from string import Formatter
 from typing import get_args
 
 import numpy as np
@@ -217,8 +216,4 @@ def check_bounds(claim: Claim) -> None:
     assert not (claim.bar and claim.side and claim.rule == "sign") or inside(claim.bar, claim.side)
     assert paper is not None or claim.rule not in ("about", "larger", "little")
     assert claim.rule != "sign" or (claim.bar is not None and paper is None)
-    parts = [*Formatter().parse(claim.cause)]
-    for _, key, form, _ in parts:
-        assert key is None or format(0.5, form or "")
-    assert {key for _, key, _, _ in parts if key is not None} == claim.numbers.keys()
-    assert not [text for text, *_ in parts if TYPED.search(text)]
+    assert not TYPED.search(claim.cause)

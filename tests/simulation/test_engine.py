@@ -77,6 +77,7 @@ def sole_torque(simulator):
 def pushed_walk(simulate):
     """A function (terrain, pushes) -> a random walk with random torque on a terrain, pushed again and again."""
     law = {"pause_s": [0.01, 0.1], "force_n": [20.0, 60.0], "duration_s": [0.05, 0.2], "shape": "half_sine"}
+    law["moment_nm"] = [1.0, 5.0]
     points = {"left": "left_sole", "right": "right_sole", "torso": "torso", "hand": "right_hand"}
     laws = {name: {**law, "point": point, "direction": "any"} for name, point in points.items()}
 

@@ -43,6 +43,22 @@ def test_force_at_a_point_is_a_wrench_about_the_centre_of_mass_of_its_body(simul
     np.testing.assert_allclose(moment, np.cross(arm, force), atol=0.02)  # the point is of the step before
 
 
+def test_a_moment_comes_and_goes_with_its_force_about_any_axis(simulate, run):
+    row = {"point": "right_hand", "pause_s": [0.05, 0.1], "force_n": [10.0, 10.0], "moment_nm": [1.0, 2.0]}
+    simulator = pushed(simulate, hand={**row, "duration_s": [0.1, 0.1], "direction": "any", "shape": "half_sine"})
+    data, site, moments = simulator.world.data, simulator.world.model.site("right_hand"), []
+    for _ in range(300):
+        run(simulator, 0.011)
+        force, moment = np.split(data.xfrc_applied[site.bodyid[0]], 2)
+        push, arm = simulator.pushes.state[0], data.site_xpos[site.id] - data.xipos[site.bodyid[0]]
+        share = np.linalg.norm(force) / 10.0
+        np.testing.assert_allclose(moment, np.cross(arm, force) + share * push["moment"], atol=0.02)
+        moments.append(push["moment"].copy())
+    sizes = np.linalg.norm(moments, axis=1)[np.any(moments, axis=1)]
+    assert 1.0 <= sizes.min() < 1.2 < 1.8 < sizes.max() <= 2.0
+    assert np.abs(np.mean(moments, axis=0)).max() < 0.6
+
+
 def test_torque_on_a_joint_is_external_torque_of_that_joint_alone(simulate, run):
     row = {"joint": "LL3", "during": "left_swing", "share": [0.4, 0.4], "at_s": [0.0], "torque_nm": [30.0, 30.0]}
     seen = watch(pushed(simulate, step={**row, "duration_s": [0.1, 0.1], "shape": "step"}), run, 4.0)

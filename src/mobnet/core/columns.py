@@ -169,7 +169,9 @@ CLAIMS = (
     "claim", "statement", "score", "printed", "says", "published", "value", "low", "high", *SPREAD, "unit",
     "from", "to", "side_from", "side_to", "verdict", "cause",
 )  # fmt: skip
-CLAIMED = ("score", "outcome", "statements", "claims")  # `outcome`: a verdict, or all of them
+HOURLY = ("event", "walks", "method", "hours", "count", "value", "low", "high", "unit")
+CLAIMED = ("score", "outcome", "statements", "claims")  # `outcome`: a verdict, all of them, or one of the next line
+UNEXPLAINED, PRINTED, INSIDE = "without a cause", "printed", "inside"  # of what fails, and of the paper's number
 VERDICTS = ("not reproduced", "inconclusive", "direction", "reproduced", "not measured")  # of a claim, also in order of
 # how they are shown: what counts against us first
 OBSERVER, LEARNED, SIGN_ONLY = SCORED = ("observer", "learned", "sign only")  # values of `score` of a claim

@@ -104,6 +104,20 @@ def _claims(files: Files, _: Any) -> Needs:
     return {"scores": _scores(files, files.settings.claims), "folders": folders}
 
 
+def _hourly(files: Files, section: Any) -> Needs:
+    """Return all recordings by what is walked, and the scores of the tests in which the check should flag nothing."""
+    walks = dict[str, list[Path]]()
+    for own in files.owners:
+        for scenario, level, seed in own.recorded():
+            row = files.settings.scenarios[scenario]
+            kind = "with random torque" if row.random_torque else "pushed" if row.pushes else "undisturbed"
+            title = f"{'surrogate robots' if own.robot else 'plant of section 5.1'}, {kind}"
+            walks.setdefault(title, []).append(own.array("recordings", scenario, level, seed))
+    changed = files.settings.evaluation.changed
+    known = tuple(changed.tests[title] for title in section.known)
+    return {"walks": walks, "changed": changed, "scores": _scores(files, known)}
+
+
 def _latency(files: Files, section: Any) -> Needs:
     """Return the first trained network of each limb of the method whose time is looked at."""
     method, limbs = section.method, files.catalogue.method(section.method).limbs
@@ -151,6 +165,7 @@ USUAL: Mapping[str, Callable[[Files, Any], object]] = {  # parameter -> what it 
 NEEDS: Mapping[str, Callable[[Files, Any], Needs]] = {  # products in which parameters mean something else
     "table_01": _table_01,
     "claims": _claims,
+    "hourly": _hourly,
     "latency": _latency,
     "steps": lambda files, _: {"sets": {"walk": files.training("recordings", "walk")}},
     "coverage": _coverage,

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal, cast
 
 from pydantic import AfterValidator, Field, model_validator
 
+from mobnet.core.errors import not_accepted
 from mobnet.settings.base import (
     Item,
     JointName,
@@ -33,6 +34,7 @@ TAKES: Mapping[Quantity, tuple[int, int]] = {  # how many cells: at least, and i
     "below": (2, 1), "above": (2, 1), "least ratio": (2, 2), "trend": (3, 1), "share": (1, 0),
 }  # fmt: skip
 Rule = Literal["about", "larger", "similar", "little", "sign"]
+CAUSED = ("given", "without")  # numbers of a cause: where it is given, and where it is taken away
 TrainingMetric = Literal[
     "validation loss",
     "validation RMSE",
@@ -42,7 +44,6 @@ TrainingMetric = Literal[
     "diverged",
 ]
 ClaimName = Annotated[str, Field(pattern="^[a-z0-9][a-z0-9-]*$", max_length=50)]
-NumberName = Annotated[str, Field(pattern="^[a-z][a-z_]*$", max_length=30)]
 
 
 def _ordered(bounds: tuple[float | None, float | None]) -> tuple[float | None, float | None]:
@@ -137,7 +138,7 @@ def place_of(place: Place, claims: Mapping[str, Any]) -> Place:
 
 
 class MadeNumber(Section):
-    """A number that is made of cells, such as one in the text of a cause."""
+    """A number that is made of cells, such as one with or without a cause."""
 
     quantity: Quantity
     cells: Some[Cell]
@@ -163,7 +164,8 @@ class Claim(MadeNumber):
     """What the paper says, where it is printed, and what must hold here.
 
     Claims of one `statement`, which has the name of its first claim, count once. `by_joint` makes a claim of each
-    joint: its cells have this joint, and the paper prints this number.
+    joint: its cells have this joint, and the paper prints this number. `numbers` are two like the claim's own: with the
+    `cause` given and without it.
     """
 
     statement: ClaimName | None = None
@@ -176,4 +178,15 @@ class Claim(MadeNumber):
     bar: Bounds | None = None
     side: Bounds | None = None
     cause: str = ""
-    numbers: dict[NumberName, MadeNumber] = {}
+    numbers: dict[Literal["given", "without"], MadeNumber] = {}
+
+    @model_validator(mode="after")
+    def _takes_its_cause_away(self) -> Claim:
+        """Check that a cause has its two numbers, which are of the claim's quantity."""
+        if set(self.numbers) != set(CAUSED if self.cause else ()):
+            found = ", ".join(self.numbers) or "nothing"
+            raise ValueError(f"`numbers` with {found} is not accepted; accepted: {', '.join(CAUSED)} of a `cause`")
+        for number in self.numbers.values():
+            if number.quantity != self.quantity:
+                raise ValueError(not_accepted("quantity of a cause", number.quantity, [self.quantity]))
+        return self

@@ -168,7 +168,8 @@ class Push(Section):
 
     A push of shape `sines` is a sum of sines, whose amplitudes are shares of its size. An `impactor` is a mass on a
     spring that meets the point and leaves it again; force and duration are those of its hit on a wall. Sizes are drawn
-    evenly from their range, or with `sizes: log` evenly on a log scale.
+    evenly from their range, or with `sizes: log` evenly on a log scale. A moment about an axis of its own, drawn from
+    all directions, comes and goes with a force.
     """
 
     point: base.PointName | None = None
@@ -179,6 +180,7 @@ class Push(Section):
     at_s: base.Rising[Annotated[base.NotNegative, Field(le=3600)]] | None = None
     force_n: base.Range[base.Newton] | None = None
     torque_nm: base.Range[base.NewtonMetre] | None = None
+    moment_nm: base.Range[Annotated[base.NotNegative, Field(le=1000)]] | None = None
     sizes: Literal["even", "log"] = "even"
     duration_s: base.Range[Duration]
     direction: Direction = "any"

@@ -320,9 +320,10 @@ class LearnedRuns(LimbRuns):
 
 
 class Peaks(Section):
-    """Peak ratio and delay of the rise under pushes, at joints that take a share of the largest torque, or more."""
+    """Share and delay of pushes in estimates, at joints that take a share of the largest torque, or more."""
 
     turned_share: base.PositiveShare
+    before_s: base.NotNegative = Field(le=10)
     after_s: base.NotNegative = Field(le=10)
     longest_s: base.Real = Field(ge=0.01, le=10)
     tests: base.Some[PushedLimbRuns]
@@ -384,6 +385,12 @@ class Changed(Section):
     landing_s: base.NotNegative = Field(le=1)
     least_share: base.PositiveShare
     tests: Annotated[dict[base.Text, LegRuns], Field(min_length=1)]
+
+
+class Hourly(Section):
+    """Events in an hour: falls, and flags in the tests of section `changed` on robots that their networks know."""
+
+    known: base.Distinct[base.Text]
 
 
 class Measure(Section):
@@ -486,6 +493,7 @@ class Evaluation(Section):
     phases: Phases
     sigma: Sigma
     changed: Changed
+    hourly: Hourly
     measures: dict[base.LowerName, Measure] = {}
     figures: dict[base.LowerName, LimbRuns] = {}
     table_09: DetectorTable

@@ -28,12 +28,13 @@ SHARE_WINDOW = 0.05  # [-] of a step: a push whose moment has passed by more wai
 LAW = np.dtype([
     ("site", "i8"), ("body", "i8"), ("dof", "i8"), ("phase", "i8"), ("direction", "i8"), ("shape", "i8"),
     ("timed", "i8"), ("log", "i8"),
-    ("share", "f8", 2), ("pause", "f8", 2), ("size", "f8", 2), ("duration", "f8", 2), ("mass", "f8"),
+    ("share", "f8", 2), ("pause", "f8", 2), ("size", "f8", 2), ("moment", "f8", 2), ("duration", "f8", 2),
+    ("mass", "f8"),
 ])  # fmt: skip
 STATE = np.dtype([
     ("start", "f8"), ("end", "f8"), ("share", "f8"), ("active", "i8"), ("count", "i8"),
-    ("size", "f8"), ("direction", "f8", 3), ("stiffness", "f8"), ("speed", "f8"), ("travel", "f8"), ("anchor", "f8"),
-    ("place", "f8", 3),
+    ("size", "f8"), ("direction", "f8", 3), ("moment", "f8", 3),
+    ("stiffness", "f8"), ("speed", "f8"), ("travel", "f8"), ("anchor", "f8"), ("place", "f8", 3),
 ])  # fmt: skip
 
 
@@ -44,12 +45,14 @@ class Pushes(NamedTuple):
     # the joint's place in the generalized velocity, -1 for a force; `phase`, `direction` and `shape`, indices of
     # PHASES, DIRECTIONS and SHAPES; `timed`, 1 where `times` rules; `log`, 1 where sizes are drawn on a log scale;
     # bounds of the `share` [-] of the step at which it comes, of the `pause` [s] between two, of the `size` [N] or
-    # [N m] of the peak and of the `duration` [s]; `mass` [kg] of an impactor
+    # [N m] of the peak, of the peak of the `moment` [N m] that comes with a force, zero without one, and of the
+    # `duration` [s]; `mass` [kg] of an impactor
     law: NDArray[Any]
     times: Array  # earliest times of the episode (n, k) [s], padded with infinity
     sines: Array  # lines (n, m, 3) of shape `sines`: angular frequency [rad/s], phase [rad], share of the size [-]
-    # running push of each row (n,), records of STATE: of an impactor the `stiffness` [N/m], `speed` [m/s] and `travel`
-    # [m] along the push, where the point was at its start (`anchor`) and in the last step (`place`) [m]
+    # running push of each row (n,), records of STATE: `moment`, that at the peak (3,) [N m]; of an impactor the
+    # `stiffness` [N/m], `speed` [m/s] and `travel` [m] along the push, where the point was at its start (`anchor`) and
+    # in the last step (`place`) [m]
     state: NDArray[Any]
 
 
@@ -81,7 +84,7 @@ def _law(row: Push, model: mujoco.MjModel, robot: RobotDescription) -> tuple[Any
     return (
         *target, PHASES.index(row.during), DIRECTIONS.index(row.direction), SHAPES.index(row.shape),
         row.at_s is not None, row.sizes == "log", row.share, row.pause_s or (0.0, 0.0), row.force_n or row.torque_nm,
-        row.duration_s, row.impactor_kg or 0.0,
+        row.moment_nm or (0.0, 0.0), row.duration_s, row.impactor_kg or 0.0,
     )  # fmt: skip
 
 
@@ -127,16 +130,25 @@ def _begin(law: Any, p: Any, now: float, axes: Array, rng: np.random.Generator) 
         p.size = np.exp(rng.uniform(np.log(law.size[0]), np.log(law.size[1])))
     else:
         p.size = rng.uniform(law.size[0], law.size[1])
-    yaw = rng.uniform(-np.pi, np.pi)
-    up = rng.uniform(-1.0, 1.0) if law.direction == ANY else 0.0
-    flat = np.sqrt(1.0 - up * up)
-    p.direction[0], p.direction[1], p.direction[2] = flat * np.cos(yaw), flat * np.sin(yaw), up
+    _draw_direction(p.direction, law.direction == ANY, rng)
+    if law.moment[1] > 0.0:
+        _draw_direction(p.moment, True, rng)
+        p.moment *= rng.uniform(law.moment[0], law.moment[1])
     if law.direction == DOWN:
         p.direction[0], p.direction[1], p.direction[2] = 0.0, 0.0, -1.0
     elif law.direction >= BACKWARD:
         axis, sign = (0, -1.0) if law.direction == BACKWARD else (1, 1.0 if law.direction == LEFTWARD else -1.0)
         for i in range(3):
             p.direction[i] = sign * axes[3 * i + axis]
+
+
+@compiled
+def _draw_direction(vector: Array, anywhere: bool, rng: np.random.Generator) -> None:
+    """Set a vector (3,) to a unit vector that may point anywhere, or to a horizontal one."""
+    yaw = rng.uniform(-np.pi, np.pi)
+    up = rng.uniform(-1.0, 1.0) if anywhere else 0.0
+    flat = np.sqrt(1.0 - up * up)
+    vector[0], vector[1], vector[2] = flat * np.cos(yaw), flat * np.sin(yaw), up
 
 
 @compiled
@@ -233,10 +245,12 @@ def push(
             qfrc[law.dof] += size
             tau_joints[law.dof] += size
         elif size != 0.0:
-            _force_at(site_xpos[law.site], xipos[law.body], size, pushes.state[k].direction, xfrc[law.body])
+            p = pushes.state[k]
+            _force_at(site_xpos[law.site], xipos[law.body], size, p.direction, xfrc[law.body])
             told[0] = k + 1
             for i in range(3):
-                told[1 + i] += size * pushes.state[k].direction[i]
+                xfrc[law.body, 3 + i] += size / p.size * p.moment[i]
+                told[1 + i] += size * p.direction[i]
 
 
 @compiled

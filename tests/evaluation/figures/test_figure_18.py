@@ -1,8 +1,9 @@
 """Figure 18 averages over joints, so that an arm of eight weighs more than a waist of three."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
+from types import MappingProxyType, SimpleNamespace
 
 import pytest
 from csv_files import check_golden, read_table, write_rows
@@ -10,24 +11,27 @@ from csv_files import check_golden, read_table, write_rows
 from mobnet.core.columns import Score
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
+from mobnet.evaluation.compare.rmse import PUSHED
 from mobnet.evaluation.figures.paper.figure_18 import UPPER_BODY, figure_18, panel_of
 from mobnet.evaluation.number.files import read_rows
 from mobnet.evaluation.number.number import Number
-from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.evaluation import Evaluation, PushWindow
 from mobnet.settings.settings import Settings
 
 MEANS = {"MOB-Net": 2.0, "MOB-Net-Single": 2.5}
 Write = Callable[..., Path]
-Draw = Callable[[dict[str, object], list[Path]], None]
+Draw = Callable[..., None]
 
 
 @pytest.fixture
 def draw(tmp_path: Path, settings: Settings, evaluation: Evaluation) -> Draw:
-    """Return a function of (changes of the section, scores) that writes the figure."""
+    """Return a function of (changes of the section, scores, windows around pushes={}) that writes the figure."""
 
-    def write(changes: dict[str, object], scores: list[Path]) -> None:
+    def write(
+        changes: dict[str, object], scores: list[Path], windows: Mapping[str, PushWindow] = MappingProxyType({})
+    ) -> None:
         section = evaluation.figure_18.model_copy(update={"level": "all_uncertainty", **changes})
-        figure_18(section, settings.layout, evaluation.statistics, scores, tmp_path / "out")
+        figure_18(section, windows, settings.layout, evaluation.statistics, scores, tmp_path / "out")
 
     return write
 
@@ -68,6 +72,19 @@ def test_panel_holds_a_group_a_limb_and_a_bar_a_method() -> None:
     panel = panel_of("ID", dict.fromkeys(MEANS, errors))
     assert list(panel.groups) == [UPPER_BODY, "W", "RA"]
     assert panel.bars == {method: [Number(2.0)] * 3 for method in MEANS}
+
+
+def test_only_the_time_of_pushes_counts_where_there_is_a_window(
+    tmp_path: Path, draw: Draw, write_limb_scores: Write, evaluation: Evaluation
+) -> None:
+    paths = [write_limb_scores(name, MEANS) for name in ("motion_test", "hand_wrench")]
+    rows = read_rows(paths[1], Score)
+    pushed = [replace(row, metric=PUSHED, value=3.0 * row.value) for row in rows if row.metric == "rmse"]
+    write_rows(paths[1], [*rows, *pushed])
+    draw({}, paths, evaluation.windows)
+    found = {(bar.scenario, bar.method): bar.rmse_nm for bar in read_table(tmp_path / "out/figure_18.csv")}
+    assert found["motion_test", "MOB-Net"] == pytest.approx(2.0)
+    assert found["hand_wrench", "MOB-Net"] == pytest.approx(6.0)
 
 
 def test_a_missing_method_is_named(tmp_path: Path, draw: Draw, write_limb_scores: Write) -> None:

@@ -31,7 +31,12 @@ def claim(rule: str, published: float | None = None, quantity: str = "value", **
         (claim("larger", 4.0, "least ratio"), (2.0, 8.0), (1.0, None)),
         (claim("larger", 0.75, "cut"), (0.5, 0.875), (0.0, 1.0)),
         (claim("larger", 4.0, "difference"), (2.0, 6.0), (0.0, None)),
-        (claim("similar", 1.1, "ratio"), (1 / 1.5, 1.5), (0.5, 2.0)),
+        (claim("larger", 30.3, "ratio"), (15.15, 60.6), (1.0, None)),
+        (claim("larger", 0.96, "cut"), (0.92, 0.98), (0.0, 1.0)),
+        (claim("about", 0.9, "ratio"), (0.6, 1.35), (0.18, 4.5)),
+        (claim("similar", 1.1, "ratio"), (1 / 1.21, 1.21), (0.5, 2.0)),
+        (claim("similar", 0.8, "ratio"), (1 / 1.5, 1.5), (0.5, 2.0)),
+        (claim("similar", 1.0, "ratio"), (1 / 1.1, 1.1), (0.5, 2.0)),
         (claim("similar", None, "ratio", bar=(0.9, 1.1)), (0.9, 1.1), (0.5, 2.0)),
         (claim("little", 2.0, "difference"), (1.0, 4.0), (None, 10.0)),
         (claim("sign", bar=(0.0, None)), (0.0, None), (0.0, None)),
@@ -43,6 +48,12 @@ def test_rules_make_bounds_of_the_number_of_the_paper(made: Claim, reproduced: B
     found = ranges_of(made)
     assert found.reproduced == pytest.approx(reproduced)
     assert found.side == pytest.approx(side)
+
+
+def test_a_growth_of_thirty_percent_does_not_reproduce_one_of_seven(settings: Settings) -> None:
+    found = ranges_of(settings.claims["mob-net-at-floor"])
+    assert not within((1.30, 1.30), found.reproduced)
+    assert within((1.0, 1.07), found.reproduced)
 
 
 def test_bounds_are_two_sided_around_a_number_of_the_paper_and_within_those_of_the_direction(

@@ -1,11 +1,10 @@
-"""Verdicts follow from intervals, statements from the worst of their claims, causes from numbers that are made."""
+"""Verdicts follow from intervals, statements from the worst of their claims, causes from what changes without them."""
 
-import re
 from collections.abc import Sequence
-from string import Formatter
 from typing import Any
 
 import pytest
+from pydantic import ValidationError
 
 from mobnet.core.columns import SCORED, VERDICTS
 from mobnet.evaluation.measure.claims.bounds import Ranges
@@ -17,7 +16,16 @@ from mobnet.settings.evaluation import Statistics
 from mobnet.settings.settings import Settings
 
 RANGES = Ranges((1.0, 2.0), (0.5, None))
-TYPED = re.compile(r"(?<![A-Za-z0-9-])\.?\d")
+CAUSED: dict[str, Any] = {
+    "quantity": "value", "cells": ["MOB"], "printed": "x", "says": "x", "unit": "-", "published": None, "rule": "sign",
+    "bar": [0.0, None], "cause": "Cold",
+    "numbers": {
+        name: {"quantity": "value", "cells": [{"table": "coverage", "where": {"joint": joint}, "column": "ratio"}]}
+        for name, joint in (("given", "LL1"), ("without", "LL2"))
+    },
+}  # fmt: skip
+SHOWN = "Cold: 2.00 [1.90, 2.10] with it, 1.00 [0.90, 1.10] without it."
+Ends = tuple[str, str, str]
 
 
 @pytest.mark.parametrize(
@@ -80,26 +88,33 @@ def test_a_claim_counts_where_its_methods_say(name: str, score: str, settings: S
     assert score_of(settings.claims[name], settings.methods) == score
 
 
-def test_no_number_is_typed_in_a_cause(settings: Settings) -> None:
-    """Each is made by a rule; names of joints and methods may have digits."""
-    for name, claim in settings.claims.items():
-        typed = "".join(text for text, *_ in Formatter().parse(claim.cause))
-        assert not TYPED.search(typed), name
-        assert {field for _, field, *_ in Formatter().parse(claim.cause) if field} == claim.numbers.keys(), name
-
-
-def test_a_cause_has_its_numbers_in_their_places_and_a_dash_where_there_is_none(settings: Settings) -> None:
-    rows = [
-        {"joint": "LL1", "ratio": "0.5", "low": "", "high": ""},
-        {"joint": "LL2", "ratio": "", "low": "", "high": ""},
-    ]
+@pytest.mark.parametrize(
+    ("given", "without", "text"),
+    [
+        (("2.0", "1.9", "2.1"), ("1.0", "0.9", "1.1"), SHOWN),
+        (("2.0", "1.9", "2.1"), ("1.9", "1.8", "2.0"), ""),
+        (("2.0", "1.9", "2.1"), ("1.0", "", ""), ""),
+        (("2.0", "", ""), ("1.0", "0.9", "1.1"), ""),
+        (("2.0", "1.9", "2.1"), ("", "", ""), ""),
+    ],
+)
+def test_a_cause_is_what_changes_the_number_when_it_is_taken_away(
+    given: Ends, without: Ends, text: str, settings: Settings
+) -> None:
+    rows = [dict(zip(("ratio", "low", "high", "joint"), (*ends, name), strict=True))
+            for name, ends in (("LL1", given), ("LL2", without))]  # fmt: skip
     results = Evidence(settings.layout, {}, {}, {}, {"coverage": rows})
-    numbers: dict[str, Any] = {
-        name: {"quantity": "value", "cells": [{"table": "coverage", "where": {"joint": joint}, "column": "ratio"}]}
-        for name, joint in (("some", "LL1"), ("none", "LL2"), ("gone", "LL3"))
-    }
-    entry = {"quantity": "value", "cells": ["MOB"], "printed": "x", "says": "x", "unit": "-", "published": None}
-    claim = Claim.model_validate(
-        {**entry, "rule": "sign", "bar": [0.0, None], "cause": "{some:.0%}, {none:.1f}, {gone:.2f}", "numbers": numbers}
-    )
-    assert cause_of(claim, results, Statistics(confidence=0.95)) == "50%, -, -"
+    assert cause_of(Claim.model_validate(CAUSED), results, Statistics(confidence=0.95)) == text
+
+
+@pytest.mark.parametrize(
+    ("changes", "accepted"),
+    [
+        ({"numbers": {}}, "nothing is not accepted; accepted: given, without of a `cause`"),
+        ({"cause": ""}, "given, without is not accepted"),
+        ({"quantity": "difference", "cells": ["MOB", "zero"]}, "quantity of a cause: 'value' is not accepted"),
+    ],
+)
+def test_a_cause_has_two_numbers_like_the_claims_own(changes: dict[str, Any], accepted: str) -> None:
+    with pytest.raises(ValidationError, match=accepted):
+        Claim.model_validate({**CAUSED, **changes})

@@ -12,7 +12,8 @@ REPO = Path(__file__).parents[3]
 DOC, MAIN = REPO / "docs/deviations.md", REPO / "paper/main.tex"
 PUBLISHED_LOAD_SHARE = 0.166  # friction over the transmitted torque of a harmonic drive (note 0028)
 CHOICES = {  # that a reader of the paper's text would not expect
-    "Robot of sections 5.2 to 7", "Results on the robot", "Learning for the robot",
+    "Robot of sections 5.2 to 7", "What the surrogate robots are not", "Results on the robot", "Learning for the robot",
+    "Self-collision, section 4.3",
     "Push on the hand, Table 8 and Figure 12", "Collisions, Table 9",
     "Acceleration of the pelvis", "Output for the spread", "Number format", "Epoch that is kept",
 }  # fmt: skip
@@ -61,10 +62,13 @@ def test_terrains_are_told_as_they_are_walked(settings: Settings) -> None:
 
 def test_numbers_of_sentences_are_those_of_the_configuration(settings: Settings) -> None:
     text = " ".join(MAIN.read_text().split())
-    force_n = settings.pushes["right_hand"].force_n
-    assert force_n
-    low, high = force_n
-    assert rf"random forces of {low:g} to {high:g}\,N push the right hand" in text
+    hand = settings.pushes["right_hand"]
+    assert hand.force_n
+    assert hand.moment_nm
+    (low, high), (least, most) = hand.force_n, hand.moment_nm
+    assert rf"forces of {low:g} to {high:g}\,N with a moment of {least:g} to {most:g}\,N\,m, act on the right" in text
+    assert f"a force of {low:g} to {high:g} N, the load" in DOC.read_text()
+    assert f"a moment of {least:g} to {most:g} N m" in DOC.read_text()
     limbs, spread = settings.surrogate.limbs.values(), settings.surrogate.drive.spread
     largest = (1.0 + spread) * max(share for limb in limbs for share in limb.load_share)
     assert f"up to {largest / PUBLISHED_LOAD_SHARE:.1f}~times the published one" in text

@@ -56,16 +56,22 @@ def test_joints_are_left_to_the_csv(facts: Facts, tmp_path: Path) -> None:
     assert text.splitlines()[0].startswith("|  | walk | motion | Paper |")
 
 
-def test_clearance_is_the_smallest_that_was_noted(tmp_path: Path, data_sets: Sets) -> None:
+def test_clearance_is_the_smallest_that_was_noted_and_overlaps_have_their_share_of_the_time(
+    tmp_path: Path, data_sets: Sets
+) -> None:
     stems = []
     for k, clearance in enumerate((0.05, 0.02)):
         stems.append(tmp_path / f"s{k}")
         write_json(
             stems[-1].with_suffix(".json"),
-            {**read_json(data_sets["motion"][k].with_suffix(".json")), "clearance_min_m": clearance},
-        )
-    found = {(quantity, part): value for quantity, part, value, _ in extent(stems, ["checks"])}
+            {
+                **read_json(data_sets["motion"][k].with_suffix(".json")), "rows": 5000, "rate_hz": 1000.0,
+                "clearance_min_m": clearance, "self_collisions": 10 * k,
+            },
+        )  # fmt: skip
+    found = {(quantity, part): value for quantity, part, value, _ in extent(stems, ["checks"], 50.0)}
     assert found["smallest self-clearance", ""] == 0.02
+    assert found["time in self-collision", ""] == pytest.approx(10 / (2 * 5.0 * 50.0))
 
 
 def test_a_command_never_given_has_no_ratio(

@@ -1,4 +1,4 @@
-"""Intervals where each of several numbers has a single run, where runs only succeed or fail, and without a law."""
+"""Intervals where each of several numbers has a single run, where runs only succeed or fail, of counts, without law."""
 
 from collections.abc import Sequence
 
@@ -28,6 +28,17 @@ def share(grids: Sequence[RunGrid], statistics: Statistics, unit: str = "-") -> 
     found = scipy.stats.binomtest(round(float(grid.values.sum())), networks * walks)
     ends = found.proportion_ci(statistics.confidence, method="wilson")
     return Number(grid.mean, float(ends.low), float(ends.high), unit=unit, networks=(networks,), walks=(walks,))
+
+
+def rate(count: int, hours: float, statistics: Statistics) -> Number:
+    """Return how many events there are in an hour [1/h], with the interval of a Poisson count (Garwood 1936).
+
+    Events are taken as independent of each other.
+    """
+    tail = (1.0 - statistics.confidence) / 2.0
+    low = float(scipy.special.gammaincinv(count, tail)) if count else 0.0
+    high = float(scipy.special.gammaincinv(count + 1, 1.0 - tail))
+    return Number(count / hours, low / hours, high / hours, unit="1/h")
 
 
 def extremes(values: Array) -> list[Number]:

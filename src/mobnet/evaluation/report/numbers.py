@@ -26,6 +26,7 @@ LOOKUP = r"""% Written by mobnet.evaluation.report.numbers; do not edit.
 \newcommand{\verdict}[1]{\lookup{verdict@#1}}
 \newcommand{\cause}[1]{\lookup{cause@#1}}
 \newcommand{\scored}[2]{\lookup{scored@#1@#2}}
+\newcommand{\counted}[2]{\lookup{counted@#1@#2}}
 \newcommand{\size}[1]{\lookup{size@#1}}
 """
 MINUTE_S = 60.0
@@ -41,7 +42,8 @@ def numbers(
     \ourcell{scenario}{level}{method}{joint}{metric} and \publishedcell give a cell of any table (metric: `mean` if it
     is the mean of some), \ours{level}{method}{joint} and \published a cell of Table 5. \claimed{claim} gives the
     paper's number of a claim, \found and \foundspan ours and its interval, \verdict and \cause the judgement.
-    \scored{score}{verdict} gives how many statements of a score have a verdict, \size{name} gives sizes of the scale.
+    \scored{score}{outcome} gives how many statements of a score have a verdict or another outcome of `claims_summary`,
+    \counted how many claims; \size{name} gives sizes of the scale.
     `train` has the recordings of random walking that networks learn from.
     """
     values = {f"size@{name}": text for name, text in size_texts(scale, rates, sizes, fleet, train).items()}
@@ -51,7 +53,8 @@ def numbers(
     for of, number in read_numbers(claims_csv):
         values |= claim_texts(of, number)
     for row in read_texts(summary_csv, CLAIMED):
-        values[f"scored@{row['score']}@{row['outcome']}"] = row["statements"]
+        for name, of in (("scored", "statements"), ("counted", "claims")):
+            values[f"{name}@{row['score']}@{row['outcome']}"] = row[of]
     # a TeX line defines one name, which may hold any character, as a text
     lines = (rf"\expandafter\def\csname {name}\endcsname{{{text}}}" + "\n" for name, text in values.items())
     write_text(out, LOOKUP + "".join(lines))

@@ -146,6 +146,8 @@ def _push_faults(push: Push) -> Iterator[Problem]:
     if given != wanted:
         accepted = "`point`, `force_n` and `direction`, or `joint` and `torque_nm`"
         yield (), misfit(", ".join(sorted(given)) or "neither force nor torque", accepted)
+    if push.moment_nm and push.joint:
+        yield ("moment_nm",), misfit(list(push.moment_nm), "`moment_nm` beside a force only")
     if (push.shape == "sines") != (push.sines is not None):
         yield (), misfit("`shape: sines` without `sines`, or the other way round", "both or neither")
     if (push.shape == "impactor") != (push.impactor_kg is not None) or (push.shape == "impactor" and not push.point):

@@ -88,8 +88,11 @@ def _sigma_problems(results: Results) -> Iterator[Problem]:
 
 
 def _changed_problems(results: Results) -> Iterator[Problem]:
-    """Yield windows that no recording is long enough for."""
+    """Yield windows that no recording is long enough for, and tests that are named elsewhere and do not exist."""
     settings, changed = results.settings, results.settings.evaluation.changed
+    for index, title in enumerate(settings.evaluation.hourly.known):
+        if title not in changed.tests:
+            yield (*ROOT, "hourly", "known", index), not_accepted("test of section changed", title, changed.tests)
     for test in changed.tests.values():
         longest = min(settings.test_s(test.scenario), settings.recording.episode_s)
         place, what = (*ROOT, "changed", "window_s"), f"for {test.scenario} lasts so long"

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from mobnet.core.columns import CALIBRATION, COVERAGE, DETECTION, ERRORS, KINDS, LATENCY, METHODS
+from mobnet.core.columns import CALIBRATION, COVERAGE, DETECTION, ERRORS, HOURLY, KINDS, LATENCY, METHODS
 from mobnet.core.errors import not_accepted
 from mobnet.core.joints import JointLayout, right_of, with_image
 from mobnet.core.metrics import metric_of
@@ -17,8 +17,8 @@ from mobnet.settings.settings import Settings
 
 TABLES = {  # that are no entry of `tables` -> their columns
     **dict.fromkeys(("table_09", "table_13", "false_alarms", "smallest_force", "links"), DETECTION),
-    "calibration": CALIBRATION, "coverage": COVERAGE, "error_budget": ERRORS, "kinds": KINDS, "latency": LATENCY,
-    "methods": METHODS,
+    "calibration": CALIBRATION, "coverage": COVERAGE, "error_budget": ERRORS, "hourly": HOURLY, "kinds": KINDS,
+    "latency": LATENCY, "methods": METHODS,
 }  # fmt: skip
 PUSHED, PUSH, RAW = "rmse_pushed", "rmse_push_", "_raw"  # metrics of windows around pushes, against the raw truth
 

@@ -5,13 +5,14 @@ from pathlib import Path
 
 from mobnet.core.columns import LIMB_ERRORS
 from mobnet.core.joints import JointLayout
+from mobnet.evaluation.compare.rmse import PUSHED
 from mobnet.evaluation.figures.drawing.bars import BarPanel, draw_bars
 from mobnet.evaluation.figures.style import save_figure
 from mobnet.evaluation.measure.estimates.scores import AVERAGE
 from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.rows import read_scores
-from mobnet.settings.evaluation import Figure18, Statistics
+from mobnet.settings.evaluation import Figure18, PushWindow, Statistics
 
 UPPER_BODY = "upper body"  # all limbs of the figure together
 
@@ -19,15 +20,19 @@ Errors = dict[tuple[str, str], Number]  # limb or UPPER_BODY, joint or AVERAGE -
 
 
 def figure_18(
-    settings: Figure18, layout: JointLayout, statistics: Statistics, scores: Sequence[Path],
-    figure_dir: Path,
+    settings: Figure18, windows: Mapping[str, PushWindow], layout: JointLayout, statistics: Statistics,
+    scores: Sequence[Path], figure_dir: Path,
 ) -> None:  # fmt: skip
-    """Write Figure 18, mean RMSE [N m] over the joints of the upper body and of its limbs, as PDF, PNG and CSV."""
+    """Write Figure 18, mean RMSE [N m] over the joints of the upper body and of its limbs, as PDF, PNG and CSV.
+
+    Of a test with a window around pushes, it is that of the windows.
+    """
     read, rows, panels = read_scores(*scores), [], []
     for scenario, title in settings.panels.items():
         errors = {}
+        metric = PUSHED if scenario in windows else "rmse"
         for method in settings.methods:
-            wanted = wanted_of(settings, layout, scenario, method)
+            wanted = wanted_of(settings, layout, scenario, method, metric)
             errors[method] = {place: number_of(read, of, statistics) for place, of in wanted.items()}
         panels.append(panel_of(title, errors))
         rows += [
@@ -38,11 +43,11 @@ def figure_18(
 
 
 def wanted_of(
-    settings: Figure18, layout: JointLayout, scenario: str, method: str
+    settings: Figure18, layout: JointLayout, scenario: str, method: str, metric: str = "rmse"
 ) -> dict[tuple[str, str], list[Wanted]]:
     """Return limb and joint -> the errors whose mean is shown: of the upper body, then of each limb and its joints."""
     limbs = {
-        limb: [Wanted(scenario, limb, settings.level, method, joint) for joint in layout.limb(limb)]
+        limb: [Wanted(scenario, limb, settings.level, method, joint, metric) for joint in layout.limb(limb)]
         for limb in settings.limbs
     }
     found = {(UPPER_BODY, AVERAGE): [wanted for own in limbs.values() for wanted in own]}

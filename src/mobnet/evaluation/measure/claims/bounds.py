@@ -10,7 +10,7 @@ from mobnet.settings.claims import Bounds, Claim
 
 ANY: Bounds = (None, None)
 TWICE, FIVE_TIMES = 2.0, 5.0
-ALIKE, RATHER_ALIKE = 1.5, 2.0
+LEAST_ALIKE, ALIKE, RATHER_ALIKE = 1.1, 1.5, 2.0
 LEAST_SHARE, MOST_SHARE = 0.5, 1.5  # of an effect
 
 
@@ -35,24 +35,39 @@ def ranges_of(claim: Claim) -> Ranges:
 def _ruled(claim: Claim) -> tuple[Bounds, Bounds]:
     """Return the ranges that a claim's rule makes of the number that the paper prints [its unit]."""
     if claim.rule == "similar":
-        return (1.0 / ALIKE, ALIKE), (1.0 / RATHER_ALIKE, RATHER_ALIKE)
+        alike = _alike(claim.published)
+        return (1.0 / alike, alike), (1.0 / RATHER_ALIKE, RATHER_ALIKE)
     x = claim.published or 0.0
     if claim.rule == "about":
-        return (x / TWICE, x * TWICE), (x / FIVE_TIMES, x * FIVE_TIMES)
+        factor = ALIKE if claim.quantity == "ratio" else TWICE
+        return (x / factor, x * factor), (x / FIVE_TIMES, x * FIVE_TIMES)
     if claim.rule == "little":
         return (x / TWICE, x * TWICE), (None, x * FIVE_TIMES)
     return _effect(claim.quantity, x)
 
 
+def _alike(x: float | None) -> float:
+    """Return the factor around 1 within which a ratio counts as alike [-]: twice as far from 1 as x, on a log scale."""
+    return ALIKE if x is None else min(max(x**2, x**-2, LEAST_ALIKE), ALIKE)
+
+
 def _effect(quantity: str, x: float) -> tuple[Bounds, Bounds]:
-    """Return from half an effect to one and a half of it, on a log scale of ratios, and any effect of that sign."""
+    """Return from half an effect to one and a half of it, and any effect of that sign.
+
+    Of ratios, and of what a cut leaves, this is on a log scale, and not beyond half or twice of the ratio itself.
+    """
     if quantity == "cut":
-        left = 1.0 - x
-        return (1.0 - left**LEAST_SHARE, 1.0 - left**MOST_SHARE), (0.0, 1.0)
+        low, high = _ratio_effect(1.0 - x)
+        return (1.0 - high, 1.0 - low), (0.0, 1.0)
     if quantity in ("ratio", "least ratio"):
-        low, high = sorted((x**LEAST_SHARE, x**MOST_SHARE))
-        return (low, high), (1.0, None) if x >= 1.0 else (None, 1.0)
+        return _ratio_effect(x), (1.0, None) if x >= 1.0 else (None, 1.0)
     return (LEAST_SHARE * x, MOST_SHARE * x), (0.0, None)
+
+
+def _ratio_effect(x: float) -> tuple[float, float]:
+    """Return from half the effect of a ratio x to one and a half of it, at most a factor of two from x [-]."""
+    low, high = sorted((x**LEAST_SHARE, x**MOST_SHARE))
+    return max(low, x / TWICE), min(high, x * TWICE)
 
 
 def common(one: Bounds, other: Bounds) -> Bounds:

@@ -1,4 +1,4 @@
-"""The paper's claims against our numbers: verdicts that follow from intervals, and causes whose numbers are computed.
+"""The paper's claims against our numbers: verdicts that follow from intervals, and causes that numbers show.
 
 With the range in which a claim is reproduced and the wider one of its direction, both closed, our interval is
 
@@ -18,7 +18,7 @@ from mobnet.evaluation.measure.claims.bounds import Ranges, apart, ranges_of, wi
 from mobnet.evaluation.measure.claims.cells import Evidence, listed
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.quantities import QUANTITIES
-from mobnet.settings.claims import Claim, MadeNumber, TrainingMetric
+from mobnet.settings.claims import CAUSED, Claim, MadeNumber, TrainingMetric
 from mobnet.settings.evaluation import Statistics
 from mobnet.settings.methods import Method
 
@@ -50,7 +50,7 @@ class Judged:
         score: one of `SCORED`: about the observer alone, about networks, or without a number of the paper.
         ours: our number; none where the tests are too short to hold what it is about, or all trainings diverged.
         verdict: one of `VERDICTS`.
-        cause: why it is not reproduced, as far as numbers say; empty where it is.
+        cause: why it is not reproduced, as far as numbers say; empty where it is, and where they do not.
     """
 
     row: Row
@@ -59,14 +59,6 @@ class Judged:
     ranges: Ranges
     verdict: str
     cause: str
-
-
-class Missing:
-    """A number that a cause names and no run has: a dash in any format."""
-
-    def __format__(self, form: str) -> str:
-        """Return a dash."""
-        return "-"
 
 
 def rows_of(claims: Mapping[str, Claim]) -> Iterator[Row]:
@@ -126,9 +118,18 @@ def score_of(claim: Claim, methods: Mapping[str, Method]) -> str:
 
 
 def cause_of(claim: Claim, results: Evidence, statistics: Statistics) -> str:
-    """Return the text of a cause with its numbers in their places."""
-    found = {name: made_number(made, results, statistics).value for name, made in claim.numbers.items()}
-    return claim.cause.format_map({name: Missing() if value is None else value for name, value in found.items()})
+    """Return a cause with the number where it is given and where it is taken away; empty if it does not change.
+
+    It changes if the two intervals have no number in common.
+    """
+    if not claim.cause:
+        return ""
+    given, without = (made_number(claim.numbers[name], results, statistics, claim.unit) for name in CAUSED)
+    if given.low is None or given.high is None or not apart((given.low, given.high), (without.low, without.high)):
+        return ""
+    unit = "" if claim.unit == "-" else f" {claim.unit}"
+    with_it, without_it = (" ".join(number.texts()) + unit for number in (given, without))
+    return f"{claim.cause}: {with_it} with it, {without_it} without it."
 
 
 def worst(verdicts: Sequence[str]) -> str:

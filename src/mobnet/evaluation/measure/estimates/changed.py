@@ -14,21 +14,23 @@ from mobnet.learning.swings import hanging
 from mobnet.settings.evaluation import Changed
 
 KNOWN, FREE, FLAGGED = "known_share", "free_share", "flagged_share"
-METRICS = (Metric("(known|free|flagged)_share", "-", high=1.0),)
+FLAGS, WATCHED = "flags", "watched"
+METRICS = (Metric("(known|free|flagged)_share", "-", high=1.0), Metric("flags", "-"), Metric("watched", "h"))
+HOUR_S = 3600.0
 
 
 def measure(pair: Pair, scene: Scene, settings: Changed) -> Measures:
-    """Yield what the standard deviations of a run say of the robot, shares [-]; nothing where it has none."""
+    """Yield what the standard deviations of a run say of the robot, `knowledge`; nothing where it has none."""
     return knowledge(pair, read_std(pair.run, pair.joints), scene, scene.asked.cover_share, settings)
 
 
 def knowledge(pair: Pair, std: NDArray[np.float32] | None, scene: Scene, share: float, settings: Changed) -> Measures:
-    """Yield what the standard deviations (T, n) [N m] of a leg's joints say of a robot, shares [-].
+    """Yield what the standard deviations (T, n) [N m] of a leg's joints say of a robot: shares [-], and counts.
 
     `known_share`: errors within the central interval of a nominal share, which only the truth tells. `free_share`:
     estimates within it where the plan has the leg in the air, which a robot can see. `flagged_share`: windows of which
-    the check says that these networks do not know this robot. Of an estimate without standard deviations there is
-    nothing to tell.
+    the check says that these networks do not know this robot; `flags` is their number, `watched` the time of all
+    windows [h]. Of an estimate without standard deviations there is nothing to tell.
     """
     if std is None:
         return
@@ -41,5 +43,7 @@ def knowledge(pair: Pair, std: NDArray[np.float32] | None, scene: Scene, share: 
     shares = shares_inside(pair.estimate, std, free, pair.spans, rows, share)
     shares = shares[~np.isnan(shares)]
     if len(shares):
-        yield Measured(FREE, np.full(count, shares.mean()), average_only=True)
-        yield Measured(FLAGGED, np.full(count, (shares < settings.least_share).mean()), average_only=True)
+        flagged = shares < settings.least_share
+        found = {FREE: shares.mean(), FLAGGED: flagged.mean(), FLAGS: flagged.sum()}
+        for metric, value in (found | {WATCHED: len(shares) * settings.window_s / HOUR_S}).items():
+            yield Measured(metric, np.full(count, value), average_only=True)

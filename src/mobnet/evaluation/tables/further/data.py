@@ -19,7 +19,7 @@ from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.tables.layout import Table, write_table
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.data import Commands, Terrain
+from mobnet.settings.data import Commands, RecordingSettings, Terrain
 from mobnet.settings.evaluation import DataTable
 from mobnet.settings.published import PublishedData
 from mobnet.settings.robot import RobotTable
@@ -37,14 +37,14 @@ Facts = Mapping[tuple[str, str, str], Number]  # set, quantity, part (empty: the
 
 def data(
     settings: DataTable, robot: RobotTable, walking: Walking, commands: Commands, terrain: Terrain,
-    published: PublishedData, sets: Mapping[str, Sequence[Path]], table_dir: Path,
+    recording: RecordingSettings, published: PublishedData, sets: Mapping[str, Sequence[Path]], table_dir: Path,
 ) -> None:  # fmt: skip
     """Write data.csv, .tex and .md: what the recordings of each set hold, beside what the paper says of them."""
     nominal = NominalModel(describe(robot))
     facts: dict[tuple[str, str, str], Number] = {}
     for name, stems in sets.items():
         found = [
-            *extent(stems, [name for name, row in terrain if row is not None]),
+            *extent(stems, [name for name, row in terrain if row is not None], recording.clearance_hz),
             *commanded(commands, walking.foot_spacing_m, stems, nominal),
             *upper_body(settings.every, stems, nominal),
             *torque_left(stems, nominal.robot.layout, settings.limbs, settings.lags_s),
@@ -58,8 +58,12 @@ def data(
     write_table(table_dir / "data", Table(DATA, records, header, fact_lines(shown, list(sets))))
 
 
-def extent(stems: Sequence[Path], terrains: Sequence[str]) -> Iterator[Found]:
-    """Yield length [min], samples, falls, episodes and the shares of the terrains [-] of recordings."""
+def extent(stems: Sequence[Path], terrains: Sequence[str], clearance_hz: float) -> Iterator[Found]:
+    """Yield length [min], samples, falls, episodes and the shares of the terrains [-] of recordings.
+
+    Of those in which self-collisions were looked for at a rate [Hz], also the least distance [m], and the time in which
+    solids overlap [-].
+    """
     notes = [read_array_note(file_of(stem, NOTE)) for stem in stems]
     needed = ("falls", "terrains")
     refuse_lines(f"{stem}{NOTE}: {key}: key is missing; accepted: what the simulator writes"
@@ -70,9 +74,11 @@ def extent(stems: Sequence[Path], terrains: Sequence[str]) -> Iterator[Found]:
     yield "falls", "", sum(note["falls"] for note in notes), ""
     yield "episodes", "", sum(len(note["segments"]) for note in notes), ""
     yield from ground(notes, terrains)
-    clearances = [note["clearance_min_m"] for note in notes if "clearance_min_m" in note]
-    if clearances:
-        yield "smallest self-clearance", "", min(clearances), "m"
+    watched = [note for note in notes if "clearance_min_m" in note]
+    if watched:
+        looks = sum(note["rows"] / note["rate_hz"] for note in watched) * clearance_hz
+        yield "smallest self-clearance", "", min(note["clearance_min_m"] for note in watched), "m"
+        yield "time in self-collision", "", sum(note.get("self_collisions", 0) for note in watched) / looks, "-"
 
 
 def ground(notes: Sequence[Mapping[str, Any]], terrains: Sequence[str]) -> Iterator[Found]:
