@@ -30,6 +30,7 @@ def section(settings):
         "OR": Detector(method="MOB-Net", signals=("mean", "std")),
         "norm": Detector(method="MOB-Net", signals=("mean",), norm=True),
         "phases": Detector(method="MOB-Net", signals=("mean",), phases=4),
+        "command": Detector(method="MOB-Net", signals=("mean",), commanded=True),
         "blind": Detector(method="MOB", signals=("mean",)),
     }
     return settings.detection.model_copy(update={"thresholds": numbers, "detectors": detectors})
@@ -92,7 +93,7 @@ def test_collisions_are_those_of_the_recording(made):
     assert rows[0].swing_share == pytest.approx(LATE / AIR, abs=0.01)
 
 
-@pytest.mark.parametrize("name", ["mean", "OR", "norm", "phases"])
+@pytest.mark.parametrize("name", ["mean", "OR", "norm", "phases", "command"])
 def test_an_estimate_that_sees_finds_and_names_every_collision(made, name):
     rows = [row for row in read_table(made / "detected.csv") if (row.detector, row.kind) == (name, "largest")]
     if name != "OR":  # its standard deviations jump before there is a torque that tells links apart
