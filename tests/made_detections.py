@@ -36,7 +36,7 @@ Detections = Mapping[str, Mapping[str, Path]]
 def on_both_plants(settings: Settings) -> Settings:
     """Return a configuration with detectors on the plant of section 5.1 too, so that both kinds of levels are shown."""
     both = {"levels": ("all_uncertainty", "robots")}
-    names = ("table_09", "table_13", "false_alarms", "smallest_force", "links", "figure_14")
+    names = ("table_09", "table_13", "false_alarms", "found_by_rate", "smallest_force", "links", "figure_14")
     shown = {name: getattr(settings.evaluation, name).model_copy(update=both) for name in names}
     whole = {"detection": settings.detection.model_copy(update=both)}
     return settings.model_copy(update={**whole, "evaluation": settings.evaluation.model_copy(update=shown)})
@@ -84,7 +84,7 @@ def detected(scenario: str) -> list[Detected]:
             delay, perfect = (DELAY_S[name] + 0.001 * turn, 0.015) if is_found else (None, None)
             link = one.link if name == "MOB-Net-OR" else "foot"
             named = (f"mean.{'LL3'}", link, one.direction, one.force_n) if is_found else ("", "", "", None)
-            for kind, ratio in ((LARGEST, 3.0), ("contact", 2.5), (COLLISION, 2.0)):
+            for kind, ratio in ((LARGEST, 3.0), ("contact", 2.5), ("bump", 2.2), (COLLISION, 2.0)):
                 size = ratio if is_found else 0.5
                 rows.append(Detected(scenario, SEED, "LL", one.number, name, kind, size, delay, perfect, *named))
     return rows

@@ -30,6 +30,7 @@ def section(settings):
         "OR": Detector(method="MOB-Net", signals=("mean", "std")),
         "norm": Detector(method="MOB-Net", signals=("mean",), norm=True),
         "phases": Detector(method="MOB-Net", signals=("mean",), phases=4),
+        "command": Detector(method="MOB-Net", signals=("mean",), commanded=True),
         "blind": Detector(method="MOB", signals=("mean",)),
     }
     return settings.detection.model_copy(update={"thresholds": numbers, "detectors": detectors})
@@ -92,7 +93,7 @@ def test_collisions_are_those_of_the_recording(made):
     assert rows[0].swing_share == pytest.approx(LATE / AIR, abs=0.01)
 
 
-@pytest.mark.parametrize("name", ["mean", "OR", "norm", "phases"])
+@pytest.mark.parametrize("name", ["mean", "OR", "norm", "phases", "command"])
 def test_an_estimate_that_sees_finds_and_names_every_collision(made, name):
     rows = [row for row in read_table(made / "detected.csv") if (row.detector, row.kind) == (name, "largest")]
     if name != "OR":  # its standard deviations jump before there is a torque that tells links apart
@@ -104,9 +105,9 @@ def test_an_estimate_that_sees_finds_and_names_every_collision(made, name):
         assert 0.0 < row.named_n < PEAK
 
 
-def test_one_that_sees_nothing_finds_nothing(made):
+def test_one_that_sees_nothing_finds_nothing(made, section):
     rows = [row for row in read_table(made / "detected.csv") if row.detector == "blind"]
-    assert len(rows) == 3 * len(POINTS)
+    assert len(rows) == (1 + len(section.thresholds.rates_per_h)) * len(POINTS)
     found = [row for row in rows if row.delay_s is not None]
     assert [row for row in found if row.kind == "collision"] == []
     assert all(row.perfect_s is not None for row in rows)  # at its thresholds the truth would be found
@@ -122,7 +123,8 @@ def test_thresholds_are_a_tenth_above_the_largest_and_multiples_of_a_quantile(ma
     assert 0.1 * NOISE_NM < value["largest", "mean.LL3"] < 4.0 * NOISE_NM
     count = int(np.ceil(section.calibration_share * SWINGS))
     assert {row.swings for row in promises.values()} == {count}
-    assert promises["collision"].hours == pytest.approx(SWINGS * (AIR + GROUND) / RATE_HZ / 3600 * 0.35, rel=0.05)
+    walked_h = SWINGS * (AIR + GROUND) / RATE_HZ / 3600
+    assert promises["collision"].hours == pytest.approx(section.calibration_share * walked_h, rel=0.05)
     phases = [row for row in read_table(made / "thresholds.csv") if (row.detector, row.kind) == ("phases", "largest")]
     assert {row.phase for row in phases} == {1, 2, 3, 4}
 

@@ -9,7 +9,7 @@ from made_swings import AIR, GROUND, RATE_HZ
 from mobnet.core.estimator import Estimate
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import ALARM_RATIO, LegDetector
-from mobnet.detection.signals import signal_names, whitening_of
+from mobnet.detection.signals import Watched, whitening_of
 from mobnet.settings.detection import Detector
 
 STEP_S = 50e-6  # a step may take
@@ -19,15 +19,16 @@ ROWS = {
     "ratio": Detector(method="MOB-Net", signals=("ratio",)),
     "norm": Detector(method="MOB-Net", signals=("mean",), norm=True),
     "phases": Detector(method="MOB-Net", signals=("mean", "std"), phases=8),
+    "command": Detector(method="MOB-Net", signals=("mean",), commanded=True),
 }
 
 
 def detector_of(row, gate, estimate):
     """Return a detector with thresholds that noise crosses now and then."""
-    names = signal_names(row, [f"LL{k}" for k in range(1, 7)])
-    thresholds = np.full((row.phases, len(names)), 1.5)
-    whitening = whitening_of(estimate.tau_ext) if row.norm else None
-    return LegDetector(row, gate, make_chain(15.0, 0.005, RATE_HZ, thresholds, norm=row.norm), whitening)
+    whitening, slopes = (whitening_of(estimate.tau_ext) if row.norm else None), np.full((6, 3), 2.0)
+    watched = Watched(row, slopes if row.commanded else None, whitening)
+    thresholds = np.full((row.phases, len(watched.names([f"LL{k}" for k in range(1, 7)]))), 1.5)
+    return LegDetector(watched, gate, make_chain(15.0, 0.005, RATE_HZ, thresholds, norm=row.norm))
 
 
 @pytest.fixture
@@ -41,7 +42,7 @@ def estimate(walk):
 @pytest.mark.parametrize("name", ROWS)
 def test_in_steps_it_says_the_same_at_the_same_sample(name, gate, walk, estimate):
     sensed, detector = walk(2), detector_of(ROWS[name], gate, estimate)
-    whole = detector.run(gate.run(sensed, estimate.tau_ext), estimate)
+    whole = detector.run(gate.run(sensed, estimate.tau_ext), sensed, estimate)
     state, std = detector.init(), estimate.std
     assert std is not None
     for k in range(len(sensed)):

@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
-from made_swings import AIR, GROUND
+from made_swings import AIR, GROUND, bent_to
 
 from mobnet.detection.leg import foot_load, unit_torques
+
+LATE = GROUND + AIR - 120  # when the plan and the pose let the foot meet the ground
 
 
 def ground_torque(robot, gate, q, force):
@@ -31,10 +33,10 @@ def test_a_leg_is_watched_away_from_both_ends_of_its_swing(gate, walk):
 def test_an_early_contact_closes_the_gate_for_the_rest_of_the_swing(gate, walk, robot):
     sensed = walk(2)
     tau = np.zeros((len(sensed), 6))
-    tau[GROUND + 150 : GROUND + 156] = ground_torque(robot, gate, sensed.q[0], np.array([5.0, 0.0, 60.0]))
+    tau[LATE : LATE + 6] = ground_torque(robot, gate, sensed.q[0], np.array([5.0, 0.0, 60.0]))
     watch = gate.run(sensed, tau)
-    assert watch.watched[GROUND + 153]
-    assert not watch.watched[GROUND + 154 : GROUND + AIR].any()  # five samples later
+    assert watch.watched[LATE + 3]
+    assert not watch.watched[LATE + 4 : GROUND + AIR].any()  # five samples later
     assert watch.watched[2 * GROUND + AIR + 100 : 2 * GROUND + 2 * AIR - 31].all()  # the next swing is watched again
 
 
@@ -44,13 +46,23 @@ def test_an_early_contact_closes_the_gate_for_the_rest_of_the_swing(gate, walk, 
 def test_what_does_not_look_like_the_ground_leaves_the_gate_open(gate, walk, robot, force, samples):
     sensed = walk(1)
     tau = np.zeros((len(sensed), 6))
-    tau[GROUND + 150 : GROUND + 150 + samples] = ground_torque(robot, gate, sensed.q[0], np.array(force))
+    tau[LATE : LATE + samples] = ground_torque(robot, gate, sensed.q[0], np.array(force))
     assert gate.run(sensed, tau).watched[GROUND + 100 : GROUND + AIR - 31].all()
 
 
-def test_a_hit_from_the_front_is_no_ground(gate, walk, robot):
-    sensed = walk(1)
-    hit = 150.0 * unit_torques(robot, gate.leg, sensed.q[0], ["left_foot_front"], -1.0)[0]
+@pytest.mark.parametrize(("raised_rad", "from_landing"), [(0.0, 200), (0.5, 120)], ids=["long before", "high"])
+def test_the_ground_is_not_met_long_before_the_landing_or_high_above_it(gate, walk, robot, raised_rad, from_landing):
+    sensed, first = bent_to(walk(1), robot.layout, raised_rad), GROUND + AIR - from_landing
     tau = np.zeros((len(sensed), 6))
-    tau[GROUND + 150 : GROUND + 228] = hit
-    assert gate.run(sensed, tau).watched[GROUND + 160]
+    tau[first : first + 50] = ground_torque(robot, gate, sensed.q[0], np.array([5.0, 0.0, 60.0]))
+    assert gate.run(sensed, tau).watched[first : GROUND + AIR - 31].all()
+
+
+@pytest.mark.parametrize("link", ["foot", "ankle", "knee"])
+def test_a_hit_from_the_front_is_no_ground(gate, walk, robot, link):
+    sensed = walk(1)
+    hit = 150.0 * unit_torques(robot, gate.leg, sensed.q[0], [f"left_{link}_front"], -1.0)[0]
+    hit[2] *= 0.5  # an estimate that sees half of the hip's torque turns the force upwards
+    tau = np.zeros((len(sensed), 6))
+    tau[GROUND + 100 : GROUND + 178] = hit
+    assert gate.run(sensed, tau).watched[GROUND + 100 : GROUND + AIR - 31].all()

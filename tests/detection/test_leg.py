@@ -5,7 +5,7 @@ import pinocchio as pin
 import pytest
 
 from mobnet.core.errors import ConfigError
-from mobnet.detection.leg import ancestors, foot_load, make_leg, unit_torques
+from mobnet.detection.leg import ancestors, foot_load, make_leg, sole_height, unit_torques
 from mobnet.robot.wrench import feet_torque
 
 
@@ -66,3 +66,14 @@ def test_what_is_no_leg_or_no_point_is_told(robot):
     with pytest.raises(ConfigError, match="point of the robot: 'left_nose'"):
         unit_torques(robot, make_leg(robot, "LL"), position(robot), ["left_nose"], -1.0)
     assert 0 in ancestors(make_leg(robot, "LL").tree, 5)
+
+
+def test_the_sole_is_as_high_above_the_other_one_as_its_lowest_corner(robot):
+    q, leg = np.zeros(robot.layout.nq), make_leg(robot, "LL")
+    q[3], tilt = 1.0, 0.2
+    assert foot_load(leg, q, np.zeros(6)) is False  # straight knees
+    assert sole_height(leg) == pytest.approx(0.0, abs=1e-12)
+    q[7 + robot.layout.actuated.index("LL5")] = tilt  # the ankle's pitch joint: the toes go down
+    foot_load(leg, q, np.zeros(6))
+    toes, below = robot.sole.box_centre[0] + robot.sole.box_half[0], -robot.sole.height
+    assert sole_height(leg) == pytest.approx(below - below * np.cos(tilt) - toes * np.sin(tilt))

@@ -24,7 +24,7 @@ from mobnet.core.recording import read_sensed
 from mobnet.core.store import NOTE, check_finite, file_of, read_array
 from mobnet.detection.calibration import QuietWalk, check_signals, rate_scales
 from mobnet.detection.sensitivity import found_forces
-from mobnet.detection.signals import MEAN
+from mobnet.detection.signals import MEAN, Watched
 from mobnet.detection.thresholds import Calibrated
 from mobnet.detection.watch import LegSetup
 from mobnet.detection.words import calibrate_parser
@@ -61,7 +61,7 @@ def calibrate_leg(
     # Nothing is tried here on walking that is held out, so that all swings calibrate.
     walk = QuietWalk.of(setup, "", legs, [Estimate(torque) for torque in estimates], share=1.0)
     check_signals(setup, detector, walk)
-    scales, promises = rate_scales(setup, detector, None, walk)
+    scales, promises = rate_scales(setup, Watched(detector), walk)
     thresholds = promises[WANTED].factor * scales[0]
     poses = np.concatenate([read.sensed.q[leg.gate.watched] for read, leg in zip(reads, legs, strict=True)])
     forces = found_forces(setup, poses, thresholds)

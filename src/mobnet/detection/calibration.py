@@ -1,16 +1,18 @@
 """A detector of a leg with thresholds from walking that nothing pushes, and its false alarms there (note 0036)."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.detections import CALIBRATION, COLLISION, HELD_OUT, LARGEST, FreeSwing, Promise, Threshold
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.estimator import Estimate
 from mobnet.detection.chain import Chain
-from mobnet.detection.signals import MEAN, STD, signal_names, signals_of, whitening_of
+from mobnet.detection.signals import MEAN, STD, Watched, slopes_of, whitening_of
 from mobnet.detection.swings import Spans, episodes_of, largest
 from mobnet.detection.thresholds import HOUR_S, Calibrated, calibrate
 from mobnet.detection.watch import LegRecording, LegSetup
@@ -46,6 +48,10 @@ class QuietWalk:
         walked = sum(one.samples for one in legs) / setup.rate_hz / HOUR_S
         return cls(scenario, tuple(legs), tuple(estimates), first, walked * first / max(count, 1))
 
+    def signals(self, watched: Watched) -> list[Array]:
+        """Return what is watched of each recording, (T, m)."""
+        return [watched.of(estimate, leg.command) for leg, estimate in zip(self.legs, self.estimates, strict=True)]
+
 
 @dataclass(frozen=True)
 class CalibratedDetector:
@@ -53,40 +59,31 @@ class CalibratedDetector:
 
     Attributes:
         name: its name.
-        detector: what it watches.
-        whitening: of its signals, if it watches their length.
+        watched: what it watches.
         naming: of the estimated torques (6, 6), for telling links apart.
         chains: rule -> the chain with its thresholds.
         promises: rule, but that of the paper -> multiple of the scales and expected rate.
     """
 
     name: str
-    detector: Detector
-    whitening: Array | None
+    watched: Watched
     naming: Array
     chains: Mapping[str, Chain]
     promises: Mapping[str, Calibrated]
 
-    def signals(self, estimate: Estimate) -> Array:
-        """Return what the detector watches of an estimate, (T, m)."""
-        return signals_of(self.detector, estimate, self.whitening)
-
-    def names(self, joints: Sequence[str]) -> list[str]:
-        """Return the names of what has a threshold."""
-        return signal_names(self.detector, joints)
-
-    def perfect(self, chain: Chain, torque: Array) -> tuple[Chain, Array] | None:
+    def perfect(self, chain: Chain, torque: Array, command: NDArray[Any]) -> tuple[Chain, Array] | None:
         """Return chain and signals (T, 6) of an estimate without error, the true torque (T, 6) [N m] itself.
 
         The thresholds are those of the estimate, so that it is told what the method's error costs and what the filters
         do. There is none where no torque is watched.
         """
-        if MEAN not in self.detector.signals:
+        if MEAN not in self.watched.detector.signals:
             return None
-        if self.whitening is not None:
-            return chain, torque @ self.whitening.T
+        signals = self.watched.relative(torque, command)
+        if self.watched.whitening is not None:
+            return chain, signals
         # Signals are one kind after the other, the mean first, and the truth has no standard deviation.
-        return chain._replace(thresholds=np.ascontiguousarray(chain.thresholds[:, : torque.shape[1]])), torque
+        return chain._replace(thresholds=np.ascontiguousarray(chain.thresholds[:, : torque.shape[1]])), signals
 
 
 def calibrate_detector(
@@ -100,35 +97,35 @@ def calibrate_detector(
     """
     for walk in (place, random):
         check_signals(setup, detector, walk)
-    whitening = None
+    watched = Watched(detector)
+    if detector.commanded:
+        watched = replace(watched, slopes=_slopes(setup, watched, random))
     if detector.norm:
-        plain = [signals_of(detector, estimate) for estimate in random.estimates]
-        whitening = _whitening(setup, random, plain)
-    scales, promises = rate_scales(setup, detector, whitening, random)
+        watched = replace(watched, whitening=_whitening(setup, random, random.signals(watched)))
+    scales, promises = rate_scales(setup, watched, random)
     # (D13), the paper's rule. Its collisions were made in walking in place, so that is its normal walking.
-    highest = _over_swings(_heights(setup, detector, whitening, place), np.max)
+    highest = _over_swings(_heights(setup, watched, place), np.max)
     thresholds = {LARGEST: setup.detection.thresholds.margin * highest}
     thresholds |= {kind: found.factor * scales for kind, found in promises.items()}
     chains = {kind: setup.chain(own, norm=detector.norm) for kind, own in thresholds.items()}
     torques = [estimate.tau_ext.astype(np.float64) for estimate in random.estimates]
-    return CalibratedDetector(name, detector, whitening, _whitening(setup, random, torques), chains, promises)
+    return CalibratedDetector(name, watched, _whitening(setup, random, torques), chains, promises)
 
 
-def rate_scales(
-    setup: LegSetup, detector: Detector, whitening: Array | None, walk: QuietWalk
-) -> tuple[Array, dict[str, Calibrated]]:  # fmt: skip
+def rate_scales(setup: LegSetup, watched: Watched, walk: QuietWalk) -> tuple[Array, dict[str, Calibrated]]:
     """Return the scales of a detector's signals (phases, c), and by rule the multiple of them for its rate.
 
     Raises:
         DataError: there are too few swings, or a rate is more than the tail of the swings holds.
         NotWatchedError: none of the swings is watched.
     """
-    numbers, signals = setup.detection.thresholds, [signals_of(detector, one, whitening) for one in walk.estimates]
+    numbers = setup.detection.thresholds
     # (D14): with one scale for each signal, one number is left to choose, and all signals raise alarms alike. The
     # largest value itself would be a scale that one odd swing decides.
-    heights = _heights(setup, detector, whitening, walk)
+    heights = _heights(setup, watched, walk)
     scales = _over_swings(heights, lambda own: float(np.quantile(own, numbers.scale_quantile)))
-    seen = swing_ratios(walk.legs, setup.chain(scales, norm=detector.norm), signals)[: walk.first]
+    chain = setup.chain(scales, norm=watched.detector.norm)
+    seen = swing_ratios(walk.legs, chain, walk.signals(watched))[: walk.first]
     episodes = episodes_of((one.segments, one.swings) for one in walk.legs)[: walk.first]
     rates = numbers.rates_per_h.items()
     return scales, {kind: calibrate(seen, episodes, walk.hours * HOUR_S, rate, numbers) for kind, rate in rates}
@@ -142,7 +139,7 @@ def swing_ratios(legs: Sequence[LegRecording], chain: Chain, signals: Sequence[A
 
 def threshold_rows(setup: LegSetup, calibrated: CalibratedDetector) -> Iterator[Threshold]:
     """Yield the thresholds of a detector, signal by signal and phase by phase."""
-    names = calibrated.names(setup.joints)
+    names = calibrated.watched.names(setup.joints)
     for kind, chain in calibrated.chains.items():
         for phase, row in enumerate(chain.thresholds, start=1):
             for signal, value in zip(names, row.tolist(), strict=True):
@@ -159,7 +156,7 @@ def promise_rows(setup: LegSetup, calibrated: CalibratedDetector, random: QuietW
 
 def quiet_rows(setup: LegSetup, calibrated: CalibratedDetector, walk: QuietWalk) -> Iterator[FreeSwing]:
     """Yield the swings of a walk that nothing pushes: those that calibrated the detector, and those held out."""
-    signals = [calibrated.signals(one) for one in walk.estimates]
+    signals = walk.signals(calibrated.watched)
     ratios, others = (swing_ratios(walk.legs, calibrated.chains[kind], signals) for kind in (COLLISION, LARGEST))
     places = [(one.seed, number, terrain) for one in walk.legs for number, terrain in enumerate(one.terrains, start=1)]
     for k, (seed, number, terrain) in enumerate(places):
@@ -172,11 +169,21 @@ def quiet_rows(setup: LegSetup, calibrated: CalibratedDetector, walk: QuietWalk)
 def check_signals(setup: LegSetup, detector: Detector, walk: QuietWalk) -> None:
     """Raise a DataError if a signal has the same number in all samples of a recording."""
     names = [f"{kind}.{joint}" for kind in detector.signals for joint in setup.joints]
-    for one, estimate in zip(walk.legs, walk.estimates, strict=True):
-        for name, column in zip(names, signals_of(detector, estimate).T, strict=True):
+    for one, signals in zip(walk.legs, walk.signals(Watched(detector)), strict=True):
+        for name, column in zip(names, signals.T, strict=True):
             if column.min() == column.max():
                 where = f"{one.recording}: signal {name}: every number"
                 raise DataError(not_accepted(where, float(column[0]), ["numbers that change"]))
+
+
+def _slopes(setup: LegSetup, watched: Watched, walk: QuietWalk) -> Array:
+    """Return by which share signals grow with each part of the command in calibrating swings, (m, 3)."""
+    heights = _heights(setup, watched, walk).max(axis=1)
+    commands = np.concatenate([one.command[[start for start, _ in one.swings]] for one in walk.legs])[: walk.first]
+    seen = (heights > 0.0).all(axis=1)
+    if not seen.any():
+        raise NotWatchedError(NEVER)
+    return slopes_of(heights[seen], commands[seen], setup.detection.thresholds.command_quantile)
 
 
 def _whitening(setup: LegSetup, walk: QuietWalk, signals: Sequence[Array]) -> Array:
@@ -198,20 +205,20 @@ def _cut(segments: Spans, end: int) -> Spans:
     return tuple((start, min(stop, end)) for start, stop in segments if start < end)
 
 
-def _heights(setup: LegSetup, detector: Detector, whitening: Array | None, walk: QuietWalk) -> Array:
+def _heights(setup: LegSetup, watched: Watched, walk: QuietWalk) -> Array:
     """Return the largest held signal in each phase of each calibrating swing, (swings, phases, c).
 
     It is minus infinity where a swing is not watched.
     """
     # A threshold of 1 leaves signals as they are, and a chain of one signal does not mix them.
-    whole = setup.chain(np.ones((1, 1)), norm=detector.norm)
+    norm, phases = watched.whitening is not None, watched.detector.phases
+    whole = setup.chain(np.ones((1, 1)), norm=norm)
     found: list[Array] = []
-    for one, estimate in zip(walk.legs, walk.estimates, strict=True):
-        signals = signals_of(detector, estimate, whitening)
-        parts = [signals] if detector.norm else np.split(signals, signals.shape[1], axis=1)
+    for one, signals in zip(walk.legs, walk.signals(watched), strict=True):
+        parts = [signals] if norm else np.split(signals, signals.shape[1], axis=1)
         held = np.stack([one.run(whole, np.ascontiguousarray(part)).ratio for part in parts], axis=1)
-        phase = np.minimum((one.gate.phase * detector.phases).astype(int), detector.phases - 1)
-        shown = [one.gate.watched & (phase == k) for k in range(detector.phases)]
+        phase = np.minimum((one.gate.phase * phases).astype(int), phases - 1)
+        shown = [one.gate.watched & (phase == k) for k in range(phases)]
         found += [
             np.stack([held[start:end][own[start:end]].max(axis=0, initial=-np.inf) for own in shown])
             for start, end in one.swings

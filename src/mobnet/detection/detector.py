@@ -17,7 +17,7 @@ from mobnet.core.recording import Sensed, SensedRecording
 from mobnet.detection.chain import Chain, ChainState, advance_chain, chain_state, run_chain
 from mobnet.detection.gate import Gate, advance_gate, gate_state, make_gate, run_gate
 from mobnet.detection.leg import Leg, make_leg
-from mobnet.detection.signals import signals_of
+from mobnet.detection.signals import Watched
 from mobnet.detection.swings import Spans
 from mobnet.robot.description import RobotDescription
 from mobnet.settings import detection as settings
@@ -90,16 +90,15 @@ def run_segments(chain: Chain, signals: Array, gate: GateSignal, segments: Spans
 
 @dataclass(frozen=True)
 class LegDetector:
-    """A detector with its thresholds; a whitening matrix (m, m) comes before the length of all signals."""
+    """A detector with its thresholds."""
 
-    detector: settings.Detector
+    watched: Watched
     gate: LegGate
     chain: Chain
-    whitening: Array | None = None
 
     def init(self) -> State:
         """Return the state before the first sample."""
-        signals = len(self.detector.signals) * len(self.gate.leg.load)
+        signals = len(self.watched.detector.signals) * len(self.gate.leg.load)
         return State(gate_state(), chain_state(self.chain, signals))
 
     def step(self, state: State, sample: Sensed, estimate: Estimate, gating: NDArray[Any]) -> Alarm:
@@ -111,14 +110,14 @@ class LegDetector:
         q, tau = np.asarray(sample.q, dtype=np.float64), np.asarray(gating, dtype=np.float64)
         swing, landing = float(sample.swing[foot]), float(sample.landing[foot])
         # The gate has the estimate of one method for all detectors, so that they differ by their signals alone.
-        watched = advance_gate(leg.gate, leg.leg, state.gate, q, tau, swing, landing)
-        signals = signals_of(self.detector, estimate, self.whitening)
-        ratio = advance_chain(self.chain, state.chain, signals, watched, float(state.gate.phase))
+        is_watched = advance_gate(leg.gate, leg.leg, state.gate, q, tau, swing, landing)
+        signals = self.watched.of(estimate, sample.command)
+        ratio = advance_chain(self.chain, state.chain, signals, is_watched, float(state.gate.phase))
         return Alarm(ratio, int(state.chain.place[1]))
 
-    def run(self, gate: GateSignal, estimate: Estimate) -> Alarm:
+    def run(self, gate: GateSignal, sensed: Sensed, estimate: Estimate) -> Alarm:
         """Return what the detector says of a contiguous stretch (T,), of which the gate has run."""
-        return run_over(self.chain, signals_of(self.detector, estimate, self.whitening), gate)
+        return run_over(self.chain, self.watched.of(estimate, sensed.command), gate)
 
 
 def run_over(chain: Chain, signals: Array, gate: GateSignal) -> Alarm:

@@ -1,7 +1,7 @@
 """When a leg is watched: in its swing by the walking plan, away from both ends, and until the ground is met too early.
 
 The gate knows what a robot knows at the time: the plan's swing and the time until the planned landing, which are sensed
-columns, and the force on the foot as an estimate of the joints' external torque has it.
+columns, the height of its sole by its joints, and the force on the foot as an estimate of their external torque has it.
 """
 
 from typing import Any, NamedTuple
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.compilation import compiled
-from mobnet.detection.leg import Leg, foot_load
+from mobnet.detection.leg import Leg, foot_load, sole_height
 from mobnet.settings import detection as settings
 
 STATE = np.dtype([
@@ -29,6 +29,8 @@ class Gate(NamedTuple):
     period: float  # between two samples [s]
     lift_off: int  # samples after lift-off at which it opens
     landing: float  # time before the planned landing at which it closes [s]
+    near: float  # time before the planned landing from which on the ground may be met [s]
+    low: float  # height of the sole above the other one up to which it may [m]
     force: float  # of an early contact [N]
     upright: float  # least cosine of its angle to the vertical
     hold: int  # samples for which it must last
@@ -39,7 +41,8 @@ def make_gate(numbers: settings.SwingGate, rate_hz: float) -> Gate:
     # Lift-off is counted in samples and the landing in seconds, since the plan moves the landing within a swing.
     lift_off, hold = (max(1, round(time_s * rate_hz)) for time_s in (numbers.lift_off_s, numbers.contact_s))
     upright = float(np.cos(np.deg2rad(numbers.contact_deg)))
-    return Gate(1.0 / rate_hz, lift_off, numbers.landing_s, numbers.contact_n, upright, hold)
+    near, low = numbers.contact_landing_s, numbers.contact_height_m
+    return Gate(1.0 / rate_hz, lift_off, numbers.landing_s, near, low, numbers.contact_n, upright, hold)
 
 
 def gate_state() -> Any:
@@ -65,11 +68,13 @@ def advance_gate(gate: Gate, leg: Leg, s: Any, q: Array, tau: Array, swing: floa
     # (D3) [5.3]: only unexpected collisions count. While a foot leaves or meets the ground, ground forces are expected.
     if s.landed == 1 or s.air < gate.lift_off or landing <= gate.landing:
         return False
-    # (D6) [7]: a force on the foot inside the friction cone is the ground's. At a straight knee no single wrench
-    # explains the torques, and such samples leave the count as it is.
-    if foot_load(leg, q, tau):
+    # (D6) [7]: a force on the foot inside the friction cone is the ground's where the plan and the pose let the foot
+    # meet it; a hit on the shin can have such a force too, but comes higher and earlier. At a straight knee no single
+    # wrench explains the torques, and such samples leave the count as it is.
+    if landing < gate.near and foot_load(leg, q, tau):
         up, size = leg.load[2], np.sqrt(leg.load[0] ** 2 + leg.load[1] ** 2 + leg.load[2] ** 2)
-        s.touching = s.touching + 1 if size > gate.force and up > gate.upright * size else 0
+        is_ground = size > gate.force and up > gate.upright * size and sole_height(leg) < gate.low
+        s.touching = s.touching + 1 if is_ground else 0
     # An early landing ends the swing, though the plan does not know yet: what follows is the ground, not a collision.
     if s.touching >= gate.hold:
         s.landed = 1

@@ -23,6 +23,8 @@ class Leg(NamedTuple):
     pose: Pose  # their places; filled for each sample
     first: int  # first actuator of the leg
     foot: int  # body of the foot
+    other: int  # body of the other foot
+    corners: Array  # of the sole, foot axes (4, 3) [m]
     still: Array  # a generalized velocity of zeros (nv,)
     jacobian: Array  # room (6, 6): transposed Jacobian of the foot
     load: Array  # force [N] and moment [N m] on the foot, world axes, about its origin (6,)
@@ -32,7 +34,7 @@ def make_leg(robot: RobotDescription, limb: str) -> Leg:
     """Return a leg of a robot.
 
     Raises:
-        ConfigError: the limb is no leg of six joints.
+        ConfigError: the limb is no leg of six joints, or the robot has no second foot or no soles.
     """
     sides = {foot.limb: side for side, foot in robot.feet.items()}
     joints = robot.layout.groups.get(limb, ())
@@ -40,9 +42,18 @@ def make_leg(robot: RobotDescription, limb: str) -> Leg:
         legs = [name for name in sides if len(robot.layout.limb(name)) == LEG_JOINTS]
         raise ConfigError(not_accepted(f"leg of {LEG_JOINTS} joints", limb, legs))
     tree = tree_of(robot, 1.0)
-    foot = [body.name for body in robot.bodies].index(robot.feet[sides[limb]].body)
+    others = [foot.body for side, foot in robot.feet.items() if side != sides[limb]]
+    if not others or robot.sole is None:
+        raise ConfigError(f"robot {robot.name}: a leg that is watched takes two feet (`feet`) and their `sole`")
+    names = [body.name for body in robot.bodies]
+    foot, other = names.index(robot.feet[sides[limb]].body), names.index(others[0])
     first = robot.layout.actuated.index(joints[0])
-    return Leg(tree, empty_pose(tree), first, foot, np.zeros(robot.layout.nv), np.zeros((6, 6)), np.zeros(6))
+    centre, half = robot.sole.box_centre, robot.sole.box_half
+    corners = [(centre[0] + x * half[0], centre[1] + y * half[1], robot.sole.height) for x in (-1, 1) for y in (-1, 1)]
+    return Leg(
+        tree, empty_pose(tree), first, foot, other, np.array(corners), np.zeros(robot.layout.nv), np.zeros((6, 6)),
+        np.zeros(6),
+    )  # fmt: skip
 
 
 @compiled
@@ -66,6 +77,24 @@ def foot_load(leg: Leg, q: Array, tau: Array) -> bool:
     for j in range(LEG_JOINTS):
         leg.load[j] = tau[j]
     return solve(leg.jacobian, leg.load)
+
+
+@compiled
+def sole_height(leg: Leg) -> float:
+    """Return how high the lowest corner of the sole is above that of the other foot [m], in the pose of `foot_load`."""
+    return _lowest(leg, leg.foot) - _lowest(leg, leg.other)
+
+
+@compiled
+def _lowest(leg: Leg, foot: int) -> float:
+    """Return the height of the lowest corner of a foot's sole [m]."""
+    lowest = np.inf
+    for k in range(len(leg.corners)):
+        height = leg.pose.position[foot, 2]
+        for i in range(3):
+            height += leg.pose.rotation[foot, 2, i] * leg.corners[k, i]
+        lowest = min(lowest, height)
+    return lowest
 
 
 def unit_torques(

@@ -1,6 +1,10 @@
-"""What a detector watches of an estimate: the mean, its standard deviation, one over the other, whitened if asked."""
+"""What a detector watches of an estimate: the mean, its standard deviation, one over the other.
+
+Signals can be taken over what the robot's command lets one expect of them, and whitened.
+"""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,19 +16,47 @@ from mobnet.core.estimator import Estimate
 from mobnet.settings.detection import Detector, Signal
 
 MEAN, STD, RATIO, NORM = "mean", "std", "ratio", "norm"
+TOLD = 3  # leading columns of a command that thresholds follow: step ahead, step to the side [m], turn [rad]
 
 
-def signals_of(detector: Detector, estimate: Estimate, whitening: Array | None = None) -> Array:
-    """Return the signals of a detector, (T, m) or (m,): joint by joint, one kind after the other.
+@dataclass(frozen=True)
+class Watched:
+    """What a detector watches.
 
-    A whitening matrix (m, m) is that of `whitening_of`.
-
-    Raises:
-        DataError: the estimate has no standard deviation, and the detector watches it.
+    Attributes:
+        detector: its row.
+        slopes: of each signal, by which share it grows with each metre of a step ahead and to the side, and with each
+            radian of a turn, (m, 3) [1/m, 1/m, 1/rad]; None where thresholds are the same for every command.
+        whitening: matrix (m, m) of `whitening_of`, where the length of all signals is watched.
     """
-    parts = [_signal(kind, estimate) for kind in detector.signals]
-    signals = np.concatenate(parts, axis=-1).astype(np.float64)
-    return signals if whitening is None else signals @ whitening.T
+
+    detector: Detector
+    slopes: Array | None = None
+    whitening: Array | None = None
+
+    def of(self, estimate: Estimate, command: NDArray[Any]) -> Array:
+        """Return the signals of an estimate under a command (T, 5), (T, m), or of one sample, (m,).
+
+        Joints come one after the other, and one kind of signal after the other.
+
+        Raises:
+            DataError: the estimate has no standard deviation, and the detector watches it.
+        """
+        parts = [_signal(kind, estimate) for kind in self.detector.signals]
+        return self.relative(np.concatenate(parts, axis=-1).astype(np.float64), command)
+
+    def relative(self, signals: Array, command: NDArray[Any]) -> Array:
+        """Return the first k signals (..., k) [N m], a ratio [-], as the detector compares them with thresholds."""
+        if self.slopes is not None:
+            # (D24): what a robot is told to do decides how large the error of an estimate can be.
+            told = np.abs(command[..., :TOLD].astype(np.float64))
+            signals = signals / (1.0 + told @ self.slopes[: signals.shape[-1]].T)
+        return signals if self.whitening is None else signals @ self.whitening.T
+
+    def names(self, joints: Sequence[str]) -> list[str]:
+        """Return the names of what has a threshold: `mean.LL1`, ..., or `norm` where the length of all is watched."""
+        row = self.detector
+        return [NORM] if row.norm else [f"{kind}.{joint}" for kind in row.signals for joint in joints]
 
 
 def _signal(kind: Signal, estimate: Estimate) -> NDArray[Any]:
@@ -37,11 +69,6 @@ def _signal(kind: Signal, estimate: Estimate) -> NDArray[Any]:
     return estimate.std if kind == STD else estimate.tau_ext / estimate.std
 
 
-def signal_names(detector: Detector, joints: Sequence[str]) -> list[str]:
-    """Return the names of what has a threshold: `mean.LL1`, ..., or `norm` where the length of all is watched."""
-    return [NORM] if detector.norm else [f"{kind}.{joint}" for kind in detector.signals for joint in joints]
-
-
 def whitening_of(signals: Array) -> Array:
     """Return the matrix (m, m) after which signals (T, m) have the unit matrix as their second moment.
 
@@ -51,3 +78,30 @@ def whitening_of(signals: Array) -> Array:
     # alarms as well. The small diagonal keeps signals that always move together from having no inverse.
     moment = signals.T @ signals / len(signals)
     return np.linalg.inv(np.linalg.cholesky(moment + 1e-9 * np.trace(moment) * np.eye(len(moment))))
+
+
+def slopes_of(heights: Array, commands: Array, quantile: float) -> Array:
+    """Return the slopes of signals (m, 3) from their largest values in swings (n, m) under commands (n, 5).
+
+    A quantile of the largest values is fitted as a constant and a share of it for each part of the command, none of
+    which may be negative.
+    """
+    told = np.abs(commands[:, :TOLD])
+    found = [_quantile_plane(told, own, quantile) for own in heights.T]
+    return np.array([plane[1:] / plane[0] for plane in found])
+
+
+def _quantile_plane(told: Array, height: Array, quantile: float) -> Array:
+    """Return the constant and the slopes (4,) of a quantile of heights (n,) over |commands| (n, 3)."""
+    from scipy.optimize import linprog  # here, as it takes a second to import
+    from scipy.sparse import eye_array, hstack
+
+    # (D25), quantile regression as a linear program (Koenker and Bassett 1978): what lies above and below the plane
+    # costs unequally. A signal is never smaller than its smallest largest value, so the constant is above zero.
+    count = len(height)
+    plane = np.column_stack([np.ones(count), told])
+    size = plane.shape[1]
+    cost = np.repeat([0.0, quantile, 1.0 - quantile], [size, count, count])
+    sides = hstack([plane, eye_array(count), -eye_array(count)])
+    bounds = [(float(height.min()), None), *[(0.0, None)] * (cost.size - 1)]
+    return linprog(cost, A_eq=sides, b_eq=height, bounds=bounds, method="highs").x[:size]

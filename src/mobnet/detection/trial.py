@@ -85,10 +85,10 @@ def detected_rows(
 ) -> Iterator[Detected]:  # fmt: skip
     """Yield what a detector says of each collision of a leg, by each rule of thresholds."""
     for one, estimate in zip(walk, estimates, strict=True):
-        signals = calibrated.signals(estimate)
+        signals = calibrated.watched.of(estimate, one.leg.command)
         low = setup.low_passed(estimate.tau_ext.astype(np.float64), one.leg.segments)
         for kind, chain in calibrated.chains.items():
-            alarm, perfect = one.leg.run(chain, signals), calibrated.perfect(chain, one.truth)
+            alarm, perfect = one.leg.run(chain, signals), calibrated.perfect(chain, one.truth, one.leg.command)
             ideal = one.leg.run(*perfect).ratio if perfect else None
             for hit, units, number in zip(one.hits, one.units, range(1, len(one.hits) + 1), strict=True):
                 row, best = (
@@ -100,7 +100,7 @@ def detected_rows(
                     # Links are told apart by the torque, also where the standard deviation raised the alarm.
                     isolated = name_push(low[row], units, calibrated.naming)
                     _, link, direction = points[isolated.candidate].split("_")
-                    signal, force = calibrated.names(setup.joints)[int(alarm.signal[row])], isolated.force_n
+                    signal, force = calibrated.watched.names(setup.joints)[int(alarm.signal[row])], isolated.force_n
                 ratio = float(alarm.ratio[window_of(setup, hit)].max(initial=0.0))
                 yield Detected(
                     scenario, one.leg.seed, setup.limb, number, calibrated.name, kind, ratio, delay(setup, hit, row),
@@ -113,7 +113,7 @@ def curve_rows(
 ) -> Iterator[CurvePoint]:  # fmt: skip
     """Yield how many collisions a detector finds, and how late, at multiples of its thresholds."""
     curve, chain = setup.detection.curve, calibrated.chains[COLLISION]
-    pairs = [(one.leg.run(chain, calibrated.signals(own)).ratio, hit)
+    pairs = [(one.leg.run(chain, calibrated.watched.of(own, one.leg.command)).ratio, hit)
              for one, own in zip(walk, estimates, strict=True) for hit in one.hits]  # fmt: skip
     for factor in np.geomspace(*curve.factors, curve.count).tolist():
         # All thresholds times a factor divide the ratio by it, so that one run of the chain gives the whole curve.
@@ -128,7 +128,7 @@ def unpushed_rows(
 ) -> Iterator[FreeSwing]:  # fmt: skip
     """Yield the swings of a walk with collisions in which nothing pushes: most follow a push and recover from it."""
     for one, estimate in zip(walk, estimates, strict=True):
-        legs, signals = [one.leg], [calibrated.signals(estimate)]
+        legs, signals = [one.leg], [calibrated.watched.of(estimate, one.leg.command)]
         ratios, others = (swing_ratios(legs, calibrated.chains[kind], signals) for kind in (COLLISION, LARGEST))
         for k, (start, end) in enumerate(one.leg.swings):
             # A hit of the other leg shakes this one, so that it spoils the swing too.

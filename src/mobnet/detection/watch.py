@@ -26,10 +26,11 @@ UNKNOWN = "-"  # terrain of a recording that does not say it
 
 @dataclass(frozen=True)
 class LegRecording:
-    """A leg in a recording: contiguous segments, its gate, its whole swings and the terrain of each."""
+    """A leg in a recording: contiguous segments, commands (T, 5), its gate, its whole swings, the terrain of each."""
 
     recording: Path
     segments: Spans
+    command: NDArray[Any]
     gate: GateSignal
     swings: Spans
     terrains: tuple[str, ...]
@@ -95,7 +96,7 @@ class LegSetup:
         swings = swings_of(read.sensed.swing[:, self.gate.foot], read.segments)
         terrains = read.meta.get("terrains") or [UNKNOWN] * len(read.segments)
         walked = tuple(terrains[segment_of(swing, read.segments)] for swing in swings)
-        return LegRecording(path, read.segments, self.gate.watch(read, tau), swings, walked)
+        return LegRecording(path, read.segments, read.sensed.command, self.gate.watch(read, tau), swings, walked)
 
     def recordings(self, walk: Walk) -> Iterator[LegRecording]:
         """Yield the leg in the recordings of a walk; not where the gate's method does not estimate it."""

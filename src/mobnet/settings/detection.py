@@ -16,6 +16,8 @@ class SwingGate(Section):
     method: base.MethodName
     lift_off_s: base.NotNegative = Field(le=1)
     landing_s: base.NotNegative = Field(le=1)
+    contact_landing_s: base.NotNegative = Field(le=1)
+    contact_height_m: base.NotNegative = Field(le=1)
     contact_n: base.Newton
     contact_deg: base.Real = Field(gt=0, le=90)
     contact_s: base.Real = Field(ge=0.001, le=1)
@@ -26,6 +28,7 @@ class Thresholds(Section):
 
     margin: base.Real = Field(ge=1, le=10)
     scale_quantile: base.InnerShare
+    command_quantile: base.InnerShare
     tail_share: base.Real = Field(ge=0.01, le=0.5)
     least_swings: base.Whole = Field(ge=20, le=100_000)
     resamples: base.Whole = Field(ge=50, le=100_000)
@@ -49,12 +52,16 @@ class CurveGrid(Section):
 
 
 class Detector(Section):
-    """A detector: signals of a method's estimate, each with a threshold of its own, or with `norm` one of all."""
+    """A detector: signals of a method's estimate, each with a threshold of its own, or with `norm` one of all.
+
+    Thresholds follow the phase of the swing in so many `phases`, and where it is `commanded` what the robot is told.
+    """
 
     method: base.MethodName
     signals: Annotated[base.Some[Signal], AfterValidator(base.distinct)]
     norm: base.Flag = False
     phases: base.Whole = Field(default=1, ge=1, le=100)
+    commanded: base.Flag = False
 
 
 class Detection(Section):

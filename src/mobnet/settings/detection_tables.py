@@ -23,6 +23,12 @@ class DetectorTable(AlarmTable):
     kind: base.ThresholdsName
 
 
+class FoundByRate(AlarmTable):
+    """Collisions that detectors find at each wanted rate of false alarms, the best of them beside another one."""
+
+    beside: base.DetectorName
+
+
 class SmallestForce(DetectorTable):
     """The force that a share of the collisions of each kind must have to be found.
 

@@ -14,6 +14,7 @@ from mobnet.settings.detection_tables import (
     Figure13,
     Figure14,
     Figure15,
+    FoundByRate,
     Links,
     SmallestForce,
 )
@@ -499,6 +500,7 @@ class Evaluation(Section):
     table_09: DetectorTable
     table_13: DetectorTable
     false_alarms: AlarmTable
+    found_by_rate: FoundByRate
     smallest_force: SmallestForce
     links: Links
     figure_13: Figure13

@@ -9,6 +9,8 @@ from csv_files import check_golden, markdown_cells, read_table
 from made_detections import write_detections
 
 from mobnet.evaluation.measure.detection.smallest_force import smallest_force
+from mobnet.evaluation.number.number import Number
+from mobnet.evaluation.tables.further.found_by_rate import gain_text
 from mobnet.settings.settings import Settings
 
 Make = Callable[..., Path]
@@ -93,8 +95,31 @@ def test_rates_are_counted_and_compared_with_what_was_promised(made: Make) -> No
     assert number("largest", "in place", "measured") == (0.0, 0)
     assert number("largest", "random", "measured") == (pytest.approx(1000.0), 100)
     assert number("contact", "random", "within")[0] == 0.0
+    # random walking and the swings between pushes together: 2 alarms in 200 swings
+    assert number("collision", "held out", "measured") == (pytest.approx(10.0), 2)
+    assert number("collision", "held out", "within") == (1.0, 200)
     interval = rows["robots", "MOB", "largest", "in place", "measured"]
     assert (interval.low, interval.high) == (0.0, pytest.approx(36.9, abs=0.1))  # of none in 0.1 h (Garwood)
+
+
+def test_rates_of_false_alarms_have_what_is_found_and_a_sentence(made: Make) -> None:
+    table = made("found_by_rate")
+    rows = {(row.level, row.detector, row.kind, row.quantity): row for row in read_table(table)}
+    half = rows["robots", "MOB-Net-sigma", "bump", "found"]
+    assert (half.value, half.count) == (0.5, 24)
+    assert rows["robots", "MOB-Net-OR", "collision", "delay"].value == pytest.approx(21.5)
+    sentence = (
+        "Robots: whoever accepts 1, 10 or 60 false alarms of a leg in an hour of random walking finds "
+        "100.0, 100.0 or 100.0 % of these collisions with MOB-Net-OR, the detector that finds most at 1"
+    )
+    assert sentence in table.with_suffix(".md").read_text()
+
+
+def test_the_sentence_names_the_best_detector_beside_the_papers() -> None:
+    shares = {"other": [Number(0.5), Number(0.9)], "paper": [Number(0.25), Number(1.0)]}
+    text = gain_text([1.0, 10.0], shares, "paper")
+    assert "finds 50.0 or 90.0 % of these collisions with other, the detector that finds most at 1" in text
+    assert text.endswith("; paper finds 25.0 or 100.0 %.")
 
 
 def test_what_is_named_is_counted_for_what_was_hit(made: Make) -> None:

@@ -16,7 +16,9 @@ from mobnet.settings.methods import swept_names
 from mobnet.settings.settings import Settings
 
 TABLES = {  # that are no entry of `tables` -> their columns
-    **dict.fromkeys(("table_09", "table_13", "false_alarms", "smallest_force", "links"), DETECTION),
+    **dict.fromkeys(
+        ("table_09", "table_13", "false_alarms", "found_by_rate", "smallest_force", "links"), DETECTION
+    ),
     "calibration": CALIBRATION, "coverage": COVERAGE, "error_budget": ERRORS, "hourly": HOURLY, "kinds": KINDS,
     "latency": LATENCY, "methods": METHODS,
 }  # fmt: skip

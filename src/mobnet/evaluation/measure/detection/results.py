@@ -14,7 +14,7 @@ from mobnet.evaluation.number.intervals import RunGrid
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.single import share
 from mobnet.plan.detection import Detections
-from mobnet.settings.detection_tables import DetectorTable
+from mobnet.settings.detection_tables import AlarmTable
 from mobnet.settings.evaluation import Statistics
 
 Row = TypeVar("Row")
@@ -77,7 +77,7 @@ def tries_of(detections: Detections, names: Sequence[str], scenario: str, leg: s
 
 
 def shown_tries(
-    settings: DetectorTable, detections: Detections, scenario: str, kind: str
+    settings: AlarmTable, detections: Detections, scenario: str, kind: str
 ) -> Iterator[tuple[str, dict[str, list[Try]]]]:
     """Yield each level of a table with what those of its detectors that were tried said, as `tries_of` does."""
     for level in settings.levels:

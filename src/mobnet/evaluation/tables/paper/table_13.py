@@ -6,6 +6,7 @@ from pathlib import Path
 from mobnet.core.columns import DETECTION
 from mobnet.core.detections import Threshold
 from mobnet.core.joints import JointLayout
+from mobnet.detection.signals import MEAN, RATIO, STD
 from mobnet.evaluation.measure.detection.results import Detections, owners, rows_of
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.number import number_text, published_row
@@ -20,7 +21,9 @@ QUANTITY = "threshold"
 def table_13(
     settings: DetectorTable, layout: JointLayout, published: PublishedTable, detections: Detections, table_dir: Path
 ) -> None:
-    """Write table_13.csv, .tex and .md: thresholds [N m], means over the robots of a level with the least and the most.
+    """Write table_13.csv, .tex and .md: thresholds, means over the robots of a level with the least and the most.
+
+    They are torques [N m], of a ratio without unit [-].
 
     The CSV has the thresholds of all detectors of both legs and by all rules.
     """
@@ -42,7 +45,7 @@ def table_13(
         lines: list[list[str]] = []
         for name in settings.detectors:
             own = [means.get((name, settings.leg, settings.kind, f"{kind}.{joint} 1"))
-                   for joint in joints for kind in ("mean", "std")
+                   for joint in joints for kind in (MEAN, STD, RATIO)
                    if (name, settings.leg, settings.kind, f"{kind}.{joint} 1") in means]  # fmt: skip
             lines.append([name, "ours", *(number_text(value) for value in own)])
             if printed := published_row(published, THRESHOLD, name):
