@@ -23,6 +23,13 @@ class DetectorTable(AlarmTable):
     kind: base.ThresholdsName
 
 
+class ThresholdTable(DetectorTable):
+    """Thresholds; those of the detector `sized` over the paper's say how large errors are, and have to lie in `ratio`."""
+
+    sized: base.DetectorName
+    ratio: base.Span[base.Positive]
+
+
 class SmallestForce(DetectorTable):
     """The force that a share of the collisions of each kind must have to be found.
 

@@ -1,6 +1,7 @@
 """Table 13: thresholds of a leg's joints by the paper's rule, for each detector."""
 
 from collections import defaultdict
+from collections.abc import Sequence
 from pathlib import Path
 
 from mobnet.core.columns import DETECTION
@@ -9,8 +10,8 @@ from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.detection.results import Detections, owners, rows_of
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.number import number_text, published_row
-from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
-from mobnet.settings.detection_tables import DetectorTable
+from mobnet.evaluation.tables.layout import OUTSIDE, Table, in_blocks, write_table
+from mobnet.settings.detection_tables import ThresholdTable
 from mobnet.settings.published import PublishedTable
 
 THRESHOLD = "threshold_nm"  # place of the paper's numbers
@@ -18,11 +19,12 @@ QUANTITY = "threshold"
 
 
 def table_13(
-    settings: DetectorTable, layout: JointLayout, published: PublishedTable, detections: Detections, table_dir: Path
+    settings: ThresholdTable, layout: JointLayout, published: PublishedTable, detections: Detections, table_dir: Path
 ) -> None:
     """Write table_13.csv, .tex and .md: thresholds [N m], means over the robots of a level with the least and the most.
 
-    The CSV has the thresholds of all detectors of both legs and by all rules.
+    Below those of one detector is their ratio to the paper's. The CSV has the thresholds of all detectors of both legs and
+    by all rules.
     """
     rows: list[tuple[Field, ...]] = []
     blocks: list[tuple[list[str], list[list[str]]]] = []
@@ -47,6 +49,14 @@ def table_13(
             lines.append([name, "ours", *(number_text(value) for value in own)])
             if printed := published_row(published, THRESHOLD, name):
                 lines.append(["", "paper", *(number_text(printed[joint]) for joint in joints)])
+            if printed and name == settings.sized:
+                sizes = [ours / printed[joint] for ours, joint in zip(own, joints, strict=True)]
+                lines.append(["", "ratio", *(ratio_text(size, settings.ratio) for size in sizes)])
         blocks.append(([level.replace("_", " ")], lines))
     header = ["Level", "Detector", "", *(f"{joint} [N m]" for joint in joints)]
     write_table(table_dir / "table_13", Table(DETECTION, rows, header, in_blocks(blocks), left=3))
+
+
+def ratio_text(ratio: float, bounds: Sequence[float]) -> str:
+    """Return the text of a ratio [-], marked where it lies outside of its closed bounds."""
+    return number_text(ratio) + ("" if bounds[0] <= ratio <= bounds[1] else OUTSIDE)
