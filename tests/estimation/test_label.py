@@ -1,4 +1,4 @@
-"""The label of the foot sensors: zeroed readings mapped to the joints, less the inertia of what lies below the sensors."""
+"""The label of the foot sensors: zeroed readings mapped to the joints, freed of the inertia below the sensors."""
 
 from dataclasses import replace
 

@@ -24,7 +24,7 @@ class DetectorTable(AlarmTable):
 
 
 class ThresholdTable(DetectorTable):
-    """Thresholds; those of the detector `sized` over the paper's say how large errors are, and have to lie in `ratio`."""
+    """Thresholds; those of the detector `sized` over the paper's say how large errors are; `ratio` is accepted."""
 
     sized: base.DetectorName
     ratio: base.Span[base.Positive]

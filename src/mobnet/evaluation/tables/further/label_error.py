@@ -56,6 +56,6 @@ def with_mean(joints: Sequence[str], values: Array) -> list[tuple[str, float]]:
 
 
 def line(found: Mapping[tuple[str, str, str], Array], owner: str, label: str) -> list[str]:
-    """Return the cells of a robot's label: errors of the joints in the walk, and the means in it and its phases [N m]."""
+    """Return the cells of a robot's label: errors of the joints in the walk, and means of it and its phases [N m]."""
     means = [float(found[owner, label, phase].mean()) for phase in PHASES]
     return [label, *(number_text(value) for value in (*found[owner, label, WALK].tolist(), *means))]

@@ -23,8 +23,8 @@ def table_13(
 ) -> None:
     """Write table_13.csv, .tex and .md: thresholds [N m], means over the robots of a level with the least and the most.
 
-    Below those of one detector is their ratio to the paper's. The CSV has the thresholds of all detectors of both legs and
-    by all rules.
+    Below those of one detector is their ratio to the paper's. The CSV has the thresholds of all detectors of both legs
+    and by all rules.
     """
     rows: list[tuple[Field, ...]] = []
     blocks: list[tuple[list[str], list[list[str]]]] = []
@@ -43,14 +43,14 @@ def table_13(
             rows.append((level, *key, QUANTITY, means[key], *ends, own[0].unit, paper if is_shown else None))
         lines: list[list[str]] = []
         for name in settings.detectors:
-            own = [means.get((name, settings.leg, settings.kind, f"{kind}.{joint} 1"))
-                   for joint in joints for kind in ("mean", "std")
-                   if (name, settings.leg, settings.kind, f"{kind}.{joint} 1") in means]  # fmt: skip
+            keys = [(name, settings.leg, settings.kind, f"{kind}.{joint} 1")
+                    for joint in joints for kind in ("mean", "std")]  # fmt: skip
+            own = [means[key] for key in keys if key in means]
             lines.append([name, "ours", *(number_text(value) for value in own)])
             if printed := published_row(published, THRESHOLD, name):
                 lines.append(["", "paper", *(number_text(printed[joint]) for joint in joints)])
             if printed and name == settings.sized:
-                sizes = [ours / printed[joint] for ours, joint in zip(own, joints, strict=True)]
+                sizes = [ours / theirs for ours, joint in zip(own, joints, strict=True) if (theirs := printed[joint])]
                 lines.append(["", "ratio", *(ratio_text(size, settings.ratio) for size in sizes)])
         blocks.append(([level.replace("_", " ")], lines))
     header = ["Level", "Detector", "", *(f"{joint} [N m]" for joint in joints)]
