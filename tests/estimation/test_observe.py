@@ -9,11 +9,11 @@ from made_swings import unseen
 from mobnet.core.columns import residual_columns
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import read_array
+from mobnet.estimation.label import foot_label
 from mobnet.estimation.low_pass import low_pass
-from mobnet.estimation.observe import observe, observer_of, zeroed
+from mobnet.estimation.observe import observe, observer_of
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.robot.nominal import NominalModel
-from mobnet.robot.wrench import feet_torque
 
 RATE_HZ, GAIN_HZ = 1000.0, 100.0
 META = {"scenario": "random_walk", "level": "ideal", "seed": 3}
@@ -58,7 +58,7 @@ def test_file_has_residual_then_truth_and_says_where_from(run, recording, robot,
 
 
 def test_the_label_of_foot_sensors_stands_beside_the_truth(run, recording, robot, written, tmp_path):
-    """J^T F of (2) behind the observer's low-pass, segment by segment; r and the truth do not depend on the forces."""
+    """That of test_label.py, by the wrenches of the file; r and the truth do not depend on the forces."""
     rng = np.random.default_rng(0)
     wrenches = {side: rng.normal(0.0, 100.0, (200, 6)) for side in ("left", "right")}
     truth = replace(recording.truth, wrench_left_foot=wrenches["left"], wrench_right_foot=wrenches["right"])
@@ -68,22 +68,9 @@ def test_the_label_of_foot_sensors_stands_beside_the_truth(run, recording, robot
     labelled, meta = read_array(tmp_path / "robot_1")
     parts = np.split(labelled, 3, axis=1)
     np.testing.assert_array_equal(np.concatenate(parts[:2], axis=1), read_array(tmp_path / "exact_model")[0])
-    swings = zip(wrenches.items(), recording.sensed.swing.T, strict=True)
-    torque = feet_torque(
-        NominalModel(robot), recording.sensed.q, {side: zeroed(wrench, swing) for (side, wrench), swing in swings}
-    )
-    expected = np.concatenate([low_pass(torque[:100], GAIN_HZ, RATE_HZ), low_pass(torque[100:], GAIN_HZ, RATE_HZ)])
+    expected = foot_label(NominalModel(robot), recording, wrenches, GAIN_HZ)
     np.testing.assert_allclose(parts[2], expected, rtol=1e-4, atol=1e-2)
     assert [column["name"] for column in meta["columns"]][2 * robot.layout.nv] == "label_lp.V1"
-
-
-def test_a_foots_sensor_is_zeroed_where_the_foot_swings():
-    """A push on the foot in the swing does not matter; without a swing the reading stays as it is."""
-    swing, wrench = np.repeat([0, 1, 0], 100), np.full((300, 6), 5.0)
-    wrench[swing == 0] += 400.0
-    wrench[120:140] += 80.0
-    np.testing.assert_allclose(zeroed(wrench, swing), wrench - 5.0)
-    np.testing.assert_array_equal(zeroed(wrench, np.zeros(300)), wrench)
 
 
 def test_every_segment_starts_anew(run, recording, nominal, written, tmp_path):

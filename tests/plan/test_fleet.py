@@ -50,6 +50,8 @@ def test_a_variant_is_another_plant_for_the_same_networks(plan: Plan) -> None:
     assert [level(robot, "robots_other").surrogate.seed for robot in ROBOTS] == [2, 3, 4]
     law = level("robot_1", "robots_law")
     assert (law.surrogate.parts, law.friction) == (("body", "sensors"), ("stribeck", "load", "loss"))
+    body = level("robot_1", "robots_body")  # without drives and without friction
+    assert (body.surrogate.parts, body.friction) == (("body",), ())
     same, other = (plan.files.robots["robot_1"].networks("MOB-Net", 101, "changed_walk", name)
                    for name in ("robot_1", "robot_1_robots_other"))  # fmt: skip
     assert same == other

@@ -183,6 +183,7 @@ DATA = ("set", "quantity", "part", "value", "unit", "published")
 BIN = ("set", "command", "bin_from", "bin_to", "count")
 STEPS = (*BIN, "commanded", "measured", "ratio", "within", "unit")
 UNCERTAINTY = ("limb", "joint", "set", "value", "unit", "published", "ratio", "within")
+LABEL_ERROR = ("robot", "label", "phase", "joint", "value", "unit")
 COVERAGE = (
     "scenario", "level", "measure", "joint", "block_count", "with_rte", "without_rte", "ratio", "low", "high",
 )  # fmt: skip

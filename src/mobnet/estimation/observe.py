@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from mobnet.core.columns import EXTERNAL, named, recording_columns, residual_columns
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import check_rate, read_array, write_array
+from mobnet.estimation.label import foot_label
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observer import MomentumObserver, TorqueKind
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.nominal import NominalModel
-from mobnet.robot.wrench import feet_torque
 from mobnet.settings.methods import Observer
 from mobnet.settings.plant import Level
 from mobnet.settings.robot import RobotTable
@@ -54,7 +54,8 @@ def observe(
     parts = residual_and_truth(momentum, read, external)
     labelled = level.labels == "foot_sensors"
     if labelled:
-        parts = (*parts, _label(momentum, read, recording, description))
+        wrenches = read_wrenches(recording, description)
+        parts = (*parts, foot_label(momentum.nominal, read, wrenches, observer.gain_hz))
     meta = {
         "rate_hz": read.rate_hz,
         **{key: read.meta[key] for key in CARRIED if key in read.meta},
@@ -89,25 +90,8 @@ def residual_and_truth(
     return residual, truth
 
 
-def _label(
-    observer: MomentumObserver, read: SensedRecording, recording: Path, robot: RobotDescription
-) -> NDArray[np.float64]:
-    """Return J^T F of the measured wrenches of the feet, low-passed (T, nv) [N] and [N m], segment by segment."""
+def read_wrenches(recording: Path, robot: RobotDescription) -> dict[str, NDArray[np.float32]]:
+    """Read the wrenches of the feet in a recording, side -> (T, 6) [N] and [N m], as their sensors read them."""
     columns = recording_columns(robot.layout)
-    wrenches = dict[str, NDArray[np.float64]]()
-    for side, swing in zip(robot.feet, read.sensed.swing.T, strict=True):
-        names = [name for name, *_ in columns[f"wrench_{side}_foot"]]
-        wrenches[side] = zeroed(read_array(recording, names, robot.layout)[0], swing)
-    torque = feet_torque(observer.nominal, read.sensed.q, wrenches)
-    # (O8) is mapped first and filtered then, because J^T times a low-passed F is not the low-pass of J^T F.
-    for span in read.spans():
-        torque[span] = low_pass(torque[span], observer.gain_hz, read.rate_hz)
-    return torque
-
-
-def zeroed(wrench: NDArray[Any], swing: NDArray[Any]) -> NDArray[np.float64]:
-    """Return a foot's wrench (T, 6) [N] and [N m] without its constant error, the median where the foot swings (T,)."""
-    # F_0 of (O8): a foot in the air is touched by pushes alone, which are too rare to move a median. A recording
-    # without a swing tells nothing of the error.
-    hanging = wrench[swing > 0]
-    return wrench - (np.median(hanging, axis=0) if len(hanging) else 0.0)
+    names = {side: [name for name, *_ in columns[f"wrench_{side}_foot"]] for side in robot.feet}
+    return {side: read_array(recording, own, robot.layout)[0] for side, own in names.items()}

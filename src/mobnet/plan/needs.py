@@ -63,6 +63,13 @@ def _uncertainty(files: Files, _: Any) -> Needs:
     return {"sets": {name: files.training("residuals", name) for name in names}, "robots": robots}
 
 
+def _label_error(files: Files, _: Any) -> Needs:
+    """Return the first recording of each robot from which its legs learn, with its residual."""
+    kinds = ("recordings", "residuals")
+    walks = {robot: tuple(own.training(kind, "walk")[0] for kind in kinds) for robot, own in files.robots.items()}
+    return {"walks": walks}
+
+
 def _coverage(files: Files, _: Any) -> Needs:
     """Return the first robot's training sets with and without random torque, its tests, and what the network sees."""
     sets = {"with RTE": "walk", "without RTE": "walk_plain"}
@@ -170,6 +177,7 @@ NEEDS: Mapping[str, Callable[[Files, Any], Needs]] = {  # products in which para
     "steps": lambda files, _: {"sets": {"walk": files.training("recordings", "walk")}},
     "coverage": _coverage,
     "uncertainty": _uncertainty,
+    "label_error": _label_error,
     "kinds": lambda files, _: {"folders": _folders_of_kinds(files), "figure_17": files.settings.evaluation.figure_17},
     "calibration": _calibration,
     "amplitude": _amplitude,

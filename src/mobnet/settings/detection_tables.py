@@ -29,6 +29,13 @@ class FoundByRate(AlarmTable):
     beside: base.DetectorName
 
 
+class ThresholdTable(DetectorTable):
+    """Thresholds; those of the detector `sized` over the paper's say how large errors are; `ratio` is accepted."""
+
+    sized: base.DetectorName
+    ratio: base.Span[base.Positive]
+
+
 class SmallestForce(DetectorTable):
     """The force that a share of the collisions of each kind must have to be found.
 

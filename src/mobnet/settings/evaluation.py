@@ -17,6 +17,7 @@ from mobnet.settings.detection_tables import (
     FoundByRate,
     Links,
     SmallestForce,
+    ThresholdTable,
 )
 
 Metric = Annotated[str, Field(pattern=rf"^({METRIC})$")]
@@ -447,6 +448,12 @@ class Uncertainty(Section):
     robot_ratio: base.Span[Annotated[base.Real, Field(ge=0.01, le=100)]]
 
 
+class LabelError(Section):
+    """Errors of the labels of foot sensors at the joints of a leg, in a walk of each surrogate robot."""
+
+    leg: base.LimbName
+
+
 class Latency(Section):
     """The table of latency: stretches of ticks of a method's networks."""
 
@@ -498,7 +505,7 @@ class Evaluation(Section):
     measures: dict[base.LowerName, Measure] = {}
     figures: dict[base.LowerName, LimbRuns] = {}
     table_09: DetectorTable
-    table_13: DetectorTable
+    table_13: ThresholdTable
     false_alarms: AlarmTable
     found_by_rate: FoundByRate
     smallest_force: SmallestForce
@@ -511,6 +518,7 @@ class Evaluation(Section):
     commands: CommandsFigure
     steps: Steps
     uncertainty: Uncertainty
+    label_error: LabelError
     latency: Latency
     compute: Compute
 

@@ -86,11 +86,14 @@ class FootRow(Section):
 class SoleRow(Section):
     """What every foot stands on, in the foot's frame [m].
 
-    The force/torque sensor is at `sensor_pos`; the box that touches the ground has half lengths `box_half` around
-    `box_centre`, and its lower face is at `height`.
+    The force/torque sensor is at `sensor_pos`; below it is a plate of the mass `plate_kg`, with its centre of mass at
+    `plate_com`. The box that touches the ground has half lengths `box_half` around `box_centre`, and its lower face is
+    at `height`.
     """
 
     sensor_pos: base.Vector3
+    plate_kg: base.NotNegative
+    plate_com: base.Vector3
     box_centre: base.Vector3
     box_half: tuple[base.Length, base.Length, base.Length]
     height: base.Metres

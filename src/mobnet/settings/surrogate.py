@@ -19,7 +19,6 @@ from mobnet.settings.base import (
     Some,
     SurrogateLevelName,
     TrainingSetName,
-    Vector3,
     Whole,
     distinct,
 )
@@ -84,8 +83,6 @@ class SensorErrors(Section):
     foot_gain_share: NotNegative = Field(le=0.2)
     foot_force_n: NotNegative = Field(le=200)
     foot_moment_nm: NotNegative = Field(le=50)
-    plate_kg: NotNegative = Field(le=10)
-    plate_com_m: Vector3
     plate_share: Real = Field(ge=0, le=0.5)
 
 

@@ -64,7 +64,8 @@ def draw_faults(
 ) -> Faults:
     """Draw the errors of a surrogate robot's sensors, a plant stepped at a rate [1/s]."""
     late, sizes = round(rng.uniform(*errors.imu_late_s) * rate_hz), [errors.foot_force_n, errors.foot_moment_nm]
-    known = errors.plate_kg * (1.0 + errors.plate_share * rng.standard_normal())
+    known = robot.sole.plate_kg
+    plate = known * (1.0 + errors.plate_share * rng.standard_normal())
     return no_faults(model)._replace(
         hidden=1,
         zero=errors.encoder_zero_rad * rng.standard_normal(robot.layout.nu),
@@ -74,8 +75,8 @@ def draw_faults(
         late=late,
         gain=1.0 + errors.foot_gain_share * rng.standard_normal((len(SIDES), 6)),
         offset=np.repeat(sizes, 3) * rng.standard_normal((len(SIDES), 6)),
-        plate=np.array([errors.plate_kg, known]),
-        arm=np.subtract(errors.plate_com_m, robot.sole.sensor_pos),
+        plate=np.array([plate, known]),
+        arm=np.subtract(robot.sole.plate_com, robot.sole.sensor_pos),
         past=np.zeros((late + 1, INERTIAL)),
     )
 

@@ -77,6 +77,8 @@ def test_thresholds_stand_beside_the_papers(made: Make) -> None:
     assert rows["robots", "MOB", "collision", "mean.LL4 1"].published is None
     assert "|  | MOB | ours | 1.50 | 3.00 | 4.50 | 6.00 | 7.50 | 9.00 |" in table.with_suffix(".md").read_text()
     assert "|  |  | paper | 19.25 | 60.28 | 114.62 | 111.98 | 38.94 | 15.62 |" in table.with_suffix(".md").read_text()
+    ratios = [line for line in markdown_cells(table) if line[2] == "ratio"]
+    assert ratios == [["", "", "ratio", "0.08*", "0.05*", "0.04*", "0.05*", "0.19*", "0.58"]] * 2
 
 
 def test_rates_are_counted_and_compared_with_what_was_promised(made: Make) -> None:

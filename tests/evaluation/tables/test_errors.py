@@ -133,8 +133,9 @@ def test_tables_of_the_repository_label_every_row_and_find_its_printed_numbers(s
     for name, table in settings.evaluation.tables.items():
         for row in table.rows:
             assert len(row.labels) == len(table.header), name
-            for method in row.methods:  # `further` ones are not the paper's
-                assert published_row(settings.published.tables[name], row.paper or "", method), (name, method)
+            if published := settings.published.tables.get(name):
+                for method in row.methods:  # `further` ones are not the paper's
+                    assert published_row(published, row.paper or "", method), (name, method)
 
 
 TABLE = ErrorTable.model_construct(header=("Set", "Level"))

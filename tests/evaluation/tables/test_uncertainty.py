@@ -8,8 +8,8 @@ import pytest
 from csv_files import check_golden, read_table
 
 from mobnet.core.store import read_array, write_array
-from mobnet.evaluation.tables.further.uncertainty import OUTSIDE, target_std, verdict
-from mobnet.evaluation.tables.layout import note_tex
+from mobnet.evaluation.tables.further.uncertainty import target_std, verdict
+from mobnet.evaluation.tables.layout import OUTSIDE, note_tex
 from mobnet.settings.settings import Settings
 
 

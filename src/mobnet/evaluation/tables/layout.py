@@ -27,6 +27,7 @@ TEX_SPECIAL = {
     "|": r"\textbar{}",
 }  # fmt: skip
 MINUS = re.compile(r"(?<![\w-])-(?=\d)")
+OUTSIDE = "*"  # behind a ratio that lies outside of its bounds
 RULE = r"\midrule"
 GAP = r"\addlinespace"
 # Between the parts of a table that is wider than a page; a paper may define it to end a float and begin another.

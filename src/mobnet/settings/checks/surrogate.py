@@ -47,8 +47,8 @@ def _fleet_problems(settings: Settings) -> Iterator[Problem]:
         if name in taken or (name == fleet.name and place != ("name",)):
             yield ("fleet", *place), misfit(name, "a name that is no level's")
     for name, row in fleet.variants.items():
-        if row.parts is not None and ("drives" in row.parts) == bool(row.friction):
-            accepted = "terms of (23) without hidden drives, or [] with them"
+        if row.parts is not None and "drives" in row.parts and row.friction:
+            accepted = "[], as the hidden drives have friction of their own"
             yield ("fleet", "variants", name, "friction"), misfit(list(row.friction), accepted)
 
     for name, other in fleet.sets.items():

@@ -10,13 +10,12 @@ from mobnet.core.columns import RESIDUAL, UNCERTAINTY, named
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import label_of, read_array
 from mobnet.evaluation.number.number import number_text
-from mobnet.evaluation.tables.layout import Line, Table, in_blocks, write_table
+from mobnet.evaluation.tables.layout import OUTSIDE, Line, Table, in_blocks, write_table
 from mobnet.settings.evaluation import Uncertainty
 from mobnet.settings.networks import NetworkRow
 from mobnet.settings.published import PublishedUncertainty
 
 PLANT = "section 5.1"  # head of the column of its plant
-OUTSIDE = "*"  # behind a ratio that lies outside of its bounds
 Record = tuple[str, str, str, float, str, float | None, float | None, str]  # a row of UNCERTAINTY
 
 

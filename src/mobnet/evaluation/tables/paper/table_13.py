@@ -1,6 +1,7 @@
 """Table 13: thresholds of a leg's joints by the paper's rule, for each detector."""
 
 from collections import defaultdict
+from collections.abc import Sequence
 from pathlib import Path
 
 from mobnet.core.columns import DETECTION
@@ -10,8 +11,8 @@ from mobnet.detection.signals import MEAN, RATIO, STD
 from mobnet.evaluation.measure.detection.results import Detections, owners, rows_of
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.number import number_text, published_row
-from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
-from mobnet.settings.detection_tables import DetectorTable
+from mobnet.evaluation.tables.layout import OUTSIDE, Table, in_blocks, write_table
+from mobnet.settings.detection_tables import ThresholdTable
 from mobnet.settings.published import PublishedTable
 
 THRESHOLD = "threshold_nm"  # place of the paper's numbers
@@ -19,13 +20,14 @@ QUANTITY = "threshold"
 
 
 def table_13(
-    settings: DetectorTable, layout: JointLayout, published: PublishedTable, detections: Detections, table_dir: Path
+    settings: ThresholdTable, layout: JointLayout, published: PublishedTable, detections: Detections, table_dir: Path
 ) -> None:
     """Write table_13.csv, .tex and .md: thresholds, means over the robots of a level with the least and the most.
 
     They are torques [N m], of a ratio without unit [-].
 
-    The CSV has the thresholds of all detectors of both legs and by all rules.
+    Below those of one detector is their ratio to the paper's. The CSV has the thresholds of all detectors of both legs
+    and by all rules.
     """
     rows: list[tuple[Field, ...]] = []
     blocks: list[tuple[list[str], list[list[str]]]] = []
@@ -44,12 +46,20 @@ def table_13(
             rows.append((level, *key, QUANTITY, means[key], *ends, own[0].unit, paper if is_shown else None))
         lines: list[list[str]] = []
         for name in settings.detectors:
-            own = [means.get((name, settings.leg, settings.kind, f"{kind}.{joint} 1"))
-                   for joint in joints for kind in (MEAN, STD, RATIO)
-                   if (name, settings.leg, settings.kind, f"{kind}.{joint} 1") in means]  # fmt: skip
+            keys = [(name, settings.leg, settings.kind, f"{kind}.{joint} 1")
+                    for joint in joints for kind in (MEAN, STD, RATIO)]  # fmt: skip
+            own = [means[key] for key in keys if key in means]
             lines.append([name, "ours", *(number_text(value) for value in own)])
             if printed := published_row(published, THRESHOLD, name):
                 lines.append(["", "paper", *(number_text(printed[joint]) for joint in joints)])
+            if printed and name == settings.sized:
+                sizes = [ours / theirs for ours, joint in zip(own, joints, strict=True) if (theirs := printed[joint])]
+                lines.append(["", "ratio", *(ratio_text(size, settings.ratio) for size in sizes)])
         blocks.append(([level.replace("_", " ")], lines))
     header = ["Level", "Detector", "", *(f"{joint} [N m]" for joint in joints)]
     write_table(table_dir / "table_13", Table(DETECTION, rows, header, in_blocks(blocks), left=3))
+
+
+def ratio_text(ratio: float, bounds: Sequence[float]) -> str:
+    """Return the text of a ratio [-], marked where it lies outside of its closed bounds."""
+    return number_text(ratio) + ("" if bounds[0] <= ratio <= bounds[1] else OUTSIDE)
