@@ -78,6 +78,19 @@ class Jobs:
         recording, residual = (self.files.array(kind, scenario, level, seed) for kind in ("recordings", "residuals"))
         return Shard(seed, recording, residual, next(iter(self.files.motion(scenario, seed)), None))
 
+    def falls(self, seed: int) -> Job:
+        """Return the count of a robot's falls with each random torque of the trial."""
+        trial = self.settings.trials.random_torque
+        arguments = {
+            "settings": walk_settings(self.settings, trial.scenario, self.files.robot),
+            "seed": seed,
+            "amplitudes_nm": trial.amplitudes_nm,
+            "walked_s": trial.walked_s,
+            "out": (out := self.files.falls),
+        }
+        call = Call("mobnet.evaluation.measure.data.falls:count_falls", arguments)
+        return Job(call, (), (), {str(out): ()})
+
     def fit(self, method: str) -> Job:
         """Return the fit of a method without networks to the training sets of its limbs."""
         row = self.catalogue.method(method)

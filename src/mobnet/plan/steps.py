@@ -62,6 +62,8 @@ def trial_steps(files: Files) -> Iterator[Step]:
     yield from _walks(files, ((walk.scenario, walk.level, seed) for seed in files.development_seeds))
     yield from (_fit(files, name) for name in fits if files.fit(name) and name not in files.own_fits)
     yield from _trainings(files, files.tried_networks)
+    first = files.settings.trials.random_torque.first_seed
+    yield from (_falls(own, seed) for seed, own in enumerate(files.robots.values(), start=first))
 
 
 def _motions(files: Files) -> Iterator[Step]:
@@ -88,6 +90,13 @@ def _walks(files: Files, recorded: Iterable[Place]) -> Iterator[Step]:
             job = partial(Jobs(files).collect, account, scenario, level, part)
             arrays = [files.array(kind, scenario, level, seed) for seed in part for kind in ("recordings", "residuals")]
             yield Step(Work(account, "collect", *walked(files, scenario, part)), _both(arrays), job)
+
+
+def _falls(files: Files, seed: int) -> Step:
+    """Return the count of a robot's falls in the trial of random torques."""
+    trial, account = files.settings.trials.random_torque, _account("falls", files, "all")
+    work = Work(account, "collect", {"surrogate s": trial.walked_s * len(trial.amplitudes_nm)}, 0.0)
+    return Step(work, (str(files.falls),), partial(Jobs(files).falls, seed))
 
 
 def _fit(files: Files, method: str) -> Step:

@@ -13,7 +13,7 @@ from mobnet.settings.trials import Trial, of_lengths, references, tuned
 
 
 def trial_products(files: Files) -> Iterator[Product]:
-    """Yield the tables of what was tried: `tuning` and `lengths`."""
+    """Yield the tables of what was tried: `tuning`, `lengths` and `random_torque`."""
     settings = files.settings
     given = settings.trials, settings.methods
     tables = {
@@ -22,6 +22,10 @@ def trial_products(files: Files) -> Iterator[Product]:
     }
     for name, trials in tables.items():
         yield _product(files, files.results / "trials" / name, trials)
+    counted, out = tuple(own.falls for own in files.robots.values()), files.results / "trials" / "random_torque"
+    arguments = {"counted": counted, "statistics": settings.evaluation.statistics, "out": out}
+    job = Job(Call("mobnet.evaluation.tables.further.falls:falls", arguments), tuple(map(str, counted)))
+    yield _table(out, job)
 
 
 def _product(files: Files, out: Path, trials: Iterable[Trial]) -> Product:
@@ -45,7 +49,12 @@ def _product(files: Files, out: Path, trials: Iterable[Trial]) -> Product:
     inputs = dict.fromkeys(map(str, files_in([recordings, residuals, list(tried), weights])))
     kinds = dict.fromkeys(f"{KINDS}.{row.kind}" for one in tried for row in one.methods.values())
     call = Call("mobnet.evaluation.tables.further.trials:trials", arguments)
-    return Product(out.name, Job(call, tuple(inputs), tuple(kinds)), tuple(f"{out}.{ending}" for ending in TABLE))
+    return _table(out, Job(call, tuple(inputs), tuple(kinds)))
+
+
+def _table(out: Path, job: Job) -> Product:
+    """Return the product of a job that writes a table."""
+    return Product(out.name, job, tuple(f"{out}.{ending}" for ending in TABLE))
 
 
 def _tried(files: Files, trial: Trial) -> Iterator[Tried]:

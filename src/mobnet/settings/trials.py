@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from itertools import product
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
+
+from pydantic import Field
 
 from mobnet.settings import base
 from mobnet.settings.base import Section
@@ -36,12 +38,26 @@ class Lengths(Section):
     rate_shares: base.Distinct[base.PositiveShare]
 
 
+class Explored(Section):
+    """How each robot of the fleet walks while its falls are counted: with each largest random torque on legs and waist.
+
+    The first robot's walks have the seed `first_seed`, between those of development and of training; the next robot's
+    have the next one.
+    """
+
+    scenario: base.ScenarioName
+    amplitudes_nm: base.Rising[Annotated[base.Positive, Field(le=1000)]]
+    walked_s: base.Real = Field(ge=1, le=7200)
+    first_seed: base.Whole = Field(ge=601, le=900)
+
+
 class Trials(Section):
-    """The trials, of networks of one limb."""
+    """The trials: variants of methods, with networks of one limb, and random torques."""
 
     limb: base.NetworkName
     tuning: Tuning
     lengths: Lengths
+    random_torque: Explored
 
 
 class Trial(NamedTuple):
