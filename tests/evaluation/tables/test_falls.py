@@ -27,7 +27,7 @@ def test_the_torque_is_raised_until_a_robot_falls(
     paths = [tmp_path / f"robot_{k}.csv" for k, _ in enumerate(counts, start=1)]
     for path, own in zip(paths, counts, strict=True):
         rows = [Falls(path.stem, 50.0 * k, 900.0, fallen) for k, fallen in enumerate(own, start=1)]
-        write_csv(path, FALLS, map(astuple, rows))
+        write_csv(path, FALLS, [astuple(row) for row in rows])
     falls(paths, Statistics(confidence=0.95), tmp_path / "out")
     rows = read_texts(tmp_path / "out.csv")
     assert {row["amplitude_nm"] for row in rows if row["chosen"] == "1"} == ({f"{chosen:g}"} if chosen else set())

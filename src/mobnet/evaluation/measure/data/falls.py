@@ -21,7 +21,7 @@ def count_falls(settings: WalkSettings, seed: int, amplitudes_nm: Sequence[float
     for amplitude in amplitudes_nm:
         rows.append(Falls(settings.level_name, amplitude, walked_s, falls_with(settings, seed, amplitude, walked_s)))
         log.info("%g N m: %d falls in %g s", amplitude, rows[-1].falls, walked_s)
-    write_csv(out, FALLS, map(astuple, rows))
+    write_csv(out, FALLS, [astuple(row) for row in rows])
 
 
 def falls_with(settings: WalkSettings, seed: int, amplitude_nm: float, walked_s: float) -> int:
