@@ -13,11 +13,10 @@ from typing import Any
 
 from benchmarks.__main__ import Row, misses, table
 
+from mobnet.evaluation.measure.data.falls import falls_with
 from mobnet.plan.jobs import walk_settings
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import WalkSettings
-from mobnet.simulation.record import record
-from mobnet.simulation.simulator import Simulator
 
 AMPLITUDES_NM, SECONDS, SEED = (25.0, 50.0, 75.0, 100.0), 900.0, 531
 TERRAINS = ("checks", "plates", "slope", "flat")
@@ -36,12 +35,9 @@ def main(amplitudes: Sequence[float] = AMPLITUDES_NM, seconds: float = SECONDS, 
 
 def _row(walk: WalkSettings, amplitude: float, seconds: float, seed: int) -> Row:
     """Return the falls an hour with one amplitude [N m] on legs and waist."""
-    torque = walk.random_torque.model_copy(update={"legs_waist_nm": amplitude})
-    changed = walk.model_copy(update={"random_torque": torque})
-    rate = changed.rates.data_hz
-    course = record(Simulator(changed, seed), round(seconds * rate), changed.recording, rate, lambda rows: None)
-    print(f"{amplitude:g} N m: {course.falls} falls in {seconds:g} s", file=sys.stderr, flush=True)
-    return {"name": f"falls an hour with {amplitude:g} N m", "ours": course.falls * HOUR_S / seconds, "unit": "1/h"}
+    falls = falls_with(walk, seed, amplitude, seconds)
+    print(f"{amplitude:g} N m: {falls} falls in {seconds:g} s", file=sys.stderr, flush=True)
+    return {"name": f"falls an hour with {amplitude:g} N m", "ours": falls * HOUR_S / seconds, "unit": "1/h"}
 
 
 def _options() -> dict[str, Any]:

@@ -26,9 +26,10 @@ def history(settings, layout):
 
 
 @pytest.mark.parametrize(("scenario", "largest"), [
-    ("robot_walk_plain", 0.0), ("robot_walk", 50.0), ("robot_walk_25", 25.0),
+    ("robot_walk_plain", 0.0), ("robot_walk", 50.0), ("robot_walk_strong", None),
 ])  # fmt: skip
 def test_a_scenario_may_ask_for_another_torque_on_legs_and_waist(settings, layout, scenario, largest):
+    largest = settings.scenarios[scenario].random_torque if largest is None else largest
     walk = walk_settings(settings, scenario, "robot_1")
     law = make_exploration(walk.random_torque, layout, bool(walk.scenario.random_torque))
     own = dict(zip(layout.actuated, law.amplitude, strict=True))

@@ -57,6 +57,22 @@ def test_a_variant_is_another_plant_for_the_same_networks(plan: Plan) -> None:
     assert same == other
 
 
+def test_a_variant_may_walk_otherwise_or_carry_more(plan: Plan) -> None:
+    """In training as in tests: its gait replaces the scenario's, its gains are a share of all robots'."""
+    for scenario, seed in (("changed_walk", 101), ("robot_walk", 1000)):
+        own, gains, gait, payload = (
+            arguments(plan, recording(scenario, f"robot_2{name}", seed, "robot_2"))["settings"]
+            for name in ("", "_robots_gains", "_robots_gait", "_robots_payload")
+        )
+        soft, stiff = gains.walking.leg_stiffness_nm_rad, own.walking.leg_stiffness_nm_rad
+        assert soft == pytest.approx([0.8 * one for one in stiff])
+        assert gait.scenario.narrowed.duration_s == (1.0,)
+        assert (
+            gait.model_copy(update={"scenario": own.scenario, "level_name": own.level_name, "level": own.level}) == own
+        )
+        assert (own.level.surrogate.payload_kg, payload.level.surrogate.payload_kg) == (0.0, 5.0)
+
+
 @pytest.mark.parametrize("robot", ROBOTS)
 def test_a_robot_learns_from_its_own_recordings(plan: Plan, robot: str) -> None:
     """Networks and fits; what it walks on is that of the set which takes the place of the one that a network names."""
@@ -73,10 +89,10 @@ def test_a_level_of_one_robot_is_walked_by_it_alone(plan: Plan) -> None:
     assert {run.estimate for run in runs} >= {plan.files.runs("motion_test", "robots", ["MOB-Net"])[0].estimate}
     trained = [{method for method, _ in plan.files.robots[robot].learned} for robot in ROBOTS]
     assert ["MOB-Net-Single" in methods for methods in trained] == [True, False, False]
-    training = maker(plan, "robot_1/networks/MOB-Net-100-LL-s101/weights.safetensors")
+    training = maker(plan, "robot_1/networks/MOB-Net-strong-LL-s101/weights.safetensors")
     read = {Path(name).parts[2] for name in training.job.inputs}
     assert read == {"robot_1"}
-    assert {path.parts[2] for path in plan.files.training("recordings", "robot_walk_100")} == {"robot_1"}
+    assert {path.parts[2] for path in plan.files.training("recordings", "robot_walk_strong")} == set(ROBOTS)
 
 
 def test_a_fine_tuning_begins_with_the_robot_s_own_network_and_learns_from_the_changed_one(plan: Plan) -> None:

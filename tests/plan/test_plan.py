@@ -260,7 +260,14 @@ def test_scores_and_runs_follow_from_the_section_of_a_product(plan: Plan) -> Non
         ("figure_06", figure, [(figure.scenario, figure.level)]),
         ("methods", rows, [(row.scenario, row.level) for row in rows]),
         ("figure_18", panels, [(test, panels.level) for test in panels.panels]),
-        ("fine_tuning", settings.fine_tuning, [("changed_walk", "robots_other"), ("changed_walk", "robots")]),
+        (
+            "fine_tuning",
+            settings.fine_tuning,
+            [
+                ("changed_walk", level)
+                for level in ("robots_other", "robots", "robots_gains", "robots_gait", "robots_payload")
+            ],
+        ),
     ):
         own: Any = needs_of(plan.files, "any other", section, ["scores"])["scores"]
         assert own == plan.files.scores(tests), name

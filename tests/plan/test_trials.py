@@ -5,10 +5,15 @@ from typing import Any
 
 import pytest
 
+from mobnet.commands.words import TRIALS
+from mobnet.evaluation.number.files import read_texts
 from mobnet.plan.plan import Plan, make_plan
 from mobnet.plan.products import Product
+from mobnet.plan.seeds import FIRST_TRAINING_SEED
 from mobnet.settings.load import load_settings
 from mobnet.settings.trials import compared, trial_name, tuned
+
+FALLS = Path(__file__).parents[2] / "docs/trials/random_torque.csv"
 
 
 @pytest.fixture(scope="module")
@@ -56,7 +61,7 @@ def test_a_trial_changes_what_it_says_and_its_length(plan: Plan) -> None:
 
 def test_trials_read_development_walks_and_no_test(plan: Plan, products: dict[str, Product]) -> None:
     tasks = plan.settings.development
-    for product in products.values():
+    for product in (product for name, product in products.items() if name != "random_torque"):
         recorded = [Path(name) for name in product.job.inputs if "/recordings/" in name or "/residuals/" in name]
         assert {path.parts[-3] for path in recorded} <= {walk.scenario for walk in tasks.values()}
         assert all(501 <= int(path.stem.removeprefix("s")) < 1000 for path in recorded)
@@ -75,8 +80,26 @@ def test_tables_of_trials_are_results_of_their_scale(products: dict[str, Product
         trials = make_plan(load_settings(overrides={"scale": scale}), with_pdf=False).trials
         folder = f"results/{scale}/trials"
         assert {name for one in trials for name in one.outputs} == {
-            f"{folder}/{name}.{ending}" for name in ("tuning", "recipes", "lengths") for ending in ("csv", "tex", "md")
+            f"{folder}/{name}.{ending}" for name in TRIALS for ending in ("csv", "tex", "md")
         }
+
+
+def test_falls_are_counted_of_every_robot_in_walks_of_no_training_and_no_test(plan: Plan) -> None:
+    """The first robot has the first seed; nothing but the largest torque differs between its walks."""
+    steps = {step.outputs[0]: step.job.call.arguments for step in plan.trial_steps if step.rule.startswith("falls")}
+    assert list(steps) == [f"results/default/{robot}/falls.csv" for robot in plan.settings.fleet.robots]
+    assert next(one for one in plan.trials if one.name == "random_torque").job.inputs == tuple(steps)
+    seeds: list[Any] = [given["seed"] for given in steps.values()]
+    assert seeds == [701, 702, 703]
+    assert max(plan.files.development_seeds) < min(seeds)
+    assert max(seeds) < FIRST_TRAINING_SEED
+
+
+@pytest.mark.skipif(not FALLS.is_file(), reason="docs/trials has no copy of this trial")
+def test_the_strongest_random_torque_is_the_one_that_the_trial_chose(plan: Plan) -> None:
+    rows = read_texts(FALLS)
+    (chosen,) = {float(row["amplitude_nm"]) for row in rows if row["chosen"] == "1"}
+    assert plan.settings.scenarios["robot_walk_strong"].random_torque == chosen
 
 
 def test_a_gray_box_is_tried_on_its_fit_and_a_filter_without_networks(products: dict[str, Product]) -> None:

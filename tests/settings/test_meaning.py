@@ -76,7 +76,7 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("methods.MOB-Net-other.start", "FTS-e2e", "the same target"),
     ("methods.MOB-Net-other.start", "MOB-Net-Single", "a method that trains LL"),
     ("methods.MOB-Net-other.network.hidden", 151, "the same GRU for LL"),
-    ("scenarios.robot_walk_100.random_torque", 400.0, "at most 166"),
+    ("scenarios.robot_walk_strong.random_torque", 400.0, "at most 166"),
     ("evaluation.learning_curve.data", "/etc/passwd", "docs/trials"),
     ("evaluation.drift.longest_s", 50.0, "the longest push"),
     ("evaluation.latency.method", "MOB", "method with networks"),

@@ -69,6 +69,16 @@ def test_numbers_lie_in_their_ranges(draw, robot, settings):
     assert not hidden.robot.armature.any()
 
 
+def test_a_payload_adds_to_the_one_that_is_drawn(settings, robot):
+    chosen = SurrogateRobot.model_validate({"seed": 1, "parts": WHOLE, "running_s": (0.0, 0.0)})
+    own, loaded = (
+        draw_hidden(robot, settings.plant, RATE_HZ, settings.surrogate, one, settings.seed)
+        for one in (chosen, chosen.model_copy(update={"payload_kg": 5.0}))
+    )
+    more = {two.name: two.mass - one.mass for one, two in zip(own.robot.bodies, loaded.robot.bodies, strict=True)}
+    assert {name: kg for name, kg in more.items() if kg} == {settings.surrogate.body.payload_body: pytest.approx(5.0)}
+
+
 def mass_matrix(robot):
     """Return the mass matrix (nv, nv) of a robot's plant where it starts."""
     model = robot_spec(robot).compile()

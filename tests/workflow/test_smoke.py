@@ -31,8 +31,8 @@ MADE = ("results", "tables", "figures", "paper", ".snakemake")
 FIGURES = ("figures/smoke/drift.csv", "figures/smoke/amplitude.csv")
 LOST = (  # walks of a test and walks that a network learns from: jobs of most kinds run again
     "results/smoke/recordings/foot_hold",
-    "results/smoke/robot_1/recordings/robot_walk_25",
-    "results/smoke/robot_1/networks/MOB-Net-25-LL-s101",
+    "results/smoke/robot_1/recordings/robot_walk_strong",
+    "results/smoke/robot_1/networks/MOB-Net-strong-LL-s101",
     "results/smoke/scores/foot_hold",
     *FIGURES,
 )

@@ -20,6 +20,7 @@ COMMANDS = {
     "tuning": "train what configs/trials.yaml lists, write results/default/trials/tuning.md; no part of all",
     "recipes": "train each method with each recipe, write results/default/trials/recipes.md; no part of all",
     "lengths": "train for longer and longer, write results/default/trials/lengths.md; no part of all",
+    "random_torque": "count falls by random torque, write results/default/trials/random_torque.md; no part of all",
     "report": "make everything, then report.html: every table and figure with its caption, in one file",
     "compare": "print what differs between docs/results and the fresh tables",
     "snapshot": "store the fresh tables and figures as docs/results",
@@ -34,11 +35,8 @@ EXAMPLES = """
   ./reproduce all --config scale=quick   every table and figure in about an hour, with shorter walks and trainings
   ./reproduce tables/table_05.tex        make one file and what it needs; tables/smoke/table_05.tex at that scale"""
 OWN = {"clean", "setup"}  # commands with options of their own
-TARGETS = {
-    "all": "all",
-    "report": "all",
-    **{name: name for name in ("tuning", "recipes", "lengths")},
-}  # command -> rule of the workflow
+TRIALS = ("tuning", "recipes", "lengths", "random_torque")
+TARGETS = {"all": "all", "report": "all", **{name: name for name in TRIALS}}  # command -> rule of the workflow
 HELP = {"-h", "--help"}
 CONFIG = {"-C", "--config"}
 KEY = re.compile(r"[a-zA-Z_]\w+")  # as Snakemake takes it: of two signs or more
@@ -74,7 +72,7 @@ def parse(words: Sequence[str]) -> Words:
 
 def overview() -> argparse.ArgumentParser:
     """Return the parser that knows all commands by a line."""
-    listing = "".join(f"\n  {name:<10}{text}" for name, text in COMMANDS.items())
+    listing = "".join(f"\n  {name:<15}{text}" for name, text in COMMANDS.items())
     return argparse.ArgumentParser(
         prog="./reproduce",
         usage="./reproduce COMMAND [WORDS], or ./reproduce TARGET...",

@@ -156,7 +156,17 @@ class TrialError:
     best: int
 
 
-SCORES, EPOCHS, TRIALS = (tuple(field.name for field in fields(kind)) for kind in (Score, Epoch, TrialError))
+@dataclass(frozen=True)
+class Falls:
+    """How often a robot fell with a largest random torque on legs and waist [N m] in so much walking [s]."""
+
+    robot: str
+    amplitude_nm: float
+    walked_s: float
+    falls: int
+
+
+SCORES, EPOCHS, TRIALS, FALLS = (tuple(one.name for one in fields(kind)) for kind in (Score, Epoch, TrialError, Falls))
 
 # Tables. `value`, `low`, `high`: a number and its interval; SPREAD: how many networks and walks it is made of, and its
 # standard deviations over them; `runs`: how many runs; `published`: the paper's number. An empty field: there is none.
@@ -179,13 +189,15 @@ TABLE_01 = (
     "limb", "inputs", "input_count", "target", "architecture", "parameters", "horizon_steps", "data",
     "architecture_published", "parameters_published", "horizon_published",
 )  # fmt: skip
+FALLEN = (*FALLS, "per_hour", "low", "high", "chosen")  # of each robot, and of all of them
 DATA = ("set", "quantity", "part", "value", "unit", "published")
 BIN = ("set", "command", "bin_from", "bin_to", "count")
 STEPS = (*BIN, "commanded", "measured", "ratio", "within", "unit")
 UNCERTAINTY = ("limb", "joint", "set", "value", "unit", "published", "ratio", "within")
 LABEL_ERROR = ("robot", "label", "phase", "joint", "value", "unit")
 COVERAGE = (
-    "scenario", "level", "measure", "joint", "block_count", "with_rte", "without_rte", "ratio", "low", "high",
+    "training", "scenario", "level", "measure", "joint", "block_count", "with_rte", "without_rte",
+    "ratio", "low", "high",
 )  # fmt: skip
 CALIBRATION = (
     "test", "level", "pushed", "method", "limb", "measure", "share", "before", "before_low", "before_high",

@@ -74,6 +74,11 @@ class Files(Seeds):
         walk = self.settings.development[task]
         return tuple(self.array(kind, walk.scenario, walk.level, seed) for seed in self.development_seeds)
 
+    @property
+    def falls(self) -> Path:
+        """File of the falls of a robot in the trial of random torques."""
+        return self.results / "falls.csv"
+
     def recorded(self) -> Iterator[Place]:
         """Yield scenario, level and seed of every recording but those of robots of the fleet."""
         for name in self.recorded_sets:

@@ -16,6 +16,7 @@ from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.data import Terrain
 from mobnet.settings.evaluation import Scoring, measured_in
 from mobnet.settings.settings import Settings, WalkSettings
+from mobnet.settings.walking import Walking
 
 KINDS = "mobnet.estimation.kinds"  # modules that a method names as its kind
 MEASURES = "mobnet.evaluation.measure.estimates"  # modules that sections of the evaluation name
@@ -76,6 +77,19 @@ class Jobs:
         """Return one recording of a scenario."""
         recording, residual = (self.files.array(kind, scenario, level, seed) for kind in ("recordings", "residuals"))
         return Shard(seed, recording, residual, next(iter(self.files.motion(scenario, seed)), None))
+
+    def falls(self, seed: int) -> Job:
+        """Return the count of a robot's falls with each random torque of the trial."""
+        trial = self.settings.trials.random_torque
+        arguments = {
+            "settings": walk_settings(self.settings, trial.scenario, self.files.robot),
+            "seed": seed,
+            "amplitudes_nm": trial.amplitudes_nm,
+            "walked_s": trial.walked_s,
+            "out": (out := self.files.falls),
+        }
+        call = Call("mobnet.evaluation.measure.data.falls:count_falls", arguments)
+        return Job(call, (), (), {str(out): ()})
 
     def fit(self, method: str) -> Job:
         """Return the fit of a method without networks to the training sets of its limbs."""
@@ -233,22 +247,33 @@ def scoring(settings: Settings, scenario: str, level: str) -> Scoring:
 
 
 def walk_settings(settings: Settings, scenario: str, level: str) -> WalkSettings:
-    """Return what a walk takes: of terrains and pushes, those that the scenario names."""
-    row = settings.scenarios[scenario]
+    """Return what a walk takes: of terrains and pushes, those that the scenario names; gait and gains of the level."""
+    row, walking, chosen = settings.scenarios[scenario], settings.walking, settings.levels[level].surrogate
+    if chosen:
+        gait = {name: value for name, value in chosen.gait if value is not None}
+        row = row.model_copy(update={"narrowed": row.narrowed.model_copy(update=gait)})
+        walking = _with_gains(walking, chosen.gain_ratio)
     sections = {
         name: getattr(settings, name) for name in WalkSettings.model_fields if name in type(settings).model_fields
     }
     picked = {
         "scenario_name": scenario,
         "scenario": row,
+        "walking": walking,
         "random_torque": settings.random_torque_of(scenario),
         "level_name": level,
         "level": settings.levels[level],
-        "surrogate": settings.surrogate if settings.levels[level].surrogate else None,
+        "surrogate": settings.surrogate if chosen else None,
         "terrain": Terrain(**{name: getattr(settings.terrain, name) for name in row.terrain}),
         "pushes": {name: settings.pushes[name] for name in row.pushes},
     }
     return WalkSettings.model_validate({**sections, **picked})
+
+
+def _with_gains(walking: Walking, ratio: float) -> Walking:
+    """Return the numbers of the controller with all gains of the legs' joints times a ratio."""
+    names = "leg_stiffness_nm_rad", "leg_damping_nms_rad"
+    return walking.model_copy(update={name: tuple(ratio * gain for gain in getattr(walking, name)) for name in names})
 
 
 def _read(needs: object) -> tuple[str, ...]:

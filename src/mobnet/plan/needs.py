@@ -71,8 +71,8 @@ def _label_error(files: Files, _: Any) -> Needs:
 
 
 def _coverage(files: Files, _: Any) -> Needs:
-    """Return the first robot's training sets with and without random torque, its tests, and what the network sees."""
-    sets = {"with RTE": "walk", "without RTE": "walk_plain"}
+    """Return the first robot's training sets with random torques and without, its tests, and what the network sees."""
+    sets = {"with RTE": "walk", "with the strongest RTE": "robot_walk_strong", "without RTE": "walk_plain"}
     settings, (robot, own) = files.settings.evaluation.coverage, next(iter(files.robots.items()))
     return {
         "training": {label: own.training("recordings", name) for label, name in sets.items()},
@@ -87,11 +87,11 @@ def _amplitude(files: Files, section: Any) -> Needs:
     for test in section.tests.values():
         for method in test.methods:
             data = files.catalogue.network(method, test.limb).data
-            own = files.robots.get(test.level, files)
-            scenario = own.settings.training_sets[data].scenario
+            owners = [own for own in files.owners if own.has(test.level)]
+            scenario = owners[0].settings.training_sets[data].scenario
             asked = settings.scenarios[scenario].random_torque
             amplitudes[method] = settings.random_torque_of(scenario).legs_waist_nm if asked else 0.0
-            training[method] = own.training("recordings", data)
+            training[method] = tuple(stem for own in owners for stem in own.training("recordings", data))
     return {"amplitudes": amplitudes, "training": training}
 
 

@@ -66,6 +66,8 @@ def trial_steps(files: Files) -> Iterator[Step]:
         fits = dict.fromkeys(own.catalogue.source_of(name) for name, *_ in own.tried_networks)
         yield from (_fit(own, name) for name in fits if own.fit(name) and name not in own.own_fits)
         yield from _trainings(own, own.tried_networks)
+    first = files.settings.trials.random_torque.first_seed
+    yield from (_falls(own, seed) for seed, own in enumerate(files.robots.values(), start=first))
 
 
 def _motions(files: Files, recorded: Iterable[Place]) -> Iterator[Step]:
@@ -92,6 +94,13 @@ def _walks(files: Files, recorded: Iterable[Place]) -> Iterator[Step]:
             job = partial(Jobs(files).collect, account, scenario, level, part)
             arrays = [files.array(kind, scenario, level, seed) for seed in part for kind in ("recordings", "residuals")]
             yield Step(Work(account, "collect", *walked(files, scenario, part)), _both(arrays), job)
+
+
+def _falls(files: Files, seed: int) -> Step:
+    """Return the count of a robot's falls in the trial of random torques."""
+    trial, account = files.settings.trials.random_torque, _account("falls", files, "all")
+    work = Work(account, "collect", {"surrogate s": trial.walked_s * len(trial.amplitudes_nm)}, 0.0)
+    return Step(work, (str(files.falls),), partial(Jobs(files).falls, seed))
 
 
 def _fit(files: Files, method: str) -> Step:

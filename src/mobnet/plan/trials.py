@@ -13,7 +13,7 @@ from mobnet.settings.trials import Trial, compared, references, tuned
 
 
 def trial_products(files: Files) -> Iterator[Product]:
-    """Yield the tables of what was tried: `tuning`, and what is compared."""
+    """Yield the tables of what was tried: `tuning`, what is compared, and `random_torque`."""
     settings = files.settings
     given = settings.trials, settings.methods
     first = settings.trials.tuning.task
@@ -24,6 +24,10 @@ def trial_products(files: Files) -> Iterator[Product]:
         tables[name] = [*(one for task in tasks for one in references(*given, task)), *trials]
     for name, trials in tables.items():
         yield _product(files, files.results / "trials" / name, trials)
+    counted, out = tuple(own.falls for own in files.robots.values()), files.results / "trials" / "random_torque"
+    arguments = {"counted": counted, "statistics": settings.evaluation.statistics, "out": out}
+    job = Job(Call("mobnet.evaluation.tables.further.falls:falls", arguments), tuple(map(str, counted)))
+    yield _table(out, job)
 
 
 def _product(files: Files, out: Path, trials: Sequence[Trial]) -> Product:
@@ -46,7 +50,12 @@ def _product(files: Files, out: Path, trials: Sequence[Trial]) -> Product:
     inputs = dict.fromkeys(map(str, files_in([list(tasks.values()), weights])))
     kinds = dict.fromkeys(f"{KINDS}.{row.kind}" for one in tried for row in one.methods.values())
     call = Call("mobnet.evaluation.tables.further.trials:trials", arguments)
-    return Product(out.name, Job(call, tuple(inputs), tuple(kinds)), tuple(f"{out}.{ending}" for ending in TABLE))
+    return _table(out, Job(call, tuple(inputs), tuple(kinds)))
+
+
+def _table(out: Path, job: Job) -> Product:
+    """Return the product of a job that writes a table."""
+    return Product(out.name, job, tuple(f"{out}.{ending}" for ending in TABLE))
 
 
 def _task(files: Files, name: str, trials: Iterable[Trial]) -> TriedTask:

@@ -90,8 +90,8 @@ class Commands(Section):
     joystick: RandomCommands
 
 
-class Narrowed(Section):
-    """Ranges of Table 2 that a scenario replaces by narrower ones."""
+class CommandRanges(Section):
+    """Ranges of walking commands in place of those of Table 2."""
 
     step_x_m: base.Range[Step] | None = None
     step_y_m: base.Range[Step] | None = None
@@ -197,7 +197,7 @@ class Scenario(Section):
 
     terrain: base.Distinct[base.TerrainName]
     commands: CommandSource | base.Some[CommandSource] | FixedCommand
-    narrowed: Narrowed = Narrowed()
+    narrowed: CommandRanges = CommandRanges()
     random_torque: base.Flag | Annotated[base.Positive, Field(le=1000)]
     pushes: Annotated[tuple[base.PushName, ...], AfterValidator(base.distinct)] = ()
     motion: base.MotionName | None = None

@@ -46,10 +46,8 @@ def as_robot(catalogue: Catalogue, robot: str) -> Catalogue:
 def varied(level: Level, row: Variant) -> Level:
     """Return the level of a robot with a variant's changes."""
     assert level.surrogate is not None
-    named = {"parts": row.parts, "running_s": row.running_s}
-    ratios = {"friction_ratio": row.friction_ratio, "constant_ratio": row.constant_ratio}
-    given = {key: value for key, value in named.items() if value is not None}
-    changed = SurrogateRobot.model_validate({**dict(level.surrogate), **ratios, **given})
+    given = {name: value for name, value in row if name in SurrogateRobot.model_fields and value is not None}
+    changed = SurrogateRobot.model_validate({**dict(level.surrogate), **given})
     return level.model_copy(update={"surrogate": changed, "friction": row.friction})
 
 

@@ -22,10 +22,12 @@ from mobnet.settings.base import (
     Whole,
     distinct,
 )
+from mobnet.settings.data import CommandRanges
 
 Part = Literal["drives", "body", "sensors"]
 Ratio = Annotated[Real, Field(ge=0.5, le=5)]
 Time = Annotated[Real, Field(ge=0, le=0.05)]  # of a drive or a sensor [s]
+Payload = Annotated[NotNegative, Field(le=50)]
 RunningTime = Range[Annotated[NotNegative, Field(le=360_000)]]
 FrictionTerm = Literal["stribeck", "load", "loss"]
 
@@ -68,7 +70,7 @@ class Body(Section):
     mass_share: Real = Field(ge=0, le=0.5)
     com_m: NotNegative = Field(le=0.1)
     payload_body: BodyName
-    payload_kg: Range[Annotated[NotNegative, Field(le=50)]]
+    payload_kg: Range[Payload]
     sole_stiffness_n_m: Range[Annotated[Real, Field(ge=1e3, le=1e7)]]
 
 
@@ -100,7 +102,8 @@ class SurrogateRobot(Section):
 
     Without `drives`, the friction of its joints is (23), and without `body` or `sensors` these are as on the plant of
     section 5.1. `running_s` is the range of the time since its gears were cold, at the start of a recording. Friction
-    and torque constants of its drives are those drawn, times a ratio.
+    and torque constants of its drives are those drawn, times a ratio, and so are the gains of its legs' joints. Its
+    `gait` replaces ranges of the commands, and `payload_kg` comes on top of the payload drawn.
     """
 
     seed: Index
@@ -108,6 +111,9 @@ class SurrogateRobot(Section):
     running_s: RunningTime
     friction_ratio: Ratio = 1.0
     constant_ratio: Ratio = 1.0
+    gain_ratio: Ratio = 1.0
+    gait: CommandRanges = CommandRanges()
+    payload_kg: Payload = 0.0
 
 
 class Variant(Section):
@@ -122,6 +128,9 @@ class Variant(Section):
     running_s: RunningTime | None = None
     friction_ratio: Ratio = 1.0
     constant_ratio: Ratio = 1.0
+    gain_ratio: Ratio = 1.0
+    gait: CommandRanges = CommandRanges()
+    payload_kg: Payload = 0.0
 
 
 class Fleet(Section):

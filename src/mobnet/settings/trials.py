@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from itertools import product
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
+
+from pydantic import Field
 
 from mobnet.settings import base
 from mobnet.settings.base import Section
@@ -41,12 +43,26 @@ class Comparison(Section):
     experiments: base.Distinct[base.ExperimentName]
 
 
+class Explored(Section):
+    """How each robot of the fleet walks while its falls are counted: with each largest random torque on legs and waist.
+
+    The first robot's walks have the seed `first_seed`, between those of development and of training; the next robot's
+    have the next one.
+    """
+
+    scenario: base.ScenarioName
+    amplitudes_nm: base.Rising[Annotated[base.Positive, Field(le=1000)]]
+    walked_s: base.Real = Field(ge=1, le=7200)
+    first_seed: base.Whole = Field(ge=601, le=900)
+
+
 class Trials(Section):
-    """The trials: recipes, which are keys of `learning` over those of a method, and tables of comparisons by name."""
+    """The trials: recipes (keys of `learning` over those of a method), tables of comparisons, and random torques."""
 
     recipes: dict[str, base.Change]
     tuning: Tuning
     compared: dict[base.LowerName, tuple[Comparison, ...]]
+    random_torque: Explored
 
 
 class Trial(NamedTuple):

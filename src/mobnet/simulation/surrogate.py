@@ -37,7 +37,7 @@ def draw_hidden(
     body, drives, sensors = (np.random.default_rng(stream) for stream in seeds)
     parts = chosen.parts
     if "body" in parts:
-        robot = _other_links(surrogate.body, robot, body)
+        robot = _other_links(surrogate.body, robot, chosen.payload_kg, body)
         plant = plant.model_copy(update={"sole_stiffness_n_m": body.uniform(*surrogate.body.sole_stiffness_n_m)})
     moved, rotors = no_drives(robot.layout.nu), robot
     robot = _without_rotors(robot) if "drives" in parts else robot
@@ -52,8 +52,8 @@ def draw_hidden(
     return Hidden(robot, plant, moved, faults)
 
 
-def _other_links(settings: Body, robot: WalkingRobot, rng: np.random.Generator) -> WalkingRobot:
-    """Return a robot whose links have other masses and centres of mass, one of them a payload."""
+def _other_links(settings: Body, robot: WalkingRobot, load_kg: float, rng: np.random.Generator) -> WalkingRobot:
+    """Return a robot whose links have other masses and centres of mass, one of them a payload and `load_kg` [kg]."""
     bodies: list[BodyRow] = []
     for row in robot.bodies:
         ratio, com = rng.uniform(1 - settings.mass_share, 1 + settings.mass_share), rng.uniform(-1, 1, 3)
@@ -63,7 +63,7 @@ def _other_links(settings: Body, robot: WalkingRobot, rng: np.random.Generator) 
             "com": tuple(np.add(row.com, settings.com_m * com).tolist()),
         }
         if row.name == settings.payload_body:
-            update["mass"] += rng.uniform(*settings.payload_kg)
+            update["mass"] += rng.uniform(*settings.payload_kg) + load_kg
         bodies.append(row.model_copy(update=update))
     return WalkingRobot(**{**vars(robot), "bodies": tuple(bodies)})
 

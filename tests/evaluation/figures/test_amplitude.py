@@ -12,8 +12,8 @@ from mobnet.evaluation.figures.further.amplitude import amplitude
 from mobnet.evaluation.number.files import read_rows
 from mobnet.settings.evaluation import Evaluation
 
-AMPLITUDES = {"MOB-Net-100": 100.0, "MOB-Net-plain": 0.0, "MOB-Net": 50.0, "MOB-Net-25": 25.0}
-ERRORS = {0.0: 4.0, 25.0: 3.0, 50.0: 2.0, 100.0: 2.5}
+AMPLITUDES = {"MOB-Net-strong": 100.0, "MOB-Net-plain": 0.0, "MOB-Net": 50.0}
+ERRORS = {0.0: 4.0, 50.0: 2.0, 100.0: 2.5}
 
 
 @pytest.fixture
@@ -44,7 +44,7 @@ def test_it_shows_errors_and_shares_in_the_order_of_the_torque(
             (torque, pytest.approx(factor * error)) for torque, error in ERRORS.items()
         ]
     shares = panels[2]
-    assert [row.amplitude_nm for row in shares] == [25.0, 50.0, 100.0]  # without a torque nothing can be left
+    assert [row.amplitude_nm for row in shares] == [50.0, 100.0]  # without a torque nothing can be left
     for row in shares:
         assert row.value == pytest.approx(0.753, abs=0.03)  # 0.25 + 0.75 exp(-0.4), as the recording answers
     assert (tmp_path / "out/amplitude.png").read_bytes().startswith(b"\x89PNG")
@@ -61,4 +61,4 @@ def test_recordings_with_too_few_steps_have_no_share(
     section = evaluation.amplitude
     amplitude(section, layout, evaluation.statistics, scores, AMPLITUDES, training, tmp_path / "out")
     shares = [row for row in read_table(tmp_path / "out/amplitude.csv") if row.metric == "share"]
-    assert [row.value for row in shares] == [None] * 3
+    assert [row.value for row in shares] == [None] * 2

@@ -98,9 +98,8 @@ def test_equivalent_sets_come_out_even_and_tests_without_pushes_are_left_out(
 ) -> None:
     pushed = CoverageTest(scenario="knee_swing", level="all_uncertainty", pushed="LL3")
     coverage = evaluation.coverage.model_copy(update={"tests": (TEST, pushed)})
-    training = {"with RTE": data_sets["walk"], "without RTE": data_sets["walk"]}
-    ports, tests = settings.robot.networks["LL"], [data_sets["test"], []]
-    rows = covered(coverage, layout, ports, evaluation.statistics, training, tests)
+    ports, walk, tests = settings.robot.networks["LL"], data_sets["walk"], [data_sets["test"], []]
+    rows = covered(coverage, layout, ports, evaluation.statistics, walk, walk, tests)
     assert {row.scenario for row in rows} == {"training", "walk_test"}
     assert all(row.with_rte == row.without_rte for row in rows)
     assert all(row.ratio.value == 1.0 for row in rows if row.measure in NEAREST or row.measure == AREA)

@@ -29,7 +29,7 @@ from mobnet.settings.networks import Limb
 
 log = logging.getLogger(__name__)
 
-WITH, WITHOUT = "with RTE", "without RTE"  # names of the training sets
+WITHOUT = "without RTE"  # name of the training set without exploration
 OUTSIDE = {VELOCITY: "outside velocity", DESIRED: "outside torque"}
 AREA, AIR_AREA = "visited cells", "visited cells, swing"
 NEAREST = {"nearest, median": 0.5, "nearest, 95 %": 0.95}
@@ -65,14 +65,14 @@ class Covered:
 
 def covered(
     settings: Coverage, layout: JointLayout, ports: Limb, statistics: Statistics,
-    training: Mapping[str, Sequence[Path]], tests: Sequence[Sequence[Path]],
+    explored: Sequence[Path], plain: Sequence[Path], tests: Sequence[Sequence[Path]],
 ) -> list[Covered]:  # fmt: skip
-    """Return all measures of the training sets, WITH and WITHOUT, and of every test against them.
+    """Return all measures of two training sets, with and without exploration, and of every test against them.
 
     `ports` are what the network of the leg sees.
     """
     inputs, joints = limb_inputs(layout, ports), layout.limb(settings.limb)
-    foot, sets = FEET.index(foot_of(layout, joints[0])), [training[WITH], training[WITHOUT]]
+    foot, sets = FEET.index(foot_of(layout, joints[0])), [explored, plain]
     samples = equal_sets([read_blocks(stems, layout, inputs, settings) for stems in sets], settings.samples)
     airborne = equal_sets([read_blocks(stems, layout, inputs, settings, foot) for stems in sets], settings.samples)
     names = (*inputs.names, PHASE)
@@ -90,10 +90,10 @@ def covered(
         if not blocks:
             log.warning("%s: no push is found in its %d recordings", test.scenario, len(stems))
             continue
-        plain = [block[:, :-1] for block in blocks]
-        rows += outside(test, plain, references, inputs.names, joints)
+        seen = [block[:, :-1] for block in blocks]
+        rows += outside(test, seen, references, inputs.names, joints)
         rows += beyond(test, blocks, ranges, names)
-        rows += nearest(test, [(block - mean) / std for block in plain], references, statistics)
+        rows += nearest(test, [(block - mean) / std for block in seen], references, statistics)
     return rows
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from mobnet.core.columns import COVERAGE
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.measure.data.coverage import ALL, NEAREST, WIDTH, Covered, covered
+from mobnet.evaluation.measure.data.coverage import ALL, NEAREST, WIDTH, WITHOUT, Covered, covered
 from mobnet.evaluation.number.number import number_text
 from mobnet.evaluation.tables.layout import Line, Table, in_blocks, write_table
 from mobnet.settings.evaluation import Coverage, Statistics
@@ -18,26 +18,32 @@ def coverage(
 ) -> None:  # fmt: skip
     """Write coverage.csv and, joints together only, coverage.tex and .md.
 
-    `training` has the recordings `with RTE` and `without RTE`, `tests` those of each test.
+    `training` has the recordings `without RTE` and those of each exploration with which they are compared, such as
+    `with RTE`; `tests` those of each test.
     """
-    rows = covered(settings, layout, ports, statistics, training, tests)
+    compared = [
+        (name, row)
+        for name in training
+        if name != WITHOUT
+        for row in covered(settings, layout, ports, statistics, training[name], training[WITHOUT], tests)
+    ]
     records = [
-        (row.scenario, row.level, row.measure, row.joint, row.block_count, row.with_rte, row.without_rte,
+        (name, row.scenario, row.level, row.measure, row.joint, row.block_count, row.with_rte, row.without_rte,
          *row.ratio.with_ends)
-        for row in rows
+        for name, row in compared
     ]  # fmt: skip
-    header = ["Test", "Level", "Measure", "With RTE", "Without RTE", "Ratio", f"{statistics.confidence:.0%}"]
-    lines = coverage_lines([row for row in rows if row.joint == ALL])
-    write_table(table_dir / "coverage", Table(COVERAGE, records, header, lines, left=3))
+    header = ["Training", "Test", "Level", "Measure", "With", "Without", "Ratio", f"{statistics.confidence:.0%}"]
+    lines = coverage_lines([(name, row) for name, row in compared if row.joint == ALL])
+    write_table(table_dir / "coverage", Table(COVERAGE, records, header, lines, left=4))
 
 
-def coverage_lines(rows: Sequence[Covered]) -> list[Line]:
-    """Return the rows of text, a rule between tests; shares in %."""
-    blocks: dict[tuple[str, str], list[list[str]]] = {}
+def coverage_lines(compared: Sequence[tuple[str, Covered]]) -> list[Line]:
+    """Return the rows of text, a rule between explorations; shares in %."""
+    blocks: dict[tuple[str, str, str], list[list[str]]] = {}
     numbers = (*NEAREST, *WIDTH.values())
-    for row in rows:
+    for name, row in compared:
         values = row.with_rte, row.without_rte
         texts = [number_text(value) if row.measure in numbers else f"{value:.1%}" for value in values]
-        labels = row.scenario.replace("_", " "), row.level.replace("_", " ")
+        labels = name, row.scenario.replace("_", " "), row.level.replace("_", " ")
         blocks.setdefault(labels, []).append([row.measure, *texts, row.ratio.text(), row.ratio.interval()])
-    return in_blocks(blocks.items())
+    return in_blocks(blocks.items(), nested=True)

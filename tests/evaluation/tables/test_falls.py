@@ -1,0 +1,54 @@
+"""Falls by random torque: the largest one up to which nothing falls is chosen, whatever comes after it."""
+
+from collections.abc import Sequence
+from dataclasses import astuple
+from pathlib import Path
+
+import pytest
+
+from mobnet.core.columns import FALLS, Falls
+from mobnet.evaluation.measure.data.falls import count_falls
+from mobnet.evaluation.number.files import read_rows, read_texts, write_csv
+from mobnet.evaluation.tables.further.falls import ALL, CHOSEN, falls
+from mobnet.plan.jobs import walk_settings
+from mobnet.settings.evaluation import Statistics
+from mobnet.settings.settings import Settings
+
+
+@pytest.mark.parametrize(("counts", "chosen"), [
+    (([0, 0, 0], [0, 0, 2]), 100.0),
+    (([0, 0, 0], [0, 1, 0]), 50.0),  # what is too large stays so where a larger one happens not to be
+    (([0, 0, 0], [0, 0, 0]), 150.0),
+    (([1, 0, 0], [0, 0, 0]), None),
+])  # fmt: skip
+def test_the_torque_is_raised_until_a_robot_falls(
+    tmp_path: Path, counts: Sequence[Sequence[int]], chosen: float | None
+) -> None:
+    paths = [tmp_path / f"robot_{k}.csv" for k, _ in enumerate(counts, start=1)]
+    for path, own in zip(paths, counts, strict=True):
+        rows = [Falls(path.stem, 50.0 * k, 900.0, fallen) for k, fallen in enumerate(own, start=1)]
+        write_csv(path, FALLS, [astuple(row) for row in rows])
+    falls(paths, Statistics(confidence=0.95), tmp_path / "out")
+    rows = read_texts(tmp_path / "out.csv")
+    assert {row["amplitude_nm"] for row in rows if row["chosen"] == "1"} == ({f"{chosen:g}"} if chosen else set())
+    together = [row for row in rows if row["robot"] == ALL]
+    assert [int(row["falls"]) for row in together] == [sum(own) for own in zip(*counts, strict=True)]
+    assert [float(row["per_hour"]) for row in together] == [2.0 * int(row["falls"]) for row in together]
+    lines = (tmp_path / "out.md").read_text().splitlines()
+    assert [line.startswith(f"| {chosen:g} ") for line in lines if CHOSEN in line] == [True] * bool(chosen)
+
+
+def test_nothing_is_promised_about_an_hour_in_which_nothing_fell(tmp_path: Path) -> None:
+    """By Poisson's law, no fall in half an hour allows 7.4 an hour."""
+    write_csv(tmp_path / "r.csv", FALLS, [("robot_1", 50.0, 1800.0, 0)])
+    falls([tmp_path / "r.csv"], Statistics(confidence=0.95), tmp_path / "out")
+    assert float(read_texts(tmp_path / "out.csv")[-1]["high"]) == pytest.approx(7.38, abs=0.01)
+
+
+@pytest.mark.sim
+def test_a_robot_that_cannot_stand_a_torque_falls(tmp_path: Path, settings: Settings) -> None:
+    walk = walk_settings(settings, "robot_walk", "robot_1")
+    count_falls(walk, 701, (1.0, 900.0), 6.0, tmp_path / "falls.csv")
+    calm, wild = read_rows(tmp_path / "falls.csv", Falls)
+    assert (calm.robot, calm.amplitude_nm, calm.walked_s, calm.falls) == ("robot_1", 1.0, 6.0, 0)
+    assert wild.falls > 0
