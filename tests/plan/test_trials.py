@@ -87,7 +87,7 @@ def test_tables_of_trials_are_results_of_their_scale(products: dict[str, Product
 def test_falls_are_counted_of_every_robot_in_walks_of_no_training_and_no_test(plan: Plan) -> None:
     """The first robot has the first seed; nothing but the largest torque differs between its walks."""
     steps = {step.outputs[0]: step.job.call.arguments for step in plan.trial_steps if step.rule.startswith("falls")}
-    assert list(steps) == [f"results/default/{robot}/falls.csv" for robot in plan.settings.fleet.robots]
+    assert list(steps) == [f"results/default/{robot}/falls.csv" for robot in plan.files.robots]
     assert next(one for one in plan.trials if one.name == "random_torque").job.inputs == tuple(steps)
     seeds: list[Any] = [given["seed"] for given in steps.values()]
     assert seeds == [701, 702, 703]

@@ -29,11 +29,11 @@ def test_every_job_is_there_once(plan: Plan, works: dict[str, Work]) -> None:
 @pytest.mark.parametrize(
     ("job", "amounts"),
     [
-        ("collect/random_walk-all_uncertainty-s1000", {"s": 1200.0, "walk": 4}),
+        ("collect/random_walk-all_uncertainty-s1000", {"s": 2400.0, "walk": 8}),
         ("collect/robot_1/robot_walk-robot_1-s1000", {"surrogate s": 1200.0, "walk": 4}),
         ("collect/forward_walk-ideal-s240", {"s": 15 * 30.0, "walk": 15}),
         ("collect/robot_2/changed_walk-robot_2-s240", {"surrogate s": 6 * 15.0, "walk": 6}),
-        ("motion/random_motion-s1000", {"s": 1200.0, "motion": 8}),
+        ("motion/random_motion-s1000", {"s": 2400.0, "motion": 16}),
         ("estimate/forward_walk-ideal", {"s": 450.0, "run": 1.0, "residual s": 450.0, "residual step": 0.0}),
         ("score/leg_sines-all_uncertainty", {"s": 15 * 60.0 * (3 + 3 * 3)}),
         ("table_05", {}),
@@ -45,10 +45,10 @@ def test_a_job_has_the_recordings_that_it_makes_or_reads(works: dict[str, Work],
 
 
 def test_an_estimate_runs_the_networks_of_the_test_s_limbs(works: dict[str, Work]) -> None:
-    """Both legs' of MOB-Net, the left one of two without random torque, the gray box and FTS-e2e; MOB has none."""
+    """Both legs' of MOB-Net, the left one of three other trainings, the gray box and FTS-e2e; MOB has none."""
     work = works["estimate/robot_2/walk_test-robot_2"]
-    assert work.amounts["residual s"] == 4 * 6 * 30.0
-    assert work.amounts["residual step"] == 30_000.0 * (2 + 1 + 1)
+    assert work.amounts["residual s"] == 5 * 6 * 30.0
+    assert work.amounts["residual step"] == 30_000.0 * (2 + 1 + 1 + 1)
     assert work.held == 6 * 30.0
 
 

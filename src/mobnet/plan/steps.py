@@ -20,7 +20,7 @@ from mobnet.plan.jobs import Jobs
 from mobnet.plan.seeds import FIRST_TRAINING_SEED
 from mobnet.plan.work import SECONDS, Work, detected, estimated, fitted, steps_of, trained, walked
 
-PART_S = 1200.0  # recordings that one step makes [s]: some two minutes
+PART_S = 2400.0  # recordings that one step makes [s]: some four minutes
 PART_STEPS = 30e6  # time steps that the trainings of one step go through: some four minutes of a leg's network
 Item = TypeVar("Item")
 
