@@ -174,6 +174,7 @@ NEEDS: Mapping[str, Callable[[Files, Any], Needs]] = {  # products in which para
     "claims": _claims,
     "hourly": _hourly,
     "latency": _latency,
+    "commands": lambda files, own: {"sets": {name: files.training("recordings", name) for name in own.sets}},
     "steps": lambda files, _: {"sets": {"walk": files.training("recordings", "walk")}},
     "coverage": _coverage,
     "uncertainty": _uncertainty,

@@ -429,8 +429,9 @@ class DataTable(Section):
 
 
 class CommandsFigure(Section):
-    """Histograms of the walking commands."""
+    """Histograms of the walking commands in some training sets."""
 
+    sets: base.Distinct[base.TrainingSetName]
     bins: base.Whole = Field(ge=2, le=200)
 
 

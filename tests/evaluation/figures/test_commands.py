@@ -20,7 +20,7 @@ def test_bars_are_as_high_as_their_share_and_do_not_overlap() -> None:
 
 
 def test_as_many_sets_as_the_configuration_has_are_told_apart_and_their_legend_is_not_cut(settings: Settings) -> None:
-    counts = {name: np.array([2, 8]) for name in settings.training_sets}
+    counts = {name: np.array([2, 8]) for name in settings.evaluation.commands.sets}
     figure = draw_bars([Bars("step x [m]", np.array([0.0, 1.0, 2.0]), counts)])
     (key,) = figure.legends
     assert key.get_window_extent().width <= figure.bbox.width

@@ -50,7 +50,7 @@ def test_a_number_is_the_mean_over_joints_and_metrics(
     grids = results.grids(cell)
     assert grids is not None
     np.testing.assert_allclose(np.mean([grid.values for grid in grids], axis=0), [[first_test, 2 * first_test]])
-    assert {grid.method for grid in grids} == {"MOB"}
+    assert {grid.rows for grid in grids} == {"MOB"}
 
 
 def test_a_training_is_a_network_on_one_test(results: Evidence) -> None:

@@ -10,13 +10,14 @@ import yaml
 from csv_files import GOLDEN, check_golden, read_table
 from made_detections import write_detections
 
-from mobnet.core.columns import COVERAGE, LATENCY, VERDICTS
+from mobnet.core.columns import COVERAGE, HOURLY, LATENCY, VERDICTS
 from mobnet.evaluation.measure.claims.cells import listed
 from mobnet.evaluation.measure.claims.verdicts import rows_of
 from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.intervals import RunGrid
 from mobnet.evaluation.number.number import published_row
 from mobnet.evaluation.number.quantities import QUANTITIES
+from mobnet.evaluation.tables.further.hourly import ALL, FLAG
 from mobnet.evaluation.tables.further.latency import MET
 from mobnet.settings.claims import Cell, Claim, MadeNumber
 from mobnet.settings.evaluation import Statistics
@@ -95,6 +96,8 @@ def judge(
         (scores,), folders = write_results(list(some.values()), MEANS, pushes)
         tables = {"coverage": write_coverage(tmp_path / "coverage.csv"), "latency": tmp_path / "latency.csv"}
         write_csv(tables["latency"], LATENCY, [(MET, 1.0, 0.7, 1.0, "-")])
+        tables["hourly"] = tmp_path / "hourly.csv"
+        write_csv(tables["hourly"], HOURLY, [(FLAG, ALL, "MOB-Net", 4.0, 2, 0.5, 0.06, 1.8, "1/h")])
         tables["table_09"] = make_table("table_09", tmp_path, detections=write_detections(tmp_path / "detection"))
         table = make_table("claims", claims=some, scores=[scores], folders=folders, tables=tables)
         return {row.claim: row for row in read_table(table)}

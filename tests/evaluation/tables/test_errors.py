@@ -80,7 +80,7 @@ def test_table_05_is_the_golden_one(make_table: Make) -> None:
     check_golden(make_table("table_05", scores=[GOLDEN / "scores.csv"]))
 
 
-@pytest.mark.parametrize("name", ["table_06", "table_07", "table_08", "table_10", "table_11"])
+@pytest.mark.parametrize("name", ["table_06", "table_07", "table_08", "table_10", "table_11", "robot_parts"])
 def test_tables_of_errors_are_the_golden_ones(
     name: str, make_table: Make, write_table_scores: Callable[..., list[Path]]
 ) -> None:

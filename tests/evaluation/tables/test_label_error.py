@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from csv_files import markdown_cells, read_table
+from csv_files import check_golden, markdown_cells, read_table
 
 from mobnet.core.columns import residual_columns
 from mobnet.core.joints import JointLayout
@@ -42,3 +42,4 @@ def test_errors_are_those_of_each_label(
     assert found["as read", "walk", "LL4"] == pytest.approx(expected, rel=1e-3)
     assert markdown_cells(table)[3][:2] == ["", "without the plate"]
     assert markdown_cells(table)[3][-2:] == ["1.00", "0.00"]
+    check_golden(table)
