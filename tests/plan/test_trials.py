@@ -96,10 +96,11 @@ def test_falls_are_counted_of_every_robot_in_walks_of_no_training_and_no_test(pl
 
 
 @pytest.mark.skipif(not FALLS.is_file(), reason="docs/trials has no copy of this trial")
-def test_the_strongest_random_torque_is_the_one_that_the_trial_chose(plan: Plan) -> None:
+def test_the_random_torque_on_legs_is_the_one_that_the_trial_chose(plan: Plan) -> None:
     rows = read_texts(FALLS)
     (chosen,) = {float(row["amplitude_nm"]) for row in rows if row["chosen"] == "1"}
-    assert plan.settings.scenarios["robot_walk_strong"].random_torque == chosen
+    assert plan.settings.random_torque.legs_waist_nm == chosen
+    assert plan.settings.scenarios["robot_walk_strong"].random_torque == 2 * chosen
 
 
 def test_a_gray_box_is_tried_on_its_fit_and_a_filter_without_networks(products: dict[str, Product]) -> None:

@@ -84,9 +84,12 @@ def slopes_of(heights: Array, commands: Array, quantile: float) -> Array:
     """Return the slopes of signals (m, 3) from their largest values in swings (n, m) under commands (n, 5).
 
     A quantile of the largest values is fitted as a constant and a share of it for each part of the command, none of
-    which may be negative.
+    which may be negative. All are zero where fewer swings lie above the fit than it has numbers: it would go through
+    the largest values themselves.
     """
     told = np.abs(commands[:, :TOLD])
+    if (1.0 - quantile) * len(heights) < 1 + TOLD:
+        return np.zeros((heights.shape[1], TOLD))
     found = [_quantile_plane(told, own, quantile) for own in heights.T]
     return np.array([plane[1:] / plane[0] for plane in found])
 

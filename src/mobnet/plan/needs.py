@@ -72,7 +72,7 @@ def _label_error(files: Files, _: Any) -> Needs:
 
 def _coverage(files: Files, _: Any) -> Needs:
     """Return the first robot's training sets with random torques and without, its tests, and what the network sees."""
-    sets = {"with RTE": "walk", "with the strongest RTE": "robot_walk_strong", "without RTE": "walk_plain"}
+    sets = {"with RTE": "walk", "with twice the RTE": "robot_walk_strong", "without RTE": "walk_plain"}
     settings, (robot, own) = files.settings.evaluation.coverage, next(iter(files.robots.items()))
     return {
         "training": {label: own.training("recordings", name) for label, name in sets.items()},
