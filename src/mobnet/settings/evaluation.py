@@ -419,10 +419,12 @@ class Scoring(Section):
 class DataTable(Section):
     """The table of the training sets.
 
-    `every`: samples from one look at the upper body to the next; `limbs`: those whose random torque is looked at;
-    `lags_s`: times after a step of it at which the desired torque is looked at.
+    `shown`: sets in the text, of which the CSV file has all; `every`: samples from one look at the upper body to the next;
+    `limbs`: those whose random torque is looked at; `lags_s`: times after a step of it at which the desired torque is
+    looked at.
     """
 
+    shown: base.Distinct[base.TrainingSetName]
     every: base.Whole = Field(ge=1, le=1000)
     limbs: base.Distinct[base.LimbName]
     lags_s: base.Some[Annotated[base.Positive, Field(le=1)]]

@@ -39,7 +39,10 @@ def data(
     settings: DataTable, robot: RobotTable, walking: Walking, commands: Commands, terrain: Terrain,
     recording: RecordingSettings, published: PublishedData, sets: Mapping[str, Sequence[Path]], table_dir: Path,
 ) -> None:  # fmt: skip
-    """Write data.csv, .tex and .md: what the recordings of each set hold, beside what the paper says of them."""
+    """Write data.csv, .tex and .md: what the recordings of each set hold, beside what the paper says of them.
+
+    The text leaves out single joints, and sets that it is not asked to show.
+    """
     nominal = NominalModel(describe(robot))
     facts: dict[tuple[str, str, str], Number] = {}
     for name, stems in sets.items():
@@ -53,9 +56,11 @@ def data(
             printed = _published(commands, published.sets.get(name, {}), quantity, part)
             facts[name, quantity, part] = Number(value, unit=unit, published=printed)
     records = [(*of, fact.value, fact.unit, fact.published) for of, fact in facts.items()]
-    header = ["", *(name.replace("_", " ") for name in sets), "Paper"]
-    shown = {of: fact for of, fact in facts.items() if of[2] not in nominal.robot.layout.actuated}
-    write_table(table_dir / "data", Table(DATA, records, header, fact_lines(shown, list(sets))))
+    columns = [name for name in sets if name in settings.shown]
+    header = ["", *(name.replace("_", " ") for name in columns), "Paper"]
+    joints = nominal.robot.layout.actuated
+    shown = {of: fact for of, fact in facts.items() if of[0] in columns and of[2] not in joints}
+    write_table(table_dir / "data", Table(DATA, records, header, fact_lines(shown, columns)))
 
 
 def extent(stems: Sequence[Path], terrains: Sequence[str], clearance_hz: float) -> Iterator[Found]:
