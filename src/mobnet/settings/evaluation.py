@@ -419,8 +419,9 @@ class Scoring(Section):
 class DataTable(Section):
     """The table of the training sets.
 
-    `shown`: sets in the text (the CSV file has all); `every`: samples from one look at the upper body to the next; `limbs`:
-    those whose random torque is looked at; `lags_s`: times after a step of it at which the desired torque is looked at.
+    `shown`: sets in the text (the CSV file has all); `every`: samples from one look at the upper body to the next;
+    `limbs`: those whose random torque is looked at; `lags_s`: times after a step of it at which the desired torque is
+    looked at.
     """
 
     shown: base.Distinct[base.TrainingSetName]
