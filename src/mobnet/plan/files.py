@@ -9,7 +9,7 @@ from typing import NamedTuple, Self, cast
 from mobnet.core.files import METRICS, RUN, WEIGHTS
 from mobnet.plan.runs import Run, SweptSize
 from mobnet.plan.seeds import Seeds
-from mobnet.settings.asked import tests_in
+from mobnet.settings.asked import asked_in
 from mobnet.settings.evaluation import Runs
 from mobnet.settings.fleet import FIRST_SEED
 from mobnet.settings.methods import swept_name, swept_names
@@ -242,16 +242,23 @@ class Files(Seeds):
         """Return the runs of a test that a figure of one recording shows: first network or robot, first recording."""
         return tuple(self.runs(test.scenario, test.level, [method])[0] for method in test.methods)
 
-    def runs_of(self, scenario: str, level: str) -> tuple[Run, ...]:
-        """Return every run of a test at a level."""
-        return self.runs(scenario, level, self.catalogue.tests[scenario][level])
+    def scored_runs(self, scenario: str, level: str) -> tuple[Run, ...]:
+        """Return the runs of a test at a level whose errors a product shows; detectors have others."""
+        methods = [name for name in self.catalogue.tests[scenario][level] if (scenario, level, name) in self._shown]
+        return self.runs(scenario, level, methods)
 
     @property
     def scored(self) -> tuple[tuple[str, str], ...]:
         """The tests and levels whose errors are scored: those that a product shows, not those of detectors alone."""
-        shown = tests_in(self.settings, (self.settings.evaluation, self.settings.claims))
+        shown = {(scenario, level) for scenario, level, _ in self._shown}
         pairs = ((scenario, level) for scenario, levels in self.catalogue.tests.items() for level in levels)
         return tuple(pair for pair in pairs if pair in shown)
+
+    @cached_property
+    def _shown(self) -> frozenset[tuple[str, str, str]]:
+        """Scenario, level and method of the runs that products show."""
+        sections = self.settings.evaluation, self.settings.claims
+        return frozenset((one.scenario, one.level, one.method) for one in asked_in(self.settings, sections, ()))
 
     def scores(self, shown: Iterable[tuple[str, str]]) -> tuple[Path, ...]:
         """Return the files of scores of some tests, each at a level; each file once."""

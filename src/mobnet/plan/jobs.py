@@ -182,7 +182,7 @@ class Jobs:
 
     def score(self, scenario: str, level: str) -> Job:
         """Return the errors of every run of a test at a level, and what else products ask for."""
-        runs, (out,) = self.files.runs_of(scenario, level), self.files.scores([(scenario, level)])
+        runs, (out,) = self.files.scored_runs(scenario, level), self.files.scores([(scenario, level)])
         asked = scoring(self.settings, scenario, level)
         arguments = {"layout": self.settings.layout, "runs": runs, "asked": asked, "out": out}
         read = [[run.residual, run.estimate, run.recording] for run in runs]

@@ -147,7 +147,7 @@ def _detectors(files: Files) -> Iterator[Step]:
 
 def _score(files: Files, scenario: str, level: str) -> Step:
     """Return the scores of a test at a level."""
-    seconds = files.settings.test_s(scenario) * len(files.runs_of(scenario, level))
+    seconds = files.settings.test_s(scenario) * len(files.scored_runs(scenario, level))
     work = Work(f"score/{scenario}-{level}", "score", {SECONDS: seconds}, 0.0)
     outputs = tuple(map(str, files.scores([(scenario, level)])))
     return Step(work, outputs, partial(Jobs(files).score, scenario, level))
