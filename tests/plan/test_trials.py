@@ -7,6 +7,7 @@ import pytest
 
 from mobnet.commands.words import TRIALS
 from mobnet.evaluation.number.files import read_texts
+from mobnet.evaluation.tables.further.falls import ALL
 from mobnet.plan.plan import Plan, make_plan
 from mobnet.plan.products import Product
 from mobnet.plan.seeds import FIRST_TRAINING_SEED
@@ -98,7 +99,7 @@ def test_falls_are_counted_of_every_robot_in_walks_of_no_training_and_no_test(pl
 @pytest.mark.skipif(not FALLS.is_file(), reason="docs/trials has no copy of this trial")
 def test_the_random_torque_on_legs_is_the_one_that_the_trial_chose(plan: Plan) -> None:
     rows = read_texts(FALLS)
-    (chosen,) = {float(row["amplitude_nm"]) for row in rows if row["chosen"] == "1"}
+    (chosen,) = {float(row["amplitude_nm"]) for row in rows if (row["robot"], row["chosen"]) == (ALL, "1")}
     assert plan.settings.random_torque.legs_waist_nm == chosen
     assert plan.settings.scenarios["robot_walk_strong"].random_torque == 2 * chosen
 
