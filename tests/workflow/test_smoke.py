@@ -209,6 +209,7 @@ def test_edits_rerun_exactly_what_depends_on_them(unbroken, snakemake, plan, edi
     changed = re.findall(r"params have changed since last execution:\n +(.+(?:\n {8}.+)*)", planned)
     kinds = {step.rule: step.work.kind for step in plan.steps}
     found = {kinds.get(rule, rule) for rule in (word.strip() for line in changed for word in line.split(","))}
+    found.discard("...")  # by which Snakemake cuts a list of many rules short
     assert found == touched or (edits is MUJOCO and found > touched)  # whatever else simulates
     assert not spared & set(planned.split())
 
