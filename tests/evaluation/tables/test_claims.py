@@ -32,6 +32,7 @@ MEANS = BRANCHES | {
     "MOB-Net-Single-2X": 2.1,
     "MOB-Net-gray": 1.4,
     "MOB-Net-strong": 1.4,
+    "MOB-Net-joystick": 3.0,
     "zero": 5.0,
 }
 PLACES = {  # scenario -> tables of the paper and places of its methods there
