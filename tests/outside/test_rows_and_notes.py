@@ -2,6 +2,7 @@
 
 import json
 import re
+from copy import deepcopy
 
 import pytest
 from made_detections import write_detections
@@ -159,21 +160,6 @@ FITS = {
     ),
     "joint unknown": (set_at("joints.XX1", KNEE), "joint: 'XX1' is not accepted; accepted: LA1"),
 }
-
-
-@pytest.mark.parametrize("name", FITS)
-def test_a_fit_that_breaks_the_contract_is_refused(name, tmp_path, layout):
-    change, says = FITS[name]
-    fit, path = {"smoothing_rad_s": 0.02, "joints": {"LL4": dict(KNEE)}}, tmp_path / "MOB-fric.json"
-    path.write_text(json.dumps(fit))
-    assert check(path, AGAINST) == "fit of 1 joints"
-    change(fit)
-    path.write_text(json.dumps(fit))
-    with pytest.raises(DataError, match=says):
-        read_friction(path, layout.actuated)
-    assert re.search(says, refusal_of(path))
-
-
 DAHL = {"breakaway_rad": 0.004, "forward_nm": 1.0, "backward_nm": 2.0, "driving": 0.2, "driven": 0.3,
         "viscous_nms": 0.0, "constant_nm": -1.0, "gain": -0.1, "target_rms_nm": 3.0, "left_rms_nm": 1.0}  # fmt: skip
 DAHL_FITS = {
@@ -189,18 +175,22 @@ DAHL_FITS = {
     ),
     "joint unknown": (set_at("joints.XX1", DAHL), "joint: 'XX1' is not accepted; accepted: LA1"),
 }
+LAWS = {  # file -> what reads it, a sound fit, and what is refused of it
+    "MOB-fric.json": (read_friction, {"smoothing_rad_s": 0.02, "joints": {"LL4": KNEE}}, FITS),
+    "MOB-fric-dahl.json": (read_dahl, {"law": "dahl", "joints": {"LL4": DAHL}}, DAHL_FITS),
+}
 
 
-@pytest.mark.parametrize("name", DAHL_FITS)
-def test_a_fit_with_a_memory_that_breaks_the_contract_is_refused(name, tmp_path, layout):
-    change, says = DAHL_FITS[name]
-    fit, path = {"law": "dahl", "joints": {"LL4": dict(DAHL)}}, tmp_path / "MOB-fric-dahl.json"
+@pytest.mark.parametrize(("file", "name"), [(file, name) for file, (*_, refused) in LAWS.items() for name in refused])
+def test_a_fit_that_breaks_the_contract_is_refused(file, name, tmp_path, layout):
+    read, sound, refused = LAWS[file]
+    (change, says), fit, path = refused[name], deepcopy(sound), tmp_path / file
     path.write_text(json.dumps(fit))
     assert check(path, AGAINST) == "fit of 1 joints"
     change(fit)
     path.write_text(json.dumps(fit))
     with pytest.raises(DataError, match=says):
-        read_dahl(path, layout.actuated)
+        read(path, layout.actuated)
     assert re.search(says, refusal_of(path))
 
 

@@ -39,8 +39,8 @@ def foot_label(
 
 def zeroed(wrench: NDArray[Any], swing: NDArray[Any]) -> NDArray[np.float64]:
     """Return a foot's wrench (T, 6) [N] and [N m] without its constant error, the median where the foot swings (T,)."""
-    # F_0 of (O8): a foot in the air is touched by pushes alone, which are too rare to move a median. A recording
-    # without a swing tells nothing of the error.
+    # F_0 of (O8): a foot in the air is touched by pushes alone, which are too short to move a median, and come from
+    # any side. A recording without a swing tells nothing of the error.
     hanging = wrench[swing > 0]
     return wrench - (np.median(hanging, axis=0) if len(hanging) else 0.0)
 

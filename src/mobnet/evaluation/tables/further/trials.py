@@ -119,6 +119,7 @@ def _cells(networks: Sequence[Outcome], outcomes: Sequence[Outcome]) -> list[str
 
 
 def _mean(values: Sequence[float | None]) -> float | None:
+    """Return the mean of the numbers that are there; None if none is."""
     known = [value for value in values if value is not None]
     return float(np.mean(known)) if known else None
 
