@@ -96,3 +96,17 @@ def follow(nominal, trajectory):
 @pytest.fixture
 def observer(nominal):
     return MomentumObserver(nominal, 100.0, 1000.0)
+
+
+@pytest.fixture
+def changed_joints(recipe_of, layout, made_up):
+    """Return a function of a kind's `build`, a method and its fit: the joints whose estimate is not the residual."""
+
+    def changed(build, name, fitted):
+        recipe, sensed = recipe_of(name, fitted=fitted), made_up(2, 0.1).sensed
+        estimator = build(recipe)
+        assert estimator.joints == layout.names
+        difference = estimator.estimate(sensed).tau_ext - recipe.observer().residual(sensed)
+        return [joint for joint, column in zip(estimator.joints, difference.T, strict=True) if column.any()]
+
+    return changed
