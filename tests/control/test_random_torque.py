@@ -25,11 +25,8 @@ def history(settings, layout):
     return law, rows
 
 
-@pytest.mark.parametrize(("scenario", "largest"), [
-    ("robot_walk_plain", 0.0), ("robot_walk", 50.0), ("robot_walk_strong", None),
-])  # fmt: skip
-def test_a_scenario_may_ask_for_another_torque_on_legs_and_waist(settings, layout, scenario, largest):
-    largest = settings.scenarios[scenario].random_torque if largest is None else largest
+@pytest.mark.parametrize(("scenario", "largest"), [("robot_walk_plain", 0.0), ("robot_walk", 50.0)])
+def test_a_scenario_has_the_random_torque_or_none(settings, layout, scenario, largest):
     walk = walk_settings(settings, scenario, "robot_1")
     law = make_exploration(walk.random_torque, layout, bool(walk.scenario.random_torque))
     own = dict(zip(layout.actuated, law.amplitude, strict=True))

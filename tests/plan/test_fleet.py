@@ -89,10 +89,10 @@ def test_a_level_of_one_robot_is_walked_by_it_alone(plan: Plan) -> None:
     assert {run.estimate for run in runs} >= {plan.files.runs("motion_test", "robots", ["MOB-Net"])[0].estimate}
     trained = [{method for method, _ in plan.files.robots[robot].learned} for robot in ROBOTS]
     assert ["MOB-Net-Single" in methods for methods in trained] == [True, False, False]
-    training = maker(plan, "robot_1/networks/MOB-Net-strong-LL-s101/weights.safetensors")
+    training = maker(plan, "robot_1/networks/MOB-Net-plain-LL-s101/weights.safetensors")
     read = {Path(name).parts[2] for name in training.job.inputs}
     assert read == {"robot_1"}
-    assert {path.parts[2] for path in plan.files.training("recordings", "robot_walk_strong")} == set(ROBOTS)
+    assert {path.parts[2] for path in plan.files.training("recordings", "robot_walk_plain")} == set(ROBOTS)
 
 
 def test_a_fine_tuning_begins_with_the_robot_s_own_network_and_learns_from_the_changed_one(plan: Plan) -> None:

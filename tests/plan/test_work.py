@@ -45,10 +45,10 @@ def test_a_job_has_the_recordings_that_it_makes_or_reads(works: dict[str, Work],
 
 
 def test_an_estimate_runs_the_networks_of_the_test_s_limbs(works: dict[str, Work]) -> None:
-    """Both legs' of MOB-Net, the left one of three other trainings, the gray box and FTS-e2e; MOB has none."""
+    """Both legs' of MOB-Net, the left one of two other trainings, the gray box and FTS-e2e; MOB has none."""
     work = works["estimate/robot_2/walk_test-robot_2"]
-    assert work.amounts["residual s"] == 5 * 6 * 30.0
-    assert work.amounts["residual step"] == 30_000.0 * (2 + 1 + 1 + 1)
+    assert work.amounts["residual s"] == 4 * 6 * 30.0
+    assert work.amounts["residual step"] == 30_000.0 * (2 + 1 + 1)
     assert work.held == 6 * 30.0
 
 

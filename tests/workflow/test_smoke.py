@@ -28,11 +28,11 @@ NO_OP_S = 10.0
 KILLS = 5
 LONGEST_S = 20.0
 MADE = ("results", "tables", "figures", "paper", ".snakemake")
-FIGURES = ("figures/smoke/drift.csv", "figures/smoke/amplitude.csv")
+FIGURES = ("figures/smoke/drift.csv", "figures/smoke/fine_tuning.csv")
 LOST = (  # walks of a test and walks that a network learns from: jobs of most kinds run again
     "results/smoke/recordings/foot_hold",
-    "results/smoke/robot_1/recordings/robot_walk_strong",
-    "results/smoke/robot_1/networks/MOB-Net-strong-LL-s101",
+    "results/smoke/robot_1/recordings/robot_walk_plain",
+    "results/smoke/robot_1/networks/MOB-Net-plain-LL-s101",
     "results/smoke/scores/foot_hold",
     *FIGURES,
 )

@@ -225,7 +225,6 @@ COMMANDS = (*BIN, "share", "unit")
 PUSH_ERRORS = ("scenario", "method", "push", "rmse_nm", "low", "high", *SPREAD, "published")
 LOSSES = ("measure", "method", "runs", "epoch", "mean", "low", "high")
 LIMB_ERRORS = ("scenario", "method", "limb", "joint", "rmse_nm", "low", "high", *SPREAD)
-AMPLITUDES = ("panel", "amplitude_nm", *RUN, "joint", "metric", "value", "low", "high", *SPREAD, "unit")
 TUNED = ("panel", "line", "seconds", *RUN, "joint", "value", "low", "high", *SPREAD, "unit")
 DOTS = ("kind", "set", "joint", "velocity_rad_s", "torque_nm", "phase")
 SIZES = (

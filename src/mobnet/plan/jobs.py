@@ -260,7 +260,6 @@ def walk_settings(settings: Settings, scenario: str, level: str) -> WalkSettings
         "scenario_name": scenario,
         "scenario": row,
         "walking": walking,
-        "random_torque": settings.random_torque_of(scenario),
         "level_name": level,
         "level": settings.levels[level],
         "surrogate": settings.surrogate if chosen else None,

@@ -72,27 +72,13 @@ def _label_error(files: Files, _: Any) -> Needs:
 
 def _coverage(files: Files, _: Any) -> Needs:
     """Return the first robot's training sets with random torques and without, its tests, and what the network sees."""
-    sets = {"with RTE": "walk", "with twice the RTE": "robot_walk_strong", "without RTE": "walk_plain"}
+    sets = {"with RTE": "walk", "without RTE": "walk_plain"}
     settings, (robot, own) = files.settings.evaluation.coverage, next(iter(files.robots.items()))
     return {
         "training": {label: own.training("recordings", name) for label, name in sets.items()},
         "tests": tuple(own.tests(test.scenario, robot) for test in settings.tests),
         "ports": files.settings.robot.networks[settings.limb],
     }
-
-
-def _amplitude(files: Files, section: Any) -> Needs:
-    """Return the largest random torque [N m] in the training data of each method, and these data."""
-    settings, amplitudes, training = files.settings, dict[str, float](), dict[str, tuple[Path, ...]]()
-    for test in section.tests.values():
-        for method in test.methods:
-            data = files.catalogue.network(method, test.limb).data
-            owners = [own for own in files.owners if own.has(test.level)]
-            scenario = owners[0].settings.training_sets[data].scenario
-            asked = settings.scenarios[scenario].random_torque
-            amplitudes[method] = settings.random_torque_of(scenario).legs_waist_nm if asked else 0.0
-            training[method] = tuple(stem for own in owners for stem in own.training("recordings", data))
-    return {"amplitudes": amplitudes, "training": training}
 
 
 def _folders_of_kinds(files: Files) -> tuple[Path, ...]:
@@ -181,7 +167,6 @@ NEEDS: Mapping[str, Callable[[Files, Any], Needs]] = {  # products in which para
     "label_error": _label_error,
     "kinds": lambda files, _: {"folders": _folders_of_kinds(files), "figure_17": files.settings.evaluation.figure_17},
     "calibration": _calibration,
-    "amplitude": _amplitude,
     "figure_05": _figure_05,
     "figure_10": lambda files, own: {"runs": {title: files.first_runs(test) for title, test in own.tests.items()}},
     "figure_19": _coverage,

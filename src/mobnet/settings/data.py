@@ -190,15 +190,12 @@ class Push(Section):
 
 
 class Scenario(Section):
-    """What is walked; a level and a seed make it a recording.
-
-    `random_torque` may give another largest torque on the joints of legs and waist [N m] than its section.
-    """
+    """What is walked; a level and a seed make it a recording."""
 
     terrain: base.Distinct[base.TerrainName]
     commands: CommandSource | base.Some[CommandSource] | FixedCommand
     narrowed: CommandRanges = CommandRanges()
-    random_torque: base.Flag | Annotated[base.Positive, Field(le=1000)]
+    random_torque: base.Flag
     pushes: Annotated[tuple[base.PushName, ...], AfterValidator(base.distinct)] = ()
     motion: base.MotionName | None = None
     draws: base.ScenarioName | None = None

@@ -230,22 +230,6 @@ class CoverageTest(Section):
     pushed: base.MotorName | None = None
 
 
-class AmplitudeTest(Runs):
-    """A test of networks that learned with random torques of different size; `joint` may be `avg`, the limb's mean."""
-
-    methods: base.Distinct[base.LearnedName]
-    limb: base.LimbName
-    joint: base.Text
-    metric: Metric = "rmse"
-
-
-class Amplitude(Section):
-    """Error over the largest random torque of the training data, and what is left of that torque after a time."""
-
-    lag_s: Annotated[base.Positive, Field(le=1)]
-    tests: Annotated[dict[base.Text, AmplitudeTest], Field(min_length=1)]
-
-
 class TunedTest(Runs):
     """A changed robot: the method before it is fine-tuned, a level that it knows, and the `tuned` methods by name."""
 
@@ -494,7 +478,6 @@ class Evaluation(Section):
     figure_19: Figure19
     figure_20: Figure20
     learning_curve: LearningCurve
-    amplitude: Amplitude
     fine_tuning: FineTuning
     coverage: Coverage
     calibration: CalibrationTable

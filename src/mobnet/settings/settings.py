@@ -91,12 +91,6 @@ class Settings(Section):
         detection = self.detection
         return detection.collisions, detection.sweep, detection.place, detection.random
 
-    def random_torque_of(self, scenario: str) -> RandomTorque:
-        """Return the random torques of a scenario that has some: it may have its own largest one on legs and waist."""
-        asked = self.scenarios[scenario].random_torque
-        own = {} if isinstance(asked, bool) else {"legs_waist_nm": asked}
-        return self.random_torque.model_copy(update=own)
-
 
 class WalkSettings(Section):
     """A scenario at a level, with the terrains and pushes that it names and no others; recordings draw by its name."""

@@ -31,7 +31,6 @@ MEANS = BRANCHES | {
     "MOB-Net-Single": 2.0,
     "MOB-Net-Single-2X": 2.1,
     "MOB-Net-gray": 1.4,
-    "MOB-Net-strong": 1.4,
     "MOB-Net-joystick": 3.0,
     "zero": 5.0,
 }

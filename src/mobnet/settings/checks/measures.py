@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from mobnet.core.errors import misfit, not_accepted
 from mobnet.settings.checks.limits import at_most
 from mobnet.settings.checks.results import Results
-from mobnet.settings.evaluation import AmplitudeTest, FineTuning, MethodsRow
 from mobnet.settings.reading import Place, Problem
 
 ROOT: Place = ("evaluation",)
@@ -21,18 +20,12 @@ def measured_problems(results: Results) -> Iterator[Problem]:
     yield from _line_problems(results)
     yield from _sigma_problems(results)
     yield from _changed_problems(results)
-    shown: list[tuple[Place, MethodsRow | AmplitudeTest]] = [
-        *((("methods", k), row) for k, row in enumerate(evaluation.methods)),
-        *((("amplitude", "tests", title), test) for title, test in evaluation.amplitude.tests.items()),
-    ]
-    for place, row in shown:
+    for k, row in enumerate(evaluation.methods):
         if text := results.not_scored(row.scenario, row.metric):
-            yield (*ROOT, *place, "metric"), text
-    averaged: list[tuple[Place, AmplitudeTest | FineTuning]] = [(("fine_tuning",), evaluation.fine_tuning)]
-    averaged += [(("amplitude", "tests", title), test) for title, test in evaluation.amplitude.tests.items()]
-    for place, test in averaged:
-        if test.joint not in (joints := [*results.joints(test.limb), "avg"]):
-            yield (*ROOT, *place, "joint"), not_accepted("joint", test.joint, joints)
+            yield (*ROOT, "methods", k, "metric"), text
+    tuning = evaluation.fine_tuning
+    if tuning.joint not in (joints := [*results.joints(tuning.limb), "avg"]):
+        yield (*ROOT, "fine_tuning", "joint"), not_accepted("joint", tuning.joint, joints)
 
 
 def _push_problems(results: Results) -> Iterator[Problem]:
