@@ -11,9 +11,9 @@ from csv_files import check_golden, read_table, write_rows
 from mobnet.core.columns import Score
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
+from mobnet.core.rows import read_rows
 from mobnet.evaluation.compare.rmse import PUSHED
 from mobnet.evaluation.figures.paper.figure_18 import UPPER_BODY, figure_18, panel_of
-from mobnet.evaluation.number.files import read_rows
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.evaluation import Evaluation, PushWindow
 from mobnet.settings.settings import Settings

@@ -7,8 +7,8 @@ import pytest
 from csv_files import check_golden, read_table, write_rows
 
 from mobnet.core.columns import Score
+from mobnet.core.rows import read_rows
 from mobnet.evaluation.figures.further.fine_tuning import BEFORE, KNOWN, fine_tuning
-from mobnet.evaluation.number.files import read_rows
 from mobnet.settings.evaluation import Evaluation
 
 SECONDS = (10, 60)

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from mobnet.core.columns import Score
+from mobnet.core.rows import read_rows
 from mobnet.evaluation.measure.estimates.pushes import AVERAGE, INCREASE, PushErrors, collision_errors, push_metrics
-from mobnet.evaluation.number.files import read_rows
 from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.settings import Settings
 

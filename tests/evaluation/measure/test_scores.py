@@ -12,10 +12,10 @@ from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.metrics import METRICS, SECTIONS, metric_of
 from mobnet.core.recording import read_recording, write_recording
+from mobnet.core.rows import read_rows
 from mobnet.core.store import read_array, write_array
 from mobnet.evaluation.compare.scene import Scene
 from mobnet.evaluation.measure.estimates.scores import limb_values, score, score_run
-from mobnet.evaluation.number.files import read_rows
 from mobnet.evaluation.number.rows import read_scores
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import Bode, Evaluation, LimbRuns, PushWindow, Runs, Scoring

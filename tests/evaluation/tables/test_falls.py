@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from mobnet.core.columns import FALLS, Falls
+from mobnet.core.rows import read_rows, read_texts
 from mobnet.evaluation.measure.data.falls import count_falls
-from mobnet.evaluation.number.files import read_rows, read_texts, write_csv
+from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.tables.further.falls import ALL, falls
 from mobnet.plan.jobs import walk_settings
 from mobnet.settings.evaluation import Statistics

@@ -7,7 +7,7 @@ import pytest
 from csv_files import check_golden, markdown_cells, read_table, write_rows
 
 from mobnet.core.columns import Score
-from mobnet.evaluation.number.files import read_rows
+from mobnet.core.rows import read_rows
 from mobnet.evaluation.tables.further.phases import PARTS
 from mobnet.settings.evaluation import Evaluation, LimbRuns
 

@@ -10,7 +10,7 @@ from mobnet.core.columns import Epoch, Score
 from mobnet.core.detections import FILES, PARTS, UNNAMED
 from mobnet.core.errors import ConfigError
 from mobnet.core.metrics import metric_of
-from mobnet.evaluation.number.files import read_rows, refuse_rows
+from mobnet.core.rows import read_rows, refuse_rows
 
 KEY = attrgetter(*(field.name for field in fields(Score) if field.name != "value"))  # what names a score, unit last
 ENDS = (("start_s", "end_s"), ("low", "high"), ("found", "collisions"))  # of rows of detectors, smaller one first

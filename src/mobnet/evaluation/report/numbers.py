@@ -5,8 +5,9 @@ from pathlib import Path
 
 from mobnet.core.columns import CLAIMED
 from mobnet.core.files import write_text
+from mobnet.core.rows import read_texts
 from mobnet.evaluation.compare.rmse import RAW
-from mobnet.evaluation.number.files import read_numbers, read_texts
+from mobnet.evaluation.number.files import read_numbers
 from mobnet.evaluation.number.number import Number, number_text
 from mobnet.evaluation.tables.layout import tex_escape
 from mobnet.settings.data import Recordings

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from mobnet.core.columns import TRIALS, TrialError
+from mobnet.core.rows import read_rows
 from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from mobnet.evaluation.figures.style import save_figure
 from mobnet.evaluation.measure.estimates.scores import AVERAGE
-from mobnet.evaluation.number.files import read_rows
 from mobnet.evaluation.number.single import extremes
 from mobnet.settings.evaluation import LearningCurve
 

@@ -11,9 +11,9 @@ import numpy as np
 from mobnet.core.columns import Score
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.core.joints import JointLayout
+from mobnet.core.rows import read_texts
 from mobnet.evaluation.measure.learning.trainings import MEASURES, TrainedNetwork, read_trainings, sound
 from mobnet.evaluation.number.averages import column_of, members
-from mobnet.evaluation.number.files import read_texts
 from mobnet.evaluation.number.grid import Wanted, rows_of, run_grid
 from mobnet.evaluation.number.intervals import RunGrid
 from mobnet.evaluation.number.number import Number

@@ -9,7 +9,7 @@ import numpy as np
 from mobnet.core.arrays import Array
 from mobnet.core.detections import Collision, Detected, FreeSwing, Promise
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.evaluation.number.files import read_rows
+from mobnet.core.rows import read_rows
 from mobnet.evaluation.number.intervals import RunGrid
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.single import share

@@ -5,9 +5,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from mobnet.core.columns import CLAIMED, INSIDE, PRINTED, SCORED, UNEXPLAINED, VERDICTS
+from mobnet.core.rows import read_texts
 from mobnet.evaluation.measure.claims.bounds import within
 from mobnet.evaluation.measure.claims.verdicts import NOT_REPRODUCED, worst
-from mobnet.evaluation.number.files import read_texts
 from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
 
 ALL = "all"  # verdicts or scores together

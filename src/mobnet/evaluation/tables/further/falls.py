@@ -6,8 +6,9 @@ from pathlib import Path
 from statistics import median_low
 
 from mobnet.core.columns import FALLEN, Falls
+from mobnet.core.rows import read_rows
 from mobnet.evaluation.measure.detection.results import rate_of
-from mobnet.evaluation.number.files import Field, read_rows
+from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.tables.layout import Table, write_table
 from mobnet.settings.evaluation import Statistics
 
