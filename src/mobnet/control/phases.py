@@ -9,7 +9,7 @@ import numpy as np
 from mobnet.control.footsteps import decay
 from mobnet.control.geometry import clip, smoothstep, wrap
 from mobnet.control.parameters import DURATION, State, WalkingParameters
-from mobnet.control.walker import Walker, foot_yaw, vertical_force
+from mobnet.control.walker import Walker, foot_yaw, is_ground, vertical_force
 from mobnet.core.arrays import Array
 from mobnet.core.compilation import compiled
 
@@ -24,7 +24,7 @@ def touch_down(walker: Walker, s: State, commands: Array) -> None:
     double_support = par.double_support_share * s.commanded
     # Contact in the first half of a swing is a foot that drags; a foot that finds no ground would tip the robot.
     due = s.t > double_support + 0.5 * (s.total - double_support)
-    landed = due and vertical_force(walker, swing) > par.touch_force_n
+    landed = due and is_ground(walker, swing)
     if not landed and s.t <= s.total + par.late_max_s:
         return
     old = walker.feet[1 - swing]

@@ -75,6 +75,19 @@ def vertical_force(walker: Walker, k: int) -> float:
 
 
 @compiled
+def is_ground(walker: Walker, k: int) -> bool:
+    """Return whether the ground can push foot k (0 left, 1 right) as measured: hard enough, inside its friction cone.
+
+    An obstacle that stops the foot pushes it back harder than up.
+    """
+    pose, force, sideways2 = walker.pose.rotation[walker.feet[k]], walker.wrench[k], 0.0
+    up = vertical_force(walker, k)
+    for i in range(2):
+        sideways2 += (pose[i, 0] * force[0] + pose[i, 1] * force[1] + pose[i, 2] * force[2]) ** 2
+    return up > walker.par.touch_force_n and sideways2 < (walker.par.touch_friction * up) ** 2
+
+
+@compiled
 def move_wrenches(walker: Walker, wrenches: Array) -> None:
     """Fill walker.wrench from measured wrenches (2, 6) [N, N m], moved from the sensors to the ankles."""
     r = walker.sensor

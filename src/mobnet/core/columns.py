@@ -22,6 +22,7 @@ PUSH_TORQUE = "tau_push"  # what pushes alone add to the external torque
 EXTERNAL = "tau_ext"  # of a recording: true; of an estimate: estimated
 RESIDUAL, EXTERNAL_LP = "r", "tau_ext_lp"  # r of (9), and the true external torque behind the observer's low-pass, (15)
 LABEL_LP = "label_lp"  # the external torque by the foot sensors, J^T F, behind the same low-pass
+ESTIMATED = "estimated"  # external torque that is estimated, beside a true one
 STD = "std"  # standard deviation that an estimate comes with
 
 
@@ -202,6 +203,10 @@ COVERAGE = (
 CALIBRATION = (
     "test", "level", "pushed", "method", "limb", "measure", "share", "before", "before_low", "before_high",
     "after", "low", "high", *SPREAD, "unit",
+)  # fmt: skip
+SAFETY = (
+    "case", "detector", "thresholds", "wait_s", "measure", "value", "low", "high", "walks", "touched", "unit",
+    "published",
 )  # fmt: skip
 DETECTION = (
     "level",

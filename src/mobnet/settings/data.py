@@ -21,6 +21,7 @@ StepTime = Annotated[base.Real, Field(ge=0.2, le=3)]  # [s]
 Duration = Annotated[base.Real, Field(ge=0.002, le=120)]  # of a push [s]
 FootHeight = Annotated[base.Real, Field(ge=0.005, le=0.5)]  # [m]
 Offset = Annotated[base.Real, Field(ge=-0.5, le=0.5)]  # [m]
+Offset3 = Annotated[base.Real, Field(ge=-5, le=5)]  # [m]
 Cost = Annotated[base.Real, Field(ge=0.001, le=50)]
 RecordingSeconds = Annotated[base.Real, Field(ge=1, le=7200)]
 
@@ -64,6 +65,25 @@ class Terrain(Section):
     flat: Flat | None = None
     plates: Plates | None = None
     slope: Slope | None = None
+
+
+class ObstaclePart(Section):
+    """A solid of an obstacle: half lengths of a box, radius and half length of a capsule or cylinder along its axis."""
+
+    type: Literal["box", "capsule", "cylinder"]
+    size: base.Some[base.Length]
+    pos: tuple[Offset3, Offset3, Offset3]
+    axis: Literal["x", "y", "z"] = "z"
+
+
+class Obstacle(Section):
+    """A padded obstacle that stands fixed in the robot's way, sections 5.4 and 7; its distance is drawn."""
+
+    parts: base.Some[ObstaclePart]
+    ahead_m: base.Range[Annotated[base.Real, Field(ge=0.2, le=20)]]
+    stiffness_n_m: base.Real = Field(ge=100, le=1e7)
+    damping_ns_m: base.Real = Field(ge=0, le=1e5)
+    friction: base.Real = Field(ge=0, le=2)
 
 
 class RandomCommands(Section):
@@ -190,13 +210,19 @@ class Push(Section):
 
 
 class Scenario(Section):
-    """What is walked; a level and a seed make it a recording."""
+    """What is walked; a level and a seed make it a recording.
+
+    Where there are obstacles, the robot starts at the origin and faces them. The controller gets the wrenches of the
+    feet as their sensors read them, or as a closed loop estimates them.
+    """
 
     terrain: base.Distinct[base.TerrainName]
     commands: CommandSource | base.Some[CommandSource] | FixedCommand
     narrowed: CommandRanges = CommandRanges()
     random_torque: base.Flag
     pushes: Annotated[tuple[base.PushName, ...], AfterValidator(base.distinct)] = ()
+    obstacles: Annotated[tuple[base.ObstacleName, ...], AfterValidator(base.distinct)] = ()
+    wrench: Literal["sensed", "estimated"] = "sensed"
     motion: base.MotionName | None = None
     draws: base.ScenarioName | None = None
 

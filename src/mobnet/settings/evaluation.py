@@ -1,6 +1,6 @@
 """What tables and figures show: one section for each, under its own name."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field
 
@@ -245,6 +245,21 @@ class FineTuning(Section):
     limb: base.LimbName
     joint: base.Text
     tests: Annotated[dict[base.Text, TunedTest], Field(min_length=1)]
+
+
+class Safety(Section):
+    """What reactions are worth; a direction is right within an angle."""
+
+    within_deg: Annotated[base.Positive, Field(le=180)]
+
+
+class Figure16(Safety):
+    """Force of an obstacle over time in one walk of each case, `shown_s` from its contact on, every so many samples."""
+
+    cases: base.Distinct[Literal["foot", "knee"]]
+    shown_s: base.Span[base.Real]
+    every: base.Count
+    touch_n: base.Positive
 
 
 class Coverage(Section):
@@ -493,6 +508,8 @@ class Evaluation(Section):
     table_09: DetectorTable
     table_13: ThresholdTable
     false_alarms: AlarmTable
+    safety: Safety
+    figure_16: Figure16
     found_by_rate: FoundByRate
     smallest_force: SmallestForce
     links: Links

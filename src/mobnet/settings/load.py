@@ -29,12 +29,14 @@ PARTS: Mapping[str, tuple[str, ...]] = {  # file -> the sections that stand in i
     "surrogate": ("surrogate", "fleet"),
     "walking": ("walking",),
     "data": (
-        "terrain", "commands", "random_torque", "motions", "pushes", "scenarios", "training_sets", "recording",
+        "terrain", "commands", "random_torque", "motions", "pushes", "obstacles", "scenarios", "training_sets",
+        "recording",
     ),
     "networks": ("networks", "learning"),
     "methods": ("observer", "methods", "sweeps"),
     "trials": ("development", "trials"),
     "detection": ("detection",),
+    "reaction": ("reaction",),
     "evaluation": ("evaluation",),
     "scales": ("scales",),
 }  # fmt: skip

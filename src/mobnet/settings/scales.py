@@ -21,6 +21,14 @@ class Experiment(Length):
     seeds: Seeds
 
 
+class ReactionSizes(Section):
+    """Walks of a robot into each obstacle with our detector, and with each other one; their longest duration."""
+
+    runs: Annotated[Count, Field(le=10_000)]
+    compared: Annotated[Count, Field(le=10_000)]
+    longest_s: Annotated[Positive, Field(ge=1, le=120)]
+
+
 class Scale(Section):
     """One size of every test and of every training; the last five replace numbers of other sections.
 
@@ -37,6 +45,7 @@ class Scale(Section):
     robots: dict[LowerName, Length] = {}
     fleet: Annotated[Count, Field(le=100)] | None = None
     fleet_shards: Annotated[Count, Field(le=100)] | None = None
+    reactions: ReactionSizes
     least_swings: Annotated[Count, Field(le=100_000)] | None = None
     batch_size: Annotated[Count, Field(le=4096)] | None = None
     stream_s: Annotated[Positive, Field(ge=0.05, le=600)] | None = None

@@ -18,6 +18,7 @@ from mobnet.settings.data import (
     Commands,
     Development,
     Motion,
+    Obstacle,
     Push,
     RandomTorque,
     RecordingSettings,
@@ -31,6 +32,7 @@ from mobnet.settings.methods import Method, Observer, Sweep
 from mobnet.settings.networks import Learning, NetworkRow
 from mobnet.settings.plant import Level, Plant, Rates
 from mobnet.settings.published import Published
+from mobnet.settings.reaction import Reaction
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.scales import Scale
 from mobnet.settings.surrogate import Fleet, Surrogate
@@ -54,6 +56,7 @@ class Settings(Section):
     random_torque: RandomTorque
     motions: dict[LowerName, Motion]
     pushes: dict[LowerName, Push]
+    obstacles: dict[LowerName, Obstacle]
     scenarios: Annotated[dict[LowerName, Scenario], Field(min_length=1)]
     training_sets: Annotated[dict[LowerName, TrainingSet], Field(min_length=1)]
     recording: RecordingSettings
@@ -65,6 +68,7 @@ class Settings(Section):
     development: Annotated[dict[LowerName, Development], Field(min_length=1)]
     trials: Trials
     detection: Detection
+    reaction: Reaction
     evaluation: Evaluation
     scales: Annotated[dict[LowerName, Scale], Field(min_length=1)]
     robot: RobotTable
@@ -110,3 +114,4 @@ class WalkSettings(Section):
     surrogate: Surrogate | None
     terrain: Terrain
     pushes: dict[str, Push]
+    obstacles: dict[str, Obstacle]

@@ -51,6 +51,7 @@ class Walking(Section):
     step_longer_max_s: Real = Field(ge=0.01, le=3)
     swing_speed_max_m_s: Real = Field(ge=0.1, le=20)
     touch_force_n: Real = Field(ge=5, le=1000)
+    touch_friction: Real = Field(ge=0.1, le=10)
     late_max_s: Real = Field(ge=0.005, le=1)
     early_max_s: Real = Field(ge=0.005, le=1)
     swing_apex: Real = Field(ge=0.05, le=0.95)

@@ -68,7 +68,7 @@ def make_plant(
         native, data.qpos, data.qvel, data.ctrl, data.qfrc_applied, data.xfrc_applied, data.site_xpos, data.xipos,
         data.xmat, data.qfrc_smooth, data.qfrc_bias, data.qfrc_passive, data.qfrc_actuator, data.sensordata, friction,
         drives, faults, -float(world.model.opt.gravity[2]), np.zeros(len(data.ctrl)),
-        np.array(limits, dtype=float), float(world.period), float(world.terrain.edge), float(fall_height),
+        np.array(limits, dtype=float), float(world.period), world.edge, float(fall_height),
         float(world.model.opt.timestep), int(every),
     )  # fmt: skip
 
@@ -96,7 +96,8 @@ def run(
         told[:] = 0.0
         for _ in range(plant.every):
             follow(upper, s.clock, walker.posture, walker.posture_rate)
-            walk(walker, s, sensors.q, sensors.v, sensors.wrenches, commands, plant.dt, tau)
+            loads = sensors.told if sensors.estimated == 1 else sensors.wrenches
+            walk(walker, s, sensors.q, sensors.v, loads, commands, plant.dt, tau)
             _explore(walker, s, torque, rng_torque, plant.dt, tau, tau_random)
             _actuate(plant, tau, tau_des, tau_motor)
             push(

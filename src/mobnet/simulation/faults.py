@@ -105,7 +105,7 @@ def perceive(
     """Fill what the sensors see from the plant after a step: qpos (nq,), qvel (nv,), sensordata, body axes (n, 9)."""
     _copy(qpos, faults.qpos)
     _copy(qvel, faults.qvel)
-    _copy(data, faults.data)
+    _copy(data[: len(faults.data)], faults.data)  # those of obstacles come behind the robot's own
     for j in range(len(faults.zero)):
         if drives.hidden == 1:
             faults.qpos[7 + j] = drives.state[j].angle

@@ -37,10 +37,12 @@ class Sensors(NamedTuple):
     v: Array  # generalized velocity (nv,), as `Sensed.v`
     acc_base_in_base: Array  # specific force (3,) [m/s^2]
     wrenches: Array  # ground's wrench on the feet about their sensors, foot axes (2, 6) [N, N m]
+    estimated: int  # 1 if the controller is told `told` in place of these wrenches
+    told: Array  # estimated wrenches, as `wrenches` (2, 6) [N, N m]; written by who runs the loop
 
 
-def make_sensors(plant: Plant, level: Level, model: mujoco.MjModel) -> Sensors:
-    """Build the sensors of a plant at an uncertainty level (section 5.1)."""
+def make_sensors(plant: Plant, level: Level, model: mujoco.MjModel, estimated: bool = False) -> Sensors:
+    """Build the sensors of a plant at an uncertainty level (section 5.1); see `Sensors.estimated`."""
     q_std, v_std, acc_std, omega_std = read_table_03(plant.noise, level)
     own, noisy = plant.own_noise, level.noise != "none"
     return Sensors(
@@ -63,6 +65,8 @@ def make_sensors(plant: Plant, level: Level, model: mujoco.MjModel) -> Sensors:
         v=np.zeros(model.nv),
         acc_base_in_base=np.zeros(3),
         wrenches=np.zeros((len(SIDES), 6)),
+        estimated=int(estimated),
+        told=np.zeros((len(SIDES), 6)),
     )
 
 

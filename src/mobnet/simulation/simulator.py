@@ -33,7 +33,7 @@ STAND = "stand"  # commands of an episode that does not walk
 LAWS = {"joystick": joystick_law, "uniform": uniform_law}  # commands that are drawn, but not by `commands.random`
 SOLE_POINTS = (5, 3)  # along and across a sole, where the ground under a start is looked for
 # Streams of random numbers, in the order spawned.
-STREAMS = ("commands", "noise", "torque", "place", "pushes", "terrain", "running")
+STREAMS = ("commands", "noise", "torque", "place", "pushes", "terrain", "running", "obstacles")
 
 
 class Setting(NamedTuple):
@@ -85,12 +85,14 @@ class Simulator:
         settings, rates = self.settings, self.settings.rates
         robot, plant, drives, faults = self.hidden
         drawn = draw_terrain(dict(settings.terrain)[terrain], self.rng["terrain"])
-        world = make_world(robot, drawn, plant, settings.level, rates.plant_hz)
+        world = make_world(
+            robot, drawn, plant, settings.level, rates.plant_hz, settings.obstacles, self.rng["obstacles"]
+        )
         friction = make_friction(plant, leg_mask(self.robot), settings.level.friction)
         every = round(rates.plant_hz / rates.data_hz)
         limits = np.maximum(self.robot.torque_limits, plant.motor_limit_min_nm)
         native, fall_height = bind(world.model, world.data), settings.recording.fall_height_m
-        sensors = make_sensors(plant, settings.level, world.model)
+        sensors = make_sensors(plant, settings.level, world.model, settings.scenario.wrench == "estimated")
         pushes = make_pushes(settings.pushes, world.model, self.robot)
         plant = make_plant(world, native, friction, drives, faults, limits, fall_height, every)
         self.setting = Setting(terrain, world, plant, sensors, pushes)
@@ -115,6 +117,8 @@ class Simulator:
         begin = start_standing if kind == STAND else start_walking
         q, v = begin(self.walker, self.robot, self.state, self.commands[0])
         yaw, place = self.rng["place"].uniform(-np.pi, np.pi), self.rng["place"].uniform(-0.5, 0.5, 2)
+        if self.settings.obstacles:
+            yaw, place = 0.0, np.zeros(2)
         turn(self.state, q, v, yaw, place * self.world.period)
         raise_start(self.state, q, ground_height(self.world, self._sole_points(yaw)).max())
         self.state.clock = clock

@@ -1,6 +1,9 @@
 """Robot on terrain: the compiled plant at one uncertainty level (section 5.1)."""
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import mujoco
 import numpy as np
@@ -8,7 +11,9 @@ from numpy.typing import NDArray
 
 from mobnet.robot.description import SIDES, RobotDescription
 from mobnet.robot.plant import robot_spec, sole_name
+from mobnet.settings.data import Obstacle
 from mobnet.settings.plant import Level, Plant
+from mobnet.simulation.obstacles import add_obstacles, set_obstacles
 from mobnet.simulation.terrain import TERRAIN_GROUP, DrawnTerrain, add_terrain, top_of
 
 DOWN = np.array([0.0, 0.0, -1.0])
@@ -24,6 +29,12 @@ class World:
     model: mujoco.MjModel  # MuJoCo's model
     data: mujoco.MjData  # its state
     terrain: DrawnTerrain  # what was drawn
+    obstacles: Mapping[str, Obstacle]  # what stands in the way
+
+    @property
+    def edge(self) -> float:
+        """Distance from the origin in x or y beyond which a robot without obstacles is put back by a period [m]."""
+        return math.inf if self.obstacles else self.terrain.edge
 
     @property
     def period(self) -> float:
@@ -31,16 +42,25 @@ class World:
         return self.terrain.period
 
 
-def make_world(robot: RobotDescription, terrain: DrawnTerrain, plant: Plant, level: Level, rate_hz: float) -> World:
-    """Compile the robot on a terrain, stepped at a rate [1/s]; the level switches friction loss on or off."""
+def make_world(
+    robot: RobotDescription, terrain: DrawnTerrain, plant: Plant, level: Level, rate_hz: float,
+    obstacles: Mapping[str, Obstacle] = MappingProxyType({}), rng: np.random.Generator | None = None,
+) -> World:  # fmt: skip
+    """Compile the robot on a terrain, stepped at a rate [1/s]; the level switches friction loss on or off.
+
+    The distances of obstacles are drawn by `rng`.
+    """
     spec = robot_spec(robot)
     add_terrain(spec, terrain)
     _set_options(spec, plant, rate_hz)
+    if rng is not None:
+        add_obstacles(spec, robot, obstacles, rng)
     model = spec.compile()
     _set_soles(model, plant)
+    set_obstacles(model, obstacles)
     if "loss" in level.friction:
         _set_friction_loss(model, robot, plant)
-    return World(model, mujoco.MjData(model), terrain)
+    return World(model, mujoco.MjData(model), terrain, obstacles)
 
 
 def ground_height(world: World, points: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, ValidationError
 
+from mobnet.core.reactions import FORCE_SENSORS, NONE
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.data import data_problems
 from mobnet.settings.checks.detection import LARGEST
@@ -32,12 +33,13 @@ def accepted_names(catalogue: Catalogue) -> dict[str, Collection[str]]:
     pushed = [name for name, row in settings.scenarios.items() if row.pushes]
     learned = [name for name, row in catalogue.all_methods.items() if row.limbs]
     struck = settings.scenarios[detection.collisions].pushes if detection.collisions in settings.scenarios else ()
+    reacts = [name for name, row in detection.detectors.items() if not (row.norm or row.commanded)]
     points = [settings.pushes[name].point or "" for name in struck if name in settings.pushes]
     return {
         "scale": settings.scales, "level": [*settings.levels, *settings.fleet.levels],
         "level of one plant": settings.levels,
         "level of a surrogate robot": [name for name, level in settings.levels.items() if level.surrogate],
-        "terrain": terrains, "push": settings.pushes,
+        "terrain": terrains, "push": settings.pushes, "obstacle": settings.obstacles,
         "motion": settings.motions, "scenario": settings.scenarios,
         "scenario with pushes": pushed, "scenario without pushes": settings.scenarios.keys() - {*pushed},
         "test with a window around pushes": settings.evaluation.windows,
@@ -46,6 +48,7 @@ def accepted_names(catalogue: Catalogue) -> dict[str, Collection[str]]:
         "network": settings.networks, "sweep": settings.sweeps, "method": catalogue.all_methods,
         "method with networks": learned,
         "method that runs on its own": [name for name, row in settings.methods.items() if row.of is None],
+        "detector that reacts": (*reacts, FORCE_SENSORS, NONE),
         "detector": detection.detectors, "rule of thresholds": (LARGEST, *detection.thresholds.rates_per_h),
         "level with detectors": (*detection.levels, *settings.fleet.robots), "leg with detectors": detection.legs,
         "cell of collisions": [" ".join(point.split("_")[1:]) for point in points],

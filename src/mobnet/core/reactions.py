@@ -1,0 +1,56 @@
+"""Rows of the files of a robot's reactions: walks into obstacles (sections 5.4 and 7)."""
+
+from dataclasses import dataclass, fields
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A walk into an obstacle, with a detector and a reaction or without.
+
+    Times are from the beginning of the walk [s]; None is what did not happen.
+
+    Attributes:
+        case: what is walked into, a key of `reaction.cases`.
+        level: the robot.
+        seed: of the walk.
+        detector: the detector, `none` where the robot does not react.
+        rule: of its thresholds.
+        wait_s: time that the reaction waits after an alarm [s].
+        contact_s: first contact with the obstacle.
+        alarm_s: the alarm.
+        limb: the limb that was watched.
+        reacted_s: the reaction.
+        angle_deg: angle between the direction of the reaction and the force of the obstacle until then, horizontal.
+        base_angle_deg: the same of the unexpected force on the base, (24).
+        first_peak_n: largest force of the first contact [N].
+        first_impulse_ns: its impulse [N s].
+        peak_n: largest force [N].
+        impulse_ns: impulse of all contacts [N s].
+        contacts: number of contacts.
+        fell_s: the fall.
+        stopped: 1 if the robot stands at the end.
+    """
+
+    case: str
+    level: str
+    seed: int
+    detector: str
+    rule: str
+    wait_s: float
+    contact_s: float | None
+    alarm_s: float | None
+    limb: str
+    reacted_s: float | None
+    angle_deg: float | None
+    base_angle_deg: float | None
+    first_peak_n: float | None
+    first_impulse_ns: float | None
+    peak_n: float | None
+    impulse_ns: float | None
+    contacts: int
+    fell_s: float | None
+    stopped: int
+
+
+TRIALS = tuple(field.name for field in fields(Trial))
+NONE, FORCE_SENSORS = "none", "force sensors"  # detectors of a robot that does not react, or by its feet's sensors

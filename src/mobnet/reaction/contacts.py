@@ -1,0 +1,124 @@
+"""Identification, section 7: which wrenches on hands and feet explain the estimated torques, and what is unexpected.
+
+Intended contacts are those of end-effectors, so that one Jacobian a limb is enough. World axes; a wrench is a force [N]
+and a moment [N m] about the origin of its body.
+"""
+
+from collections.abc import Collection, Mapping
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.control.geometry import cross, solve
+from mobnet.control.kinematics import Pose, Tree, empty_pose, tree_of, update
+from mobnet.core.arrays import Array
+from mobnet.core.compilation import compiled, vector3
+from mobnet.core.joints import N_VIRTUAL
+from mobnet.robot.description import SIDES, RobotDescription
+from mobnet.settings.reaction import Identification
+
+
+class Ends(NamedTuple):
+    """The end-effectors of a robot's limbs and the wrenches on them."""
+
+    tree: Tree  # bodies of the nominal model
+    pose: Pose  # their places; filled for each sample
+    body: NDArray[np.int64]  # of each end-effector (k,)
+    first: NDArray[np.int64]  # first actuator of its limb (k,)
+    joints: NDArray[np.int64]  # number of the limb's joints (k,)
+    damping: Array  # (C2) of the six numbers of a wrench [N^2 m^2/N^2], [N^2 m^2/(N m)^2]
+    still: Array  # a generalized velocity of zeros (nv,)
+    jacobian: Array  # room (6, n), linear above angular rows
+    normal: Array  # room (6, 6)
+    wrench: Array  # on each end-effector (k, 6) [N, N m]
+
+
+def end_effectors(robot: RobotDescription) -> dict[str, str]:
+    """Return limb -> body of its hand or foot, the left and right foot first."""
+    joints = {joint.body: joint.id for joint in robot.joints}
+    limbs = {joint: limb for limb, names in robot.layout.groups.items() for joint in names}
+    hands = {limbs[joints[body]]: body for body in robot.hands.values()}
+    return {robot.feet[side].limb: robot.feet[side].body for side in SIDES} | hands
+
+
+def make_ends(robot: RobotDescription, bodies: Mapping[str, str], numbers: Identification) -> Ends:
+    """Return the end-effectors of limbs, limb -> body."""
+    tree = tree_of(robot, 1.0)
+    names = [body.name for body in robot.bodies]
+    limbs = [robot.layout.limb(limb) for limb in bodies]
+    first = [robot.layout.actuated.index(joints[0]) for joints in limbs]
+    count, body = [len(joints) for joints in limbs], [names.index(name) for name in bodies.values()]
+    per_force, per_moment = numbers.torque_error_nm / numbers.force_n, numbers.torque_error_nm / numbers.moment_nm
+    return Ends(
+        tree, empty_pose(tree), np.array(body), np.array(first), np.array(count),
+        np.repeat([per_force**2, per_moment**2], 3), np.zeros(robot.layout.nv), np.zeros((6, max(count))),
+        np.zeros((6, 6)), np.zeros((len(body), 6)),
+    )  # fmt: skip
+
+
+@compiled
+def identify(ends: Ends, q: Array, tau: Array) -> None:
+    """Fill ends.wrench (k, 6) with what explains the torques tau (nv,) [N, N m] of each limb best at q (nq,).
+
+    (C1) of the joints of a limb tau = J^T F; (C2) the wrench that makes |J^T F - tau|^2 / s^2 + |F|^2 / F_0^2 smallest,
+    with s the error of the torques and F_0 a wrench that is large: F = (J J^T + D)^-1 J tau. The damping D decides
+    where the joints say nothing, as of a force along a straight leg (section 8.4).
+    """
+    update(ends.tree, q, ends.still, 0.0, ends.pose)
+    arm, column = vector3(), vector3()
+    for e in range(len(ends.body)):
+        end, wrench = ends.body[e], ends.wrench[e]
+        wrench[:] = 0.0
+        for j in range(ends.joints[e]):
+            joint = ends.first[e] + j
+            body = ends.tree.body_of_joint[joint]
+            for i in range(3):
+                arm[i] = ends.pose.position[end, i] - ends.pose.position[body, i]
+            cross(ends.pose.axis[joint], arm, column)
+            for i in range(3):
+                ends.jacobian[i, j] = column[i]
+                ends.jacobian[3 + i, j] = ends.pose.axis[joint, i]
+            for i in range(6):
+                wrench[i] += ends.jacobian[i, j] * tau[N_VIRTUAL + joint]
+        for i in range(6):
+            for k in range(6):
+                total = ends.damping[i] if i == k else 0.0
+                for j in range(ends.joints[e]):
+                    total += ends.jacobian[i, j] * ends.jacobian[k, j]
+                ends.normal[i, k] = total
+        solve(ends.normal, wrench)
+
+
+def unexpected_wrench(ends: Ends, tau: Array, expected: Collection[int]) -> Array:
+    """Return the wrench on the base that no expected contact explains, (24), (6,) [N, N m], after `identify`.
+
+    tau (nv,) are the estimated torques, of which the first six are the base's: a force in world axes and a moment in
+    base axes; `expected` are end-effectors that the plan has in contact, by their number.
+    """
+    rotation, origin = ends.pose.rotation[0], ends.pose.position[0]
+    found = np.concatenate([tau[:3], rotation @ tau[3:N_VIRTUAL]])
+    for e in expected:
+        force, arm = ends.wrench[e, :3], ends.pose.position[ends.body[e]] - origin
+        found[:3] -= force
+        found[3:] -= ends.wrench[e, 3:] + np.cross(arm, force)
+    return found
+
+
+@compiled
+def tell_feet(ends: Ends, sensor: Array, told: Array) -> None:
+    """Write the wrenches of the ground as the feet's sensors would read them into told (2, 6), after `identify`.
+
+    The first two end-effectors are the feet; `sensor` (3,) [m] is the place of the sensor in a foot.
+    """
+    arm = vector3()
+    for k in range(len(told)):
+        rotation, wrench = ends.pose.rotation[ends.body[k]], ends.wrench[k]
+        for i in range(3):
+            told[k, i] = told[k, 3 + i] = 0.0
+            for j in range(3):
+                told[k, i] += rotation[j, i] * wrench[j]
+                told[k, 3 + i] += rotation[j, i] * wrench[3 + j]
+        cross(sensor, told[k, :3], arm)
+        for i in range(3):
+            told[k, 3 + i] -= arm[i]

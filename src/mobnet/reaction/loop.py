@@ -1,0 +1,113 @@
+"""A robot that walks with an estimator of its external torque in the loop, and reacts to what it feels."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.control.parameters import State
+from mobnet.core.arrays import Array
+from mobnet.core.columns import recording_columns
+from mobnet.core.estimator import Estimate, Estimator
+from mobnet.core.joints import JointLayout
+from mobnet.core.recording import Sensed
+from mobnet.reaction.contacts import tell_feet
+from mobnet.reaction.handler import Handler, Reacted
+from mobnet.simulation.obstacles import obstacle_force
+from mobnet.simulation.simulator import Simulator
+
+SENSED = ("q", "v", "acc_base_in_base", "tau_des", "tau_motor", "swing", "command", "landing")
+
+
+@dataclass
+class Course:
+    """What happened in a walk, sample by sample; joints that are not estimated have zeros.
+
+    Attributes:
+        rows: the recording (T, C), columns of `recording_columns`.
+        tau: estimated external torque (T, nv) [N, N m].
+        std: its standard deviation (T, nv) [N, N m], zero where there is none.
+        force: of the obstacles on the robot (T, 3) [N], world axes.
+        reacted: the reaction and its sample, if there was one.
+        fallen: whether the robot fell at the end.
+    """
+
+    rows: NDArray[np.float32]
+    tau: NDArray[np.float32]
+    std: NDArray[np.float32]
+    force: NDArray[np.float32]
+    reacted: tuple[int, Reacted] | None = None
+    fallen: bool = False
+
+    @classmethod
+    def of(cls, samples: int, width: int, nv: int) -> "Course":
+        """Return room for so many samples."""
+        rows, tau, std, force = (np.zeros((samples, n), np.float32) for n in (width, nv, nv, 3))
+        return cls(rows, tau, std, force)
+
+    def cut(self, samples: int) -> "Course":
+        """Return the first samples."""
+        return replace(self, **{name: getattr(self, name)[:samples] for name in ("rows", "tau", "std", "force")})
+
+
+def walk_with(
+    simulator: Simulator, estimator: Estimator, handler: Handler, longest: int, after: int, touch_n: float
+) -> Course:
+    """Walk a started episode until so many samples `after` an obstacle is first touched with touch_n [N].
+
+    It ends before that where the robot falls, and after `longest` samples at the latest.
+    """
+    layout, sensors = simulator.robot.layout, simulator.sensors
+    places, columns = columns_of(layout), layout.columns(estimator.joints)
+    course, row = Course.of(longest, simulator.width, layout.nv), np.zeros((1, simulator.width), np.float32)
+    state, estimating, left = handler.init(), estimator.init(), longest
+    for k in range(longest):
+        if left == 0:
+            return course.cut(k)
+        if simulator.run(row) == 0:
+            course.fallen = True
+            return course.cut(k)
+        sample = Sensed(*(row[0, places[name]] for name in SENSED))
+        estimating, estimate = estimator.step(estimating, sample)
+        course.rows[k], course.tau[k, columns], course.force[k] = row[0], estimate.tau_ext, force_on(simulator)
+        if estimate.std is not None:
+            course.std[k, columns] = estimate.std
+        reacted = handler.step(state, sample, Estimate(course.tau[k], course.std[k]))
+        tell_feet(handler.identified, simulator.walker.sensor, sensors.told)
+        if reacted is not None:
+            course.reacted = k, reacted
+            simulator.commands = plan_steps(simulator.state, reacted.steps)
+        if course.reacted is not None:
+            stop(simulator.state, len(simulator.commands))
+        touched = left < longest or np.linalg.norm(course.force[k]) > touch_n
+        left = min(left, after) - 1 if touched else left
+    return course
+
+
+def force_on(simulator: Simulator) -> Array:
+    """Return the force of all obstacles on the robot in the last step (3,) [N], world axes."""
+    model, data = simulator.world.model, simulator.world.data
+    return sum((obstacle_force(model, data, name) for name in simulator.settings.obstacles), np.zeros(3))
+
+
+def columns_of(layout: JointLayout) -> Mapping[str, slice]:
+    """Return field -> its columns in a row of a recording."""
+    found, at = dict[str, slice](), 0
+    for name, columns in recording_columns(layout).items():
+        found[name] = slice(at, at + len(columns))
+        at += len(columns)
+    return found
+
+
+def plan_steps(s: State, steps: Array) -> Array:
+    """Give the controller reacting steps (n, 5), the first for the present step; return its commands (m, 5)."""
+    s.command[:] = steps[0]
+    # The controller looks up the command of a step by its number; those of steps that are past are not read again.
+    return np.vstack([np.zeros((int(s.steps), steps.shape[1])), steps])
+
+
+def stop(s: State, steps: int) -> None:
+    """Let a robot that has made all its steps stand, once the last foot has landed."""
+    if s.steps >= steps and s.swinging == 0 and s.t >= 0.0:
+        s.standing = 1

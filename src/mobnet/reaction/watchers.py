@@ -1,0 +1,104 @@
+"""Detectors in the pipeline: of swinging legs (section 5.3), of limbs that nothing should touch, by feet's sensors."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.arrays import Array
+from mobnet.core.estimator import Estimate, Estimator
+from mobnet.core.recording import Sensed
+from mobnet.detection.chain import Chain, ChainState, advance_chain, chain_state
+from mobnet.detection.detector import LegDetector, LegGate, State
+from mobnet.detection.gate import advance_gate, gate_state
+
+Columns = NDArray[Any]
+
+
+def some(estimate: Estimate, columns: Columns) -> Estimate:
+    """Return the estimate of some joints (n,) [N, N m]."""
+    return Estimate(estimate.tau_ext[columns], None if estimate.std is None else estimate.std[columns])
+
+
+@dataclass(frozen=True)
+class LegWatcher:
+    """A leg's detector on the estimate of all joints (nv,), of which `columns` are the leg's."""
+
+    detector: LegDetector
+    columns: Columns
+
+    def init(self) -> State:
+        """Return the state before the first sample."""
+        return self.detector.init()
+
+    def ratio(self, state: State, sample: Sensed, estimate: Estimate) -> float:
+        """Return how far the highest signal lies above its threshold in the watched part of a swing, else zero."""
+        own = some(estimate, self.columns)
+        return float(self.detector.step(state, sample, own, own.tau_ext).ratio)
+
+
+@dataclass
+class OwnState:
+    """States of an estimator and of the detector on it."""
+
+    estimator: Any
+    detector: State
+
+
+@dataclass(frozen=True)
+class OwnLegWatcher:
+    """A leg's detector on an estimator of its own, of whose joints `held` are the leg's; the gate has the other one."""
+
+    detector: LegDetector
+    columns: Columns
+    estimator: Estimator
+    held: Columns
+
+    def init(self) -> OwnState:
+        """Return the state before the first sample."""
+        return OwnState(self.estimator.init(), self.detector.init())
+
+    def ratio(self, state: OwnState, sample: Sensed, estimate: Estimate) -> float:
+        """Return how far the highest signal lies above its threshold in the watched part of a swing, else zero."""
+        state.estimator, own = self.estimator.step(state.estimator, sample)
+        gating = estimate.tau_ext[self.columns]
+        return float(self.detector.step(state.detector, sample, some(own, self.held), gating).ratio)
+
+
+@dataclass(frozen=True)
+class LimbWatcher:
+    """Joints that no intended contact loads, watched all the time."""
+
+    chain: Chain
+    columns: Columns
+
+    def init(self) -> ChainState:
+        """Return the state before the first sample."""
+        return chain_state(self.chain, len(self.columns))
+
+    def ratio(self, state: ChainState, sample: Sensed, estimate: Estimate) -> float:
+        """Return how far the highest torque lies above its threshold."""
+        return float(advance_chain(self.chain, state, estimate.tau_ext[self.columns].astype(np.float64), True, 0.0))
+
+
+@dataclass(frozen=True)
+class FootWatcher:
+    """The force sensor of a foot in its swing, for comparison: `wrenches` (2, 6) are those of the sensors just now."""
+
+    gate: LegGate
+    chain: Chain
+    columns: Columns
+    wrenches: Array
+
+    def init(self) -> State:
+        """Return the state before the first sample."""
+        return State(gate_state(), chain_state(self.chain, 3))
+
+    def ratio(self, state: State, sample: Sensed, estimate: Estimate) -> float:
+        """Return how far the force lies above its threshold in the watched part of a swing, else zero."""
+        foot, gate = self.gate.foot, self.gate
+        q, tau = np.asarray(sample.q, dtype=np.float64), estimate.tau_ext[self.columns].astype(np.float64)
+        times = float(sample.swing[foot]), float(sample.landing[foot])
+        is_watched = advance_gate(gate.gate, gate.leg, state.gate, q, tau, *times)
+        return float(advance_chain(self.chain, state.chain, self.wrenches[foot, :3], is_watched, state.gate.phase))

@@ -1,0 +1,74 @@
+"""Handling collisions (sections 5.4 and 7): identification, reacting steps, stop mode."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from mobnet.core.detections import LARGEST
+from mobnet.settings import base
+from mobnet.settings.base import Section
+
+Strategy = Literal["compliant", "rewind"]
+
+
+class Identification(Section):
+    """Damping of the contact Jacobian's inverse: errors of torques, and wrenches that are large."""
+
+    torque_error_nm: base.Real = Field(ge=0.01, le=100)
+    force_n: base.Real = Field(ge=10, le=1e5)
+    moment_nm: base.Real = Field(ge=1, le=1e4)
+
+
+class FirstStep(Section):
+    """How far a foot that is in the air may be sent elsewhere, so that it need not be fast."""
+
+    height_ratio: base.Real = Field(ge=0, le=20)
+    foot_speed_m_s: base.Real = Field(ge=0.01, le=10)
+
+
+class Compliant(Section):
+    """Compliant Stepping Planning, (24) and Figure 21."""
+
+    steps: base.Count
+    step_m: base.Length
+
+
+class Rewind(Section):
+    """Rewind Stepping Planning: footsteps that are kept, and how many are walked back."""
+
+    kept: base.Count
+    steps: base.Count
+
+
+class Watch(Section):
+    """A detector and the rule of its thresholds; `force sensors` are those of the feet, `none` is no reaction."""
+
+    detector: base.WatchName
+    rule: base.ThresholdsName = LARGEST
+    wait_s: base.Real = Field(default=0.0, ge=0, le=5)
+
+
+class Case(Section):
+    """What is walked into, how the robot reacts, and what is compared beside our detector."""
+
+    scenario: base.ScenarioName
+    strategy: Strategy
+    compared: tuple[Watch, ...] = ()
+
+
+class Reaction(Section):
+    """Numbers of the pipeline of section 7, and the walks on which it is tried."""
+
+    identification: Identification
+    first_step: FirstStep
+    compliant: Compliant
+    rewind: Rewind
+    step_s: base.Real = Field(ge=0.2, le=3)
+    stop_steps: base.Whole = Field(ge=0, le=50)
+    estimator: base.LearnedName
+    ours: Watch
+    cases: dict[base.LowerName, Case]
+    after_s: base.Real = Field(ge=0.1, le=60)
+    calm_s: base.Real = Field(ge=1, le=3600)
+    gap_s: base.Real = Field(ge=0.001, le=1)
+    touch_n: base.Real = Field(ge=0.1, le=100)

@@ -1,0 +1,103 @@
+"""Identification: wrenches from torques by the contact Jacobian, and what no expected contact explains."""
+
+import mujoco
+import numpy as np
+import pytest
+
+from mobnet.core.joints import N_VIRTUAL
+from mobnet.reaction.contacts import end_effectors, identify, make_ends, tell_feet, unexpected_wrench
+from mobnet.robot.plant import robot_spec
+
+
+@pytest.fixture(scope="module")
+def ends(settings, robot):
+    return make_ends(robot, end_effectors(robot), settings.reaction.identification)
+
+
+@pytest.fixture(scope="module")
+def model(robot):
+    return robot_spec(robot).compile()
+
+
+def bent(robot, rng):
+    """Return a generalized position with bent joints, so that each limb's Jacobian has full rank (nq,)."""
+    q = np.zeros(robot.layout.nq)
+    q[:3], q[3:7] = rng.normal(size=3), rng.normal(size=4)
+    q[3:7] /= np.linalg.norm(q[3:7])
+    q[7:] = [rng.uniform(max(joint.range[0], -0.6), min(joint.range[1], 0.6)) for joint in robot.joints]
+    for name in ("LL4", "RL4"):
+        q[7 + robot.layout.actuated.index(name)] = 0.8
+    return q
+
+
+def pulled(model, q, body, wrench):
+    """Return what a wrench at the origin of a body does to all joints by MuJoCo (nv,)."""
+    data, tau = mujoco.MjData(model), np.zeros(model.nv)
+    data.qpos[:] = q
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    mujoco.mj_applyFT(model, data, wrench[:3], wrench[3:], data.body(body).xpos, model.body(body).id, tau)
+    return tau, data
+
+
+def test_feet_come_first_and_hands_end_the_arms(robot):
+    assert list(end_effectors(robot)) == ["LL", "RL", "LA", "RA"]
+    assert end_effectors(robot)["LL"] == robot.feet["left"].body
+
+
+@pytest.mark.parametrize("number", range(4))
+def test_the_wrench_behind_torques_is_found(ends, model, robot, number):
+    rng = np.random.default_rng(number)
+    q, body = bent(robot, rng), list(end_effectors(robot).values())[number]
+    wrench = np.concatenate([rng.normal(size=3) * 100.0, rng.normal(size=3) * 10.0])
+    tau, _ = pulled(model, q, body, wrench)
+    identify(ends, q, tau)
+    assert ends.wrench[number] == pytest.approx(wrench, rel=0.01, abs=0.5)  # the damping takes some of it
+    others = [k for k in range(4) if k != number]
+    assert np.abs(ends.wrench[others]).max() == 0.0
+
+
+def test_the_damped_wrench_is_the_smallest_sum_of_squares(ends, robot, settings):
+    """(C2), with the Jacobian of the joints as the identification itself has it."""
+    rng = np.random.default_rng(7)
+    q, tau = bent(robot, rng), rng.normal(size=robot.layout.nv)
+    identify(ends, q, tau)
+    jacobian = np.zeros((6, 6))
+    place, pose = ends.pose.position[ends.body[0]], ends.pose
+    for j in range(6):
+        body = ends.tree.body_of_joint[j]
+        jacobian[:3, j], jacobian[3:, j] = np.cross(pose.axis[j], place - pose.position[body]), pose.axis[j]
+    numbers = settings.reaction.identification
+    scale = np.repeat([numbers.force_n, numbers.moment_nm], 3)
+    stacked = np.vstack([jacobian.T / numbers.torque_error_nm, np.diag(1.0 / scale)])
+    wanted = np.concatenate([tau[N_VIRTUAL : N_VIRTUAL + 6] / numbers.torque_error_nm, np.zeros(6)])
+    assert ends.wrench[0] == pytest.approx(np.linalg.lstsq(stacked, wanted)[0], rel=1e-6, abs=1e-6)
+
+
+def test_what_expected_contacts_do_not_explain_is_left(ends, model, robot):
+    """(24): the foot that stands is taken off, and a force on the knee of the other leg stays, at its place."""
+    rng = np.random.default_rng(3)
+    q = bent(robot, rng)
+    ground = np.array([20.0, -10.0, 900.0, 5.0, 12.0, 1.0])
+    tau, data = pulled(model, q, robot.feet["right"].body, ground)
+    knee = data.body("L_Knee_Link").xpos.copy()
+    push = np.array([-150.0, 30.0, 0.0])
+    mujoco.mj_applyFT(model, data, push, np.zeros(3), knee, model.body("L_Knee_Link").id, tau)
+    identify(ends, q, tau)
+    found = unexpected_wrench(ends, tau, [1])
+    assert found[:3] == pytest.approx(push, abs=8.0)  # less than a hundredth of what the ground pushes
+    assert found[3:] == pytest.approx(np.cross(knee - q[:3], push), abs=8.0)
+
+
+def test_feet_are_told_what_their_sensors_would_read(ends, model, robot):
+    rng = np.random.default_rng(5)
+    q, body = bent(robot, rng), robot.feet["left"].body
+    wrench = np.array([30.0, 20.0, 800.0, 10.0, -20.0, 3.0])
+    tau, data = pulled(model, q, body, wrench)
+    identify(ends, q, tau)
+    tell_feet(ends, np.array(robot.sole.sensor_pos), told := np.zeros((2, 6)))
+    axes = data.body(body).xmat.reshape(3, 3)
+    force = axes.T @ ends.wrench[0, :3]
+    assert told[0, :3] == pytest.approx(force)
+    assert told[0, 3:] == pytest.approx(axes.T @ ends.wrench[0, 3:] - np.cross(robot.sole.sensor_pos, force))
+    assert np.abs(told[1]).max() == 0.0

@@ -1,0 +1,67 @@
+"""What came of a walk: contacts, impulses, angles, and times that count from its beginning."""
+
+import numpy as np
+import pytest
+
+from mobnet.reaction.handler import Reacted
+from mobnet.reaction.loop import Course
+from mobnet.reaction.trial import angle_deg, contacts_of, impulse_ns, trial_of
+from mobnet.settings.reaction import Watch
+
+RATE_HZ = 1000.0
+
+
+def forces(*spans, samples=1000, size=-100.0):
+    force = np.zeros((samples, 3), np.float32)
+    for start, end in spans:
+        force[start:end, 0] = size
+    return force
+
+
+def course_of(force, reacted=None, fallen=False):
+    rows, torque = np.zeros((len(force), 4), np.float32), np.zeros((len(force), 2), np.float32)
+    return Course(rows, torque, torque, force, reacted, fallen)
+
+
+def test_contacts_are_told_apart_by_a_gap():
+    assert contacts_of(forces((100, 150), (160, 200), (500, 510)), 1.0, 20) == [slice(100, 200), slice(500, 510)]
+    assert contacts_of(forces(size=0.5, samples=10), 1.0, 20) == []
+
+
+def test_an_impulse_is_the_length_of_a_vector_not_a_sum_of_lengths():
+    force = forces((100, 200))
+    assert impulse_ns(force, [slice(100, 200)], RATE_HZ) == pytest.approx(10.0)
+    force[150:200] *= -1.0
+    assert impulse_ns(force, [slice(100, 200)], RATE_HZ) == pytest.approx(0.0)
+
+
+@pytest.mark.parametrize(("direction", "angle"), [((-1, 0), 0.0), ((0, 1), 90.0), ((1, 0), 180.0), ((-1, -1), 45.0)])
+def test_angles(direction, angle):
+    assert angle_deg(np.array(direction, float), np.array([-50.0, 0.0], np.float32)) == pytest.approx(angle, abs=1e-4)
+
+
+def test_a_trial_has_its_times_from_the_beginning(settings):
+    reacted = Reacted("LL", np.array([-1.0, 0.0]), np.array([0.0, 5.0, 0, 0, 0, 0]), np.zeros((5, 5)))
+    course = course_of(forces((300, 360), (600, 610), size=-200.0), (330, reacted), fallen=True)
+    watch = Watch(detector="MOB", rule="collision", wait_s=0.02)
+    row = trial_of(settings.reaction, ("foot", "robot_1", 7), watch, course, RATE_HZ, stopped=True)
+    assert (row.case, row.level, row.seed, row.detector, row.rule) == ("foot", "robot_1", 7, "MOB", "collision")
+    assert (row.contact_s, row.alarm_s, row.reacted_s, row.fell_s) == pytest.approx((0.3, 0.31, 0.33, 1.0))
+    assert (row.first_peak_n, row.peak_n, row.contacts, row.stopped) == (200.0, 200.0, 2, 0)
+    assert (row.first_impulse_ns, row.impulse_ns) == pytest.approx((12.0, 14.0))
+    assert (row.angle_deg, row.base_angle_deg) == pytest.approx((0.0, 90.0), abs=1e-4)
+
+
+def test_a_trial_without_contact_or_reaction_says_so(settings):
+    row = trial_of(
+        settings.reaction, ("foot", "robot_1", 7), Watch(detector="none"), course_of(forces()), RATE_HZ, False
+    )
+    empty = row.contact_s, row.alarm_s, row.reacted_s, row.angle_deg, row.first_peak_n, row.peak_n, row.fell_s
+    assert empty == (None,) * 7
+    assert (row.limb, row.rule, row.contacts) == ("", "", 0)
+
+
+def test_a_reaction_before_the_contact_has_no_direction(settings):
+    reacted = Reacted("LL", np.array([-1.0, 0.0]), np.array([0.0, 5.0, 0, 0, 0, 0]), np.zeros((5, 5)))
+    course = course_of(forces((300, 360)), (200, reacted))
+    assert trial_of(settings.reaction, ("foot", "r", 1), Watch(detector="MOB"), course, RATE_HZ, True).angle_deg is None
