@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from mobnet.commands.words import TRIALS
-from mobnet.evaluation.number.files import read_texts
+from mobnet.core.rows import read_texts
 from mobnet.evaluation.tables.further.falls import ALL
 from mobnet.plan.plan import Plan, make_plan
 from mobnet.plan.products import Product

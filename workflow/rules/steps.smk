@@ -1,5 +1,6 @@
 # The steps of the plan: motions of the upper body, recordings with what the observer makes of them, fits, networks,
-# estimates, detectors, scores. A rule each, since no two have the same number of files; its name is that of its log.
+# estimates, detectors, reactions, scores. A rule each, since no two have the same number of files; its name is that of
+# its log.
 # Memory [MB] and time [min] of each kind are those of the default scale, doubled. On a cluster, jobs of a group go into
 # its queue together. What a job reads and gets is worked out when it is asked for: each start of a job on a cluster
 # reads these rules.
@@ -11,6 +12,7 @@ KINDS = {
     "train": Kind("networks", priority=10, mem_mb=6000, runtime=60, gpus=min(GPUS, 1)),
     "estimate": Kind("estimates", priority=0, mem_mb=4000, runtime=30),
     "detect": Kind("scores", priority=0, mem_mb=3000, runtime=20),
+    "react": Kind("scores", priority=0, mem_mb=3000, runtime=60),
     "score": Kind("scores", priority=0, mem_mb=500, runtime=5),
 }
 

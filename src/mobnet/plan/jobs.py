@@ -7,9 +7,10 @@ from pathlib import Path
 from mobnet.core.code import code_hash
 from mobnet.core.files import RUN, WEIGHTS
 from mobnet.plan.call import STAGE, Call, Job
-from mobnet.plan.detection import detection_files, numbers_of, walks_of
+from mobnet.plan.detection import detection_files, level_of_detectors, numbers_of, walks_of
 from mobnet.plan.files import NOTE, Files, NetworkName, files_in
 from mobnet.plan.parts import MethodRun, Repetition, Shard
+from mobnet.plan.reactions import course_file, methods_of, reaction_file
 from mobnet.running.stage import Stage
 from mobnet.settings.asked import tests_in
 from mobnet.settings.catalogue import Catalogue
@@ -202,6 +203,47 @@ class Jobs:
         own = dict.fromkeys(map(str, detection_files(self.files).values()), ())
         return Job(Call("mobnet.detection.detect:detect", arguments), _read(walks), (), own)
 
+    def react(self, case: str) -> Job:
+        """Return the walks of a robot into the obstacle of a case, with all that is compared there."""
+        settings, files, level = self.settings, self.files, level_of_detectors(self.files)
+        methods, sizes, first = methods_of(files, case), settings.sizes.reactions, settings.sizes.test.first_seed
+        runs = {method: self._loaded(method) for method in methods}
+        arguments = {
+            "settings": walk_settings(settings, settings.reaction.cases[case].scenario, level),
+            "reaction": settings.reaction,
+            "detection": numbers_of(files),
+            "observer": settings.observer,
+            "case": case,
+            "runs": runs,
+            "thresholds": (thresholds := detection_files(files)["thresholds"]),
+            "quiet": (quiet := files.tests(settings.detection.random, level)[0]),
+            "seeds": tuple(range(first, first + sizes.runs)),
+            "sizes": sizes,
+            "out": (out := reaction_file(files, case)),
+            "course": (course := course_file(files, case)),
+        }
+        weights = [folder / WEIGHTS for run in runs.values() for folder in run.networks.values()]
+        inputs = (*_read([quiet, [run.fitted for run in runs.values()], weights]), str(thresholds))
+        kinds = tuple(dict.fromkeys(kind for method in methods for kind in self._kinds(method)))
+        return Job(
+            Call("mobnet.reaction.react:react", arguments),
+            inputs,
+            kinds,
+            {str(out): code_hash(*kinds), f"{course}{NOTE}": ()},
+        )
+
+    def _loaded(self, method: str) -> MethodRun:
+        """Return a method with all of its networks that are trained, the first of each limb, to run in a loop."""
+        source, files = self.catalogue.network_source_of(method), self.files
+        limbs = [limb for limb in self.catalogue.method(source).limbs if (source, limb) in files.learned]
+        return MethodRun(
+            method=method,
+            methods={name: self.catalogue.method(name) for name in self._with_source(method)},
+            networks={limb: files.network(source, limb, files.network_seeds(source, limb)[0]) for limb in limbs},
+            fitted=next(iter(files.fit(method)), None),
+            outs=(),
+        )
+
     def _staged(self, name: str, job: Job) -> Job:
         """Return a job that keeps its finished parts below `state` until all of them are there."""
         stage = Stage(self.files.results / "state" / name, job.given, job.inputs)
@@ -247,7 +289,7 @@ def scoring(settings: Settings, scenario: str, level: str) -> Scoring:
 
 
 def walk_settings(settings: Settings, scenario: str, level: str) -> WalkSettings:
-    """Return what a walk takes: of terrains and pushes, those that the scenario names; gait and gains of the level."""
+    """Return what a walk takes: terrains, pushes and obstacles that the scenario names, gait and gains of the level."""
     row, walking, chosen = settings.scenarios[scenario], settings.walking, settings.levels[level].surrogate
     if chosen:
         gait = {name: value for name, value in chosen.gait if value is not None}
@@ -265,6 +307,7 @@ def walk_settings(settings: Settings, scenario: str, level: str) -> WalkSettings
         "surrogate": settings.surrogate if chosen else None,
         "terrain": Terrain(**{name: getattr(settings.terrain, name) for name in row.terrain}),
         "pushes": {name: settings.pushes[name] for name in row.pushes},
+        "obstacles": {name: settings.obstacles[name] for name in row.obstacles},
     }
     return WalkSettings.model_validate({**sections, **picked})
 

@@ -12,6 +12,8 @@ from mobnet.plan.work import SECONDS, Work
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.settings import Settings
 
+RECORDED = ("recordings", "residuals", "estimates")  # kinds of arrays whose duration says how much there is to do
+
 
 @dataclass(frozen=True)
 class Plan:
@@ -48,7 +50,7 @@ class Plan:
         """Return the work of a product: the duration of all recordings, residuals and estimates that it reads [s]."""
         arrays = [path for path in map(Path, product.job.inputs) if path.suffix == ARRAY]
         owned = [(path, *self.files.owner_of(path)) for path in arrays]
-        seconds = sum(files.array_s(path) for path, files, (kind, *_) in owned if kind != "motions")
+        seconds = sum(files.array_s(path) for path, files, (kind, *_) in owned if kind in RECORDED)
         return Work(product.name, product.name, {SECONDS: seconds} if seconds else {}, seconds)
 
 

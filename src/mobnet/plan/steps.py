@@ -17,6 +17,7 @@ from mobnet.plan.call import Job
 from mobnet.plan.detection import detection_files, level_of_detectors
 from mobnet.plan.files import ARRAY, NOTE, Files, NetworkName, Place
 from mobnet.plan.jobs import Jobs
+from mobnet.plan.reactions import course_file, reaction_file, walks_in
 from mobnet.plan.seeds import FIRST_TRAINING_SEED
 from mobnet.plan.work import SECONDS, Work, detected, estimated, fitted, steps_of, trained, walked
 
@@ -53,6 +54,7 @@ def all_steps(files: Files) -> Iterator[Step]:
         yield from _trainings(own, own.own_networks)
         yield from _estimates(own)
         yield from _detectors(own)
+        yield from _reactions(own)
     yield from (_score(files, scenario, level) for scenario, level in files.scored)
 
 
@@ -143,6 +145,15 @@ def _detectors(files: Files) -> Iterator[Step]:
         outputs = tuple(map(str, detection_files(files).values()))
         work = Work(_account("detect", files, "all"), "detect", *detected(files))
         yield Step(work, outputs, Jobs(files).detect)
+
+
+def _reactions(files: Files) -> Iterator[Step]:
+    """Yield the walks into obstacles of a robot that has detectors."""
+    if level_of_detectors(files):
+        for case in files.settings.reaction.cases:
+            work = Work(_account("react", files, case), "react", {"walk": walks_in(files, case)}, 0.0)
+            outputs = (str(reaction_file(files, case)), *_both([course_file(files, case)]))
+            yield Step(work, outputs, partial(Jobs(files).react, case))
 
 
 def _score(files: Files, scenario: str, level: str) -> Step:

@@ -1,0 +1,96 @@
+"""Figure 16: force and impulse of a fixed obstacle on a foot and on a knee, with the reaction."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from mobnet.core.arrays import Array
+from mobnet.core.store import read_array
+from mobnet.evaluation.figures.style import beside, entitle, legend, save_figure, styled
+from mobnet.evaluation.measure.reaction.results import IMPULSE, PEAK, groups_of, outcome_of, printed_of, read_trials
+from mobnet.evaluation.number.files import Field
+from mobnet.evaluation.number.number import Number
+from mobnet.plan.reactions import Reactions
+from mobnet.settings.evaluation import Figure16, Statistics
+from mobnet.settings.published import PublishedContacts
+from mobnet.settings.reaction import Reaction
+
+COLUMNS = ("case", "quantity", "time_s", "value", "low", "high", "unit", "published")
+LABELS = {PEAK: "largest force [N]", IMPULSE: "impulse [N s]"}
+HEIGHT_INCH = 2.1
+
+
+def figure_16(
+    settings: Figure16, reaction: Reaction, statistics: Statistics, published: PublishedContacts,
+    reactions: Reactions, courses: Mapping[str, Path], figure_dir: Path,
+) -> None:  # fmt: skip
+    """Write Figure 16 as PDF, PNG and CSV: the force over time in one walk of each case, and means over all walks."""
+    ours = (reaction.ours.detector, reaction.ours.rule, reaction.ours.wait_s)
+    groups, rows = groups_of(read_trials(reactions)), list[Sequence[Field]]()
+    forces, numbers = dict[str, tuple[Array, Array, Mapping[str, float | None]]](), dict[str, dict[str, Number]]()
+    for case in settings.cases:
+        outcome = outcome_of(groups[case, *ours], settings.within_deg, statistics)
+        numbers[case] = {name: outcome.numbers[name] for name in LABELS}
+        forces[case] = force_of(courses[case], settings)
+        rows += [
+            (case, "force", float(t), float(f), None, None, "N", None) for t, f in zip(*forces[case][:2], strict=True)
+        ]
+        for name, number in numbers[case].items():
+            rows.append((case, name, None, *number.with_ends, number.unit, printed_of(published, case, name)))
+    save_figure(draw(forces, numbers, published), figure_dir / "figure_16", COLUMNS, rows)
+
+
+def force_of(stem: Path, settings: Figure16) -> tuple[Array, Array, Mapping[str, float | None]]:
+    """Return times from the first contact on [s], the obstacle's force [N], and the note of a course.
+
+    Where nothing was touched, the time is that from the beginning.
+    """
+    force, note = read_array(stem, [f"obstacle.force_{axis}" for axis in "xyz"])
+    size, rate_hz = np.linalg.norm(force, axis=1), note["rate_hz"]
+    touched = np.flatnonzero(size > settings.touch_n)
+    first = int(touched[0]) if len(touched) else 0
+    start, end = (max(0, first + round(edge * rate_hz)) for edge in settings.shown_s)
+    times = (np.arange(len(size)) - first)[start : end : settings.every] / rate_hz
+    reacted = note["reacted_s"]
+    return (
+        times,
+        size[start : end : settings.every],
+        {"reacted": None if reacted is None else reacted - first / rate_hz},
+    )
+
+
+@styled
+def draw(
+    forces: Mapping[str, tuple[Array, Array, Mapping[str, float | None]]],
+    numbers: Mapping[str, Mapping[str, Number]], published: PublishedContacts,
+) -> Figure:  # fmt: skip
+    """Draw the force of each case over time, and a panel of means for each quantity beside the paper's."""
+    figure, axes = beside(len(forces) + len(LABELS), HEIGHT_INCH)
+    for k, (axis, (case, (times, force, marks))) in enumerate(zip(axes, forces.items(), strict=False)):
+        axis.plot(times, force, color="black", linewidth=0.8)
+        if (reacted := marks["reacted"]) is not None:
+            axis.axvline(reacted, color="C3", linestyle="--", linewidth=0.8, label="reaction")
+        axis.set(xlabel="time from contact [s]", ylabel="force [N]")
+        entitle(axis, k, case)
+    for k, (axis, (name, label)) in enumerate(zip(axes[len(forces) :], LABELS.items(), strict=True), start=len(forces)):
+        draw_means(axis, {case: own[name] for case, own in numbers.items()}, published, name)
+        axis.set(ylabel=label)
+        entitle(axis, k, label.partition(" [")[0])
+    legend(figure, axes)
+    return figure
+
+
+def draw_means(axis: Axes, numbers: Mapping[str, Number], published: PublishedContacts, name: str) -> None:
+    """Draw the mean of each case with its interval, and the paper's as a dot."""
+    places = np.arange(len(numbers))
+    value, low, high = np.array(
+        [[np.nan if end is None else end for end in number.range] for number in numbers.values()]
+    ).T
+    axis.bar(places, value, 0.6, color="C0", edgecolor="black", linewidth=0.4, label="ours",
+             yerr=[value - low, high - value], error_kw={"linewidth": 0.8, "capsize": 2.0})  # fmt: skip
+    printed = [printed_of(published, case, name) for case in numbers]
+    axis.plot(places, [np.nan if one is None else one for one in printed], "kD", markersize=3, label="paper")
+    axis.set_xticks(places, list(numbers))

@@ -1,0 +1,1 @@
+"""What comes of walks into obstacles, with a reaction and without."""

@@ -1,0 +1,104 @@
+"""Trials of reactions, read and summarised: falls, forces, delays, directions, and reactions to nothing."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from mobnet.core.reactions import NONE, Trial
+from mobnet.core.rows import read_rows, refuse_rows
+from mobnet.evaluation.measure.detection.results import MS, mean_of, share_of
+from mobnet.evaluation.number.number import Number
+from mobnet.plan.reactions import Reactions
+from mobnet.settings.evaluation import Statistics
+from mobnet.settings.published import PublishedContacts
+
+FALLS, PEAK, FIRST, IMPULSE, ALARM, WITHIN, BASE_WITHIN, EARLY = (
+    "falls", "first_peak", "first_impulse", "impulse", "alarm", "within", "base_within", "early",
+)  # fmt: skip
+Group = tuple[str, str, str, float]  # case, detector, rule, time that a reaction waits [s]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """The trials of a detector in a case, those of all robots.
+
+    Attributes:
+        walks: number of walks.
+        touched: number of those that met the obstacle before any reaction: the others say nothing about a collision.
+        numbers: measure -> its number.
+    """
+
+    walks: int
+    touched: int
+    numbers: Mapping[str, Number]
+
+
+def read_trials(reactions: Reactions) -> list[Trial]:
+    """Return the trials of all robots.
+
+    Raises:
+        DataError: a file is missing or damaged, or a time or a force is negative.
+    """
+    found = list[Trial]()
+    for files in reactions.values():
+        for path in files.values():
+            rows = read_rows(path, Trial)
+            refuse_rows(path, _faults(rows))
+            found += rows
+    return found
+
+
+def _faults(rows: Sequence[Trial]) -> Iterator[tuple[int, str, object, str]]:
+    """Yield numbers below zero, and reactions that come before their alarm."""
+    for k, row in enumerate(rows):
+        for name, value in vars(row).items():
+            if isinstance(value, int | float) and value < 0:
+                yield k, name, value, "0 or more"
+        if row.reacted_s is not None and (row.alarm_s is None or row.alarm_s > row.reacted_s):
+            yield k, "alarm_s", row.alarm_s, f"at most reacted_s, {row.reacted_s}"
+
+
+def groups_of(trials: Sequence[Trial]) -> dict[Group, list[Trial]]:
+    """Return the trials by case, detector, rule and waiting time, in the order in which they come."""
+    found = dict[Group, list[Trial]]()
+    for row in trials:
+        found.setdefault((row.case, row.detector, row.rule, row.wait_s), []).append(row)
+    return found
+
+
+def is_early(row: Trial) -> bool:
+    """Return whether a robot reacted before it touched anything."""
+    return row.reacted_s is not None and (row.contact_s is None or row.reacted_s < row.contact_s)
+
+
+def outcome_of(trials: Sequence[Trial], within_deg: float, statistics: Statistics) -> Outcome:
+    """Return what came of trials; directions are right within an angle [deg]."""
+    struck = [row for row in trials if row.contact_s is not None and not is_early(row)]
+    delays = [
+        MS * (row.alarm_s - row.contact_s) for row in struck if row.alarm_s is not None and row.contact_s is not None
+    ]
+    forces = {PEAK: "first_peak_n", FIRST: "first_impulse_ns", IMPULSE: "impulse_ns"}
+    units = {PEAK: "N", FIRST: "N s", IMPULSE: "N s"}
+    means = {
+        name: mean_of([getattr(row, column) for row in struck], statistics, units[name])
+        for name, column in forces.items()
+    }
+    numbers = {
+        FALLS: share_of([row.fell_s is not None for row in trials], statistics),
+        **means,
+        ALARM: mean_of(delays, statistics, "ms"),
+        WITHIN: share_of(_within([row.angle_deg for row in struck], within_deg), statistics),
+        BASE_WITHIN: share_of(_within([row.base_angle_deg for row in struck], within_deg), statistics),
+        EARLY: share_of([is_early(row) for row in trials if row.detector != NONE], statistics),
+    }
+    return Outcome(len(trials), len(struck), numbers)
+
+
+def _within(angles: Sequence[float | None], most: float) -> list[bool]:
+    """Return of each angle that there is whether it is at most so large [deg]."""
+    return [angle <= most for angle in angles if angle is not None]
+
+
+def printed_of(published: PublishedContacts, case: str, measure: str) -> float | None:
+    """Return what the paper prints of a case [N], [N s]; None where that is nothing."""
+    contact = getattr(published, case, None)
+    return None if contact is None else {PEAK: contact.force_n, IMPULSE: contact.momentum_ns}.get(measure)

@@ -1,0 +1,67 @@
+"""What a reaction is worth: falls, forces and impulses of robots that walk into obstacles."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from mobnet.core.columns import SAFETY
+from mobnet.evaluation.measure.reaction.results import (
+    ALARM,
+    BASE_WITHIN,
+    EARLY,
+    FALLS,
+    FIRST,
+    IMPULSE,
+    PEAK,
+    WITHIN,
+    groups_of,
+    outcome_of,
+    printed_of,
+    read_trials,
+)  # fmt: skip
+from mobnet.evaluation.number.files import Field
+from mobnet.evaluation.number.number import Number
+from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
+from mobnet.plan.reactions import Reactions
+from mobnet.settings.evaluation import Safety, Statistics
+from mobnet.settings.published import PublishedContacts
+
+DIGITS = {FALLS: 2, PEAK: 0, FIRST: 1, IMPULSE: 1, ALARM: 0, WITHIN: 2, BASE_WITHIN: 2, EARLY: 2}
+
+
+def safety(
+    settings: Safety, statistics: Statistics, published: PublishedContacts, reactions: Reactions, table_dir: Path
+) -> None:
+    """Write safety.csv, .tex and .md: what comes of walks into obstacles, by case and detector.
+
+    Falls and reactions to nothing are shares of all walks with Wilson's interval; forces [N], impulses [N s], times
+    from the first contact to the alarm [ms] and directions are of walks that met the obstacle before any reaction.
+    """
+    rows: list[Sequence[Field]] = []
+    lines: list[Line] = []
+    before = ""
+    for (case, detector, rule, wait_s), trials in groups_of(read_trials(reactions)).items():
+        outcome = outcome_of(trials, settings.within_deg, statistics)
+        for measure, number in outcome.numbers.items():
+            printed = printed_of(published, case, measure)
+            counts = outcome.walks, outcome.touched
+            rows.append((case, detector, rule, wait_s, measure, *number.with_ends, *counts, number.unit, printed))
+        lines += [RULE] if before and before != case else []
+        numbers = [f"{outcome.touched} of {outcome.walks}", *_texts(outcome.numbers)]
+        lines.append([case if case != before else "", detector, rule, *numbers])
+        before = case
+    share = f"{statistics.confidence:.0%}"
+    header = [
+        "Case", "Detector", "thresholds", "touched", "falls", share, "first peak [N]", share, "its impulse [N s]",
+        "all contacts [N s]", share, "alarm [ms]", f"within {settings.within_deg:g} deg", "by (24)", "before contact",
+    ]  # fmt: skip
+    write_table(table_dir / "safety", Table(SAFETY, rows, header, lines, left=3))
+
+
+def _texts(numbers: Mapping[str, Number]) -> list[str]:
+    """Return the cells of a line."""
+    with_interval, found = (FALLS, PEAK, IMPULSE), list[str]()
+    for measure, number in numbers.items():
+        found.append(number.text(DIGITS[measure]))
+        if measure in with_interval:
+            found.append(number.interval(DIGITS[measure]))
+    return found

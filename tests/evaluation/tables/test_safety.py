@@ -1,0 +1,103 @@
+"""The table of what a reaction is worth: who falls, how hard obstacles push, and reactions to nothing."""
+
+from dataclasses import replace
+
+import pytest
+from csv_files import check_golden
+from made_trials import EARLY, HIT, LEANS, write_trials
+
+from mobnet.core.errors import DataError
+from mobnet.core.rows import read_texts
+from mobnet.evaluation.measure.reaction.results import groups_of, is_early, outcome_of, read_trials
+from mobnet.evaluation.tables.further.safety import safety
+from mobnet.settings.load import load_settings
+
+SETTINGS = load_settings()
+ROWS = [
+    HIT,
+    replace(HIT, seed=241, first_peak_n=300.0, angle_deg=50.0, level="robot_2"),
+    replace(EARLY, seed=242),
+    LEANS,
+    replace(LEANS, seed=241, fell_s=None),
+    replace(HIT, case="knee", first_peak_n=400.0),
+]
+
+
+@pytest.fixture
+def table(tmp_path):
+    """A function of rows -> the rows of the table by case, detector and measure, and its text."""
+
+    def make(rows):
+        reactions = write_trials(tmp_path, rows)
+        published, statistics = SETTINGS.published.section_5_4, SETTINGS.evaluation.statistics
+        safety(SETTINGS.evaluation.safety, statistics, published, reactions, tmp_path)
+        cells = {(row["case"], row["detector"], row["measure"]): row for row in read_texts(tmp_path / "safety.csv")}
+        return cells, (tmp_path / "safety.md").read_text()
+
+    return make
+
+
+def test_falls_are_of_all_walks_and_forces_of_those_that_were_hit(table):
+    cells, _ = table(ROWS)
+    ours, none = ("foot", "MOB-Net-ratio"), ("foot", "none")
+    assert (cells[*ours, "falls"]["value"], cells[*ours, "falls"]["walks"], cells[*ours, "falls"]["touched"]) == (
+        "0", "3", "2",
+    )  # fmt: skip
+    assert cells[*none, "falls"]["value"] == "0.5"
+    assert float(cells[*ours, "first_peak"]["value"]) == 250.0
+    assert float(cells[*none, "impulse"]["value"]) == 300.0
+    assert float(cells[*ours, "alarm"]["value"]) == pytest.approx(10.0)  # ms
+    assert float(cells[*ours, "within"]["value"]) == 0.5  # of 10 and 50 degrees
+    assert float(cells[*ours, "early"]["value"]) == pytest.approx(1 / 3, abs=1e-5)
+    assert cells[*none, "early"]["value"] == ""  # who does not react reacts to nothing
+
+
+def test_the_table_is_the_golden_one(table, tmp_path):
+    table(ROWS)
+    check_golden(tmp_path / "safety.csv")
+
+
+def test_the_paper_s_numbers_stand_beside_force_and_impulse(table):
+    cells, _ = table(ROWS)
+    assert cells["foot", "MOB-Net-ratio", "first_peak"]["published"] == "197.7"
+    assert cells["knee", "MOB-Net-ratio", "impulse"]["published"] == "19.5"
+    assert cells["foot", "MOB-Net-ratio", "falls"]["published"] == ""
+
+
+def test_a_case_is_named_once_and_has_a_line_for_each_detector(table):
+    _, text = table(ROWS)
+    lines = [line for line in text.splitlines() if line.startswith("| ")][2:]
+    assert [line.split("|")[1].strip() for line in lines] == ["foot", "", "knee"]
+    assert "2 of 3" in lines[0]
+
+
+def test_nothing_that_happened_is_a_table_too(table):
+    cells, _ = table([EARLY])
+    assert cells["foot", "MOB-Net-ratio", "first_peak"]["value"] == ""
+
+
+def test_groups_keep_the_order_of_the_files():
+    assert [key[:2] for key in groups_of(ROWS)] == [
+        ("foot", "MOB-Net-ratio"),
+        ("foot", "none"),
+        ("knee", "MOB-Net-ratio"),
+    ]
+
+
+def test_early_is_what_comes_before_the_contact():
+    assert [is_early(row) for row in (HIT, EARLY, LEANS)] == [False, True, False]
+    assert is_early(replace(HIT, reacted_s=3.9, alarm_s=3.9))
+
+
+def test_an_outcome_counts_walks_and_contacts():
+    outcome = outcome_of(ROWS[:3], 30.0, SETTINGS.evaluation.statistics)
+    assert (outcome.walks, outcome.touched) == (3, 2)
+
+
+@pytest.mark.parametrize(("row", "text"), [
+    (replace(HIT, peak_n=-1.0), "peak_n: -1.0 is not accepted"),
+    (replace(HIT, alarm_s=4.5), "at most reacted_s"),
+])  # fmt: skip
+def test_damaged_files_are_refused(tmp_path, row, text):
+    with pytest.raises(DataError, match=text):
+        read_trials(write_trials(tmp_path, [row]))
