@@ -42,7 +42,7 @@ def write_trials(folder: Path, rows: Sequence[Trial]) -> dict[str, dict[str, Pat
 
 def write_made_course(stem: Path, layout: JointLayout, reacted_s: float | None) -> Path:
     """Write a course of a second in which an obstacle pushes from 0.5 to 0.6 s."""
-    columns = course_columns(layout)
+    columns = course_columns(layout, ())
     array = np.zeros((1000, len(columns)), np.float32)
     array[500:600, [name for name, *_ in columns].index("obstacle.force_x")] = -FORCE_N
     write_array(stem, array, columns, {"rate_hz": 1000.0, "reacted_s": reacted_s}, [(0, len(array))])

@@ -33,12 +33,14 @@ from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse, ref
 from mobnet.core.files import METRICS, RUN, check_regular, read_json, read_text
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import ArrayNote, read_array_note, read_note
+from mobnet.core.reactions import TRIALS
 from mobnet.core.recording import Sensed, Truth
 from mobnet.core.store import ARRAY, NOTE, check_rate, file_of, read_pieces
 from mobnet.estimation.kinds.dahl import DahlNote, read_dahl
 from mobnet.estimation.kinds.friction import FrictionNote, read_friction
 from mobnet.estimation.methods import method_problems
 from mobnet.evaluation.measure.learning.trainings import TrainingNote, read_training, read_training_note
+from mobnet.evaluation.measure.reaction.results import read_file
 from mobnet.evaluation.measure.registry import measure_problems
 from mobnet.evaluation.number.rows import read_detections, read_epochs, read_scores
 from mobnet.learning.deployed.limbs import LimbNetworks, check_limb
@@ -190,10 +192,11 @@ def _training(folder: Path) -> str:
 
 
 def _rows(path: Path, against: Against) -> str:
-    """Check a file of rows: epochs of a training, scores, or what detectors find."""
+    """Check a file of rows: epochs of a training, scores, walks into obstacles, or what detectors find."""
     del against  # files of rows name joints of any robot
     held = set(read_text(path).partition("\n")[0].strip().split(","))
-    kinds = {"epochs": EPOCHS, "scores": SCORES, **{name: columns_of(name) for name in DETECTION_FILES}}
+    kinds = {"epochs": EPOCHS, "scores": SCORES, "trials": TRIALS}
+    kinds |= {name: columns_of(name) for name in DETECTION_FILES}
     shares = {name: len(held.intersection(columns)) / len(columns) for name, columns in kinds.items()}
     kind = max(shares, key=lambda name: shares[name])
     if path.name == METRICS or (kind == "epochs" and shares[kind]):
@@ -202,6 +205,8 @@ def _rows(path: Path, against: Against) -> str:
         raise UnknownKindError(path, "columns", sorted(held))
     if kind == "scores":
         return f"scores, {len(read_scores(path))} rows"
+    if kind == "trials":
+        return f"walks into obstacles, {len(read_file(path))} rows"
     return f"{kind} of detectors, {len(read_detections(path, kind))} rows"
 
 

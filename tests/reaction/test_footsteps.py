@@ -51,6 +51,12 @@ def test_compliant_steps_go_along_the_direction(settings):
     assert not rows[:, TURN].any()
 
 
+def test_a_foot_that_stands_makes_a_whole_step_from_the_stance_foot(settings):
+    numbers, behind = settings.reaction.compliant, stance(swing=(-0.15, -0.2), landing_s=np.inf)
+    rows = compliant_steps(numbers, behind, np.inf, np.array([-1.0, 0.0]), COMMAND, SPACING_M)
+    assert rows[:, STEP_X] == pytest.approx(-numbers.step_m)
+
+
 def test_compliant_steps_are_told_in_the_frame_of_the_stance_foot(settings):
     turned = stance(foot=(0.0, 0.0, np.pi / 2), swing=(0.2, 0.0))
     rows = compliant_steps(settings.reaction.compliant, turned, 0.0, np.array([-1.0, 0.0]), COMMAND, SPACING_M)

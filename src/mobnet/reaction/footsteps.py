@@ -45,13 +45,14 @@ def compliant_steps(
 ) -> Array:
     """Return steps along a direction (2,), Figure 21; duration and foot height are those of a command (5,).
 
-    The first one starts from where the swing foot is, which goes no further than reach_m [m].
+    A foot in the air goes on from where it is, but no further than reach_m [m].
     """
     rows = np.tile(command, (numbers.steps, 1))
     rows[:, STEP_X], rows[:, STEP_Y] = numbers.step_m * turned(direction, -stance.foot[2])
     rows[:, TURN] = 0.0
-    goal = np.append(stance.swing + min(numbers.step_m, reach_m) * direction, stance.foot[2])
-    rows[0] = step_to(goal, stance.foot, stance.side, command, spacing_m)
+    if np.isfinite(stance.landing_s):
+        goal = np.append(stance.swing + min(numbers.step_m, reach_m) * direction, stance.foot[2])
+        rows[0] = step_to(goal, stance.foot, stance.side, command, spacing_m)
     return rows
 
 

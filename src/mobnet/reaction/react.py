@@ -188,16 +188,18 @@ class Robot:
         return self.robot.layout.columns(self.robot.layout.limb(limb))
 
 
-def course_columns(layout: JointLayout) -> list[Column]:
-    """Return the columns of a course: the recording, what is estimated, and the force of the obstacles."""
+def course_columns(layout: JointLayout, joints: Sequence[str]) -> list[Column]:
+    """Return the columns of a course: the recording, what is estimated of joints, and the force of the obstacles."""
     recorded = [column for columns in recording_columns(layout).values() for column in columns]
-    estimated = torque_columns(layout, (ESTIMATED, STD), layout.names)
+    estimated = torque_columns(layout, (ESTIMATED, STD), joints)
     return [*recorded, *estimated, *((f"obstacle.force_{axis}", "N", "world") for axis in "xyz")]
 
 
 def write_course(course: Course, trial: Trial, robot: Robot, out: Path) -> None:
     """Write a course, with the times of its trial in the note."""
-    array = np.concatenate([course.rows, course.tau, course.std, course.force], axis=1)
+    layout, joints = robot.robot.layout, robot.estimator(robot.reaction.estimator).joints
+    held = layout.columns(joints)
+    array = np.concatenate([course.rows, course.tau[:, held], course.std[:, held], course.force], axis=1)
     meta = {"rate_hz": robot.rate_hz, "seed": trial.seed, "case": trial.case, "level": trial.level}
     times = {"alarm_s": trial.alarm_s, "reacted_s": trial.reacted_s, "limb": trial.limb}
-    write_array(out, array, course_columns(robot.robot.layout), {**meta, **times}, [(0, len(array))])
+    write_array(out, array, course_columns(layout, joints), {**meta, **times}, [(0, len(array))])

@@ -13,12 +13,11 @@ from mobnet.robot.description import SIDES, RobotDescription
 from mobnet.robot.plant import robot_spec, sole_name
 from mobnet.settings.data import Obstacle
 from mobnet.settings.plant import Level, Plant
-from mobnet.simulation.obstacles import add_obstacles, set_obstacles
+from mobnet.simulation.obstacles import IMPEDANCE, add_obstacles, set_obstacles
 from mobnet.simulation.terrain import TERRAIN_GROUP, DrawnTerrain, add_terrain, top_of
 
 DOWN = np.array([0.0, 0.0, -1.0])
 SOLE_CORNERS = 4  # contacts of a sole that stands flat
-IMPEDANCE = 0.01  # d of every contact: so small that a contact is a spring and a damper without a mass of its own
 RAY_M = 1.0  # rays begin this high over the highest point
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from mobnet.core.reactions import NONE, Trial
 from mobnet.core.rows import read_rows, refuse_rows
@@ -33,18 +34,19 @@ class Outcome:
 
 
 def read_trials(reactions: Reactions) -> list[Trial]:
-    """Return the trials of all robots.
+    """Return the trials of all robots."""
+    return [row for files in reactions.values() for path in files.values() for row in read_file(path)]
+
+
+def read_file(path: Path) -> list[Trial]:
+    """Return the trials in a file.
 
     Raises:
-        DataError: a file is missing or damaged, or a time or a force is negative.
+        DataError: the file is missing or damaged, or a time or a force is negative.
     """
-    found = list[Trial]()
-    for files in reactions.values():
-        for path in files.values():
-            rows = read_rows(path, Trial)
-            refuse_rows(path, _faults(rows))
-            found += rows
-    return found
+    rows = read_rows(path, Trial)
+    refuse_rows(path, _faults(rows))
+    return rows
 
 
 def _faults(rows: Sequence[Trial]) -> Iterator[tuple[int, str, object, str]]:
