@@ -28,7 +28,7 @@ NO_OP_S = 10.0
 KILLS = 5
 LONGEST_S = 20.0
 MADE = ("results", "tables", "figures", "paper", ".snakemake")
-FIGURES = ("figures/smoke/drift.csv", "tables/smoke/table_11.csv")
+FIGURES = ("figures/smoke/drift.csv", "tables/smoke/coverage.csv", "tables/smoke/table_11.csv")
 LOST = (  # walks of a test and walks that a network learns from: jobs of most kinds run again
     "results/smoke/recordings/foot_hold",
     "results/smoke/robot_1/recordings/robot_walk_plain",
