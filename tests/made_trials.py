@@ -45,5 +45,5 @@ def write_made_course(stem: Path, layout: JointLayout, reacted_s: float | None) 
     columns = course_columns(layout, ())
     array = np.zeros((1000, len(columns)), np.float32)
     array[500:600, [name for name, *_ in columns].index("obstacle.force_x")] = -FORCE_N
-    write_array(stem, array, columns, {"rate_hz": 1000.0, "reacted_s": reacted_s}, [(0, len(array))])
+    write_array(stem, array, columns, {"rate_hz": 1000.0, "contact_s": 0.5, "reacted_s": reacted_s}, [(0, len(array))])
     return stem

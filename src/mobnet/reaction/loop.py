@@ -17,8 +17,6 @@ from mobnet.reaction.handler import Handler, Reacted
 from mobnet.simulation.obstacles import obstacle_force
 from mobnet.simulation.simulator import Simulator
 
-SENSED = ("q", "v", "acc_base_in_base", "tau_des", "tau_motor", "swing", "command", "landing")
-
 
 @dataclass
 class Course:
@@ -68,7 +66,7 @@ def walk_with(
         if simulator.run(row) == 0:
             course.fallen = True
             return course.cut(k)
-        sample = Sensed(*(row[0, places[name]] for name in SENSED))
+        sample = Sensed(*(row[0, places[name]] for name in Sensed.__dataclass_fields__))
         estimating, estimate = estimator.step(estimating, sample)
         course.rows[k], course.tau[k, columns], course.force[k] = row[0], estimate.tau_ext, force_on(simulator)
         if estimate.std is not None:

@@ -102,7 +102,7 @@ class Robot:
         spacing_m = self.settings.walking.foot_spacing_m
         handler = Handler(self.robot, numbers, spacing_m, watchers, row.strategy, wait, settle)
         longest, after = (round(time_s * rate_hz) for time_s in (self.longest_s, numbers.after_s))
-        course = walk_with(simulator, self.estimator(numbers.estimator), handler, longest, after, numbers.touch_n)
+        course = walk_with(simulator, self._loop, handler, longest, after, numbers.touch_n)
         place = case, self.settings.level_name, seed
         return trial_of(numbers, place, watch, course, rate_hz, bool(simulator.state.standing)), course
 
@@ -110,6 +110,11 @@ class Robot:
     def robot(self) -> RobotDescription:
         """The robot."""
         return describe(self.settings.robot)
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The joints that are estimated in the loop."""
+        return self._loop.joints
 
     @property
     def rate_hz(self) -> float:
@@ -139,7 +144,7 @@ class Robot:
         """Return what watches a leg; nothing where rule `detect` found no thresholds for the detector."""
         columns = self._columns(setup.limb)
         if watch.detector == FORCE_SENSORS:
-            chain = setup.chain(foot_threshold(setup, self.calm), norm=True)
+            chain = setup.chain(self._foot_thresholds[setup.limb], norm=True)
             return FootWatcher(setup.gate, chain, columns, wrenches)
         detector = self._detector(setup, watch)
         if detector is None:  # the method does not estimate this leg, or its networks have hardly learned
@@ -174,6 +179,16 @@ class Robot:
         return first_part(read_recording(self.quiet, self.robot.layout), round(self.reaction.calm_s * self.rate_hz))
 
     @cached_property
+    def _foot_thresholds(self) -> dict[str, Array]:
+        """Threshold of the force on the foot of each leg (1, 1) [N], by its sensor."""
+        return {setup.limb: foot_threshold(setup, self.calm) for setup in self.setups}
+
+    @cached_property
+    def _loop(self) -> Estimator:
+        """The estimator in the loop, whose state is that of a walk."""
+        return self.estimator(self.reaction.estimator)
+
+    @cached_property
     def _arms(self) -> dict[str, Watcher]:
         """What watches the limbs with hands, by name."""
         limbs = [limb for limb in end_effectors(self.robot) if limb not in self.detection.legs]
@@ -197,9 +212,9 @@ def course_columns(layout: JointLayout, joints: Sequence[str]) -> list[Column]:
 
 def write_course(course: Course, trial: Trial, robot: Robot, out: Path) -> None:
     """Write a course, with the times of its trial in the note."""
-    layout, joints = robot.robot.layout, robot.estimator(robot.reaction.estimator).joints
+    layout, joints = robot.robot.layout, robot.joints
     held = layout.columns(joints)
     array = np.concatenate([course.rows, course.tau[:, held], course.std[:, held], course.force], axis=1)
     meta = {"rate_hz": robot.rate_hz, "seed": trial.seed, "case": trial.case, "level": trial.level}
-    times = {"alarm_s": trial.alarm_s, "reacted_s": trial.reacted_s, "limb": trial.limb}
+    times = {"contact_s": trial.contact_s, "alarm_s": trial.alarm_s, "reacted_s": trial.reacted_s, "limb": trial.limb}
     write_array(out, array, course_columns(layout, joints), {**meta, **times}, [(0, len(array))])

@@ -259,7 +259,6 @@ class Figure16(Safety):
     cases: base.Distinct[Literal["foot", "knee"]]
     shown_s: base.Span[base.Real]
     every: base.Count
-    touch_n: base.Positive
 
 
 class Coverage(Section):

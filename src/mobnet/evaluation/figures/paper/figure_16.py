@@ -50,8 +50,7 @@ def force_of(stem: Path, settings: Figure16) -> tuple[Array, Array, Mapping[str,
     """
     force, note = read_array(stem, [f"obstacle.force_{axis}" for axis in "xyz"])
     size, rate_hz = np.linalg.norm(force, axis=1), note["rate_hz"]
-    touched = np.flatnonzero(size > settings.touch_n)
-    first = int(touched[0]) if len(touched) else 0
+    first = round((note["contact_s"] or 0.0) * rate_hz)
     start, end = (max(0, first + round(edge * rate_hz)) for edge in settings.shown_s)
     times = (np.arange(len(size)) - first)[start : end : settings.every] / rate_hz
     reacted = note["reacted_s"]
