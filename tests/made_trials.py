@@ -6,14 +6,15 @@ from pathlib import Path
 
 import numpy as np
 
+from mobnet.core.course import course_columns
 from mobnet.core.joints import JointLayout
 from mobnet.core.reactions import NONE, TRIALS, Trial
 from mobnet.core.store import write_array
 from mobnet.evaluation.number.files import write_csv
-from mobnet.reaction.react import course_columns
 
 HIT = Trial(
-    case="foot", level="robot_1", seed=240, detector="MOB-Net-ratio", rule="collision", wait_s=0.0, contact_s=4.0,
+    case="foot", level="robot_1", seed=240, detector="MOB-Net-ratio", rule="collision", wait_s=0.0, wrench="estimated",
+    walked_s=4.0, velocity_rmse_m_s=0.003, contact_s=4.0,
     alarm_s=4.01, limb="LL", reacted_s=4.01, angle_deg=10.0, base_angle_deg=40.0, first_peak_n=200.0,
     first_impulse_ns=8.0, peak_n=220.0, impulse_ns=9.0, contacts=2, fell_s=None, stopped=1,
 )  # fmt: skip
@@ -25,14 +26,16 @@ LEANS = replace(
     HIT, detector=NONE, rule="", alarm_s=None, limb="", reacted_s=None, angle_deg=None, base_angle_deg=None,
     first_peak_n=900.0, impulse_ns=300.0, peak_n=1200.0, fell_s=6.5, stopped=0,
 )  # fmt: skip
+FREE = replace(
+    EARLY, case="free", alarm_s=None, limb="", reacted_s=None, walked_s=60.0, stopped=0,
+)  # fmt: skip
 FORCE_N = 150.0
 
 
 def write_trials(folder: Path, rows: Sequence[Trial]) -> dict[str, dict[str, Path]]:
     """Write trials into a file of each robot and case; return them as rules hand them on."""
-    found: dict[str, dict[str, Path]] = {}
-    for row in rows:
-        found.setdefault(row.level, {})[row.case] = folder / row.level / f"{row.case}.csv"
+    levels, cases = (dict.fromkeys(getattr(row, name) for row in rows) for name in ("level", "case"))
+    found = {level: {case: folder / level / f"{case}.csv" for case in cases} for level in levels}
     for level, files in found.items():
         for case, path in files.items():
             own = [astuple(row) for row in rows if (row.level, row.case) == (level, case)]
@@ -41,9 +44,14 @@ def write_trials(folder: Path, rows: Sequence[Trial]) -> dict[str, dict[str, Pat
 
 
 def write_made_course(stem: Path, layout: JointLayout, reacted_s: float | None) -> Path:
-    """Write a course of a second in which an obstacle pushes from 0.5 to 0.6 s."""
-    columns = course_columns(layout, ())
-    array = np.zeros((1000, len(columns)), np.float32)
-    array[500:600, [name for name, *_ in columns].index("obstacle.force_x")] = -FORCE_N
-    write_array(stem, array, columns, {"rate_hz": 1000.0, "contact_s": 0.5, "reacted_s": reacted_s}, [(0, len(array))])
+    """Write a course of a second in which the block pushes from 0.5 to 0.6 s, and the left foot lands at 0.7 s."""
+    columns = course_columns(layout, layout.names)
+    names, array = [name for name, *_ in columns], np.zeros((1000, len(columns)), np.float32)
+    array[500:600, names.index("obstacle.force_x")] = -FORCE_N
+    array[500:600, names.index("obstacle.point_z")] = 0.1
+    array[:, names.index("q.quat_w")], array[:, names.index("true_base_z")] = 1.0, 0.9
+    array[:, [name.startswith("std.") for name in names]] = 1.0
+    array[300:700, names.index("swing.left_foot")] = 1.0
+    note = {"rate_hz": 1000.0, "contact_s": 0.5, "reacted_s": reacted_s, "obstacles": {"foot_block": [0.6, 0.0, 0.0]}}
+    write_array(stem, array, columns, note, [(0, len(array))])
     return stem

@@ -10,7 +10,7 @@ from mobnet.estimation.methods import build_estimator
 from mobnet.plan.jobs import walk_settings
 from mobnet.reaction.handler import Handler
 from mobnet.reaction.loop import walk_with
-from mobnet.reaction.watchers import LegWatcher
+from mobnet.reaction.watchers import LegWatcher, LimbWatcher
 from mobnet.settings.detection import Detector
 from mobnet.settings.load import load_settings
 from mobnet.simulation.simulator import Simulator
@@ -34,8 +34,20 @@ def leg_watchers(settings, robot):
 
 
 @pytest.fixture(scope="session")
+def limb_watcher(settings, robot):
+    """A function of a limb -> what watches it all the time, by a threshold on the observer's torque."""
+
+    def watcher(limb):
+        joints, detection = robot.layout.limb(limb), settings.detection
+        chain = make_chain(detection.low_pass_hz, detection.hold_s, RATE_HZ, np.full((1, len(joints)), THRESHOLD_NM))
+        return LimbWatcher(chain, robot.layout.columns(joints))
+
+    return watcher
+
+
+@pytest.fixture(scope="session")
 def into(robot, recipe_of):
-    """A function (scenario, seed, watchers, ...) -> the course of a walk into an obstacle, and the simulator."""
+    """A function (scenario, seed, watchers, ...) -> the course of a walk that something ends, and the simulator."""
     settings = load_settings()
 
     def walk(scenario, seed, watchers, strategy="compliant", seconds=10.0, after_s=5.0):
@@ -44,6 +56,7 @@ def into(robot, recipe_of):
         handler = Handler(robot, settings.reaction, settings.walking.foot_spacing_m, watchers, strategy)
         estimator = build_estimator(recipe_of("MOB", "sensor_noise"))
         samples, after = round(seconds * RATE_HZ), round(after_s * RATE_HZ)
-        return walk_with(simulator, estimator, handler, samples, after, settings.reaction.touch_n), simulator
+        numbers = settings.reaction.touch_n, settings.detection.gate.contact_height_m
+        return walk_with(simulator, estimator, handler, samples, after, *numbers), simulator
 
     return walk

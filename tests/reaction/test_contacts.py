@@ -95,9 +95,15 @@ def test_feet_are_told_what_their_sensors_would_read(ends, model, robot):
     wrench = np.array([30.0, 20.0, 800.0, 10.0, -20.0, 3.0])
     tau, data = pulled(model, q, body, wrench)
     identify(ends, q, tau)
-    tell_feet(ends, np.array(robot.sole.sensor_pos), told := np.zeros((2, 6)))
+    sensor, told = np.array(robot.sole.sensor_pos), np.zeros((2, 6))
+    tell_feet(ends, sensor, np.zeros(2), 0.03, told)
     axes = data.body(body).xmat.reshape(3, 3)
     force = axes.T @ ends.wrench[0, :3]
     assert told[0, :3] == pytest.approx(force)
     assert told[0, 3:] == pytest.approx(axes.T @ ends.wrench[0, 3:] - np.cross(robot.sole.sensor_pos, force))
     assert np.abs(told[1]).max() == 0.0
+    height = ends.pose.position[ends.body[0], 2] - ends.pose.position[ends.body[1], 2]
+    cases = ((1.0, height - 0.01, False), (1.0, height + 0.01, True), (0.0, height - 0.01, True))
+    for left, height_m, is_ground in cases:
+        tell_feet(ends, sensor, np.array([left, 0.0]), height_m, told)
+        assert told[0].any() == is_ground

@@ -5,10 +5,15 @@ import pytest
 
 from mobnet.control.parameters import DURATION, STEP_X, STEP_Y, TURN
 from mobnet.reaction.footsteps import Stance, compliant_steps, in_place, rewound_steps, step_to
+from mobnet.settings.reaction import FirstStep
 
 SPACING_M = 0.2
 COMMAND = np.array([0.15, 0.0, 0.0, 0.7, 0.05])
 LEFT, RIGHT = 1.0, -1.0
+FAR = FirstStep(
+    height_ratio=2.0, foot_speed_m_s=1.0, behind_m=1.0
+)  # twice as far as the foot is high, wherever it lands
+NOWHERE = FirstStep(height_ratio=0.0, foot_speed_m_s=1.0, behind_m=1.0)
 
 
 def stance(side=LEFT, foot=(0.0, 0.0, 0.0), swing=(-0.05, -0.2), height_m=0.04, landing_s=0.3):
@@ -43,7 +48,7 @@ def test_a_foot_in_the_air_is_sent_back_by_its_height_and_by_the_time_that_is_le
 
 def test_compliant_steps_go_along_the_direction(settings):
     numbers, back = settings.reaction.compliant, np.array([-1.0, 0.0])
-    rows = compliant_steps(numbers, stance(), 0.04, back, COMMAND, SPACING_M)
+    rows = compliant_steps(numbers, FAR, stance(height_m=0.02), back, COMMAND, SPACING_M)
     assert len(rows) == numbers.steps == 3  # "three reactive footsteps"
     assert rows[0, STEP_X] == pytest.approx(-0.05 - 0.04)  # from where the foot is
     assert rows[1:, STEP_X] == pytest.approx(-numbers.step_m)
@@ -51,15 +56,22 @@ def test_compliant_steps_go_along_the_direction(settings):
     assert not rows[:, TURN].any()
 
 
+@pytest.mark.parametrize(("ahead_m", "lands_m"), [(0.1, 0.02), (0.0, -0.05), (-0.1, -0.1)])
+def test_a_foot_lands_no_further_behind_the_stance_foot_than_it_may_or_is_already(settings, ahead_m, lands_m):
+    first, now = FAR.model_copy(update={"behind_m": 0.05}), stance(swing=(ahead_m, -0.2))
+    rows = compliant_steps(settings.reaction.compliant, first, now, np.array([-1.0, 0.0]), COMMAND, SPACING_M)
+    assert rows[0, STEP_X] == pytest.approx(lands_m)
+
+
 def test_a_foot_that_stands_makes_a_whole_step_from_the_stance_foot(settings):
     numbers, behind = settings.reaction.compliant, stance(swing=(-0.15, -0.2), landing_s=np.inf)
-    rows = compliant_steps(numbers, behind, np.inf, np.array([-1.0, 0.0]), COMMAND, SPACING_M)
+    rows = compliant_steps(numbers, FAR, behind, np.array([-1.0, 0.0]), COMMAND, SPACING_M)
     assert rows[:, STEP_X] == pytest.approx(-numbers.step_m)
 
 
 def test_compliant_steps_are_told_in_the_frame_of_the_stance_foot(settings):
     turned = stance(foot=(0.0, 0.0, np.pi / 2), swing=(0.2, 0.0))
-    rows = compliant_steps(settings.reaction.compliant, turned, 0.0, np.array([-1.0, 0.0]), COMMAND, SPACING_M)
+    rows = compliant_steps(settings.reaction.compliant, NOWHERE, turned, np.array([-1.0, 0.0]), COMMAND, SPACING_M)
     assert rows[1:, STEP_Y] == pytest.approx(settings.reaction.compliant.step_m)  # world -x is to its left
     assert rows[1:, STEP_X] == pytest.approx(0.0, abs=1e-12)
 
@@ -72,7 +84,7 @@ def walked(steps=5):
 
 def test_rewinding_goes_back_on_the_footsteps():
     kept, now = walked()
-    rows = rewound_steps(kept, 3, 0.2, now, np.inf, COMMAND, SPACING_M)
+    rows = rewound_steps(kept, 3, 0.2, FAR, now, COMMAND, SPACING_M)
     foot, side = now.foot, now.side
     for row, goal in zip(rows, reversed(kept[-3:]), strict=True):
         foot = landing(foot, side, row)
@@ -82,16 +94,17 @@ def test_rewinding_goes_back_on_the_footsteps():
 
 def test_rewinding_ends_with_the_footsteps_that_are_kept():
     kept, now = walked(3)
-    assert len(rewound_steps(kept, 9, 0.2, now, np.inf, COMMAND, SPACING_M)) == 2
-    assert not rewound_steps([], 9, 0.2, now, np.inf, COMMAND, SPACING_M)[0, :DURATION].any()
+    assert len(rewound_steps(kept, 9, 0.2, FAR, now, COMMAND, SPACING_M)) == 2
+    assert not rewound_steps([], 9, 0.2, FAR, now, COMMAND, SPACING_M)[0, :DURATION].any()
 
 
 def test_steps_back_are_no_longer_than_the_robot_can_turn_round_in():
     kept, now = walked()
-    rows = rewound_steps(kept, 4, 0.05, now, np.inf, COMMAND, SPACING_M)
-    assert rows[:, STEP_X].min() == pytest.approx(-0.05)
+    rows = rewound_steps(kept, 4, 0.05, FAR, now, COMMAND, SPACING_M)
+    assert rows[0, STEP_X] == pytest.approx(-0.08)  # where it is
+    assert rows[1:, STEP_X].min() == pytest.approx(-0.05)
     ahead = stance(LEFT, now.foot, now.foot[:2] + [0.15, -0.2], 0.01, 0.1)
-    assert rewound_steps(kept, 4, 0.05, ahead, 0.0, COMMAND, SPACING_M)[0, STEP_X] == pytest.approx(0.15)  # stays
+    assert rewound_steps(kept, 4, 0.05, NOWHERE, ahead, COMMAND, SPACING_M)[0, STEP_X] == pytest.approx(0.15)  # stays
 
 
 def test_steps_in_place_have_no_length():

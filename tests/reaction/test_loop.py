@@ -7,7 +7,7 @@ import pytest
 from mobnet.core.columns import recording_columns
 from mobnet.plan.jobs import walk_settings
 from mobnet.reaction.loop import columns_of, force_on, plan_steps, stop
-from mobnet.reaction.trial import contacts_of
+from mobnet.reaction.trial import angle_deg, contacts_of
 from mobnet.settings.load import load_settings
 from mobnet.simulation.simulator import Simulator
 
@@ -51,6 +51,36 @@ def test_the_walk_ends_after_the_contact(into):
     course, _ = into("foot_block", 1, {}, after_s=0.2)
     (first, *_) = contacts_of(course.force, 1.0, 100)
     assert len(course.rows) == first.start + 200
+
+
+@pytest.mark.parametrize(("scenario", "limb"), [("hand_held", "RA"), ("side_push", "W")])
+def test_a_robot_that_is_held_back_or_pushed_steps_along(into, leg_watchers, limb_watcher, scenario, limb):
+    course, simulator = into(scenario, 1, {**leg_watchers, limb: limb_watcher(limb)})
+    (first, *_) = contacts_of(course.force, 1.0, 100)
+    assert first.start == pytest.approx(5000, abs=15)  # 3 s after the first 2 s, which are not kept
+    reacted_at, reacted = course.reacted
+    assert (reacted.limb, course.fallen) == (limb, False)
+    assert first.start < reacted_at < first.stop
+    assert angle_deg(reacted.direction, course.force[first.start : reacted_at + 1].sum(axis=0)) < 30.0
+    assert simulator.state.standing == 1
+    assert not course.point.any()  # no obstacle touches
+
+
+def test_a_loose_plate_is_walked_over(into, leg_watchers):
+    course, _ = into("loose_plate", 1, leg_watchers)
+    assert not course.fallen
+    assert course.reacted is None
+    assert 300.0 < course.force[:, 2].max() < 3000.0  # it carries the robot
+    (first, *_) = contacts_of(course.force, 1.0, 100)
+    assert course.base[-1, 0] > course.base[first.start, 0] + 0.6
+    assert np.abs(course.point[first, 2]).max() < 0.05
+
+
+def test_the_place_of_the_base_and_the_error_of_its_velocity_are_told(hit, layout):
+    course, _ = hit
+    rows = course.rows[:, columns_of(layout)["q"]]
+    assert rows[:, :3] == pytest.approx(course.base, abs=0.2)  # what is sensed drifts
+    assert 0.0 < np.sqrt(np.square(course.error[2000:]).mean()) < 0.05
 
 
 def test_the_force_of_an_obstacle_is_that_of_mujoco_s_contacts():

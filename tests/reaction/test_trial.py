@@ -18,9 +18,10 @@ def forces(*spans, samples=1000, size=-100.0):
     return force
 
 
-def course_of(force, reacted=None, fallen=False):
-    rows, torque = np.zeros((len(force), 4), np.float32), np.zeros((len(force), 2), np.float32)
-    return Course(rows, torque, torque, force, reacted, fallen)
+def course_of(force, reacted=None, fallen=False, error_m_s=(0.0, 0.0, 0.0)):
+    rows, torque, place = (np.zeros((len(force), n), np.float32) for n in (4, 2, 3))
+    error = np.broadcast_to(np.array(error_m_s, np.float32), force.shape)
+    return Course(rows, torque, torque, force, place, place, error, {}, reacted, fallen)
 
 
 def test_contacts_are_told_apart_by_a_gap():
@@ -44,7 +45,7 @@ def test_a_trial_has_its_times_from_the_beginning(settings):
     reacted = Reacted("LL", np.array([-1.0, 0.0]), np.array([0.0, 5.0, 0, 0, 0, 0]), np.zeros((5, 5)))
     course = course_of(forces((300, 360), (600, 610), size=-200.0), (330, reacted), fallen=True)
     watch = Watch(detector="MOB", rule="collision", wait_s=0.02)
-    row = trial_of(settings.reaction, ("foot", "robot_1", 7), watch, course, RATE_HZ, stopped=True)
+    row = trial_of(settings.reaction, ("foot", "robot_1", 7), watch, course, 0, RATE_HZ, stopped=True)
     assert (row.case, row.level, row.seed, row.detector, row.rule) == ("foot", "robot_1", 7, "MOB", "collision")
     assert (row.contact_s, row.alarm_s, row.reacted_s, row.fell_s) == pytest.approx((0.3, 0.31, 0.33, 1.0))
     assert (row.first_peak_n, row.peak_n, row.contacts, row.stopped) == (200.0, 200.0, 2, 0)
@@ -54,14 +55,30 @@ def test_a_trial_has_its_times_from_the_beginning(settings):
 
 def test_a_trial_without_contact_or_reaction_says_so(settings):
     row = trial_of(
-        settings.reaction, ("foot", "robot_1", 7), Watch(detector="none"), course_of(forces()), RATE_HZ, False
+        settings.reaction, ("foot", "robot_1", 7), Watch(detector="none"), course_of(forces()), 0, RATE_HZ, False
     )
     empty = row.contact_s, row.alarm_s, row.reacted_s, row.angle_deg, row.first_peak_n, row.peak_n, row.fell_s
     assert empty == (None,) * 7
     assert (row.limb, row.rule, row.contacts) == ("", "", 0)
 
 
+def test_a_robot_walks_as_told_until_it_reacts_or_is_touched_and_its_velocity_is_compared_until_then(settings):
+    place, watch = ("free", "robot_1", 7), Watch(detector="MOB", wrench="sensed")
+    reacted = Reacted("LL", np.array([-1.0, 0.0]), np.zeros(6), np.zeros((5, 5)))
+    calm = course_of(forces(), error_m_s=(0.003, 0.0, -0.004))
+    row = trial_of(settings.reaction, place, watch, calm, 100, RATE_HZ, False)
+    assert (row.walked_s, row.velocity_rmse_m_s, row.wrench) == (0.9, pytest.approx(0.005), "sensed")
+    for course, walked_s in (
+        (course_of(forces(), (200, reacted)), 0.2),
+        (course_of(forces((300, 310)), (350, reacted)), 0.3),
+        (course_of(forces((300, 310))), 0.3),
+    ):
+        assert trial_of(settings.reaction, place, watch, course, 0, RATE_HZ, False).walked_s == walked_s
+
+
 def test_a_reaction_before_the_contact_has_no_direction(settings):
     reacted = Reacted("LL", np.array([-1.0, 0.0]), np.array([0.0, 5.0, 0, 0, 0, 0]), np.zeros((5, 5)))
     course = course_of(forces((300, 360)), (200, reacted))
-    assert trial_of(settings.reaction, ("foot", "r", 1), Watch(detector="MOB"), course, RATE_HZ, True).angle_deg is None
+    assert (
+        trial_of(settings.reaction, ("foot", "r", 1), Watch(detector="MOB"), course, 0, RATE_HZ, True).angle_deg is None
+    )

@@ -12,6 +12,7 @@ KINDS = {
     "train": Kind("networks", priority=10, mem_mb=6000, runtime=60, gpus=min(GPUS, 1)),
     "estimate": Kind("estimates", priority=0, mem_mb=4000, runtime=30),
     "detect": Kind("scores", priority=0, mem_mb=3000, runtime=20),
+    "watch": Kind("scores", priority=0, mem_mb=3000, runtime=20),
     "react": Kind("scores", priority=0, mem_mb=3000, runtime=60),
     "score": Kind("scores", priority=0, mem_mb=500, runtime=5),
 }

@@ -208,6 +208,9 @@ SAFETY = (
     "case", "detector", "thresholds", "wait_s", "measure", "value", "low", "high", "walks", "touched", "unit",
     "published",
 )  # fmt: skip
+SENSORLESS = (
+    "case", "wrench", "detector", "thresholds", "event", "hours", "events", "value", "low", "high", "walks", "unit",
+)  # fmt: skip
 DETECTION = (
     "level",
     "detector",

@@ -1,21 +1,24 @@
-"""Rows of the files of a robot's reactions: walks into obstacles (sections 5.4 and 7)."""
+"""Rows of the files of a robot's reactions: walks into obstacles, or without one (sections 5.4 and 7)."""
 
 from dataclasses import dataclass, fields
 
 
 @dataclass(frozen=True)
 class Trial:
-    """A walk into an obstacle, with a detector and a reaction or without.
+    """A walk, into an obstacle or free, with a detector and a reaction or without.
 
     Times are from the beginning of the walk [s]; None is what did not happen.
 
     Attributes:
-        case: what is walked into, a key of `reaction.cases`.
+        case: what is walked, a key of `reaction.cases`.
         level: the robot.
         seed: of the walk.
         detector: the detector, `none` where the robot does not react.
         rule: of its thresholds.
         wait_s: time that the reaction waits after an alarm [s].
+        wrench: of the feet that the controller gets, `sensed` or `estimated`.
+        walked_s: time that the robot walks as told, watched: until it reacts, is pushed or falls, or to the end.
+        velocity_rmse_m_s: error of the base's velocity in this time [m/s], the root of the sum of its three squares.
         contact_s: first contact with the obstacle.
         alarm_s: the alarm.
         limb: the limb that was watched.
@@ -37,6 +40,9 @@ class Trial:
     detector: str
     rule: str
     wait_s: float
+    wrench: str
+    walked_s: float
+    velocity_rmse_m_s: float
     contact_s: float | None
     alarm_s: float | None
     limb: str

@@ -9,8 +9,8 @@ from mobnet.core.files import RUN, WEIGHTS
 from mobnet.plan.call import STAGE, Call, Job
 from mobnet.plan.detection import detection_files, level_of_detectors, numbers_of, walks_of
 from mobnet.plan.files import NOTE, Files, NetworkName, files_in
-from mobnet.plan.parts import MethodRun, Repetition, Shard
-from mobnet.plan.reactions import course_file, methods_of, reaction_file
+from mobnet.plan.parts import CaseWalks, MethodRun, Repetition, Shard
+from mobnet.plan.reactions import course_file, is_pushed, methods_of, reaction_file, sizes_of, watch_file
 from mobnet.running.stage import Stage
 from mobnet.settings.asked import tests_in
 from mobnet.settings.catalogue import Catalogue
@@ -203,34 +203,54 @@ class Jobs:
         own = dict.fromkeys(map(str, detection_files(self.files).values()), ())
         return Job(Call("mobnet.detection.detect:detect", arguments), _read(walks), (), own)
 
-    def react(self, case: str) -> Job:
-        """Return the walks of a robot into the obstacle of a case, with all that is compared there."""
+    def watch(self) -> Job:
+        """Return the thresholds of a robot's limbs that are watched all the time, and of its feet's sensors."""
         settings, files, level = self.settings, self.files, level_of_detectors(self.files)
-        methods, sizes, first = methods_of(files, case), settings.sizes.reactions, settings.sizes.test.first_seed
-        runs = {method: self._loaded(method) for method in methods}
+        random, method = settings.detection.random, settings.reaction.estimator
+        run, quiet = self._loaded(method), files.tests(random, level)[0]
         arguments = {
-            "settings": walk_settings(settings, settings.reaction.cases[case].scenario, level),
+            "settings": walk_settings(settings, random, level),
             "reaction": settings.reaction,
             "detection": numbers_of(files),
             "observer": settings.observer,
-            "case": case,
+            "runs": {method: run},
+            "quiet": quiet,
+            "out": (out := watch_file(files)),
+        }
+        inputs = _read([quiet, run.fitted, [folder / WEIGHTS for folder in run.networks.values()]])
+        kinds = self._kinds(method)
+        return Job(Call("mobnet.reaction.calm:watch", arguments), inputs, kinds, {str(out): code_hash(*kinds)})
+
+    def react(self, cases: Sequence[str]) -> Job:
+        """Return the walks of a robot in some cases, with all that is compared there."""
+        settings, files, level = self.settings, self.files, level_of_detectors(self.files)
+        methods, first = methods_of(files, cases), settings.sizes.test.first_seed
+        walks = tuple(
+            CaseWalks(
+                case=case,
+                settings=walk_settings(settings, settings.reaction.cases[case].scenario, level),
+                seeds=tuple(range(first, first + sizes_of(files, case).runs)),
+                sizes=sizes_of(files, case),
+                out=reaction_file(files, case),
+                course=course_file(files, case) if is_pushed(files, case) else None,
+            )
+            for case in cases
+        )
+        runs = {method: self._loaded(method) for method in methods}
+        arguments = {
+            "reaction": settings.reaction,
+            "detection": numbers_of(files),
+            "observer": settings.observer,
             "runs": runs,
-            "thresholds": (thresholds := detection_files(files)["thresholds"]),
-            "quiet": (quiet := files.tests(settings.detection.random, level)[0]),
-            "seeds": tuple(range(first, first + sizes.runs)),
-            "sizes": sizes,
-            "out": (out := reaction_file(files, case)),
-            "course": (course := course_file(files, case)),
+            "thresholds": (thresholds := (detection_files(files)["thresholds"], watch_file(files))),
+            "walks": walks,
         }
         weights = [folder / WEIGHTS for run in runs.values() for folder in run.networks.values()]
-        inputs = (*_read([quiet, [run.fitted for run in runs.values()], weights]), str(thresholds))
+        inputs = (*_read([[run.fitted for run in runs.values()], weights]), *map(str, thresholds))
         kinds = tuple(dict.fromkeys(kind for method in methods for kind in self._kinds(method)))
-        return Job(
-            Call("mobnet.reaction.react:react", arguments),
-            inputs,
-            kinds,
-            {str(out): code_hash(*kinds), f"{course}{NOTE}": ()},
-        )
+        stamps = {str(one.out): code_hash(*kinds) for one in walks}
+        noted = {f"{one.course}{NOTE}": () for one in walks if one.course}
+        return Job(Call("mobnet.reaction.react:react", arguments), inputs, kinds, {**stamps, **noted})
 
     def _loaded(self, method: str) -> MethodRun:
         """Return a method with all of its networks that are trained, the first of each limb, to run in a loop."""

@@ -10,7 +10,7 @@ from typing import Any
 from mobnet.core.errors import ConfigError
 from mobnet.plan.detection import all_detections
 from mobnet.plan.files import Files
-from mobnet.plan.reactions import all_courses, all_reactions
+from mobnet.plan.reactions import all_reactions, courses_of
 from mobnet.settings.asked import tests_in
 from mobnet.settings.evaluation import Runs
 
@@ -150,6 +150,7 @@ USUAL: Mapping[str, Callable[[Files, Any], object]] = {  # parameter -> what it 
     "sets": _sets,
     "detections": lambda files, _: all_detections(files),
     "reactions": lambda files, _: all_reactions(files),
+    "courses": lambda files, section: courses_of(files, section.cases),
     "recordings": _struck,
     "estimates": _estimates,
     "printed": lambda files, section: {name: files.settings.published.tables[name] for name in section.paper},
@@ -170,7 +171,8 @@ NEEDS: Mapping[str, Callable[[Files, Any], Needs]] = {  # products in which para
     "kinds": lambda files, _: {"folders": _folders_of_kinds(files), "figure_17": files.settings.evaluation.figure_17},
     "calibration": _calibration,
     "safety": lambda files, _: {"published": files.settings.published.section_5_4},
-    "figure_16": lambda files, _: {"published": files.settings.published.section_5_4, "courses": all_courses(files)},
+    "figure_16": lambda files, _: {"published": files.settings.published.section_5_4},
+    "figure_21": lambda files, own: {"courses": courses_of(files, [own.case])},
     "figure_05": _figure_05,
     "figure_10": lambda files, own: {"runs": {title: files.first_runs(test) for title, test in own.tests.items()}},
     "figure_19": _coverage,

@@ -1,11 +1,13 @@
-"""The parts of jobs that make several things one after another: recordings, networks, estimates."""
+"""The parts of jobs that make several things one after another: recordings, networks, estimates, walks."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from mobnet.settings.methods import Method
 from mobnet.settings.networks import Training
+from mobnet.settings.scales import ReactionSizes
+from mobnet.settings.settings import WalkSettings
 
 
 @dataclass(frozen=True)
@@ -63,3 +65,24 @@ class MethodRun:
     fitted: Path | None
     outs: tuple[Path, ...]
     joints: tuple[str, ...] | None = None
+
+
+@dataclass(frozen=True)
+class CaseWalks:
+    """The walks of a case of `reaction.cases` to make.
+
+    Attributes:
+        case: its name.
+        settings: its scenario on a robot.
+        seeds: of the walks; the first `sizes.compared` of them also with what the case compares.
+        sizes: numbers of walks, and the longest duration of one.
+        out: file of the trials.
+        course: where the course of the first walk is written, without an ending; None where nothing pushes.
+    """
+
+    case: str
+    settings: WalkSettings
+    seeds: Sequence[int]
+    sizes: ReactionSizes
+    out: Path
+    course: Path | None

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mobnet.plan.files import ARRAY, Files
+from mobnet.plan.films import film_products
 from mobnet.plan.places import MAIN
 from mobnet.plan.products import Folders, Product, Products
 from mobnet.plan.steps import Step, all_steps, trial_steps
@@ -19,7 +20,7 @@ RECORDED = ("recordings", "residuals", "estimates")  # kinds of arrays whose dur
 class Plan:
     """What the workflow makes at the chosen scale: steps, and products, each after those that it needs.
 
-    The trials are products that are made on their own, by steps of their own.
+    The trials are products that are made on their own, by steps of their own; films are made on their own too, by none.
     """
 
     settings: Settings
@@ -29,6 +30,7 @@ class Plan:
     products: tuple[Product, ...]
     trial_steps: tuple[Step, ...]
     trials: tuple[Product, ...]
+    films: tuple[Product, ...]
 
     @property
     def stored(self) -> tuple[str, ...]:
@@ -61,6 +63,6 @@ def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
     paper, manifest = (Path("paper"), results.parent) if scale == MAIN else (results / "paper", results)
     folders = Folders(results, Path("tables") / part, Path("figures") / part, paper, manifest / "MANIFEST.sha256")
     files = Files(Catalogue(settings), results)
-    steps, trials = tuple(all_steps(files)), tuple(trial_products(files))
+    steps, trials, films = tuple(all_steps(files)), tuple(trial_products(files)), tuple(film_products(files))
     products = Products(settings, files, folders, with_pdf, tuple(name for step in steps for name in step.outputs))
-    return Plan(settings, folders, files, steps, tuple(products.all()), tuple(trial_steps(files)), trials)
+    return Plan(settings, folders, files, steps, tuple(products.all()), tuple(trial_steps(files)), trials, films)

@@ -1,12 +1,14 @@
 """Walks into obstacles on which reactions are tried: what runs in them, and the files that say what comes of them."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from mobnet.plan.detection import level_of_detectors
 from mobnet.plan.files import Files
 from mobnet.settings.reaction import Watch
+from mobnet.settings.scales import ReactionSizes
 
+OTHERS = "scenarios"  # job of the cases that compare nothing
 Reactions = Mapping[str, Mapping[str, Path]]  # level of a robot -> case -> file of its trials
 
 
@@ -16,17 +18,43 @@ def watches_of(files: Files, case: str) -> tuple[Watch, ...]:
     return reaction.ours, *reaction.cases[case].compared
 
 
-def methods_of(files: Files, case: str) -> tuple[str, ...]:
-    """Return the methods that run in a case: that in the loop, and those of detectors."""
+def cases_of_jobs(files: Files) -> dict[str, tuple[str, ...]]:
+    """Return job -> its cases: those that compare detectors have one each, the others are short and share one."""
+    cases = files.settings.reaction.cases
+    own = {case: (case,) for case, row in cases.items() if row.compared}
+    others = tuple(case for case in cases if case not in own)
+    return {**own, **({OTHERS: others} if others else {})}
+
+
+def methods_of(files: Files, cases: Iterable[str]) -> tuple[str, ...]:
+    """Return the methods that run in some cases: that in the loop, and those of detectors."""
     reaction, detectors = files.settings.reaction, files.settings.detection.detectors
-    names = [watch.detector for watch in watches_of(files, case)]
+    names = [watch.detector for case in cases for watch in watches_of(files, case)]
     return tuple(dict.fromkeys([reaction.estimator, *(detectors[name].method for name in names if name in detectors)]))
 
 
-def walks_in(files: Files, case: str) -> int:
-    """Return how many walks a robot makes of a case."""
+def sizes_of(files: Files, case: str) -> ReactionSizes:
+    """Return how many walks a robot makes of a case, and of what length."""
     sizes = files.settings.sizes.reactions
-    return sizes.runs + min(sizes.compared, sizes.runs) * (len(watches_of(files, case)) - 1)
+    return sizes.pushed if is_pushed(files, case) else sizes.free
+
+
+def is_pushed(files: Files, case: str) -> bool:
+    """Return whether robots walk into something in a case, or something pushes them."""
+    scenario = files.settings.scenarios[files.settings.reaction.cases[case].scenario]
+    return bool(scenario.obstacles or scenario.pushes)
+
+
+def walks_in(files: Files, case: str) -> float:
+    """Return how many walks a robot makes in a case, in walks as long as those into obstacles."""
+    sizes, usual_s = sizes_of(files, case), files.settings.sizes.reactions.pushed.longest_s
+    walks = sizes.runs + min(sizes.compared, sizes.runs) * (len(watches_of(files, case)) - 1)
+    return walks * sizes.longest_s / usual_s
+
+
+def watch_file(files: Files) -> Path:
+    """Return the file of a robot's thresholds of limbs and of the feet's sensors."""
+    return files.results / "reactions" / "thresholds.csv"
 
 
 def reaction_file(files: Files, case: str) -> Path:
@@ -39,10 +67,10 @@ def course_file(files: Files, case: str) -> Path:
     return files.results / "reactions" / case
 
 
-def all_courses(files: Files) -> Mapping[str, Path]:
-    """Return the courses of the first robot, by case."""
+def courses_of(files: Files, cases: Iterable[str]) -> Mapping[str, Path]:
+    """Return the courses of the first robot in some cases."""
     own = next(own for own in files.owners if level_of_detectors(own))
-    return {case: course_file(own, case) for case in files.settings.reaction.cases}
+    return {case: course_file(own, case) for case in cases}
 
 
 def all_reactions(files: Files) -> Reactions:

@@ -17,7 +17,7 @@ from mobnet.plan.call import Job
 from mobnet.plan.detection import detection_files, level_of_detectors
 from mobnet.plan.files import ARRAY, NOTE, Files, NetworkName, Place
 from mobnet.plan.jobs import Jobs
-from mobnet.plan.reactions import course_file, reaction_file, walks_in
+from mobnet.plan.reactions import cases_of_jobs, course_file, is_pushed, reaction_file, walks_in, watch_file
 from mobnet.plan.seeds import FIRST_TRAINING_SEED
 from mobnet.plan.work import SECONDS, Work, detected, estimated, fitted, steps_of, trained, walked
 
@@ -148,12 +148,16 @@ def _detectors(files: Files) -> Iterator[Step]:
 
 
 def _reactions(files: Files) -> Iterator[Step]:
-    """Yield the walks into obstacles of a robot that has detectors."""
+    """Yield the thresholds of limbs, and the walks, of a robot that has detectors."""
     if level_of_detectors(files):
-        for case in files.settings.reaction.cases:
-            work = Work(_account("react", files, case), "react", {"walk": walks_in(files, case)}, 0.0)
-            outputs = (str(reaction_file(files, case)), *_both([course_file(files, case)]))
-            yield Step(work, outputs, partial(Jobs(files).react, case))
+        calm = Work(_account("watch", files, "all"), "watch", {SECONDS: files.settings.reaction.calm_s}, 0.0)
+        yield Step(calm, (str(watch_file(files)),), Jobs(files).watch)
+        for job, cases in cases_of_jobs(files).items():
+            walks = sum(walks_in(files, case) for case in cases)
+            work = Work(_account("react", files, job), "react", {"walk": walks}, 0.0)
+            courses = _both([course_file(files, case) for case in cases if is_pushed(files, case)])
+            outputs = (*(str(reaction_file(files, case)) for case in cases), *courses)
+            yield Step(work, outputs, partial(Jobs(files).react, cases))
 
 
 def _score(files: Files, scenario: str, level: str) -> Step:

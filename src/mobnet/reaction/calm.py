@@ -1,37 +1,104 @@
-"""Thresholds by the paper's rule from a walk that nothing pushes: of limbs with hands, and of the feet's sensors.
+"""The rule `watch`: thresholds of limbs that are watched all the time and of the feet's sensors, from a random walk.
 
-[5.3] Thresholds are larger than the largest signal in normal walking by a margin. Here that is random walking: arms
-swing with every step, and what their networks do not know of it is larger than in place.
+[5.3] Thresholds are larger than the largest signal in normal walking by a margin: so are those of the sensors. In limbs
+that are watched all the time a false alarm is as likely in each second, so that theirs are those of a wanted rate, as
+of the swings of legs; windows of time take the place of swings.
 """
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import astuple, fields, replace
+from pathlib import Path
 
 import numpy as np
 
 from mobnet.core.arrays import Array
-from mobnet.core.estimator import Estimator
-from mobnet.core.recording import Recording
+from mobnet.core.detections import LARGEST, Threshold
+from mobnet.core.files import write_text
+from mobnet.core.reactions import FORCE_SENSORS
+from mobnet.core.recording import Recording, read_recording
+from mobnet.core.rows import csv_text
+from mobnet.detection.thresholds import calibrate
 from mobnet.detection.watch import LegSetup
+from mobnet.plan.parts import MethodRun
+from mobnet.reaction.robot import Robot
+from mobnet.settings.detection import Detection
+from mobnet.settings.methods import Observer
+from mobnet.settings.reaction import Reaction
+from mobnet.settings.settings import WalkSettings
+
+FORCE = "force"  # the signal of a foot's sensor
+COLUMNS = tuple(field.name for field in fields(Threshold))
 
 
-def limb_thresholds(setup: LegSetup, walk: Recording, estimator: Estimator, joints: Sequence[str]) -> Array:
-    """Return thresholds of the estimated torque of joints (1, n) [N m], all of which the estimator estimates."""
-    held, largest = [estimator.joints.index(joint) for joint in joints], np.zeros(len(joints))
-    for span in walk.spans():
-        tau = np.ascontiguousarray(estimator.estimate(walk.sensed[span]).tau_ext[:, held], dtype=np.float64)
-        largest = np.maximum(largest, np.abs(setup.low_passed(tau, ((0, len(tau)),))).max(axis=0))
-    return setup.detection.thresholds.margin * largest[None]
+def watch(
+    settings: WalkSettings, reaction: Reaction, detection: Detection, observer: Observer, runs: Mapping[str, MethodRun],
+    quiet: Path, out: Path,
+) -> None:  # fmt: skip
+    """Write the thresholds of `reaction.watched` and of the feet's sensors, rows of `Threshold`.
+
+    Args:
+        settings: the walk of the recording on this robot.
+        reaction: numbers of the pipeline.
+        detection: gate, chain and rules of thresholds.
+        observer: the observer's settings.
+        runs: networks of the method in the loop.
+        quiet: recording of random walking that nothing pushes.
+        out: file.
+
+    Raises:
+        DataError: the recording is missing, damaged or too short.
+    """
+    robot = Robot(settings, reaction, detection, observer, runs)
+    calm = first_part(read_recording(quiet, robot.description.layout), round(reaction.calm_s * robot.rate_hz))
+    rows = [*_limbs(robot, calm), *_feet(robot, calm)]
+    write_text(out, csv_text(COLUMNS, [astuple(row) for row in rows]))
 
 
-def foot_threshold(setup: LegSetup, walk: Recording) -> Array:
-    """Return the threshold of the force on a foot in its swing (1, 1) [N], by its sensor."""
+def _limbs(robot: Robot, calm: Recording) -> Iterator[Threshold]:
+    """Yield the thresholds of limbs for the rate of our detector."""
+    reaction, setup = robot.reaction, robot.setups[0]
+    estimator = robot.estimator(reaction.estimator, reaction.watched)
+    torques = list[Array]()
+    for span in calm.spans():
+        tau = np.ascontiguousarray(estimator.estimate(calm.sensed[span]).tau_ext, dtype=np.float64)
+        torques.append(setup.low_passed(tau, ((0, len(tau)),)))
+    for limb in reaction.watched:
+        joints = robot.description.layout.limb(limb)
+        held = [estimator.joints.index(joint) for joint in joints]
+        thresholds = limb_thresholds(robot, [torque[:, held] for torque in torques])
+        for joint, value in zip(joints, thresholds, strict=True):
+            yield Threshold(reaction.estimator, limb, reaction.ours.rule, joint, 1, float(value), "N m")
+
+
+def limb_thresholds(robot: Robot, torques: Sequence[Array]) -> Array:
+    """Return the thresholds of a limb's joints (n,) [N m] from its torques (T, n) in segments, behind the low-pass."""
+    numbers, window = robot.detection.thresholds, round(robot.reaction.window_s * robot.rate_hz)
+    parts = [
+        np.abs(torque[: len(torque) // window * window]).reshape(-1, window, torque.shape[1]) for torque in torques
+    ]
+    largest = np.concatenate([part.max(axis=1) for part in parts])
+    episodes = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
+    scale = np.quantile(largest, numbers.scale_quantile, axis=0)
+    rate_per_h = numbers.rates_per_h[robot.reaction.ours.rule]
+    walked_s = len(largest) * robot.reaction.window_s
+    found = calibrate((largest / scale).max(axis=1), episodes.tolist(), walked_s, rate_per_h, numbers)
+    return found.factor * scale
+
+
+def _feet(robot: Robot, calm: Recording) -> Iterator[Threshold]:
+    """Yield the thresholds of the feet's sensors by the paper's rule."""
+    for setup in robot.setups:
+        yield Threshold(FORCE_SENSORS, setup.limb, LARGEST, FORCE, 1, foot_threshold(setup, calm), "N")
+
+
+def foot_threshold(setup: LegSetup, walk: Recording) -> float:
+    """Return the threshold of the force on a foot in its swing [N], by its sensor."""
     # Without a torque the gate knows no early contact, so that the truth says where the foot is on the ground.
     nothing = np.zeros((len(walk.sensed), len(setup.joints)))
     watched = setup.gate.watch(walk, nothing).watched & (walk.truth.contact[:, setup.gate.foot] == 0)
     wrench = (walk.truth.wrench_left_foot, walk.truth.wrench_right_foot)[setup.gate.foot]
     force = setup.low_passed(np.ascontiguousarray(wrench[:, :3], dtype=np.float64), walk.segments)
-    return np.array([[setup.detection.thresholds.margin * np.linalg.norm(force, axis=1)[watched].max()]])
+    return float(setup.detection.thresholds.margin * np.linalg.norm(force, axis=1)[watched].max())
 
 
 def first_part(walk: Recording, samples: int) -> Recording:

@@ -5,7 +5,7 @@ and a moment [N m] about the origin of its body.
 """
 
 from collections.abc import Collection, Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,8 @@ from mobnet.core.compilation import compiled, vector3
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.robot.description import SIDES, RobotDescription
 from mobnet.settings.reaction import Identification
+
+IN_THE_AIR = 0.5  # of a flag
 
 
 class Ends(NamedTuple):
@@ -106,14 +108,20 @@ def unexpected_wrench(ends: Ends, tau: Array, expected: Collection[int]) -> Arra
 
 
 @compiled
-def tell_feet(ends: Ends, sensor: Array, told: Array) -> None:
+def tell_feet(ends: Ends, sensor: Array, swing: NDArray[Any], height_m: float, told: Array) -> None:
     """Write the wrenches of the ground as the feet's sensors would read them into told (2, 6), after `identify`.
 
-    The first two end-effectors are the feet; `sensor` (3,) [m] is the place of the sensor in a foot.
+    The first two end-effectors are the feet; `sensor` (3,) [m] is the place of the sensor in a foot. A foot that the
+    plan has in the air, `swing` (2,), and that is more than height_m [m] above the other one, touches no ground: what
+    it feels is something else, which would look like a landing.
     """
     arm = vector3()
     for k in range(len(told)):
         rotation, wrench = ends.pose.rotation[ends.body[k]], ends.wrench[k]
+        height = ends.pose.position[ends.body[k], 2] - ends.pose.position[ends.body[1 - k], 2]
+        if swing[k] > IN_THE_AIR and height > height_m:
+            told[k] = 0.0
+            continue
         for i in range(3):
             told[k, i] = told[k, 3 + i] = 0.0
             for j in range(3):

@@ -33,6 +33,15 @@ class Stance:
     height_m: float
     landing_s: float
 
+    @property
+    def ahead_m(self) -> float:
+        """How far the swing foot is ahead of the stance foot [m]."""
+        return float(turned(self.swing - self.foot[:2], -self.foot[2])[0])
+
+    def landing_m(self, numbers: FirstStep) -> float:
+        """Return how far ahead of the stance foot the swing foot lands at least [m], less than zero behind it."""
+        return -np.inf if np.isinf(self.landing_s) else min(self.ahead_m, -numbers.behind_m)
+
     def reach_m(self, numbers: FirstStep) -> float:
         """Return how far the swing foot may be sent elsewhere [m]."""
         if np.isinf(self.landing_s):
@@ -41,39 +50,41 @@ class Stance:
 
 
 def compliant_steps(
-    numbers: Compliant, stance: Stance, reach_m: float, direction: Array, command: Array, spacing_m: float
+    numbers: Compliant, first: FirstStep, stance: Stance, direction: Array, command: Array, spacing_m: float
 ) -> Array:
     """Return steps along a direction (2,), Figure 21; duration and foot height are those of a command (5,).
 
-    A foot in the air goes on from where it is, but no further than reach_m [m].
+    A foot in the air goes on from where it is, no further than it can be sent, and not too far behind the stance foot.
     """
     rows = np.tile(command, (numbers.steps, 1))
     rows[:, STEP_X], rows[:, STEP_Y] = numbers.step_m * turned(direction, -stance.foot[2])
     rows[:, TURN] = 0.0
     if np.isfinite(stance.landing_s):
-        goal = np.append(stance.swing + min(numbers.step_m, reach_m) * direction, stance.foot[2])
+        goal = np.append(stance.swing + min(numbers.step_m, stance.reach_m(first)) * direction, stance.foot[2])
         rows[0] = step_to(goal, stance.foot, stance.side, command, spacing_m)
+        rows[0, STEP_X] = max(rows[0, STEP_X], stance.landing_m(first))
     return rows
 
 
 def rewound_steps(
-    kept: Sequence[Array], count: int, step_m: float, stance: Stance, reach_m: float, command: Array, spacing_m: float
+    kept: Sequence[Array], count: int, step_m: float, first: FirstStep, stance: Stance, command: Array, spacing_m: float
 ) -> Array:
     """Return steps on the last footsteps that are kept, backwards; each foot of `kept` (3,) stood before the next one.
 
-    The swing foot returns towards where it stood last, but no further than reach_m [m]; the other one to where it stood
-    before, and so on. A robot that has made no step yet steps in place.
+    The swing foot returns towards where it stood last, but no further than it can be sent; the other one to where it
+    stood before, and so on. A robot that has made no step yet steps in place.
     """
     rows, foot, side = list[Array](), stance.foot, stance.side
     for goal in list(reversed(kept))[:count]:
         if not rows:
             way = goal[:2] - stance.swing
             length = float(np.hypot(*way))
-            goal = np.append(stance.swing + min(1.0, reach_m / length if length else 1.0) * way, goal[2])
+            share = min(1.0, stance.reach_m(first) / length if length else 1.0)
+            goal = np.append(stance.swing + share * way, goal[2])
         row = step_to(goal, foot, side, command, spacing_m)
         # The robot still moves the other way, so that it goes back in shorter steps; a foot may stay where it is.
-        here = 0.0 if rows else turned(stance.swing - foot[:2], -foot[2])[0]
-        row[STEP_X] = min(max(row[STEP_X], -step_m), max(step_m, here))
+        least, most = (-step_m, step_m) if rows else (stance.landing_m(first), max(step_m, stance.ahead_m))
+        row[STEP_X] = min(max(row[STEP_X], least), most)
         rows.append(row)
         foot, side = goal, -side
     return np.array(rows) if rows else in_place(command, 1)

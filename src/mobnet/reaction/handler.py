@@ -16,13 +16,11 @@ from mobnet.core.arrays import Array
 from mobnet.core.estimator import Estimate
 from mobnet.core.recording import Sensed
 from mobnet.detection.detector import ALARM_RATIO
-from mobnet.reaction.contacts import Ends, end_effectors, identify, make_ends, unexpected_wrench
+from mobnet.reaction.contacts import IN_THE_AIR, Ends, end_effectors, identify, make_ends, unexpected_wrench
 from mobnet.reaction.footsteps import Stance, compliant_steps, in_place, rewound_steps
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.reaction import Reaction as Numbers
 from mobnet.settings.reaction import Strategy
-
-IN_THE_AIR = 0.5  # of a flag
 
 
 class Watcher(Protocol):
@@ -43,7 +41,8 @@ class Reacted:
 
     Attributes:
         limb: the limb that was hit.
-        direction: in which to step, horizontal, in the world (2,): that of the force on the limb's hand or foot.
+        direction: in which to step, horizontal, in the world (2,): that of the force on the limb's hand or foot, or of
+            the wrench on the base where it has none.
         wrench: unexpected wrench on the base (6,) [N, N m], (24).
         steps: reacting steps (n, 5), commands as those of Table 2, the first for the step that is being made.
     """
@@ -127,17 +126,19 @@ class Handler:
         standing = [k for k in range(2) if sample.swing[k] < IN_THE_AIR]
         wrench = unexpected_wrench(self.identified, tau, standing)
         # A limb that was hit knows the force by its own joints. (24) has the same force, and the errors of the base's
-        # network and of the stance leg on top of it, which are as large in the first hundredth of a second.
-        force = self.identified.wrench[self.limbs.index(state.limb), :2]
+        # network and of the stance leg on top of it, which are as large in the first hundredth of a second. It is used
+        # where a limb without hand or foot was hit, such as the waist.
+        known = state.limb in self.limbs
+        force = self.identified.wrench[self.limbs.index(state.limb), :2] if known else wrench[:2]
         size = float(np.hypot(*force))
         direction = force / size if size > 0.0 else np.zeros(2)
         stance, command = self._stance(state, sample), np.asarray(sample.command, dtype=np.float64)
-        numbers, reach_m = self.numbers, stance.reach_m(self.numbers.first_step)
+        numbers, first = self.numbers, self.numbers.first_step
         if self.strategy == "compliant":
-            steps = compliant_steps(numbers.compliant, stance, reach_m, direction, command, self.spacing)
+            steps = compliant_steps(numbers.compliant, first, stance, direction, command, self.spacing)
         else:
             kept, count = self._behind(state), numbers.rewind.steps
-            steps = rewound_steps(kept, count, numbers.compliant.step_m, stance, reach_m, command, self.spacing)
+            steps = rewound_steps(kept, count, numbers.compliant.step_m, first, stance, command, self.spacing)
         steps = np.vstack([steps, in_place(command, numbers.stop_steps)])
         # The step that is being made keeps its duration, from which the foot's way and the balance were planned.
         steps[1:, DURATION] = np.minimum(steps[1:, DURATION], numbers.step_s)

@@ -14,7 +14,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
 from mobnet.reaction.contacts import tell_feet
 from mobnet.reaction.handler import Handler, Reacted
-from mobnet.simulation.obstacles import obstacle_force
+from mobnet.simulation.obstacles import obstacle_force, place_of, points_on
 from mobnet.simulation.simulator import Simulator
 
 
@@ -26,7 +26,11 @@ class Course:
         rows: the recording (T, C), columns of `recording_columns`.
         tau: estimated external torque (T, nv) [N, N m].
         std: its standard deviation (T, nv) [N, N m], zero where there is none.
-        force: of the obstacles on the robot (T, 3) [N], world axes.
+        force: of obstacles and pushes on the robot (T, 3) [N], world axes.
+        point: where obstacles act, the mean of the points of contact (T, 3) [m], zero where nothing touches.
+        base: place of the base (T, 3) [m], world axes, as it was.
+        error: of the base's sensed velocity (T, 3) [m/s], world axes.
+        obstacles: places of the obstacles by name (3,) [m].
         reacted: the reaction and its sample, if there was one.
         fallen: whether the robot fell at the end.
     """
@@ -35,30 +39,46 @@ class Course:
     tau: NDArray[np.float32]
     std: NDArray[np.float32]
     force: NDArray[np.float32]
+    point: NDArray[np.float32]
+    base: NDArray[np.float32]
+    error: NDArray[np.float32]
+    obstacles: Mapping[str, Array]
     reacted: tuple[int, Reacted] | None = None
     fallen: bool = False
 
     @classmethod
-    def of(cls, samples: int, width: int, nv: int) -> "Course":
+    def of(cls, samples: int, simulator: Simulator) -> "Course":
         """Return room for so many samples."""
-        rows, tau, std, force = (np.zeros((samples, n), np.float32) for n in (width, nv, nv, 3))
-        return cls(rows, tau, std, force)
+        width, nv = simulator.width, simulator.robot.layout.nv
+        rows, tau, std = (np.zeros((samples, n), np.float32) for n in (width, nv, nv))
+        places = {name: place_of(simulator.world.model, name) for name in simulator.settings.obstacles}
+        force, point, base, error = (np.zeros((samples, 3), np.float32) for _ in range(4))
+        return cls(rows, tau, std, force, point, base, error, places)
 
     def cut(self, samples: int) -> "Course":
         """Return the first samples."""
-        return replace(self, **{name: getattr(self, name)[:samples] for name in ("rows", "tau", "std", "force")})
+        arrays = ("rows", "tau", "std", "force", "point", "base", "error")
+        return replace(self, **{name: getattr(self, name)[:samples] for name in arrays})
 
 
 def walk_with(
-    simulator: Simulator, estimator: Estimator, handler: Handler, longest: int, after: int, touch_n: float
+    simulator: Simulator,
+    estimator: Estimator,
+    handler: Handler,
+    longest: int,
+    after: int,
+    touch_n: float,
+    height_m: float,
 ) -> Course:
-    """Walk a started episode until so many samples `after` an obstacle is first touched with touch_n [N].
+    """Walk a started episode until so many samples `after` the robot reacts, or is pushed with touch_n [N].
 
-    It ends before that where the robot falls, and after `longest` samples at the latest.
+    It ends before that where the robot falls, and after `longest` samples at the latest. A foot that swings higher than
+    height_m [m] above the other one touches no ground.
     """
     layout, sensors = simulator.robot.layout, simulator.sensors
     places, columns = columns_of(layout), layout.columns(estimator.joints)
-    course, row = Course.of(longest, simulator.width, layout.nv), np.zeros((1, simulator.width), np.float32)
+    pushed = slice(places["push"].stop - 3, places["push"].stop)  # the force follows the push's row
+    course, row = Course.of(longest, simulator), np.zeros((1, simulator.width), np.float32)
     state, estimating, left = handler.init(), estimator.init(), longest
     for k in range(longest):
         if left == 0:
@@ -68,18 +88,23 @@ def walk_with(
             return course.cut(k)
         sample = Sensed(*(row[0, places[name]] for name in Sensed.__dataclass_fields__))
         estimating, estimate = estimator.step(estimating, sample)
-        course.rows[k], course.tau[k, columns], course.force[k] = row[0], estimate.tau_ext, force_on(simulator)
+        course.rows[k], course.tau[k, columns] = row[0], estimate.tau_ext
+        course.force[k] = force_on(simulator) + row[0, pushed]
+        course.base[k] = simulator.world.data.qpos[:3]
+        if course.force[k].any() and len(points := points_on(simulator.world.model, simulator.world.data)):
+            course.point[k] = points.mean(axis=0)
+        course.error[k] = sample.v[:3] - simulator.world.data.qvel[:3]
         if estimate.std is not None:
             course.std[k, columns] = estimate.std
         reacted = handler.step(state, sample, Estimate(course.tau[k], course.std[k]))
-        tell_feet(handler.identified, simulator.walker.sensor, sensors.told)
+        tell_feet(handler.identified, simulator.walker.sensor, sample.swing, height_m, sensors.told)
         if reacted is not None:
             course.reacted = k, reacted
             simulator.commands = plan_steps(simulator.state, reacted.steps)
         if course.reacted is not None:
             stop(simulator.state, len(simulator.commands))
-        touched = left < longest or np.linalg.norm(course.force[k]) > touch_n
-        left = min(left, after) - 1 if touched else left
+        ending = left < longest or course.reacted is not None or np.linalg.norm(course.force[k]) > touch_n
+        left = min(left, after) - 1 if ending else left
     return course
 
 

@@ -1,4 +1,4 @@
-"""A walk into an obstacle, and what came of it: contact, alarm, reaction, force, fall."""
+"""A walk and what came of it: contact, alarm, reaction, force, fall, and how well the base's velocity was known."""
 
 from collections.abc import Sequence
 
@@ -21,12 +21,15 @@ def contacts_of(force: NDArray[np.float32], touch_n: float, gap: int) -> list[sl
 
 
 def trial_of(
-    numbers: Reaction, place: tuple[str, str, int], watch: Watch, course: Course, rate_hz: float, stopped: bool
-) -> Trial:
-    """Return what came of a walk of a case with a robot and a seed."""
+    numbers: Reaction, place: tuple[str, str, int], watch: Watch, course: Course, begin: int, rate_hz: float,
+    stopped: bool,
+) -> Trial:  # fmt: skip
+    """Return what came of a walk of a case with a robot and a seed; nothing is an alarm before sample `begin`."""
     contacts = contacts_of(course.force, numbers.touch_n, round(numbers.gap_s * rate_hz))
     first, size = (contacts[0] if contacts else None), np.linalg.norm(course.force, axis=1)
     reacted_at, reacted = course.reacted or (None, None)
+    ends = [at for at in (reacted_at, first.start if first else None) if at is not None]
+    walked = course.error[begin : min(ends, default=len(course.rows))]
     alarm = None if reacted_at is None else reacted_at - round(watch.wait_s * rate_hz)
     angle = base_angle = None
     if first is not None and reacted is not None and reacted_at is not None and reacted_at >= first.start:
@@ -37,6 +40,9 @@ def trial_of(
         watch.detector,
         watch.rule if watch.detector != NONE else "",
         watch.wait_s,
+        wrench=watch.wrench or "",
+        walked_s=len(walked) / rate_hz,
+        velocity_rmse_m_s=float(np.sqrt(np.square(walked).sum(axis=1).mean())) if len(walked) else 0.0,
         contact_s=None if first is None else first.start / rate_hz,
         alarm_s=None if alarm is None else alarm / rate_hz,
         limb="" if reacted is None else reacted.limb,

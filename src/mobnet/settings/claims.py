@@ -171,7 +171,7 @@ class Claim(MadeNumber):
     statement: ClaimName | None = None
     printed: Text
     says: Text
-    unit: Literal["N m", "N", "%", "ms", "-"]
+    unit: Literal["N m", "N", "N s", "%", "ms", "-"]
     published: Bound | None
     by_joint: dict[JointName, Bound] = {}
     rule: Rule

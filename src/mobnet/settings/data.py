@@ -11,6 +11,7 @@ from mobnet.settings.base import Section
 
 Phase = Literal["always", "left_swing", "right_swing", "left_support", "right_support"]
 Direction = Literal["any", "horizontal", "down", "backward", "leftward", "rightward"]
+Wrench = Literal["sensed", "estimated"]  # of the feet, as the controller gets it
 CommandSource = Literal["random", "joystick", "uniform", "stand"]
 
 
@@ -222,7 +223,7 @@ class Scenario(Section):
     random_torque: base.Flag
     pushes: Annotated[tuple[base.PushName, ...], AfterValidator(base.distinct)] = ()
     obstacles: Annotated[tuple[base.ObstacleName, ...], AfterValidator(base.distinct)] = ()
-    wrench: Literal["sensed", "estimated"] = "sensed"
+    wrench: Wrench = "sensed"
     motion: base.MotionName | None = None
     draws: base.ScenarioName | None = None
 

@@ -7,6 +7,7 @@ from pydantic import Field
 from mobnet.core.detections import LARGEST
 from mobnet.settings import base
 from mobnet.settings.base import Section
+from mobnet.settings.data import Wrench
 
 Strategy = Literal["compliant", "rewind"]
 
@@ -20,10 +21,11 @@ class Identification(Section):
 
 
 class FirstStep(Section):
-    """How far a foot that is in the air may be sent elsewhere, so that it need not be fast."""
+    """How far a foot that is in the air may be sent elsewhere: it need not be fast, and lands where it can carry."""
 
     height_ratio: base.Real = Field(ge=0, le=20)
     foot_speed_m_s: base.Real = Field(ge=0.01, le=10)
+    behind_m: base.Real = Field(ge=0, le=1)
 
 
 class Compliant(Section):
@@ -41,15 +43,19 @@ class Rewind(Section):
 
 
 class Watch(Section):
-    """A detector and the rule of its thresholds; `force sensors` are those of the feet, `none` is no reaction."""
+    """A detector and the rule of its thresholds; `force sensors` are those of the feet, `none` is no reaction.
+
+    A reaction waits `wait_s` [s] after the alarm. With `wrench`, the controller gets another than the scenario says.
+    """
 
     detector: base.WatchName
     rule: base.ThresholdsName = LARGEST
     wait_s: base.Real = Field(default=0.0, ge=0, le=5)
+    wrench: Wrench | None = None
 
 
 class Case(Section):
-    """What is walked into, how the robot reacts, and what is compared beside our detector."""
+    """What is walked into, or walked freely, how the robot reacts, and what is compared beside our detector."""
 
     scenario: base.ScenarioName
     strategy: Strategy
@@ -65,10 +71,12 @@ class Reaction(Section):
     rewind: Rewind
     step_s: base.Real = Field(ge=0.2, le=3)
     stop_steps: base.Whole = Field(ge=0, le=50)
+    watched: base.Distinct[base.LimbName]
     estimator: base.LearnedName
     ours: Watch
     cases: dict[base.LowerName, Case]
     after_s: base.Real = Field(ge=0.1, le=60)
     calm_s: base.Real = Field(ge=1, le=3600)
+    window_s: base.Real = Field(ge=0.01, le=60)
     gap_s: base.Real = Field(ge=0.001, le=1)
     touch_n: base.Real = Field(ge=0.1, le=100)

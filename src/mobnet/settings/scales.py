@@ -22,11 +22,18 @@ class Experiment(Length):
 
 
 class ReactionSizes(Section):
-    """Walks of a robot into each obstacle with our detector, and with each other one; their longest duration."""
+    """Walks of a robot with our detector, and with each other one; their longest duration."""
 
     runs: Annotated[Count, Field(le=10_000)]
     compared: Annotated[Count, Field(le=10_000)]
-    longest_s: Annotated[Positive, Field(ge=1, le=120)]
+    longest_s: Annotated[Positive, Field(ge=1, le=600)]
+
+
+class Reactions(Section):
+    """Walks into something or with a push, in each case, and walks that nothing stands in the way of."""
+
+    pushed: ReactionSizes
+    free: ReactionSizes
 
 
 class Scale(Section):
@@ -45,7 +52,7 @@ class Scale(Section):
     robots: dict[LowerName, Length] = {}
     fleet: Annotated[Count, Field(le=100)] | None = None
     fleet_shards: Annotated[Count, Field(le=100)] | None = None
-    reactions: ReactionSizes
+    reactions: Reactions
     least_swings: Annotated[Count, Field(le=100_000)] | None = None
     batch_size: Annotated[Count, Field(le=4096)] | None = None
     stream_s: Annotated[Positive, Field(ge=0.05, le=600)] | None = None

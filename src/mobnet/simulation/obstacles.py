@@ -16,6 +16,7 @@ from mobnet.settings.data import Obstacle
 OBSTACLE_GROUP = 0  # geom group, that of the ground
 PAD_RGBA = (0.80, 0.35, 0.25, 1.0)
 QUATERNIONS = {"x": [0.5**0.5, 0.0, 0.5**0.5, 0.0], "y": [0.5**0.5, 0.5**0.5, 0.0, 0.0], "z": [1.0, 0.0, 0.0, 0.0]}
+PREFIX = "obstacle_"  # of the names of obstacles and of their solids
 IMPEDANCE = 0.01  # d of every contact: so small that a contact is a spring and a damper without a mass of its own
 
 
@@ -25,17 +26,17 @@ def add_obstacles(
     """Add obstacles by name at distances that are drawn, ahead of the origin along x, and what touches them."""
     for name, obstacle in obstacles.items():
         place = [rng.uniform(*obstacle.ahead_m), 0.0, 0.0]
-        body = spec.worldbody.add_body(name=f"obstacle_{name}", pos=place, explicitinertial=True)
-        body.add_site(name=f"obstacle_{name}")
+        body = spec.worldbody.add_body(name=f"{PREFIX}{name}", pos=place, explicitinertial=True)
+        body.add_site(name=f"{PREFIX}{name}")
         spec.add_sensor(
-            name=f"obstacle_{name}",
+            name=f"{PREFIX}{name}",
             type=mujoco.mjtSensor.mjSENS_FORCE,
             objtype=mujoco.mjtObj.mjOBJ_SITE,
-            objname=f"obstacle_{name}",
+            objname=f"{PREFIX}{name}",
         )
         for number, part in enumerate(obstacle.parts):
             geom = body.add_geom(
-                name=f"obstacle_{name}_{number}", type=GEOM[part.type], pos=part.pos, rgba=PAD_RGBA,
+                name=f"{PREFIX}{name}_{number}", type=GEOM[part.type], pos=part.pos, rgba=PAD_RGBA,
                 group=OBSTACLE_GROUP, contype=0, conaffinity=0, mass=0,
             )  # fmt: skip
             geom.size[: len(part.size)] = part.size
@@ -55,7 +56,7 @@ def _links(robot: RobotDescription) -> Iterator[str]:
 
 def set_obstacles(model: mujoco.MjModel, obstacles: Mapping[str, Obstacle]) -> None:
     """Make each contact with an obstacle a spring and a damper, as `world` does those of the soles."""
-    pads = {f"obstacle_{name}": obstacle for name, obstacle in obstacles.items()}
+    pads = {f"{PREFIX}{name}": obstacle for name, obstacle in obstacles.items()}
     for k in range(model.npair):
         geoms = model.pair_geom1[k], model.pair_geom2[k]
         bodies = [int(model.geom_bodyid[geom]) for geom in geoms]
@@ -66,7 +67,18 @@ def set_obstacles(model: mujoco.MjModel, obstacles: Mapping[str, Obstacle]) -> N
         model.pair_solimp[k, :2] = IMPEDANCE
 
 
+def points_on(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
+    """Return the points at which obstacles touch the robot in the last step (n, 3) [m], world axes."""
+    names = [[model.geom(geom).name for geom in pair] for pair in data.contact.geom]
+    return data.contact.pos[[any(name.startswith(PREFIX) for name in pair) for pair in names]]
+
+
+def place_of(model: mujoco.MjModel, name: str) -> Array:
+    """Return the place of an obstacle (3,) [m]."""
+    return np.array(model.body(f"{PREFIX}{name}").pos)
+
+
 def obstacle_force(model: mujoco.MjModel, data: mujoco.MjData, name: str) -> Array:
     """Return the force of an obstacle on the robot in the last step (3,) [N], world axes."""
-    start = model.sensor(f"obstacle_{name}").adr[0]
+    start = model.sensor(f"{PREFIX}{name}").adr[0]
     return np.array(data.sensordata[start : start + 3])

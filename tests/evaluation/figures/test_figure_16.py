@@ -1,5 +1,7 @@
 """Figure 16: the force of one walk of each case over time from its contact on, and means beside the paper's."""
 
+from dataclasses import replace
+
 import pytest
 from made_trials import EARLY, FORCE_N, HIT, write_made_course, write_trials
 
@@ -37,6 +39,15 @@ def test_forces_begin_with_the_contact_and_means_have_the_paper_s(tmp_path, layo
 def test_a_reaction_stands_on_the_axis_of_its_force(tmp_path, layout):
     times, force, marks = force_of(write_made_course(tmp_path / "foot", layout, 0.52), SECTION)
     assert (len(times), force.max(), marks["reacted"]) == (len(force), FORCE_N, pytest.approx(0.02))
+
+
+def test_falls_stand_over_the_time_that_a_reaction_waits(tmp_path, layout):
+    late = replace(HIT, wait_s=0.2, reacted_s=4.21, fell_s=6.0)
+    rows = made(tmp_path, layout, [HIT, late, replace(late, seed=241, fell_s=None), knees(HIT)], reacted_s=0.52)
+    falls = {
+        float(row["time_s"]): float(row["value"]) for row in rows if (row["case"], row["quantity"]) == ("foot", "falls")
+    }
+    assert falls == {0.0: 0.0, 0.2: 0.5}
 
 
 def test_walks_that_touched_nothing_are_drawn_too(tmp_path, layout):

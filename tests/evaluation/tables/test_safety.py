@@ -30,7 +30,10 @@ def table(tmp_path):
     def make(rows):
         reactions = write_trials(tmp_path, rows)
         published, statistics = SETTINGS.published.section_5_4, SETTINGS.evaluation.statistics
-        safety(SETTINGS.evaluation.safety, statistics, published, reactions, tmp_path)
+        section = SETTINGS.evaluation.safety.model_copy(
+            update={"cases": tuple(dict.fromkeys(row.case for row in rows))}
+        )
+        safety(section, statistics, published, reactions, tmp_path)
         cells = {(row["case"], row["detector"], row["measure"]): row for row in read_texts(tmp_path / "safety.csv")}
         return cells, (tmp_path / "safety.md").read_text()
 
@@ -100,4 +103,4 @@ def test_an_outcome_counts_walks_and_contacts():
 ])  # fmt: skip
 def test_damaged_files_are_refused(tmp_path, row, text):
     with pytest.raises(DataError, match=text):
-        read_trials(write_trials(tmp_path, [row]))
+        read_trials(write_trials(tmp_path, [row]), ["foot"])

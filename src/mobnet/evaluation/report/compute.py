@@ -19,7 +19,7 @@ STAGES = {  # stage -> its rules; those of no stage make tables and figures
     "collect": ("motion", "collect"),
     "train": ("fit", "train"),
     "estimate": ("estimate",),
-    "detect and react": ("detect", "react"),
+    "detect and react": ("detect", "watch", "react"),
     "score": ("score",),
     "tables and figures": (),
     "paper": ("numbers", "deviations", "paper", "manifest"),

@@ -1,4 +1,4 @@
-"""What must hold for reactions: robots walk into something, and a closed loop is where wrenches are estimated."""
+"""What must hold for reactions: cases that results show, and a closed loop where wrenches are estimated."""
 
 from collections.abc import Iterator
 
@@ -10,12 +10,16 @@ ROOT: Place = ("reaction",)
 
 
 def reaction_problems(results: Results) -> Iterator[Problem]:
-    """Yield cases without an obstacle, loops without all legs, and scenarios that no loop walks but that need one."""
+    """Yield unsuitable cases of results, loops without all legs, and scenarios that no loop walks but that need one."""
     settings, reaction = results.settings, results.settings.reaction
     walked = {row.scenario for row in reaction.cases.values()}
-    for name, row in reaction.cases.items():
-        if not settings.scenarios[row.scenario].obstacles:
-            yield (*ROOT, "cases", name, "scenario"), misfit(row.scenario, "a scenario with `obstacles`")
+    scenarios = {name: settings.scenarios[row.scenario] for name, row in reaction.cases.items()}
+    pushed = [name for name, row in scenarios.items() if row.obstacles or row.pushes]
+    free = [name for name in scenarios if name not in pushed]
+    for product, fitting in {"safety": pushed, "figure_16": pushed, "figure_22": pushed, "sensorless": free}.items():
+        for name in getattr(settings.evaluation, product).cases:
+            if name not in fitting:
+                yield ("evaluation", product, "cases"), misfit(name, ", ".join(fitting))
     limbs, legs = settings.methods[reaction.estimator].limbs, settings.detection.legs
     if not {"V", *legs} <= {*limbs}:
         text = misfit(reaction.estimator, f"a method with networks of V, {', '.join(legs)}: the base and all legs")

@@ -4,7 +4,18 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from mobnet.core.columns import CALIBRATION, COVERAGE, DETECTION, ERRORS, HOURLY, KINDS, LATENCY, METHODS
+from mobnet.core.columns import (
+    CALIBRATION,
+    COVERAGE,
+    DETECTION,
+    ERRORS,
+    HOURLY,
+    KINDS,
+    LATENCY,
+    METHODS,
+    SAFETY,
+    SENSORLESS,
+)
 from mobnet.core.errors import not_accepted
 from mobnet.core.joints import JointLayout, right_of, with_image
 from mobnet.core.metrics import metric_of
@@ -20,7 +31,7 @@ TABLES = {  # that are no entry of `tables` -> their columns
         ("table_09", "table_13", "false_alarms", "found_by_rate", "smallest_force", "links"), DETECTION
     ),
     "calibration": CALIBRATION, "coverage": COVERAGE, "error_budget": ERRORS, "hourly": HOURLY, "kinds": KINDS,
-    "latency": LATENCY, "methods": METHODS,
+    "latency": LATENCY, "methods": METHODS, "safety": SAFETY, "sensorless": SENSORLESS,
 }  # fmt: skip
 PUSHED, PUSH, RAW = "rmse_pushed", "rmse_push_", "_raw"  # metrics of windows around pushes, against the raw truth
 

@@ -48,7 +48,7 @@ def accepted_names(catalogue: Catalogue) -> dict[str, Collection[str]]:
         "network": settings.networks, "sweep": settings.sweeps, "method": catalogue.all_methods,
         "method with networks": learned,
         "method that runs on its own": [name for name, row in settings.methods.items() if row.of is None],
-        "detector that reacts": (*reacts, FORCE_SENSORS, NONE),
+        "detector that reacts": (*reacts, FORCE_SENSORS, NONE), "case of reactions": settings.reaction.cases,
         "detector": detection.detectors, "rule of thresholds": (LARGEST, *detection.thresholds.rates_per_h),
         "level with detectors": (*detection.levels, *settings.fleet.robots), "leg with detectors": detection.legs,
         "cell of collisions": [" ".join(point.split("_")[1:]) for point in points],

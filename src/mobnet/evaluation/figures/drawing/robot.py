@@ -3,6 +3,7 @@
 A solid is the convex hull of its surface points on the picture.
 """
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from mobnet.core.joints import N_VIRTUAL
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.parts import ShapeRow
 
+Solid = tuple[Array, Any]  # points on a surface (n, 3) [m], and its colour
 RINGS, POINTS = 7, 14  # of a round solid
 
 
@@ -29,11 +31,22 @@ def projection(azimuth_deg: float, elevation_deg: float) -> Array:
 
 def draw_robot(axis: Axes, robot: RobotDescription, q: NDArray[Any], view: Array) -> None:
     """Draw a robot at a position q (nq,) [m, -, rad] into axes in metres; the view is that of `projection`."""
-    solids: list[tuple[float, Array, Any]] = []
-    for shape, points in zip(robot.shapes, surfaces_of(robot, q), strict=True):
+    draw_solids(axis, solids_of(robot, q), view)
+
+
+def solids_of(robot: RobotDescription, q: NDArray[Any]) -> list[Solid]:
+    """Return the solids of a robot at a position q (nq,) [m, -, rad]."""
+    pairs = zip(robot.shapes, surfaces_of(robot, q), strict=True)
+    return [(points, robot.tones[shape.tone]) for shape, points in pairs]
+
+
+def draw_solids(axis: Axes, solids: Iterable[Solid], view: Array) -> None:
+    """Draw solids into axes in metres, the farther ones first."""
+    drawn: list[tuple[float, Array, Any]] = []
+    for points, colour in solids:
         seen = points @ view.T
-        solids.append((float(seen[:, 2].mean()), hull_of(seen[:, :2]), robot.tones[shape.tone]))
-    for order, (_, outline, colour) in enumerate(sorted(solids, key=lambda solid: solid[0])):
+        drawn.append((float(seen[:, 2].mean()), hull_of(seen[:, :2]), colour))
+    for order, (_, outline, colour) in enumerate(sorted(drawn, key=lambda solid: solid[0])):
         patch = Polygon(
             outline, closed=True, facecolor=colour, edgecolor="0.25", linewidth=0.4, zorder=2 + 0.01 * order
         )

@@ -1,4 +1,4 @@
-"""Figure 16: force and impulse of a fixed obstacle on a foot and on a knee, with the reaction."""
+"""Figure 16: force and impulse of a fixed obstacle on a foot and on a knee, with the reaction; falls if it is late."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -8,9 +8,19 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mobnet.core.arrays import Array
+from mobnet.core.reactions import Trial
 from mobnet.core.store import read_array
 from mobnet.evaluation.figures.style import beside, entitle, legend, save_figure, styled
-from mobnet.evaluation.measure.reaction.results import IMPULSE, PEAK, groups_of, outcome_of, printed_of, read_trials
+from mobnet.evaluation.measure.detection.results import MS
+from mobnet.evaluation.measure.reaction.results import (
+    FALLS,
+    IMPULSE,
+    PEAK,
+    outcome_of,
+    printed_of,
+    read_trials,
+    trials_of,
+)
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.number import Number
 from mobnet.plan.reactions import Reactions
@@ -21,18 +31,23 @@ from mobnet.settings.reaction import Reaction
 COLUMNS = ("case", "quantity", "time_s", "value", "low", "high", "unit", "published")
 LABELS = {PEAK: "largest force [N]", IMPULSE: "impulse [N s]"}
 HEIGHT_INCH = 2.1
+MARKERS = "os^v"
+APART_MS = 4.0  # so that intervals of two cases do not cover each other
 
 
 def figure_16(
     settings: Figure16, reaction: Reaction, statistics: Statistics, published: PublishedContacts,
     reactions: Reactions, courses: Mapping[str, Path], figure_dir: Path,
 ) -> None:  # fmt: skip
-    """Write Figure 16 as PDF, PNG and CSV: the force over time in one walk of each case, and means over all walks."""
-    ours = (reaction.ours.detector, reaction.ours.rule, reaction.ours.wait_s)
-    groups, rows = groups_of(read_trials(reactions)), list[Sequence[Field]]()
+    """Write Figure 16 as PDF, PNG and CSV.
+
+    It has the force over time in one walk of each case, means over all walks, and the share of walks with a fall by how
+    long the reaction waits.
+    """
+    trials, rows = read_trials(reactions, settings.cases), list[Sequence[Field]]()
     forces, numbers = dict[str, tuple[Array, Array, Mapping[str, float | None]]](), dict[str, dict[str, Number]]()
     for case in settings.cases:
-        outcome = outcome_of(groups[case, *ours], settings.within_deg, statistics)
+        outcome = outcome_of(trials_of(trials, case, reaction.ours), settings.within_deg, statistics)
         numbers[case] = {name: outcome.numbers[name] for name in LABELS}
         forces[case] = force_of(courses[case], settings)
         rows += [
@@ -40,7 +55,25 @@ def figure_16(
         ]
         for name, number in numbers[case].items():
             rows.append((case, name, None, *number.with_ends, number.unit, printed_of(published, case, name)))
-    save_figure(draw(forces, numbers, published), figure_dir / "figure_16", COLUMNS, rows)
+    late = {case: late_falls(trials, case, reaction, settings, statistics) for case in settings.cases}
+    rows += [
+        (case, "falls", wait_s, *number.with_ends, number.unit, None)
+        for case, own in late.items()
+        for wait_s, number in own.items()
+    ]
+    save_figure(draw(forces, numbers, late, published), figure_dir / "figure_16", COLUMNS, rows)
+
+
+def late_falls(
+    trials: Sequence[Trial], case: str, reaction: Reaction, settings: Figure16, statistics: Statistics
+) -> dict[float, Number]:
+    """Return how long our reaction waits [s] -> the share of walks of a case with a fall."""
+    found = dict[float, Number]()
+    for watch in sorted((reaction.ours, *reaction.cases[case].compared), key=lambda watch: watch.wait_s):
+        own = trials_of(trials, case, watch)
+        if own and (watch.detector, watch.rule) == (reaction.ours.detector, reaction.ours.rule):
+            found[watch.wait_s] = outcome_of(own, settings.within_deg, statistics).numbers[FALLS]
+    return found
 
 
 def force_of(stem: Path, settings: Figure16) -> tuple[Array, Array, Mapping[str, float | None]]:
@@ -64,22 +97,37 @@ def force_of(stem: Path, settings: Figure16) -> tuple[Array, Array, Mapping[str,
 @styled
 def draw(
     forces: Mapping[str, tuple[Array, Array, Mapping[str, float | None]]],
-    numbers: Mapping[str, Mapping[str, Number]], published: PublishedContacts,
+    numbers: Mapping[str, Mapping[str, Number]], late: Mapping[str, Mapping[float, Number]],
+    published: PublishedContacts,
 ) -> Figure:  # fmt: skip
-    """Draw the force of each case over time, and a panel of means for each quantity beside the paper's."""
-    figure, axes = beside(len(forces) + len(LABELS), HEIGHT_INCH)
+    """Draw each case's force over time, means of each quantity beside the paper's, and falls of late reactions."""
+    figure, axes = beside(len(forces) + len(LABELS) + 1, HEIGHT_INCH)
     for k, (axis, (case, (times, force, marks))) in enumerate(zip(axes, forces.items(), strict=False)):
         axis.plot(times, force, color="black", linewidth=0.8)
-        if (reacted := marks["reacted"]) is not None:
+        if len(times) and (reacted := marks["reacted"]) is not None and reacted <= times[-1]:
             axis.axvline(reacted, color="C3", linestyle="--", linewidth=0.8, label="reaction")
         axis.set(xlabel="time from contact [s]", ylabel="force [N]")
         entitle(axis, k, case)
-    for k, (axis, (name, label)) in enumerate(zip(axes[len(forces) :], LABELS.items(), strict=True), start=len(forces)):
+    for k, (axis, (name, label)) in enumerate(
+        zip(axes[len(forces) : -1], LABELS.items(), strict=True), start=len(forces)
+    ):
         draw_means(axis, {case: own[name] for case, own in numbers.items()}, published, name)
         axis.set(ylabel=label)
         entitle(axis, k, label.partition(" [")[0])
+    draw_late(axes[-1], late)
+    entitle(axes[-1], len(axes) - 1, "late reactions")
     legend(figure, axes)
     return figure
+
+
+def draw_late(axis: Axes, late: Mapping[str, Mapping[float, Number]]) -> None:
+    """Draw the share of falls of each case over the time that a reaction waits [ms], with intervals."""
+    for k, (case, own) in enumerate(late.items()):
+        value, low, high = np.array([number.range for number in own.values()], dtype=np.float64).T
+        waits = MS * np.array(list(own)) + k * APART_MS
+        look = {"marker": MARKERS[k % len(MARKERS)], "markersize": 3, "linewidth": 0.8, "capsize": 2.0}
+        axis.errorbar(waits, value, [value - low, high - value], label=case, **look)
+    axis.set(xlabel="reaction waits [ms]", ylabel="share of walks with a fall", ylim=(-0.05, 1.05))
 
 
 def draw_means(axis: Axes, numbers: Mapping[str, Number], published: PublishedContacts, name: str) -> None:

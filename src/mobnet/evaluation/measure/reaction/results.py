@@ -7,15 +7,19 @@ from pathlib import Path
 from mobnet.core.reactions import NONE, Trial
 from mobnet.core.rows import read_rows, refuse_rows
 from mobnet.evaluation.measure.detection.results import MS, mean_of, share_of
+from mobnet.evaluation.measure.estimates.changed import HOUR_S
 from mobnet.evaluation.number.number import Number
 from mobnet.plan.reactions import Reactions
 from mobnet.settings.evaluation import Statistics
 from mobnet.settings.published import PublishedContacts
+from mobnet.settings.reaction import Watch
 
 FALLS, PEAK, FIRST, IMPULSE, ALARM, WITHIN, BASE_WITHIN, EARLY = (
     "falls", "first_peak", "first_impulse", "impulse", "alarm", "within", "base_within", "early",
 )  # fmt: skip
-Group = tuple[str, str, str, float]  # case, detector, rule, time that a reaction waits [s]
+Group = tuple[str, str, str, float, str]  # case, detector, rule, time that a reaction waits [s], wrench of the feet
+MM = 1e3  # in a metre
+FALLEN, REACTED = "falls", "false reactions"
 
 
 @dataclass(frozen=True)
@@ -33,9 +37,24 @@ class Outcome:
     numbers: Mapping[str, Number]
 
 
-def read_trials(reactions: Reactions) -> list[Trial]:
-    """Return the trials of all robots."""
-    return [row for files in reactions.values() for path in files.values() for row in read_file(path)]
+@dataclass(frozen=True)
+class Walked:
+    """What happened in free walks.
+
+    Attributes:
+        hours: that the robots walked as they were told [h].
+        events: falls, and reactions to nothing, by name.
+        velocity: error of the base's velocity [mm/s], mean of the walks.
+    """
+
+    hours: float
+    events: Mapping[str, int]
+    velocity: Number
+
+
+def read_trials(reactions: Reactions, cases: Sequence[str]) -> list[Trial]:
+    """Return the trials of all robots in some cases."""
+    return [row for case in cases for files in reactions.values() for row in read_file(files[case])]
 
 
 def read_file(path: Path) -> list[Trial]:
@@ -60,11 +79,17 @@ def _faults(rows: Sequence[Trial]) -> Iterator[tuple[int, str, object, str]]:
 
 
 def groups_of(trials: Sequence[Trial]) -> dict[Group, list[Trial]]:
-    """Return the trials by case, detector, rule and waiting time, in the order in which they come."""
+    """Return the trials by case, detector, rule, waiting time and wrench, in the order in which they come."""
     found = dict[Group, list[Trial]]()
     for row in trials:
-        found.setdefault((row.case, row.detector, row.rule, row.wait_s), []).append(row)
+        found.setdefault((row.case, row.detector, row.rule, row.wait_s, row.wrench), []).append(row)
     return found
+
+
+def trials_of(trials: Sequence[Trial], case: str, watch: Watch) -> list[Trial]:
+    """Return the trials of a case with what watches it, the wrench of the feet being that of its scenario."""
+    asked = case, watch.detector, watch.rule, watch.wait_s
+    return [row for row in trials if (row.case, row.detector, row.rule, row.wait_s) == asked]
 
 
 def is_early(row: Trial) -> bool:
@@ -93,6 +118,16 @@ def outcome_of(trials: Sequence[Trial], within_deg: float, statistics: Statistic
         EARLY: share_of([is_early(row) for row in trials if row.detector != NONE], statistics),
     }
     return Outcome(len(trials), len(struck), numbers)
+
+
+def walked_of(trials: Sequence[Trial], statistics: Statistics) -> Walked:
+    """Return what happened in free walks."""
+    events = {
+        FALLEN: sum(row.fell_s is not None for row in trials),
+        REACTED: sum(row.reacted_s is not None for row in trials),
+    }
+    errors = [MM * row.velocity_rmse_m_s for row in trials]
+    return Walked(sum(row.walked_s for row in trials) / HOUR_S, events, mean_of(errors, statistics, "mm/s"))
 
 
 def _within(angles: Sequence[float | None], most: float) -> list[bool]:

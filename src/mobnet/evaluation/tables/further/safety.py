@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from mobnet.core.columns import SAFETY
+from mobnet.evaluation.measure.detection.results import MS
 from mobnet.evaluation.measure.reaction.results import (
     ALARM,
     BASE_WITHIN,
@@ -39,7 +40,7 @@ def safety(
     rows: list[Sequence[Field]] = []
     lines: list[Line] = []
     before = ""
-    for (case, detector, rule, wait_s), trials in groups_of(read_trials(reactions)).items():
+    for (case, detector, rule, wait_s, _), trials in groups_of(read_trials(reactions, settings.cases)).items():
         outcome = outcome_of(trials, settings.within_deg, statistics)
         for measure, number in outcome.numbers.items():
             printed = printed_of(published, case, measure)
@@ -47,7 +48,8 @@ def safety(
             rows.append((case, detector, rule, wait_s, measure, *number.with_ends, *counts, number.unit, printed))
         lines += [RULE] if before and before != case else []
         numbers = [f"{outcome.touched} of {outcome.walks}", *_texts(outcome.numbers)]
-        lines.append([case if case != before else "", detector, rule, *numbers])
+        later = f"{detector}, {MS * wait_s:.0f} ms later" if wait_s else detector
+        lines.append([case if case != before else "", later, rule, *numbers])
         before = case
     share = f"{statistics.confidence:.0%}"
     header = [

@@ -1,0 +1,55 @@
+"""A robot and what it walks into as pictures, with the force of the obstacle as an arrow. Drawing only."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from mobnet.core.arrays import Array
+from mobnet.core.course import StoredCourse
+from mobnet.evaluation.figures.drawing.robot import Solid, draw_solids, solids_of, surface_of
+from mobnet.robot.description import RobotDescription
+from mobnet.settings.data import Obstacle, ObstaclePart
+from mobnet.settings.parts import ShapeRow
+
+PAD = "#E3B7A0"
+FORCE = "#D55E00"
+ARROW_M_N = 0.002  # length of an arrow for each newton
+AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+
+
+def draw_scene(
+    axis: Axes, robot: RobotDescription, obstacles: Mapping[str, Obstacle], course: StoredCourse, k: int, view: Array
+) -> None:
+    """Draw a sample of a walk into axes in metres: robot, obstacles, ground, and an arrow to where they touch."""
+    draw_solids(axis, [*solids_of(robot, course.q[k]), *obstacle_solids(obstacles, course)], view)
+    axis.axhline(0.0, color="0.6", linewidth=0.6, zorder=0)
+    if course.point[k].any():
+        draw_force(axis, course.point[k], course.force[k], view)
+
+
+def draw_force(axis: Axes, point: Array, force: Array, view: Array) -> None:
+    """Draw a force (3,) [N] at a point (3,) [m] as an arrow that ends there."""
+    (x, y, _), (from_x, from_y, _) = ((view @ place).tolist() for place in (point, point - ARROW_M_N * force))
+    arrow = {"arrowstyle": "-|>", "color": FORCE, "linewidth": 1.6, "shrinkA": 0.0, "shrinkB": 0.0}
+    axis.annotate("", (x, y), (from_x, from_y), zorder=5, arrowprops=arrow)
+
+
+def obstacle_solids(obstacles: Mapping[str, Obstacle], course: StoredCourse) -> list[Solid]:
+    """Return the solids of the obstacles of a walk, where they stood."""
+    places = course.note["obstacles"]
+    return [
+        (np.asarray(place) + part_surface(part), PAD)
+        for name, place in places.items()
+        for part in obstacles[name].parts
+    ]
+
+
+def part_surface(part: ObstaclePart) -> Array:
+    """Return points on the surface of a part of an obstacle (n, 3) [m], from its place."""
+    like = {"name": "part", "body": "world", "type": part.type, "tone": "", "pos": (0.0, 0.0, 0.0), "segment": None}
+    if part.type == "box":
+        return surface_of(ShapeRow.model_construct(**{**like, "size": part.size, "pos": part.pos}))
+    reach = part.size[1] * np.array(AXES[part.axis])
+    ends = (*(np.array(part.pos) - reach), *(np.array(part.pos) + reach))
+    return surface_of(ShapeRow.model_construct(**{**like, "size": part.size[:1], "segment": ends}))

@@ -1,0 +1,98 @@
+"""Figures 21 and 22 and the films: footsteps from above, pictures of walks into obstacles, frames that scroll."""
+
+import numpy as np
+import pytest
+from made_trials import FORCE_N, write_made_course
+from PIL import Image
+
+from mobnet.core.course import read_course
+from mobnet.core.rows import read_texts
+from mobnet.evaluation.figures.drawing.scene import draw_scene, part_surface
+from mobnet.evaluation.figures.further.films import films, read_curves
+from mobnet.evaluation.figures.paper.figure_21 import figure_21, sole_corners
+from mobnet.evaluation.figures.paper.figure_22 import figure_22, moments_of
+from mobnet.settings.load import load_settings
+
+SETTINGS = load_settings()
+SHOWN = SETTINGS.robot, SETTINGS.obstacles
+
+
+@pytest.fixture
+def course(tmp_path, layout):
+    """A course in which the robot reacts 20 ms after the contact."""
+    return write_made_course(tmp_path / "course", layout, 0.52)
+
+
+def test_a_course_has_the_base_where_it_was_and_the_samples_of_its_times(course, layout):
+    walk = read_course(course, layout)
+    assert (walk.q.shape, walk.force.shape, walk.swing.shape) == ((1000, layout.nq), (1000, 3), (1000, 2))
+    assert walk.q[0, :3] == pytest.approx([0.0, 0.0, 0.9])
+    assert (walk.at("contact_s"), walk.at("reacted_s")) == (500, 520)
+
+
+@pytest.mark.parametrize("name", list(SETTINGS.obstacles))
+def test_surfaces_of_obstacles_are_as_large_as_their_parts(name):
+    for part in SETTINGS.obstacles[name].parts:
+        spread = np.ptp(part_surface(part), axis=0) / 2
+        along = "xyz".index(part.axis)
+        if part.type == "box":
+            assert spread == pytest.approx(part.size)
+        else:
+            ends = part.size[0] if part.type == "capsule" else 0.0
+            assert spread[along] == pytest.approx(part.size[1] + ends, rel=0.01)
+            assert np.delete(spread, along) == pytest.approx([part.size[0]] * 2, rel=0.06)  # of a polygon
+
+
+def test_figure_21_has_the_feet_at_the_start_and_where_they_land(tmp_path, course):
+    figure_21(SETTINGS.evaluation.figure_21, *SHOWN, {"foot": course}, tmp_path)
+    rows = read_texts(tmp_path / "figure_21.csv")
+    assert [(row["foot"], row["reacting"]) for row in rows] == [("left", "0"), ("right", "0"), ("left", "1")]
+    assert float(rows[2]["time_s"]) == pytest.approx(0.7)
+    assert float(rows[0]["y_m"]) > 0.05 > -0.05 > float(rows[1]["y_m"])
+    assert (tmp_path / "figure_21.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_sole_seen_from_above_has_its_size(robot):
+    assert np.ptp(sole_corners(robot), axis=0) / 2 == pytest.approx(robot.sole.box_half[:2])
+
+
+def test_figure_22_shows_moments_from_the_contact_on_and_the_end(tmp_path, course):
+    section = SETTINGS.evaluation.figure_22
+    figure_22(section, *SHOWN, dict.fromkeys(section.cases, course), tmp_path)
+    rows = read_texts(tmp_path / "figure_22.csv")
+    assert len(rows) == len(section.cases) * (len(section.moments_s) + 1)
+    assert [float(row["time_s"]) for row in rows[:2]] == pytest.approx(section.moments_s[:2])
+    assert float(rows[1]["force_x_n"]) == -FORCE_N
+    assert float(rows[4]["time_s"]) == pytest.approx(0.499)
+
+
+def test_moments_stay_in_the_walk(course, layout):
+    section = SETTINGS.evaluation.figure_22.model_copy(update={"moments_s": (-9.0, 9.0)})
+    assert list(moments_of(read_course(course, layout), section).values()) == [0, 999, 999]
+
+
+def test_a_scene_has_an_arrow_where_something_touches(course, layout, robot):
+    from matplotlib.figure import Figure
+
+    walk, view, drawn = read_course(course, layout), np.eye(3), []
+    for k in (0, 550):
+        axis = Figure().subplots()
+        draw_scene(axis, robot, SETTINGS.obstacles, walk, k, view)
+        drawn.append(len(axis.texts))
+    assert drawn == [0, 1]  # an arrow is an annotation
+
+
+def test_curves_count_time_from_the_contact(course, layout):
+    curves = read_curves(course, read_course(course, layout), "LL3")
+    assert (curves.time_s[0], curves.time_s[500], curves.reacted_s) == pytest.approx((-0.5, 0.0, 0.02))
+    assert curves.force.max() == FORCE_N
+
+
+def test_a_film_has_a_frame_for_each_step_of_time_and_ends_with_the_walk(tmp_path, course):
+    section = SETTINGS.evaluation.films.model_copy(update={"shown_s": (0.3, 9.0), "frames_hz": 10.0, "slower": 1.0})
+    out = tmp_path / "foot.webp"
+    films(section, *SHOWN, {"foot": course}, {"foot": out})
+    with Image.open(out) as film:
+        assert film.n_frames == 2  # at 0.3 and 0.4 s; the walk ends at 0.499 s
+        first = np.asarray(film.convert("RGB"))
+    assert first.std() > 10.0

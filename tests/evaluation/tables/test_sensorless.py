@@ -1,0 +1,50 @@
+"""The table of walks that nothing stands in the way of: events in an hour, and the error of the base's velocity."""
+
+from dataclasses import replace
+
+import pytest
+from made_trials import FREE, write_trials
+
+from mobnet.core.reactions import NONE
+from mobnet.core.rows import read_texts
+from mobnet.evaluation.tables.further.sensorless import VELOCITY, sensorless
+from mobnet.settings.load import load_settings
+
+SETTINGS = load_settings()
+ROWS = [
+    FREE,
+    replace(FREE, seed=241, walked_s=30.0, alarm_s=30.0, reacted_s=30.0, limb="RA", velocity_rmse_m_s=0.005),
+    replace(FREE, seed=242, walked_s=90.0, fell_s=90.0, level="robot_2"),
+    replace(FREE, detector=NONE, rule="", wrench="sensed", velocity_rmse_m_s=0.002),
+]
+
+
+@pytest.fixture
+def cells(tmp_path):
+    """The rows of the table of ROWS by wrench and event."""
+    reactions = write_trials(tmp_path, ROWS)
+    reactions["robot_1"]["foot"] = tmp_path / "not_asked_for.csv"
+    sensorless(SETTINGS.evaluation.sensorless, SETTINGS.evaluation.statistics, reactions, tmp_path)
+    return {(row["wrench"], row["event"]): row for row in read_texts(tmp_path / "sensorless.csv")}
+
+
+def test_events_are_counted_over_the_time_that_robots_walk_as_told(cells):
+    falls, reactions = cells["estimated", "falls"], cells["estimated", "false reactions"]
+    assert (falls["events"], reactions["events"], falls["walks"]) == ("1", "1", "3")
+    assert float(falls["hours"]) == pytest.approx(0.05)
+    assert float(falls["value"]) == pytest.approx(20.0)
+    assert float(falls["low"]) == pytest.approx(0.0253 / 0.05, rel=0.01)  # of one event, Garwood 1936
+    assert float(falls["high"]) == pytest.approx(5.572 / 0.05, rel=0.001)
+
+
+def test_without_an_event_the_interval_begins_at_zero(cells):
+    falls = cells["sensed", "falls"]
+    assert (falls["events"], falls["value"], falls["low"]) == ("0", "0", "0")
+
+
+def test_the_velocity_s_error_is_the_mean_of_the_walks(cells, tmp_path):
+    assert float(cells["estimated", VELOCITY]["value"]) == pytest.approx(11.0 / 3.0, rel=1e-5)
+    assert float(cells["sensed", VELOCITY]["value"]) == 2.0
+    lines = [line for line in (tmp_path / "sensorless.md").read_text().splitlines() if line.startswith("| ")]
+    assert "3.0" in lines[2]  # minutes
+    assert "sensed" in lines[3]

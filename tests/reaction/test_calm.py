@@ -1,0 +1,42 @@
+"""Thresholds of limbs that are watched all the time: false alarms come at the wanted rate, in all joints together."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from mobnet.core.errors import DataError
+from mobnet.reaction.calm import limb_thresholds
+
+RATE_HZ, HOUR_S = 10.0, 3600.0
+
+
+def noise(rng, hours):
+    """Return torques of two joints, of which the second one errs three times as much (T, 2)."""
+    return rng.normal(size=(round(hours * HOUR_S * RATE_HZ), 2)) * [1.0, 3.0]
+
+
+def calibrated(settings, torques, rate_per_h=20.0):
+    rule = settings.reaction.ours.rule
+    numbers = settings.detection.thresholds.model_copy(update={"rates_per_h": {rule: rate_per_h}})
+    detection = settings.detection.model_copy(update={"thresholds": numbers})
+    return limb_thresholds(SimpleNamespace(detection=detection, reaction=settings.reaction, rate_hz=RATE_HZ), torques)
+
+
+def test_false_alarms_come_at_the_wanted_rate_and_each_joint_has_its_share(settings):
+    rng, hours = np.random.default_rng(0), 20.0
+    thresholds = calibrated(settings, [noise(rng, 0.5), noise(rng, 0.5)])
+    alarms = np.abs(noise(rng, hours)) > thresholds
+    windows = alarms.reshape(-1, round(RATE_HZ * settings.reaction.window_s), 2).any(axis=1)
+    assert windows.any(axis=1).sum() / hours == pytest.approx(20.0, rel=0.6)
+    assert thresholds[1] / thresholds[0] == pytest.approx(3.0, rel=0.15)
+
+
+def test_a_rarer_alarm_has_higher_thresholds(settings):
+    torques = [noise(np.random.default_rng(1), 0.5)]
+    assert (calibrated(settings, torques, 1.0) > calibrated(settings, torques, 20.0)).all()
+
+
+def test_too_short_a_walk_is_told(settings):
+    with pytest.raises(DataError, match="swings that calibrate"):
+        calibrated(settings, [noise(np.random.default_rng(1), 0.01)])
