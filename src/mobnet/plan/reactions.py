@@ -8,7 +8,7 @@ from mobnet.plan.files import Files
 from mobnet.settings.reaction import Watch
 from mobnet.settings.scales import ReactionSizes
 
-OTHERS = "scenarios"  # job of the cases that compare nothing
+OTHERS = "scenarios"  # job of the cases that compare little
 Reactions = Mapping[str, Mapping[str, Path]]  # level of a robot -> case -> file of its trials
 
 
@@ -19,9 +19,9 @@ def watches_of(files: Files, case: str) -> tuple[Watch, ...]:
 
 
 def cases_of_jobs(files: Files) -> dict[str, tuple[str, ...]]:
-    """Return job -> its cases: those that compare detectors have one each, the others are short and share one."""
+    """Return job -> its cases: those that compare several detectors have one each, the others share one."""
     cases = files.settings.reaction.cases
-    own = {case: (case,) for case, row in cases.items() if row.compared}
+    own = {case: (case,) for case, row in cases.items() if len(row.compared) > 1}
     others = tuple(case for case in cases if case not in own)
     return {**own, **({OTHERS: others} if others else {})}
 
