@@ -81,7 +81,7 @@ def frames(
     figure = Figure(figsize=SIZE_INCH, dpi=DPI)
     canvas = FigureCanvasAgg(figure)
     axes: list[Axes] = figure.subplots(len(HEIGHTS), 1, height_ratios=HEIGHTS).tolist()
-    figure.subplots_adjust(left=0.14, right=0.97, top=0.99, bottom=0.07, hspace=0.25)
+    figure.subplots_adjust(left=0.17, right=0.97, top=0.99, bottom=0.07, hspace=0.25)
     view, step = projection(*settings.views_deg[case]), 1.0 / (settings.frames_hz * settings.slower)
     for time_s in np.arange(*settings.shown_s, step):
         k = int(np.searchsorted(curves.time_s, time_s))
@@ -110,7 +110,7 @@ def draw_curves(axes: Sequence[Axes], curves: Curves, settings: Films, case: str
     torque.plot(times, curves.true[shown], color="black", linewidth=0.7, label="truth")
     both = np.concatenate([curves.estimated, curves.true])
     torque.set(ylabel=f"{settings.joints[case]} [N m]", ylim=(both.min() - 1.0, both.max() + 1.0))
-    torque.legend(loc="lower left", ncols=2, frameon=False)
+    torque.legend(loc="upper left", ncols=2, frameon=False)
     bars = {"touched": curves.force[shown] > 0.0}
     if curves.reacted_s is not None:
         bars["reacts"] = times >= curves.reacted_s
