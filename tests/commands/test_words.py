@@ -2,7 +2,7 @@
 
 import pytest
 
-from mobnet.commands.words import COMMANDS, TRIALS, in_order, parse
+from mobnet.commands.words import APART, COMMANDS, in_order, parse
 from mobnet.core.errors import CommandError, ConfigError
 from mobnet.plan.places import check_scale, scale_of
 
@@ -25,7 +25,7 @@ def test_targets_come_first_and_name_the_scale(words, handed):
     assert parse(words)[::2] == ("all", handed)
 
 
-@pytest.mark.parametrize("command", TRIALS)
+@pytest.mark.parametrize("command", APART)
 def test_trials_are_targets_of_their_own(command):
     assert parse([command, "--config", "scale=smoke"])[::2] == (command, [command, "--config", "scale=smoke"])
 
