@@ -13,6 +13,7 @@ from made_detections import write_detections
 from mobnet.core.columns import COVERAGE, HOURLY, LATENCY, VERDICTS
 from mobnet.evaluation.measure.claims.cells import listed
 from mobnet.evaluation.measure.claims.verdicts import rows_of
+from mobnet.evaluation.measure.reaction.results import printed_of
 from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.number.intervals import RunGrid
 from mobnet.evaluation.number.number import published_row
@@ -65,6 +66,8 @@ def printed(cell: Cell, published: Published, on_robot: bool) -> float:
     """Return what the paper prints in a cell, from the first of its tables that has the method and the column."""
     if cell.table == "table_09":
         return detected(cell, published.tables["table_09"])
+    if cell.table == "safety":
+        return float(printed_of(published.section_5_4, cell.where["case"], cell.where["measure"]) or 0.0)
     joint = "+".join(listed(cell.joint or ()))
     column = "avg" if cell.scenario == "knee_swing" else COLUMNS.get(joint, joint)
     tables = PLACES[cell.scenario or ""]
@@ -98,6 +101,7 @@ def judge(
         write_csv(tables["latency"], LATENCY, [(MET, 1.0, 0.7, 1.0, "-")])
         tables["hourly"] = tmp_path / "hourly.csv"
         write_csv(tables["hourly"], HOURLY, [(FLAG, ALL, "MOB-Net", 4.0, 2, 0.5, 0.06, 1.8, "1/h")])
+        tables |= {name: GOLDEN / f"{name}.csv" for name in ("safety", "sensorless")}
         tables["table_09"] = make_table("table_09", tmp_path, detections=write_detections(tmp_path / "detection"))
         table = make_table("claims", claims=some, scores=[scores], folders=folders, tables=tables)
         return {row.claim: row for row in read_table(table)}

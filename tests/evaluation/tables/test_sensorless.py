@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import pytest
+from csv_files import check_golden
 from made_trials import FREE, write_trials
 
 from mobnet.core.reactions import NONE
@@ -35,6 +36,10 @@ def test_events_are_counted_over_the_time_that_robots_walk_as_told(cells):
     assert float(falls["value"]) == pytest.approx(20.0)
     assert float(falls["low"]) == pytest.approx(0.0253 / 0.05, rel=0.01)  # of one event, Garwood 1936
     assert float(falls["high"]) == pytest.approx(5.572 / 0.05, rel=0.001)
+
+
+def test_the_table_is_the_golden_one(cells, tmp_path):
+    check_golden(tmp_path / "sensorless.csv")
 
 
 def test_without_an_event_the_interval_begins_at_zero(cells):
