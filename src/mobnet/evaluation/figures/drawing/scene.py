@@ -31,8 +31,13 @@ def draw_scene(
 def draw_force(axis: Axes, point: Array, force: Array, view: Array) -> None:
     """Draw a force (3,) [N] at a point (3,) [m] as an arrow that ends there."""
     (x, y, _), (from_x, from_y, _) = ((view @ place).tolist() for place in (point, point - ARROW_M_N * force))
-    arrow = {"arrowstyle": "-|>", "color": FORCE, "linewidth": 1.6, "shrinkA": 0.0, "shrinkB": 0.0}
-    axis.annotate("", (x, y), (from_x, from_y), zorder=5, arrowprops=arrow)
+    draw_arrow(axis, (from_x, from_y), (x, y))
+
+
+def draw_arrow(axis: Axes, start: tuple[float, float], end: tuple[float, float]) -> None:
+    """Draw the arrow of a force from one place of the picture to another [m]."""
+    look = {"arrowstyle": "-|>", "color": FORCE, "linewidth": 1.6, "shrinkA": 0.0, "shrinkB": 0.0}
+    axis.annotate("", end, start, zorder=5, arrowprops=look)
 
 
 def obstacle_solids(obstacles: Mapping[str, Obstacle], course: StoredCourse) -> list[Solid]:

@@ -13,7 +13,7 @@ from mobnet.core.arrays import Array
 from mobnet.core.course import StoredCourse, read_course
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.evaluation.figures.drawing.robot import hull_of
-from mobnet.evaluation.figures.drawing.scene import FORCE, PAD, part_surface
+from mobnet.evaluation.figures.drawing.scene import PAD, draw_arrow, part_surface
 from mobnet.evaluation.figures.style import PAGE_INCH, legend, save_figure, styled
 from mobnet.robot.description import SIDES, RobotDescription, describe
 from mobnet.settings.data import Obstacle
@@ -101,8 +101,7 @@ def _draw(
     if first is not None and reacted is not None and reacted > first:
         push = course.force[first : reacted + 1, :2].sum(axis=0)
         start, way = course.q[reacted, :2], ARROW_M * push / np.linalg.norm(push)
-        arrow = {"arrowstyle": "-|>", "color": FORCE, "linewidth": 1.6, "shrinkA": 0.0, "shrinkB": 0.0}
-        axis.annotate("", tuple(start + way), tuple(start), arrowprops=arrow, zorder=5)
+        draw_arrow(axis, tuple(start.tolist()), tuple((start + way).tolist()))
     axis.set_aspect("equal")
     axis.autoscale_view()
     axis.set(xlabel="x [m]", ylabel="y [m]")
