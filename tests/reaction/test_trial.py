@@ -19,9 +19,12 @@ def forces(*spans, samples=1000, size=-100.0):
 
 
 def course_of(force, reacted=None, fallen=False, error_m_s=(0.0, 0.0, 0.0)):
+    """Return a course in whose second half a leg swings 3 and 4 mrad from its references, with a power of 2 W."""
     rows, torque, place = (np.zeros((len(force), n), np.float32) for n in (4, 2, 3))
     error = np.broadcast_to(np.array(error_m_s, np.float32), force.shape)
-    return Course(rows, torque, torque, force, place, place, error, {}, reacted, fallen)
+    tracking, power = np.full((len(force), 2), np.nan, np.float32), np.full((len(force), 1), 2.0, np.float32)
+    tracking[len(force) // 2 :] = 0.003, 0.004
+    return Course(rows, torque, torque, force, place, place, error, tracking, power, {}, reacted, fallen)
 
 
 def test_contacts_are_told_apart_by_a_gap():
@@ -68,6 +71,7 @@ def test_a_robot_walks_as_told_until_it_reacts_or_is_touched_and_its_velocity_is
     calm = course_of(forces(), error_m_s=(0.003, 0.0, -0.004))
     row = trial_of(settings.reaction, place, watch, calm, 100, RATE_HZ, False)
     assert (row.walked_s, row.velocity_rmse_m_s, row.wrench) == (0.9, pytest.approx(0.005), "sensed")
+    assert (row.tracking_rmse_rad, row.power_w) == (pytest.approx(np.sqrt(12.5e-6)), 2.0)
     for course, walked_s in (
         (course_of(forces(), (200, reacted)), 0.2),
         (course_of(forces((300, 310)), (350, reacted)), 0.3),

@@ -209,7 +209,7 @@ SAFETY = (
     "published",
 )  # fmt: skip
 SENSORLESS = (
-    "case", "wrench", "detector", "thresholds", "event", "hours", "events", "value", "low", "high", "walks", "unit",
+    "case", "wrench", "detector", "thresholds", "feed_forward", "event", "hours", "events", "value", "low", "high", "walks", "unit",
 )  # fmt: skip
 DETECTION = (
     "level",

@@ -16,10 +16,12 @@ class Estimate:
     Attributes:
         tau_ext: mean of the external torque (..., n) [N, N m], tau_e of (15).
         std: its standard deviation (..., n) [N, N m], sigma_u of (18); None where the method gives none.
+        uncertainty: what the method takes off the residual (..., n) [N, N m], tau_u of (15); None where that is nothing.
     """
 
     tau_ext: NDArray[Any]
     std: NDArray[Any] | None = None
+    uncertainty: NDArray[Any] | None = None
 
 
 @dataclass(frozen=True)

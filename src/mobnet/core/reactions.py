@@ -17,8 +17,11 @@ class Trial:
         rule: of its thresholds.
         wait_s: time that the reaction waits after an alarm [s].
         wrench: of the feet that the controller gets, `sensed` or `estimated`.
+        feed_forward: share of the learned uncertainty torque that motors of the leg that swings make up for.
         walked_s: time that the robot walks as told, watched: until it reacts, is pushed or falls, or to the end.
         velocity_rmse_m_s: error of the base's velocity in this time [m/s], the root of the sum of its three squares.
+        tracking_rmse_rad: error of the joints of the leg that swings from their references in this time [rad].
+        power_w: mean of the sum of |motor torque x joint velocity| in this time [W].
         contact_s: first contact with the obstacle.
         alarm_s: the alarm.
         limb: the limb that was watched.
@@ -41,8 +44,11 @@ class Trial:
     rule: str
     wait_s: float
     wrench: str
+    feed_forward: float
     walked_s: float
     velocity_rmse_m_s: float
+    tracking_rmse_rad: float
+    power_w: float
     contact_s: float | None
     alarm_s: float | None
     limb: str

@@ -10,10 +10,12 @@ from mobnet.control.parameters import State
 from mobnet.core.arrays import Array
 from mobnet.core.columns import recording_columns
 from mobnet.core.estimator import Estimate, Estimator
-from mobnet.core.joints import JointLayout
+from mobnet.core.joints import N_VIRTUAL, JointLayout
 from mobnet.core.recording import Sensed
 from mobnet.reaction.contacts import tell_feet
+from mobnet.reaction.feed_forward import FeedForward, swing_error
 from mobnet.reaction.handler import Handler, Reacted
+from mobnet.robot.description import LEG_JOINTS
 from mobnet.simulation.obstacles import obstacle_force, place_of, points_on
 from mobnet.simulation.simulator import Simulator
 
@@ -30,6 +32,8 @@ class Course:
         point: where obstacles act, the mean of the points of contact (T, 3) [m], zero where nothing touches.
         base: place of the base (T, 3) [m], world axes, as it was.
         error: of the base's sensed velocity (T, 3) [m/s], world axes.
+        tracking: error of the joints of the leg that swings from their references (T, 6) [rad]; NaN while none does.
+        power: sum of |motor torque x joint velocity| (T, 1) [W].
         obstacles: places of the obstacles by name (3,) [m].
         reacted: the reaction and its sample, if there was one.
         fallen: whether the robot fell at the end.
@@ -42,6 +46,8 @@ class Course:
     point: NDArray[np.float32]
     base: NDArray[np.float32]
     error: NDArray[np.float32]
+    tracking: NDArray[np.float32]
+    power: NDArray[np.float32]
     obstacles: Mapping[str, Array]
     reacted: tuple[int, Reacted] | None = None
     fallen: bool = False
@@ -53,11 +59,12 @@ class Course:
         rows, tau, std = (np.zeros((samples, n), np.float32) for n in (width, nv, nv))
         places = {name: place_of(simulator.world.model, name) for name in simulator.settings.obstacles}
         force, point, base, error = (np.zeros((samples, 3), np.float32) for _ in range(4))
-        return cls(rows, tau, std, force, point, base, error, places)
+        tracking, power = np.full((samples, LEG_JOINTS), np.nan, np.float32), np.zeros((samples, 1), np.float32)
+        return cls(rows, tau, std, force, point, base, error, tracking, power, places)
 
     def cut(self, samples: int) -> "Course":
         """Return the first samples."""
-        arrays = ("rows", "tau", "std", "force", "point", "base", "error")
+        arrays = ("rows", "tau", "std", "force", "point", "base", "error", "tracking", "power")
         return replace(self, **{name: getattr(self, name)[:samples] for name in arrays})
 
 
@@ -69,17 +76,20 @@ def walk_with(
     after: int,
     touch_n: float,
     height_m: float,
+    feed_forward: float = 0.0,
 ) -> Course:
     """Walk a started episode until so many samples `after` the robot reacts, or is pushed with touch_n [N].
 
     It ends before that where the robot falls, and after `longest` samples at the latest. A foot that swings higher than
-    height_m [m] above the other one touches no ground.
+    height_m [m] above the other one touches no ground. Motors of the leg that swings make up for the share `feed_forward`
+    of the uncertainty torque that the estimate knows.
     """
     layout, sensors = simulator.robot.layout, simulator.sensors
     places, columns = columns_of(layout), layout.columns(estimator.joints)
     pushed = slice(places["push"].stop - 3, places["push"].stop)  # the force follows the push's row
     course, row = Course.of(longest, simulator), np.zeros((1, simulator.width), np.float32)
     state, estimating, left = handler.init(), estimator.init(), longest
+    fed = FeedForward.of(simulator, estimator.joints, feed_forward) if feed_forward else None
     for k in range(longest):
         if left == 0:
             return course.cut(k)
@@ -94,6 +104,10 @@ def walk_with(
         if course.force[k].any() and len(points := points_on(simulator.world.model, simulator.world.data)):
             course.point[k] = points.mean(axis=0)
         course.error[k] = sample.v[:3] - simulator.world.data.qvel[:3]
+        course.tracking[k] = swing_error(simulator)
+        course.power[k] = np.abs(sample.tau_motor * simulator.world.data.qvel[N_VIRTUAL:]).sum()
+        if fed is not None and estimate.uncertainty is not None:
+            fed.feed(estimate.uncertainty)
         if estimate.std is not None:
             course.std[k, columns] = estimate.std
         reacted = handler.step(state, sample, Estimate(course.tau[k], course.std[k]))

@@ -2,8 +2,7 @@
 
 import logging
 from collections.abc import Mapping, Sequence
-from dataclasses import astuple, dataclass
-from functools import cached_property
+from dataclasses import astuple, dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -52,18 +51,18 @@ def react(
         DataError: a file is missing or damaged.
     """
     rows = [row for path in thresholds for row in read_rows(path, Threshold)]
+    robot_walks = Walks(Robot(walks[0].settings, reaction, detection, observer, runs), rows)
     for one in walks:
-        robot = Robot(one.settings, reaction, detection, observer, runs)
-        _walk(Walks(robot, rows, one.sizes.longest_s), one)
+        _walk(robot_walks, one)
 
 
 def _walk(walks: "Walks", one: CaseWalks) -> None:
     """Make the walks of a case, with our detector and with what is compared."""
     reaction, trials = walks.robot.reaction, list[Trial]()
-    compared, fewer = reaction.cases[one.case].compared, one.seeds[: one.sizes.compared]
-    for watch, seeds in [(reaction.ours, one.seeds), *((other, fewer) for other in compared)]:
+    ours, *others = reaction.watches(one.case)
+    for watch, seeds in [(ours, one.seeds), *((other, one.seeds[: one.sizes.compared]) for other in others)]:
         for seed in seeds:
-            trial, walked = walks.walk(one.case, watch, seed)
+            trial, walked = walks.walk(one, watch, seed)
             if not trials and one.course is not None:
                 write_course(walked, trial, walks, one.course)
             trials.append(trial)
@@ -73,33 +72,35 @@ def _walk(walks: "Walks", one: CaseWalks) -> None:
 
 @dataclass(frozen=True)
 class Walks:
-    """Walks of a robot with its thresholds, of a longest duration [s]."""
+    """A robot with its thresholds that walks cases; `estimators` are those of the methods that it needed so far."""
 
     robot: Robot
     thresholds: Sequence[Threshold]
-    longest_s: float
+    estimators: dict[str, Estimator] = field(default_factory=dict)
 
-    def walk(self, case: str, watch: Watch, seed: int) -> tuple[Trial, Course]:
+    def walk(self, one: CaseWalks, watch: Watch, seed: int) -> tuple[Trial, Course]:
         """Walk a case; return what came of it, and the course."""
-        robot, numbers, settings = self.robot, self.robot.reaction, self.robot.settings
+        robot, numbers, settings = self.robot, self.robot.reaction, one.settings
         watch = watch.model_copy(update={"wrench": watch.wrench or settings.scenario.wrench})
         told = settings.scenario.model_copy(update={"wrench": watch.wrench})
         simulator = Simulator(settings.model_copy(update={"scenario": told}), seed)
         simulator.start()
-        watchers, row = self.watchers(watch, simulator.sensors.wrenches), numbers.cases[case]
-        times_s = watch.wait_s, settings.recording.settle_s, self.longest_s, numbers.after_s
+        watchers, row = self.watchers(watch, simulator.sensors.wrenches), numbers.cases[one.case]
+        times_s = watch.wait_s, settings.recording.settle_s, one.sizes.longest_s, numbers.after_s
         wait, settle, longest, after = (round(time_s * robot.rate_hz) for time_s in times_s)
         spacing_m = settings.walking.foot_spacing_m
         handler = Handler(robot.description, numbers, spacing_m, watchers, row.strategy, wait, settle)
         height_m = robot.detection.gate.contact_height_m
-        course = walk_with(simulator, self.estimator, handler, longest, after, numbers.touch_n, height_m)
-        place = case, settings.level_name, seed
+        estimator, sizes = self.estimator(numbers.estimator), (longest, after, numbers.touch_n, height_m)
+        course = walk_with(simulator, estimator, handler, *sizes, watch.feed_forward)
+        place = one.case, settings.level_name, seed
         return trial_of(numbers, place, watch, course, settle, robot.rate_hz, bool(simulator.state.standing)), course
 
-    @cached_property
-    def estimator(self) -> Estimator:
-        """The estimator in the loop, whose state is that of a walk."""
-        return self.robot.estimator(self.robot.reaction.estimator)
+    def estimator(self, method: str) -> Estimator:
+        """Return the estimator of a method; its networks are read once, its state is that of a walk."""
+        if method not in self.estimators:
+            self.estimators[method] = self.robot.estimator(method)
+        return self.estimators[method]
 
     def watchers(self, watch: Watch, wrenches: Array) -> dict[str, Watcher]:
         """Return what watches each limb; `wrenches` (2, 6) are the readings of the feet's sensors.
@@ -136,7 +137,7 @@ class Walks:
         detector = LegDetector(watched, setup.gate, chain)
         if row.method == self.robot.reaction.estimator:
             return LegWatcher(detector, columns)
-        estimator = self.robot.estimator(row.method)
+        estimator = self.estimator(row.method)
         held = np.array([estimator.joints.index(joint) for joint in setup.joints])
         return OwnLegWatcher(detector, columns, estimator, held)
 
@@ -149,7 +150,7 @@ class Walks:
 
 def write_course(course: Course, trial: Trial, walks: Walks, out: Path) -> None:
     """Write a course, with the times of its trial in the note and the places of the obstacles."""
-    robot, joints = walks.robot, walks.estimator.joints
+    robot, joints = walks.robot, walks.estimator(walks.robot.reaction.estimator).joints
     layout = robot.description.layout
     held = layout.columns(joints)
     parts = course.rows, course.tau[:, held], course.std[:, held], course.force, course.point, course.base

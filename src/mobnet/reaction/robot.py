@@ -21,10 +21,10 @@ from mobnet.settings.settings import WalkSettings
 
 @dataclass(frozen=True)
 class Robot:
-    """A robot that walks a scenario, with the networks and fits of methods.
+    """A robot that walks, with the networks and fits of methods.
 
     Attributes:
-        settings: the scenario on this robot.
+        settings: a scenario on this robot, whatever it walks.
         reaction: numbers of the pipeline, and the cases.
         detection: gate, chain and detectors.
         observer: the observer's settings.

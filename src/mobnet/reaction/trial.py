@@ -29,7 +29,8 @@ def trial_of(
     first, size = (contacts[0] if contacts else None), np.linalg.norm(course.force, axis=1)
     reacted_at, reacted = course.reacted or (None, None)
     ends = [at for at in (reacted_at, first.start if first else None) if at is not None]
-    walked = course.error[begin : min(ends, default=len(course.rows))]
+    own = slice(begin, min(ends, default=len(course.rows)))
+    walked = course.error[own]
     alarm = None if reacted_at is None else reacted_at - round(watch.wait_s * rate_hz)
     angle = base_angle = None
     if first is not None and reacted is not None and reacted_at is not None and reacted_at >= first.start:
@@ -42,7 +43,10 @@ def trial_of(
         watch.wait_s,
         wrench=watch.wrench or "",
         walked_s=len(walked) / rate_hz,
+        feed_forward=watch.feed_forward,
         velocity_rmse_m_s=float(np.sqrt(np.square(walked).sum(axis=1).mean())) if len(walked) else 0.0,
+        tracking_rmse_rad=rms(course.tracking[own]),
+        power_w=float(course.power[own].mean()) if len(walked) else 0.0,
         contact_s=None if first is None else first.start / rate_hz,
         alarm_s=None if alarm is None else alarm / rate_hz,
         limb="" if reacted is None else reacted.limb,
@@ -57,6 +61,12 @@ def trial_of(
         fell_s=len(course.rows) / rate_hz if course.fallen else None,
         stopped=int(stopped and not course.fallen),
     )
+
+
+def rms(errors: NDArray[np.float32]) -> float:
+    """Return the root of the mean square of those errors that are numbers; zero where none is."""
+    known = errors[np.isfinite(errors)].astype(np.float64)
+    return float(np.sqrt(np.square(known).mean())) if known.size else 0.0
 
 
 def impulse_ns(force: NDArray[np.float32], contacts: Sequence[slice], rate_hz: float) -> float:

@@ -45,21 +45,27 @@ class Rewind(Section):
 class Watch(Section):
     """A detector and the rule of its thresholds; `force sensors` are those of the feet, `none` is no reaction.
 
-    A reaction waits `wait_s` [s] after the alarm. With `wrench`, the controller gets another than the scenario says.
+    A reaction waits `wait_s` [s] after the alarm. With `wrench`, the controller gets another than the scenario says. The
+    motors of the leg that swings make up for the share `feed_forward` of what the networks say the model gets wrong.
     """
 
     detector: base.WatchName
     rule: base.ThresholdsName = LARGEST
     wait_s: base.Real = Field(default=0.0, ge=0, le=5)
     wrench: Wrench | None = None
+    feed_forward: base.Share = 0.0
 
 
 class Case(Section):
-    """What is walked into, or walked freely, how the robot reacts, and what is compared beside our detector."""
+    """What is walked into, or walked freely, how the robot reacts, and what is compared beside our detector.
+
+    With `waits_s` [s] our reaction is also made that much later.
+    """
 
     scenario: base.ScenarioName
     strategy: Strategy
     compared: tuple[Watch, ...] = ()
+    waits_s: tuple[base.Pause, ...] = ()
 
 
 class Reaction(Section):
@@ -80,3 +86,8 @@ class Reaction(Section):
     window_s: base.Real = Field(ge=0.01, le=60)
     gap_s: base.Real = Field(ge=0.001, le=1)
     touch_n: base.Real = Field(ge=0.1, le=100)
+
+    def watches(self, case: str) -> tuple[Watch, ...]:
+        """Return our detector, then what a case compares with it, and our detector with reactions that wait."""
+        row = self.cases[case]
+        return self.ours, *row.compared, *(self.ours.model_copy(update={"wait_s": wait}) for wait in row.waits_s)

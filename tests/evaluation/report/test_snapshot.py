@@ -57,6 +57,22 @@ def test_snapshot_holds_tables_and_pictures_with_their_origin() -> None:
 
 
 @pytest.mark.usefixtures("stored")
+def test_what_is_made_no_longer_is_removed_with_the_next_snapshot() -> None:
+    (FIGURES / "figure_05.png").rename(FIGURES / "figure_06.png")
+    (FIGURES / "figure_05.csv").rename(FIGURES / "figure_06.csv")
+    for name in ("rates.json", "walking.png"):  # made by other means
+        (STORED / name).write_text("{}")
+    (STORED / "table_04.csv").write_text("a\n1\n")
+    (STORED / "table_04.md").write_text("a")
+    write_snapshot(SETTINGS, TABLES, FIGURES, COMPUTE, STORED)
+    names = sorted(path.name for path in STORED.rglob("*") if path.is_file())
+    assert names == [
+        "compute.md", "figure_06.csv.gz", "figure_06.png", "provenance.json", "rates.json", "table_05.csv", "table_05.md",
+        "walking.png",
+    ]  # fmt: skip
+
+
+@pytest.mark.usefixtures("stored")
 @pytest.mark.parametrize(
     ("old", "new", "told"),
     [

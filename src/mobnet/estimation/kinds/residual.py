@@ -85,7 +85,9 @@ class ResidualEstimator:
         """Return tau_e of the estimated joints, (..., n) [N, N m]."""
         # (O9) of note 0034, from (15). The observer's lag stays in it: what is estimated is the low-passed torque.
         tau = residual[..., self._columns]
-        return Estimate(tau) if prediction is None else Estimate(tau - prediction.mean, prediction.std)
+        if prediction is None:
+            return Estimate(tau)
+        return Estimate(tau - prediction.mean, prediction.std, prediction.mean)
 
 
 def check(method: Method, options: Section, rate_hz: float) -> Iterator[tuple[Place, str]]:

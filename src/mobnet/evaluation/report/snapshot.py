@@ -38,8 +38,10 @@ README, HEADLINES = Path("README.md"), ("table_05", "claims_summary")  # tables 
 KEYS = (  # columns that name a row; the others are results
     "scenario", "level", "method", "joint", "metric", "claim",
     "set", "quantity", "part", "command", "bin_from", "measure", "limb", "test", "pushed", "share", "unit",
-    "score", "outcome",
+    "score", "outcome", "detector", "leg", "kind", "cell", "case", "wrench", "thresholds", "wait_s", "feed_forward",
+    "event", "robot", "label", "phase",
 )  # fmt: skip
+KEYS_OF = {"hourly": ("walks",)}  # a number in other tables
 Rows = dict[tuple[str, ...], dict[str, str]]
 
 
@@ -92,7 +94,7 @@ def check_fingerprints(*words: str) -> None:
 def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Path, out: Path) -> None:
     """Copy a scale's tables (CSV, Markdown), figures (PNG, CSV) and table of compute, and note where they come from.
 
-    The table of compute differs from run to run, so only its Markdown is stored, and no CSV to be compared.
+    Tables and figures of an earlier snapshot that are made no longer are removed. The table of compute differs from run to run, so only its Markdown is stored, and no CSV to be compared.
 
     Raises:
         DataError: there is no table to copy, or a file is missing.
@@ -107,9 +109,15 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Pat
     for source in found:
         with atomic_path(out / source.name) as temporary:
             shutil.copyfile(source, temporary)
-    for source in sorted(figures.glob("*.csv")):
+    drawn = sorted(figures.glob("*.csv"))
+    for source in drawn:
         with atomic_path(out / DRAWN / f"{source.name}.gz") as temporary:
             temporary.write_bytes(gzip.compress(source.read_bytes(), mtime=0))
+    kept = {out / source.name for source in numbers} | {out / DRAWN / f"{source.name}.gz" for source in drawn}
+    for path in {*out.glob("*.csv"), *(out / DRAWN).glob("*.csv.gz")} - kept:
+        shown = out / f"{path.name.partition('.')[0]}.{'md' if path.parent == out else 'png'}"
+        for gone in (path, shown):
+            gone.unlink(missing_ok=True)
     write_json(out / "provenance.json", {"scale": settings.scale, **provenance()})
     log.info("%s: %d files", out, len(found))
 
@@ -169,7 +177,8 @@ def cell_differences(old: Mapping[str, str], new: Mapping[str, str]) -> Iterator
 
 def read_keyed(path: Path) -> Rows:
     """Read a tidy CSV as (values of the naming columns) -> row."""
-    return {tuple(row[key] for key in KEYS if key in row): row for row in read_texts(path)}
+    keys = (*KEYS, *KEYS_OF.get(path.stem, ()))
+    return {tuple(row[key] for key in keys if key in row): row for row in read_texts(path)}
 
 
 def main(words: list[str]) -> int:

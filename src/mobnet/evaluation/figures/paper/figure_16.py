@@ -69,7 +69,7 @@ def late_falls(
 ) -> dict[float, Number]:
     """Return how long our reaction waits [s] -> the share of walks of a case with a fall."""
     found = dict[float, Number]()
-    for watch in sorted((reaction.ours, *reaction.cases[case].compared), key=lambda watch: watch.wait_s):
+    for watch in sorted(reaction.watches(case), key=lambda watch: watch.wait_s):
         own = trials_of(trials, case, watch)
         if own and (watch.detector, watch.rule) == (reaction.ours.detector, reaction.ours.rule):
             found[watch.wait_s] = outcome_of(own, settings.within_deg, statistics).numbers[FALLS]

@@ -17,9 +17,11 @@ from mobnet.settings.reaction import Watch
 FALLS, PEAK, FIRST, IMPULSE, ALARM, WITHIN, BASE_WITHIN, EARLY = (
     "falls", "first_peak", "first_impulse", "impulse", "alarm", "within", "base_within", "early",
 )  # fmt: skip
-Group = tuple[str, str, str, float, str]  # case, detector, rule, time that a reaction waits [s], wrench of the feet
-MM = 1e3  # in a metre
+# case, detector, rule, time that a reaction waits [s], wrench of the feet, share of feed-forward
+Group = tuple[str, str, str, float, str, float]
+MILLI = 1e3  # mm in a metre, mrad in a radian
 FALLEN, REACTED = "falls", "false reactions"
+VELOCITY, TRACKING, POWER = "error of the base's velocity", "error of the swing leg", "power"
 
 
 @dataclass(frozen=True)
@@ -44,12 +46,13 @@ class Walked:
     Attributes:
         hours: that the robots walked as they were told [h].
         events: falls, and reactions to nothing, by name.
-        velocity: error of the base's velocity [mm/s], mean of the walks.
+        means: of the walks: error of the base's velocity [mm/s], error of the joints of the leg that swings from their
+            references [mrad], mechanical power of the motors [W], by name.
     """
 
     hours: float
     events: Mapping[str, int]
-    velocity: Number
+    means: Mapping[str, Number]
 
 
 def read_trials(reactions: Reactions, cases: Sequence[str]) -> list[Trial]:
@@ -79,10 +82,11 @@ def _faults(rows: Sequence[Trial]) -> Iterator[tuple[int, str, object, str]]:
 
 
 def groups_of(trials: Sequence[Trial]) -> dict[Group, list[Trial]]:
-    """Return the trials by case, detector, rule, waiting time and wrench, in the order in which they come."""
+    """Return the trials by what they are made with, in the order in which they come."""
     found = dict[Group, list[Trial]]()
     for row in trials:
-        found.setdefault((row.case, row.detector, row.rule, row.wait_s, row.wrench), []).append(row)
+        key = row.case, row.detector, row.rule, row.wait_s, row.wrench, row.feed_forward
+        found.setdefault(key, []).append(row)
     return found
 
 
@@ -126,8 +130,13 @@ def walked_of(trials: Sequence[Trial], statistics: Statistics) -> Walked:
         FALLEN: sum(row.fell_s is not None for row in trials),
         REACTED: sum(row.reacted_s is not None for row in trials),
     }
-    errors = [MM * row.velocity_rmse_m_s for row in trials]
-    return Walked(sum(row.walked_s for row in trials) / HOUR_S, events, mean_of(errors, statistics, "mm/s"))
+    values = {
+        VELOCITY: ([MILLI * row.velocity_rmse_m_s for row in trials], "mm/s"),
+        TRACKING: ([MILLI * row.tracking_rmse_rad for row in trials], "mrad"),
+        POWER: ([row.power_w for row in trials], "W"),
+    }
+    means = {name: mean_of(own, statistics, unit) for name, (own, unit) in values.items()}
+    return Walked(sum(row.walked_s for row in trials) / HOUR_S, events, means)
 
 
 def _within(angles: Sequence[float | None], most: float) -> list[bool]:

@@ -40,7 +40,7 @@ def safety(
     rows: list[Sequence[Field]] = []
     lines: list[Line] = []
     before = ""
-    for (case, detector, rule, wait_s, _), trials in groups_of(read_trials(reactions, settings.cases)).items():
+    for (case, detector, rule, wait_s, *_), trials in groups_of(read_trials(reactions, settings.cases)).items():
         outcome = outcome_of(trials, settings.within_deg, statistics)
         for measure, number in outcome.numbers.items():
             printed = printed_of(published, case, measure)

@@ -1,0 +1,58 @@
+"""Feed-forward of the learned uncertainty torque, which section 9.1 proposes: motors make up for what the model gets wrong.
+
+Only the leg that swings is fed: a leg that carries the robot is held by the ground's force, and the upper body follows
+its references no better with it (docs/notes/0043).
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.arrays import Array
+from mobnet.core.joints import NQ_BASE
+from mobnet.simulation.simulator import Simulator
+
+
+@dataclass(frozen=True)
+class FeedForward:
+    """Torque that is added to what the controller asks of the leg that swings.
+
+    Attributes:
+        share: of the uncertainty torque that the motors make up for [-].
+        held: where the joints of the legs stand in an estimate (n,).
+        motors: their motors (n,).
+        torque: what is added (nu,) [N m].
+    """
+
+    share: float
+    held: NDArray[np.intp]
+    motors: NDArray[np.intp]
+    torque: Array
+
+    @classmethod
+    def of(cls, simulator: Simulator, joints: tuple[str, ...], share: float) -> "FeedForward":
+        """Feed the legs of a simulator, of whose joints an estimate holds some; the random torque ends.
+
+        Random torque acts on the leg that swings, as this does, so that its place is taken.
+        """
+        layout, law = simulator.robot.layout, simulator.torque
+        legs = [joint for limb in layout.legs.values() for joint in layout.limb(limb)]
+        law.left[:] = np.inf
+        law.value[:] = 0.0
+        held, motors = ([names.index(joint) for joint in legs] for names in (joints, layout.actuated))
+        return cls(share, np.array(held), np.array(motors), law.value)
+
+    def feed(self, uncertainty: NDArray[Any]) -> None:
+        """Make up for an uncertainty torque of the estimate's joints (n,) [N, N m]: it acts on the links, as motors do."""
+        self.torque[self.motors] = -self.share * uncertainty[self.held]
+
+
+def swing_error(simulator: Simulator) -> Array:
+    """Return how far the joints of the leg that swings are from their references (6,) [rad]; NaN while none swings."""
+    s, walker = simulator.state, simulator.walker
+    leg = 1 if s.side > 0 else 0
+    reference, first = s.q_reference[leg], NQ_BASE + walker.first[leg]
+    error = reference - simulator.world.data.qpos[first : first + len(reference)]
+    return error if s.swinging else np.full_like(error, np.nan)
