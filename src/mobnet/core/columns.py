@@ -209,7 +209,8 @@ SAFETY = (
     "published",
 )  # fmt: skip
 SENSORLESS = (
-    "case", "wrench", "detector", "thresholds", "feed_forward", "event", "hours", "events", "value", "low", "high", "walks", "unit",
+    "case", "wrench", "detector", "thresholds", "feed_forward",
+    "event", "hours", "events", "value", "low", "high", "walks", "unit",
 )  # fmt: skip
 DETECTION = (
     "level",

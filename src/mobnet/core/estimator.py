@@ -16,7 +16,7 @@ class Estimate:
     Attributes:
         tau_ext: mean of the external torque (..., n) [N, N m], tau_e of (15).
         std: its standard deviation (..., n) [N, N m], sigma_u of (18); None where the method gives none.
-        uncertainty: what the method takes off the residual (..., n) [N, N m], tau_u of (15); None where that is nothing.
+        uncertainty: what the method takes off the residual (..., n) [N, N m], tau_u of (15); None where it is nothing.
     """
 
     tau_ext: NDArray[Any]

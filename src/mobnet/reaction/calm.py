@@ -13,6 +13,7 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.core.detections import LARGEST, Threshold
+from mobnet.core.estimator import Stretch, estimate_all
 from mobnet.core.files import write_text
 from mobnet.core.reactions import FORCE_SENSORS
 from mobnet.core.recording import Recording, read_recording
@@ -59,8 +60,8 @@ def _limbs(robot: Robot, calm: Recording) -> Iterator[Threshold]:
     reaction, setup = robot.reaction, robot.setups[0]
     estimator = robot.estimator(reaction.estimator, reaction.watched)
     torques = list[Array]()
-    for span in calm.spans():
-        tau = np.ascontiguousarray(estimator.estimate(calm.sensed[span]).tau_ext, dtype=np.float64)
+    for estimate in estimate_all(estimator, [Stretch(calm.sensed[span]) for span in calm.spans()]):
+        tau = np.ascontiguousarray(estimate.tau_ext, dtype=np.float64)
         torques.append(setup.low_passed(tau, ((0, len(tau)),)))
     for limb in reaction.watched:
         joints = robot.description.layout.limb(limb)

@@ -1,4 +1,4 @@
-"""Feed-forward of the learned uncertainty torque, which section 9.1 proposes: motors make up for what the model gets wrong.
+"""Feed-forward of the learned uncertainty torque (section 9.1): motors make up for what the model gets wrong.
 
 Only the leg that swings is fed: a leg that carries the robot is held by the ground's force, and the upper body follows
 its references no better with it (docs/notes/0043).
@@ -45,7 +45,7 @@ class FeedForward:
         return cls(share, np.array(held), np.array(motors), law.value)
 
     def feed(self, uncertainty: NDArray[Any]) -> None:
-        """Make up for an uncertainty torque of the estimate's joints (n,) [N, N m]: it acts on the links, as motors do."""
+        """Make up for an uncertainty torque of the estimate's joints (n,) [N, N m], which acts as motors do."""
         self.torque[self.motors] = -self.share * uncertainty[self.held]
 
 

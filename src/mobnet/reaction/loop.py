@@ -81,8 +81,8 @@ def walk_with(
     """Walk a started episode until so many samples `after` the robot reacts, or is pushed with touch_n [N].
 
     It ends before that where the robot falls, and after `longest` samples at the latest. A foot that swings higher than
-    height_m [m] above the other one touches no ground. Motors of the leg that swings make up for the share `feed_forward`
-    of the uncertainty torque that the estimate knows.
+    height_m [m] above the other one touches no ground. Motors of the leg that swings make up for the share
+    `feed_forward` of the uncertainty torque that the estimate knows.
     """
     layout, sensors = simulator.robot.layout, simulator.sensors
     places, columns = columns_of(layout), layout.columns(estimator.joints)

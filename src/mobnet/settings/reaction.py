@@ -45,8 +45,8 @@ class Rewind(Section):
 class Watch(Section):
     """A detector and the rule of its thresholds; `force sensors` are those of the feet, `none` is no reaction.
 
-    A reaction waits `wait_s` [s] after the alarm. With `wrench`, the controller gets another than the scenario says. The
-    motors of the leg that swings make up for the share `feed_forward` of what the networks say the model gets wrong.
+    A reaction waits `wait_s` [s] after the alarm. With `wrench`, the controller gets another than the scenario says.
+    Motors of the leg that swings make up for the share `feed_forward` of what the networks say the model gets wrong.
     """
 
     detector: base.WatchName

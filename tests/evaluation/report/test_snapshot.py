@@ -67,8 +67,8 @@ def test_what_is_made_no_longer_is_removed_with_the_next_snapshot() -> None:
     write_snapshot(SETTINGS, TABLES, FIGURES, COMPUTE, STORED)
     names = sorted(path.name for path in STORED.rglob("*") if path.is_file())
     assert names == [
-        "compute.md", "figure_06.csv.gz", "figure_06.png", "provenance.json", "rates.json", "table_05.csv", "table_05.md",
-        "walking.png",
+        "compute.md", "figure_06.csv.gz", "figure_06.png", "provenance.json", "rates.json", "table_05.csv",
+        "table_05.md", "walking.png",
     ]  # fmt: skip
 
 

@@ -94,7 +94,8 @@ def check_fingerprints(*words: str) -> None:
 def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Path, out: Path) -> None:
     """Copy a scale's tables (CSV, Markdown), figures (PNG, CSV) and table of compute, and note where they come from.
 
-    Tables and figures of an earlier snapshot that are made no longer are removed. The table of compute differs from run to run, so only its Markdown is stored, and no CSV to be compared.
+    Tables and figures of an earlier snapshot that are made no longer are removed. The table of compute differs from run
+    to run, so only its Markdown is stored, and no CSV to be compared.
 
     Raises:
         DataError: there is no table to copy, or a file is missing.

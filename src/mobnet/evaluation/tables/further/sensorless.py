@@ -17,9 +17,9 @@ MINUTES = 60.0  # in an hour
 def sensorless(settings: Sensorless, statistics: Statistics, reactions: Reactions, table_dir: Path) -> None:
     """Write sensorless.csv, .tex and .md: what happens in walks that nothing stands in the way of.
 
-    Falls and reactions are counted, and in an hour of walking [1/h] with the exact interval of Poisson's law; the errors
-    of the base's velocity [mm/s] and of the joints of the leg that swings [mrad], and the power of the motors [W], are
-    means of the walks, with the interval of Student's law.
+    Falls and reactions are counted, and in an hour of walking [1/h] with the exact interval of Poisson's law. The rest
+    are means of the walks with the interval of Student's law: the errors of the base's velocity [mm/s] and of the
+    joints of the leg that swings [mrad], and the power of the motors [W].
     """
     rows: list[Sequence[Field]] = []
     lines: list[Line] = []
