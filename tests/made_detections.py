@@ -84,7 +84,7 @@ def detected(scenario: str) -> list[Detected]:
             delay, perfect = (DELAY_S[name] + 0.001 * turn, 0.015) if is_found else (None, None)
             link = one.link if name == "MOB-Net-OR" else "foot"
             named = (f"mean.{'LL3'}", link, one.direction, one.force_n) if is_found else ("", "", "", None)
-            for kind, ratio in ((LARGEST, 3.0), ("contact", 2.5), ("bump", 2.2), (COLLISION, 2.0)):
+            for kind, ratio in ((LARGEST, 3.0), ("contact", 2.5), ("bump", 2.2), (COLLISION, 2.0), ("reaction", 1.8)):
                 size = ratio if is_found else 0.5
                 rows.append(Detected(scenario, SEED, "LL", one.number, name, kind, size, delay, perfect, *named))
     return rows

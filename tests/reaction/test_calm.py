@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import DataError
-from mobnet.reaction.calm import limb_thresholds
+from mobnet.reaction.calm import calm_parts, limb_thresholds
 
 RATE_HZ, HOUR_S = 10.0, 3600.0
 
@@ -40,3 +40,13 @@ def test_a_rarer_alarm_has_higher_thresholds(settings):
 def test_too_short_a_walk_is_told(settings):
     with pytest.raises(DataError, match="swings that calibrate"):
         calibrated(settings, [noise(np.random.default_rng(1), 0.01)])
+
+
+def test_recordings_are_read_until_there_is_enough_of_them(settings, robot, made_up, write_pair, tmp_path):
+    stems = [write_pair(tmp_path, made_up(seed=seed, seconds=2.0, segments=2))[0] for seed in range(3)]
+    stems.append(tmp_path / "needed_no_more")
+    reaction = settings.reaction.model_copy(update={"calm_s": 5.5})
+    walker = SimpleNamespace(reaction=reaction, rate_hz=1000.0, description=robot)
+    parts = list(calm_parts(walker, stems))
+    assert [len(part.sensed) for part in parts] == [2000, 2000, 1500]
+    assert [part.segments for part in parts] == [((0, 1000), (1000, 2000))] * 2 + [((0, 1000), (1000, 1500))]

@@ -207,7 +207,7 @@ class Jobs:
         """Return the thresholds of a robot's limbs that are watched all the time, and of its feet's sensors."""
         settings, files, level = self.settings, self.files, level_of_detectors(self.files)
         random, method = settings.detection.random, settings.reaction.estimator
-        run, quiet = self._loaded(method), files.tests(random, level)[0]
+        run, quiet = self._loaded(method), files.tests(random, level)
         arguments = {
             "settings": walk_settings(settings, random, level),
             "reaction": settings.reaction,
@@ -217,7 +217,7 @@ class Jobs:
             "quiet": quiet,
             "out": (out := watch_file(files)),
         }
-        inputs = _read([quiet, run.fitted, [folder / WEIGHTS for folder in run.networks.values()]])
+        inputs = _read([*quiet, run.fitted, [folder / WEIGHTS for folder in run.networks.values()]])
         kinds = self._kinds(method)
         return Job(Call("mobnet.reaction.calm:watch", arguments), inputs, kinds, {str(out): code_hash(*kinds)})
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.core.detections import LARGEST, Threshold
-from mobnet.core.estimator import Stretch, estimate_all
+from mobnet.core.estimator import Estimator, Stretch, estimate_all
 from mobnet.core.files import write_text
 from mobnet.core.reactions import FORCE_SENSORS
 from mobnet.core.recording import Recording, read_recording
@@ -33,36 +33,52 @@ COLUMNS = tuple(field.name for field in fields(Threshold))
 
 def watch(
     settings: WalkSettings, reaction: Reaction, detection: Detection, observer: Observer, runs: Mapping[str, MethodRun],
-    quiet: Path, out: Path,
+    quiet: Sequence[Path], out: Path,
 ) -> None:  # fmt: skip
     """Write the thresholds of `reaction.watched` and of the feet's sensors, rows of `Threshold`.
 
     Args:
-        settings: the walk of the recording on this robot.
+        settings: the walk of the recordings on this robot.
         reaction: numbers of the pipeline.
         detection: gate, chain and rules of thresholds.
         observer: the observer's settings.
         runs: networks of the method in the loop.
-        quiet: recording of random walking that nothing pushes.
+        quiet: recordings of random walking that nothing pushes; they are read until `reaction.calm_s` are full.
         out: file.
 
     Raises:
-        DataError: the recording is missing, damaged or too short.
+        DataError: a recording is missing or damaged, or they are too short.
     """
     robot = Robot(settings, reaction, detection, observer, runs)
-    calm = first_part(read_recording(quiet, robot.description.layout), round(reaction.calm_s * robot.rate_hz))
-    rows = [*_limbs(robot, calm), *_feet(robot, calm)]
+    estimator = robot.estimator(reaction.estimator, reaction.watched)
+    torques, forces = list[Array](), list[list[float]]()
+    for calm in calm_parts(robot, quiet):
+        torques += _torques(robot, estimator, calm)
+        forces.append([swing_force(setup, calm) for setup in robot.setups])
+    rows = [*_limbs(robot, estimator, torques), *_feet(robot, np.max(forces, axis=0))]
     write_text(out, csv_text(COLUMNS, [astuple(row) for row in rows]))
 
 
-def _limbs(robot: Robot, calm: Recording) -> Iterator[Threshold]:
-    """Yield the thresholds of limbs for the rate of our detector."""
-    reaction, setup = robot.reaction, robot.setups[0]
-    estimator = robot.estimator(reaction.estimator, reaction.watched)
-    torques = list[Array]()
+def calm_parts(robot: Robot, quiet: Sequence[Path]) -> Iterator[Recording]:
+    """Yield recordings, of the last one its first part, until `reaction.calm_s` are full."""
+    left = round(robot.reaction.calm_s * robot.rate_hz)
+    for path in quiet:
+        if left > 0:
+            walk = first_part(read_recording(path, robot.description.layout), left)
+            left -= len(walk.sensed)
+            yield walk
+
+
+def _torques(robot: Robot, estimator: Estimator, calm: Recording) -> Iterator[Array]:
+    """Yield the estimated torques of each segment (T, n) [N m], behind the low-pass."""
     for estimate in estimate_all(estimator, [Stretch(calm.sensed[span]) for span in calm.spans()]):
         tau = np.ascontiguousarray(estimate.tau_ext, dtype=np.float64)
-        torques.append(setup.low_passed(tau, ((0, len(tau)),)))
+        yield robot.setups[0].low_passed(tau, ((0, len(tau)),))
+
+
+def _limbs(robot: Robot, estimator: Estimator, torques: Sequence[Array]) -> Iterator[Threshold]:
+    """Yield the thresholds of limbs for the rate of our detector, from torques of the estimator's joints (T, n)."""
+    reaction = robot.reaction
     for limb in reaction.watched:
         joints = robot.description.layout.limb(limb)
         held = [estimator.joints.index(joint) for joint in joints]
@@ -86,20 +102,21 @@ def limb_thresholds(robot: Robot, torques: Sequence[Array]) -> Array:
     return found.factor * scale
 
 
-def _feet(robot: Robot, calm: Recording) -> Iterator[Threshold]:
-    """Yield the thresholds of the feet's sensors by the paper's rule."""
-    for setup in robot.setups:
-        yield Threshold(FORCE_SENSORS, setup.limb, LARGEST, FORCE, 1, foot_threshold(setup, calm), "N")
+def _feet(robot: Robot, forces: Array) -> Iterator[Threshold]:
+    """Yield the thresholds of the feet's sensors by the paper's rule, from the largest forces in swings (k,) [N]."""
+    for setup, force in zip(robot.setups, forces, strict=True):
+        value = robot.detection.thresholds.margin * float(force)
+        yield Threshold(FORCE_SENSORS, setup.limb, LARGEST, FORCE, 1, value, "N")
 
 
-def foot_threshold(setup: LegSetup, walk: Recording) -> float:
-    """Return the threshold of the force on a foot in its swing [N], by its sensor."""
+def swing_force(setup: LegSetup, walk: Recording) -> float:
+    """Return the largest force on a foot in its swing [N], by its sensor, behind the low-pass."""
     # Without a torque the gate knows no early contact, so that the truth says where the foot is on the ground.
     nothing = np.zeros((len(walk.sensed), len(setup.joints)))
     watched = setup.gate.watch(walk, nothing).watched & (walk.truth.contact[:, setup.gate.foot] == 0)
     wrench = (walk.truth.wrench_left_foot, walk.truth.wrench_right_foot)[setup.gate.foot]
     force = setup.low_passed(np.ascontiguousarray(wrench[:, :3], dtype=np.float64), walk.segments)
-    return float(setup.detection.thresholds.margin * np.linalg.norm(force, axis=1)[watched].max())
+    return float(np.linalg.norm(force, axis=1)[watched].max())
 
 
 def first_part(walk: Recording, samples: int) -> Recording:

@@ -27,7 +27,7 @@ from mobnet.reaction.trial import trial_of
 from mobnet.reaction.watchers import FootWatcher, LegWatcher, LimbWatcher, OwnLegWatcher
 from mobnet.settings.detection import Detection
 from mobnet.settings.methods import Observer
-from mobnet.settings.reaction import Reaction, Watch
+from mobnet.settings.reaction import Reaction, Watch, watches_of
 from mobnet.simulation.simulator import Simulator
 
 log = logging.getLogger(__name__)
@@ -59,7 +59,7 @@ def react(
 def _walk(walks: "Walks", one: CaseWalks) -> None:
     """Make the walks of a case, with our detector and with what is compared."""
     reaction, trials = walks.robot.reaction, list[Trial]()
-    ours, *others = reaction.watches(one.case)
+    ours, *others = watches_of(reaction, one.case)
     for watch, seeds in [(ours, one.seeds), *((other, one.seeds[: one.sizes.compared]) for other in others)]:
         for seed in seeds:
             trial, walked = walks.walk(one, watch, seed)

@@ -87,7 +87,8 @@ class Reaction(Section):
     gap_s: base.Real = Field(ge=0.001, le=1)
     touch_n: base.Real = Field(ge=0.1, le=100)
 
-    def watches(self, case: str) -> tuple[Watch, ...]:
-        """Return our detector, then what a case compares with it, and our detector with reactions that wait."""
-        row = self.cases[case]
-        return self.ours, *row.compared, *(self.ours.model_copy(update={"wait_s": wait}) for wait in row.waits_s)
+
+def watches_of(reaction: Reaction, case: str) -> tuple[Watch, ...]:
+    """Return our detector, then what a case compares with it, and our detector with reactions that wait."""
+    ours, row = reaction.ours, reaction.cases[case]
+    return ours, *row.compared, *(ours.model_copy(update={"wait_s": wait_s}) for wait_s in row.waits_s)

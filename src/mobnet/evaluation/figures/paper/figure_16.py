@@ -26,7 +26,7 @@ from mobnet.evaluation.number.number import Number
 from mobnet.plan.reactions import Reactions
 from mobnet.settings.evaluation import Figure16, Statistics
 from mobnet.settings.published import PublishedContacts
-from mobnet.settings.reaction import Reaction
+from mobnet.settings.reaction import Reaction, watches_of
 
 COLUMNS = ("case", "quantity", "time_s", "value", "low", "high", "unit", "published")
 LABELS = {PEAK: "largest force [N]", IMPULSE: "impulse [N s]"}
@@ -69,7 +69,7 @@ def late_falls(
 ) -> dict[float, Number]:
     """Return how long our reaction waits [s] -> the share of walks of a case with a fall."""
     found = dict[float, Number]()
-    for watch in sorted(reaction.watches(case), key=lambda watch: watch.wait_s):
+    for watch in sorted(watches_of(reaction, case), key=lambda watch: watch.wait_s):
         own = trials_of(trials, case, watch)
         if own and (watch.detector, watch.rule) == (reaction.ours.detector, reaction.ours.rule):
             found[watch.wait_s] = outcome_of(own, settings.within_deg, statistics).numbers[FALLS]
