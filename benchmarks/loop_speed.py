@@ -83,10 +83,11 @@ def _handler(settings: Settings, rate_hz: float) -> Handler:
     watchers: dict[str, Any] = {}
     for limb in (*detection.legs, *settings.reaction.watched):
         joints, columns = robot.layout.limb(limb), robot.layout.columns(robot.layout.limb(limb))
-        never = np.full((1, len(watched.names(joints)) if limb in detection.legs else len(joints)), np.inf)
+        never = np.full((1, len(watched.names(joints))), np.inf)
         chain = make_chain(detection.low_pass_hz, detection.hold_s, rate_hz, never)
         gate = LegGate.of(detection.gate, robot, limb, rate_hz) if limb in detection.legs else None
-        watchers[limb] = LegWatcher(LegDetector(watched, gate, chain), columns) if gate else LimbWatcher(chain, columns)
+        leg = LegWatcher(LegDetector(watched, gate, chain), columns) if gate else None
+        watchers[limb] = leg or LimbWatcher(watched, chain, columns)
     return Handler(robot, settings.reaction, settings.walking.foot_spacing_m, watchers, "compliant")
 
 

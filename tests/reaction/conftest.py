@@ -40,7 +40,8 @@ def limb_watcher(settings, robot):
     def watcher(limb):
         joints, detection = robot.layout.limb(limb), settings.detection
         chain = make_chain(detection.low_pass_hz, detection.hold_s, RATE_HZ, np.full((1, len(joints)), THRESHOLD_NM))
-        return LimbWatcher(chain, robot.layout.columns(joints))
+        watched = Watched(Detector(method="MOB", signals=("mean",)))
+        return LimbWatcher(watched, chain, robot.layout.columns(joints))
 
     return watcher
 

@@ -143,8 +143,12 @@ def threshold_rows(setup: LegSetup, calibrated: CalibratedDetector) -> Iterator[
     for kind, chain in calibrated.chains.items():
         for phase, row in enumerate(chain.thresholds, start=1):
             for signal, value in zip(names, row.tolist(), strict=True):
-                unit = "N m" if signal.startswith((f"{MEAN}.", f"{STD}.")) else "-"
-                yield Threshold(calibrated.name, setup.limb, kind, signal, phase, value, unit)
+                yield Threshold(calibrated.name, setup.limb, kind, signal, phase, value, unit_of(signal))
+
+
+def unit_of(signal: str) -> str:
+    """Return the unit of what has a threshold, by a name of `Watched.names`."""
+    return "N m" if signal.startswith((f"{MEAN}.", f"{STD}.")) else "-"
 
 
 def promise_rows(setup: LegSetup, calibrated: CalibratedDetector, random: QuietWalk) -> Iterator[Promise]:

@@ -18,10 +18,12 @@ from mobnet.core.files import write_text
 from mobnet.core.reactions import FORCE_SENSORS
 from mobnet.core.recording import Recording, read_recording
 from mobnet.core.rows import csv_text
+from mobnet.detection.calibration import unit_of
 from mobnet.detection.thresholds import calibrate
 from mobnet.detection.watch import LegSetup
 from mobnet.plan.parts import MethodRun
 from mobnet.reaction.robot import Robot
+from mobnet.reaction.watchers import some
 from mobnet.settings.detection import Detection
 from mobnet.settings.methods import Observer
 from mobnet.settings.reaction import Reaction
@@ -51,11 +53,12 @@ def watch(
     """
     robot = Robot(settings, reaction, detection, observer, runs)
     estimator = robot.estimator(reaction.estimator, reaction.watched)
-    torques, forces = list[Array](), list[list[float]]()
+    limbs, forces = {limb: list[Array]() for limb in reaction.watched}, list[list[float]]()
     for calm in calm_parts(robot, quiet):
-        torques += _torques(robot, estimator, calm)
+        for limb, signals in _signals(robot, estimator, calm):
+            limbs[limb].append(signals)
         forces.append([swing_force(setup, calm) for setup in robot.setups])
-    rows = [*_limbs(robot, estimator, torques), *_feet(robot, np.max(forces, axis=0))]
+    rows = [*_limbs(robot, limbs), *_feet(robot, np.max(forces, axis=0))]
     write_text(out, csv_text(COLUMNS, [astuple(row) for row in rows]))
 
 
@@ -69,30 +72,30 @@ def calm_parts(robot: Robot, quiet: Sequence[Path]) -> Iterator[Recording]:
             yield walk
 
 
-def _torques(robot: Robot, estimator: Estimator, calm: Recording) -> Iterator[Array]:
-    """Yield the estimated torques of each segment (T, n) [N m], behind the low-pass."""
-    for estimate in estimate_all(estimator, [Stretch(calm.sensed[span]) for span in calm.spans()]):
-        tau = np.ascontiguousarray(estimate.tau_ext, dtype=np.float64)
-        yield robot.setups[0].low_passed(tau, ((0, len(tau)),))
+def _signals(robot: Robot, estimator: Estimator, calm: Recording) -> Iterator[tuple[str, Array]]:
+    """Yield limb and signals (T, n) of our detector in each segment of a walk, behind the low-pass."""
+    spans = list(calm.spans())
+    estimates = estimate_all(estimator, [Stretch(calm.sensed[span]) for span in spans])
+    for span, estimate in zip(spans, estimates, strict=True):
+        for limb in robot.reaction.watched:
+            held = np.array([estimator.joints.index(joint) for joint in robot.description.layout.limb(limb)])
+            signals = robot.watched.of(some(estimate, held), calm.sensed[span].command)
+            yield limb, robot.setups[0].low_passed(signals, ((0, len(signals)),))
 
 
-def _limbs(robot: Robot, estimator: Estimator, torques: Sequence[Array]) -> Iterator[Threshold]:
-    """Yield the thresholds of limbs for the rate of our detector, from torques of the estimator's joints (T, n)."""
-    reaction = robot.reaction
-    for limb in reaction.watched:
-        joints = robot.description.layout.limb(limb)
-        held = [estimator.joints.index(joint) for joint in joints]
-        thresholds = limb_thresholds(robot, [torque[:, held] for torque in torques])
-        for joint, value in zip(joints, thresholds, strict=True):
-            yield Threshold(reaction.estimator, limb, reaction.ours.rule, joint, 1, float(value), "N m")
+def _limbs(robot: Robot, limbs: Mapping[str, Sequence[Array]]) -> Iterator[Threshold]:
+    """Yield the thresholds of limbs for the rate of our detector, from its signals (T, n) in segments."""
+    ours = robot.reaction.ours
+    for limb, signals in limbs.items():
+        names = robot.watched.names(robot.description.layout.limb(limb))
+        for name, value in zip(names, limb_thresholds(robot, signals), strict=True):
+            yield Threshold(ours.detector, limb, ours.rule, name, 1, float(value), unit_of(name))
 
 
-def limb_thresholds(robot: Robot, torques: Sequence[Array]) -> Array:
-    """Return the thresholds of a limb's joints (n,) [N m] from its torques (T, n) in segments, behind the low-pass."""
+def limb_thresholds(robot: Robot, signals: Sequence[Array]) -> Array:
+    """Return the thresholds of a limb's signals (n,) from these (T, n) in segments, behind the low-pass."""
     numbers, window = robot.detection.thresholds, round(robot.reaction.window_s * robot.rate_hz)
-    parts = [
-        np.abs(torque[: len(torque) // window * window]).reshape(-1, window, torque.shape[1]) for torque in torques
-    ]
+    parts = [np.abs(own[: len(own) // window * window]).reshape(-1, window, own.shape[1]) for own in signals]
     largest = np.concatenate([part.max(axis=1) for part in parts])
     episodes = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
     scale = np.quantile(largest, numbers.scale_quantile, axis=0)

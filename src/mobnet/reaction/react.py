@@ -118,10 +118,10 @@ class Walks:
 
     def _limb(self, limb: str) -> LimbWatcher:
         """Return what watches a limb all the time."""
-        reaction, setup = self.robot.reaction, self.robot.setups[0]
-        own = self._values(reaction.estimator, limb, reaction.ours.rule)
-        values = np.array([[own[1, joint] for joint in self.robot.description.layout.limb(limb)]])
-        return LimbWatcher(setup.chain(values), self.robot.columns(limb))
+        ours, robot = self.robot.reaction.ours, self.robot
+        watched, own = robot.watched, self._values(ours.detector, limb, ours.rule)
+        values = np.array([[own[1, name] for name in watched.names(robot.description.layout.limb(limb))]])
+        return LimbWatcher(watched, robot.setups[0].chain(values), robot.columns(limb))
 
     def _leg(self, setup: LegSetup, watch: Watch, wrenches: Array) -> Watcher | None:
         """Return what watches a leg; nothing where rule `detect` found no thresholds for the detector."""

@@ -8,6 +8,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from mobnet.core.estimator import Estimator
+from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe
@@ -51,6 +52,11 @@ class Robot:
     def setups(self) -> list[LegSetup]:
         """The legs."""
         return [LegSetup.of(self.detection, self.description, limb, self.rate_hz) for limb in self.detection.legs]
+
+    @property
+    def watched(self) -> Watched:
+        """What our detector watches."""
+        return Watched(self.detection.detectors[self.reaction.ours.detector])
 
     def estimator(self, method: str, limbs: Collection[str] = ()) -> Estimator:
         """Return the estimator of a method with this robot's networks, of some limbs alone if asked, and its fit."""

@@ -12,13 +12,14 @@ from mobnet.core.recording import Sensed
 from mobnet.detection.chain import Chain, ChainState, advance_chain, chain_state
 from mobnet.detection.detector import LegDetector, LegGate, State
 from mobnet.detection.gate import advance_gate, gate_state
+from mobnet.detection.signals import Watched
 
 Columns = NDArray[Any]
 
 
 def some(estimate: Estimate, columns: Columns) -> Estimate:
-    """Return the estimate of some joints (n,) [N, N m]."""
-    return Estimate(estimate.tau_ext[columns], None if estimate.std is None else estimate.std[columns])
+    """Return the estimate of some joints (..., n) [N, N m]."""
+    return Estimate(estimate.tau_ext[..., columns], None if estimate.std is None else estimate.std[..., columns])
 
 
 @dataclass(frozen=True)
@@ -68,18 +69,20 @@ class OwnLegWatcher:
 
 @dataclass(frozen=True)
 class LimbWatcher:
-    """Joints that no intended contact loads, watched all the time."""
+    """Joints that no intended contact loads, watched all the time by the signals of a detector."""
 
+    watched: Watched
     chain: Chain
     columns: Columns
 
     def init(self) -> ChainState:
         """Return the state before the first sample."""
-        return chain_state(self.chain, len(self.columns))
+        return chain_state(self.chain, len(self.watched.detector.signals) * len(self.columns))
 
     def ratio(self, state: ChainState, sample: Sensed, estimate: Estimate) -> float:
-        """Return how far the highest torque lies above its threshold."""
-        return float(advance_chain(self.chain, state, estimate.tau_ext[self.columns].astype(np.float64), True, 0.0))
+        """Return how far the highest signal lies above its threshold."""
+        signals = self.watched.of(some(estimate, self.columns), sample.command)
+        return float(advance_chain(self.chain, state, signals, True, 0.0))
 
 
 @dataclass(frozen=True)
