@@ -36,7 +36,8 @@ def outcome(cell, states):
     weight = torch.randn(states.shape, generator=torch.Generator().manual_seed(2))
     cell.zero_grad()
     (states * weight.to(states.device)).sum().backward()
-    return [states.detach().cpu(), *(parameter.grad.cpu() for parameter in cell.parameters())]
+    # Copies: a cell that moves to a GPU takes its gradients along.
+    return [states.detach().cpu(), *(parameter.grad.cpu().clone() for parameter in cell.parameters())]
 
 
 def distance(found, expected):
