@@ -94,8 +94,8 @@ def test_one_line_names_what_is_not_accepted(words, message, caplog):
     assert "\n" not in caplog.messages[0]
 
 
-def test_what_the_readme_draws_is_written_where_git_does_not_look():
-    drawn = re.findall(r"--(?:video|picture) (\S+)", (ROOT / "README.md").read_text())
+def test_what_the_guide_draws_is_written_where_git_does_not_look():
+    drawn = re.findall(r"--(?:video|picture) (\S+)", (ROOT / "docs/guide.md").read_text())
     assert drawn
     assert all(name.startswith("results/") for name in drawn)
     assert "/results/" in (ROOT / ".gitignore").read_text().splitlines()

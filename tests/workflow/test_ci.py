@@ -60,7 +60,7 @@ def test_the_summary_says_what_was_skipped_and_why():
     assert {"-ra", "-rs"}.intersection(options)
 
 
-def test_packages_are_those_that_the_readme_and_the_code_name():
-    named = re.findall(r"\(Debian: ([^)]*)\)", " ".join((ROOT / "README.md").read_text().split()))
+def test_packages_are_those_that_the_guide_and_the_code_name():
+    named = re.findall(r"\(Debian: ([^)]*)\)", " ".join((ROOT / "docs/guide.md").read_text().split()))
     assert sorted(" ".join(named).split()) == sorted(packages())
     assert {*paper.PACKAGES, *render.PACKAGES.split()} <= set(packages())

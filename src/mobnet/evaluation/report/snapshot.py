@@ -19,6 +19,7 @@ from mobnet.core.rows import read_texts
 from mobnet.evaluation.report.manifest import differences, file_hash
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.evaluation.report.rates import RATES, measured
+from mobnet.evaluation.report.readme import blocks
 from mobnet.plan.plan import make_plan
 from mobnet.running.accounts import read_account
 from mobnet.running.logs import LOGS
@@ -34,7 +35,7 @@ COMPUTE = RESULTS / "compute.md"
 UP_TO_DATE = "Nothing to be done"  # by which Snakemake says that no job would run
 DRAWN = "figures"  # folder of the snapshot with the CSVs of figures, compressed
 NOTED = ("recordings", "motions", "networks")  # folders of results whose notes name the commit that made them
-README, HEADLINES = Path("README.md"), ("table_05", "claims_summary")  # tables that the README shows
+README = Path("README.md")
 KEYS = (  # columns that name a row; the others are results
     "scenario", "level", "method", "joint", "metric", "claim",
     "set", "quantity", "part", "command", "bin_from", "measure", "limb", "test", "pushed", "share", "unit",
@@ -123,12 +124,12 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Pat
     log.info("%s: %d files", out, len(found))
 
 
-def with_headline(text: str, name: str, table: str) -> str:
-    """Return a page with the headline table between its marks, which it must have."""
+def with_block(text: str, name: str, block: str) -> str:
+    """Return a page with a block between its marks, which it must have."""
     first, last = f"<!-- {name} -->\n", f"<!-- /{name} -->"
     if first not in text or last not in text:
         raise DataError(f"{README}: the marks {first.strip()!r} and {last!r} are missing")
-    return text[: text.index(first)] + first + table.strip() + "\n" + text[text.index(last) :]
+    return text[: text.index(first)] + first + block.strip() + "\n" + text[text.index(last) :]
 
 
 def compare_snapshot(snapshot: Path, tables: Path, figures: Path) -> list[str]:
@@ -199,8 +200,8 @@ def main(words: list[str]) -> int:
             jobs = map(read_account, sorted((RESULTS / "logs").rglob("*.json")))
             write_json(RATES, measured(plan, jobs).model_dump())
             page = read_text(README)
-            for name in HEADLINES:
-                page = with_headline(page, name, read_text(SNAPSHOT / f"{name}.md"))
+            for name, text in blocks(SNAPSHOT).items():
+                page = with_block(page, name, text)
             write_text(README, page)
             return 0
         compares = options.command == "compare"

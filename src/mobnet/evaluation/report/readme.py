@@ -1,0 +1,100 @@
+"""What the README shows of the published results: made from their CSVs, so that none of their numbers is typed."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from types import SimpleNamespace
+
+from mobnet.core.errors import DataError
+from mobnet.core.files import read_text
+from mobnet.core.rows import read_texts
+
+AVERAGE = {"metric": "rmse", "joint": "avg"}
+FORWARD = {"scenario": "forward_walk", "level": "all_uncertainty", **AVERAGE}
+WALK = {"scenario": "walk_test", **AVERAGE}
+HAND = {"scenario": "hand_wrench", "metric": "rmse_pushed", "joint": "avg W+RA"}
+# title, table, place of its numbers, and the friction formula that is best there
+COLUMNS = (
+    ("left leg, walking ahead, plant of section 5.1", "table_05", FORWARD, "MOB-fric-load"),
+    ("left leg, random walking, surrogate robots", "table_07", WALK, "MOB-fric-dahl"),
+    ("waist and right arm, wrench at the hand, surrogate robots", "table_08", HAND, "MOB-fric-dahl"),
+)
+FORMULA = "formula"  # stands for that of a column
+METHODS = {
+    "estimate nothing": "zero",
+    "momentum observer (MOB)": "MOB",
+    "MOB with a friction formula (not in the paper)": FORMULA,
+    "FTS-e2e, trained end to end": "FTS-e2e",
+    "MOB-Net": "MOB-Net",
+}
+# Sentences with numbers of claims.csv (c) and falls of safety.csv (s, by case and detector).
+FINDINGS = (
+    "Without random torques in its training MOB-Net errs {c[rte-walk].value:.2f} times as much in random walking "
+    "(paper {c[rte-walk].published:.2f}) and {c[rte-swing].value:.2f} times as much when the swinging knee is hit (paper "
+    "{c[rte-swing].published:.2f}).",
+    "The best formula without a network errs {c[model-walk].value:.1f} times as much as MOB-Net on the left leg of the "
+    "surrogate robots, {c[model-right-arm].value:.1f} times as much on the right arm and {c[model-waist].value:.1f} "
+    "times as much on the waist.",
+    "Of the collisions of a swinging leg MOB finds {c[found-mob].value:.0%} (paper {c[found-mob].published:.0%}) and "
+    "MOB-Net-OR {c[found-or].value:.0%} (paper {c[found-or].published:.0%}).",
+    "Of the robots that walk into a block with the foot, {s[foot MOB-Net-ratio].fell} of {s[foot MOB-Net-ratio].walks} "
+    "fall with the reaction and {s[foot none].fell} of {s[foot none].walks} without; with the knee into a bar, "
+    "{s[knee MOB-Net-ratio].fell} of {s[knee MOB-Net-ratio].walks} and {s[knee none].fell} of {s[knee none].walks}.",
+)
+Row = Mapping[str, str]
+
+
+def blocks(results: Path) -> dict[str, str]:
+    """Return block of the README -> its text, from a folder of published results.
+
+    Raises:
+        DataError: a table or a row is missing.
+    """
+    summary = read_text(results / "claims_summary.md")
+    return {"headline": headline(results), "claims_summary": summary, "findings": findings(results)}
+
+
+def headline(results: Path) -> str:
+    """Return the table of the errors of five methods in three tests [N m], the paper's in parentheses."""
+    lines = [["RMSE of the external torque [N m], ours (paper)", *(title for title, *_ in COLUMNS)]]
+    lines.append(["---", *["---:"] * len(COLUMNS)])
+    for shown, method in METHODS.items():
+        cells = [
+            _cell(results / f"{table}.csv", {**place, "method": best if method == FORMULA else method})
+            for _, table, place, best in COLUMNS
+        ]
+        lines.append([shown, *cells])
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def _cell(path: Path, place: Row) -> str:
+    """Return the number of a table in a place, and the paper's, if it prints one; a dash where no method ran."""
+    found = [row for row in read_texts(path) if place.items() <= row.items()]
+    if not found:
+        return "-"
+    value, published = found[0]["value"], found[0]["published"]
+    return f"{float(value):.1f}" + (f" ({float(published):.1f})" if published else "")
+
+
+def findings(results: Path) -> str:
+    """Return sentences about what differs from the paper, and about what the paper does not have.
+
+    Raises:
+        DataError: a claim or a case is missing.
+    """
+    claims = {row["claim"]: _numbers(row, "value", "published") for row in read_texts(results / "claims.csv")}
+    falls = {
+        f"{row['case']} {row['detector']}": SimpleNamespace(
+            fell=round(float(row["value"]) * int(row["walks"])), walks=row["walks"]
+        )
+        for row in read_texts(results / "safety.csv")
+        if row["measure"] == "falls" and not float(row["wait_s"])
+    }
+    try:
+        return "".join(f"* {text.format(c=claims, s=falls)}\n" for text in FINDINGS)
+    except KeyError as missing:
+        raise DataError(f"{results}: {missing} is missing, of which the README tells") from missing
+
+
+def _numbers(row: Row, *names: str) -> SimpleNamespace:
+    """Return the numbers of a row; not a number where a cell is empty."""
+    return SimpleNamespace(**{name: float(row[name] or "nan") for name in names})

@@ -1,0 +1,61 @@
+"""The README's blocks come from the published CSVs, and its own words are few."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from mobnet.core.errors import DataError
+from mobnet.evaluation.number.files import write_csv
+from mobnet.evaluation.report.readme import COLUMNS, FINDINGS, blocks
+
+README = Path(__file__).parents[3] / "README.md"
+PLACE = ("scenario", "level", "joint", "metric", "method", "value", "published")
+CLAIMS = sorted({name for text in FINDINGS for name in re.findall(r"c\[([^]]*)\]", text)})
+
+
+@pytest.fixture
+def results(tmp_path: Path) -> Path:
+    """Published results: the error of a method is its place in the list, and that of MOB is printed."""
+    for _, table, place, best in COLUMNS:
+        cells = [place.get(name, "robots") for name in PLACE[:4]]
+        methods = ["zero", "MOB", best, "MOB-Net"]
+        rows = [(*cells, method, float(k), 9.0 if method == "MOB" else None) for k, method in enumerate(methods)]
+        write_csv(tmp_path / f"{table}.csv", PLACE, [("other", *rows[0][1:]), *rows])
+    write_csv(tmp_path / "claims.csv", ("claim", "value", "published"), [(name, 0.5, None) for name in CLAIMS])
+    falls = [
+        (case, detector, wait_s, "falls", share, 20)
+        for case in ("foot", "knee")
+        for detector, wait_s, share in (("MOB-Net-ratio", 0.0, 0.05), ("MOB-Net-ratio", 0.4, 0.9), ("none", 0.0, 1.0))
+    ]
+    write_csv(tmp_path / "safety.csv", ("case", "detector", "wait_s", "measure", "value", "walks"), falls)
+    (tmp_path / "claims_summary.md").write_text("| 1 |\n")
+    return tmp_path
+
+
+def test_errors_stand_beside_those_of_the_paper_and_a_dash_where_no_method_ran(results: Path) -> None:
+    lines = blocks(results)["headline"].splitlines()
+    assert lines[2] == "| estimate nothing | 0.0 | 0.0 | 0.0 |"
+    assert lines[3] == "| momentum observer (MOB) | 1.0 (9.0) | 1.0 (9.0) | 1.0 (9.0) |"
+    assert lines[4].endswith("| 2.0 | 2.0 | 2.0 |")
+    assert lines[5].endswith("| - | - | - |")
+
+
+def test_findings_have_the_numbers_of_claims_and_the_falls_of_reactions_that_do_not_wait(results: Path) -> None:
+    text = blocks(results)["findings"]
+    assert "MOB-Net errs 0.50 times as much in random walking (paper nan)" in text
+    assert "1 of 20 fall with the reaction and 20 of 20 without" in text
+    assert len(text.splitlines()) == len(FINDINGS)
+
+
+def test_a_claim_that_is_gone_is_told(results: Path) -> None:
+    write_csv(results / "claims.csv", ("claim", "value", "published"), [(name, 0.5, None) for name in CLAIMS[1:]])
+    with pytest.raises(DataError, match=f"{CLAIMS[0]}.*README"):
+        blocks(results)
+
+
+def test_the_words_of_the_readme_are_few() -> None:
+    """Those that are not made: without blocks, tables and commands."""
+    text = re.sub(r"<!-- (\w+) -->.*?<!-- /\1 -->", "", README.read_text(), flags=re.DOTALL)
+    prose = [line for line in text.splitlines() if not line.startswith(("|", "    "))]
+    assert len(" ".join(prose).split()) <= 800
