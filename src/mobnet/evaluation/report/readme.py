@@ -29,8 +29,8 @@ METHODS = {
 # Sentences with numbers of claims.csv (c) and falls of safety.csv (s, by case and detector).
 FINDINGS = (
     "Without random torques in its training MOB-Net errs {c[rte-walk].value:.2f} times as much in random walking "
-    "(paper {c[rte-walk].published:.2f}) and {c[rte-swing].value:.2f} times as much when the swinging knee is hit (paper "
-    "{c[rte-swing].published:.2f}).",
+    "(paper {c[rte-walk].published:.2f}) and {c[rte-swing].value:.2f} times as much when the swinging knee is hit "
+    "(paper {c[rte-swing].published:.2f}).",
     "The best formula without a network errs {c[model-walk].value:.1f} times as much as MOB-Net on the left leg of the "
     "surrogate robots, {c[model-right-arm].value:.1f} times as much on the right arm and {c[model-waist].value:.1f} "
     "times as much on the waist.",
