@@ -16,6 +16,8 @@ from mobnet.detection.detector import LegGate, run_over
 from mobnet.estimation.kinds.dahl import bent
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.learning.deployed.lanes import gru_states
+from mobnet.learning.deployed.tick import GruWeights, advance
+from mobnet.learning.gates import ordered
 from mobnet.learning.gru import run_gru
 from mobnet.robot.description import WalkingRobot
 from mobnet.robot.nominal import NominalModel
@@ -65,13 +67,17 @@ def _observe(robot: WalkingRobot, sensed: Sensed, rate_hz: float) -> None:
 
 
 def _learn(precision: torch.dtype) -> None:
-    """Run a GRU forward and back as a training does, and forward as estimates do."""
+    """Run a GRU forward and back as a training does, and forward as estimates and robots do."""
     cell, state = nn.GRU(1, 2), torch.zeros(1, 1, 2)
     with torch.autocast("cpu", precision, enabled=precision != torch.float32):
         states, _ = run_gru(cell, torch.zeros(SAMPLES, 1, 1), state)
     states.sum().backward()
     weights = [weight.detach().numpy() for weight in cell.parameters()]
     gru_states(weights, state.numpy(), np.zeros((SAMPLES, 1, 1), dtype=np.float32))
+    one, two, gates = (np.zeros(n, dtype=np.float32) for n in (1, 2, 8))
+    head = np.zeros((2, 2), dtype=np.float32), two
+    net = GruWeights(*ordered(*weights), *head, one, one + 1, one, one, one, np.float32(0.0), one.copy(), gates)
+    advance(net, two.copy(), one, two.copy(), one.copy(), one.copy())
 
 
 def _detect(robot: WalkingRobot, sensed: Sensed, detection: Detection, rate_hz: float) -> None:

@@ -10,7 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.control.parameters import State
 from mobnet.core.arrays import Array
+from mobnet.core.compilation import compiled
 from mobnet.core.joints import NQ_BASE
 from mobnet.simulation.simulator import Simulator
 
@@ -49,10 +51,13 @@ class FeedForward:
         self.torque[self.motors] = -self.share * uncertainty[self.held]
 
 
-def swing_error(simulator: Simulator) -> Array:
-    """Return how far the joints of the leg that swings are from their references (6,) [rad]; NaN while none swings."""
-    s, walker = simulator.state, simulator.walker
-    leg = 1 if s.side > 0 else 0
-    reference, first = s.q_reference[leg], NQ_BASE + walker.first[leg]
-    error = reference - simulator.world.data.qpos[first : first + len(reference)]
-    return error if s.swinging else np.full_like(error, np.nan)
+@compiled
+def swing_error(s: State, first: NDArray[np.int64], q: Array, error: NDArray[np.float32]) -> None:
+    """Write how far the joints of the leg that swings are from their references (6,) [rad]; nothing while none swings.
+
+    `first` are the first actuators of both legs, q (nq,) is the true position.
+    """
+    if s.swinging == 1:
+        leg = 1 if s.side > 0.0 else 0
+        for j in range(len(error)):
+            error[j] = s.q_reference[leg, j] - q[NQ_BASE + first[leg] + j]

@@ -100,12 +100,12 @@ def walk_with(
         estimating, estimate = estimator.step(estimating, sample)
         course.rows[k], course.tau[k, columns] = row[0], estimate.tau_ext
         course.force[k] = force_on(simulator) + row[0, pushed]
-        course.base[k] = simulator.world.data.qpos[:3]
+        course.base[k] = simulator.plant.qpos[:3]
         if course.force[k].any() and len(points := points_on(simulator.world.model, simulator.world.data)):
             course.point[k] = points.mean(axis=0)
-        course.error[k] = sample.v[:3] - simulator.world.data.qvel[:3]
-        course.tracking[k] = swing_error(simulator)
-        course.power[k] = np.abs(sample.tau_motor * simulator.world.data.qvel[N_VIRTUAL:]).sum()
+        course.error[k] = sample.v[:3] - simulator.plant.qvel[:3]
+        swing_error(simulator.state, simulator.walker.first, simulator.plant.qpos, course.tracking[k])
+        course.power[k] = np.abs(sample.tau_motor * simulator.plant.qvel[N_VIRTUAL:]).sum()
         if fed is not None and estimate.uncertainty is not None:
             fed.feed(estimate.uncertainty)
         if estimate.std is not None:

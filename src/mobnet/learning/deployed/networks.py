@@ -1,7 +1,7 @@
-"""Trained limb networks as they run on a robot: one sample at a time, those of MOB-Net by NumPy only.
+"""Trained limb networks as they run on a robot: one sample at a time, those of MOB-Net without torch.
 
-Small matrix-vector products at batch 1 cost less in NumPy than a call into torch; weights are laid out as
-`torch.nn.GRU` documents them. The other cells of section 6.1 run by the module that was trained.
+Small matrix-vector products at batch 1 cost less than a call into torch; weights are laid out as `torch.nn.GRU`
+documents them. The other cells of section 6.1 run by the module that was trained.
 """
 
 from abc import ABC, abstractmethod
@@ -14,7 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.files import WEIGHTS
+from mobnet.learning.deployed.lanes import gru_states, side_by_side
+from mobnet.learning.deployed.tick import GruWeights, advance
 from mobnet.learning.deployed.weights import GRU_TENSORS, Z_SCORES, WeightsNote, read_weights, std_scale_of
+from mobnet.learning.gates import ordered
 from mobnet.running.threads import one_thread
 from mobnet.settings.networks import CellKind
 
@@ -103,19 +106,20 @@ class ConstantNetwork(Deployed):
 
 
 class GruNetwork(Deployed):
-    """GRU-Linear of Table 1 with its z-scores, by NumPy."""
+    """GRU-Linear of Table 1 with its z-scores, by compiled loops."""
 
     def __init__(self, tensors: Mapping[str, Array], *names: Any) -> None:
         super().__init__(tensors, *names)
-        w_in, w_state, b_in, b_state, self._w_out, self._b_out = (
-            np.asarray(tensors[name], dtype=np.float32) for name in GRU_TENSORS
+        *self._as_trained, self._w_out, self._b_out = (
+            np.ascontiguousarray(tensors[name], dtype=np.float32) for name in GRU_TENSORS
         )
-        self._as_trained = w_in, w_state, b_in, b_state
+        w_in, w_state, bias = ordered(*self._as_trained)
         self.hidden = w_state.shape[1]
-        # The inner halves of (N7) go into the weights of the reset and update gates, once instead of at every sample.
-        half = np.repeat(np.array([0.5, 0.5, 1.0], dtype=np.float32), self.hidden)
-        self._w_in, self._w_state = half[:, None] * w_in, half[:, None] * w_state
-        self._b_in, self._b_state = half * b_in, half * b_state
+        room = np.empty(w_in.shape[1], dtype=np.float32), np.empty(len(bias), dtype=np.float32)
+        inputs, targets = (self._input_mean, self._input_std), (self._target_mean, self._target_std, self._std_unit)
+        self._weights = GruWeights(
+            w_in, w_state, bias, self._w_out, self._b_out, *inputs, *targets, self.std_min, *room
+        )
 
     def init(self) -> Array:
         """Return the zero state (hidden,)."""
@@ -123,34 +127,19 @@ class GruNetwork(Deployed):
 
     def step(self, state: Array, x: Array) -> tuple[Array, Prediction]:
         """Advance by one sample of inputs (n_in,); return the new state (hidden,) and the prediction (n,) [N, N m]."""
-        state = self._advance(state, self._w_in @ self._z_score(x) + self._b_in)
-        return state, self._predict(self._w_out @ state + self._b_out)
+        after, (mean, std) = np.empty_like(state), np.empty((2, len(self.joints)), dtype=np.float32)
+        advance(self._weights, state, x, after, mean, std)
+        return after, Prediction(mean, std)
 
     def run_all(self, lanes: Sequence[Array]) -> list[Prediction]:
         """Run over contiguous recordings of inputs (T_i, n_in), each from a fresh state; return (T_i, n) [N, N m]."""
-        from mobnet.learning.deployed.lanes import (  # compiled loops, which a robot does without
-            gru_states,
-            side_by_side,
-        )
 
-        def advance(state: Array, x: Array) -> tuple[Array, Array]:
+        def further(state: Array, x: Array) -> tuple[Array, Array]:
             state, states = gru_states(self._as_trained, state, self._z_score(x))
             return state, states @ self._w_out.T + self._b_out
 
         fresh = np.zeros((1, len(lanes), self.hidden), dtype=np.float32)
-        return [self._predict(output) for output in side_by_side(lanes, fresh, advance)]
-
-    def _advance(self, state: Array, gates_in: NDArray[Any]) -> Array:
-        """Return the GRU's next state from the input's share of the gates (3 hidden,): reset, update, new."""
-        h = self.hidden
-        gates_state = self._w_state @ state
-        gates_state += self._b_state
-        opened = np.tanh(gates_in[: 2 * h] + gates_state[: 2 * h])
-        opened *= 0.5
-        opened += 0.5
-        gates_state[2 * h :] *= opened[:h]
-        new = np.tanh(gates_in[2 * h :] + gates_state[2 * h :])
-        return new + opened[h:] * (state - new)
+        return [self._predict(output) for output in side_by_side(lanes, fresh, further)]
 
 
 WITHOUT_TORCH: Mapping[CellKind, Callable[..., Deployed]] = {"GRU": GruNetwork, "constant": ConstantNetwork}
