@@ -93,6 +93,6 @@ def test_an_estimate_does_not_depend_on_how_networks_are_trained(settings):
     starts = frozenset(start_of(name) for name in ("mobnet.estimation.estimate", *kinds))
     files = {file.relative_to(SOURCE) for source in reached(starts) for file in source.files}
     learning = {file.stem for file in files if "learning" in file.parts} - {"__init__"}
-    run = {"features", "limbs", "lanes", "networks", "weights", "module_network"}
+    run = {"features", "limbs", "lanes", "networks", "weights", "module_network", "tick"}
     assert learning == run | {"model", "cells", "gru", "gates", "tiles"}
     assert not {file.stem for file in files} & {"friction", "dahl", "band_pass", "regression"}

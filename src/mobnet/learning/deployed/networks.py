@@ -14,10 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.files import WEIGHTS
-from mobnet.learning.deployed.lanes import gru_states, side_by_side
-from mobnet.learning.deployed.tick import GruWeights, advance
 from mobnet.learning.deployed.weights import GRU_TENSORS, Z_SCORES, WeightsNote, read_weights, std_scale_of
-from mobnet.learning.gates import ordered
 from mobnet.running.threads import one_thread
 from mobnet.settings.networks import CellKind
 
@@ -109,6 +106,10 @@ class GruNetwork(Deployed):
     """GRU-Linear of Table 1 with its z-scores, by compiled loops."""
 
     def __init__(self, tensors: Mapping[str, Array], *names: Any) -> None:
+        # Compiled code, which takes a second to import: the workflow reads this module whenever it starts.
+        from mobnet.learning.deployed.tick import GruWeights, advance
+        from mobnet.learning.gates import ordered
+
         super().__init__(tensors, *names)
         *self._as_trained, self._w_out, self._b_out = (
             np.ascontiguousarray(tensors[name], dtype=np.float32) for name in GRU_TENSORS
@@ -120,6 +121,7 @@ class GruNetwork(Deployed):
         self._weights = GruWeights(
             w_in, w_state, bias, self._w_out, self._b_out, *inputs, *targets, self.std_min, *room
         )
+        self._advance = advance
 
     def init(self) -> Array:
         """Return the zero state (hidden,)."""
@@ -128,11 +130,12 @@ class GruNetwork(Deployed):
     def step(self, state: Array, x: Array) -> tuple[Array, Prediction]:
         """Advance by one sample of inputs (n_in,); return the new state (hidden,) and the prediction (n,) [N, N m]."""
         after, (mean, std) = np.empty_like(state), np.empty((2, len(self.joints)), dtype=np.float32)
-        advance(self._weights, state, x, after, mean, std)
+        self._advance(self._weights, state, x, after, mean, std)
         return after, Prediction(mean, std)
 
     def run_all(self, lanes: Sequence[Array]) -> list[Prediction]:
         """Run over contiguous recordings of inputs (T_i, n_in), each from a fresh state; return (T_i, n) [N, N m]."""
+        from mobnet.learning.deployed.lanes import gru_states, side_by_side
 
         def further(state: Array, x: Array) -> tuple[Array, Array]:
             state, states = gru_states(self._as_trained, state, self._z_score(x))
