@@ -422,7 +422,7 @@ class Changed(Section):
 
 
 class Hourly(Section):
-    """Events in an hour: falls, and flags in the tests of section `changed` on robots that their networks know."""
+    """Events in an hour: falls, and flags in the tests `known` of section `changed`, whose robots the networks know."""
 
     known: base.Distinct[base.Text]
 

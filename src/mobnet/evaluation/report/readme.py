@@ -1,6 +1,6 @@
 """What the README shows of the published results: made from their CSVs, so that none of their numbers is typed."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -57,21 +57,22 @@ def headline(results: Path) -> str:
     """Return the table of the errors of five methods in three tests [N m], the paper's in parentheses."""
     lines = [["RMSE of the external torque [N m], ours (paper)", *(title for title, *_ in COLUMNS)]]
     lines.append(["---", *["---:"] * len(COLUMNS)])
+    tables = {table: read_texts(results / f"{table}.csv") for _, table, *_ in COLUMNS}
     for shown, method in METHODS.items():
         cells = [
-            _cell(results / f"{table}.csv", {**place, "method": best if method == FORMULA else method})
+            _cell(tables[table], {**place, "method": best if method == FORMULA else method})
             for _, table, place, best in COLUMNS
         ]
         lines.append([shown, *cells])
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
-def _cell(path: Path, place: Row) -> str:
+def _cell(rows: Sequence[Row], place: Row) -> str:
     """Return the number of a table in a place, and the paper's, if it prints one; a dash where no method ran."""
-    found = [row for row in read_texts(path) if place.items() <= row.items()]
-    if not found:
+    found = next((row for row in rows if place.items() <= row.items()), None)
+    if found is None:
         return "-"
-    value, published = found[0]["value"], found[0]["published"]
+    value, published = found["value"], found["published"]
     return f"{float(value):.1f}" + (f" ({float(published):.1f})" if published else "")
 
 

@@ -103,7 +103,10 @@ class ConstantNetwork(Deployed):
 
 
 class GruNetwork(Deployed):
-    """GRU-Linear of Table 1 with its z-scores, by compiled loops."""
+    """GRU-Linear of Table 1 with its z-scores, one compiled loop a time step.
+
+    A step adds up in room that belongs to the network, so that steps of one network must not run at the same time.
+    """
 
     def __init__(self, tensors: Mapping[str, Array], *names: Any) -> None:
         # Compiled code, which takes a second to import: the workflow reads this module whenever it starts.
