@@ -127,7 +127,7 @@ def draw_late(axis: Axes, late: Mapping[str, Mapping[float, Number]]) -> None:
         waits = MS * np.array(list(own)) + k * APART_MS
         look = {"marker": MARKERS[k % len(MARKERS)], "markersize": 3, "linewidth": 0.8, "capsize": 2.0}
         axis.errorbar(waits, value, [value - low, high - value], label=case, **look)
-    axis.set(xlabel="reaction waits [ms]", ylabel="share of walks", ylim=(-0.05, 1.05))
+    axis.set(xlabel="delay [ms]", ylabel="share of walks", ylim=(-0.05, 1.05))
 
 
 def draw_means(axis: Axes, numbers: Mapping[str, Number], published: PublishedContacts, name: str) -> None:
