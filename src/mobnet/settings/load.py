@@ -37,6 +37,7 @@ PARTS: Mapping[str, tuple[str, ...]] = {  # file -> the sections that stand in i
     "trials": ("development", "trials"),
     "detection": ("detection",),
     "reaction": ("reaction",),
+    "robotlog": ("robotlog",),
     "evaluation": ("evaluation",),
     "scales": ("scales",),
 }  # fmt: skip

@@ -34,6 +34,7 @@ from mobnet.settings.plant import Level, Plant, Rates
 from mobnet.settings.published import Published
 from mobnet.settings.reaction import Reaction
 from mobnet.settings.robot import RobotTable
+from mobnet.settings.robotlog import RobotLog
 from mobnet.settings.scales import Scale
 from mobnet.settings.surrogate import Fleet, Surrogate
 from mobnet.settings.trials import Trials
@@ -69,6 +70,7 @@ class Settings(Section):
     trials: Trials
     detection: Detection
     reaction: Reaction
+    robotlog: RobotLog
     evaluation: Evaluation
     scales: Annotated[dict[LowerName, Scale], Field(min_length=1)]
     robot: RobotTable

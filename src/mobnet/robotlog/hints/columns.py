@@ -1,0 +1,104 @@
+"""Hints from single columns and clocks: constant, the same twice, held, clipped; jitter and gaps."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.arrays import Array
+from mobnet.core.contract import rule_of
+from mobnet.core.joints import JointLayout
+from mobnet.core.recording import Sensed
+from mobnet.settings.robotlog import RobotLog
+
+FEW = 5  # of a list of joints that are named
+SAME = 1e-9  # difference of two columns that are the same, as a share of their size
+LEAST_CLIPPED = 20  # samples at a torque's largest value, below which nothing is said
+
+
+def column_hints(sensed: Sensed, joints: Sequence[str], bounds: RobotLog) -> Iterator[str]:
+    """Yield hints on the columns of motors, (T, nu) each."""
+    first = sensed.q.shape[1] - len(joints), sensed.v.shape[1] - len(joints)
+    signals = {"q": sensed.q[:, first[0] :], "v": sensed.v[:, first[1] :], "tau_motor": sensed.tau_motor}
+    for name, values in signals.items():
+        still = np.ptp(values, axis=0) == 0.0
+        if still.any():
+            yield f"{name} of {listed(joints, still)}: never changes, {values[0, still][0]:g} in all samples"
+        for i, j in combinations(np.flatnonzero(~still).tolist(), 2):
+            if np.abs(values[:, i] - values[:, j]).max() <= SAME * np.abs(values[:, i]).max():
+                yield f"{name} of {joints[i]} and {joints[j]}: the same numbers in both columns"
+    held = _held(signals["v"])
+    late = held > bounds.held
+    if late.any():
+        text = f"{held[late].max():.0%} of the samples repeat the one before"
+        yield f"v of {listed(joints, late)}: {text}: the signal is updated more slowly than the log is written"
+    clipped = np.array([_clipped(column) for column in signals["tau_motor"].T])
+    cut = clipped > bounds.clipped
+    if cut.any():
+        largest = ", ".join(f"{value:.4g}" for value in np.abs(signals["tau_motor"][:, cut]).max(axis=0)[:FEW])
+        yield (
+            f"tau_motor of {listed(joints, cut)}: {clipped[cut].max():.1%} of the samples stand at the largest value "
+            f"({largest} N m): clipped by the log or the drive"
+        )
+
+
+def limit_hints(sensed: Sensed, layout: JointLayout) -> Iterator[str]:
+    """Yield hints on motors beyond what the robot's table allows, with wide bounds (`mobnet.core.contract`)."""
+    joints = layout.actuated
+    for signal, values in (("q", sensed.q), ("v", sensed.v), ("tau_motor", sensed.tau_motor)):
+        own = np.abs(values[:, -len(joints) :]).max(axis=0)
+        rules = [rule_of(f"{signal}.{joint}", layout) for joint in joints]
+        most = np.array([max(abs(rule.low), abs(rule.high)) for rule in rules])
+        far = own > most
+        if far.any():
+            k = int(np.argmax(own / most))
+            degrees = ": in degrees?" if signal == "q" and (np.radians(own[far]) <= most[far]).all() else ""
+            text = f"{joints[k]} reaches {own[k]:.4g} {rules[k].places[0][0]}, accepted are {most[k]:.4g}"
+            yield f"{signal} of {listed(joints, far)}: beyond the robot's table: {text}{degrees}"
+
+
+def clock_hints(clocks: Mapping[str, Array], bounds: RobotLog) -> Iterator[str]:
+    """Yield hints on the clocks (T,) [s] of signals."""
+    for names, clock in _together(clocks):
+        steps = np.diff(clock)
+        median = float(np.median(steps))
+        pauses = steps > bounds.gap_intervals * median
+        spread = float(np.std(steps[~pauses]) / median)
+        if spread > bounds.jitter:
+            yield f"clock of {names}: intervals of {median * 1e3:.3g} ms spread by {spread:.0%} (standard deviation)"
+        if pauses.any():
+            lost = f"{pauses.sum()} gap{'s' * bool(pauses.sum() > 1)}, the longest {steps.max():.3g} s"
+            yield f"clock of {names}: {lost}; each ends a segment, and the observer starts anew"
+
+
+def listed(joints: Sequence[str], which: NDArray[np.bool_]) -> str:
+    """Return the names of some joints, the first few of many."""
+    names = [joint for joint, has in zip(joints, which, strict=True) if has]
+    return ", ".join(names[:FEW]) + (f" and {len(names) - FEW} more" if len(names) > FEW else "")
+
+
+def _held(speed: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return the share of samples that repeat the one before, where the joint moves (n,)."""
+    same, moves = speed[1:] == speed[:-1], speed[1:] != 0.0
+    return (same & moves).sum(axis=0) / np.maximum(moves.sum(axis=0), 1)
+
+
+def _clipped(torque: NDArray[np.floating]) -> float:
+    """Return the share of samples at the largest or at the smallest value of a torque (T,), whichever is more."""
+    if np.ptp(torque) == 0.0:
+        return 0.0
+    counts = [int((torque == end).sum()) for end in (torque.max(), torque.min())]
+    return max(counts) / len(torque) if max(counts) >= LEAST_CLIPPED else 0.0
+
+
+def _together(clocks: Mapping[str, Array]) -> Iterator[tuple[str, Array]]:
+    """Yield the names of signals with one clock, and the clock."""
+    found: list[tuple[list[str], Array]] = []
+    for name, clock in clocks.items():
+        own = next((names for names, other in found if np.array_equal(other, clock)), None)
+        if own is None:
+            found.append(([name], clock))
+        else:
+            own.append(name)
+    yield from ((", ".join(names), clock) for names, clock in found)

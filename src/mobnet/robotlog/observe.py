@@ -1,0 +1,152 @@
+"""From a robot's log to the observer's residual: `./reproduce observe LOG --robot TABLE --map FILE` (docs/robots.md).
+
+It writes the log as a recording, the residual as an estimate of the external torque (method MOB), and a plot, and prints
+what was made of the log and what looks wrong with it.
+"""
+
+import logging
+import math
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from mobnet.core.arrays import Array
+from mobnet.core.columns import EXTERNAL, torque_columns
+from mobnet.core.errors import DataError, MobnetError, not_accepted
+from mobnet.core.recording import write_recording
+from mobnet.core.store import write_array
+from mobnet.estimation.observer import MomentumObserver
+from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.nominal import NominalModel
+from mobnet.robotlog.convert import Converted, convert, default_map
+from mobnet.robotlog.formats import read_log
+from mobnet.robotlog.hints.base import base_hints, weight_hints
+from mobnet.robotlog.hints.columns import clock_hints, column_hints, limit_hints
+from mobnet.robotlog.hints.delay import delay_hints
+from mobnet.robotlog.hints.motion import motion_hints
+from mobnet.robotlog.hints.torque import known_joints, torque_hints, windows_of
+from mobnet.robotlog.plot import plot_residual
+from mobnet.robotlog.words import observe_parser
+from mobnet.settings.load import load_section, load_settings
+from mobnet.settings.robot import RobotTable
+from mobnet.settings.robotlog import LogMap, RobotLog
+
+log = logging.getLogger(__name__)
+RECORDING, ESTIMATE, PLOT = "recording", "estimate", "residual"  # names of what is made
+
+
+@dataclass(frozen=True)
+class Observed:
+    """A log with its residual r of (9), (T, nv) [N] and [N m], and hints on what is wrong with it."""
+
+    converted: Converted
+    residual: Array
+    hints: tuple[str, ...]
+
+
+def observe_log(
+    path: Path, robot: RobotDescription, meaning: LogMap | None, torque: str | None, gain_hz: float,
+    gravity_m_s2: float, bounds: RobotLog,
+) -> Observed:  # fmt: skip
+    """Read a log, run the momentum observer on it, and look for what is wrong with it.
+
+    Without a map, columns have the names of a recording. The gain is K_0 of (7) [1/s].
+
+    Raises:
+        DataError: the log cannot be read, or a column is missing or not accepted.
+        ConfigError: the map does not fit the robot.
+    """
+    columns = read_log(path)
+    meaning = meaning or default_map(columns, robot.layout)
+    converted = convert(path, columns, meaning, robot.layout, bounds)
+    read, nominal = converted.recording, NominalModel(robot, gravity_m_s2=gravity_m_s2)
+    kind = "mean" if (torque or meaning.torque) == "mean" else "sample"
+    observer = MomentumObserver(nominal, gain_hz, read.rate_hz, kind)
+    residual = np.concatenate([observer.residual(read.sensed[span]) for span in read.spans()])
+    return Observed(converted, residual, tuple(hints_of(converted, nominal, gravity_m_s2, bounds)))
+
+
+def hints_of(found: Converted, nominal: NominalModel, gravity_m_s2: float, bounds: RobotLog) -> Iterator[str]:
+    """Yield what looks wrong with a log, each as one line with numbers."""
+    read, layout = found.recording, nominal.robot.layout
+    sensed, spans, rate_hz = read.sensed, read.spans(), read.rate_hz
+    yield from clock_hints(found.clocks, bounds)
+    yield from column_hints(sensed, layout.actuated, bounds)
+    yield from limit_hints(sensed, layout)
+    motors = sensed.q[:, -layout.nu :], sensed.v[:, -layout.nu :]
+    wrong = list(motion_hints(*motors, spans, rate_hz, layout.actuated, bounds))
+    yield from wrong
+    if nominal.robot.floating:
+        wrong += (own := list(base_hints(sensed, spans, rate_hz, bounds)))
+        yield from own
+    if not wrong:  # torques that a wrong motion would need say nothing
+        yield from weight_hints(nominal, sensed, found.wrenches, gravity_m_s2, bounds)
+        if windows := windows_of(nominal, sensed, spans, rate_hz, found.wrenches, bounds):
+            known = known_joints(nominal, windows, found.wrenches, bounds)
+            yield from delay_hints(nominal, sensed, spans, rate_hz, found.wrenches, known, bounds)
+            yield from torque_hints(nominal, windows, known, bounds)
+
+
+def write_observed(found: Observed, robot: RobotDescription, gain_hz: float, torque: str, out: Path) -> None:
+    """Write recording, estimate and plot into a folder."""
+    out.mkdir(parents=True, exist_ok=True)
+    read = found.converted.recording
+    meta = {**read.meta, "gain_hz": gain_hz, "torque": torque}
+    write_recording(out / RECORDING, replace(read, meta=meta), robot.layout)
+    columns = torque_columns(robot.layout, [EXTERNAL], robot.layout.names)
+    write_array(
+        out / ESTIMATE, found.residual, columns, {"rate_hz": read.rate_hz, **meta, "method": "MOB"}, read.segments
+    )
+    plot_residual(read.rate_hz, read.segments, found.residual, robot.layout, out / PLOT)
+
+
+def told(found: Observed, robot: RobotDescription, out: Path) -> Iterator[str]:
+    """Yield what the command prints."""
+    read = found.converted.recording
+    rows, count = len(read.sensed), len(read.segments)
+    way = "interpolated linearly" if found.converted.interpolated else "as they are in the log"
+    yield f"{rows} samples at {read.rate_hz:g} Hz, {rows / read.rate_hz:.6g} s in {count} segment{'s' * (count > 1)}, {way}"
+    if absent := [name for name in found.converted.absent if name != EXTERNAL]:
+        yield f"not in the log, and zero in the recording: {', '.join(absent)}"
+    size = np.sqrt(np.square(found.residual).mean(axis=0))
+    motor = np.sqrt(np.square(read.sensed.tau_motor).mean(axis=0))
+    yield "residual: what the model does not explain, root mean square beside that of the motor"
+    for k, (name, value) in enumerate(zip(robot.layout.names, size, strict=True)):
+        own = k - len(robot.layout.virtual)
+        beside = f"  of {motor[own]:8.3f}" if own >= 0 else ""
+        yield f"  {name:<6}{value:9.3f}{beside} {robot.layout.unit(name)}"
+    yield "hints: none" if not found.hints else f"hints: {len(found.hints)}"
+    yield from (f"  {hint}" for hint in found.hints)
+    yield f"written: {out / RECORDING}.parquet, {out / ESTIMATE}.parquet, {out / PLOT}.png"
+
+
+def main(words: list[str]) -> int:
+    """Run the command; return its exit status."""
+    options = observe_parser().parse_args(words)
+    logging.basicConfig(level=logging.WARNING, format="%(message)s", stream=sys.stdout)
+    logging.getLogger(__name__).setLevel(logging.INFO)
+    try:
+        settings = load_settings()
+        robot = describe(load_section(options.robot, RobotTable) if options.robot else settings.robot)
+        meaning = load_section(options.map, LogMap) if options.map else None
+        gain_hz = settings.observer.gain_hz if options.gain is None else options.gain
+        if not 0.0 < gain_hz < math.inf:
+            raise DataError(not_accepted("--gain", gain_hz, ["a number above 0"]))
+        torque = options.torque or (meaning.torque if meaning else "sample")
+        bounds, gravity = settings.robotlog, settings.plant.gravity_m_s2
+        found = observe_log(options.log, robot, meaning, torque, gain_hz, gravity, bounds)
+        out = options.out or Path(f"{options.log.stem}_observed")
+        write_observed(found, robot, gain_hz, torque, out)
+    except MobnetError as error:
+        log.error("%s", error)
+        return 1
+    for line in told(found, robot, out):
+        log.info("%s", line)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,122 @@
+"""What a robot's log means, `./reproduce observe --map FILE`, and the bounds of the hints on what is wrong with it."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from mobnet.settings.base import Count, InnerShare, Positive, Real, Seconds, Section, Share, Some, Text
+
+Unit = Literal[
+    "rad", "deg", "rad/s", "deg/s", "rpm", "N m", "mN m", "kN m", "A", "m", "mm", "m/s", "m/s^2", "g", "N", "kN", "s",
+    "ms", "us", "ns", "-",
+]  # fmt: skip
+Sign = Literal[-1, 1]
+
+
+class Clock(Section):
+    """The clock of a log in which all columns have one: a column with its unit.
+
+    Where messages have times of their own, these are used.
+    """
+
+    column: Text = "time"
+    unit: Literal["s", "ms", "us", "ns"] = "s"
+
+
+class Signal(Section):
+    """One signal: the columns that hold it, in the order of the robot's table, and how they become SI units.
+
+    A value becomes `sign` x (`scale` x value in `unit` - `offset`); scale, sign and offset are one number for all columns
+    or one for each.
+
+    Attributes:
+        columns: names in the log; of joints in motor order, of a vector x y z, of a wrench force and then moment.
+        unit: unit of the columns, of which `scale` is one: a current in A becomes a torque by a scale in N m/A.
+        offset: what is subtracted, SI units.
+        delay_s: by how much the signal is late in the log [s]; it is brought forward.
+        order: of a quaternion.
+        gravity: whether an accelerometer's numbers contain gravity, as specific force does.
+        frame: axes of the base's linear velocity.
+    """
+
+    columns: Some[Text]
+    unit: Unit | None = None
+    sign: Sign | tuple[Sign, ...] = 1
+    scale: Real | tuple[Real, ...] = 1.0
+    offset: Real | tuple[Real, ...] = 0.0
+    delay_s: Annotated[Real, Field(ge=-1, le=1)] = 0.0
+    order: Literal["wxyz", "xyzw"] = "wxyz"
+    gravity: Literal["included", "removed"] = "included"
+    frame: Literal["world", "base"] = "world"
+
+
+class LogMap(Section):
+    """What the columns of a log mean. Signals that the robot does not have are left out.
+
+    Attributes:
+        clock: the clock of all columns.
+        rate_hz: samples per second of the recording that is made; that of the log where it is not given [Hz].
+        torque: whether torques are samples at the ticks or means over the intervals before them.
+        position: place of the base in the world; the observer does not need it.
+        quaternion, velocity, omega, acc: of the base: orientation, linear velocity, angular velocity in base axes, and
+            specific force of the inertial sensor in base axes.
+        q, v, tau_motor: positions, velocities and torques of the motors on the side of the joints.
+        left_foot, right_foot: force and moment on the foot's sensor, in the foot's axes.
+        swing, landing: per foot, left and then right, as `docs/data.md` says.
+    """
+
+    clock: Clock = Clock()
+    rate_hz: Annotated[Positive, Field(ge=1, le=100_000)] | None = None
+    torque: Literal["sample", "mean"] = "sample"
+    q: Signal
+    v: Signal
+    tau_motor: Signal
+    position: Signal | None = None
+    quaternion: Signal | None = None
+    velocity: Signal | None = None
+    omega: Signal | None = None
+    acc: Signal | None = None
+    left_foot: Signal | None = None
+    right_foot: Signal | None = None
+    swing: Signal | None = None
+    landing: Signal | None = None
+
+
+class RobotLog(Section):
+    """How a log becomes a recording, and when a hint is given; hints are no errors.
+
+    Attributes:
+        gap_intervals: a pause of more than so many sample intervals ends a segment.
+        jitter: standard deviation of the intervals over their median, above which the clock is named.
+        even: the same, below which samples are taken as they are, without interpolation.
+        window_s: length of the stretches in which momentum and torque are compared [s].
+        windows: how many of them.
+        least_torque: a joint whose motor gives less than this share of its largest torque tells nothing of it.
+        suspect: share of a joint's torque that the motion does not explain, as squares, from which it is looked at.
+        few: so many such joints are tried with each other; of more only factors of their torques are told.
+        explained: one mistake is named if it takes this share of the square error away.
+        good: after which the error is below this share of the torque, both as squares.
+        factor: known factors between two units are recognised within this share.
+        clipped: share of the samples at a torque's own largest value above which it is called clipped.
+        held: share of samples that repeat the one before while a joint moves, above which it is called stale.
+        delay_s: largest delay that is looked for [s].
+        gravity: share of gravity by which a resting accelerometer may differ.
+        weight: share of the robot's weight by which the feet's mean vertical force may differ.
+    """
+
+    gap_intervals: Annotated[Positive, Field(ge=1.5, le=1000)]
+    jitter: Share
+    even: Share
+    window_s: Seconds
+    windows: Annotated[int, Field(ge=20, le=10_000)]
+    least_torque: InnerShare
+    suspect: InnerShare
+    few: Count
+    explained: InnerShare
+    good: InnerShare
+    factor: InnerShare
+    clipped: InnerShare
+    held: InnerShare
+    delay_s: Seconds
+    gravity: InnerShare
+    weight: InnerShare

@@ -1,0 +1,143 @@
+"""Units, signs, order, clocks and gaps: what a map says is what the recording holds."""
+
+import numpy as np
+import pytest
+
+from mobnet.core.errors import ConfigError, DataError
+from mobnet.robotlog.convert import convert, default_map
+from mobnet.robotlog.formats import Column, read_log
+from mobnet.settings.robotlog import LogMap
+
+RATE_HZ, ROWS = 500.0, 400
+TIME = np.arange(ROWS) / RATE_HZ
+
+
+def columns_of(table, time_s=None):
+    return {name: Column(np.asarray(values, dtype=np.float64), time_s) for name, values in table.items()}
+
+
+@pytest.fixture
+def made(arm, settings):
+    """Return a function that converts columns of the arm by a map."""
+
+    def convert_arm(columns, **mapping):
+        given = {name: {"columns": (f"{name}1", f"{name}2")} for name in ("q", "v", "tau_motor")}
+        meaning = LogMap.model_validate(given | mapping)
+        return convert("log", columns, meaning, arm.layout, settings.robotlog)
+
+    return convert_arm
+
+
+@pytest.fixture
+def plain():
+    angle = 3.0 * TIME
+    signals = {"q": np.sin(angle), "v": 3.0 * np.cos(angle), "tau_motor": np.cos(2 * angle)}
+    return {"time": TIME, **{f"{name}{k}": k * values for name, values in signals.items() for k in (1, 2)}}
+
+
+def test_each_number_of_a_map_does_what_it_says(made, plain):
+    log = plain | {
+        "q1": np.degrees(plain["q1"]) + 5.0,
+        "q2": -np.degrees(plain["q2"]),
+        "tau_motor2": 1e3 * plain["tau_motor2"],
+    }
+    found = made(
+        columns_of(log),
+        q={"columns": ("q1", "q2"), "unit": "deg", "sign": (1, -1), "offset": (np.radians(5.0), 0.0)},
+        tau_motor={"columns": ("tau_motor1", "tau_motor2"), "unit": "N m", "scale": (1.0, 1e-3)},
+    )
+    sensed = found.recording.sensed
+    np.testing.assert_allclose(sensed.q, np.stack([plain["q1"], plain["q2"]], axis=1), atol=1e-12)
+    np.testing.assert_allclose(sensed.tau_motor[:, 1], plain["tau_motor2"], atol=1e-12)
+    assert (found.recording.rate_hz, found.recording.segments, found.interpolated) == (RATE_HZ, ((0, ROWS),), False)
+
+
+def test_columns_stand_in_the_order_of_the_map(made, plain):
+    swapped = made(columns_of(plain), q={"columns": ("q2", "q1")}).recording.sensed.q
+    np.testing.assert_array_equal(swapped, np.stack([plain["q2"], plain["q1"]], axis=1))
+
+
+def test_gaps_end_segments_and_nothing_is_made_up_in_them(made, plain):
+    kept = np.r_[0:100, 150:ROWS]
+    log = {name: values[kept] for name, values in plain.items()}
+    found = made(columns_of(log)).recording
+    assert found.segments == ((0, 100), (100, ROWS - 50))
+    slower = made(columns_of(log), rate_hz=100.0).recording
+    assert len(slower.segments) == 2
+    assert len(slower.sensed) == pytest.approx((100 + 250) / 5, abs=2)
+
+
+def test_signals_with_own_clocks_meet_on_one(made, plain):
+    """Torques come at a third of the rate and 10 ms late; linear interpolation of a slow sine is close to it."""
+    slow = TIME[::3]
+    log = columns_of({name: plain[name] for name in ("q1", "q2", "v1", "v2")}, TIME)
+    log |= columns_of({f"tau_motor{k}": np.cos(6 * slow) * k for k in (1, 2)}, slow + 0.01)
+    late = {"columns": ("tau_motor1", "tau_motor2"), "delay_s": 0.01}
+    found = made(log, tau_motor=late)
+    assert found.interpolated
+    ticks = np.arange(len(found.recording.sensed)) / RATE_HZ
+    np.testing.assert_allclose(found.recording.sensed.tau_motor[:, 0], np.cos(6 * ticks), atol=2e-3)
+
+
+def test_an_even_clock_is_not_resampled_and_an_uneven_one_is(made, plain):
+    uneven = TIME + 4e-4 * np.sin(np.arange(ROWS))
+    log = plain | {"time": uneven, "q1": np.sin(3.0 * uneven)}
+    found = made(columns_of(log), rate_hz=RATE_HZ)
+    assert found.interpolated
+    ticks = found.clocks["q"][0] + np.arange(len(found.recording.sensed)) / RATE_HZ
+    np.testing.assert_allclose(found.recording.sensed.q[:, 0], np.sin(3.0 * ticks), atol=2e-5)
+
+
+@pytest.mark.parametrize(
+    ("log", "mapping", "message"),
+    [
+        ({"q1": None}, {}, "log: column: 'q1' is not accepted; accepted: q2, tau_motor1"),
+        ({}, {"q": {"columns": ("q1",)}}, r"log: q\.columns: number: 1 is not accepted; accepted: 2"),
+        ({"time": TIME[::-1]}, {}, "log: clock: row 1 is not after the one before it"),
+        ({"v2": np.r_[TIME[:-1], np.nan]}, {}, f"log: column 'v2', row {ROWS - 1}: nan is not accepted"),
+        ({"time": None}, {}, r"log: clock\.column: 'time' is not accepted; accepted: .*; or give rate_hz"),
+    ],
+    ids=["column", "number", "clock", "nan", "no clock"],
+)
+def test_what_does_not_fit_is_one_line(made, plain, log, mapping, message):
+    given = {name: values for name, values in (plain | log).items() if values is not None}
+    with pytest.raises(DataError, match=message):
+        made(columns_of(given), **mapping)
+
+
+def test_a_floating_base_needs_its_sensors(layout, settings):
+    joints = layout.nu
+    rows = np.zeros((20, joints)) + np.arange(20)[:, None]
+    names = {name: tuple(f"{name}{k}" for k in range(joints)) for name in ("q", "v", "tau_motor")}
+    log = {key: rows[:, k] for name in names for k, key in enumerate(names[name])} | {"time": np.arange(20) / 100}
+    meaning = LogMap.model_validate({name: {"columns": keys} for name, keys in names.items()})
+    with pytest.raises(ConfigError, match="quaternion, velocity, omega, acc: missing in the map"):
+        convert("log", columns_of(log), meaning, layout, settings.robotlog)
+
+
+def test_base_signals_are_turned_as_the_map_says(layout, settings):
+    """A base that stands still, yawed by 90 degrees, drifts along its own x, and its sensor leaves gravity out."""
+    rows, half = 50, np.sqrt(0.5)
+    log = {"time": np.arange(rows) / 100}
+    mapping = {}
+    for name in ("q", "v", "tau_motor"):
+        mapping[name] = {"columns": tuple(f"{name}{k}" for k in range(layout.nu))}
+        log |= {f"{name}{k}": np.zeros(rows) for k in range(layout.nu)}
+    vectors = {"quaternion": (0.0, 0.0, half, half), "velocity": (1.0, 0, 0), "omega": (0.0, 0, 0), "acc": (0.0, 0, 0)}
+    extra = {"quaternion": {"order": "xyzw"}, "velocity": {"frame": "base"}, "acc": {"gravity": "removed"}}
+    for name, vector in vectors.items():
+        mapping[name] = {"columns": tuple(f"{name}{k}" for k in range(len(vector))), **extra.get(name, {})}
+        log |= {f"{name}{k}": np.full(rows, value) for k, value in enumerate(vector)}
+    found = convert("log", columns_of(log), LogMap.model_validate(mapping), layout, settings.robotlog)
+    sensed = found.recording.sensed
+    np.testing.assert_allclose(sensed.q[:, 3:7], np.tile([half, 0, 0, half], (rows, 1)), atol=1e-12)
+    np.testing.assert_allclose(sensed.v[0, :3], [0.0, 1.0, 0.0], atol=1e-12)
+    np.testing.assert_allclose(sensed.acc_base_in_base[0], [0.0, 0.0, 9.80665], atol=1e-12)
+    assert {"swing", "landing", "left_foot", "right_foot"} <= set(found.absent)
+
+
+def test_columns_named_as_in_a_recording_need_no_map(clean, arm, stored):
+    columns = read_log(stored(clean[:10]))
+    meaning = default_map(columns, arm.layout)
+    assert meaning.q.columns == ("q.J1", "q.J2")
+    assert meaning.acc is None

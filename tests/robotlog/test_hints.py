@@ -1,0 +1,93 @@
+"""Mistakes that labs make with logs are named, each by its own hint, and a clean log has none."""
+
+import re
+
+import numpy as np
+import pytest
+
+from mobnet.robotlog.observe import observe_log
+
+BOTH = ("J1", "J2")
+LATE = 12  # samples
+SEEDS = range(5)
+
+
+def changed(table, joints, signals, function):
+    """Return a log with a function applied to some signals of some joints."""
+    names = [f"{signal}.{joint}" for signal in signals for joint in joints]
+    return table.assign(**{name: function(table[name].to_numpy()) for name in names})
+
+
+def exchanged(table, signals):
+    one, other = BOTH
+    swapped = {f"{s}.{a}": table[f"{s}.{b}"] for s in signals for a, b in ((one, other), (other, one))}
+    return table.assign(**swapped)
+
+
+def late(column):
+    return np.r_[np.repeat(column[0], LATE), column[:-LATE]]
+
+
+def jittered(table):
+    return table.assign(time=np.sort(table["time"] + np.random.default_rng(3).uniform(-4e-4, 4e-4, len(table))))
+
+
+def clipped(column):
+    largest = np.quantile(np.abs(column), 0.9)
+    return column.clip(-largest, largest)
+
+
+def held(column):
+    return np.repeat(column[::10], 10)[: len(column)]
+
+
+MISTAKES = {  # name -> what a lab does to its log, and the hint
+    "torque of the wrong sign": (lambda t: changed(t, ["J2"], ["tau_motor"], np.negative), "J2: tau_motor is of the wrong sign"),
+    "torque before the gear": (
+        lambda t: changed(t, ["J1"], ["tau_motor"], lambda x: x / 100),
+        r"J1: tau_motor is 1/(9\d|10\d).* of what the motion needs: before the gear\?",
+    ),
+    "torques exchanged": (lambda t: exchanged(t, ["tau_motor"]), "J1 and J2: tau_motor of the two is exchanged"),
+    "joints exchanged": (lambda t: exchanged(t, ["q", "v", "tau_motor"]), "J1 and J2: the two joints are exchanged"),
+    "positions in degrees": (lambda t: changed(t, BOTH, ["q"], np.degrees), "q of J1, J2: changes by 57.3 times .* degrees"),
+    "speeds in degrees": (lambda t: changed(t, BOTH, ["v"], np.degrees), "q of J1, J2: changes by 0.0175 times .* deg/s"),
+    "both in degrees": (lambda t: changed(t, BOTH, ["q", "v"], np.degrees), "q of J1, J2: .* in degrees"),
+    "torque in mN m": (lambda t: changed(t, BOTH, ["tau_motor"], lambda x: 1e3 * x), "J1, J2: tau_motor is in mN m"),
+    "a column twice": (lambda t: t.assign(**{"v.J2": t["v.J1"]}), "v of J1 and J2: the same numbers in both"),
+    "a constant column": (lambda t: t.assign(**{"tau_motor.J2": 1.5}), "tau_motor of J2: never changes, 1.5"),
+    "jitter": (jittered, r"clock of q, v, tau_motor: intervals of .* ms spread by \d\d%"),
+    "a gap": (lambda t: t.drop(index=range(5000, 5400)), "clock of .*: 1 gap, the longest 0.401 s"),
+    "clipped torque": (lambda t: changed(t, ["J1"], ["tau_motor"], clipped), "tau_motor of J1: 10.0% of the samples"),
+    "a joint counted backwards": (lambda t: changed(t, ["J2"], ["q", "v"], np.negative), "J2: q and v have the wrong sign"),
+    "an axis the other way": (
+        lambda t: changed(t, ["J2"], ["q", "v", "tau_motor"], np.negative),
+        "J2: q, v and tau_motor have the wrong sign",
+    ),
+    "speed of the wrong sign": (lambda t: changed(t, ["J1"], ["v"], np.negative), "q of J1: changes by -1 times"),
+    "late torque": (lambda t: changed(t, BOTH, ["tau_motor"], late), "tau_motor: 12 ms late against the motion"),
+    "held speed": (lambda t: changed(t, BOTH, ["v"], held), "v of J1, J2: 90% of the samples repeat"),
+    "clock in ms": (lambda t: t.assign(time=1e3 * t["time"]), "q of J1, J2: .* the clock in ms"),
+}  # fmt: skip
+
+
+@pytest.fixture
+def hints(arm, settings, stored):
+    def find(table):
+        return observe_log(stored(table), arm, None, None, 100.0, 9.81, settings.robotlog).hints
+
+    return find
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_clean_log_has_no_hint(seed, arm_log, hints):
+    assert hints(arm_log(seed)) == ()
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_each_mistake_has_a_hint_that_names_it(name, clean, hints):
+    spoil, pattern = MISTAKES[name]
+    found = hints(spoil(clean))
+    matching = [hint for hint in found if re.search(pattern, hint)]
+    assert matching, found
+    named = [hint for hint in found if hint not in matching]
+    assert all("beyond" in hint for hint in named), named  # and it names nothing else but values beyond limits
