@@ -36,11 +36,8 @@ def plain():
 
 
 def test_each_number_of_a_map_does_what_it_says(made, plain):
-    log = plain | {
-        "q1": np.degrees(plain["q1"]) + 5.0,
-        "q2": -np.degrees(plain["q2"]),
-        "tau_motor2": 1e3 * plain["tau_motor2"],
-    }
+    log = plain | {"q1": np.degrees(plain["q1"]) + 5.0, "q2": -np.degrees(plain["q2"])}
+    log["tau_motor2"] = 1e3 * plain["tau_motor2"]
     found = made(
         columns_of(log),
         q={"columns": ("q1", "q2"), "unit": "deg", "sign": (1, -1), "offset": (np.radians(5.0), 0.0)},

@@ -34,10 +34,8 @@ uint32 nanosec
 def ticks(table):
     """Yield time [ns] and positions, velocities and torques (2,) of each row."""
     for row in table.to_dict("records"):
-        yield (
-            round(row["time"] * 1e9),
-            *([row[f"{name}.{joint}"] for joint in JOINTS] for name in ("q", "v", "tau_motor")),
-        )
+        signals = ([row[f"{name}.{joint}"] for joint in JOINTS] for name in ("q", "v", "tau_motor"))
+        yield round(row["time"] * 1e9), *signals
 
 
 def as_csv(table, folder):

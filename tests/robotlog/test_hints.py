@@ -42,15 +42,18 @@ def held(column):
 
 
 MISTAKES = {  # name -> what a lab does to its log, and the hint
-    "torque of the wrong sign": (lambda t: changed(t, ["J2"], ["tau_motor"], np.negative), "J2: tau_motor is of the wrong sign"),
+    "torque of the wrong sign": (
+        lambda t: changed(t, ["J2"], ["tau_motor"], np.negative),
+        "J2: tau_motor is of the wrong sign",
+    ),
     "torque before the gear": (
         lambda t: changed(t, ["J1"], ["tau_motor"], lambda x: x / 100),
         r"J1: tau_motor is 1/(9\d|10\d).* of what the motion needs: before the gear\?",
     ),
     "torques exchanged": (lambda t: exchanged(t, ["tau_motor"]), "J1 and J2: tau_motor of the two is exchanged"),
     "joints exchanged": (lambda t: exchanged(t, ["q", "v", "tau_motor"]), "J1 and J2: the two joints are exchanged"),
-    "positions in degrees": (lambda t: changed(t, BOTH, ["q"], np.degrees), "q of J1, J2: changes by 57.3 times .* degrees"),
-    "speeds in degrees": (lambda t: changed(t, BOTH, ["v"], np.degrees), "q of J1, J2: changes by 0.0175 times .* deg/s"),
+    "positions in degrees": (lambda t: changed(t, BOTH, ["q"], np.degrees), "q of J1, J2: .* 57.3 times .* degrees"),
+    "speeds in degrees": (lambda t: changed(t, BOTH, ["v"], np.degrees), "q of J1, J2: .* 0.0175 times .* deg/s"),
     "both in degrees": (lambda t: changed(t, BOTH, ["q", "v"], np.degrees), "q of J1, J2: .* in degrees"),
     "torque in mN m": (lambda t: changed(t, BOTH, ["tau_motor"], lambda x: 1e3 * x), "J1, J2: tau_motor is in mN m"),
     "a column twice": (lambda t: t.assign(**{"v.J2": t["v.J1"]}), "v of J1 and J2: the same numbers in both"),
@@ -58,7 +61,10 @@ MISTAKES = {  # name -> what a lab does to its log, and the hint
     "jitter": (jittered, r"clock of q, v, tau_motor: intervals of .* ms spread by \d\d%"),
     "a gap": (lambda t: t.drop(index=range(5000, 5400)), "clock of .*: 1 gap, the longest 0.401 s"),
     "clipped torque": (lambda t: changed(t, ["J1"], ["tau_motor"], clipped), "tau_motor of J1: 10.0% of the samples"),
-    "a joint counted backwards": (lambda t: changed(t, ["J2"], ["q", "v"], np.negative), "J2: q and v have the wrong sign"),
+    "a joint counted backwards": (
+        lambda t: changed(t, ["J2"], ["q", "v"], np.negative),
+        "J2: q and v have the wrong sign",
+    ),
     "an axis the other way": (
         lambda t: changed(t, ["J2"], ["q", "v", "tau_motor"], np.negative),
         "J2: q, v and tau_motor have the wrong sign",

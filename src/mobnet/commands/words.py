@@ -10,12 +10,14 @@ from mobnet.commands.builds import BUILDS
 from mobnet.core.errors import CommandError, not_accepted
 from mobnet.detection.words import calibrate_parser
 from mobnet.plan.places import scale_of
+from mobnet.robotlog.words import observe_parser
 
 COMMANDS = {
     "all": "make every table, figure and the paper (snakemake --cores 2 all); further words go to snakemake",
     "test": "run pytest, lint, format, types and the smoke run included; further words go to pytest",
     "verify": "check every result file against results/MANIFEST.sha256, or --manifest FILE",
     "check": "check recordings, weights and configurations from outside: ./reproduce check FILE...",
+    "observe": "make the residual of a robot's own log, and say what looks wrong with it; --help says how",
     "calibrate": "print thresholds of collision detection for a wanted rate of false alarms; --help says how",
     "tuning": "train what configs/trials.yaml lists, write results/default/trials/tuning.md; no part of all",
     "recipes": "train each method with each recipe, write results/default/trials/recipes.md; no part of all",
@@ -39,6 +41,7 @@ OWN = {"clean", "setup"}  # commands with options of their own
 APART = ("tuning", "recipes", "lengths", "random_torque", "films")  # rules that `all` does not ask for
 TARGETS = {"all": "all", "report": "all", **{name: name for name in APART}}  # command -> rule of the workflow
 HELP = {"-h", "--help"}
+PARSERS = {"calibrate": calibrate_parser, "observe": observe_parser}  # of commands whose module has words of its own
 CONFIG = {"-C", "--config"}
 KEY = re.compile(r"[a-zA-Z_]\w+")  # as Snakemake takes it: of two signs or more
 
@@ -85,8 +88,8 @@ def overview() -> argparse.ArgumentParser:
 
 def parser_of(command: str) -> argparse.ArgumentParser:
     """Return the parser of a command's own options."""
-    if command == "calibrate":
-        return calibrate_parser()
+    if command in PARSERS:
+        return PARSERS[command]()
     usage = None if command in OWN else f"./reproduce {command} [WORDS]"
     parser = argparse.ArgumentParser(f"./reproduce {command}", usage, description=COMMANDS[command], allow_abbrev=False)
     if command == "clean":

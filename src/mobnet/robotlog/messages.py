@@ -1,7 +1,7 @@
 """Messages of ROS 1 and 2 as columns: TOPIC.FIELD, of an array TOPIC.FIELD.0, of joints by name TOPIC.FIELD.NAME."""
 
 import json
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -56,7 +56,7 @@ def _decoder(ros: Any, channel: Any, schema: Any, path: Path) -> Any:
 
 
 def columns_of(messages: Iterable[Message]) -> dict[str, Column]:
-    """Return a column for each number in the messages, with the header's stamp where a topic has one, else the record's.
+    """Return a column for each number in the messages, with the header's stamp where there is one, else the record's.
 
     Raises:
         DataError: messages of a topic do not hold the same numbers.
@@ -107,15 +107,11 @@ def _fields(content: Any) -> Iterator[tuple[str, Any]]:
 
 
 def _blocks(content: Any, name: str) -> Iterator[tuple[str, Any, list[str]]]:
-    """Yield every number, or array of numbers, below a field: its full name, itself, and the joints that name its entries.
+    """Yield numbers and arrays of numbers below a field: full name, itself, and the joints that name its entries.
 
     Headers and texts are left out.
     """
-    if (
-        isinstance(content, (bool, int, float, np.number))
-        or isinstance(content, np.ndarray)
-        or (isinstance(content, (list, tuple)) and _is_numeric(content))
-    ):
+    if isinstance(content, (bool, int, float, np.number, np.ndarray)) or _is_numeric(content):
         yield name, content, []
     elif isinstance(content, (list, tuple)):
         for k, item in enumerate(content):
@@ -129,6 +125,7 @@ def _blocks(content: Any, name: str) -> Iterator[tuple[str, Any, list[str]]]:
                 yield from _blocks(inner, f"{name}.{key}")
 
 
-def _is_numeric(items: Sequence[Any]) -> bool:
-    """Return whether a list holds numbers; an empty one holds nothing at all."""
-    return bool(items) and isinstance(items[0], (bool, int, float, np.number))
+def _is_numeric(content: Any) -> bool:
+    """Return whether something is a list of numbers; an empty one holds nothing at all."""
+    is_list = isinstance(content, (list, tuple)) and bool(content)
+    return is_list and isinstance(content[0], (bool, int, float, np.number))

@@ -1,6 +1,6 @@
 """From a robot's log to the observer's residual: `./reproduce observe LOG --robot TABLE --map FILE` (docs/robots.md).
 
-It writes the log as a recording, the residual as an estimate of the external torque (method MOB), and a plot, and prints
+It writes the log as a recording, the residual as an estimate of the external torque (method MOB), and a plot. It prints
 what was made of the log and what looks wrong with it.
 """
 
@@ -97,9 +97,8 @@ def write_observed(found: Observed, robot: RobotDescription, gain_hz: float, tor
     meta = {**read.meta, "gain_hz": gain_hz, "torque": torque}
     write_recording(out / RECORDING, replace(read, meta=meta), robot.layout)
     columns = torque_columns(robot.layout, [EXTERNAL], robot.layout.names)
-    write_array(
-        out / ESTIMATE, found.residual, columns, {"rate_hz": read.rate_hz, **meta, "method": "MOB"}, read.segments
-    )
+    note = {"rate_hz": read.rate_hz, **meta, "method": "MOB"}
+    write_array(out / ESTIMATE, found.residual, columns, note, read.segments)
     plot_residual(read.rate_hz, read.segments, found.residual, robot.layout, out / PLOT)
 
 
@@ -108,7 +107,8 @@ def told(found: Observed, robot: RobotDescription, out: Path) -> Iterator[str]:
     read = found.converted.recording
     rows, count = len(read.sensed), len(read.segments)
     way = "interpolated linearly" if found.converted.interpolated else "as they are in the log"
-    yield f"{rows} samples at {read.rate_hz:g} Hz, {rows / read.rate_hz:.6g} s in {count} segment{'s' * (count > 1)}, {way}"
+    parts = f"{count} segment{'s' * (count > 1)}"
+    yield f"{rows} samples at {read.rate_hz:g} Hz, {rows / read.rate_hz:.6g} s in {parts}, {way}"
     if absent := [name for name in found.converted.absent if name != EXTERNAL]:
         yield f"not in the log, and zero in the recording: {', '.join(absent)}"
     size = np.sqrt(np.square(found.residual).mean(axis=0))
@@ -126,8 +126,7 @@ def told(found: Observed, robot: RobotDescription, out: Path) -> Iterator[str]:
 def main(words: list[str]) -> int:
     """Run the command; return its exit status."""
     options = observe_parser().parse_args(words)
-    logging.basicConfig(level=logging.WARNING, format="%(message)s", stream=sys.stdout)
-    logging.getLogger(__name__).setLevel(logging.INFO)
+    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
     try:
         settings = load_settings()
         robot = describe(load_section(options.robot, RobotTable) if options.robot else settings.robot)

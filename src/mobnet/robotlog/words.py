@@ -17,7 +17,7 @@ def observe_parser() -> argparse.ArgumentParser:
     parser.add_argument("--map", type=Path, help="what its columns mean (default: columns named as in docs/data.md)")
     parser.add_argument(
         "--torque", choices=("sample", "mean"),
-        help="whether torques are samples at the ticks or means over the intervals before them (default: that of the map)",
+        help="whether torques are samples at the ticks or means over the intervals before them (default: the map's)",
     )  # fmt: skip
     parser.add_argument("--gain", type=float, metavar="K", help="gain of the observer [1/s] (default: that of configs)")
     parser.add_argument("--out", type=Path, help="folder of what is made (default: LOG's name with _observed, here)")

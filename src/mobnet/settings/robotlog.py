@@ -26,8 +26,8 @@ class Clock(Section):
 class Signal(Section):
     """One signal: the columns that hold it, in the order of the robot's table, and how they become SI units.
 
-    A value becomes `sign` x (`scale` x value in `unit` - `offset`); scale, sign and offset are one number for all columns
-    or one for each.
+    A value becomes `sign` x (`scale` x value in `unit` - `offset`); scale, sign and offset are one number for all
+    columns or one for each.
 
     Attributes:
         columns: names in the log; of joints in motor order, of a vector x y z, of a wrench force and then moment.

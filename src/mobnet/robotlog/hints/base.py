@@ -19,12 +19,12 @@ UPRIGHT = 0.9  # cosine between the mean specific force in world axes and the ve
 def base_hints(sensed: Sensed, spans: Sequence[slice], rate_hz: float, bounds: RobotLog) -> Iterator[str]:
     """Yield hints on the inertial sensor and the orientation of a floating base."""
     quat, acc = sensed.q[:, 3:7].T, sensed.acc_base_in_base.T
-    size = float(np.linalg.norm(acc, axis=0).mean())
+    size = float(np.linalg.norm(acc.mean(axis=1)))  # of the mean: steps shake the base by half of gravity
     if abs(size / G - 1) > bounds.gravity:
         meanings = {1.0: ": in units of g", 0.0: ": gravity is removed", G**2: ": taken for units of g"}
         nearest = min(meanings, key=lambda value: abs(size - value) / max(value, G))
         near = meanings[nearest] if abs(size - nearest) < bounds.gravity * max(nearest, G) else ""
-        yield f"acc: a mean size of {size:.3g} m/s^2 and not {G:.2f}{near}"
+        yield f"acc: its mean has a size of {size:.3g} m/s^2 and not {G:.2f}{near}"
     upward = {name: turned(given, acc).mean(axis=1)[2] / max(size, 1e-9) for name, given in _orders(quat).items()}
     if upward["w x y z"] < UPRIGHT and size > G / 2:
         text = f"turned into world axes, acc points upwards by {upward['w x y z']:.2f} of its size"
@@ -59,7 +59,7 @@ def _orders(quat: Array) -> dict[str, Array]:
 
 
 def _turning(quat: Array, omega: Array, spans: Sequence[slice], rate_hz: float, bounds: RobotLog) -> float | None:
-    """Return the integral of omega over the turn of quaternions (the axis that turns most), None where noise hides it."""
+    """Return the integral of omega over the turn of quaternions (largest axis), None where noise hides it."""
     steps = max(1, round(bounds.window_s * rate_hz))
     turns, integrals = [np.zeros((3, 0))], [np.zeros((3, 0))]
     for span in spans:

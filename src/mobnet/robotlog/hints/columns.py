@@ -21,11 +21,13 @@ def column_hints(sensed: Sensed, joints: Sequence[str], bounds: RobotLog) -> Ite
     """Yield hints on the columns of motors, (T, nu) each."""
     first = sensed.q.shape[1] - len(joints), sensed.v.shape[1] - len(joints)
     signals = {"q": sensed.q[:, first[0] :], "v": sensed.v[:, first[1] :], "tau_motor": sensed.tau_motor}
+    changes = {name: np.ptp(values, axis=0) > 0.0 for name, values in signals.items()}
     for name, values in signals.items():
-        still = np.ptp(values, axis=0) == 0.0
+        others = np.any([changes[other] for other in ("q", "v") if other != name], axis=0)
+        still = ~changes[name] & others  # a joint that rests has nothing to change
         if still.any():
             yield f"{name} of {listed(joints, still)}: never changes, {values[0, still][0]:g} in all samples"
-        for i, j in combinations(np.flatnonzero(~still).tolist(), 2):
+        for i, j in combinations(np.flatnonzero(changes[name]).tolist(), 2):
             if np.abs(values[:, i] - values[:, j]).max() <= SAME * np.abs(values[:, i]).max():
                 yield f"{name} of {joints[i]} and {joints[j]}: the same numbers in both columns"
     held = _held(signals["v"])

@@ -29,9 +29,8 @@ def delay_hints(
     kept = stretches(spans, round(STRETCH_S * rate_hz) + 2 * most + smooth)
     if most < LEAST or not kept or not joints.any():
         return
-    left = np.mean(
-        [_unexplained(nominal, sensed, rows, rate_hz, wrenches, joints, most, smooth) for rows in kept], axis=0
-    )
+    own = nominal, sensed, rate_hz, wrenches, joints, most, smooth
+    left = np.mean([_unexplained(rows, *own) for rows in kept], axis=0)
     best = int(np.argmin(left))
     lag = best - most
     if LEAST <= abs(lag) < most and left[best] < BETTER * left[most]:

@@ -79,9 +79,8 @@ def windows_of(
     starts = np.concatenate([np.arange(s.start, s.stop - steps, steps) for s in spans] or [np.zeros(0)]).astype(np.intp)
     if not len(starts):
         return None
-    starts = starts[
-        np.unique(np.linspace(0, len(starts) - 1, min(bounds.windows, len(starts))).round().astype(np.intp))
-    ]
+    count = min(bounds.windows, len(starts))
+    starts = starts[np.linspace(0, len(starts) - 1, count).round().astype(np.intp)]
     nodes = starts[:, None] + np.linspace(0, steps, min(NODES, steps + 1)).round().astype(np.intp)
     q, v = sensed.q[nodes].astype(np.float64), sensed.v[nodes].astype(np.float64)
     inside = starts[:, None] + 1 + np.arange(steps)
@@ -167,9 +166,8 @@ def _of_joints(nominal: NominalModel, windows: Windows, suspects: Sequence[int])
         q[..., q0:] *= sign
         v[..., v0:] *= sign
         yield Mistake("q and v have the wrong sign", replace(windows, q=q, v=v), (i,))
-        yield Mistake(
-            "q, v and tau_motor have the wrong sign", replace(windows, q=q, v=v, torque=windows.torque * sign), (i,)
-        )
+        whole = replace(windows, q=q, v=v, torque=windows.torque * sign)
+        yield Mistake("q, v and tau_motor have the wrong sign", whole, (i,))
     for i in suspects:
         for j in range(nominal.robot.layout.nu):
             if j == i or (j in suspects and j < i):

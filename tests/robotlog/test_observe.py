@@ -1,0 +1,135 @@
+"""`./reproduce observe`: what it prints and writes, and a humanoid's log with its own mistakes."""
+
+import logging
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from mobnet.check import main as check
+from mobnet.core.columns import recording_columns
+from mobnet.core.recording import read_sensed
+from mobnet.core.store import read_array
+from mobnet.estimation.low_pass import low_pass
+from mobnet.plan.jobs import walk_settings
+from mobnet.robot.description import describe
+from mobnet.robotlog.observe import main, observe_log
+from mobnet.settings.load import load_settings
+from mobnet.simulation.simulator import Simulator
+
+RATE_HZ, WALKED_S = 1000, 12
+G = 9.80665
+
+
+@pytest.fixture
+def say(caplog):
+    """Return a function that runs the command and returns its status and what it said."""
+
+    def run(*words):
+        caplog.clear()
+        with caplog.at_level(logging.INFO):
+            status = main([str(word) for word in words])
+        return status, [record.message for record in caplog.records if record.name == "mobnet.robotlog.observe"]
+
+    return run
+
+
+def test_a_csv_becomes_recording_estimate_and_plot(clean, arm, stored, say, tmp_path):
+    out = tmp_path / "made"
+    status, lines = say(stored(clean), "--robot", "tests/data/arm.yaml", "--out", out)
+    assert status == 0
+    assert lines[0] == "12000 samples at 1000 Hz, 12 s in 1 segment, as they are in the log"
+    assert "hints: none" in lines
+    assert (out / "residual.png").stat().st_size > 10_000
+    sensed = read_sensed(out / "recording", arm.layout).sensed
+    np.testing.assert_allclose(sensed.q[:, 1], clean["q.J2"], atol=1e-6)
+    estimate, note = read_array(out / "estimate")
+    assert [column["name"] for column in note["columns"]] == ["tau_ext.J1", "tau_ext.J2"]
+    # The residual is the friction that the log's torques contain and the model does not.
+    friction = 0.4 * np.tanh(clean["v.J1"] / 0.05) + 0.3 * clean["v.J1"]
+    late = low_pass(friction.to_numpy()[:, None], 100.0, RATE_HZ)[:, 0]
+    assert np.corrcoef(estimate[100:, 0], -late[100:])[0, 1] > 0.85  # the rest is the noise of the velocity
+    files = [str(out / name) for name in ("recording.parquet", "estimate.parquet")]
+    assert check([*files, "--robot", "tests/data/arm.yaml", "--rate", "1000"]) == 0
+
+
+def test_a_map_file_is_read_and_its_faults_have_places(clean, stored, say, tmp_path):
+    path = stored(clean.rename(columns=lambda name: name.replace(".", "_")))
+    (tmp_path / "map.yaml").write_text(
+        "torque: mean\n"
+        "q: {columns: [q_J1, q_J2]}\nv: {columns: [v_J1, v_J2]}\n"
+        "tau_motor: {columns: [tau_motor_J1, tau_motor_J2], unit: N m}\n"
+    )
+    words = path, "--robot", "tests/data/arm.yaml", "--out", tmp_path / "made"
+    assert say(*words, "--map", tmp_path / "map.yaml")[0] == 0
+    (tmp_path / "map.yaml").write_text("q: {columns: [q_J1], units: rad}\n")
+    status, lines = say(*words, "--map", tmp_path / "map.yaml")
+    assert status == 1
+    assert any("map.yaml" in line and "units" in line and "unit" in line for line in "\n".join(lines).splitlines())
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [(("--gain", "0"), "--gain: 0.0 is not accepted; accepted: a number above 0"), (("none.csv",), "file is missing")],
+)
+def test_a_bad_word_is_one_line(words, message, clean, stored, say):
+    log = words if words[0] == "none.csv" else (stored(clean[:100]), *words)
+    status, lines = say(*log, "--robot", "tests/data/arm.yaml")
+    assert (status, len(lines)) == (1, 1)
+    assert message in lines[0]
+
+
+@pytest.fixture(scope="module")
+def walk():
+    """A walk of a surrogate robot, with its gears and noisy sensors, as a table with the columns of a recording."""
+    settings = load_settings()
+    simulator = Simulator(walk_settings(settings, "walk_test", "robot_1"), 240)
+    simulator.start()
+    columns = [name for group in recording_columns(describe(settings.robot).layout).values() for name, *_ in group]
+    rows = np.zeros((WALKED_S * RATE_HZ, len(columns)), dtype=np.float32)
+    done = simulator.run(rows)
+    assert done == len(rows)
+    return pd.DataFrame({"time": np.arange(done) / RATE_HZ, **dict(zip(columns, rows.T, strict=True))})
+
+
+def without_gravity(table):
+    """Return what a sensor that takes gravity away reads, in the axes of a base whose quaternion turns it upright."""
+    w, x, y, z = (table[f"q.quat_{axis}"] for axis in "wxyz")
+    up = {"x": 2 * (x * z - w * y), "y": 2 * (y * z + w * x), "z": 1 - 2 * (x * x + y * y)}
+    return table.assign(**{f"acc.{axis}": table[f"acc.{axis}"] - G * part for axis, part in up.items()})
+
+
+def turned(table):
+    """Return a log whose quaternions are written x y z w."""
+    names = [f"q.quat_{axis}" for axis in "wxyz"]
+    return table.assign(**{name: table[names[(k + 1) % 4]] for k, name in enumerate(names)})
+
+
+def times(table, start, factor):
+    return table.assign(**{name: factor * table[name] for name in table if name.startswith(start)})
+
+
+WALKING = {
+    "nothing": (lambda t: t, None),
+    "acc in g": (lambda t: times(t, "acc.", 1 / G), "acc: its mean has a size of .* in units of g"),
+    "acc without gravity": (without_gravity, "acc: its mean has a size of .* gravity is removed"),
+    "quaternion x y z w": (turned, "quaternion or acc: .* x y z w"),
+    "omega in deg/s": (lambda t: times(t, "v.omega", 180 / np.pi), "omega: its integral is 57"),
+    "a foot's sensor that reads half": (lambda t: times(t, "wrench_left_foot", 0.5), "feet: their sensors carry 0.7"),
+    "hip of the wrong sign": (lambda t: times(t, "tau_motor.LL3", -1.0), "LL3: tau_motor is of the wrong sign"),
+    "waist before the gear": (lambda t: times(t, "tau_motor.W2", 0.01), r"W2: tau_motor is 1/\d+ .* before the gear"),
+}
+
+
+@pytest.mark.sim
+@pytest.mark.slow
+@pytest.mark.parametrize("name", WALKING)
+def test_a_humanoids_mistakes_are_named_and_its_clean_log_has_no_hint(name, walk, robot, settings, tmp_path):
+    spoil, pattern = WALKING[name]
+    spoil(walk).to_parquet(tmp_path / "walk.parquet")
+    found = observe_log(tmp_path / "walk.parquet", robot, None, "mean", 100.0, 9.81, settings.robotlog).hints
+    if pattern is None:
+        assert found == ()
+    else:
+        assert len(found) == 1
+        assert pd.Series(found).str.contains(pattern, regex=True).all(), found
