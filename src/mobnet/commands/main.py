@@ -20,10 +20,11 @@ MODULES = {  # command -> the module that `python -m` runs, with words that come
     "check": ("mobnet.check",),
     "calibrate": ("mobnet.detection.calibrate",),
     "observe": ("mobnet.robotlog.observe",),
+    "robot": ("mobnet.robot.import_table",),
     "cost": ("mobnet.evaluation.report.cost",),
     **{name: ("mobnet.evaluation.report.snapshot", name) for name in ("verify", "compare", "snapshot")},
 }
-OUTSIDE = ("check", "calibrate", "observe")  # their words are files of whoever calls, where no code is ours
+OUTSIDE = ("check", "calibrate", "observe", "robot")  # their words are files of whoever calls, where no code is ours
 REPORT = ("--report", "report.html", "--report-after-run")
 
 

@@ -10,6 +10,7 @@ from mobnet.commands.builds import BUILDS
 from mobnet.core.errors import CommandError, not_accepted
 from mobnet.detection.words import calibrate_parser
 from mobnet.plan.places import scale_of
+from mobnet.robot.import_words import import_parser
 from mobnet.robotlog.words import observe_parser
 
 COMMANDS = {
@@ -17,6 +18,7 @@ COMMANDS = {
     "test": "run pytest, lint, format, types and the smoke run included; further words go to pytest",
     "verify": "check every result file against results/MANIFEST.sha256, or --manifest FILE",
     "check": "check recordings, weights and configurations from outside: ./reproduce check FILE...",
+    "robot": "make a robot's table from its URDF or MJCF file; --help says how",
     "observe": "make the residual of a robot's own log, and say what looks wrong with it; --help says how",
     "calibrate": "print thresholds of collision detection for a wanted rate of false alarms; --help says how",
     "tuning": "train what configs/trials.yaml lists, write results/default/trials/tuning.md; no part of all",
@@ -41,7 +43,11 @@ OWN = {"clean", "setup"}  # commands with options of their own
 APART = ("tuning", "recipes", "lengths", "random_torque", "films")  # rules that `all` does not ask for
 TARGETS = {"all": "all", "report": "all", **{name: name for name in APART}}  # command -> rule of the workflow
 HELP = {"-h", "--help"}
-PARSERS = {"calibrate": calibrate_parser, "observe": observe_parser}  # of commands whose module has words of its own
+PARSERS = {
+    "calibrate": calibrate_parser,
+    "observe": observe_parser,
+    "robot": import_parser,
+}  # of commands whose module has words of its own
 CONFIG = {"-C", "--config"}
 KEY = re.compile(r"[a-zA-Z_]\w+")  # as Snakemake takes it: of two signs or more
 
