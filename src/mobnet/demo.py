@@ -46,6 +46,7 @@ def main(words: Sequence[str]) -> int:
     if options.out.suffix not in ENDINGS:
         parser.error(not_accepted("--out: ending", options.out.suffix, ENDINGS))
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+    logging.getLogger("matplotlib").setLevel(logging.WARNING)  # it tells of its cache of fonts
     quieten(ROOT)
     try:
         show(StoredPush(options.data, load_settings()), options.out)

@@ -27,7 +27,7 @@ from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe
 from mobnet.evaluation.compare.rmse import rmse
 from mobnet.evaluation.compare.windows import FLAG
-from mobnet.evaluation.measure.estimates.peaks import MS, delays, push_rows
+from mobnet.evaluation.measure.estimates.peaks import HALF, MS, delays, push_rows
 from mobnet.evaluation.number.rows import read_detections
 from mobnet.plan.demo import RECORDING, fit_place, network_place
 from mobnet.robot.description import RobotDescription, describe
@@ -44,12 +44,12 @@ class Felt:
     Attributes:
         peak_share: largest torque that it shows over that of the push behind the observer's low-pass [-]; what it
             showed just before the push is its zero.
-        delay_ms: how much later it rises to half of the push's peak than the push itself [ms].
+        delay_ms: how much later it rises to half of the push's peak than the push itself [ms]; None if it never does.
         rmse_nm: error of its estimate from `settle_s` on [N m].
     """
 
     peak_share: float
-    delay_ms: float
+    delay_ms: float | None
     rmse_nm: float
 
 
@@ -99,9 +99,14 @@ class StoredPush:
         return read_sensed(self.folder / RECORDING, self.robot.layout)
 
     @cached_property
+    def external(self) -> NDArray[np.float32]:
+        """The true external torque of the leg, (T, n) [N m]."""
+        return self._read(named(EXTERNAL, self.joints))
+
+    @cached_property
     def truth(self) -> Array:
         """The true external torque of the leg behind the observer's low-pass, (T, n) [N m]."""
-        return self._filtered(self._read(named(EXTERNAL, self.joints)))
+        return self.filtered(self.external)
 
     @cached_property
     def push(self) -> NDArray[np.float32]:
@@ -168,14 +173,18 @@ class StoredPush:
         spans, peaks = ((0, len(self.pushed)),), self.settings.evaluation.peaks
         rise = next(rows for _, rows in push_rows(self.pushed, spans, peaks, rate_hz))
         push, truth, tau = (part[:, k : k + 1].astype(np.float64) for part in (self.push, self.truth, estimate.tau_ext))
-        behind = self._filtered(push)
+        behind = self.filtered(push)
         shown = behind + tau - truth
         height = (shown[rise] - shown[rise][0]) * np.sign(behind[np.abs(behind).argmax()])
         delay = delays(push[rise], shown[rise], np.ones(1, dtype=bool))
+        is_half = height.max() >= HALF * np.abs(push[rise]).max()
         error = rmse(tau[self.settled], truth[self.settled], ((0, len(truth[self.settled])),))
-        return Felt(
-            float(height.max() / np.abs(behind[rise]).max()), float(delay[0]) * MS / rate_hz, float(error[0])
-        )  # fmt: skip
+        share = float(height.max() / np.abs(behind[rise]).max())
+        return Felt(share, float(delay[0]) * MS / rate_hz if is_half else None, float(error[0]))
+
+    def filtered(self, torque: NDArray[Any]) -> Array:
+        """Return torque behind the observer's low-pass, (T, ...) [N m]."""
+        return low_pass(torque, self.settings.observer.gain_hz, self.recording.rate_hz)
 
     def alarm_s(self, estimates: Mapping[str, Estimate]) -> float | None:
         """Return how long after the beginning of the push the detector of the story says so [s], None if it does not.
@@ -207,6 +216,3 @@ class StoredPush:
 
     def _read(self, names: list[str]) -> NDArray[np.float32]:
         return read_array(self.folder / RECORDING, names, self.robot.layout)[0]
-
-    def _filtered(self, torque: NDArray[Any]) -> Array:
-        return low_pass(torque, self.settings.observer.gain_hz, self.recording.rate_hz)

@@ -60,8 +60,13 @@ def _notes(push: StoredPush, estimates: Estimates) -> dict[str, tuple[str, str]]
     found = {method: push.felt(estimate) for method, estimate in estimates.items()}
     return {
         method: (
-            f"{felt.peak_share:.0%} of the push's peak, {felt.delay_ms:.0f} ms late",
-            f"RMSE {felt.rmse_nm:.1f} N m over {seconds:.1f} s",
+            f"{one.peak_share:.0%} of the push's peak, {_late(one.delay_ms)}",
+            f"RMSE {one.rmse_nm:.1f} N m over {seconds:.1f} s",
         )
-        for method, felt in found.items()
+        for method, one in found.items()
     }
+
+
+def _late(delay_ms: float | None) -> str:
+    """Return a delay in words."""
+    return "never half of it" if delay_ms is None else f"{delay_ms:.0f} ms late"

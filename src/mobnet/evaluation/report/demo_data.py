@@ -69,7 +69,8 @@ def demo_data(
     read = {f"{name}{ARRAY}": file_of(stem, ARRAY) for name, stem in arrays.items()} | {**copied}
     read |= {f"{name}.csv": path for name, path in detections.items()}
     sources = {name: _source(path) for name, path in read.items()}
-    write_json(out, {"scale": scale, "rows": [rows.start, rows.stop], "sources": sources, "provenance": provenance()})
+    cut = {"from_row": rows.start, "to_row": rows.stop, **provenance()}
+    write_json(out, {"scale": scale, "sources": sources, "cut": cut})
     log.info("%s: %s, %d rows", out, settings.push, rows.stop - rows.start)
 
 
