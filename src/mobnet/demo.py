@@ -14,6 +14,7 @@ from mobnet.core.errors import MobnetError, not_accepted
 from mobnet.core.estimator import Estimator
 from mobnet.core.recording import Sensed
 from mobnet.evaluation.measure.story import StoredPush
+from mobnet.evaluation.report.demo import draw, lines_of, title_of
 from mobnet.running.environment import quieten
 from mobnet.settings.load import load_settings
 
@@ -62,9 +63,6 @@ def show(push: StoredPush, out: Path) -> None:
     Raises:
         DataError: a file is missing or damaged, or the picture cannot be written.
     """
-    # Matplotlib takes a second to import, which `load` does without.
-    from mobnet.evaluation.report.demo import draw, lines_of, title_of
-
     log.info("%s", title_of(push))
     estimates = {method: push.estimate(method) for method in push.story.methods}
     for line in lines_of(push, estimates):

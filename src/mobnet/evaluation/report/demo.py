@@ -5,7 +5,6 @@ from pathlib import Path
 
 from mobnet.core.estimator import Estimate
 from mobnet.evaluation.compare.curves import TorqueCurve
-from mobnet.evaluation.figures.drawing.felt import FeltPush, save_felt
 from mobnet.evaluation.measure.story import StoredPush
 
 MS = 1000.0
@@ -34,6 +33,9 @@ def draw(push: StoredPush, estimates: Estimates, out: Path) -> None:
     Raises:
         DataError: it cannot be written.
     """
+    # Matplotlib takes a second to import, which estimators do without.
+    from mobnet.evaluation.figures.drawing.felt import FeltPush, save_felt
+
     rows, k, peaks = push.settled, push.place, push.settings.evaluation.peaks
     curves = [
         TorqueCurve(method, one.tau_ext[rows, k], None if one.std is None else one.std[rows, k])

@@ -21,7 +21,7 @@ HEIGHT_INCH, WIDTHS = 4.4, (1.3, 1.0)  # of the figure; of its columns, side by 
 LINE = 9  # from one line of a note to the next [points]
 NOTED = 0.25  # share of a panel's height that the lines of notes take
 ALARM = {"color": "#CC79A7", "linewidth": 1.2}
-SAME_NAMES = {"svg.hashsalt": "mobnet"}  # of parts of an SVG
+WRITTEN: dict[Any, Any] = {**STYLE, "svg.hashsalt": "mobnet"}  # names the parts of an SVG alike
 # ending -> what is left out, so that equal numbers give equal files
 METADATA = {".png": {"Software": None}, ".pdf": {"CreationDate": None, "Producer": None}, ".svg": {"Date": None}}
 
@@ -104,5 +104,5 @@ def _notes(axis: Axes, felt: FeltPush, row: int) -> None:
 def save_felt(felt: FeltPush, out: Path) -> None:
     """Write the picture of a push as PNG, PDF or SVG, as the ending of its name says."""
     figure = draw_felt(felt)
-    with mpl.rc_context({**STYLE, **SAME_NAMES}), atomic_path(out) as temporary:
+    with mpl.rc_context(WRITTEN), atomic_path(out) as temporary:
         figure.savefig(temporary, format=out.suffix[1:], metadata=METADATA[out.suffix])
