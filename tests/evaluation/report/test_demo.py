@@ -97,7 +97,7 @@ def test_a_perfect_estimate_shows_the_whole_push(push: StoredPush) -> None:
     assert felt.rmse_nm == 0.0
 
 
-def test_what_errs_by_a_constant_shows_the_push_and_its_error(push: StoredPush) -> None:
+def test_a_constant_error_changes_the_rmse_alone(push: StoredPush) -> None:
     felt, off = push.felt(perfect(push)), push.felt(Estimate(push.truth + 3.0))
     assert off == replace(felt, rmse_nm=pytest.approx(3.0), peak_share=pytest.approx(1.0), delay_ms=felt.delay_ms)
 
@@ -221,3 +221,13 @@ def test_every_method_can_be_loaded(method: str, push: StoredPush) -> None:
 def test_a_method_that_is_not_stored_is_named() -> None:
     with pytest.raises(ConfigError, match="method: 'FTS-e2e' is not accepted; accepted: MOB, MOB-Net, MOB-fric-dahl"):
         load("FTS-e2e")
+
+
+def test_numbers_of_the_page_are_those_of_the_story_and_of_the_samples(push: StoredPush) -> None:
+    story, sensed = push.story, push.recording.sensed
+    assert f"begins {story.settle_s:g} s after" in PAGE.replace("\n", " ")
+    assert f"less than {SETTLED_NM} N m" in PAGE
+    assert f"`samples` are {story.before_s + story.after_s:g} s" in PAGE
+    assert all(f"`{name}` ({getattr(sensed, name).shape[1]},)" in PAGE.replace("\n", " ") for name in "qv")
+    assert f"`tau_motor` ({sensed.tau_motor.shape[1]},)" in PAGE
+    assert f"`estimate.tau_ext` ({len(push.joints)},)" in PAGE
