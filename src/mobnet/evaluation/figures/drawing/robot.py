@@ -1,23 +1,18 @@
-"""A robot at a position as a picture: its solids, seen from afar, the farther ones first. Drawing only.
+"""A robot at a position as a picture: where its solids and its points are. Drawing only."""
 
-A solid is the convex hull of its surface points on the picture.
-"""
-
-from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patches import Polygon
 from numpy.typing import NDArray
 
 from mobnet.control.kinematics import empty_pose, tree_of, update
 from mobnet.core.arrays import Array
 from mobnet.core.joints import N_VIRTUAL
+from mobnet.evaluation.figures.drawing.solids import Solid, draw_solids
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.parts import ShapeRow
 
-Solid = tuple[Array, Any]  # points on a surface (n, 3) [m], and its colour
 RINGS, POINTS = 7, 14  # of a round solid
 
 
@@ -36,23 +31,25 @@ def draw_robot(axis: Axes, robot: RobotDescription, q: NDArray[Any], view: Array
 
 def solids_of(robot: RobotDescription, q: NDArray[Any]) -> list[Solid]:
     """Return the solids of a robot at a position q (nq,) [m, -, rad]."""
-    pairs = zip(robot.shapes, surfaces_of(robot, q), strict=True)
-    return [(points, robot.tones[shape.tone]) for shape, points in pairs]
+    rotation, position = poses_of(robot, q)
+    return [
+        Solid(shape, rotation[shape.body], position[shape.body], robot.tones[shape.tone][:3]) for shape in robot.shapes
+    ]
 
 
-def draw_solids(axis: Axes, solids: Iterable[Solid], view: Array) -> None:
-    """Draw solids into axes in metres, the farther ones first."""
-    drawn: list[tuple[float, Array, Any]] = []
-    for points, colour in solids:
-        seen = points @ view.T
-        drawn.append((float(seen[:, 2].mean()), hull_of(seen[:, :2]), colour))
-    for order, (_, outline, colour) in enumerate(sorted(drawn, key=lambda solid: solid[0])):
-        patch = Polygon(
-            outline, closed=True, facecolor=colour, edgecolor="0.25", linewidth=0.4, zorder=2 + 0.01 * order
-        )
-        axis.add_patch(patch)
-    axis.set_aspect("equal")
-    axis.set_axis_off()
+def poses_of(robot: RobotDescription, q: NDArray[Any]) -> tuple[dict[str, Array], dict[str, Array]]:
+    """Return the orientation (3, 3) and the origin (3,) [m] of each body at a position q (nq,) [m, -, rad]."""
+    tree = tree_of(robot, 1.0)
+    pose, names = empty_pose(tree), [body.name for body in robot.bodies]
+    update(tree, np.asarray(q, dtype=np.float64), np.zeros(N_VIRTUAL + len(tree.body_of_joint)), 0.0, pose)
+    return dict(zip(names, pose.rotation, strict=True)), dict(zip(names, pose.position, strict=True))
+
+
+def place_of(robot: RobotDescription, q: NDArray[Any], name: str) -> Array:
+    """Return where a point of the robot is (3,) [m] at a position q (nq,) [m, -, rad]."""
+    row = next(row for row in robot.points if row.name == name)
+    rotation, position = poses_of(robot, q)
+    return position[row.body] + rotation[row.body] @ np.asarray(row.pos)
 
 
 def lowest(robot: RobotDescription, q: NDArray[Any]) -> float:
@@ -62,12 +59,7 @@ def lowest(robot: RobotDescription, q: NDArray[Any]) -> float:
 
 def surfaces_of(robot: RobotDescription, q: NDArray[Any]) -> list[Array]:
     """Return points on the surface of each solid of a robot at a position q (nq,), (n, 3) each [m]."""
-    tree = tree_of(robot, 1.0)
-    pose, names = empty_pose(tree), [body.name for body in robot.bodies]
-    update(tree, np.asarray(q, dtype=np.float64), np.zeros(N_VIRTUAL + len(tree.body_of_joint)), 0.0, pose)
-    bodies = [names.index(shape.body) for shape in robot.shapes]
-    pairs = zip(robot.shapes, bodies, strict=True)
-    return [surface_of(shape) @ pose.rotation[body].T + pose.position[body] for shape, body in pairs]
+    return [surface_of(solid.shape) @ solid.rotation.T + solid.position for solid in solids_of(robot, q)]
 
 
 def surface_of(shape: ShapeRow) -> Array:

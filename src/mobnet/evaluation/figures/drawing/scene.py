@@ -7,7 +7,8 @@ from matplotlib.axes import Axes
 
 from mobnet.core.arrays import Array
 from mobnet.core.course import StoredCourse
-from mobnet.evaluation.figures.drawing.robot import Solid, draw_solids, solids_of, surface_of
+from mobnet.evaluation.figures.drawing.robot import solids_of
+from mobnet.evaluation.figures.drawing.solids import Solid, draw_solids
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Obstacle, ObstaclePart
 from mobnet.settings.parts import ShapeRow
@@ -44,17 +45,17 @@ def obstacle_solids(obstacles: Mapping[str, Obstacle], course: StoredCourse) -> 
     """Return the solids of the obstacles of a walk, where they stood."""
     places = course.note["obstacles"]
     return [
-        (np.asarray(place) + part_surface(part), PAD)
+        Solid(shape_of(part), np.eye(3), np.asarray(place), PAD)
         for name, place in places.items()
         for part in obstacles[name].parts
     ]
 
 
-def part_surface(part: ObstaclePart) -> Array:
-    """Return points on the surface of a part of an obstacle (n, 3) [m], from its place."""
+def shape_of(part: ObstaclePart) -> ShapeRow:
+    """Return a part of an obstacle as a shape in the axes of its place."""
     like = {"name": "part", "body": "world", "type": part.type, "tone": "", "pos": (0.0, 0.0, 0.0), "segment": None}
     if part.type == "box":
-        return surface_of(ShapeRow.model_construct(**{**like, "size": part.size, "pos": part.pos}))
+        return ShapeRow.model_construct(**{**like, "size": part.size, "pos": part.pos})
     reach = part.size[1] * np.array(AXES[part.axis])
     ends = (*(np.array(part.pos) - reach), *(np.array(part.pos) + reach))
-    return surface_of(ShapeRow.model_construct(**{**like, "size": part.size[:1], "segment": ends}))
+    return ShapeRow.model_construct(**{**like, "size": part.size[:1], "segment": ends})
