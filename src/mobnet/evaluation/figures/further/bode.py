@@ -44,7 +44,7 @@ def bode(
     settings: Bode, pushes: Mapping[str, Push], layout: JointLayout, observer: Observer, rates: Rates,
     statistics: Statistics, scores: Sequence[Path], figure_dir: Path,
 ) -> None:  # fmt: skip
-    """Write gain [-] and phase [deg] over frequency [Hz] for each joint of a leg and method, as PDF, SVG, PNG and CSV."""
+    """Write gain [-] and phase [deg] over frequency [Hz] for each joint of a leg and method, as PDF, PNG and CSV."""
     lookup = read_lookup(scores, statistics)
     lines = {push.joint: push.sines.frequency_hz for push in pushes.values() if push.joint and push.sines}
     joints = [joint for joint in layout.limb(settings.limb) if joint in lines]

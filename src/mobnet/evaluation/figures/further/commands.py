@@ -32,7 +32,7 @@ def commands(
     settings: CommandsFigure, commands: Commands, layout: JointLayout, sets: Mapping[str, Sequence[Path]],
     figure_dir: Path,
 ) -> None:  # fmt: skip
-    """Write the histograms of the commands given (Table 2) in each data set's recordings, as PDF, SVG, PNG and CSV."""
+    """Write the histograms of the commands given (Table 2) in each data set's recordings, as PDF, PNG and CSV."""
     found = {name: read_steps(stems, layout).commanded for name, stems in sets.items()}
     rows, panels = [], []
     for column, label in enumerate(LABELS):

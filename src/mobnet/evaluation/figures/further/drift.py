@@ -18,7 +18,7 @@ Held = dict[float, Number]  # time [s] -> share of the push [-]
 
 
 def drift(settings: Drift, statistics: Statistics, scores: Sequence[Path], figure_dir: Path) -> None:
-    """Write the share of long pushes [-] that each method shows over time [s], as PDF, SVG, PNG and CSV."""
+    """Write the share of long pushes [-] that each method shows over time [s], as PDF, PNG and CSV."""
     lookup = read_lookup(scores, statistics)
     panels: list[LinePanel] = []
     rows: list[tuple[Field, ...]] = []

@@ -18,7 +18,7 @@ X_LABEL, Y_LABEL = "new data [s]", "RMSE [N m]"
 def fine_tuning(
     settings: FineTuning, seconds: Sequence[int], statistics: Statistics, scores: Sequence[Path], figure_dir: Path
 ) -> None:
-    """Write the figure as PDF, SVG, PNG and CSV: RMSE [N m] of networks on changed robots over their new data [s].
+    """Write the figure as PDF, PNG and CSV: RMSE [N m] of networks on changed robots over their new data [s].
 
     Beside it stand, at every place, the networks before and those that learned from the robot's own walks.
     """

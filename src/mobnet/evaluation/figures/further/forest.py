@@ -50,7 +50,7 @@ Panel = Sequence[Place]
 
 
 def forest(judged: Sequence[Judged], confidence: float, figure_dir: Path) -> None:
-    """Write the figure of all claims as PDF, SVG, PNG and CSV; `confidence` is that of the intervals, a share [-]."""
+    """Write the figure of all claims as PDF, PNG and CSV; `confidence` is that of the intervals, a share [-]."""
     places = [beyond_bound(each) if each.score == SIGN_ONLY else over_paper(each) for each in judged]
     save_figure(
         draw_forest(columns_of(places), confidence), figure_dir / "claims", FOREST, [place.record for place in places]

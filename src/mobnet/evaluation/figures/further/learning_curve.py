@@ -22,7 +22,7 @@ AXES: dict[str, Callable[[TrialError], float | None]] = {  # label -> place of a
 
 
 def learning_curve(settings: LearningCurve, kept: Path, figure_dir: Path) -> None:
-    """Write the figure as PDF, SVG, PNG and CSV: RMSE [N m], the mean over the limb's joints, over steps and over time.
+    """Write the figure as PDF, PNG and CSV: RMSE [N m], the mean over the limb's joints, over steps and over time.
 
     `kept` is the table that `./reproduce lengths` made. A training that diverged has no place.
     """

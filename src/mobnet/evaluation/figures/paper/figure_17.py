@@ -16,7 +16,7 @@ MEASURES = {"train_loss": "training loss", "validation_loss": "validation loss"}
 
 
 def figure_17(folders: Sequence[Path], figure_dir: Path) -> None:
-    """Write Figure 17, mean of (22) over the runs of each kind of network, as PDF, SVG, PNG and CSV.
+    """Write Figure 17, mean of (22) over the runs of each kind of network, as PDF, PNG and CSV.
 
     Trainings that diverged are left out.
     """

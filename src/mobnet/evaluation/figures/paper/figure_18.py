@@ -23,7 +23,7 @@ def figure_18(
     settings: Figure18, windows: Mapping[str, PushWindow], layout: JointLayout, statistics: Statistics,
     scores: Sequence[Path], figure_dir: Path,
 ) -> None:  # fmt: skip
-    """Write Figure 18, mean RMSE [N m] over the joints of the upper body and of its limbs, as PDF, SVG, PNG and CSV.
+    """Write Figure 18, mean RMSE [N m] over the joints of the upper body and of its limbs, as PDF, PNG and CSV.
 
     Of a test with a window around pushes, it is that of the windows.
     """

@@ -83,7 +83,7 @@ def figure_19(
     settings: Figure19, coverage: Coverage, layout: JointLayout, training: Mapping[str, Sequence[Path]],
     tests: Sequence[Sequence[Path]], figure_dir: Path,
 ) -> None:  # fmt: skip
-    """Write Figure 19, desired torque [N m] over velocity [rad/s] of some joints, and by phase, as PDF, SVG, PNG and CSV.
+    """Write Figure 19, desired torque [N m] over velocity [rad/s] of some joints, and by phase, as PDF, PNG and CSV.
 
     Each training set has a row of panels; the tests are shown together, each with the same number of dots. The range by
     phase is that of the dots shown.

@@ -45,7 +45,7 @@ class Size:
 
 
 def figure_20(sizes_of_networks: Sequence[SweptSize], figure_dir: Path) -> None:
-    """Write Figure 20, validation loss over parameters (a) and training samples (b), as PDF, SVG, PNG and CSV."""
+    """Write Figure 20, validation loss over parameters (a) and training samples (b), as PDF, PNG and CSV."""
     sizes = sorted((size for swept in sizes_of_networks for size in sizes_of(swept)), key=lambda size: size.place)
     panels = []
     for panel, title in TITLES.items():
