@@ -36,7 +36,7 @@ def figure_21(
     courses: Mapping[str, Path],
     figure_dir: Path,
 ) -> None:
-    """Write Figure 21 as PDF, PNG and CSV: where the feet stood in the first walk of a case, before and after."""
+    """Write Figure 21 as PDF, SVG, PNG and CSV: where the feet stood in the first walk of a case, before and after."""
     description = describe(robot)
     course = read_course(courses[settings.case], description.layout)
     reacted, rate_hz = course.at("reacted_s"), course.note["rate_hz"]
