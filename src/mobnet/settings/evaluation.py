@@ -289,6 +289,45 @@ class Films(Section):
     slower: Annotated[base.Real, Field(ge=0.1, le=100)]
 
 
+class Story(Section):
+    """The push that the film, the demonstration and the page of pushes show: that of the first run of a test.
+
+    Times before and after it begins; methods, a detector, and the joint whose torque is shown.
+    """
+
+    scenario: base.ScenarioName
+    level: base.LevelName
+    push: base.PushName
+    before_s: base.Real = Field(ge=0.1, le=10)
+    after_s: base.Real = Field(ge=0.1, le=10)
+    joint: base.LegJointName
+    methods: base.MethodNames
+    detector: base.DetectorName
+
+
+class PushFilm(Section):
+    """The film of the push of `story`: real time, some of it slower, and in the middle a still for `hold_s`.
+
+    The view is an azimuth from ahead and an elevation of the eye [deg]; times count from the beginning of the push;
+    the time axis shows `margin_s` more than what is slowed; `colours` is the size of the palette. `kind` is the rule of
+    the thresholds of the detector. Labels of methods, of `truth` and of `swing`, the name of the joint and the lines of
+    the opening are texts of the film.
+    """
+
+    view_deg: tuple[base.Degrees, base.Degrees]
+    frames_hz: base.Real = Field(ge=5, le=60)
+    slowed_hz: base.Real = Field(ge=5, le=60)
+    slower: base.Real = Field(ge=1, le=100)
+    slow_s: base.Span[base.Real]
+    hold_s: base.Seconds
+    margin_s: base.Pause
+    colours: base.Whole = Field(ge=8, le=256)
+    kind: base.ThresholdsName
+    labels: dict[base.Text, base.Text]
+    joint: base.Text
+    opening: base.Some[base.Text]
+
+
 class Sensorless(Section):
     """Walks that nothing stands in the way of, with what is estimated in place of force sensors."""
 
@@ -547,6 +586,8 @@ class Evaluation(Section):
     figure_21: Figure21
     figure_22: Figure22
     films: Films
+    story: Story
+    push_film: PushFilm
     found_by_rate: FoundByRate
     smallest_force: SmallestForce
     links: Links

@@ -13,7 +13,8 @@ from mobnet.core.detections import Collision, Threshold
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
-from mobnet.evaluation.figures.drawing.robot import hull_of, lowest, projection, surface_of
+from mobnet.evaluation.figures.drawing.robot import lowest, projection, surface_of
+from mobnet.evaluation.figures.drawing.solids import hull_of
 from mobnet.evaluation.figures.paper.figure_13 import figure_13
 from mobnet.evaluation.figures.paper.figure_14 import figure_14
 from mobnet.evaluation.figures.paper.figure_15 import figure_15

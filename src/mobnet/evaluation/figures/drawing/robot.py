@@ -11,9 +11,6 @@ from mobnet.core.arrays import Array
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.evaluation.figures.drawing.solids import Solid, draw_solids
 from mobnet.robot.description import RobotDescription
-from mobnet.settings.parts import ShapeRow
-
-RINGS, POINTS = 7, 14  # of a round solid
 
 
 def projection(azimuth_deg: float, elevation_deg: float) -> Array:
@@ -54,45 +51,4 @@ def place_of(robot: RobotDescription, q: NDArray[Any], name: str) -> Array:
 
 def lowest(robot: RobotDescription, q: NDArray[Any]) -> float:
     """Return the height of a robot's lowest point at a position q (nq,) [m]."""
-    return min(float(points[:, 2].min()) for points in surfaces_of(robot, q))
-
-
-def surfaces_of(robot: RobotDescription, q: NDArray[Any]) -> list[Array]:
-    """Return points on the surface of each solid of a robot at a position q (nq,), (n, 3) each [m]."""
-    return [surface_of(solid.shape) @ solid.rotation.T + solid.position for solid in solids_of(robot, q)]
-
-
-def surface_of(shape: ShapeRow) -> Array:
-    """Return points on the surface of a solid (n, 3) [m], axes of its body."""
-    size = shape.size
-    if shape.segment is not None:
-        start, end = np.reshape(shape.segment, (2, 3))
-        ball = size[0] * _sphere() if shape.type == "capsule" else size[0] * _ring(end - start)
-        return np.concatenate([start + ball, end + ball])
-    if shape.type == "box":
-        signs = np.array(np.meshgrid(*[(-1.0, 1.0)] * 3)).reshape(3, -1).T
-        return np.asarray(shape.pos) + signs * size
-    scale = np.asarray(size if len(size) == 3 else [size[0]] * 3)
-    return np.asarray(shape.pos) + _sphere() * scale
-
-
-def hull_of(points: Array) -> Array:
-    """Return the corners of the convex hull of points (n, 2) in order (k, 2)."""
-    from scipy.spatial import ConvexHull  # here, as it takes a second to import
-
-    return points[ConvexHull(points).vertices]
-
-
-def _sphere() -> Array:
-    """Return points of a unit sphere (n, 3)."""
-    up, around = np.meshgrid(np.linspace(0.0, np.pi, RINGS), np.linspace(0.0, 2 * np.pi, POINTS, endpoint=False))
-    return np.stack([np.sin(up) * np.cos(around), np.sin(up) * np.sin(around), np.cos(up)], axis=-1).reshape(-1, 3)
-
-
-def _ring(axis: Array) -> Array:
-    """Return points of a unit circle about an axis (n, 3)."""
-    along = axis / np.linalg.norm(axis)
-    first = np.cross(along, np.eye(3)[np.argmin(np.abs(along))])
-    first = np.asarray(first / np.linalg.norm(first), dtype=np.float64)
-    second, angle = np.cross(along, first), np.linspace(0.0, 2 * np.pi, POINTS, endpoint=False)[:, None]
-    return np.asarray(np.cos(angle) * first + np.sin(angle) * second, dtype=np.float64)
+    return min(solid.lowest for solid in solids_of(robot, q))

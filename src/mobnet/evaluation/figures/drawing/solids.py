@@ -4,8 +4,9 @@ The outline of a round solid is exact: a ball's or a ring's ellipse, moved along
 comes in steps: nested outlines, each smaller, brighter and nearer to the light than the one around it.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,6 +24,7 @@ TOWARDS_LIGHT = 0.75  # of the way that a smaller outline may move within the on
 CORNERS = 36  # of a round outline
 EDGE, EDGE_POINTS, SEAM_POINTS = 0.42, 0.35, 0.2  # brightness and width [points] of lines around and in a solid
 FLAT = 1e-4  # least half width of an ellipse, beside the size of a solid
+CUBE = np.array(np.meshgrid(*[(-1.0, 1.0)] * 3)).reshape(3, -1).T  # corners (8, 3)
 FACES = tuple((axis, sign) for axis in range(3) for sign in (-1.0, 1.0))
 
 
@@ -51,7 +53,7 @@ class Solid:
     position: Array
     colour: Any
 
-    @property
+    @cached_property
     def ends(self) -> Array:
         """The two ends of its segment (2, 3) [m], which are one point for a solid at a point."""
         row = self.shape
@@ -63,7 +65,7 @@ class Solid:
             own = np.tile(row.pos, (2, 1))
         return own @ self.rotation.T + self.position
 
-    @property
+    @cached_property
     def axes(self) -> Array:
         """Half axes of the ellipsoid or box at its ends, columns (3, 3) [m]; those of a cylinder span a ring (3, 2)."""
         size = self.shape.size
@@ -71,6 +73,14 @@ class Solid:
             start, end = self.ends
             return size[0] * across((end - start) / np.linalg.norm(end - start))
         return self.rotation * (np.asarray(size) if len(size) == 3 else size[0])
+
+
+    @property
+    def lowest(self) -> float:
+        """The height of its lowest point [m]."""
+        down = self.axes[2]
+        reach = np.abs(down).sum() if self.shape.type == "box" else np.linalg.norm(down)
+        return float(self.ends[:, 2].min() - reach)
 
 
 def across(axis: Array) -> Array:
@@ -97,26 +107,39 @@ def polygons_of(solid: Solid, view: Array) -> Iterator[Polygon]:
     if solid.shape.type == "box":
         yield from _faces(solid, view, colour)
         return
-    outer = EDGE * colour
-    for k, (size, brightness) in enumerate(STEPS):
-        shade = lit(colour, brightness)
-        yield Polygon(outline_of(solid, view, size), shade, shade if k else outer, 0.0 if k else EDGE_POINTS)
+    outer, (sizes, brightness) = EDGE * colour, zip(*STEPS, strict=True)
+    for k, outline in enumerate(outlines_of(solid, view, sizes)):
+        shade = lit(colour, brightness[k])
+        yield Polygon(outline, shade, shade if k else outer, 0.0 if k else EDGE_POINTS)
     if solid.shape.type == "cylinder":
         start, end = solid.ends if solid.ends[0] @ view[2] < solid.ends[1] @ view[2] else solid.ends[::-1]
         normal = view @ (end - start) / np.linalg.norm(end - start)
         yield Polygon(ellipse_of(view[:2] @ solid.axes) + view[:2] @ end, lit(colour, _flat(normal)), outer, SEAM_POINTS)
 
 
-def outline_of(solid: Solid, view: Array, size: float = 1.0) -> Array:
-    """Return the outline of a round solid on a picture (n, 2) [m]; a smaller one is nearer to the light within it."""
-    axes, (start, end) = view[:2] @ solid.axes, solid.ends @ view[:2].T
-    nearer = view @ solid.axes
-    facing = nearer.T @ LIGHT
-    moved = TOWARDS_LIGHT * (1.0 - size) * nearer[:2] @ facing / max(float(np.linalg.norm(facing)), FLAT)
-    ring, along = size * ellipse_of(axes), end - start
-    normal = np.stack([np.gradient(ring[:, 1]), -np.gradient(ring[:, 0])], axis=1)
-    ends = np.where((normal @ along > 0.0)[:, None], end, start)
-    return ring + ends + moved
+def outline_of(solid: Solid, view: Array) -> Array:
+    """Return the outline of a solid on a picture (n, 2) [m]."""
+    if solid.shape.type == "box":
+        return hull_of((solid.ends[0] + CUBE @ solid.axes.T) @ view[:2].T)
+    return outlines_of(solid, view, [1.0])[0]
+
+
+def outlines_of(solid: Solid, view: Array, sizes: Sequence[float]) -> list[Array]:
+    """Return outlines of a round solid on a picture (n, 2) [m]; a smaller one is nearer to the light within it."""
+    axes, (start, end) = view @ solid.axes, solid.ends @ view[:2].T
+    facing = axes.T @ LIGHT
+    moved = TOWARDS_LIGHT * axes[:2] @ facing / max(float(np.linalg.norm(facing)), FLAT)
+    ring, along = ellipse_of(axes[:2]), end - start
+    outwards = (np.roll(ring, -1, axis=0) - np.roll(ring, 1, axis=0)) @ [[0.0, -1.0], [1.0, 0.0]] @ along > 0.0
+    ends = np.where(outwards[:, None], end, start)
+    return [size * ring + (1.0 - size) * moved + ends for size in sizes]
+
+
+def hull_of(points: Array) -> Array:
+    """Return the corners of the convex hull of points (n, 2) in order (k, 2)."""
+    from scipy.spatial import ConvexHull  # here, as it takes a second to import
+
+    return points[ConvexHull(points).vertices]
 
 
 def ellipse_of(axes: Array) -> Array:
