@@ -7,6 +7,7 @@ from pathlib import Path
 
 from mobnet.core.code import start_of
 from mobnet.plan.call import Job, call_of, parameters
+from mobnet.plan.detection import all_detections
 from mobnet.plan.files import Files, files_in
 from mobnet.plan.needs import needs_of
 from mobnet.settings.evaluation import Evaluation
@@ -18,6 +19,7 @@ ERRORS = f"{EVALUATION}.tables.paper.error_table:error_table"  # makes every ent
 HANDS = ("figure_07", "figure_12")  # figures that `hand_figure` makes
 TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their rules: the code hash reads Python only
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "svg", "png", "csv")  # endings of a table's and of a figure's files
+FILM, DRAWN = ("webp", "gif", "png", "csv"), ("method", "robot")  # endings of the film's files; drawings
 CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`
 BARS = ("figure_06", "figure_10")  # figures whose bars have a CSV of their own
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
@@ -79,7 +81,7 @@ class Products:
 
     def all(self) -> list[Product]:
         """Return every product, each after those that it needs."""
-        made = [*self._tables_and_figures(), *self._texts()]
+        made = [*self._tables_and_figures(), *self._pictures(), *self._texts()]
         return [*made, *self._report(made)]
 
     def _tables_and_figures(self) -> Iterator[Product]:
@@ -93,6 +95,18 @@ class Products:
             asked = [parameter for some in parameters(function) for parameter in some]
             needs = needs_of(self.files, name, self._own(name).get("settings"), asked)
             yield self._product(name, function, {**needs, **self._tables_of(name)}, outputs)
+
+    def _pictures(self) -> Iterator[Product]:
+        """Yield the drawings of method and robot, and the film of a push where there is a robot with detectors."""
+        figures, evaluation = self.folders.figures, self.settings.evaluation
+        own: dict[str, object] = {"story": evaluation.story}
+        drawn = [figures / f"{name}.{ending}" for name in DRAWN for ending in FIGURE]
+        yield self._product("drawings", f"{EVALUATION}.{PLACES[3]}.drawings:drawings", own, drawn)
+        if evaluation.story.level in all_detections(self.files):
+            needs = needs_of(self.files, "push_film", evaluation.story, ("runs", "detections"))
+            shown = [figures / f"push.{ending}" for ending in FILM]
+            own |= {"peaks": evaluation.peaks, **needs}
+            yield self._product("push_film", f"{EVALUATION}.{PLACES[3]}.push_film:push_film", own, shown)
 
     def _tables_of(self, name: str) -> Mapping[str, object]:
         """Return the tables from which another table or figure is made."""
@@ -129,7 +143,7 @@ class Products:
         yield self._report_product("compute", accounts, compute)
         texts = [tables / f"{name}.tex" for name in (*self.table_names, "numbers", "deviations")] + [compute[1]]
         sources = {"main": Path("paper/main.tex"), "references": Path("paper/refs.bib"), "tables": texts}
-        figures = [self.folders.figures / f"{name}.pdf" for name in self.figure_names]
+        figures = [self.folders.figures / f"{name}.pdf" for name in (*self.figure_names, *DRAWN)]
         built = [paper / "build.json", *([paper / "main.pdf"] if self.with_pdf else [])]
         yield self._report_product("paper", {**sources, "figures": figures}, built)
         listed = [*(tables / f"{name}.md" for name in self.table_names), results / "compute.md"]
@@ -162,6 +176,7 @@ class Products:
             **{name: getattr(self.settings, name) for name in type(self.settings).model_fields if name != "evaluation"},
             **{name: getattr(evaluation, name) for name in ("statistics", "windows", "coverage")},
             "layout": self.settings.layout,
+            "looks": self.settings.robot.looks,
             "sizes": self.settings.sizes,
             "table_dir": self.folders.tables,
             "figure_dir": self.folders.figures,

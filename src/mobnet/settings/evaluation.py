@@ -328,6 +328,33 @@ class PushFilm(Section):
     opening: base.Some[base.Text]
 
 
+class Note(Section):
+    """A text of the drawing of the robot: what it names, a point of a body [m], and where it begins on the picture [m]."""
+
+    text: base.Text
+    body: base.BodyName
+    pos: base.Vector3
+    at_m: tuple[base.Real, base.Real]
+
+
+class Drawings(Section):
+    """The drawings of method and robot: limbs with networks, angles of joints that are not in the posture, the view.
+
+    The view is an azimuth and an elevation [deg], the corner the lower left one of the picture, from the robot's base on
+    the ground. The axes of a leg's joints are drawn, and a push of `force_n` from ahead.
+    """
+
+    limbs: base.LimbNames
+    pose_rad: dict[base.JointName, base.Radians]
+    view_deg: tuple[base.Degrees, base.Degrees]
+    corner_m: tuple[base.Real, base.Real]
+    m_per_inch: base.Real = Field(ge=0.01, le=10)
+    floor_m: base.Length
+    leg: base.LegName
+    force_n: base.Newton
+    notes: tuple[Note, ...] = ()
+
+
 class Sensorless(Section):
     """Walks that nothing stands in the way of, with what is estimated in place of force sensors."""
 
@@ -588,6 +615,7 @@ class Evaluation(Section):
     films: Films
     story: Story
     push_film: PushFilm
+    drawings: Drawings
     found_by_rate: FoundByRate
     smallest_force: SmallestForce
     links: Links

@@ -10,6 +10,7 @@ from mobnet.core.files import atomic_path
 from mobnet.simulation.render import Pixels
 
 MS = 1000.0
+NEAR_WHITE = 251  # of 255
 EFFORT = {"quality": 50, "method": 3}  # of WebP without loss: more takes longer and saves nothing
 
 
@@ -20,10 +21,10 @@ def save_still(frame: Pixels, path: Path) -> None:
 
 
 def palette_of(frame: Pixels, colours: int) -> Image.Image:
-    """Return an image whose palette has the main colours of a frame (height, width, 3); its brightest one is white."""
+    """Return an image whose palette has the main colours of a frame (height, width, 3); what is almost white is white."""
     image = Image.fromarray(frame).quantize(colours)
     palette = np.reshape(image.getpalette() or [], (-1, 3))
-    palette[palette.sum(axis=1).argmax()] = 255
+    palette[palette.min(axis=1) >= NEAR_WHITE] = 255
     image.putpalette(palette.ravel().tolist())
     return image
 

@@ -21,7 +21,7 @@ LIGHT = np.array([-0.5, 0.65, 0.57])  # towards the light: right, up and towards
 AMBIENT, DIFFUSE = 0.62, 0.46  # brightness of a flat face without light, and what light adds at most
 STEPS = ((1.0, 0.70), (0.9, 0.80), (0.74, 0.90), (0.54, 0.98), (0.3, 1.06))  # size and brightness of nested outlines
 TOWARDS_LIGHT = 0.75  # of the way that a smaller outline may move within the one around it
-CORNERS = 36  # of a round outline
+CORNERS = 28  # of a round outline
 EDGE, EDGE_POINTS, SEAM_POINTS = 0.42, 0.35, 0.2  # brightness and width [points] of lines around and in a solid
 FLAT = 1e-4  # least half width of an ellipse, beside the size of a solid
 CUBE = np.array(np.meshgrid(*[(-1.0, 1.0)] * 3)).reshape(3, -1).T  # corners (8, 3)
@@ -74,7 +74,6 @@ class Solid:
             return size[0] * across((end - start) / np.linalg.norm(end - start))
         return self.rotation * (np.asarray(size) if len(size) == 3 else size[0])
 
-
     @property
     def lowest(self) -> float:
         """The height of its lowest point [m]."""
@@ -114,7 +113,9 @@ def polygons_of(solid: Solid, view: Array) -> Iterator[Polygon]:
     if solid.shape.type == "cylinder":
         start, end = solid.ends if solid.ends[0] @ view[2] < solid.ends[1] @ view[2] else solid.ends[::-1]
         normal = view @ (end - start) / np.linalg.norm(end - start)
-        yield Polygon(ellipse_of(view[:2] @ solid.axes) + view[:2] @ end, lit(colour, _flat(normal)), outer, SEAM_POINTS)
+        yield Polygon(
+            ellipse_of(view[:2] @ solid.axes) + view[:2] @ end, lit(colour, _flat(normal)), outer, SEAM_POINTS
+        )
 
 
 def outline_of(solid: Solid, view: Array) -> Array:

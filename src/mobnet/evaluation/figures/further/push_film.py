@@ -78,7 +78,10 @@ def shots_of(settings: PushFilm, story: Story) -> list[Shot]:
     after = np.arange(usual_s + step_s, story.after_s, step_s)
     return [
         *(Shot(float(time_s), step_s, first, slowed=False, told=False) for time_s in before),
-        *(Shot(float(time_s), slowed_s, eased(first, near, k), slowed=True, told=False) for k, time_s in enumerate(slowed)),
+        *(
+            Shot(float(time_s), slowed_s, eased(first, near, k), slowed=True, told=False)
+            for k, time_s in enumerate(slowed)
+        ),
         Shot(usual_s, settings.hold_s, near, slowed=True, told=True),
         *(Shot(float(time_s), step_s, eased(near, last, k), slowed=False, told=True) for k, time_s in enumerate(after)),
     ]

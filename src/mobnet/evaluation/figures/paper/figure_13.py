@@ -15,8 +15,10 @@ from mobnet.evaluation.figures.drawing.robot import draw_robot, lowest, place_of
 from mobnet.evaluation.figures.style import beside, entitle, save_figure, styled
 from mobnet.evaluation.measure.detection.results import Detections, rows_of
 from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.looks import dressed
 from mobnet.settings.detection import Detection
 from mobnet.settings.detection_tables import Figure13
+from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 
 COLUMNS = (
@@ -30,11 +32,11 @@ ROOM_M = (-0.7, 0.7, -0.12, 1.75)  # of a panel: right of the robot's base, and 
 
 @styled
 def figure_13(
-    settings: Figure13, detection: Detection, robot: RobotTable, detections: Detections, recordings: Sequence[Path],
-    figure_dir: Path,
+    settings: Figure13, detection: Detection, robot: RobotTable, looks: Looks | None, detections: Detections,
+    recordings: Sequence[Path], figure_dir: Path,
 ) -> None:  # fmt: skip
     """Write Figure 13 as PDF, SVG, PNG and CSV: the first collision of each cell, when its force is largest."""
-    description, rows = describe(robot), []
+    description, rows = dressed(describe(robot), looks), []
     found = rows_of(detections, [settings.level], "collisions", Collision)
     figure, axes = beside(len(settings.cells), HEIGHT_INCH)
     for k, (axis, cell) in enumerate(zip(axes, settings.cells, strict=True)):
@@ -76,4 +78,3 @@ def _draw(axis: Axes, robot: RobotDescription, hit: Collision, recordings: Seque
     axis.axhline(ground, color="0.6", linewidth=0.6, zorder=0)
     axis.set(xlim=ROOM_M[:2], ylim=(ground + ROOM_M[2], ground + ROOM_M[3]))
     return (row / rate, float(np.linalg.norm(force)), *point.tolist(), *force.tolist())
-

@@ -74,7 +74,10 @@ def read_story(
         DataError: a file is missing or damaged, or the run has no such push.
     """
     hit, found = _hit(story, detections, runs[0].test_seed, kind)
-    stem, curves = runs[0].recording, read_curves(layout, runs, [story.joint], {SWING: f"{SWING}.{foot_of(layout, story.joint)}"})
+    stem, curves = (
+        runs[0].recording,
+        read_curves(layout, runs, [story.joint], {SWING: f"{SWING}.{foot_of(layout, story.joint)}"}),
+    )
     start = round(hit.start_s * curves.rate_hz)
     before, after = (round(time_s * curves.rate_hz) for time_s in (story.before_s, story.after_s))
     rows = slice(max(0, start - before), min(len(curves.truth), start + after))
