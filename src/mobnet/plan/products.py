@@ -10,7 +10,7 @@ from mobnet.plan.call import Job, call_of, parameters
 from mobnet.plan.detection import all_detections
 from mobnet.plan.files import Files, files_in
 from mobnet.plan.needs import needs_of
-from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.evaluation import Evaluation, Runs
 from mobnet.settings.settings import Settings
 
 EVALUATION = "mobnet.evaluation"
@@ -81,7 +81,7 @@ class Products:
 
     def all(self) -> list[Product]:
         """Return every product, each after those that it needs."""
-        made = [*self._tables_and_figures(), *self._pictures(), *self._texts()]
+        made = [*self._tables_and_figures(), self._pictures(), *self._texts()]
         return [*made, *self._report(made)]
 
     def _tables_and_figures(self) -> Iterator[Product]:
@@ -96,17 +96,21 @@ class Products:
             needs = needs_of(self.files, name, self._own(name).get("settings"), asked)
             yield self._product(name, function, {**needs, **self._tables_of(name)}, outputs)
 
-    def _pictures(self) -> Iterator[Product]:
-        """Yield the drawings of method and robot, and the film of a push where there is a robot with detectors."""
-        figures, evaluation = self.folders.figures, self.settings.evaluation
-        own: dict[str, object] = {"story": evaluation.story}
-        drawn = [figures / f"{name}.{ending}" for name in DRAWN for ending in FIGURE]
-        yield self._product("drawings", f"{EVALUATION}.{PLACES[3]}.drawings:drawings", own, drawn)
-        if evaluation.story.level in all_detections(self.files):
-            needs = needs_of(self.files, "push_film", evaluation.story, ("runs", "detections"))
-            shown = [figures / f"push.{ending}" for ending in FILM]
-            own |= {"peaks": evaluation.peaks, **needs}
-            yield self._product("push_film", f"{EVALUATION}.{PLACES[3]}.push_film:push_film", own, shown)
+    def _pictures(self) -> Product:
+        """Return the drawings of method and robot, and the film of a push where there is a robot with detectors."""
+        figures, evaluation, detections = self.folders.figures, self.settings.evaluation, all_detections(self.files)
+        story = evaluation.story
+        is_told, test = story.level in detections, Runs(**story.model_dump(include=set(Runs.model_fields)))
+        needs: dict[str, object] = {
+            "film": evaluation.push_film,
+            **{name: getattr(evaluation, name) for name in ("drawings", "story", "peaks")},
+            "runs": self.files.first_runs(test) if is_told else (),
+            "detections": {story.level: detections[story.level]} if is_told else {},
+            "figure_folder": figures,
+        }
+        outputs = [figures / f"{name}.{ending}" for name in DRAWN for ending in FIGURE]
+        outputs += [figures / f"push.{ending}" for ending in FILM] if is_told else []
+        return self._product("pictures", functions()["pictures"], needs, outputs)
 
     def _tables_of(self, name: str) -> Mapping[str, object]:
         """Return the tables from which another table or figure is made."""

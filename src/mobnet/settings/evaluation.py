@@ -329,7 +329,7 @@ class PushFilm(Section):
 
 
 class Note(Section):
-    """A text of the drawing of the robot: what it names, a point of a body [m], and where it begins on the picture [m]."""
+    """A text of the drawing of the robot: a point of a body that it names, and where it begins [m]."""
 
     text: base.Text
     body: base.BodyName
@@ -340,8 +340,8 @@ class Note(Section):
 class Drawings(Section):
     """The drawings of method and robot: limbs with networks, angles of joints that are not in the posture, the view.
 
-    The view is an azimuth and an elevation [deg], the corner the lower left one of the picture, from the robot's base on
-    the ground. The axes of a leg's joints are drawn, and a push of `force_n` from ahead.
+    The view is an azimuth and an elevation [deg]; the corner is the lower left one of the picture, from the base on the
+    ground. The axes of a leg's joints are drawn, and a push of `force_n` from ahead.
     """
 
     limbs: base.LimbNames

@@ -1,7 +1,5 @@
 """Solids on a picture: their outlines are exact, hidden faces are not drawn, and left and right are mirror images."""
 
-from collections.abc import Iterator
-
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
@@ -25,7 +23,7 @@ SHAPES = {
 
 
 def solid(kind: str) -> Solid:
-    row = ShapeRow(name="part", body="base", type=kind, tone="light", **SHAPES[kind])
+    row = ShapeRow.model_validate({"name": "part", "body": "base", "type": kind, "tone": "light", **SHAPES[kind]})
     return Solid(row, TURN, np.array([0.3, -0.2, 0.5]), "0.5")
 
 
@@ -88,8 +86,8 @@ def test_bright_colours_go_to_white_and_dark_ones_keep_their_hue() -> None:
 
 
 @pytest.fixture(params=["shapes", "looks"])
-def shown(request: pytest.FixtureRequest, settings: Settings, robot: WalkingRobot) -> Iterator[WalkingRobot]:
-    yield robot if request.param == "shapes" else dressed(robot, settings.robot.looks)
+def shown(request: pytest.FixtureRequest, settings: Settings, robot: WalkingRobot) -> WalkingRobot:
+    return robot if request.param == "shapes" else dressed(robot, settings.robot.looks)
 
 
 def test_left_and_right_are_mirror_images_on_a_picture(shown: WalkingRobot) -> None:

@@ -21,7 +21,7 @@ def save_still(frame: Pixels, path: Path) -> None:
 
 
 def palette_of(frame: Pixels, colours: int) -> Image.Image:
-    """Return an image whose palette has the main colours of a frame (height, width, 3); what is almost white is white."""
+    """Return an image with a palette of the main colours of a frame (height, width, 3); almost white is white."""
     image = Image.fromarray(frame).quantize(colours)
     palette = np.reshape(image.getpalette() or [], (-1, 3))
     palette[palette.min(axis=1) >= NEAR_WHITE] = 255

@@ -11,6 +11,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
+from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.evaluation.compare.curves import TorqueCurve
@@ -59,11 +60,11 @@ class Moment:
 
 @dataclass(frozen=True)
 class Course:
-    """The torque of a joint: time (T,) [s], curves (T,) [N m], phases of swing (T,), texts, and the axis' ends [N m]."""
+    """The torque of a joint: time (T,) [s], curves (T,) [N m], swing or not (T,), texts, and the axis' ends [N m]."""
 
     time_s: Array
     curves: Sequence[TorqueCurve]
-    swing: Array
+    swing: NDArray[np.bool_]
     title: str
     labels: Mapping[str, str]
     ends_nm: tuple[float, float]
@@ -139,7 +140,7 @@ def _draw_torque(axis: Axes, moment: Moment, course: Course, drawn_s: float) -> 
     rows = slice(max(int(first) - 1, 0), int(last) + 1)
     time_s = course.time_s[rows]
     axis.fill_between(
-        course.time_s, 0, 1, where=course.swing > 0, color=SWING, linewidth=0, transform=axis.get_xaxis_transform(),
+        course.time_s, 0, 1, where=course.swing.tolist(), color=SWING, linewidth=0, transform=axis.get_xaxis_transform(),
         zorder=0,
     )  # fmt: skip
     axis.axhline(0.0, color="0.75", linewidth=0.8, zorder=0.5)

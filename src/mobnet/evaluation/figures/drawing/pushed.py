@@ -22,7 +22,7 @@ FLOOR_M = 0.62  # radius of the floor
 
 
 def standing(robot: RobotDescription, q: NDArray[Any]) -> Array:
-    """Return a position q (nq,) [m, -, rad] with the lowest point of the robot on the ground: the sensed height drifts."""
+    """Return a position q (nq,) [m, -, rad] with the robot's lowest point on the ground: the sensed height drifts."""
     placed = np.array(q, dtype=np.float64)
     placed[2] -= lowest(robot, placed)
     return placed
@@ -57,6 +57,5 @@ def draw_force(axis: Axes, place: Array, force: Array, view: Array) -> None:
     axis.add_patch(arrow)
     beside = (np.array([from_x, from_y]) - (x, y)) / max(float(np.hypot(x - from_x, y - from_y)), WIDTH_M)
     text_x, text_y = np.array([from_x, from_y]) + BESIDE_M * beside
-    axis.text(
-        text_x, text_y, f"{np.linalg.norm(force):.0f} N", color=PUSH, ha="center", va="center", fontweight="bold", zorder=6
-    )  # fmt: skip
+    size = f"{np.linalg.norm(force):.0f} N"
+    axis.text(text_x, text_y, size, color=PUSH, ha="center", va="center", fontweight="bold", zorder=6)

@@ -66,8 +66,9 @@ def draw_axes(axis: Axes, found: Mapping[str, tuple[Array, Array]], view: Array)
         axis.text(x, y, joint, ha="center", va="center", fontsize=6.5, zorder=8, path_effects=HALO)
 
 
-def draw_note(axis: Axes, text: str, place: Sequence[float], at: Sequence[float]) -> None:
+def draw_note(axis: Axes, text: str, place: Array, at: tuple[float, float]) -> None:
     """Write a text at a place of the picture [m], with a thin line to what it names."""
     line = {"arrowstyle": "-", "color": "0.45", "linewidth": 0.5, "shrinkA": 1.0, "shrinkB": 0.0}
-    axis.annotate(text, tuple(place), tuple(at), ha="left", va="center", fontsize=7, arrowprops=line, zorder=7)
-    axis.plot(*place, marker="o", markersize=1.8, color="0.25", zorder=7)
+    x, y = place.tolist()
+    axis.annotate(text, (x, y), at, ha="left", va="center", fontsize=7, arrowprops=line, zorder=7)
+    axis.plot(x, y, marker="o", markersize=1.8, color="0.25", zorder=7)

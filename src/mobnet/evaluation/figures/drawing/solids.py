@@ -29,7 +29,7 @@ FACES = tuple((axis, sign) for axis in range(3) for sign in (-1.0, 1.0))
 
 
 class Polygon(NamedTuple):
-    """A part of a solid on the picture: corners (n, 2) [m], colours of face and line (3,), width of the line [points]."""
+    """A part of a solid on the picture: corners (n, 2) [m], colours of face and line (3,), and its width [points]."""
 
     corners: Array
     colour: Array
@@ -85,7 +85,7 @@ class Solid:
 def across(axis: Array) -> Array:
     """Return two unit vectors across a unit vector and each other, columns (3, 2)."""
     first = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
-    first = first / np.linalg.norm(first)
+    first = np.asarray(first / np.linalg.norm(first), dtype=np.float64)
     return np.stack([first, np.cross(axis, first)], axis=1)
 
 

@@ -7,16 +7,15 @@ import pytest
 from csv_files import check_golden, read_table
 
 from mobnet.evaluation.figures.drawing.robot_parts import LIMBS, axes_of, limbs_of
-from mobnet.evaluation.figures.further.drawings import draw_method, drawings, position_of
+from mobnet.evaluation.figures.further.method_and_robot import draw_all, draw_method, position_of
 from mobnet.robot.description import WalkingRobot
 from mobnet.settings.settings import Settings
 
 
 def draw(settings: Settings, folder: Path) -> list[Path]:
     """Make both drawings in a folder, and return their files."""
-    whole = settings.evaluation
-    out = folder / "method.pdf"
-    drawings(whole.drawings, whole.story, settings.pushes, settings.robot, settings.robot.looks, settings.layout, out)
+    own, push = settings.evaluation.drawings, settings.pushes[settings.evaluation.story.push]
+    draw_all(own, push, settings.robot, settings.robot.looks, settings.layout, folder)
     return sorted(folder.iterdir())
 
 

@@ -18,30 +18,27 @@ from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, save_figure,
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.looks import dressed
 from mobnet.settings.data import Push
-from mobnet.settings.evaluation import Drawings, Story
+from mobnet.settings.evaluation import Drawings
 from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 
 METHOD_COLUMNS, ROBOT_COLUMNS = ("from", "to", "signal"), ("part", "kind", "x_m", "y_m", "z_m")
+SIGMA = "\N{GREEK SMALL LETTER SIGMA}"
 METHOD_INCH, ROBOT_INCH = 2.35, 3.9  # heights
 SENSED, MODEL, LEARNED, USED = "#EEF1F5", "#DCEAF6", "#FBE6D8", "#E3F1EA"  # grounds of blocks
 
 
 @styled
-def drawings(
-    settings: Drawings, story: Story, pushes: Mapping[str, Push], robot: RobotTable, looks: Looks | None,
-    layout: JointLayout, out: Path,
-) -> None:  # fmt: skip
-    """Write `method` and `robot` as PDF, SVG, PNG and CSV: the blocks and their signals, the parts and their places.
-
-    They stand beside `out`.
-    """
+def draw_all(
+    settings: Drawings, push: Push, robot: RobotTable, looks: Looks | None, layout: JointLayout, folder: Path
+) -> None:
+    """Write `method` and `robot` as PDF, SVG, PNG and CSV: the blocks and their signals, the parts and their places."""
     figure, signals = draw_method([limb for limb in LIMBS if limb in settings.limbs])
-    save_figure(figure, out.with_name("method"), METHOD_COLUMNS, signals)
-    dressed_robot = dressed(describe(robot), looks)
-    figure, parts = draw_parts(settings, dressed_robot, position_of(settings, robot, layout), pushes[story.push])
+    save_figure(figure, folder / "method", METHOD_COLUMNS, signals)
+    shown = dressed(describe(robot), looks)
+    figure, parts = draw_parts(settings, shown, position_of(settings, robot, layout), push)
     rows = [(name, kind, *map(float, place)) for name, kind, place in parts]
-    save_figure(figure, out.with_name("robot"), ROBOT_COLUMNS, rows)
+    save_figure(figure, folder / "robot", ROBOT_COLUMNS, rows)
 
 
 def draw_method(limbs: list[str]) -> tuple[Figure, list[tuple[str, str, str]]]:
@@ -56,9 +53,7 @@ def draw_method(limbs: list[str]) -> tuple[Figure, list[tuple[str, str, str]]]:
     formula = Box((2.4, 2.12), (1.4, 0.36), ["friction formula", "in MOB-Net-gray only"], MODEL, dashed=True)
     observer = Box((2.4, 1.48), (1.4, 0.5), ["momentum observer", "external torque", "+ error of its model"], MODEL)
     network = Box((2.4, 0.55), (1.4, 0.82), ["one GRU for each limb", "error of the model", "", ""], LEARNED)
-    torque = Box(
-        (5.25, 1.48), (1.05, 0.5), ["external torque", "of every joint", "with its \N{GREEK SMALL LETTER SIGMA}"], USED
-    )
+    torque = Box((5.25, 1.48), (1.05, 0.5), ["external torque", "of every joint", f"with its {SIGMA}"], USED)
     detector = Box((6.42, 1.48), (0.9, 0.36), ["detector", "thresholds"], USED)
     reaction = Box((6.42, 0.55), (0.9, 0.36), ["reaction", "steps back"], USED)
     for box in (*inputs.values(), feet, formula, observer, network, torque, detector, reaction):
@@ -93,7 +88,7 @@ def _arrows(
     mean_y, sigma_y = network.centre[1] + 0.17, network.centre[1] - 0.2
     right = network.side(1, 0)[0]
     draw_path(axis, [(right, mean_y), (second[0], mean_y), (second[0], y - SUM_RADIUS)], "mean", (3.75, mean_y + 0.1))
-    draw_path(axis, [(right, sigma_y), (torque.centre[0], sigma_y), torque.side(0, -1)], "standard deviation \N{GREEK SMALL LETTER SIGMA}",
+    draw_path(axis, [(right, sigma_y), (torque.centre[0], sigma_y), torque.side(0, -1)], f"standard deviation {SIGMA}",
               (4.17, sigma_y + 0.1))  # fmt: skip
     draw_path(axis, [(second[0] + SUM_RADIUS, y), torque.side(-1, 0)])
     draw_path(axis, [torque.side(1, 0), detector.side(-1, 0)])
