@@ -8,9 +8,10 @@ from pathlib import Path
 from mobnet.core.code import start_of
 from mobnet.plan.call import Job, call_of, parameters
 from mobnet.plan.demo import FOLDER, demo_needs, demo_outputs
+from mobnet.plan.detection import all_detections
 from mobnet.plan.files import Files, files_in
 from mobnet.plan.needs import needs_of
-from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.evaluation import Evaluation, Runs
 from mobnet.settings.settings import Settings
 
 EVALUATION = "mobnet.evaluation"
@@ -18,7 +19,8 @@ PLACES = (*(f"{kind}.{part}" for kind in ("tables", "figures") for part in ("pap
 ERRORS = f"{EVALUATION}.tables.paper.error_table:error_table"  # makes every entry of `tables`
 HANDS = ("figure_07", "figure_12")  # figures that `hand_figure` makes
 TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their rules: the code hash reads Python only
-TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "png", "csv")  # endings of a table's and of a figure's files
+TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "svg", "png", "csv")  # endings of a table's and of a figure's files
+FILM, DRAWN = ("webp", "gif", "png", "csv"), ("method", "robot")  # endings of the film's files; drawings
 CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`
 BARS = ("figure_06", "figure_10")  # figures whose bars have a CSV of their own
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
@@ -80,7 +82,7 @@ class Products:
 
     def all(self) -> list[Product]:
         """Return every product, each after those that it needs."""
-        made = [*self._tables_and_figures(), *self._texts()]
+        made = [*self._tables_and_figures(), self._pictures(), *self._texts()]
         return [*made, *self._report(made)]
 
     def _tables_and_figures(self) -> Iterator[Product]:
@@ -94,6 +96,22 @@ class Products:
             asked = [parameter for some in parameters(function) for parameter in some]
             needs = needs_of(self.files, name, self._own(name).get("settings"), asked)
             yield self._product(name, function, {**needs, **self._tables_of(name)}, outputs)
+
+    def _pictures(self) -> Product:
+        """Return the drawings of method and robot, and the film of a push where there is a robot with detectors."""
+        figures, evaluation, detections = self.folders.figures, self.settings.evaluation, all_detections(self.files)
+        story = evaluation.story
+        is_told, test = story.level in detections, Runs(**story.model_dump(include=set(Runs.model_fields)))
+        needs: dict[str, object] = {
+            "film": evaluation.push_film,
+            **{name: getattr(evaluation, name) for name in ("drawings", "story", "peaks")},
+            "runs": self.files.first_runs(test) if is_told else (),
+            "detections": {story.level: detections[story.level]} if is_told else {},
+            "figure_folder": figures,
+        }
+        outputs = [figures / f"{name}.{ending}" for name in DRAWN for ending in FIGURE]
+        outputs += [figures / f"push.{ending}" for ending in FILM] if is_told else []
+        return self._product("pictures", functions()["pictures"], needs, outputs)
 
     def _tables_of(self, name: str) -> Mapping[str, object]:
         """Return the tables from which another table or figure is made."""
@@ -132,7 +150,7 @@ class Products:
         yield self._report_product("compute", accounts, compute)
         texts = [tables / f"{name}.tex" for name in (*self.table_names, "numbers", "deviations")] + [compute[1]]
         sources = {"main": Path("paper/main.tex"), "references": Path("paper/refs.bib"), "tables": texts}
-        figures = [self.folders.figures / f"{name}.pdf" for name in self.figure_names]
+        figures = [self.folders.figures / f"{name}.pdf" for name in (*self.figure_names, *DRAWN)]
         built = [paper / "build.json", *([paper / "main.pdf"] if self.with_pdf else [])]
         yield self._report_product("paper", {**sources, "figures": figures}, built)
         listed = [*(tables / f"{name}.md" for name in self.table_names), results / "compute.md"]
@@ -165,6 +183,7 @@ class Products:
             **{name: getattr(self.settings, name) for name in type(self.settings).model_fields if name != "evaluation"},
             **{name: getattr(evaluation, name) for name in ("statistics", "windows", "coverage")},
             "layout": self.settings.layout,
+            "looks": self.settings.robot.looks,
             "sizes": self.settings.sizes,
             "table_dir": self.folders.tables,
             "figure_dir": self.folders.figures,

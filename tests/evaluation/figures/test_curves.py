@@ -8,7 +8,7 @@ import pytest
 
 from mobnet.evaluation.compare.curves import Panel, TorqueCurve
 from mobnet.evaluation.figures.drawing.curves import draw_panels, table_of
-from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, save_figure
+from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, UNDATED, save_figure
 from mobnet.evaluation.number.files import write_csv
 
 TIME = np.arange(140) / 100.0
@@ -83,10 +83,11 @@ def test_nothing_drawn_is_twice_in_the_legend(panels: list[Panel]) -> None:
 def test_equal_arrays_give_equal_files_without_dates(tmp_path: Path, panels: list[Panel]) -> None:
     for name in ("a", "b"):
         save_figure(draw_panels(panels, "time [s]", "torque [N m]"), tmp_path / name, *table_of(panels))
-    for suffix in (".pdf", ".png"):
+    for suffix in UNDATED:
         one, two = ((tmp_path / name).with_suffix(suffix).read_bytes() for name in ("a", "b"))
         assert one == two
     assert b"CreationDate" not in (tmp_path / "a.pdf").read_bytes()
+    assert b"<dc:date>" not in (tmp_path / "a.svg").read_bytes()
     assert b"/FontFile2" in (tmp_path / "a.pdf").read_bytes()
 
 

@@ -12,7 +12,7 @@ from mobnet.settings.evaluation import Figure05
 
 
 def figure_05(settings: Figure05, start_s: float, layout: JointLayout, runs: Sequence[Run], figure_dir: Path) -> None:
-    """Write Figure 5, one gait cycle of one joint [N m], a panel for each run, as PDF, PNG and CSV."""
+    """Write Figure 5, one gait cycle of one joint [N m], a panel for each run, as PDF, SVG, PNG and CSV."""
     panels = [read_panel(layout, run, settings.joint, start_s) for run in runs]
     figure = draw_panels(panels, FROM_LIFT_OFF, f"external torque of {settings.joint} [N m]", one_scale=True)
     save_figure(figure, figure_dir / "figure_05", *table_of(panels))

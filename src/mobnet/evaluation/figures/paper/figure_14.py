@@ -20,7 +20,7 @@ HEIGHT_INCH = 2.1
 
 
 def figure_14(settings: Figure14, detection: Detection, detections: Detections, figure_dir: Path) -> None:
-    """Write Figure 14 as PDF, PNG and CSV: histograms of the collisions, those of a level's robots together."""
+    """Write Figure 14 as PDF, SVG, PNG and CSV: histograms of the collisions, those of a level's robots together."""
     found, own_leg = {}, {"scenario": detection.collisions, "leg": settings.leg}
     for level in settings.levels:
         names = owners(detections, level, settings.levels)

@@ -36,7 +36,7 @@ def figure_15(
     settings: Figure15, detection: Detection, layout: JointLayout, detections: Detections,
     recordings: Sequence[Path], estimates: Mapping[str, Sequence[Path]], figure_dir: Path,
 ) -> None:  # fmt: skip
-    """Write Figure 15 as PDF, PNG and CSV: the first collision of each cell."""
+    """Write Figure 15 as PDF, SVG, PNG and CSV: the first collision of each cell."""
     collisions = rows_of(detections, [settings.level], "collisions", Collision)
     signal = f"{STD}.{settings.joint}"
     found = {

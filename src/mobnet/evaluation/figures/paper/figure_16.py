@@ -39,7 +39,7 @@ def figure_16(
     settings: Figure16, reaction: Reaction, statistics: Statistics, published: PublishedContacts,
     reactions: Reactions, courses: Mapping[str, Path], figure_dir: Path,
 ) -> None:  # fmt: skip
-    """Write Figure 16 as PDF, PNG and CSV.
+    """Write Figure 16 as PDF, SVG, PNG and CSV.
 
     It has the force over time in one walk of each case, means over all walks, and the share of walks with a fall by how
     long the reaction waits.

@@ -12,8 +12,8 @@ from mobnet.control.kinematics import empty_pose, tree_of, update
 from mobnet.core.arrays import Array
 from mobnet.core.course import StoredCourse, read_course
 from mobnet.core.joints import N_VIRTUAL
-from mobnet.evaluation.figures.drawing.robot import hull_of
-from mobnet.evaluation.figures.drawing.scene import PAD, draw_arrow, part_surface
+from mobnet.evaluation.figures.drawing.scene import PAD, draw_arrow, solid_of
+from mobnet.evaluation.figures.drawing.solids import outline_of
 from mobnet.evaluation.figures.style import PAGE_INCH, legend, save_figure, styled
 from mobnet.robot.description import SIDES, RobotDescription, describe
 from mobnet.settings.data import Obstacle
@@ -26,6 +26,7 @@ IN_THE_AIR = 0.5  # of a flag
 COLOURS = {"left": "#0072B2", "right": "#009E73"}
 Step = tuple[str, int, Array]  # side, sample at which the foot stands, its place x, y and yaw (3,) [m, m, rad]
 ARROW_M = 0.25
+FROM_ABOVE = np.eye(3)  # the axes of the picture
 
 
 @styled
@@ -36,7 +37,7 @@ def figure_21(
     courses: Mapping[str, Path],
     figure_dir: Path,
 ) -> None:
-    """Write Figure 21 as PDF, PNG and CSV: where the feet stood in the first walk of a case, before and after."""
+    """Write Figure 21 as PDF, SVG, PNG and CSV: where the feet stood in the first walk of a case, before and after."""
     description = describe(robot)
     course = read_course(courses[settings.case], description.layout)
     reacted, rate_hz = course.at("reacted_s"), course.note["rate_hz"]
@@ -93,7 +94,7 @@ def _draw(
             axis.annotate(str(count), outline.mean(axis=0), ha="center", va="center", fontsize=7)
     for name, at in course.note["obstacles"].items():
         for part in obstacles[name].parts:
-            outline = hull_of((np.asarray(at) + part_surface(part))[:, :2])
+            outline = outline_of(solid_of(part, at), FROM_ABOVE)
             axis.add_patch(Polygon(outline, closed=True, facecolor=PAD, edgecolor="0.25", linewidth=0.6, zorder=0))
     end = len(course.q) if reacted is None else reacted
     axis.plot(*course.q[:end, :2].T, color="0.5", linewidth=0.8, label="pelvis until the reaction")

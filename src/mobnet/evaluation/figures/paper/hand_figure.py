@@ -15,7 +15,7 @@ SIDE_BY_SIDE = 2
 
 
 def hand_figure(settings: HandFigure, name: str, layout: JointLayout, runs: Sequence[Run], figure_dir: Path) -> None:
-    """Write a figure as PDF, PNG and CSV: external torque of joints [N m], force on the base [N].
+    """Write a figure as PDF, SVG, PNG and CSV: external torque of joints [N m], force on the base [N].
 
     The runs are one of each method, all of one recording.
     """
