@@ -1,0 +1,123 @@
+"""What the page on which a reader plays with pushes says of them in numbers: how much is shown, how late, what alarms.
+
+The page computes the same again whenever a slider moves; `explore_numbers.js` follows this module line by line.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.arrays import Array
+from mobnet.detection.chain import make_chain
+from mobnet.detection.detector import ALARM_RATIO, GateSignal, run_over
+from mobnet.evaluation.compare.curves import TRUTH
+from mobnet.evaluation.measure.estimates.peaks import HALF, MS
+from mobnet.evaluation.report.explore_scenes import Shown
+from mobnet.settings.detection import Detection
+from mobnet.settings.evaluation import Peaks
+
+ALREADY, NEVER, ASLEEP = "on before", "none", "not watched"  # of an alarm without a delay
+
+
+@dataclass(frozen=True)
+class PushNumbers:
+    """What a method shows of a push at a joint.
+
+    Attributes:
+        method: its name, or `truth`.
+        peak: largest torque in the direction of the push that it shows of it [N m].
+        share: the peak over the true one [-].
+        error: root mean square of its error in the same time [N m].
+        half_ms: time from the beginning of the push until half of the true peak is shown [ms]; None if it never is.
+        alarm: delay of the alarm [ms], or why there is none.
+        false_alarms: alarms that begin while nothing has pushed the leg in its swing.
+        quiet_nm: smallest threshold without one [N m]; None where nothing is watched.
+    """
+
+    method: str
+    peak: float
+    share: float
+    error: float
+    half_ms: float | None
+    alarm: float | str
+    false_alarms: int
+    quiet_nm: float | None
+
+
+def push_numbers(shown: Shown, joint: str, threshold_nm: float, detection: Detection, peaks: Peaks) -> list[PushNumbers]:
+    """Return the numbers of the truth and of every method at a joint, with a threshold on the torque [N m].
+
+    They are those of the push while it acts, and for the time after it that the table of peaks looks at.
+    """
+    k = shown.joints.index(joint)
+    truth, push = shown.truth[:, k].astype(np.float64), shown.push[:, k]
+    window = slice(shown.start, min(shown.end + round(peaks.after_s * shown.rate_hz), len(truth)))
+    sign = 1.0 if push[window].max() >= -push[window].min() else -1.0
+    peak = float((sign * push[window]).max())
+    torques = {TRUTH: truth, **{name: found[:, k] for name, found in shown.estimates.items()}}
+    rows: list[PushNumbers] = []
+    for name, torque in torques.items():
+        # What an estimate shows of a push is the push plus its error, as for the table of peaks.
+        seen = sign * (push + torque - truth)[window]
+        half = np.flatnonzero(seen >= HALF * peak)
+        found = alarms(shown, torque, threshold_nm, detection)
+        error = float(np.sqrt(np.mean((torque - truth)[window] ** 2, dtype=np.float64)))
+        rows.append(PushNumbers(
+            name, float(seen.max()), float(seen.max()) / peak if peak else 0.0, error,
+            float(half[0]) * MS / shown.rate_hz if len(half) else None, *found,
+        ))  # fmt: skip
+    return rows
+
+
+def alarms(
+    shown: Shown, torque: NDArray[Any], threshold_nm: float, detection: Detection
+) -> tuple[float | str, int, float | None]:
+    """Return the delay of the alarm [ms], or why there is none, false alarms, and the quiet threshold [N m].
+
+    An alarm is the torque behind the low-pass of the detectors above the threshold, held without a gap while watched.
+    """
+    ratio, watched = held_ratio(shown, torque, threshold_nm, detection), shown.flags["watched"]
+    over, calm = ratio > ALARM_RATIO, calm_rows(shown)
+    rises = over & calm & ~np.concatenate([[False], over[:-1] & calm[:-1]])
+    largest = float(ratio[calm].max(initial=0.0)) * threshold_nm
+    return _delay(shown, over, detection), int(rises.sum()), largest if watched[shown.lead :].any() else None
+
+
+def held_ratio(shown: Shown, torque: NDArray[Any], threshold_nm: float, detection: Detection) -> Array:
+    """Return the torque over its threshold (T,), behind the low-pass and held, as every detector of the project has it."""
+    watched = shown.flags["watched"]
+    chain = make_chain(detection.low_pass_hz, detection.hold_s, shown.rate_hz, np.array([[threshold_nm]]))
+    signals = np.ascontiguousarray(torque[:, None], dtype=np.float64)
+    return run_over(chain, signals, GateSignal(np.ascontiguousarray(watched), np.zeros(len(watched)))).ratio
+
+
+def calm_rows(shown: Shown) -> NDArray[np.bool_]:
+    """Return the rows in which an alarm is a false one (T,): watched, and nothing has pushed since that began."""
+    calm, pushed = shown.flags["watched"].copy(), shown.flags["pushed"]
+    calm[: shown.lead] = False
+    for start, end in stretches(shown.flags["watched"]):
+        # A leg that was hit still recovers until it lands.
+        hit = np.flatnonzero(pushed[start:end])
+        if len(hit):
+            calm[start + hit[0] : end] = False
+    return calm
+
+
+def stretches(flag: NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
+    """Yield the rows (start, end) of each run in which a flag (T,) holds."""
+    edges = np.flatnonzero(np.diff(flag, prepend=False, append=False))
+    yield from ((int(start), int(end)) for start, end in edges.reshape(-1, 2))
+
+
+def _delay(shown: Shown, over: NDArray[np.bool_], detection: Detection) -> float | str:
+    """Return the delay of the push's alarm [ms], or why there is none, as for a collision, (D21)."""
+    window = slice(shown.start, shown.end + round(detection.late_s * shown.rate_hz))
+    if not shown.flags["watched"][window].any():
+        return ASLEEP
+    if over[shown.start - 1]:
+        return ALREADY
+    found = np.flatnonzero(over[window])
+    return float(found[0]) * MS / shown.rate_hz if len(found) else NEVER

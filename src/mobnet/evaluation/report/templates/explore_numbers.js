@@ -1,0 +1,80 @@
+// The numbers of a push, as explore_numbers.py computes them.
+function numbersOf(scene, torques, threshold) {
+  const stop = Math.min(scene.end + Math.round(told.settings.afterS * scene.rate), scene.count);
+  const push = torques.push.subarray(scene.start, stop);
+  const sign = Math.max(...push) >= -Math.min(...push) ? 1 : -1;
+  const peak = Math.max(...push.map((torque) => sign * torque));
+  const quiet = calmRows(scene);
+  return ["truth", ...scene.methods.map(([method]) => method)].map((method) => {
+    const torque = torques[method];
+    let largest = -Infinity, half = null, squares = 0;
+    for (let row = scene.start; row < stop; row++) {
+      const off = torque[row] - torques.truth[row], seen = sign * (torques.push[row] + off);
+      squares += off * off;
+      largest = Math.max(largest, seen);
+      if (half === null && seen >= 0.5 * peak) half = row;
+    }
+    const halfMs = half === null ? null : ((half - scene.start) * 1000) / scene.rate;
+    const error = Math.sqrt(squares / (stop - scene.start)), share = peak ? largest / peak : 0;
+    return { method, peak: largest, share, error, halfMs, ...alarmsOf(scene, torque, threshold, quiet) };
+  });
+}
+
+// The torque behind the detectors' low-pass, the least of the last samples, and nothing while the leg is not watched.
+function heldSize(scene, torque) {
+  const pole = Math.exp((-2 * Math.PI * told.settings.lowPassHz) / scene.rate);
+  const hold = Math.max(1, Math.round(told.settings.holdS * scene.rate));
+  const size = new Float64Array(scene.count), held = new Float64Array(scene.count), watched = flagRows(scene, "watched");
+  let low = 0;
+  for (let row = 0; row < scene.count; row++) {
+    low = pole * low + (1 - pole) * torque[row];
+    size[row] = watched[row] ? Math.abs(low) : 0;
+    let least = size[row];
+    for (let i = 1; i < hold; i++) least = Math.min(least, row < i ? 0 : size[row - i]);
+    held[row] = least;
+  }
+  return held;
+}
+
+function alarmsOf(scene, torque, threshold, quiet) {
+  const held = heldSize(scene, torque), watched = scene.flags.watched, stretches = [];
+  let falseAlarms = 0, quietNm = 0, begun = null;
+  for (let row = 0; row <= scene.count; row++) {
+    const over = row < scene.count && held[row] > threshold, calm = row < scene.count && quiet[row];
+    if (calm) quietNm = Math.max(quietNm, held[row]);
+    if (over && calm && !(row > 0 && held[row - 1] > threshold && quiet[row - 1])) falseAlarms += 1;
+    if (over && begun === null) begun = row;
+    if (!over && begun !== null) stretches.push([begun, row]), (begun = null);
+  }
+  const seen = watched.some(([, end]) => end > scene.lead);
+  const alarm = delayOf(scene, stretches);
+  return { alarm, falseAlarms, quietNm: seen ? quietNm : null, stretches };
+}
+
+// The delay of the push's alarm [ms], or why there is none.
+function delayOf(scene, stretches) {
+  const stop = scene.end + Math.round(told.settings.lateS * scene.rate);
+  if (!scene.flags.watched.some(([start, end]) => start < stop && end > scene.start)) return "not watched";
+  if (stretches.some(([start, end]) => start < scene.start && end >= scene.start)) return "on before";
+  const found = stretches.find(([start]) => start >= scene.start && start < stop);
+  return found ? ((found[0] - scene.start) * 1000) / scene.rate : "none";
+}
+
+function flagRows(scene, name) {
+  scene.rows ??= {};
+  if (!scene.rows[name]) {
+    scene.rows[name] = new Uint8Array(scene.count);
+    for (const [start, end] of scene.flags[name]) scene.rows[name].fill(1, start, end);
+  }
+  return scene.rows[name];
+}
+
+// Rows in which an alarm is a false one: watched, and nothing has pushed since that began.
+function calmRows(scene) {
+  const calm = flagRows(scene, "watched").slice().fill(0, 0, scene.lead);
+  for (const [start, end] of scene.flags.watched) {
+    const hit = scene.flags.pushed.find(([from, to]) => from < end && to > start);
+    if (hit) calm.fill(0, Math.max(hit[0], start), end);
+  }
+  return calm;
+}
