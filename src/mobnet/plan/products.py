@@ -28,7 +28,13 @@ BARS = ("figure_06", "figure_10")  # figures whose bars have a CSV of their own
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
 TIMED = ("runs.html", "main.pdf", "compute.html")  # they show what jobs took, as the table of compute does
 CAPTIONS = Path("workflow/report")
-HEADINGS = {"runs.html": "trainings", "explore.html": "explore", "main.pdf": "paper", ".html": "tables", ".png": "figures"}
+HEADINGS = {
+    "runs.html": "trainings",
+    "explore.html": "explore",
+    "main.pdf": "paper",
+    ".html": "tables",
+    ".png": "figures",
+}
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 """The page on which a reader plays with pushes: one HTML file that needs no other, drawn from the data in it.
 
-It has what `explore_scenes` reads, packed as `explore_pack` says, and the numbers of `explore_numbers` as a table, which
-the page shows where a browser cannot unpack the data. The address holds what is shown.
+It has what `explore_scenes` reads, packed as `explore_pack` says, and the numbers of `explore_numbers` as a table, all
+of which a browser shows that cannot unpack the data. The address holds what is shown.
 """
 
 import json
@@ -61,7 +61,7 @@ def page_of(
     shown: Mapping[str, Shown], alarm: Mapping[str, Any] | None, settings: Explore, story: Story, detection: Detection,
     peaks: Peaks, robot: RobotDescription, template: Path,
 ) -> str:  # fmt: skip
-    """Return the page of some scenes; `alarm` is that of the story's detector, and the template's folder has the rest."""
+    """Return the page of some scenes; `alarm` is that of the story's detector, the template's folder has the scripts."""
     numbers = {
         name: push_numbers(scene, scene.scene.joint, scene.scene.threshold_nm, detection, peaks)
         for name, scene in shown.items()

@@ -47,7 +47,9 @@ class PushNumbers:
     quiet_nm: float | None
 
 
-def push_numbers(shown: Shown, joint: str, threshold_nm: float, detection: Detection, peaks: Peaks) -> list[PushNumbers]:
+def push_numbers(
+    shown: Shown, joint: str, threshold_nm: float, detection: Detection, peaks: Peaks
+) -> list[PushNumbers]:
     """Return the numbers of the truth and of every method at a joint, with a threshold on the torque [N m].
 
     They are those of the push while it acts, and for the time after it that the table of peaks looks at.
@@ -87,7 +89,7 @@ def alarms(
 
 
 def held_ratio(shown: Shown, torque: NDArray[Any], threshold_nm: float, detection: Detection) -> Array:
-    """Return the torque over its threshold (T,), behind the low-pass and held, as every detector of the project has it."""
+    """Return the torque over its threshold (T,), behind the low-pass and held, as in any detector of the project."""
     watched = shown.flags["watched"]
     chain = make_chain(detection.low_pass_hz, detection.hold_s, shown.rate_hz, np.array([[threshold_nm]]))
     signals = np.ascontiguousarray(torque[:, None], dtype=np.float64)

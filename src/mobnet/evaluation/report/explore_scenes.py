@@ -1,4 +1,4 @@
-"""The scenes of the page on which a reader plays with pushes: what is read of a push, its recording and its estimates."""
+"""The scenes of the page on which a reader plays with pushes: what is read of recordings and estimates."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mobnet.control.kinematics import empty_pose, tree_of, update
 from mobnet.core.columns import FEET, PUSH, PUSHED, named, recording_columns
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
@@ -18,7 +19,6 @@ from mobnet.detection.detector import LegGate
 from mobnet.evaluation.compare.pair import Pair, read_pair, read_std
 from mobnet.evaluation.compare.scene import Scene
 from mobnet.evaluation.compare.windows import FLAG, flagged_spans
-from mobnet.evaluation.figures.drawing.robot import lowest
 from mobnet.plan.runs import PageScene
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.detection import Detection
@@ -141,7 +141,8 @@ def shared_joints(scene: PageScene, layout: JointLayout, pairs: Mapping[str, Pai
 
 
 def read_flags(
-    scene: PageScene, detection: Detection, robot: RobotDescription, pairs: Mapping[str, Pair], pushed: NDArray[np.bool_]
+    scene: PageScene, detection: Detection, robot: RobotDescription, pairs: Mapping[str, Pair],
+    pushed: NDArray[np.bool_],
 ) -> dict[str, NDArray[np.bool_]]:  # fmt: skip
     """Return whether the leg swings by the plan, whether it is watched, and whether something pushes (T,).
 
@@ -158,18 +159,32 @@ def read_flags(
     return {"swing": read.sensed.swing[:, gate.foot] > FLAG, "watched": watched, "pushed": pushed}
 
 
-def read_poses(
-    recording: Path, robot: RobotDescription, rows: slice, every: int
-) -> tuple[NDArray[Any], NDArray[Any]]:
+def read_poses(recording: Path, robot: RobotDescription, rows: slice, every: int) -> tuple[NDArray[Any], NDArray[Any]]:
     """Return every so many positions of some rows (P, nq), and the forces on both feet, axes of the foot (P, 6) [N].
 
-    The robot begins over the origin, and stands on its lower sole: a sensed position of the base drifts (note 0007), and
-    jumps where the ground repeats itself.
+    The robot begins over the origin, and stands on its lower sole: the sensed position of the base drifts (note 0007)
+    and jumps where the ground repeats itself.
     """
     names = [name for name, *_ in recording_columns(robot.layout)["q"]]
     moved = read_array(recording, [*names, *FORCES])[0][rows][::every].astype(np.float64)
     poses, forces = moved[:, : len(names)], moved[:, len(names) :]
     steps = np.diff(poses[:, :2], axis=0, prepend=poses[:1, :2])
     poses[:, :2] = np.cumsum(np.where(np.abs(steps) < JUMP_M, steps, 0.0), axis=0)
-    poses[:, 2] -= [lowest(robot, q) for q in poses]
+    poses[:, 2] -= sole_heights(robot, poses)
     return poses, forces
+
+
+def sole_heights(robot: RobotDescription, poses: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the height of the lowest corner of both soles at positions (P, nq), (P,) [m]; zero of a robot without."""
+    found = np.zeros(len(poses))
+    if robot.sole is None:
+        return found
+    tree, still = tree_of(robot, 1.0), np.zeros(robot.layout.nv)
+    pose, names = empty_pose(tree), [body.name for body in robot.bodies]
+    feet = [names.index(foot.body) for foot in robot.feet.values()]
+    signs = np.array(np.meshgrid(*[(-1.0, 1.0)] * 3)).reshape(3, -1).T
+    corners = np.asarray(robot.sole.box_centre) + signs * np.asarray(robot.sole.box_half)
+    for k, q in enumerate(np.ascontiguousarray(poses)):
+        update(tree, q, still, 0.0, pose)
+        found[k] = min(float((corners @ pose.rotation[b, 2] + pose.position[b, 2]).min()) for b in feet)
+    return found

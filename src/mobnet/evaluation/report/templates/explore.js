@@ -30,7 +30,8 @@ function stepOf(step) {
 
 function quietOf(scene, method) {
   if (!scene.methods.some(([name]) => name === method)) return null;
-  return alarmsOf(scene, trained(scene, scene.joint)[method], Infinity, calmRows(scene)).quietNm;
+  scene.quiet ??= alarmsOf(scene, trained(scene, scene.joint)[method], Infinity, calmRows(scene)).quietNm;
+  return scene.quiet;
 }
 
 function beginning(step, asked) {
@@ -124,13 +125,11 @@ function show() {
 // The part of the plots that stays while time goes on.
 function drawPage(scene) {
   const canvas = $("#plots"), page = pageOf(scene, rowOf(scene), state.zoom);
-  const size = fit(canvas), key = [drawn.counted, drawn.choices, page, size, dark.matches].join();
+  const size = fit(canvas), pen = canvas.getContext("2d"), key = [drawn.counted, drawn.choices, page, size, dark.matches].join();
   if (drawn.page === key) return;
   drawn.page = key;
-  drawn.still ??= document.createElement("canvas");
-  [drawn.still.width, drawn.still.height] = [canvas.width, canvas.height];
-  const pen = drawn.still.getContext("2d"), name = scene.joints.find(([joint]) => joint === state.joint)[1];
-  pen.scale(devicePixelRatio, devicePixelRatio);
+  const name = scene.joints.find(([joint]) => joint === state.joint)[1];
+  pen.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
   drawn.view = {
     scene, page, torques: drawn.torques, stds: drawn.stds, shown: state.lines, numbers: drawn.numbers, threshold: state.threshold,
     laneOf: (method, role) => (role === "formula" && (state.step !== 2 || state.guess) ? role : labelOf(scene, method)),
@@ -146,11 +145,9 @@ function draw() {
   pen.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
   const limb = robot.joints.find(([id]) => id === state.joint)?.[3];
   solids = drawRobot(pen, scene, row, width, height, drawn.turn ?? viewAngles(), limb, look);
-  const plots = $("#plots").getContext("2d");
-  plots.setTransform(1, 0, 0, 1, 0, 0);
-  plots.clearRect(0, 0, plots.canvas.width, plots.canvas.height);
-  plots.drawImage(drawn.still, 0, 0);
+  const over = $("#cursor"), size = fit(over), plots = over.getContext("2d");
   plots.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
+  plots.clearRect(0, 0, ...size);
   drawCursor(plots, drawn.view, plot, row, look);
   showNow(scene, row);
 }

@@ -1,5 +1,5 @@
-// The plots: torque and error of a joint over a page of time, the alarms below, and one cursor for all of them. What
-// does not move with the cursor is drawn once, on a canvas that is not shown.
+// The plots: torque and error of a joint over a page of time, the alarms below, and one cursor for all of them,
+// which is drawn on a canvas of its own: what does not move with it is drawn once.
 const MARGIN = { left: 58, right: 10, top: 20, gap: 30, bottom: 22, alarms: 13 };
 
 // The page of time [rows] that holds a row: a few of them side by side, one with the push in its middle.
