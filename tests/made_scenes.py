@@ -24,19 +24,20 @@ def pushed_scene(robot: RobotDescription, seed: int = 0, push: str = "Knee, in t
     swing = flagged(SWINGS)
     raw = np.outer(shape, np.linspace(10.0, 60.0, len(joints))) + np.where(swing, 0.0, 50.0)[:, None]
     friction = 40.0 * np.sign(np.sin(2 * np.pi * rows / 700.0))[:, None] + 4.0 * rng.normal(size=raw.shape)
-    truth, pushed = (low_pass(signal, GAIN_HZ, RATE_HZ) for signal in (raw, raw - np.where(swing, 0.0, 50.0)[:, None]))
+    hit = raw - np.where(swing, 0.0, 50.0)[:, None]
+    truth, pushed = (low_pass(signal, GAIN_HZ, RATE_HZ) for signal in (raw, hit))
     residual = low_pass(raw + friction, GAIN_HZ, RATE_HZ)
     shares = {"MOB": 0.0, "MOB-fric-dahl": 0.9, "MOB-Net": 0.95}
     estimates = {name: residual - share * (residual - truth) for name, share in shares.items()}
     estimates["FTS-e2e"] = truth - 0.6 * pushed
     watched = flagged([(start + 90, end - 30) for start, end in SWINGS])
     run = Run("collisions", "robot_1", "MOB", 101, 240, Path("recording"), Path("residual"), Path("estimate"))
-    hit = Push(point="left_knee_front", duration_s=(0.08, 0.08), force_n=(100.0, 100.0), shape="half_sine")
-    scene = PageScene(push, plant, (run,), ("LL",), "LL3", 20.0, {"collision_left_knee_front": hit})
+    row = Push(point="left_knee_front", duration_s=(0.08, 0.08), force_n=(100.0, 100.0), shape="half_sine")
+    scene = PageScene(push, plant, (run,), ("LL",), "LL3", 20.0, {"collision_left_knee_front": row})
     force = np.outer(shape[:: round(RATE_HZ / POSE_HZ)], [-150.0, 0.0, 80.0])
     return Shown(
         scene, joints, RATE_HZ, GAIN_HZ, 0, LEAD, START, START + LENGTH, "collision_left_knee_front",
-        truth, pushed, estimates, {"MOB-Net": np.full(truth.shape, 3.0)},
+        truth, hit, estimates, {"MOB-Net": np.full(truth.shape, 3.0)},
         {"swing": swing, "watched": watched, "pushed": flagged([(START, START + LENGTH)])},
         poses(robot), np.tile([0.0, 0.0, 500.0], (450, 2)), force,
     )  # fmt: skip

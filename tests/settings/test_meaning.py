@@ -173,7 +173,6 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("sweeps.hidden.limb", "RL", "method that trains RL: 'FTS-e2e'"),
     ("sweeps.data_parts.section", "network", "sweeps.data_parts: key: 'data_parts'"),
     # what tables, figures and claims show
-    ("evaluation.story.push", "left_hand_30", "push of collisions"),
     ("evaluation.explore.scenes.hip_step.joint", "LL4", "a joint of LL that its push turns"),
     ("evaluation.explore.scenes.hand_robot.methods", ["MOB"], "methods with MOB-Net, that of the gate"),
     ("evaluation.explore.scenes.hand_plant.threshold_nm", 90.0, "1 to 80, thresholds_nm"),

@@ -20,7 +20,7 @@ HANDS = ("figure_07", "figure_12")  # figures that `hand_figure` makes
 TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their rules: the code hash reads Python only
 EXPLORE = tuple(
     TEMPLATES / f"explore{name}"
-    for name in (".html", ".css", "_data.js", "_numbers.js", "_robot.js", "_plots.js", ".js")
+    for name in (".html", ".css", "_data.js", "_numbers.js", "_pose.js", "_robot.js", "_plots.js", "_state.js", ".js")
 )
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "png", "csv")  # endings of a table's and of a figure's files
 CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`

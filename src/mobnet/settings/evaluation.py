@@ -275,6 +275,24 @@ class Figure22(Section):
     views_deg: dict[base.CaseName, tuple[base.Real, base.Real]]
 
 
+class Story(Section):
+    """The push that demo, film and explorer show: the first of its name in the first recording of a robot's test.
+
+    The time that is shown begins before it and ends after its beginning. An estimator that begins there is not judged
+    for the first `settle_s`.
+    """
+
+    scenario: base.PushedName
+    level: base.WatchedLevelName
+    push: base.PushName
+    before_s: Annotated[base.Positive, Field(le=10)]
+    after_s: Annotated[base.Positive, Field(le=10)]
+    settle_s: Annotated[base.NotNegative, Field(le=10)]
+    joint: base.LegJointName
+    methods: base.MethodNames
+    detector: base.DetectorName
+
+
 class Films(Section):
     """Films of the first walk of each case: the joint that is shown, the view, and the time that a film has.
 
@@ -536,19 +554,6 @@ class Latency(Section):
     ticks: base.Whole = Field(ge=10, le=100_000)
 
 
-class Story(Section):
-    """The push of that name in the first run of a test, some time before and after its start; a joint and methods."""
-
-    scenario: base.PushedName
-    level: base.WatchedLevelName
-    push: base.PushName
-    before_s: base.Positive = Field(le=60)
-    after_s: base.Positive = Field(le=60)
-    joint: base.LegJointName
-    methods: base.MethodNames
-    detector: base.DetectorName
-
-
 class Compute(Section):
     """The table of compute: a longer time without any job lies between two runs."""
 
@@ -598,6 +603,7 @@ class Evaluation(Section):
     figure_16: Figure16
     figure_21: Figure21
     figure_22: Figure22
+    story: Story
     films: Films
     found_by_rate: FoundByRate
     smallest_force: SmallestForce
@@ -613,7 +619,6 @@ class Evaluation(Section):
     label_error: LabelError
     latency: Latency
     compute: Compute
-    story: Story
     explore: Explore
 
 

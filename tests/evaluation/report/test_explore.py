@@ -41,7 +41,8 @@ def test_numbers_of_a_push_are_those_that_were_made(robot, settings):
     assert found["truth"].share == pytest.approx(1.0)
     assert found["truth"].error == 0.0
     assert found["FTS-e2e"].share == pytest.approx(0.4)
-    assert found["FTS-e2e"].half_ms is None
+    assert found["FTS-e2e"].late_ms is None
+    assert found["truth"].late_ms == pytest.approx(1000.0 / GAIN_HZ, abs=3.0)
     assert found["MOB"].error == pytest.approx(20 * found["MOB-Net"].error, rel=1e-6)
     assert 30.0 < found["MOB"].quiet_nm < 45.0
     assert found["MOB"].false_alarms >= 2
@@ -180,7 +181,7 @@ def test_a_scene_is_the_recording_around_its_push(recorded, settings, robot):
     np.testing.assert_allclose(shown.estimates["MOB-Net"] - shown.truth, 2.0, atol=1e-3)
     assert set(shown.stds) == {"MOB-Net"}
     assert np.abs(shown.push[: shown.start]).max() == 0.0
-    assert shown.push[shown.end - 1, 2] == pytest.approx(40.0, abs=0.1)
+    assert shown.push[shown.end - 1, 2] == pytest.approx(40.0)
 
 
 @pytest.mark.parametrize(

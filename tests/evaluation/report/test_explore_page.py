@@ -130,11 +130,8 @@ def test_sliders_compute_as_python_does(browse, scenes, settings, joint, thresho
         assert found["peak"] == pytest.approx(row.peak, abs=0.03)
         assert found["error"] == pytest.approx(row.error, abs=0.03)
         assert found["quietNm"] == pytest.approx(row.quiet_nm, abs=0.03)
-        assert (
-            found["halfMs"] == pytest.approx(row.half_ms, abs=1.0)
-            if row.half_ms is not None
-            else found["halfMs"] is None
-        )
+        assert found["share"] == pytest.approx(row.share, abs=0.002)
+        assert found["lateMs"] == (None if row.late_ms is None else pytest.approx(row.late_ms, abs=0.1))
         assert found["alarm"] == (row.alarm if isinstance(row.alarm, str) else pytest.approx(row.alarm, abs=1.0))
 
 

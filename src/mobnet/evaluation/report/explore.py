@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from mobnet.core.detections import LARGEST, Collision, Detected
+from mobnet.core.detections import COLLISION, Collision, Detected
 from mobnet.core.errors import DataError
 from mobnet.core.files import write_text
 from mobnet.core.joints import JointLayout
@@ -61,7 +61,7 @@ def page_of(
     shown: Mapping[str, Shown], alarm: Mapping[str, Any] | None, settings: Explore, story: Story, detection: Detection,
     peaks: Peaks, robot: RobotDescription, template: Path,
 ) -> str:  # fmt: skip
-    """Return the page of some scenes; `alarm` is that of the story's detector, the template's folder has the scripts."""
+    """Return the page of some scenes; `alarm` is that of the story's detector; scripts stand beside the template."""
     numbers = {
         name: push_numbers(scene, scene.scene.joint, scene.scene.threshold_nm, detection, peaks)
         for name, scene in shown.items()
@@ -87,7 +87,7 @@ def page_numbers(settings: Explore, detection: Detection, peaks: Peaks) -> dict[
     return {
         "gains": settings.gains_hz, "thresholds": settings.thresholds_nm,
         "poseHz": settings.pose_hz, "lowPassHz": detection.low_pass_hz, "holdS": detection.hold_s,
-        "lateS": detection.late_s, "afterS": peaks.after_s,
+        "lateS": detection.late_s, "afterS": peaks.after_s, "longestS": peaks.longest_s,
     }  # fmt: skip
 
 
@@ -156,13 +156,16 @@ def parts_of(shown: Shown, settings: Explore) -> Iterator[Part]:
 def alarm_of(
     shown: Shown, story: Story, layout: JointLayout, collisions: Path, detected: Path
 ) -> dict[str, Any] | None:  # fmt: skip
-    """Return when the story's detector finds its push, and what it names, as recorded; None if it does not find it."""
+    """Return when the story's detector finds its push and what it names, as recorded; None if it does not find it.
+
+    Its thresholds are those for one false alarm an hour.
+    """
     seed = shown.scene.runs[0].test_seed
     hit = next(
         row for row in read_rows(collisions, Collision)
         if (row.scenario, row.seed, row.push) == (story.scenario, seed, story.push)
     )  # fmt: skip
-    wanted = (story.scenario, seed, hit.leg, hit.number, story.detector, LARGEST)
+    wanted = (story.scenario, seed, hit.leg, hit.number, story.detector, COLLISION)
     for row in read_rows(detected, Detected):
         if (row.scenario, row.seed, row.leg, row.number, row.detector, row.kind) == wanted and row.delay_s is not None:
             side = next(side for side, limb in layout.legs.items() if limb == row.leg)

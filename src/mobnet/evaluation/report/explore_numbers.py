@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import ALARM_RATIO, GateSignal, run_over
+from mobnet.estimation.low_pass import low_pass
 from mobnet.evaluation.compare.curves import TRUTH
-from mobnet.evaluation.measure.estimates.peaks import HALF, MS
+from mobnet.evaluation.measure.estimates.peaks import HALF, MS, delays
 from mobnet.evaluation.report.explore_scenes import Shown
 from mobnet.settings.detection import Detection
 from mobnet.settings.evaluation import Peaks
@@ -28,10 +29,10 @@ class PushNumbers:
 
     Attributes:
         method: its name, or `truth`.
-        peak: largest torque in the direction of the push that it shows of it [N m].
-        share: the peak over the true one [-].
+        peak: largest torque in the direction of the push that it shows of it; what it showed before is its zero [N m].
+        share: the peak over that of the push behind the observer's low-pass [-].
+        late_ms: how much later it rises to half of the push than the push itself [ms]; None if it never does.
         error: root mean square of its error in the same time [N m].
-        half_ms: time from the beginning of the push until half of the true peak is shown [ms]; None if it never is.
         alarm: delay of the alarm [ms], or why there is none.
         false_alarms: alarms that begin while nothing has pushed the leg in its swing.
         quiet_nm: smallest threshold without one [N m]; None where nothing is watched.
@@ -40,8 +41,8 @@ class PushNumbers:
     method: str
     peak: float
     share: float
+    late_ms: float | None
     error: float
-    half_ms: float | None
     alarm: float | str
     false_alarms: int
     quiet_nm: float | None
@@ -52,26 +53,35 @@ def push_numbers(
 ) -> list[PushNumbers]:
     """Return the numbers of the truth and of every method at a joint, with a threshold on the torque [N m].
 
-    They are those of the push while it acts, and for the time after it that the table of peaks looks at.
+    They are those of the time that the table of peaks looks at: from the last sample before the push to some time after
+    it, or the rise of one that lasts.
     """
-    k = shown.joints.index(joint)
-    truth, push = shown.truth[:, k].astype(np.float64), shown.push[:, k]
-    window = slice(shown.start, min(shown.end + round(peaks.after_s * shown.rate_hz), len(truth)))
-    sign = 1.0 if push[window].max() >= -push[window].min() else -1.0
-    peak = float((sign * push[window]).max())
-    torques = {TRUTH: truth, **{name: found[:, k] for name, found in shown.estimates.items()}}
+    k, rate_hz = shown.joints.index(joint), shown.rate_hz
+    after, longest = (round(time_s * rate_hz) for time_s in (peaks.after_s, peaks.longest_s))
+    rise = slice(shown.start - 1, min(shown.end + after, shown.start + longest, len(shown.truth)))
+    truth, push = shown.truth[:, k].astype(np.float64), shown.push[:, k].astype(np.float64)
+    behind = low_pass(push, shown.gain_hz, rate_hz)[rise]
+    torques = {TRUTH: truth, **{name: found[:, k].astype(np.float64) for name, found in shown.estimates.items()}}
     rows: list[PushNumbers] = []
     for name, torque in torques.items():
-        # What an estimate shows of a push is the push plus its error, as for the table of peaks.
-        seen = sign * (push + torque - truth)[window]
-        half = np.flatnonzero(seen >= HALF * peak)
+        # What an estimate shows of a push is the push behind the low-pass plus its error, as for the table of peaks.
+        error = (torque - truth)[rise]
+        size, share, late = _felt(push[rise], behind, behind + error)
+        rms = float(np.sqrt(np.mean(error**2)))
         found = alarms(shown, torque, threshold_nm, detection)
-        error = float(np.sqrt(np.mean((torque - truth)[window] ** 2, dtype=np.float64)))
-        rows.append(PushNumbers(
-            name, float(seen.max()), float(seen.max()) / peak if peak else 0.0, error,
-            float(half[0]) * MS / shown.rate_hz if len(half) else None, *found,
-        ))  # fmt: skip
+        rows.append(PushNumbers(name, size, share, None if late is None else late * MS / rate_hz, rms, *found))
     return rows
+
+
+def _felt(push: Array, behind: Array, seen: Array) -> tuple[float, float, float | None]:
+    """Return the peak [N m] and the share [-] that is seen of a push, and how late its half is [rows], if ever."""
+    largest = int(np.abs(behind).argmax())
+    peak = float((np.sign(behind[largest]) * (seen - seen[0])).max())
+    true = float(np.abs(behind[largest]))
+    if not true:
+        return peak, 0.0, None
+    late = delays(push[:, None], seen[:, None], np.ones(1, dtype=bool))
+    return peak, peak / true, float(late[0]) if peak >= HALF * np.abs(push).max() else None
 
 
 def alarms(

@@ -45,7 +45,7 @@ class Shown:
         end: sample after its last one.
         pushed: name of the push.
         truth: external torque behind the observer's low-pass (T, n) [N m].
-        push: what the push alone adds to it, behind the same low-pass (T, n) [N m].
+        push: what pushes alone add to the external torque, without a low-pass (T, n) [N m].
         estimates: method -> external torque (T, n) [N m].
         stds: method -> standard deviation (T, n) [N m], where it predicts one.
         flags: `swing`, `watched`, `pushed` -> whether it holds (T,).
@@ -102,7 +102,7 @@ def read_scene(
         scene, joints, rate, gain_hz, rows.start, lead, start - rows.start, end - rows.start,
         list(scene.pushes)[max(int(arrows[start, 1]) - 1, 0)],  # the torque on a joint has no row
         truth=truth.truth[rows][:, truth.places(joints)],
-        push=Scene(first.recording, layout, Scoring()).behind(gain_hz, joints)[rows],
+        push=Scene(first.recording, layout, Scoring()).pushes[rows][:, layout.columns(joints)],
         estimates={name: pair.estimate[rows][:, pair.places(joints)] for name, pair in pairs.items()},
         stds={name: std[rows] for name, std in stds.items() if std is not None},
         flags={name: flag[rows] for name, flag in flags.items()},

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from mobnet.core.errors import misfit, not_accepted
+from mobnet.core.errors import misfit
 from mobnet.settings.checks.limits import within
 from mobnet.settings.checks.results import Results
 from mobnet.settings.reading import Place, Problem
@@ -11,11 +11,9 @@ ROOT: Place = ("evaluation",)
 
 
 def page_problems(results: Results) -> Iterator[Problem]:
-    """Yield pushes, joints and methods that a scene does not have, and numbers beyond a slider."""
+    """Yield joints and methods that a scene does not have, and numbers beyond a slider."""
     settings, story, page = results.settings, results.settings.evaluation.story, results.settings.evaluation.explore
-    pushes, gate = settings.scenarios[story.scenario].pushes, settings.detection.gate.method
-    if story.push not in pushes:
-        yield (*ROOT, "story", "push"), not_accepted(f"push of {story.scenario}", story.push, pushes)
+    gate = settings.detection.gate.method
     methods = {"story": (*story.methods, *page.story.further)}
     places: dict[str, Place] = {"story": (*ROOT, "explore", "story")}
     for name, scene in page.scenes.items():

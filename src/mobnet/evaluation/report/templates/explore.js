@@ -1,87 +1,4 @@
-// What is shown is the state; the address holds what of it differs from a step of the story, or from the beginning.
-const $ = (selector) => document.querySelector(selector);
-const LETTERS = "ABCDEFGH";
-const SPEED = 0.25;
-const TURNS = [-55, -10, 35, 80, 125, 170, 215, 260]; // azimuths of the view from the robot's heading [deg]
-const calm = matchMedia("(prefers-reduced-motion: reduce)"), dark = matchMedia("(prefers-color-scheme: dark)");
-let state = {}, drawn = {}, playing = null, look = {}, solids = [], plot = null;
-
-function sceneOf(name) {
-  return told.scenes.find((scene) => scene.name === name) ?? told.scenes[0];
-}
-
-// Time of the first page and of most steps: the largest force of the push [s] from the beginning of the scene.
-function momentOf(scene) {
-  const some = scene.start + Math.min(0.3 * scene.rate, (scene.end - scene.start) / 2);
-  return (Math.max(scene.point ? largestPush(scene) : 0, Math.round(some)) - scene.lead) / scene.rate;
-}
-
-// What a step of the story shows; what it leaves out is as at the beginning.
-function stepOf(step) {
-  const story = sceneOf("story"), quiet = Math.ceil(quietOf(story, "MOB-Net") ?? story.threshold);
-  return {
-    1: { t: 0.9, zoom: 4, lines: ["truth"] },
-    2: { zoom: 0.4, lines: ["truth", ...story.methods.map(([method]) => method)] },
-    3: { zoom: 4, lines: ["truth", "MOB"] },
-    4: { zoom: 1, lines: ["truth", "MOB", "MOB-Net"], threshold: quiet },
-    5: { scene: "hip_step", zoom: 1 },
-  }[step] ?? {};
-}
-
-function quietOf(scene, method) {
-  if (!scene.methods.some(([name]) => name === method)) return null;
-  scene.quiet ??= alarmsOf(scene, trained(scene, scene.joint)[method], Infinity, calmRows(scene)).quietNm;
-  return scene.quiet;
-}
-
-function beginning(step, asked) {
-  const of = { scene: told.scenes[0].name, ...stepOf(step), ...(asked ? { scene: asked } : {}) };
-  const scene = sceneOf(of.scene);
-  return {
-    step, joint: scene.joint, t: momentOf(scene), gain: scene.gain, threshold: scene.threshold, turn: 0,
-    zoom: scene.end - scene.start < 0.5 * scene.rate ? 1 : 4,
-    lines: ["truth", ...scene.methods.map(([method]) => method)], guess: "", ...of, scene: scene.name,
-  };
-}
-
-const NUMBERS = ["step", "t", "gain", "threshold", "zoom", "turn"];
-
-function readState() {
-  const wanted = new URLSearchParams(location.hash.slice(1));
-  const step = Math.max(0, Math.min(5, Math.round(Number(wanted.get("step")) || 0)));
-  const found = beginning(step, wanted.get("scene"));
-  for (const [key, text] of wanted) {
-    if (!(key in found) || key === "scene" || key === "step") continue;
-    if (!NUMBERS.includes(key)) found[key] = key === "lines" ? text.split(",") : text;
-    else if (Number.isFinite(Number(text))) found[key] = Number(text);
-  }
-  return fitting(found);
-}
-
-// A state within the page's bounds, whatever the address says.
-function fitting(found) {
-  const scene = sceneOf(found.scene), { gains, thresholds } = told.settings;
-  const within = (value, [low, high]) => Math.max(low, Math.min(high, value));
-  found.t = within(found.t, [0, (scene.count - scene.lead - 1) / scene.rate]);
-  found.gain = within(found.gain, gains);
-  found.threshold = within(found.threshold, thresholds);
-  if (![4, 1, 0.4].includes(found.zoom)) found.zoom = 1;
-  if (!scene.joints.some(([joint]) => joint === found.joint)) found.joint = scene.joint;
-  return found;
-}
-
-function address(of) {
-  const usual = beginning(of.step, of.scene), parts = [];
-  const natural = beginning(of.step).scene;
-  if (of.step) parts.push(`step=${of.step}`);
-  if (of.scene !== natural) parts.push(`scene=${of.scene}`);
-  for (const key of ["joint", "t", "gain", "threshold", "zoom", "turn", "lines", "guess"]) {
-    const value = key === "t" ? Number(of.t.toFixed(3)) : of[key], same = key === "t" ? Number(usual.t.toFixed(3)) : usual[key];
-    if (String(value) !== String(same)) parts.push(`${key}=${value}`);
-  }
-  return `#${parts.join("&")}`;
-}
-
+// What is seen follows the state: texts, controls and pictures, and what a reader does with them.
 // Change the state, draw it, and put it into the address: as a new place where somebody may want to go back from it.
 function change(parts, isPlace = false) {
   state = fitting({ ...state, ...parts });
@@ -106,10 +23,13 @@ function show() {
   const scene = sceneOf(state.scene), key = [state.scene, state.joint, state.gain].join();
   if (drawn.key !== key) {
     const found = trained(scene, state.joint), k = scene.joints.findIndex(([joint]) => joint === state.joint);
-    drawn.torques = Object.fromEntries(Object.entries(found).map(([name, torque]) => [name, behind(torque, scene, state.gain)]));
+    const { push, ...torques } = found;
+    const moved = Object.entries(torques).map(([name, torque]) => [name, behind(torque, scene, state.gain)]);
+    drawn.torques = { ...Object.fromEntries(moved), push, behind: lowPassed(push, scene, state.gain) };
     drawn.stds = Object.fromEntries(scene.stds.map((method) => [method, column(scene, `std ${method}`, k)]));
   }
-  const counted = [key, state.threshold].join(), choices = [state.scene, state.joint, state.step, state.guess, state.lines].join();
+  const counted = [key, state.threshold].join();
+  const choices = [state.scene, state.joint, state.step, state.guess, state.lines].join();
   if (drawn.counted !== counted) {
     drawn.numbers = numbersOf(scene, drawn.torques, state.threshold);
     fillTable(scene);
@@ -125,14 +45,16 @@ function show() {
 // The part of the plots that stays while time goes on.
 function drawPage(scene) {
   const canvas = $("#plots"), page = pageOf(scene, rowOf(scene), state.zoom);
-  const size = fit(canvas), pen = canvas.getContext("2d"), key = [drawn.counted, drawn.choices, page, size, dark.matches].join();
+  const size = fit(canvas), pen = canvas.getContext("2d");
+  const key = [drawn.counted, drawn.choices, page, size, dark.matches].join();
   if (drawn.page === key) return;
   drawn.page = key;
   const name = scene.joints.find(([joint]) => joint === state.joint)[1];
   pen.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
   drawn.view = {
-    scene, page, torques: drawn.torques, stds: drawn.stds, shown: state.lines, numbers: drawn.numbers, threshold: state.threshold,
-    laneOf: (method, role) => (role === "formula" && (state.step !== 2 || state.guess) ? role : labelOf(scene, method)),
+    scene, page, torques: drawn.torques, stds: drawn.stds, shown: state.lines, numbers: drawn.numbers,
+    threshold: state.threshold,
+    laneOf: (method, role) => (role === "formula" && labelOf(scene, method) === method ? role : labelOf(scene, method)),
     titles: [`external torque, ${name} [N m]`, "error: estimate less truth [N m]", `alarms at ${state.threshold} N m`],
   };
   plot = drawPlots(pen, drawn.view, ...size, look);
@@ -199,11 +121,14 @@ function showSliders(scene) {
 function describe(scene) {
   if (playing) return;
   const k = Math.min(Math.round(rowOf(scene)), scene.count - 1), size = pushText(scene, k);
-  const phase = flag(scene, "swing", k) ? "the leg is in the air" : scene.flags.swing.length ? "the leg is on the ground" : "the robot walks";
+  const stands = scene.flags.swing.length ? "the leg is on the ground" : "the robot walks";
+  const phase = flag(scene, "swing", k) ? "the leg is in the air" : stands;
   const push = size && `, a push of ${size} on the ${scene.point ? scene.point[2] : `joint ${scene.turned}`}`;
   $("#robot").setAttribute("aria-label", `The robot at ${state.t.toFixed(2)} seconds: ${phase}${push}.`);
-  const values = state.lines.filter((name) => drawn.torques[name]).map((name) => `${labelOf(scene, name)} ${drawn.torques[name][k].toFixed(1)}`);
-  $("#plots").setAttribute("aria-label", `Torque of the joint ${state.joint} over time; at ${state.t.toFixed(2)} seconds, in newton metres: ${values.join(", ")}.`);
+  const known = state.lines.filter((name) => drawn.torques[name]);
+  const values = known.map((name) => `${labelOf(scene, name)} ${drawn.torques[name][k].toFixed(1)}`).join(", ");
+  const now = `at ${state.t.toFixed(2)} seconds, in newton metres: ${values}.`;
+  $("#plots").setAttribute("aria-label", `Torque of the joint ${state.joint} over time; ${now}`);
 }
 
 // In the second step methods have letters until somebody has picked one.
@@ -218,9 +143,12 @@ function letters(scene) {
 
 function showChoices(scene) {
   radios("#pushes", told.scenes.map((one) => one.push), scene.push, () => true);
-  radios("#plants", told.scenes.map((one) => one.plant), scene.plant, (plant) => told.scenes.some((one) => one.push === scene.push && one.plant === plant));
-  $("#joint").replaceChildren(...scene.joints.map(([joint, name]) => new Option(`${joint} ${name}`, joint, false, joint === state.joint)));
-  for (const node of document.querySelectorAll("#telling [data-step]")) node.hidden = Number(node.dataset.step) !== state.step;
+  const isThere = (plant) => told.scenes.some((one) => one.push === scene.push && one.plant === plant);
+  radios("#plants", told.scenes.map((one) => one.plant), scene.plant, isThere);
+  const options = scene.joints.map(([id, name]) => new Option(`${id} ${name}`, id, false, id === state.joint));
+  $("#joint").replaceChildren(...options);
+  for (const node of document.querySelectorAll("#telling [data-step]"))
+    node.hidden = Number(node.dataset.step) !== state.step;
   for (const node of document.querySelectorAll(".story li a")) {
     if (Number(node.dataset.step) === state.step) node.setAttribute("aria-current", "step");
     else node.removeAttribute("aria-current");
@@ -233,8 +161,9 @@ function radios(place, texts, chosen, isThere) {
   const box = $(place), names = [...new Set(texts)], focused = box.contains(document.activeElement);
   box.querySelectorAll("label").forEach((node) => node.remove());
   for (const name of names) {
-    const label = document.createElement("label"), input = document.createElement("input"), text = document.createElement("span");
-    Object.assign(input, { type: "radio", name: box.id, value: name, checked: name === chosen, disabled: !isThere(name) });
+    const [label, input, text] = ["label", "input", "span"].map((tag) => document.createElement(tag));
+    const kind = { type: "radio", name: box.id, value: name };
+    Object.assign(input, kind, { checked: name === chosen, disabled: !isThere(name) });
     text.textContent = name;
     label.append(input, text);
     box.append(label);
@@ -248,13 +177,12 @@ function showLines(scene) {
   const order = isGuess ? letters(scene) : scene.methods.map(([method]) => method);
   drawn.values = [];
   $("#lines").replaceChildren(...["truth", ...order].map((method) => {
-    const button = document.createElement("button"), swatch = document.createElement("span"), value = document.createElement("b");
+    const [button, swatch, value] = ["button", "span", "b"].map((tag) => document.createElement(tag));
     swatch.className = `swatch ${method === "truth" ? "truth" : roleOf(scene, method)}`;
     button.type = "button";
     button.dataset.line = method;
     if (!isGuess || method === "truth") button.setAttribute("aria-pressed", state.lines.includes(method));
-    const name = labelOf(scene, method), isFormula = name === method && method !== "truth" && roleOf(scene, method) === "formula";
-    button.append(swatch, isFormula ? `formula ${name}` : name, value);
+    button.append(swatch, labelOf(scene, method), value);
     drawn.values.push({ method, node: value });
     return button;
   }));
@@ -271,7 +199,8 @@ function showGuess(scene) {
   const best = rows.reduce((a, b) => (off(b) < off(a) ? b : a)), mine = rows.find((row) => row.method === state.guess);
   if (!mine) return;
   const words = (row) => `${row.method}, with ${(100 * row.share).toFixed(0)} % of the peak`;
-  $("#guessed").textContent = mine === best ? `Right: ${words(mine)}.` : `You picked ${words(mine)}; closest is ${words(best)}.`;
+  const answer = mine === best ? `Right: ${words(mine)}.` : `You picked ${words(mine)}; closest is ${words(best)}.`;
+  $("#guessed").textContent = answer;
 }
 
 function fillTable(scene) {
@@ -279,14 +208,25 @@ function fillTable(scene) {
   const body = document.querySelector(`#numbers tbody[data-scene="${scene.name}"]`);
   const name = scene.joints.find(([joint]) => joint === state.joint)[1];
   const gain = state.gain === scene.gain ? "" : `, gain ${state.gain} 1/s`;
-  body.querySelector(".title th").textContent = `${scene.push}, ${scene.plant}, ${name} (${state.joint}), threshold ${state.threshold} N m${gain}`;
+  const what = `${scene.push}, ${scene.plant}, ${name} (${state.joint})`;
+  body.querySelector(".title th").textContent = `${what}, threshold ${state.threshold} N m${gain}`;
+  const text = (value, digits) => {
+    if (value === null) return "–";
+    return typeof value === "string" ? value : value.toFixed(digits);
+  };
   for (const row of drawn.numbers) {
     const cells = body.querySelector(`[data-method="${row.method}"]`).cells;
-    const text = (value, digits) => (value === null ? "–" : typeof value === "string" ? value : value.toFixed(digits));
-    const found = [text(row.peak, 1), `${text(100 * row.share, 0)} %`, text(row.error, 1), text(row.halfMs, 0), text(row.alarm, 0), String(row.falseAlarms), text(row.quietNm, 1)];
+    const found = [
+      text(row.peak, 1), `${text(100 * row.share, 0)} %`, text(row.lateMs, 0), text(row.error, 1),
+      text(row.alarm, 0), String(row.falseAlarms), text(row.quietNm, 1),
+    ];
     found.forEach((value, k) => (cells[k + 1].textContent = value));
   }
 }
+
+const UNTIMED = {
+  none: "no alarm", "on before": "its alarm is on before the push", "not watched": "a leg on the ground is not watched",
+};
 
 // One sentence on what was felt, spoken when a slider has come to rest.
 let spoken = 0;
@@ -297,12 +237,13 @@ function tell(scene) {
     const [method, role] = methods.find(([, one]) => one === "network") ?? methods.at(-1) ?? scene.methods[0];
     const row = drawn.numbers.find((one) => one.method === method);
     $("#result").className = role;
-    const words = { none: "no alarm", "on before": "its alarm is on before the push", "not watched": "a leg on the ground is not watched" };
-    const alarm = words[row.alarm] ?? `alarm after ${row.alarm.toFixed(0)} ms`;
+    const alarm = UNTIMED[row.alarm] ?? `alarm after ${row.alarm.toFixed(0)} ms`;
     const wrong = `${row.falseAlarms} false alarm${row.falseAlarms === 1 ? "" : "s"}`;
-    const own = scene.alarm ? ` The project's detector felt it after ${(((scene.alarm.at - scene.start) * 1000) / scene.rate).toFixed(0)} ms.` : "";
-    const half = row.halfMs === null ? "" : `, half of it after ${row.halfMs.toFixed(0)} ms`;
-    $("#result").textContent = `${row.method} shows ${(100 * row.share).toFixed(0)} % of the peak${half}; ${alarm}, ${wrong} at ${state.threshold} N m.${own}`;
+    const ownMs = scene.alarm && ((scene.alarm.at - scene.start) * 1000) / scene.rate;
+    const own = scene.alarm ? ` The project's detector felt it after ${ownMs.toFixed(0)} ms.` : "";
+    const late = row.lateMs === null ? "never half of it" : `${row.lateMs.toFixed(0)} ms late`;
+    const shown = `${row.method} shows ${(100 * row.share).toFixed(0)} % of the peak, ${late}`;
+    $("#result").textContent = `${shown}; ${alarm}, ${wrong} at ${state.threshold} N m.${own}`;
   }, drawn.told ? 250 : 0);
   drawn.told = true;
 }
@@ -311,10 +252,13 @@ function readLook() {
   const style = getComputedStyle(document.documentElement), read = (name) => style.getPropertyValue(`--${name}`).trim();
   const rgb = (name) => [1, 3, 5].map((k) => parseInt(read(name).slice(k, k + 2), 16));
   const tones = (kind) => Object.fromEntries(["light", "dark", "accent"].map((tone) => [tone, rgb(`${kind}-${tone}`)]));
-  const names = ["ink", "faint", "grid", "zero", "truth", "push", "pushed", "swing", "watched", "contact", "ghost", "shadow"];
+  const names = [
+    "ink", "faint", "grid", "zero", "truth", "push", "pushed", "swing", "watched", "contact", "ghost", "shadow",
+  ];
   const roles = Object.fromEntries(["observer", "formula", "network", "direct"].map((role) => [role, read(role)]));
   const bands = Object.fromEntries(Object.entries(roles).map(([role, colour]) => [role, `${colour}38`]));
-  look = { ...Object.fromEntries(names.map((name) => [name, read(name)])), roles, bands, ground: read("panel"), tones: tones("robot") };
+  look = { ...Object.fromEntries(names.map((name) => [name, read(name)])), roles, bands };
+  Object.assign(look, { ground: read("panel"), tones: tones("robot") });
   look.font = `12px ${getComputedStyle(document.body).fontFamily}`;
   look.small = look.font.replace("12px", "10.5px");
   look.marked = { ...look, tones: tones("marked") };
@@ -347,7 +291,8 @@ function stop() {
 
 function choosePush(push) {
   const { plant } = sceneOf(state.scene);
-  const found = told.scenes.find((one) => one.push === push && one.plant === plant) ?? told.scenes.find((one) => one.push === push);
+  const those = told.scenes.filter((one) => one.push === push);
+  const found = those.find((one) => one.plant === plant) ?? those[0];
   if (found) enter(found.name);
 }
 
@@ -364,7 +309,8 @@ function listen() {
     enter(told.scenes.find((one) => one.push === push && one.plant === event.target.value).name);
   });
   $("#joint").addEventListener("change", (event) => change({ joint: event.target.value }, true));
-  for (const key of ["gain", "threshold"]) $(`#${key}`).addEventListener("input", (event) => change({ [key]: Number(event.target.value) }));
+  for (const key of ["gain", "threshold"])
+    $(`#${key}`).addEventListener("input", (event) => change({ [key]: Number(event.target.value) }));
   $("#zoom").addEventListener("change", (event) => change({ zoom: Number(event.target.value) }));
   $("#time").addEventListener("input", (event) => seek(Number(event.target.value)));
   $("#play").addEventListener("click", () => (playing ? stop() : play()));
@@ -374,12 +320,19 @@ function listen() {
     if (method) pickLine(method);
   });
   for (const form of document.forms) form.addEventListener("submit", (event) => event.preventDefault());
-  for (const name of ["hashchange", "popstate"]) addEventListener(name, () => { if (playing) stop(); state = readState(); show(); });
+  for (const name of ["hashchange", "popstate"]) addEventListener(name, follow);
   addEventListener("resize", show);
   dark.addEventListener("change", () => { readLook(); show(); });
   addEventListener("keydown", press);
   dragPlots($("#plots"));
   dragRobot($("#robot"));
+}
+
+// The address was changed, by a link or by going back.
+function follow() {
+  if (playing) stop();
+  state = readState();
+  show();
 }
 
 function seek(t) {
@@ -409,7 +362,8 @@ function press(event) {
 function dragPlots(canvas) {
   const move = (event) => {
     const box = canvas.getBoundingClientRect(), { torque } = plot.frames, [first, last] = plot.page;
-    const share = Math.max(0, Math.min(1, (event.clientX - box.x - torque.x) / torque.width)), scene = sceneOf(state.scene);
+    const share = Math.max(0, Math.min(1, (event.clientX - box.x - torque.x) / torque.width));
+    const scene = sceneOf(state.scene);
     seek((first + share * (last - 1 - first) - scene.lead) / scene.rate);
   };
   canvas.addEventListener("pointerdown", (event) => {
@@ -418,13 +372,17 @@ function dragPlots(canvas) {
     canvas.setPointerCapture(event.pointerId);
     move(event);
   });
-  canvas.addEventListener("pointermove", (event) => event.buttons && canvas.hasPointerCapture(event.pointerId) && move(event));
+  canvas.addEventListener("pointermove", (event) => {
+    if (event.buttons && canvas.hasPointerCapture(event.pointerId)) move(event);
+  });
 }
 
 function lineUnder(event) {
-  const box = $("#plots").getBoundingClientRect(), [x, y] = [event.clientX - box.x, event.clientY - box.y], scene = sceneOf(state.scene);
-  const { torque } = plot.frames, [first, last] = plot.page, row = Math.round(first + ((x - torque.x) / torque.width) * (last - first));
-  const near = scene.methods.map(([method]) => [Math.abs(plot.scale.at(drawn.torques[method][row] ?? NaN) - y), method]);
+  const box = $("#plots").getBoundingClientRect(), [x, y] = [event.clientX - box.x, event.clientY - box.y];
+  const { torque } = plot.frames, [first, last] = plot.page, scene = sceneOf(state.scene);
+  const row = Math.round(first + ((x - torque.x) / torque.width) * (last - first));
+  const away = (method) => Math.abs(plot.scale.at(drawn.torques[method][row] ?? NaN) - y);
+  const near = scene.methods.map(([method]) => [away(method), method]);
   const [distance, method] = near.sort(([a], [b]) => a - b)[0];
   return distance < 14 ? method : null;
 }

@@ -38,8 +38,8 @@ function column(scene, name, k) {
   return part.columns[k];
 }
 
-// Torques of a joint behind the observer's low-pass of the trained gain. What a method subtracts from the residual is
-// stored in its place, but for the observer itself and for a network that predicts the torque without it.
+// The push on a joint, and its torques behind the observer's low-pass of the trained gain. What a method subtracts from
+// the residual is stored in its place, but for the observer itself and a network that predicts the torque without it.
 function trained(scene, joint) {
   const k = scene.joints.findIndex(([name]) => name === joint);
   const torques = { truth: column(scene, "truth", k), push: column(scene, "push", k) };
@@ -50,6 +50,14 @@ function trained(scene, joint) {
     torques[method] = whole ? stored : column(scene, observer[0], k).map((torque, i) => torque - stored[i]);
   }
   return torques;
+}
+
+// The push behind the low-pass of a gain, from rest.
+function lowPassed(push, scene, gain) {
+  const pole = Math.exp(-gain / scene.rate), found = new Float32Array(push.length);
+  let value = 0;
+  for (let k = 1; k < push.length; k++) found[k] = value = pole * value + (1 - pole) * push[k];
+  return found;
 }
 
 // The same torque behind the low-pass of another gain: the first one undone, (x_k - g x_(k-1)) / (1 - g), and the other

@@ -1,30 +1,42 @@
 // The numbers of a push, as explore_numbers.py computes them.
 function numbersOf(scene, torques, threshold) {
-  const stop = Math.min(scene.end + Math.round(told.settings.afterS * scene.rate), scene.count);
-  const push = torques.push.subarray(scene.start, stop);
-  const sign = Math.max(...push) >= -Math.min(...push) ? 1 : -1;
-  const peak = Math.max(...push.map((torque) => sign * torque));
-  const quiet = calmRows(scene);
+  const { afterS, longestS } = told.settings, rowsOf = (seconds) => Math.round(seconds * scene.rate);
+  const first = scene.start - 1, quiet = calmRows(scene);
+  const stop = Math.min(scene.end + rowsOf(afterS), scene.start + rowsOf(longestS), scene.count);
+  const push = torques.push.subarray(first, stop), pushed = torques.behind.subarray(first, stop);
   return ["truth", ...scene.methods.map(([method]) => method)].map((method) => {
-    const torque = torques[method];
-    let largest = -Infinity, half = null, squares = 0;
-    for (let row = scene.start; row < stop; row++) {
-      const off = torque[row] - torques.truth[row], seen = sign * (torques.push[row] + off);
-      squares += off * off;
-      largest = Math.max(largest, seen);
-      if (half === null && seen >= 0.5 * peak) half = row;
-    }
-    const halfMs = half === null ? null : ((half - scene.start) * 1000) / scene.rate;
-    const error = Math.sqrt(squares / (stop - scene.start)), share = peak ? largest / peak : 0;
-    return { method, peak: largest, share, error, halfMs, ...alarmsOf(scene, torque, threshold, quiet) };
+    const error = Float64Array.from(push, (_, k) => torques[method][first + k] - torques.truth[first + k]);
+    const rms = Math.sqrt(error.reduce((sum, value) => sum + value * value, 0) / error.length);
+    const felt = feltOf(push, pushed, error.map((value, k) => pushed[k] + value));
+    const lateMs = felt.late === null ? null : (felt.late * 1000) / scene.rate;
+    return { method, ...felt, lateMs, error: rms, ...alarmsOf(scene, torques[method], threshold, quiet) };
   });
+}
+
+// Peak and share of a push that is seen, and how late its half is [rows], if ever; the first sample is the zero.
+function feltOf(push, behind, seen) {
+  const extreme = (values) => values.reduce((most, value) => (Math.abs(value) > Math.abs(most) ? value : most), 0);
+  const top = extreme(behind), raw = extreme(push), zero = seen[0];
+  const peak = seen.reduce((most, value) => Math.max(most, Math.sign(top) * (value - zero)), -Infinity);
+  if (!top) return { peak, share: 0, late: null };
+  const scaled = (values) => Array.from(values, (value) => (value - values[0]) / raw);
+  const late = firstAbove(scaled(seen)) - firstAbove(scaled(push));
+  return { peak, share: peak / Math.abs(top), late: peak >= 0.5 * Math.abs(raw) ? late : null };
+}
+
+// When a signal first reaches one half, between two rows; its last row if it never does.
+function firstAbove(signal) {
+  const row = signal.findIndex((value) => value >= 0.5);
+  if (row < 0) return signal.length - 1;
+  return row === 0 ? 0 : row - 1 + (0.5 - signal[row - 1]) / (signal[row] - signal[row - 1]);
 }
 
 // The torque behind the detectors' low-pass, the least of the last samples, and nothing while the leg is not watched.
 function heldSize(scene, torque) {
   const pole = Math.exp((-2 * Math.PI * told.settings.lowPassHz) / scene.rate);
   const hold = Math.max(1, Math.round(told.settings.holdS * scene.rate));
-  const size = new Float64Array(scene.count), held = new Float64Array(scene.count), watched = flagRows(scene, "watched");
+  const size = new Float64Array(scene.count), held = new Float64Array(scene.count);
+  const watched = flagRows(scene, "watched");
   let low = 0;
   for (let row = 0; row < scene.count; row++) {
     low = pole * low + (1 - pole) * torque[row];

@@ -71,16 +71,18 @@ function band(pen, mean, std, [first, last], xOf, yOf, perPixel) {
 function drawPlots(pen, view, width, height, look) {
   const { scene, page, torques, shown, numbers } = view, [first, last] = page;
   const methods = scene.methods.filter(([method]) => shown.includes(method));
-  const frames = framesOf(width, height, scene.methods.length + (scene.alarm ? 1 : 0)), { torque, error, alarms } = frames;
+  const frames = framesOf(width, height, scene.methods.length + (scene.alarm ? 1 : 0));
+  const { torque, error, alarms } = frames;
   const xOf = (row) => torque.x + (torque.width * (row - first)) / (last - first);
   const perPixel = (last - first) / torque.width;
   const errors = methods.map(([method]) => torques[method].map((value, row) => value - torques.truth[row]));
   const drawn = [...methods.map(([method]) => torques[method]), ...(shown.includes("truth") ? [torques.truth] : [])];
   const scale = scaleOf(...rangeOf(drawn, page), torque, torque.height / 34);
-  const off = scaleOf(...rangeOf(errors, page), error, error.height / 26);
+  const off = scaleOf(...rangeOf(errors, page), error, error.height / 20);
   pen.clearRect(0, 0, width, height);
   pen.font = look.font;
-  for (const [start, end] of without(scene.flags.swing, scene.flags.pushed)) shadeTime(pen, start, end, look.swing, frames, page, xOf);
+  for (const [start, end] of without(scene.flags.swing, scene.flags.pushed))
+    shadeTime(pen, start, end, look.swing, frames, page, xOf);
   for (const [start, end] of scene.flags.pushed) shadeTime(pen, start, end, look.pushed, frames, page, xOf);
   axes(pen, torque, scale, look, view.titles[0]);
   axes(pen, error, off, look, view.titles[1]);
@@ -90,7 +92,10 @@ function drawPlots(pen, view, width, height, look) {
   pen.setLineDash([2, 4]);
   pen.strokeStyle = look.push;
   pen.lineWidth = 1;
-  for (const value of methods.length ? [view.threshold, -view.threshold] : []) trace(pen, [[torque.x, scale.at(value)], [torque.x + torque.width, scale.at(value)]], false), pen.stroke();
+  for (const value of methods.length ? [view.threshold, -view.threshold] : []) {
+    trace(pen, [[torque.x, scale.at(value)], [torque.x + torque.width, scale.at(value)]], false);
+    pen.stroke();
+  }
   pen.setLineDash([]);
   methods.forEach(([method, role]) => {
     const std = view.stds[method];
@@ -125,7 +130,9 @@ function drawPlots(pen, view, width, height, look) {
 
 // Stretches less those of others.
 function without(stretches, others) {
-  return others.reduce((left, [from, to]) => left.flatMap(([start, end]) => [[start, Math.min(end, from)], [Math.max(start, to), end]].filter(([a, b]) => b > a)), stretches);
+  const parts = ([start, end], [from, to]) => [[start, Math.min(end, from)], [Math.max(start, to), end]];
+  const cut = (left, other) => left.flatMap((one) => parts(one, other));
+  return others.reduce(cut, stretches).filter(([start, end]) => end > start);
 }
 
 function clip(pen, { x, y, width, height }) {
@@ -194,7 +201,8 @@ function drawAlarms(pen, view, frame, xOf, numbers, look) {
     for (const [start, end] of scene.flags.watched) bar(start, end, look.watched);
     if (role === null && scene.alarm) bar(scene.alarm.at, scene.alarm.at + 0.02 * scene.rate, look.ink);
     if (role !== null && view.shown.includes(method))
-      for (const [start, end] of numbers.find((row) => row.method === method).stretches) bar(start, end, look.roles[role]);
+      for (const [start, end] of numbers.find((row) => row.method === method).stretches)
+        bar(start, end, look.roles[role]);
   });
 }
 
