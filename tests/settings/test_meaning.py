@@ -173,6 +173,10 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("sweeps.hidden.limb", "RL", "method that trains RL: 'FTS-e2e'"),
     ("sweeps.data_parts.section", "network", "sweeps.data_parts: key: 'data_parts'"),
     # what tables, figures and claims show
+    ("evaluation.explore.scenes.hip_step.joint", "LL4", "a joint of LL that its push turns"),
+    ("evaluation.explore.scenes.hand_robot.methods", ["MOB"], "methods with MOB-Net, that of the gate"),
+    ("evaluation.explore.scenes.hand_plant.threshold_nm", 90.0, "1 to 80, thresholds_nm"),
+    ("evaluation.explore.gains_hz", [120.0, 200.0], "120 to 200, gains_hz"),
     ("evaluation.figure_07.end_s", 31.0, "at most 30, for hand_load_30 lasts 30.0 s"),
     ("scales.default.durations_s.leg_sines", 50.5, "at most 0.5, for leg_sines lasts 50.5 s"),
     ("evaluation.figure_05.start_s", 28.0, "at most"),

@@ -85,6 +85,9 @@ def test_smoke_makes_all_that_is_planned(unbroken, plan):
     assert [name for name in names if not (unbroken / name).exists()] == []
     assert (unbroken / "figures" / "smoke" / "figure_05.pdf").read_bytes().startswith(b"%PDF")
     assert "MOB-Net-LL-s0" in (unbroken / "results" / "smoke" / "runs.html").read_text()
+    page = (unbroken / "results" / "smoke" / "explore.html").read_text()
+    assert '<tr data-method="MOB-Net">' in page
+    assert len(page) < 3_000_000
 
 
 def accounts(folder):

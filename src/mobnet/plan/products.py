@@ -11,6 +11,7 @@ from mobnet.plan.demo import FOLDER, demo_needs, demo_outputs
 from mobnet.plan.detection import all_detections
 from mobnet.plan.files import Files, files_in
 from mobnet.plan.needs import needs_of
+from mobnet.plan.pages import explore_needs
 from mobnet.settings.evaluation import Evaluation, Runs
 from mobnet.settings.settings import Settings
 
@@ -19,6 +20,10 @@ PLACES = (*(f"{kind}.{part}" for kind in ("tables", "figures") for part in ("pap
 ERRORS = f"{EVALUATION}.tables.paper.error_table:error_table"  # makes every entry of `tables`
 HANDS = ("figure_07", "figure_12")  # figures that `hand_figure` makes
 TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their rules: the code hash reads Python only
+EXPLORE = tuple(
+    TEMPLATES / f"explore{name}"
+    for name in (".html", ".css", "_data.js", "_numbers.js", "_pose.js", "_robot.js", "_plots.js", "_state.js", ".js")
+)
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "svg", "png", "csv")  # endings of a table's and of a figure's files
 FILM, DRAWN = ("webp", "gif", "png", "csv"), ("method", "robot")  # endings of the film's files; drawings
 CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`
@@ -26,7 +31,13 @@ BARS = ("figure_06", "figure_10")  # figures whose bars have a CSV of their own
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
 TIMED = ("runs.html", "main.pdf", "compute.html")  # they show what jobs took, as the table of compute does
 CAPTIONS = Path("workflow/report")
-HEADINGS = {"runs.html": "trainings", "main.pdf": "paper", ".html": "tables", ".png": "figures"}
+HEADINGS = {
+    "runs.html": "trainings",
+    "explore.html": "explore",
+    "main.pdf": "paper",
+    ".html": "tables",
+    ".png": "figures",
+}
 
 
 @dataclass(frozen=True)
@@ -123,7 +134,7 @@ class Products:
         return {"tables": {table: folder / f"{table}.csv" for table in used}} if name == "claims" else {}
 
     def _texts(self) -> Iterator[Product]:
-        """Yield the numbers and tables that the paper's text takes, the pages of trainings, and the stored push."""
+        """Yield the numbers and tables that the paper's text takes, pages of trainings and pushes, and the stored push."""
         tables, results = self.folders.tables, self.folders.results
         csvs = [tables / f"{name}.csv" for name in self.settings.evaluation.tables]
         numbers = {
@@ -140,6 +151,8 @@ class Products:
         yield self._report_product("wandb_runs", networks, [results / "wandb"])
         push = demo_needs(self.files)
         yield self._report_product("demo_data", push, [results / FOLDER / name for name in demo_outputs(push)])
+        scenes = explore_needs(self.files)
+        yield self._report_product("explore", {**scenes, "templates": EXPLORE}, [results / "explore.html"])
 
     def _report(self, made: list[Product]) -> Iterator[Product]:
         """Yield what looks at all other products: compute, the paper, the pages of the report and the manifest."""

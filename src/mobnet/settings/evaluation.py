@@ -454,6 +454,45 @@ class Drift(Section):
     tests: Annotated[dict[base.Text, HeldRuns], Field(min_length=1)]
 
 
+class ExploreStory(Section):
+    """How the page calls the push and the plant of section `story`, and methods that it shows besides."""
+
+    push: base.Text
+    plant: base.Text
+    threshold_nm: base.Real = Field(ge=0.1, le=1000)
+    further: base.MethodNames
+
+
+class ExploreScene(LimbRuns):
+    """A scene of the page: the first push of the first run that begins from a time on, and the joint shown first.
+
+    `push` and `plant` are the texts of its buttons.
+    """
+
+    scenario: base.PushedName
+    push: base.Text
+    plant: base.Text
+    joint: base.MotorName
+    threshold_nm: base.Real = Field(ge=0.1, le=1000)
+    from_s: base.NotNegative = Field(default=0.0, le=3600)
+
+
+class Explore(Section):
+    """The page on which a reader plays with pushes.
+
+    Samples are stored from `lead_s` before a scene on, torques in steps of `step_nm`, poses and forces at `pose_hz`. A
+    slider runs between two ends; it begins at the observer's gain, or at the `threshold_nm` of the scene.
+    """
+
+    lead_s: base.Positive = Field(le=10)
+    pose_hz: base.Real = Field(ge=10, le=1000)
+    step_nm: base.Real = Field(ge=0.001, le=1)
+    gains_hz: base.Span[Annotated[base.Real, Field(ge=1, le=1000)]]
+    thresholds_nm: base.Span[Annotated[base.Real, Field(ge=0.1, le=1000)]]
+    story: ExploreStory
+    scenes: Annotated[dict[base.LowerName, ExploreScene], Field(min_length=1)]
+
+
 class Phases(Section):
     """Errors by phase of the gait, a touch-down lasting some time, and of joints that are stuck or move."""
 
@@ -632,6 +671,7 @@ class Evaluation(Section):
     label_error: LabelError
     latency: Latency
     compute: Compute
+    explore: Explore
 
 
 def measured_in(evaluation: Evaluation) -> dict[str, Section]:

@@ -8,6 +8,7 @@ from mobnet.settings.checks.claims import claim_problems
 from mobnet.settings.checks.detection import detection_problems
 from mobnet.settings.checks.estimates import asked_problems
 from mobnet.settings.checks.measures import measured_problems
+from mobnet.settings.checks.pages import page_problems
 from mobnet.settings.checks.reaction import reaction_problems
 from mobnet.settings.checks.results import Results
 from mobnet.settings.checks.story import story_problems
@@ -36,6 +37,7 @@ def shown_problems(catalogue: Catalogue) -> Iterator[Problem]:
     yield from detection_problems(results)
     yield from reaction_problems(results)
     yield from story_problems(results)
+    yield from page_problems(results)
     yield from asked_problems(catalogue)
     yield from claim_problems(results)
     yield from _printed_problems(settings)
