@@ -20,12 +20,8 @@ FROM_LIFT_OFF = "time from lift-off [s]"
 
 def draw_panel(axis: Axes, panel: Panel) -> None:
     """Draw the curves (T,) [N m] of one panel with their bands, and mark where its flags hold."""
-    across = axis.get_xaxis_transform()
     for name, flags in panel.flags.items():
-        bottom, mark = FLAGS.get(name, PUSH)
-        if np.any(flags):
-            bars = [(panel.time[start], panel.time[last] - panel.time[start]) for start, last in held(flags)]
-            axis.broken_barh(bars, (bottom, 1.0 - bottom), transform=across, linewidth=0.0, label=name, **mark)
+        mark_flag(axis, name, panel.time, flags)
     styles = looks(curve.label for curve in panel.curves)
     for curve in panel.curves:
         look = styles[curve.label]
@@ -36,6 +32,15 @@ def draw_panel(axis: Axes, panel: Panel) -> None:
                 panel.time, low, high, color=look.colour, alpha=BAND_ALPHA, linewidth=0.0, zorder=1.5,
                 label=f"\N{PLUS-MINUS SIGN} 1 std of {curve.label}",
             )  # fmt: skip
+
+
+def mark_flag(axis: Axes, name: str, time: NDArray[Any], flags: NDArray[Any]) -> None:
+    """Mark where a flag holds (T,) over time (T,) [s]: the swing over the whole height, a push as a bar on top."""
+    bottom, mark = FLAGS.get(name, PUSH)
+    if np.any(flags):
+        bars = [(time[start], time[last] - time[start]) for start, last in held(flags)]
+        across = axis.get_xaxis_transform()
+        axis.broken_barh(bars, (bottom, 1.0 - bottom), transform=across, linewidth=0.0, label=name, **mark)
 
 
 def held(flags: NDArray[Any]) -> list[tuple[int, int]]:

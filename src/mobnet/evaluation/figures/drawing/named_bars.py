@@ -12,6 +12,7 @@ from mobnet.evaluation.compare.errors import ZERO
 from mobnet.evaluation.figures.style import looks
 from mobnet.evaluation.number.number import Number
 
+MINUS = "\N{MINUS SIGN}"
 BAR_INCH = 0.135  # height that a bar takes
 BAR_SHARE = 0.72  # of it that is filled
 NUMBER_POINTS = 6.5  # size of names and numbers
@@ -26,27 +27,25 @@ PAPER_LABEL = {False: "RMSE in the paper", True: "RMSE in the paper (robot)"}  #
 
 @dataclass(frozen=True)
 class NamedBar:
-    """A method's error [N m], V1..V3 [N], perhaps with errors that are marked on it, and with a text behind its number.
+    """A method's error [N m], V1..V3 [N], perhaps with errors that are marked on it; or its share or delay of pushes.
 
     Attributes:
         name: text on the axis.
         method: whose look the bar has.
         number: the error with its interval, and the paper's.
         marks: errors that are marked on it, such as that of the curve above.
-        note: text behind the number.
     """
 
     name: str
     method: str
     number: Number
     marks: Sequence[float] = ()
-    note: str = ""
 
     @property
     def text(self) -> str:
         """The number as it is written at the end of the bar, with three digits."""
         value = self.number.value or 0.0
-        return f"{self.number.text(2 - (value >= 10.0) - (value >= 100.0))}{self.note}"
+        return self.number.text(2 - (abs(value) >= 10.0) - (abs(value) >= 100.0)).replace("-", MINUS)
 
 
 def draw_named_bars(
@@ -56,13 +55,13 @@ def draw_named_bars(
     styles = looks(bar.method for bar in bars)
     value, low, high, published = ends_of(bars)
     reach, is_cut = reach_of(bars, np.fmax(high, published))
-    places = np.arange(len(bars))
+    places = range(len(bars))
     axis.barh(places, value, BAR_SHARE, color=[styles[bar.method].colour for bar in bars], linewidth=0.0)
     spread = [np.nan_to_num(value - low), np.nan_to_num(high - value)]
     axis.errorbar(value, places, xerr=spread, linestyle="", color="black", linewidth=0.7, capsize=1.5)
     dots = [(mark, place) for place, bar in zip(places, bars, strict=True) for mark in bar.marks]
     if dots:
-        axis.plot(*np.transpose(dots), linestyle="", label=marked, zorder=4, **DRAWN)
+        axis.plot(*np.array(dots).T, linestyle="", label=marked, zorder=4, **DRAWN)
     if np.isfinite(published).any():
         axis.plot(published, places, linestyle="", label=source, zorder=5, **PAPER)
     axis.set_xlim(0.0, reach * (1.0 + NUMBER_ROOM))

@@ -27,7 +27,8 @@ def figure_06(
     """
     joint, (name,) = settings.joint, scenarios[settings.scenario].pushes
     errors = joint_errors(read_lookup(scores, statistics), layout, settings, [joint], PUSHED, published, settings.level)
-    title = f"{pushes[name].torque_nm[0]:g} N m on {joint} in the swing"
+    sizes = pushes[name].torque_nm
+    title = f"{f'{sizes[0]:g} N m' if sizes else 'push'} on {joint} in the swing"
     panels = read_pushes(layout, settings, without_zero(runs), title)[:1]
     drawn = compared(panels[0]).rmse if panels else {}
     figure = draw_step(panels, bars_of(errors[joint], drawn), joint, "RMSE around all steps")
