@@ -27,7 +27,7 @@ EXPLORE = tuple(
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "svg", "png", "csv")  # endings of a table's and of a figure's files
 FILM, DRAWN = ("webp", "gif", "png", "csv"), ("method", "robot")  # endings of the film's files; drawings
 CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`
-BARS = ("figure_06", "figure_10")  # figures whose bars have a CSV of their own
+BARS = tuple(f"figure_{k:02}" for k in (5, 6, 7, 8, 9, 10, 12))  # figures whose bars have a CSV of their own
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
 TIMED = ("runs.html", "main.pdf", "compute.html")  # they show what jobs took, as the table of compute does
 CAPTIONS = Path("workflow/report")
@@ -205,11 +205,12 @@ class Products:
     def _own(self, name: str) -> dict[str, object]:
         """Return a product's own name, section of the configuration and numbers of the paper, None if it prints none.
 
+        A section may name the table of the paper whose numbers it shows.
         The chosen scale may replace the start of a gait cycle [s] that the section names.
         """
         evaluation, published = self.settings.evaluation, self.settings.published
         section = {**evaluation.tables, **evaluation.figures}.get(name) or getattr(evaluation, name, None)
-        printed = published.tables.get(name) or getattr(published, name, None)
+        printed = published.tables.get(getattr(section, "table", name)) or getattr(published, name, None)
         shortened = self.settings.sizes.figure_start_s
         start_s = getattr(section, "start_s", None) if shortened is None else shortened
         own = {"name": name, "settings": section, "start_s": start_s}

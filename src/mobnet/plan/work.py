@@ -62,7 +62,7 @@ def trained(files: Files, networks: Sequence[NetworkName]) -> tuple[Amounts, flo
 
 
 def steps_of(files: Files, name: NetworkName) -> float:
-    """Return the time steps that a network learns from, over all epochs; 0 of one without inputs, which takes seconds."""
+    """Return the time steps that a network learns from, over all epochs; 0 of one without inputs."""
     training = files.catalogue.training(name.method, name.limb)
     if not (training.network.Q or training.network.T):
         return 0.0
