@@ -238,10 +238,10 @@ TUNED = ("panel", "line", "seconds", *RUN, "joint", "value", "low", "high", *SPR
 DOTS = ("kind", "set", "joint", "velocity_rad_s", "torque_nm", "phase")
 SIZES = (
     "panel", "base", "method", "parameters", "samples", "runs",
-    "loss", "loss_low", "loss_high", "rmse_nm", "rmse_low_nm", "rmse_high_nm",
+    "loss", "loss_low", "loss_high", "rmse_nm", "rmse_low_nm", "rmse_high_nm", "ratio", "ratio_low", "ratio_high",
 )  # fmt: skip
 RESPONSE = ("method", "joint", "frequency_hz", "quantity", "value", "low", "high", *SPREAD, "unit")
-DRIFT = ("panel", *RUN, "phase", "time_s", "share", "low", "high", *SPREAD)
+DRIFT = ("panel", *RUN, "phase", "step", "share", "low", "high", *SPREAD)
 SIGMA = ("panel", "test", "method", "limb", "x", "value", "low", "high", *SPREAD)
 RELIABILITY = ("panel", "method", "limb", "nominal", "before", "after")
 FOREST = ("score", "claim", "verdict", "axis", "value", "low", "high", "from", "to")

@@ -216,10 +216,16 @@ class MethodsRow(Runs):
 
 
 class LearningCurve(Section):
-    """Error over the length of the training: a table of trials that is kept, and the title of each task's panels."""
+    """Error over the length of the training: a table of trials that is kept, and how its names are shown.
+
+    `titles` are those of each task's panels, `recipes` and `beside` are names in the legend and in notes: of recipes of
+    learning, and of methods that do not learn.
+    """
 
     data: base.Text
     titles: dict[base.TaskName, base.Text]
+    recipes: dict[base.LowerName, base.Text]
+    beside: dict[base.MethodName, base.Text]
 
 
 class CoverageTest(Section):
@@ -364,9 +370,13 @@ class Peaks(Section):
 
 
 class Bode(Runs):
-    """Gain and phase: bands of frequency, in each of which every joint of a limb is driven at one line."""
+    """Gain and phase: bands of frequency, in each of which every joint of a limb is driven at one line.
+
+    A figure of its own has the joints `shown`, another one has all.
+    """
 
     limb: base.LegName
+    shown: base.Distinct[base.LegJointName]
     bands_hz: base.Rising[base.Positive]
 
 
@@ -377,11 +387,10 @@ class HeldRuns(Runs):
 
 
 class Drift(Section):
-    """How long pushes are held: a leg's estimate over the time since a push began, in bins."""
+    """How long pushes are held: a leg's estimate in so many steps, swings and stances, since a push began."""
 
     limb: base.LegName
-    bin_s: base.Real = Field(ge=0.01, le=10)
-    longest_s: base.Real = Field(ge=0.1, le=60)
+    steps: base.Whole = Field(ge=1, le=50)
     calm_s: base.NotNegative = Field(le=10)
     tests: Annotated[dict[base.Text, HeldRuns], Field(min_length=1)]
 

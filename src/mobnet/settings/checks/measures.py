@@ -29,13 +29,13 @@ def measured_problems(results: Results) -> Iterator[Problem]:
 
 
 def _push_problems(results: Results) -> Iterator[Problem]:
-    """Yield bins that are longer than the time that is looked at, and a time that is longer than the pushes."""
-    settings, drift, place = results.settings, results.settings.evaluation.drift, (*ROOT, "drift", "longest_s")
+    """Yield more steps than begin during the pushes, where swing and stance take their shortest time."""
+    settings, drift, place = results.settings, results.settings.evaluation.drift, (*ROOT, "drift", "steps")
     for test in drift.tests.values():
         pushes = [settings.pushes[name] for name in settings.scenarios[test.scenario].pushes]
         longest = max((push.duration_s[1] for push in pushes), default=0.0)
-        yield from at_most(place, drift.longest_s, longest, f"the longest push of {test.scenario}")
-    yield from at_most((*ROOT, "drift", "bin_s"), drift.bin_s, drift.longest_s, "longest_s")
+        most = 1 + int(longest / (2.0 * settings.commands.duration_s[0]))
+        yield from at_most(place, drift.steps, most, f"the steps that begin in the longest push of {test.scenario}")
 
 
 def _learned_problems(results: Results) -> Iterator[Problem]:
