@@ -12,25 +12,30 @@ from numpy.typing import NDArray
 from mobnet.core.columns import COMMAND, COMMANDS
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.figures.style import beside, legend, save_figure, styled
-from mobnet.evaluation.measure.data.steps import UNITS, bin_edges, bin_of, read_steps
+from mobnet.evaluation.measure.data.steps import CHOICES, KEYS, UNITS, bin_edges, bin_of, read_steps
 from mobnet.settings.data import Commands
 from mobnet.settings.evaluation import CommandsFigure
 
 BARS_INCH = 1.9  # height of the figure
+BAR_SHARE = 0.85  # of a bin
 MARGIN = 0.08  # beside the range of a command [share of it]
 GIVEN, RANGE = "commanded steps", "range of Table 2"
 COLOUR = "#0072B2"
-RANGE_LOOK: Mapping[str, Any] = {"color": "0.9", "linewidth": 0.0, "zorder": 0}
+RANGE_LOOK: Mapping[str, Any] = {"color": "0.93", "linewidth": 0.0, "zorder": 0}
 LABELS = ("step x [m]", "step y [m]", "turn [deg]", "duration [s]", "foot height [m]")
 
 
 @dataclass(frozen=True)
 class Bars:
-    """Histogram of a command: edges of bins over its range (n + 1,) [unit of the label], and the share of steps [%] (n,)."""
+    """Histogram of a command: edges of bins (n + 1,) [unit of the label], and the share of steps [%] in each (n,).
+
+    `named` are the values at which the axis is named [unit of the label].
+    """
 
     label: str
     edges: NDArray[np.float64]
     shares: NDArray[np.float64]
+    named: Sequence[float]
 
 
 def commands(
@@ -50,12 +55,18 @@ def commands(
             name: np.bincount(bin_of(values[:, column], edges), minlength=len(ends)) for name, values in found.items()
         }
         own = next(iter(counts.values()))
-        panels.append(Bars(label, edges, 100.0 * own / own.sum()))
+        panels.append(Bars(label, edges, 100.0 * own / own.sum(), named_values(commands, column)))
         rows += [
             (name, COMMAND[column][0], *bounds, count, count / len(found[name]), UNITS[column])
             for name, own in counts.items() for bounds, count in zip(ends, own.tolist(), strict=True)
         ]  # fmt: skip
     save_figure(draw_bars(panels), figure_dir / "commands", COMMANDS, rows)
+
+
+def named_values(commands: Commands, column: int) -> list[float]:
+    """Return the ends of a command's range and zero in it, or the first and last of its choices [m], [deg], [s]."""
+    values = getattr(commands, KEYS[column])
+    return sorted({*values, 0.0}) if column < CHOICES else [values[0], values[-1]]
 
 
 @styled
@@ -66,14 +77,10 @@ def draw_bars(panels: Sequence[Bars]) -> Figure:
         first, last = panel.edges[[0, -1]]
         margin = MARGIN * (last - first)
         axis.axvspan(first, last, label=RANGE, **RANGE_LOOK)
-        axis.stairs(panel.shares, panel.edges, fill=True, color=COLOUR, label=GIVEN)
+        axis.bar(panel.edges[:-1], panel.shares, BAR_SHARE * np.diff(panel.edges), align="edge", color=COLOUR, label=GIVEN)
         axis.set(xlabel=panel.label, xlim=(first - margin, last + margin))
-        axis.set_xticks(ends_and_middle(first, last))
+        axis.set_xticks(panel.named, [f"{value:g}" for value in panel.named])
     axes[0].set_ylabel("share of steps [%]")
     legend(figure, [axes[0]])
     return figure
 
-
-def ends_and_middle(first: float, last: float) -> list[float]:
-    """Return where an axis is named: at the ends of a range, and at zero or in its middle [any unit]."""
-    return [first, 0.0 if first < 0.0 < last else (first + last) / 2.0, last]

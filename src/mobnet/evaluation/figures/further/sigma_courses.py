@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -20,10 +21,11 @@ from mobnet.settings.evaluation import LimbRuns, Sigma
 COVERAGE, ERROR, CORRELATION = "coverage", "error over sigma", "autocorrelation"
 LABELS = {
     ERROR: ("mean predicted sigma [N m]", "RMSE [N m]"),
-    COVERAGE: ("tenth of the samples by size of sigma", "covered share [-]"),
+    COVERAGE: ("part of the samples by size of sigma", "covered share [-]"),
     CORRELATION: ("lag [ms]", "autocorrelation [-]"),
 }
 SIZE_INCH, WIDTHS = (PAGE_INCH, 3.6), (1.45, 1.0)  # of the figure; share of the large panel and of the two others
+NAME: dict[str, Any] = {"textcoords": "offset points", "va": "center", "fontsize": 7}  # of a thin grey line
 DIAGONAL = "error = sigma"
 GUIDE = {"color": "0.7", "linewidth": 0.6, "linestyle": "-", "zorder": 0}  # where sigma would be true
 
@@ -99,10 +101,11 @@ def draw_sigma(courses: Sequence[SigmaLine], share: float) -> Figure:
         entitle(axis, k, panel)
     axes[COVERAGE].axhline(share, **GUIDE)
     axes[COVERAGE].set_ylim(0.0, 1.0)
+    axes[COVERAGE].annotate(f"nominal share, {share:.0%}", (1.0, share), (0.0, -12.0), **NAME)
     sizes = sorted(x for course in courses if course.panel == ERROR for x in course.x)
     axes[ERROR].plot(sizes, sizes, **GUIDE)
     for x in sizes[-1:]:
-        axes[ERROR].annotate(DIAGONAL, (x, x), (-4.0, 0.0), textcoords="offset points", ha="right", va="center")
+        axes[ERROR].annotate(DIAGONAL, (x, x), (-4.0, 0.0), **{**NAME, "ha": "right"})
     axes[ERROR].set(xscale="log", yscale="log")
     axes[CORRELATION].set_xscale("log")
     axes[COVERAGE].xaxis.set_major_locator(MaxNLocator(integer=True))
