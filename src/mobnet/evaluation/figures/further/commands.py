@@ -77,7 +77,8 @@ def draw_bars(panels: Sequence[Bars]) -> Figure:
         first, last = panel.edges[[0, -1]]
         margin = MARGIN * (last - first)
         axis.axvspan(first, last, label=RANGE, **RANGE_LOOK)
-        axis.bar(panel.edges[:-1], panel.shares, BAR_SHARE * np.diff(panel.edges), align="edge", color=COLOUR, label=GIVEN)
+        middles, widths = (panel.edges[1:] + panel.edges[:-1]) / 2.0, BAR_SHARE * np.diff(panel.edges)
+        axis.bar(middles, panel.shares, widths, color=COLOUR, label=GIVEN)
         axis.set(xlabel=panel.label, xlim=(first - margin, last + margin))
         axis.set_xticks(panel.named, [f"{value:g}" for value in panel.named])
     axes[0].set_ylabel("share of steps [%]")
