@@ -232,10 +232,10 @@ COMPUTE = ("stage", "quantity", "value", "unit")
 # Figures.
 COMMANDS = (*BIN, "share", "unit")
 PUSH_ERRORS = ("scenario", "method", "push", "rmse_nm", "low", "high", *SPREAD, "published")
-LOSSES = ("measure", "method", "runs", "epoch", "mean", "low", "high")
+LOSSES = ("measure", "method", "runs", "epoch", "stride", "mean", "low", "high")
 LIMB_ERRORS = ("scenario", "method", "limb", "joint", "rmse_nm", "low", "high", *SPREAD)
 TUNED = ("panel", "line", "seconds", *RUN, "joint", "value", "low", "high", *SPREAD, "unit")
-DOTS = ("kind", "set", "joint", "velocity_rad_s", "torque_nm", "phase")
+PLANES = ("kind", "set", "joint", "from", "to", "torque_from_nm", "torque_to_nm", "share_percent")
 SIZES = (
     "panel", "base", "method", "parameters", "samples", "runs",
     "loss", "loss_low", "loss_high", "rmse_nm", "rmse_low_nm", "rmse_high_nm", "ratio", "ratio_low", "ratio_high",

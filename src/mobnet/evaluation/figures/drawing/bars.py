@@ -6,11 +6,9 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from mobnet.evaluation.figures.drawing.lines import LEGEND, LEGEND_INCH, PANEL_INCH
-from mobnet.evaluation.figures.style import entitle, legend, looks, stacked, styled
+from mobnet.evaluation.figures.style import looks
 from mobnet.evaluation.number.number import Number
 
 BAR_SHARE = 0.8  # of the distance between two groups of bars
@@ -32,18 +30,6 @@ class BarPanel:
     bars: Mapping[str, Sequence[Number]]
     source: str = "paper"
     notes: Mapping[str, Sequence[str]] = field(default_factory=dict)
-
-
-@styled
-def draw_bars(panels: Sequence[BarPanel], y_label: str) -> Figure:
-    """Draw groups of bars [N m], one for each method with its interval, and a panel for each test (Figure 18)."""
-    figure, axes = stacked([y_label] * len(panels), PANEL_INCH, LEGEND_INCH)
-    for k, (axis, panel) in enumerate(zip(axes, panels, strict=True)):
-        draw_bar_panel(axis, panel)
-        axis.set(ylabel=y_label)
-        entitle(axis, k, panel.title)
-    legend(figure, axes, **LEGEND)
-    return figure
 
 
 def draw_bar_panel(axis: Axes, panel: BarPanel, note_deg: int = 0) -> None:

@@ -1,5 +1,6 @@
 """The reliability diagram: by how many points the observed coverage lies beside the nominal one, by parts of the body."""
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,9 +19,10 @@ from mobnet.evaluation.measure.learning.calibration import CoverageGrid
 from mobnet.settings.evaluation import CalibrationTable
 
 ACROSS, PANEL_INCH, LABELS_INCH = 3, 1.6, 0.3  # panels in a row, height of a row and of the label below all
-MOST = 30.0  # end of the axis [points]
+MOST = 33.0  # end of the axis [points]
+TICKS = (-30.0, -20.0, -10.0, 0.0, 10.0, 20.0, 30.0)
+WIDTHS = (1.5, 0.7)  # of the lines of the first limb in a panel and of the second [points]
 LEARNED_ALPHA = 0.35  # of the lines before the scaling
-NAME_POINTS = 6.5  # size of a limb's name
 BAND: Mapping[str, Any] = {"color": "0.92", "linewidth": 0.0, "zorder": 0}
 IN_DISTRIBUTION = "in distribution"
 
@@ -83,7 +85,9 @@ def panels_of(curves: Sequence[CoverageCurve], settings: CalibrationTable) -> li
     for part, limbs in settings.parts.items():
         own = [curve for curve in curves if curve.limb in limbs]
         for method in dict.fromkeys(curve.method for curve in own):
-            panels.append(ReliabilityPanel(f"{part}, {method}", [curve for curve in own if curve.method == method]))
+            shown = [curve for curve in own if curve.method == method]
+            names = ", ".join(dict.fromkeys(curve.name for curve in shown))
+            panels.append(ReliabilityPanel(f"{part} ({names}), {method}", shown))
     return panels
 
 
@@ -103,7 +107,7 @@ def draw_reliability(panels: Sequence[ReliabilityPanel], tolerance: float) -> Fi
         axis.axhspan(-100.0 * tolerance, 100.0 * tolerance, **BAND)
         axis.axhline(0.0, color="0.5", linewidth=0.6, zorder=1)
         _draw(axis, panel, colours)
-        axis.set(xlim=(0.0, 100.0), ylim=(-MOST, MOST))
+        axis.set(xlim=(0.0, 100.0), ylim=(-MOST, MOST), yticks=TICKS)
         axis.set_title(f"({LETTERS[k]}) {panel.title}", loc="left", pad=3)
         axis.tick_params(labelbottom=True)
     for axis in axes[len(panels) :]:
@@ -115,16 +119,13 @@ def draw_reliability(panels: Sequence[ReliabilityPanel], tolerance: float) -> Fi
 
 
 def _draw(axis: Axes, panel: ReliabilityPanel, colours: Mapping[str, str]) -> None:
-    """Draw the curves of one panel, those of one case with the names of their limbs."""
-    cases = [curve.case for curve in panel.curves]
+    """Draw the curves of one panel, of one case the first limb with a thick line and the second one with a thin one."""
+    drawn = Counter[str]()
     for curve in panel.curves:
-        x, colour = 100.0 * curve.nominal, colours[curve.case]
-        before, after = (100.0 * (observed - curve.nominal) for observed in (curve.before, curve.after))
-        axis.plot(x, before, color=colour, alpha=LEARNED_ALPHA)
-        axis.plot(x, after, color=colour, label=curve.name)
-        if cases.count(curve.case) > 1:
-            axis.annotate(curve.name, (x[-1], after[-1]), (2.0, 0.0), textcoords="offset points", va="center",
-                          fontsize=NAME_POINTS, color=colour, annotation_clip=False)  # fmt: skip
+        look = {"color": colours[curve.case], "linewidth": WIDTHS[min(drawn[curve.case], 1)]}
+        for observed, alpha in ((curve.before, LEARNED_ALPHA), (curve.after, 1.0)):
+            axis.plot(100.0 * curve.nominal, 100.0 * (observed - curve.nominal), alpha=alpha, **look)
+        drawn[curve.case] += 1
 
 
 def _key(axis: Axes, colours: Mapping[str, str], tolerance: float) -> None:
