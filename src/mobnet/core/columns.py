@@ -244,4 +244,4 @@ RESPONSE = ("method", "joint", "frequency_hz", "quantity", "value", "low", "high
 DRIFT = ("panel", *RUN, "phase", "step", "share", "low", "high", *SPREAD)
 SIGMA = ("panel", "test", "method", "limb", "x", "value", "low", "high", *SPREAD)
 RELIABILITY = ("panel", "method", "limb", "nominal", "before", "after")
-FOREST = ("score", "claim", "verdict", "axis", "value", "low", "high", "from", "to")
+FOREST = ("score", "statement", "claims", "worst", "verdict", "axis", "value", "low", "high", "from", "to")
