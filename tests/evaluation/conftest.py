@@ -61,7 +61,7 @@ def evaluation(settings: Settings) -> Evaluation:
         "figure_07": {"joints": ("W2", "V3"), "start_s": 0.5, "end_s": 1.0, "every": 5},
         "figure_10": {"tests": collisions, "against": whole.figure_10.against.model_copy(update=methods)},
         "figure_18": {"limbs": ("W", "RA"), "methods": ("MOB-Net", "MOB-Net-Single")},
-        "figure_19": {"joints": ("LL2", "LL3"), "dots": 12, "test_dots": 8},
+        "figure_19": {"joints": ("LL2", "LL3"), "dots": 200, "test_dots": 100},
         "coverage": {"samples": 400, "every": 2, "cells": 10, "tests": whole.coverage.tests[:1], **cells},
         "calibration": {"points": 9, "methods": ("MOB-Net",)},
         "commands": {"bins": 5},

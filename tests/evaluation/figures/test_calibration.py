@@ -1,4 +1,6 @@
-"""The reliability plot draws observed less nominal coverage, each case in one colour, a panel for each part of the body."""
+"""The reliability plot draws observed less nominal coverage, a panel for each part of the body, a colour for a case."""
+
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -49,7 +51,9 @@ def test_a_case_has_one_colour_in_every_panel_and_two_limbs_differ_in_width() ->
         ReliabilityPanel("waist", [curve("hit", "W")]),
     ]
     figure = draw_reliability(panels, 0.05)
-    first, second = ([line for line in axis.lines if len(np.asarray(line.get_xdata())) == 3] for axis in figure.axes[:2])
+    first, second = (
+        [line for line in axis.lines if len(np.asarray(line.get_xdata())) == 3] for axis in figure.axes[:2]
+    )
     assert first[0].get_color() == first[2].get_color() != first[4].get_color() == second[0].get_color()
     assert first[0].get_linewidth() > first[2].get_linewidth()
     key = figure.axes[2].get_legend()
@@ -57,10 +61,15 @@ def test_a_case_has_one_colour_in_every_panel_and_two_limbs_differ_in_width() ->
     assert [text.get_text() for text in key.get_texts()][:2] == ["walk", "hit"]
 
 
-def test_limbs_stand_in_the_panel_of_their_part_and_the_neck_in_none(settings: Settings, tmp_path) -> None:  # type: ignore[no-untyped-def]
+def test_limbs_stand_in_the_panel_of_their_part_and_the_neck_in_none(settings: Settings, tmp_path: Path) -> None:
     section = settings.evaluation.calibration
-    grids = [grid("walk_test", "LL"), grid("motion_test", "N"), grid("motion_test", "LA"), grid("hand_wrench", "RA", "RA2"),
-             grid("knee_swing", "LL", "LL3", "FTS-e2e")]  # fmt: skip
+    grids = [
+        grid("walk_test", "LL"),
+        grid("motion_test", "N"),
+        grid("motion_test", "LA"),
+        grid("hand_wrench", "RA", "RA2"),
+        grid("knee_swing", "LL", "LL3", "FTS-e2e"),
+    ]
     curves = curves_of(grids, section, 2, NOMINAL.tolist())
     panels = panels_of(curves, section)
     assert [panel.title for panel in panels] == ["legs (LL), MOB-Net", "legs (LL), FTS-e2e", "arms (LA, RA), MOB-Net"]

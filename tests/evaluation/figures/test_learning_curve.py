@@ -10,9 +10,11 @@ from mobnet.evaluation.figures.further.learning_curve import AXES, beside, curve
 from mobnet.evaluation.number.files import write_csv
 from mobnet.settings.evaluation import LearningCurve
 
-
 SETTINGS = LearningCurve(
-    data="lengths.csv", titles={"plant_leg": "left leg"}, recipes={"adam": "Adam"}, beside={"zero": "estimating nothing"}
+    data="lengths.csv",
+    titles={"plant_leg": "left leg"},
+    recipes={"adam": "Adam"},
+    beside={"zero": "estimating nothing"},
 )
 
 

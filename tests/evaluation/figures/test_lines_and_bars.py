@@ -87,7 +87,9 @@ def test_single_runs_stand_in_place_of_their_mean() -> None:
 
 def test_panels_share_the_axis_of_their_scale_alone() -> None:
     small, large = (Line("a", [1.0, 50.0], [Number(size), Number(2.0 * size)]) for size in (1.0, 100.0))
-    panels = [LinePanel("one", "x", "y", [line], scale=scale) for scale, line in (("a", small), ("a", large), ("b", small))]
+    panels = [
+        LinePanel("one", "x", "y", [line], scale=scale) for scale, line in (("a", small), ("a", large), ("b", small))
+    ]
     axes = draw_lines(panels).axes
     assert axes[0].get_ylim() == axes[1].get_ylim() != axes[2].get_ylim()
 

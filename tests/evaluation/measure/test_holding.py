@@ -31,7 +31,8 @@ def test_steps_are_numbered_from_the_beginning_of_each_push_and_parted_in_the_mi
     np.testing.assert_array_equal(np.flatnonzero(swings == 3), range(45, 56))
     np.testing.assert_array_equal(np.flatnonzero(stances == 1), [*range(12, 15), *range(70, 75)])
     np.testing.assert_array_equal(np.flatnonzero(stances == 2), [*range(15, 35), *range(75, 80)])
-    assert not (swings[~pushed].any() or stances[~pushed].any())
+    assert not swings[~pushed].any()
+    assert not stances[~pushed].any()
 
 
 def test_a_whole_swing_has_one_number_even_where_the_foot_lifts_off_late_and_lands_early() -> None:

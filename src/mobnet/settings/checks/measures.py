@@ -46,7 +46,7 @@ def _learned_problems(results: Results) -> Iterator[Problem]:
 
 
 def _line_problems(results: Results) -> Iterator[Problem]:
-    """Yield joints that are driven at another number of lines than there are bands, or not at all."""
+    """Yield joints that are driven at another number of lines than there are bands, or not at all, and shown anyhow."""
     settings, bode = results.settings, results.settings.evaluation.bode
     pushes = [settings.pushes[name] for name in settings.scenarios[bode.scenario].pushes]
     lines = {push.joint: push.sines.frequency_hz for push in pushes if push.joint and push.sines}
@@ -54,6 +54,9 @@ def _line_problems(results: Results) -> Iterator[Problem]:
         yield (*ROOT, "bode", "scenario"), misfit(bode.scenario, "a test whose pushes are sines, each on its own joint")
     if not set(lines) & set(results.joints(bode.limb)):
         yield (*ROOT, "bode", "scenario"), misfit(bode.scenario, f"a test with sines on joints of {bode.limb}")
+    for k, joint in enumerate(bode.shown):
+        if joint not in (driven := [name for name in results.joints(bode.limb) if name in lines]):
+            yield (*ROOT, "bode", "shown", k), not_accepted("joint with sines", joint, driven)
     for joint, frequencies in lines.items():
         if len(frequencies) != len(bode.bands_hz):
             text = misfit(f"{len(bode.bands_hz)} bands", f"{len(frequencies)}, one for each line on {joint}")

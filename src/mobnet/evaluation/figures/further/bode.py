@@ -122,7 +122,7 @@ def draw_bode(
 
 
 def _draw(axis: Axes, one: Answer, look: Look) -> None:
-    """Draw the gain [-] or phase [deg] of a method with its intervals, which have no mark of their own in the legend."""
+    """Draw the gain [-] or phase [deg] of a method with its intervals, which the legend does not show."""
     x = list(one.numbers)
     mean, low, high = np.array([number.range for number in one.numbers.values()], dtype=np.float64).T
     axis.plot(x, mean, label=one.method, marker=look.marker, markersize=3.0, **look.line)

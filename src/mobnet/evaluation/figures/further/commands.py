@@ -84,4 +84,3 @@ def draw_bars(panels: Sequence[Bars]) -> Figure:
     axes[0].set_ylabel("share of steps [%]")
     legend(figure, [axes[0]])
     return figure
-

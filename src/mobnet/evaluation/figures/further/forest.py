@@ -35,7 +35,7 @@ LOOKS: Mapping[str, tuple[str, str, str]] = dict(zip(VERDICTS, MARKS, strict=Tru
 POINTS, ROW_INCH, HEAD_INCH, KEY_INCH = 6.5, 0.165, 0.22, 0.4  # size of text; heights of a row, a head and the legend
 KEY_COLUMNS = 3
 AXIS_INCH = 0.35  # height below the last row, of an axis
-TEXT_INCH, LEFT_INCH, WIDTH_INCH = 0.12, 3.66, 1.52  # where texts begin; where the axis does, and its width
+TEXT_INCH, LEFT_INCH, WIDTH_INCH = 0.12, 3.84, 1.36  # where texts begin; where the axis does, and its width
 COLUMN_INCH = {"ours": 5.28, "other": 6.95}  # where our number begins and the other column ends
 
 

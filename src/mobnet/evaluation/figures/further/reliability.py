@@ -1,4 +1,4 @@
-"""The reliability diagram: by how many points the observed coverage lies beside the nominal one, by parts of the body."""
+"""The reliability diagram: observed less nominal coverage, by parts of the body."""
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -29,7 +29,10 @@ IN_DISTRIBUTION = "in distribution"
 
 @dataclass(frozen=True)
 class CoverageCurve:
-    """Coverage of one limb in one case over nominal shares (p,): observed with sigma as learned (p,) and scaled (p,)."""
+    """Coverage of a limb in a case over nominal shares (p,): observed with sigma as learned (p,) and scaled (p,).
+
+    `name` is what the figure calls the limb: that of the base comes with the unit, as it has two.
+    """
 
     case: str
     method: str

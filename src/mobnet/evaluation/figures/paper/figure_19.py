@@ -110,7 +110,9 @@ def _ranges(axis: Axes, plane: Plane) -> None:
 def _key(figure: Figure, sets: Sequence[str], outlined: float) -> None:
     """Put the legend above all: the two training sets, and the tests."""
     colours = dict(zip(sets, (FIRST, SECOND, TEST), strict=True))
-    names = {name: f"training {name}" if name != TESTS else f"{TESTS}; outline: {outlined:.0%} of them" for name in sets}
+    names = {
+        name: f"training {name}" if name != TESTS else f"{TESTS}; outline: {outlined:.0%} of them" for name in sets
+    }
     handles = [Line2D([], [], color=colours[name], linewidth=1.5, label=names[name]) for name in sets]
     figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), frameon=False,
                   fontsize=STYLE["legend.fontsize"], borderpad=0.0)  # fmt: skip

@@ -1,4 +1,4 @@
-"""Where in the plane of a joint's velocity and torque the samples of training and of tests lie, and its torque by phase."""
+"""Samples of training and of tests in the plane of a joint's velocity and torque, and its torque by phase."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -58,7 +58,13 @@ class Plane:
         for name, found in self.ranges.items():
             phases = found.cells.edges[0]
             for k in np.flatnonzero(np.isfinite(found.low)):
-                yield "phase", name, self.joint, *map(float, (phases[k], phases[k + 1], found.low[k], found.high[k])), None
+                yield (
+                    "phase",
+                    name,
+                    self.joint,
+                    *map(float, (phases[k], phases[k + 1], found.low[k], found.high[k])),
+                    None,
+                )
 
 
 def plane_of(joint: str, sets: Mapping[str, NDArray[Any]], tested: float, coverage: Coverage) -> Plane:
