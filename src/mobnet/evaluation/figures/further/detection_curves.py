@@ -43,7 +43,10 @@ RATE_FLOOR = 0.3  # false alarms in an hour below which a rate is drawn here: no
 BREAK = 0.4  # where the axis breaks between no false alarm and one
 RATES = (RATE_FLOOR, 1.0, 10.0, 100.0, 1000.0)  # that are named
 BAND_ALPHA = 0.12  # opacity of intervals
-OTHERS = (((0, (4, 1.5)), "v"), ((0, (1, 1)), "X"))  # dash and marker of the second and third detector of a method
+OTHERS = (
+    ((0, (1.5, 1)), "v"),
+    ((0, (6, 1.5, 1, 1.5)), "X"),
+)  # dash and marker of the second and third detector of a method
 
 
 @dataclass(frozen=True)

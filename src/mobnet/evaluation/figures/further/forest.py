@@ -27,14 +27,16 @@ TICKS: Mapping[str, Mapping[float, str]] = {
     OVER_PAPER: {0.125: "1/8", 0.25: "1/4", 0.5: "1/2", 1.0: "1", 2.0: "2", 4.0: "4", 8.0: "8"},
     BEYOND_BOUND: {-1.0: "against", 0.0: "bound", 1.0: "for"},
 }
-HEADS = dict(zip(SCORED, ("about the observer", "about networks", "without a number of the paper"), strict=True))
+HEADS: Mapping[str, str] = dict(
+    zip(SCORED, ("about the observer", "about networks", "without a number of the paper"), strict=True)
+)
 MARKS = (("#D55E00", "X", "\N{BALLOT X}"), ("#9A6700", "s", "?"), ("#0072B2", "^", "\N{NORTH EAST ARROW}"),
          ("#00795A", "o", "\N{CHECK MARK}"), ("0.45", "", "\N{EN DASH}"))  # fmt: skip
 # verdict -> colour, dark enough for text, marker, and sign before a text
 LOOKS: Mapping[str, tuple[str, str, str]] = dict(zip(VERDICTS, MARKS, strict=True))
-POINTS, ROW_INCH, HEAD_INCH, KEY_INCH = 6.5, 0.165, 0.22, 0.4  # size of text; heights of a row, a head and the legend
+POINTS, ROW_INCH, HEAD_INCH, KEY_INCH = 6.5, 0.13, 0.2, 0.38  # size of text; heights of a row, a head and the legend
 KEY_COLUMNS = 3
-AXIS_INCH = 0.35  # height below the last row, of an axis
+AXIS_INCH = 0.33  # height below the last row, of an axis
 TEXT_INCH, LEFT_INCH, WIDTH_INCH = 0.12, 3.84, 1.36  # where texts begin; where the axis does, and its width
 COLUMN_INCH = {"ours": 5.28, "other": 6.95}  # where our number begins and the other column ends
 

@@ -25,7 +25,12 @@ LABELS = {
     CORRELATION: ("lag [ms]", "autocorrelation [-]"),
 }
 SIZE_INCH, WIDTHS = (PAGE_INCH, 3.6), (1.45, 1.0)  # of the figure; share of the large panel and of the two others
-NAME: dict[str, Any] = {"textcoords": "offset points", "va": "center", "fontsize": 7}  # of a thin grey line
+NAME: dict[str, Any] = {
+    "textcoords": "offset points",
+    "ha": "right",
+    "va": "center",
+    "fontsize": 7,
+}  # of a thin grey line
 DIAGONAL = "error = sigma"
 GUIDE = {"color": "0.7", "linewidth": 0.6, "linestyle": "-", "zorder": 0}  # where sigma would be true
 
@@ -101,11 +106,12 @@ def draw_sigma(courses: Sequence[SigmaLine], share: float) -> Figure:
         entitle(axis, k, panel)
     axes[COVERAGE].axhline(share, **GUIDE)
     axes[COVERAGE].set_ylim(0.0, 1.0)
-    axes[COVERAGE].annotate(f"nominal share, {share:.0%}", (1.0, share), (0.0, -12.0), **NAME)
+    for part in sorted({x for course in courses if course.panel == COVERAGE for x in course.x})[-1:]:
+        axes[COVERAGE].annotate(f"nominal share: {share:.0%}", (part, share), (0.0, -14.0), **NAME)
     sizes = sorted(x for course in courses if course.panel == ERROR for x in course.x)
     axes[ERROR].plot(sizes, sizes, **GUIDE)
     for x in sizes[-1:]:
-        axes[ERROR].annotate(DIAGONAL, (x, x), (-4.0, 0.0), **{**NAME, "ha": "right"})
+        axes[ERROR].annotate(DIAGONAL, (x, x), (-4.0, 0.0), **NAME)
     axes[ERROR].set(xscale="log", yscale="log")
     axes[CORRELATION].set_xscale("log")
     axes[COVERAGE].xaxis.set_major_locator(MaxNLocator(integer=True))
