@@ -243,5 +243,5 @@ SIZES = (
 RESPONSE = ("method", "joint", "frequency_hz", "quantity", "value", "low", "high", *SPREAD, "unit")
 DRIFT = ("panel", *RUN, "phase", "step", "share", "low", "high", *SPREAD)
 SIGMA = ("panel", "test", "method", "limb", "x", "value", "low", "high", *SPREAD)
-RELIABILITY = ("panel", "method", "limb", "nominal", "before", "after")
+RELIABILITY = ("case", "method", "limb", "nominal", "before", "after")
 FOREST = ("score", "statement", "claims", "worst", "verdict", "axis", "value", "low", "high", "from", "to")
