@@ -14,8 +14,7 @@ from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.rows import read_rows
 from mobnet.evaluation.compare.rmse import PUSHED
-from mobnet.evaluation.figures.drawing.bars import BarPanel
-from mobnet.evaluation.figures.paper.figure_18 import UPPER_BODY, draw_limbs, figure_18, panel_of
+from mobnet.evaluation.figures.paper.figure_18 import UPPER_BODY, LimbPanel, draw_limbs, figure_18, panel_of
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.evaluation import Evaluation, PushWindow
 from mobnet.settings.settings import Settings
@@ -99,7 +98,7 @@ def test_a_missing_method_is_named(tmp_path: Path, draw: Draw, write_limb_scores
 def test_bars_have_their_heights_intervals_and_numbers_and_all_limbs_stand_apart() -> None:
     heights = {"a": [1.0, 2.0, 3.0], "b": [3.0, 4.0, 5.0]}
     bars = {name: [Number(height, height - 0.5, height + 0.25) for height in own] for name, own in heights.items()}
-    figure = draw_limbs([BarPanel("ID", [UPPER_BODY, "W", "RA"], bars)] * 2, "RMSE [N m]")
+    figure = draw_limbs([LimbPanel("ID", [UPPER_BODY, "W", "RA"], bars)] * 2, "RMSE [N m]")
     first, second = figure.axes
     assert first.get_ylim() == second.get_ylim()
     assert first.get_ylim()[0] == 0.0
