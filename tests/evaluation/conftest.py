@@ -63,7 +63,7 @@ def evaluation(settings: Settings) -> Evaluation:
         "figure_10": {"tests": collisions, **knee},
         "figure_12": hand,
         "figure_18": {"limbs": ("W", "RA"), "methods": ("MOB-Net", "MOB-Net-Single")},
-        "figure_19": {"joints": ("LL2", "LL3"), "dots": 12, "test_dots": 8},
+        "figure_19": {"joints": ("LL2", "LL3"), "dots": 200, "test_dots": 100},
         "coverage": {"samples": 400, "every": 2, "cells": 10, "tests": whole.coverage.tests[:1], **cells},
         "calibration": {"points": 9, "methods": ("MOB-Net",)},
         "commands": {"bins": 5},

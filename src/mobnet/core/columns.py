@@ -233,16 +233,16 @@ COMPUTE = ("stage", "quantity", "value", "unit")
 COMMANDS = (*BIN, "share", "unit")
 PUSH_ERRORS = ("scenario", "method", "push", "measure", "value", "low", "high", *SPREAD, "unit", "published")
 JOINT_ERRORS = (*RUN, "joint", "metric", "value", "low", "high", *SPREAD, "unit", "published", "rmse_drawn")
-LOSSES = ("measure", "method", "runs", "epoch", "mean", "low", "high")
+LOSSES = ("measure", "method", "runs", "epoch", "stride", "mean", "low", "high")
 LIMB_ERRORS = ("scenario", "method", "limb", "joint", "rmse_nm", "low", "high", *SPREAD)
 TUNED = ("panel", "line", "seconds", *RUN, "joint", "value", "low", "high", *SPREAD, "unit")
-DOTS = ("kind", "set", "joint", "velocity_rad_s", "torque_nm", "phase")
+PLANES = ("kind", "set", "joint", "from", "to", "torque_from_nm", "torque_to_nm", "share_percent")
 SIZES = (
     "panel", "base", "method", "parameters", "samples", "runs",
-    "loss", "loss_low", "loss_high", "rmse_nm", "rmse_low_nm", "rmse_high_nm",
+    "loss", "loss_low", "loss_high", "rmse_nm", "rmse_low_nm", "rmse_high_nm", "ratio", "ratio_low", "ratio_high",
 )  # fmt: skip
 RESPONSE = ("method", "joint", "frequency_hz", "quantity", "value", "low", "high", *SPREAD, "unit")
-DRIFT = ("panel", *RUN, "phase", "time_s", "share", "low", "high", *SPREAD)
+DRIFT = ("panel", *RUN, "phase", "step", "share", "low", "high", *SPREAD)
 SIGMA = ("panel", "test", "method", "limb", "x", "value", "low", "high", *SPREAD)
-RELIABILITY = ("panel", "method", "limb", "nominal", "before", "after")
-FOREST = ("score", "claim", "verdict", "axis", "value", "low", "high", "from", "to")
+RELIABILITY = ("case", "method", "limb", "nominal", "before", "after")
+FOREST = ("score", "statement", "claims", "worst", "verdict", "axis", "value", "low", "high", "from", "to")

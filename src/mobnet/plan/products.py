@@ -27,6 +27,7 @@ EXPLORE = tuple(
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "svg", "png", "csv")  # endings of a table's and of a figure's files
 FILM, DRAWN = ("webp", "gif", "png", "csv"), ("method", "robot")  # endings of the film's files; drawings
 CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`
+FURTHER: Mapping[str, tuple[str, ...]] = {"bode": ("bode_all",), "claims": ("claims_own",)}  # more figures of a product
 BARS = tuple(f"figure_{k:02}" for k in (5, 6, 7, 8, 9, 10, 12))  # figures whose bars have a CSV of their own
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
 TIMED = ("runs.html", "main.pdf", "compute.html")  # they show what jobs took, as the table of compute does
@@ -100,7 +101,8 @@ class Products:
         """Yield all tables and figures."""
         tables, figures = self.table_names, self.figure_names
         for name in dict.fromkeys([*tables, *figures]):
-            outputs = [self.folders.figures / f"{name}.{ending}" for ending in FIGURE if name in figures]
+            drawn = pictures(name) if name in figures else ()
+            outputs = [self.folders.figures / f"{picture}.{ending}" for picture in drawn for ending in FIGURE]
             outputs += [self.folders.figures / f"{name}_bars.csv"] if name in BARS else []
             outputs += [self.folders.tables / f"{name}.{ending}" for ending in TABLE if name in tables]
             function = ERRORS if name in self.settings.evaluation.tables else functions()[name]
@@ -162,7 +164,8 @@ class Products:
         yield self._report_product("compute", accounts, compute)
         texts = [tables / f"{name}.tex" for name in (*self.table_names, "numbers", "deviations")] + [compute[1]]
         sources = {"main": Path("paper/main.tex"), "references": Path("paper/refs.bib"), "tables": texts}
-        figures = [self.folders.figures / f"{name}.pdf" for name in (*self.figure_names, *DRAWN)]
+        drawn = [*(picture for name in self.figure_names for picture in pictures(name)), *DRAWN]
+        figures = [self.folders.figures / f"{picture}.pdf" for picture in drawn]
         built = [paper / "build.json", *([paper / "main.pdf"] if self.with_pdf else [])]
         yield self._report_product("paper", {**sources, "figures": figures}, built)
         listed = [*(tables / f"{name}.md" for name in self.table_names), results / "compute.md"]
@@ -214,6 +217,11 @@ class Products:
         start_s = getattr(section, "start_s", None) if shortened is None else shortened
         own = {"name": name, "settings": section, "start_s": start_s}
         return {**{key: value for key, value in own.items() if value is not None}, "published": printed}
+
+
+def pictures(name: str) -> tuple[str, ...]:
+    """Return the names of the files of a figure: its own, and those of what else it draws."""
+    return name, *FURTHER.get(name, ())
 
 
 def shown(file: str) -> Shown | None:

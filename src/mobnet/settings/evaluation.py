@@ -220,11 +220,12 @@ class Figure18(Section):
 
 
 class Figure19(Section):
-    """Figure 19: velocity and torque in training and tests."""
+    """Figure 19: velocity and torque at so many samples of training and tests; an outline holds a share of these."""
 
     joints: base.Distinct[base.MotorName]
     dots: base.Whole = Field(ge=10, le=1_000_000)
     test_dots: base.Whole = Field(ge=10, le=1_000_000)
+    outlined: base.PositiveShare
 
 
 class Figure20(Section):
@@ -244,10 +245,16 @@ class MethodsRow(Runs):
 
 
 class LearningCurve(Section):
-    """Error over the length of the training: a table of trials that is kept, and the title of each task's panels."""
+    """Error over the length of the training: a table of trials that is kept, and how its names are shown.
+
+    `titles` are those of each task's panels, `recipes` and `beside` are names in the legend and in notes: of recipes of
+    learning, and of methods that do not learn.
+    """
 
     data: base.Text
     titles: dict[base.TaskName, base.Text]
+    recipes: dict[base.LowerName, base.Text]
+    beside: dict[base.MethodName, base.Text]
 
 
 class CoverageTest(Section):
@@ -417,11 +424,16 @@ class CalibrationTest(CoverageTest):
 
 
 class CalibrationTable(Section):
-    """How far the networks' standard deviations can be trusted; nominal shares are those of section `learning`."""
+    """How far the networks' standard deviations can be trusted; nominal shares are those of section `learning`.
+
+    The figure has a panel for each of the `parts` of the body, and calls tests with pushes by their `names`.
+    """
 
     tolerance: base.Real = Field(ge=0.001, le=0.5)
     points: base.Whole = Field(ge=3, le=1000)
     methods: base.Distinct[base.LearnedName]
+    parts: Annotated[dict[base.Text, base.Distinct[base.LimbName]], Field(min_length=1)]
+    names: dict[base.ScenarioName, base.Text]
     tests: base.Some[CalibrationTest]
 
 
@@ -460,9 +472,13 @@ class Peaks(Section):
 
 
 class Bode(Runs):
-    """Gain and phase: bands of frequency, in each of which every joint of a limb is driven at one line."""
+    """Gain and phase: bands of frequency, in each of which every joint of a limb is driven at one line.
+
+    A figure of its own has the joints `shown`, another one has all.
+    """
 
     limb: base.LegName
+    shown: base.Distinct[base.LegJointName]
     bands_hz: base.Rising[base.Positive]
 
 
@@ -473,11 +489,10 @@ class HeldRuns(Runs):
 
 
 class Drift(Section):
-    """How long pushes are held: a leg's estimate over the time since a push began, in bins."""
+    """How long pushes are held: a leg's estimate in so many steps, swings and stances, since a push began."""
 
     limb: base.LegName
-    bin_s: base.Real = Field(ge=0.01, le=10)
-    longest_s: base.Real = Field(ge=0.1, le=60)
+    steps: base.Whole = Field(ge=1, le=50)
     calm_s: base.NotNegative = Field(le=10)
     tests: Annotated[dict[base.Text, HeldRuns], Field(min_length=1)]
 
