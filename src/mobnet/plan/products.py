@@ -135,7 +135,7 @@ class Products:
         return {"tables": {table: folder / f"{table}.csv" for table in used}} if name == "claims" else {}
 
     def _texts(self) -> Iterator[Product]:
-        """Yield the numbers and tables that the paper's text takes, pages of trainings and pushes, and the stored push."""
+        """Yield numbers and tables that the paper takes, pages of trainings and pushes, and the stored push."""
         tables, results = self.folders.tables, self.folders.results
         csvs = [tables / f"{name}.csv" for name in self.settings.evaluation.tables]
         numbers = {
