@@ -100,9 +100,7 @@ def write_metrics(path: Path, done: Progress, joints: Sequence[str]) -> None:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow((*EPOCHS, *map(JOINT_ERROR.format, joints)))
-    writer.writerows(
-        (*asdict(epoch).values(), *errors) for epoch, errors in zip(done.epochs, done.errors, strict=True)
-    )
+    writer.writerows((*asdict(epoch).values(), *errors) for epoch, errors in zip(done.epochs, done.errors, strict=True))
     write_text(path, text.getvalue())
 
 

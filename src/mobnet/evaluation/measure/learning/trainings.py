@@ -189,9 +189,7 @@ def _disagreements(note: TrainingNote, epochs: Sequence[Epoch]) -> Iterator[str]
             yield _apart(f"{name} of epoch {noted}", found, said)
 
 
-def _errors_apart(
-    note: TrainingNote, epochs: Sequence[Epoch], errors: Mapping[str, Sequence[float]]
-) -> Iterator[str]:
+def _errors_apart(note: TrainingNote, epochs: Sequence[Epoch], errors: Mapping[str, Sequence[float]]) -> Iterator[str]:
     """Yield joints that are not the note's, and the first epoch whose error is not the mean over the joints."""
     joints = note.calibration.joints
     if errors and list(errors) != list(joints):
