@@ -118,4 +118,4 @@ def flagged(name):
     if how is None:
         return output
     labels = {"file": Path(name).stem, "shows": how.title}
-    return report(output, caption=how.caption and ROOT / how.caption, category=how.heading.capitalize(), labels=labels)
+    return report(output, caption=how.caption and ROOT / how.caption, category=how.category, labels=labels)

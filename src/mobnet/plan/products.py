@@ -23,7 +23,12 @@ BARS = ("figure_06", "figure_10")  # figures whose bars have a CSV of their own
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
 TIMED = ("runs.html", "main.pdf", "compute.html")  # they show what jobs took, as the table of compute does
 CAPTIONS = Path("workflow/report")
-HEADINGS = {"runs.html": "trainings", "main.pdf": "paper", ".html": "tables", ".png": "figures"}
+HEADINGS = {
+    "index.html": "start", "runs.html": "trainings", "main.pdf": "paper", ".html": "tables", ".png": "figures",
+}  # fmt: skip
+CATEGORIES = {"start": "0 Read me first"}  # the page on which the report opens; the report sorts its categories
+HEADLINE = ("table_05", "table_07", "table_08")  # tables of its errors of five methods
+PICTURED = ("figure_06", "figure_10", "figure_21", "claims")  # its figures
 
 
 @dataclass(frozen=True)
@@ -53,6 +58,11 @@ class Shown:
     heading: str
     title: str
     caption: Path | None
+
+    @property
+    def category(self) -> str:
+        """The category of the report."""
+        return CATEGORIES.get(self.heading, self.heading.capitalize())
 
 
 @dataclass(frozen=True)
@@ -116,7 +126,7 @@ class Products:
         yield self._report_product("numbers", numbers, [tables / "numbers.tex"])
         yield self._report_product("deviations", {"markdown": Path("docs/deviations.md")}, [tables / "deviations.tex"])
         networks = {"folders": self.files.all_networks()}
-        parts = [TEMPLATES / f"runs.{ending}" for ending in ("html", "css", "js")]
+        parts = [TEMPLATES / name for name in ("runs.html", "page.css", "runs.css", "page.js", "runs.js")]
         yield self._report_product("runs_page", {**networks, "templates": parts}, [results / "runs.html"])
         yield self._report_product("wandb_runs", networks, [results / "wandb"])
 
@@ -135,13 +145,27 @@ class Products:
         listed = [*(tables / f"{name}.md" for name in self.table_names), results / "compute.md"]
         pages = [results / "pages" / f"{path.stem}.html" for path in listed]
         captions = [found.caption for page in pages if (found := shown(str(page)))]
-        needs = {"tables": listed, "captions": captions, "template": TEMPLATES / "table.html"}
-        yield self._report_product("pages", needs, pages)
+        pages.append(results / "pages" / "index.html")
+        yield self._report_product("pages", {"tables": listed, "captions": captions, **self._first_page()}, pages)
         results_of_all = [*map(Path, self.stored), *outputs, *compute, *built, *pages]
         timed = [*compute, *(path for path in results_of_all if path.name in TIMED)]
         equal = [path for path in results_of_all if path not in timed]
         listed = [self.folders.manifest, self.folders.manifest.with_name(TIMES)]
         yield self._report_product("manifest", {"files": equal, "timed": timed}, listed)
+
+    def _first_page(self) -> dict[str, object]:
+        """Return what the page on which the report opens needs, and the templates of all pages."""
+        parts = [
+            TEMPLATES / name for name in ("page.css", "page.js", "bar.html", "index.css", "claims.css", "claims.js")
+        ]
+        return {
+            "pictures": [
+                (self.folders.figures / f"{name}.png", CAPTIONS / "figures" / f"{name}.rst") for name in PICTURED
+            ],
+            "first": CAPTIONS / "start" / "index.rst",
+            "templates": {name: TEMPLATES / f"{name}.html" for name in ("table", "claims", "index")},
+            "read": [*parts, *(self.folders.tables / f"{name}.csv" for name in ("claims", *HEADLINE))],
+        }
 
     def _report_product(self, name: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:
         """Return a product of the module of its name in `report`."""
