@@ -3,6 +3,7 @@
 import functools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from fnmatch import fnmatch
 from pathlib import Path
 
 from mobnet.core.code import start_of
@@ -18,6 +19,10 @@ ERRORS = f"{EVALUATION}.tables.paper.error_table:error_table"  # makes every ent
 HANDS = ("figure_07", "figure_12")  # figures that `hand_figure` makes
 TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their rules: the code hash reads Python only
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "png", "csv")  # endings of a table's and of a figure's files
+TESTS = (  # scenario and level of those whose errors the page of trainings shows, the first that has a network
+    "forward_walk/all_uncertainty", "motion_test/all_uncertainty", "walk_test/robots", "hand_wrench/robots",
+    "changed_walk/*",
+)  # fmt: skip
 CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`
 BARS = ("figure_06", "figure_10")  # figures whose bars have a CSV of their own
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
@@ -126,8 +131,12 @@ class Products:
         yield self._report_product("numbers", numbers, [tables / "numbers.tex"])
         yield self._report_product("deviations", {"markdown": Path("docs/deviations.md")}, [tables / "deviations.tex"])
         networks = {"folders": self.files.all_networks()}
-        parts = [TEMPLATES / name for name in ("runs.html", "page.css", "runs.css", "page.js", "runs.js")]
-        yield self._report_product("runs_page", {**networks, "templates": parts}, [results / "runs.html"])
+        parts = [TEMPLATES / name for name in ("runs.html", "page.css", "runs.css", "page.js", "runs.js", "overlay.js")]
+        scores = self.files.scores(
+            pair for test in TESTS for pair in self.files.scored if fnmatch("/".join(pair), test)
+        )
+        needs = {**networks, "templates": parts, "scores": scores}
+        yield self._report_product("runs_page", needs, [results / "runs.html"])
         yield self._report_product("wandb_runs", networks, [results / "wandb"])
 
     def _report(self, made: list[Product]) -> Iterator[Product]:

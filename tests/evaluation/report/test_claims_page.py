@@ -70,9 +70,10 @@ def test_every_claim_of_the_configuration_is_printed_somewhere() -> None:
 
 def test_the_range_has_the_same_place_in_every_picture_and_numbers_lie_as_they_compare() -> None:
     for factor in (1.0, 1000.0):
-        scaled = (CLAIM.published, CLAIM.value, CLAIM.low, CLAIM.high)
-        numbers = [None if number is None else number * factor for number in scaled]
-        plot = plot_of(ClaimRow("a", "", "", "", "", *numbers, "N", (0.5 * factor, 2.0 * factor), (0.2, None)))
+        names = ("published", "value", "low", "high")
+        numbers = {name: factor * getattr(CLAIM, name) for name in names}
+        ranges = {"reproduced": (0.5 * factor, 2.0 * factor), "side": (0.2, None)}
+        plot = plot_of(replace(CLAIM, **numbers, **ranges))
         assert plot.band == pytest.approx([share * WIDTH for share in BAND])
         assert plot.interval is not None
         assert plot.published is not None

@@ -173,8 +173,10 @@ def _claim(row: Mapping[str, str]) -> ClaimRow:
     """Return a row of claims.csv with its numbers."""
     names = ("published", "value", "low", "high", "from", "to", "side_from", "side_to")
     published, value, low, high, *ends = (float(row[name]) if row[name] else None for name in names)
-    texts = (row[name] for name in ("claim", "says", "printed", "verdict", "cause"))
-    return ClaimRow(*texts, published, value, low, high, row["unit"], (ends[0], ends[1]), (ends[2], ends[3]))
+    return ClaimRow(
+        row["claim"], row["says"], row["printed"], row["verdict"], row["cause"], published, value, low, high,
+        row["unit"], (ends[0], ends[1]), (ends[2], ends[3]),
+    )  # fmt: skip
 
 
 def places_of(printed: str) -> list[str]:

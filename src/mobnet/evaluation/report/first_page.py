@@ -24,8 +24,8 @@ class Picture:
 
 
 def first_page(
-    title: str, text: str, claims_csv: Path, table_dir: Path, pictures: Sequence[tuple[Path, Path]], tables: Mapping[str, str],
-    template: Path,
+    title: str, text: str, claims_csv: Path, table_dir: Path, pictures: Sequence[tuple[Path, Path]],
+    tables: Mapping[str, str], template: Path,
 ) -> str:  # fmt: skip
     """Return the page, from claims.csv, the folder of tables, PNG files with captions, and name of a table -> title.
 
