@@ -77,7 +77,7 @@ def report(make_project, snakemake, outputs):
         elif path.suffix == ".png":
             shutil.copy(ROOT / "docs" / "results" / "figure_05.png", path)
         elif path.name in ("runs.html", "main.pdf", "index.html"):
-            path.write_text(f'<h1 title="&amp;">made up: {path.stem}</h1>')
+            path.write_text(f'<h1 title="&amp;">made up: {path.stem}</h1>\n')
     for table in (folder / name for name in made if name.endswith(".md")):
         caption = titled((CAPTIONS / "tables" / f"{table.stem}.rst").read_text())
         page = table_page(TABLE_HTML, table.read_text(), *caption)

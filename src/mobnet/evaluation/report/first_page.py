@@ -16,7 +16,10 @@ from mobnet.evaluation.report.readme import headline
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure: its title, the first sentences of its caption, and its PNG file in base64."""
+    """A figure: its title, the first sentences of its caption, and its PNG file in base64.
+
+    This has short lines, because docutils, which makes the report's first page, refuses those of 10 000 characters.
+    """
 
     title: str
     text: str
@@ -44,7 +47,7 @@ def first_page(
 def _picture(file: Path, caption: Path) -> Picture:
     """Return a picture with the title and the first paragraph of its caption (reStructuredText)."""
     title, *lines = read_text(caption).splitlines()
-    return Picture(title, first_paragraph(lines), base64.b64encode(_content(file)).decode())
+    return Picture(title, first_paragraph(lines), base64.encodebytes(_content(file)).decode())
 
 
 def first_paragraph(lines: Sequence[str]) -> str:
