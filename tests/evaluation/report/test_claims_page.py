@@ -1,12 +1,14 @@
 """The page of the claims: what it says, and what a browser makes of it when somebody clicks, types and narrows it."""
 
+from base64 import b64encode
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
-from browser import Browser, with_browser
+from browser import Browser, wait, with_browser
 
 from mobnet.core.columns import VERDICTS
 from mobnet.core.rows import read_texts
@@ -174,6 +176,26 @@ def test_a_line_opens_its_claims_and_the_address_keeps_them_open(browse: Callabl
     browser.click("#all")
     browser.until(f"{OPEN}.length", sum(bool(one.others) for one in read_statements(GOLDEN)))
     assert browser.value("location.hash") == "#open=all"
+
+
+@with_browser
+def test_it_filters_within_the_report_too(page: Path, open_page: Callable[..., Browser], tmp_path: Path) -> None:
+    """There it stands in a frame whose address is the page itself."""
+    data = b64encode(page.read_bytes()).decode()
+    (tmp_path / "frame.html").write_text(f'<iframe src="data:text/html;base64,{data}"></iframe>')
+    browser = open_page(tmp_path / "frame.html")
+    (tree,) = browser.tell("Page.getFrameTree")["frameTree"]["childFrames"]
+    world = browser.tell("Page.createIsolatedWorld", frameId=tree["frame"]["id"])["executionContextId"]
+
+    def shown(script: str) -> Any:
+        asked = {"expression": script, "contextId": world, "returnByValue": True}
+        return browser.tell("Runtime.evaluate", **asked)["result"]["value"]
+
+    shown(
+        "(() => {const box = document.forms[0].elements.filter; box.value = '5, Ideal';"
+        "box.dispatchEvent(new Event('input', {bubbles: true}))})() ?? 0"
+    )
+    assert wait(lambda: shown(SHOWN) == ["mob-exact"])
 
 
 @with_browser
