@@ -119,7 +119,8 @@ class Epoch:
 
     Losses are means of (22) over the samples of the training, and over those held out; `validation_rmse` is the mean
     over the joints of their root-mean-square errors [N m], V1..V3 [N]; `gradient_norm` is the mean norm of the gradient
-    before the clip; `stride` is the distance between two steps [samples], in training and validation.
+    before the clip; `stride` is the distance between two steps [samples], in training and validation. In the file, the
+    errors of the joints follow, in columns of their own: JOINT_ERROR.
     """
 
     epoch: int
@@ -129,6 +130,9 @@ class Epoch:
     rate: float
     gradient_norm: float
     stride: int
+
+
+JOINT_ERROR = "validation_rmse_{}"  # column of metrics.csv with the error of one joint [N m], V1..V3 [N]
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 import functools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from fnmatch import fnmatch
 from pathlib import Path
 
 from mobnet.core.code import start_of
@@ -26,6 +27,10 @@ EXPLORE = tuple(
 )
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "svg", "png", "csv")  # endings of a table's and of a figure's files
 FILM, DRAWN = ("webp", "gif", "png", "csv"), ("method", "robot")  # endings of the film's files; drawings
+TESTS = (  # scenario and level of those whose errors the page of trainings shows, the first that has a network
+    "forward_walk/all_uncertainty", "motion_test/all_uncertainty", "walk_test/robots", "hand_wrench/robots",
+    "changed_walk/*",
+)  # fmt: skip
 CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`
 FURTHER: Mapping[str, tuple[str, ...]] = {"bode": ("bode_all",), "claims": ("claims_own",)}  # more figures of a product
 BARS = tuple(f"figure_{k:02}" for k in (5, 6, 7, 8, 9, 10, 12))  # figures whose bars have a CSV of their own
@@ -33,12 +38,12 @@ TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times
 TIMED = ("runs.html", "main.pdf", "compute.html")  # they show what jobs took, as the table of compute does
 CAPTIONS = Path("workflow/report")
 HEADINGS = {
-    "runs.html": "trainings",
-    "explore.html": "explore",
-    "main.pdf": "paper",
-    ".html": "tables",
-    ".png": "figures",
-}
+    "index.html": "start", "runs.html": "trainings", "explore.html": "explore", "main.pdf": "paper",
+    ".html": "tables", ".png": "figures",
+}  # fmt: skip
+CATEGORIES = {"start": "0 Read me first"}  # the page on which the report opens; the report sorts its categories
+HEADLINE = ("table_05", "table_07", "table_08")  # tables of its errors of five methods
+PICTURED = ("figure_06", "figure_10", "figure_21", "claims")  # its figures
 
 
 @dataclass(frozen=True)
@@ -68,6 +73,11 @@ class Shown:
     heading: str
     title: str
     caption: Path | None
+
+    @property
+    def category(self) -> str:
+        """The category of the report."""
+        return CATEGORIES.get(self.heading, self.heading.capitalize())
 
 
 @dataclass(frozen=True)
@@ -147,8 +157,12 @@ class Products:
         yield self._report_product("numbers", numbers, [tables / "numbers.tex"])
         yield self._report_product("deviations", {"markdown": Path("docs/deviations.md")}, [tables / "deviations.tex"])
         networks = {"folders": self.files.all_networks()}
-        parts = [TEMPLATES / f"runs.{ending}" for ending in ("html", "css", "js")]
-        yield self._report_product("runs_page", {**networks, "templates": parts}, [results / "runs.html"])
+        parts = [TEMPLATES / name for name in ("runs.html", "page.css", "runs.css", "page.js", "runs.js", "overlay.js")]
+        scores = self.files.scores(
+            pair for test in TESTS for pair in self.files.scored if fnmatch("/".join(pair), test)
+        )
+        needs = {**networks, "templates": parts, "scores": scores}
+        yield self._report_product("runs_page", needs, [results / "runs.html"])
         yield self._report_product("wandb_runs", networks, [results / "wandb"])
         push = demo_needs(self.files)
         yield self._report_product("demo_data", push, [results / FOLDER / name for name in demo_outputs(push)])
@@ -171,13 +185,27 @@ class Products:
         listed = [*(tables / f"{name}.md" for name in self.table_names), results / "compute.md"]
         pages = [results / "pages" / f"{path.stem}.html" for path in listed]
         captions = [found.caption for page in pages if (found := shown(str(page)))]
-        needs = {"tables": listed, "captions": captions, "template": TEMPLATES / "table.html"}
-        yield self._report_product("pages", needs, pages)
+        pages.append(results / "pages" / "index.html")
+        yield self._report_product("pages", {"tables": listed, "captions": captions, **self._first_page()}, pages)
         results_of_all = [*map(Path, self.stored), *outputs, *compute, *built, *pages]
         timed = [*compute, *(path for path in results_of_all if path.name in TIMED)]
         equal = [path for path in results_of_all if path not in timed]
         listed = [self.folders.manifest, self.folders.manifest.with_name(TIMES)]
         yield self._report_product("manifest", {"files": equal, "timed": timed}, listed)
+
+    def _first_page(self) -> dict[str, object]:
+        """Return what the page on which the report opens needs, and the templates of all pages."""
+        parts = [
+            TEMPLATES / name for name in ("page.css", "page.js", "bar.html", "index.css", "claims.css", "claims.js")
+        ]
+        return {
+            "pictures": [
+                (self.folders.figures / f"{name}.png", CAPTIONS / "figures" / f"{name}.rst") for name in PICTURED
+            ],
+            "first": CAPTIONS / "start" / "index.rst",
+            "templates": {name: TEMPLATES / f"{name}.html" for name in ("table", "claims", "index")},
+            "read": [*parts, *(self.folders.tables / f"{name}.csv" for name in ("claims", *HEADLINE))],
+        }
 
     def _report_product(self, name: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:
         """Return a product of the module of its name in `report`."""
