@@ -22,7 +22,7 @@ from mobnet.evaluation.report.explore_numbers import push_numbers, stretches
 from mobnet.evaluation.report.explore_pack import Part, packed
 from mobnet.evaluation.report.explore_scenes import Shown, read_scene
 from mobnet.evaluation.report.html import rendered
-from mobnet.plan.runs import PageScene
+from mobnet.plan.scenes import PageScene
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.settings.detection import Detection
 from mobnet.settings.evaluation import Explore, Peaks, Story
