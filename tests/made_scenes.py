@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from mobnet.estimation.low_pass import low_pass
 from mobnet.evaluation.report.explore_scenes import Shown
-from mobnet.plan.runs import PageScene, Run
+from mobnet.plan.runs import Run
+from mobnet.plan.scenes import PageScene
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Push
 

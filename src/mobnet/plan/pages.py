@@ -2,7 +2,7 @@
 
 from mobnet.plan.detection import detection_files
 from mobnet.plan.files import Files
-from mobnet.plan.runs import PageScene
+from mobnet.plan.scenes import PageScene
 from mobnet.settings.data import Push
 from mobnet.settings.evaluation import Runs
 

@@ -24,7 +24,8 @@ from mobnet.evaluation.report.explore_pack import Part, packed
 from mobnet.evaluation.report.explore_scenes import read_scene
 from mobnet.plan.plan import make_plan
 from mobnet.plan.products import EXPLORE, TEMPLATES
-from mobnet.plan.runs import PageScene, Run
+from mobnet.plan.runs import Run
+from mobnet.plan.scenes import PageScene
 
 REPO = Path(__file__).parents[3]
 PUSHES = ((2500, 2600), (5000, 5080))  # rows of the made-up recording

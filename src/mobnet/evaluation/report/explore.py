@@ -8,10 +8,12 @@ import json
 import logging
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mobnet.core.detections import COLLISION, Collision, Detected
 from mobnet.core.errors import DataError
@@ -22,7 +24,7 @@ from mobnet.evaluation.report.explore_numbers import push_numbers, stretches
 from mobnet.evaluation.report.explore_pack import Part, packed
 from mobnet.evaluation.report.explore_scenes import Shown, read_scene
 from mobnet.evaluation.report.html import rendered
-from mobnet.plan.runs import PageScene
+from mobnet.plan.scenes import PageScene
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.settings.detection import Detection
 from mobnet.settings.evaluation import Explore, Peaks, Story
@@ -63,7 +65,9 @@ def page_of(
 ) -> str:  # fmt: skip
     """Return the page of some scenes; `alarm` is that of the story's detector; scripts stand beside the template."""
     numbers = {
-        name: push_numbers(scene, scene.scene.joint, scene.scene.threshold_nm, detection, peaks)
+        name: push_numbers(
+            as_stored(scene, settings.step_nm), scene.scene.joint, scene.scene.threshold_nm, detection, peaks
+        )
         for name, scene in shown.items()
     }
     told = {
@@ -145,12 +149,31 @@ def parts_of(shown: Shown, settings: Explore) -> Iterator[Part]:
     yield Part("force", STEP_N, shown.force)
     yield Part("truth", step, shown.truth)
     yield Part("push", step, shown.push)
-    residual = shown.estimates.get(OBSERVER)
     for method, estimate in shown.estimates.items():
-        is_part = residual is not None and ROLES.get(method) not in ("observer", "direct")
-        yield Part(method, step, np.subtract(residual, estimate) if is_part else estimate)  # type: ignore[arg-type]
+        yield Part(method, step, estimate if is_whole(shown, method) else shown.estimates[OBSERVER] - estimate)
     for method, std in shown.stds.items():
         yield Part(f"std {method}", step, std)
+
+
+def is_whole(shown: Shown, method: str) -> bool:
+    """Return whether a method's torque is stored, and not what it subtracts from the observer's."""
+    return OBSERVER not in shown.estimates or ROLES.get(method) in ("observer", "direct")
+
+
+def as_stored(shown: Shown, step_nm: float) -> Shown:
+    """Return a scene with the torques that a page gets of it, whole numbers of steps [N m]: its numbers are theirs."""
+
+    def stored(values: NDArray[Any]) -> NDArray[np.float64]:
+        return np.round(np.asarray(values, dtype=np.float64) / step_nm) * step_nm
+
+    def rebuilt(method: str, torque: NDArray[Any]) -> NDArray[np.float64]:
+        if is_whole(shown, method):
+            return stored(torque)
+        residual = shown.estimates[OBSERVER]
+        return stored(residual) - stored(residual - torque)
+
+    estimates = {method: rebuilt(method, torque) for method, torque in shown.estimates.items()}
+    return replace(shown, truth=stored(shown.truth), push=stored(shown.push), estimates=estimates)
 
 
 def alarm_of(

@@ -19,7 +19,7 @@ from mobnet.detection.detector import LegGate
 from mobnet.evaluation.compare.pair import Pair, read_pair, read_std
 from mobnet.evaluation.compare.scene import Scene
 from mobnet.evaluation.compare.windows import FLAG, flagged_spans
-from mobnet.plan.runs import PageScene
+from mobnet.plan.scenes import PageScene
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.detection import Detection
 from mobnet.settings.evaluation import Explore, Scoring, Story

@@ -241,7 +241,8 @@ function tell(scene) {
     const wrong = `${row.falseAlarms} false alarm${row.falseAlarms === 1 ? "" : "s"}`;
     const ownMs = scene.alarm && ((scene.alarm.at - scene.start) * 1000) / scene.rate;
     const own = scene.alarm ? ` The project's detector felt it after ${ownMs.toFixed(0)} ms.` : "";
-    const late = row.lateMs === null ? "never half of it" : `${row.lateMs.toFixed(0)} ms late`;
+    const by = `${Math.abs(row.lateMs).toFixed(0)} ms ${row.lateMs < 0 ? "early" : "late"}`;
+    const late = row.lateMs === null ? "never half of it" : by;
     const shown = `${row.method} shows ${(100 * row.share).toFixed(0)} % of the peak, ${late}`;
     $("#result").textContent = `${shown}; ${alarm}, ${wrong} at ${state.threshold} N m.${own}`;
   }, drawn.told ? 250 : 0);

@@ -27,7 +27,7 @@ function column(scene, name, k) {
   const part = scene.parts[name];
   part.columns ??= [];
   if (!part.columns[k]) {
-    const values = new Float32Array(part.count);
+    const values = new Float64Array(part.count);
     let sum = 0;
     for (let row = 0, i = k * part.count; row < part.count; row++, i++) {
       sum = ((sum + part.low[i] + 256 * part.high[i]) << 16) >> 16;
@@ -54,7 +54,7 @@ function trained(scene, joint) {
 
 // The push behind the low-pass of a gain, from rest.
 function lowPassed(push, scene, gain) {
-  const pole = Math.exp(-gain / scene.rate), found = new Float32Array(push.length);
+  const pole = Math.exp(-gain / scene.rate), found = new Float64Array(push.length);
   let value = 0;
   for (let k = 1; k < push.length; k++) found[k] = value = pole * value + (1 - pole) * push[k];
   return found;
@@ -65,7 +65,7 @@ function lowPassed(push, scene, gain) {
 function behind(torque, scene, gain) {
   if (gain === scene.gain) return torque;
   const old = Math.exp(-scene.gain / scene.rate), pole = Math.exp(-gain / scene.rate);
-  const scale = (1 - pole) / (1 - old), found = new Float32Array(torque.length);
+  const scale = (1 - pole) / (1 - old), found = new Float64Array(torque.length);
   let value = torque[0];
   for (let k = 1; k < torque.length; k++) {
     value = pole * value + scale * (torque[k] - old * torque[k - 1]);
