@@ -22,6 +22,7 @@ LIMITS = {
     "exclusiveMinimum": "above {}", "minimum": "from {}", "exclusiveMaximum": "below {}", "maximum": "up to {}",
     "minItems": "at least {} items", "maxItems": "at most {} items",
 }  # fmt: skip
+TYPES = {"array": "list", "object": "mapping", "string": "text", "null": "nothing"}  # as YAML calls them
 REFERENCE = "#/$defs/"
 
 
@@ -54,10 +55,10 @@ def configuration_page(schema: Mapping[str, Any]) -> str:
     parts = [f"# Configuration\n\n{intro}"]
     for title, section in sections.items():
         rows = "".join(
-            f"| `{key}` | {accepted(value)} | {'required' if key in section.get('required', ()) else ''} |\n"
+            f"| `{key}` | {accepted(value)} | {'yes' if key in section.get('required', ()) else 'no'} |\n"
             for key, value in section.get("properties", {}).items()
         )
-        table = f"| key | accepted | |\n| --- | --- | --- |\n{rows}"
+        table = f"| key | accepted | needed |\n| --- | --- | --- |\n{rows}"
         parts.append(f"({anchor(title)})=\n## {title}\n\n{described(section)}\n\n{table}")
     return "\n\n".join(parts)
 
@@ -91,8 +92,8 @@ def accepted(value: Mapping[str, Any]) -> str:
         return " or ".join(dict.fromkeys(map(accepted, value["anyOf"])))
     if "enum" in value or "const" in value:
         return ", ".join(f"`{one}`" for one in value.get("enum", [value.get("const")]))
-    text = f"{value.get('type', 'any value')}{_of(value)}"
-    limits = [form.format(f"{value[key]:g}") for key, form in LIMITS.items() if key in value]
+    text = f"{TYPES.get(value.get('type', ''), value.get('type', 'anything'))}{_of(value)}"
+    limits = [form.format(f"{value[key]:.10g}") for key, form in LIMITS.items() if key in value]
     if "default" in value and value["default"] not in ([], {}, None):
         limits.append(f"default `{value['default']}`")
     return ", ".join([text, *limits])

@@ -13,6 +13,7 @@ from mobnet.settings.claims import Claim
 PLACE = "docs/results"
 FIGURES = "figures"  # folder of their captions and of the CSVs of their numbers
 PRINTED = re.compile(r"\b(Table|Figure) (\d+)")
+PAPER = re.compile(r"(table|figure)_\d")
 ALL_CLAIMS = "claims"
 HEAD = """# Tables and figures
 
@@ -58,7 +59,8 @@ def result_pages(results: Path, captions: Sequence[Path], claims: Mapping[str, C
     Raises:
         DataError: a file is missing or damaged.
     """
-    items = [item for caption in captions if (item := _item(results, caption)).shown.is_file()]
+    found = [item for caption in captions if (item := _item(results, caption)).shown.is_file()]
+    items = sorted(found, key=lambda item: not PAPER.match(item.name))  # those of the paper first
     verdicts = {row["claim"]: row["verdict"] for row in read_texts(results / f"{ALL_CLAIMS}.csv")}
     for item in items:
         yield f"{PLACE}/{item.page}.md", _page(item, _claims_about(item.name, claims, verdicts))
