@@ -37,9 +37,7 @@ class Document:
         self.places = {""}
         for title in HEADING.findall(re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL)):
             name = re.sub(r"[^\w\- ]", "", re.sub(r"\]\([^)]*\)", "", title).lower()).replace(" ", "-")
-            same = sum(
-                place == name or re.fullmatch(rf"{re.escape(name)}-\d+", place) is not None for place in self.places
-            )
+            same = sum(re.fullmatch(rf"{re.escape(name)}(-\d+)?", place) is not None for place in self.places)
             self.places.add(f"{name}-{same}" if same else name)
 
 

@@ -1,6 +1,5 @@
 """The documentation's pages: every link leads somewhere, nothing comes from elsewhere, search works from a folder."""
 
-import os
 from pathlib import Path
 
 import pytest
@@ -18,9 +17,10 @@ ROOT = Path(__file__).parents[3]
 @pytest.fixture(scope="module")
 def arguments():
     """What the rule gives to its function."""
-    os.chdir(ROOT)
-    (product,) = make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False).docs
-    return product.job.call.arguments
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(ROOT)
+        (product,) = make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False).docs
+        yield product.job.call.arguments
 
 
 @pytest.fixture(scope="module")
