@@ -19,6 +19,7 @@ MODULES = {  # command -> the module that `python -m` runs, with words that come
     "bench": ("benchmarks",),
     "check": ("mobnet.check",),
     "calibrate": ("mobnet.detection.calibrate",),
+    "demo": ("mobnet.demo",),
     "cost": ("mobnet.evaluation.report.cost",),
     **{name: ("mobnet.evaluation.report.snapshot", name) for name in ("verify", "compare", "snapshot")},
 }
@@ -56,7 +57,7 @@ def run(root: Path, words: Words) -> int:
     python = str(root / ".venv" / "bin" / "python")
     if words.command in MODULES:
         module = [*MODULES[words.command], *words.extra]
-        if words.command in ("check", "calibrate"):  # their words are files of whoever calls, where no code is ours
+        if words.command in ("check", "calibrate", "demo"):  # their words are files of the caller, no code of ours
             return subprocess.run([python, "-P", "-m", *module], cwd=given, check=False).returncode
         return subprocess.run([python, "-m", *module], check=False).returncode
     return run_workflow(python, [*words.extra, *(REPORT if words.command == "report" else ())])

@@ -13,6 +13,7 @@ from mobnet.plan.places import scale_of
 
 COMMANDS = {
     "all": "make every table, figure and the paper (snakemake --cores 2 all); further words go to snakemake",
+    "demo": "show one push as three methods feel it, without training: results/demo.png, or --out FILE",
     "test": "run pytest, lint, format, types and the smoke run included; further words go to pytest",
     "verify": "check every result file against results/MANIFEST.sha256, or --manifest FILE",
     "check": "check recordings, weights and configurations from outside: ./reproduce check FILE...",

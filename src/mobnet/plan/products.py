@@ -7,6 +7,7 @@ from pathlib import Path
 
 from mobnet.core.code import start_of
 from mobnet.plan.call import Job, call_of, parameters
+from mobnet.plan.demo import FOLDER, demo_needs, demo_outputs
 from mobnet.plan.files import Files, files_in
 from mobnet.plan.needs import needs_of
 from mobnet.settings.evaluation import Evaluation
@@ -104,7 +105,7 @@ class Products:
         return {"tables": {table: folder / f"{table}.csv" for table in used}} if name == "claims" else {}
 
     def _texts(self) -> Iterator[Product]:
-        """Yield the numbers and tables that the paper's text takes, and the pages of trainings."""
+        """Yield the numbers and tables that the paper's text takes, the pages of trainings, and the stored push."""
         tables, results = self.folders.tables, self.folders.results
         csvs = [tables / f"{name}.csv" for name in self.settings.evaluation.tables]
         numbers = {
@@ -119,6 +120,8 @@ class Products:
         parts = [TEMPLATES / f"runs.{ending}" for ending in ("html", "css", "js")]
         yield self._report_product("runs_page", {**networks, "templates": parts}, [results / "runs.html"])
         yield self._report_product("wandb_runs", networks, [results / "wandb"])
+        push = demo_needs(self.files)
+        yield self._report_product("demo_data", push, [results / FOLDER / name for name in demo_outputs(push)])
 
     def _report(self, made: list[Product]) -> Iterator[Product]:
         """Yield what looks at all other products: compute, the paper, the pages of the report and the manifest."""

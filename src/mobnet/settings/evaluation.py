@@ -275,6 +275,24 @@ class Figure22(Section):
     views_deg: dict[base.CaseName, tuple[base.Real, base.Real]]
 
 
+class Story(Section):
+    """The push that demo, film and explorer show: the first of its name in the first recording of a robot's test.
+
+    The time that is shown begins before it and ends after its beginning. An estimator that begins there is not judged
+    for the first `settle_s`.
+    """
+
+    scenario: base.PushedName
+    level: base.WatchedLevelName
+    push: base.PushName
+    before_s: Annotated[base.Positive, Field(le=10)]
+    after_s: Annotated[base.Positive, Field(le=10)]
+    settle_s: Annotated[base.NotNegative, Field(le=10)]
+    joint: base.LegJointName
+    methods: base.MethodNames
+    detector: base.DetectorName
+
+
 class Films(Section):
     """Films of the first walk of each case: the joint that is shown, the view, and the time that a film has.
 
@@ -546,6 +564,7 @@ class Evaluation(Section):
     figure_16: Figure16
     figure_21: Figure21
     figure_22: Figure22
+    story: Story
     films: Films
     found_by_rate: FoundByRate
     smallest_force: SmallestForce

@@ -16,10 +16,14 @@ from pathlib import Path
 from mobnet.core.errors import DataError, MobnetError
 from mobnet.core.files import atomic_path, read_json, read_text, write_json, write_text
 from mobnet.core.rows import read_texts
+from mobnet.evaluation.measure.story import StoredPush
+from mobnet.evaluation.report.demo import lines_of, title_of
+from mobnet.evaluation.report.demo_data import copy_demo
 from mobnet.evaluation.report.manifest import differences, file_hash
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.evaluation.report.rates import RATES, measured
 from mobnet.evaluation.report.readme import blocks
+from mobnet.plan.demo import FOLDER
 from mobnet.plan.plan import make_plan
 from mobnet.running.accounts import read_account
 from mobnet.running.logs import LOGS
@@ -30,6 +34,7 @@ from mobnet.settings.settings import Settings
 log = logging.getLogger(__name__)
 
 TABLES, FIGURES, SNAPSHOT = Path("tables"), Path("figures"), Path("docs/results")
+DEMO, DEMO_PAGE = Path("docs/demo"), Path("docs/demo.md")
 RESULTS, MANIFEST = Path("results/default"), Path("results/MANIFEST.sha256")
 COMPUTE = RESULTS / "compute.md"
 UP_TO_DATE = "Nothing to be done"  # by which Snakemake says that no job would run
@@ -124,11 +129,18 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Pat
     log.info("%s: %d files", out, len(found))
 
 
-def with_block(text: str, name: str, block: str) -> str:
+def tell_demo(push: StoredPush, page: Path) -> None:
+    """Write into the page of the demo what it prints."""
+    estimates = {method: push.estimate(method) for method in push.story.methods}
+    said = "\n".join(["```", title_of(push), *lines_of(push, estimates), "```"])
+    write_text(page, with_block(read_text(page), "demo", said, page))
+
+
+def with_block(text: str, name: str, block: str, page: Path = README) -> str:
     """Return a page with a block between its marks, which it must have."""
     first, last = f"<!-- {name} -->\n", f"<!-- /{name} -->"
     if first not in text or last not in text:
-        raise DataError(f"{README}: the marks {first.strip()!r} and {last!r} are missing")
+        raise DataError(f"{page}: the marks {first.strip()!r} and {last!r} are missing")
     return text[: text.index(first)] + first + block.strip() + "\n" + text[text.index(last) :]
 
 
@@ -196,6 +208,8 @@ def main(words: list[str]) -> int:
             check_run(RESULTS, options.manifest)
             check_fingerprints("all")
             write_snapshot(settings, TABLES, FIGURES, COMPUTE, SNAPSHOT)
+            copy_demo(RESULTS / FOLDER, DEMO)
+            tell_demo(StoredPush(DEMO, settings), DEMO_PAGE)
             plan = make_plan(settings, with_pdf=not missing_packages())
             jobs = map(read_account, sorted((RESULTS / "logs").rglob("*.json")))
             write_json(RATES, measured(plan, jobs).model_dump())

@@ -10,6 +10,7 @@ from mobnet.settings.checks.estimates import asked_problems
 from mobnet.settings.checks.measures import measured_problems
 from mobnet.settings.checks.reaction import reaction_problems
 from mobnet.settings.checks.results import Results
+from mobnet.settings.checks.story import story_problems
 from mobnet.settings.evaluation import ErrorTable, Mean
 from mobnet.settings.reading import Place, Problem
 from mobnet.settings.settings import Settings
@@ -34,6 +35,7 @@ def shown_problems(catalogue: Catalogue) -> Iterator[Problem]:
     yield from measured_problems(results)
     yield from detection_problems(results)
     yield from reaction_problems(results)
+    yield from story_problems(results)
     yield from asked_problems(catalogue)
     yield from claim_problems(results)
     yield from _printed_problems(settings)
