@@ -75,6 +75,9 @@ def write_sources(
     pages = [*grouped, *result_pages(RESULTS, captions, claims), *trial_pages(), *reference_pages(modules_of(modules))]
     for path, text in pages:
         write_text(folder / path, text)
+    listed = {Path(path) for section in sections(index).values() for path in section.documents}
+    for path in sorted(path for path in listed if not (folder / path).exists()):
+        write_text(folder / path, listing(path.parent))
     first = read_text(Path(README)) + "\n" + "\n".join(menus(index, MADE))
     write_text(folder / README, first)
     for page in sorted(folder.rglob("*.md")):
@@ -90,6 +93,12 @@ def trial_pages() -> Iterator[tuple[str, str]]:
     listed = "".join(f"* [{title_of(table)}]({table.name})\n" for table in tables)
     hidden = "".join(f"{table.stem}\n" for table in tables)
     yield str(TRIALS / README), f"# Trials\n\n{listed}\n```{{toctree}}\n:hidden:\n\n{hidden}```\n"
+
+
+def listing(folder: Path) -> str:
+    """Return the page of a folder that has none: its files."""
+    files = sorted(path.relative_to(folder) for path in folder.rglob("*") if path.is_file())
+    return f"# Files of {folder}\n\n" + "".join(f"* [{path}]({path})\n" for path in files)
 
 
 def title_of(table: Path) -> str:
