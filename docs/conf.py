@@ -1,5 +1,7 @@
 """How Sphinx builds the documentation: `./reproduce docs` puts this file, documents and made pages in one folder."""
 
+import re
+
 project = "MOB-Net, reproduced"
 html_title = project
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
@@ -21,12 +23,19 @@ nitpick_ignore_regex = [
     (r"py:.*", r"mobnet\.(settings|plan|running|control|commands|evaluation)\..*"),  # they have no page of modules
     (r"py:.*", r"mobnet\..*\.(_\w+|Kind|Named|Row|State)"),  # private names, variables of types, other names of types
 ]
+ARRAY = re.compile(r"~?numpy\.ndarray\[tuple\[[^][]*\], ~?numpy\.dtype\[[^][]*\]\]")
 
 
 def setup(app):  # noqa: ANN001, ANN201, D103
     app.connect("autodoc-skip-member", skipped)
+    app.connect("autodoc-process-signature", shortened)
 
 
 def skipped(app, what, name, member, skip, options):  # noqa: ANN001, ANN201
     """Leave out the fields of a NamedTuple, which its docstring describes."""
     return True if type(member).__name__ == "_tuplegetter" else None
+
+
+def shortened(app, what, name, member, options, arguments, returned):  # noqa: ANN001, ANN201
+    """Call an array `ndarray` whatever its numbers are: docstrings tell shapes and units."""
+    return tuple(text and ARRAY.sub("~numpy.ndarray", text) for text in (arguments, returned))
