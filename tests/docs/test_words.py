@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -18,8 +19,14 @@ CODE = re.compile(r"^```.*?^```|^ {4,}\S.*?$|`[^`\n]*`|\]\([^)]*\)", re.MULTILIN
 SHOWN = ("FINDINGS", "METHODS", "COLUMNS")  # texts of the README's blocks
 
 
+@cache
+def all_texts() -> tuple[tuple[str, str], ...]:
+    """Return place and text of everything that people read here, without names and code."""
+    return tuple(texts())
+
+
 def texts() -> Iterator[tuple[str, str]]:
-    """Yield place and text of everything that people read here, without names and code."""
+    """Yield them."""
     for pattern in (*DOCUMENTS, *CAPTIONS):
         for path in sorted(ROOT.glob(pattern)):
             text = path.read_text(encoding="utf-8")
@@ -34,7 +41,7 @@ def texts() -> Iterator[tuple[str, str]]:
 
 def places(word: str) -> Iterator[str]:
     """Yield each place of a word, with what stands around it."""
-    for place, text in texts():
+    for place, text in all_texts():
         for found in re.finditer(rf"\b(?:{word})\b", text, re.IGNORECASE):
             around = " ".join(text[max(0, found.start() - 40) : found.end() + 20].split())
             yield f"{place}: ... {around} ..."
