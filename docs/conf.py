@@ -10,6 +10,7 @@ html_theme = "furo"
 html_static_path = ["docs/site.css"]
 html_css_files = ["site.css"]
 html_copy_source = html_show_sourcelink = html_show_sphinx = html_show_copyright = False
+html_show_search_summary = False  # it loads each page found, which a browser refuses without a server
 html_last_updated_fmt = None  # the same pages on every day
 myst_enable_extensions = ["colon_fence"]
 myst_heading_anchors = 4  # as code hosts make them
