@@ -32,7 +32,8 @@ FINDINGS = (
     "{c[rte-walk].published:.2f}) and by {c[rte-swing].value:.2f} when the swinging knee is hit (paper "
     "{c[rte-swing].published:.2f}).",
     "On the surrogate robots the best friction formula has {c[model-walk].value:.1f} times the error of MOB-Net on the "
-    "left leg, {c[model-right-arm].value:.1f} times on the right arm and {c[model-waist].value:.1f} times on the waist.",
+    "left leg, {c[model-right-arm].value:.1f} times on the right arm and {c[model-waist].value:.1f} times on the "
+    "waist.",
     "MOB finds {c[found-mob].value:.0%} of the collisions of a swinging leg (paper {c[found-mob].published:.0%}), and "
     "MOB-Net-OR {c[found-or].value:.0%} (paper {c[found-or].published:.0%}).",
     "Of the robots that walk into a block with the foot, {s[foot MOB-Net-ratio].fell} of {s[foot MOB-Net-ratio].walks} "

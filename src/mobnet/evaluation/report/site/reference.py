@@ -1,10 +1,13 @@
 """Pages of reference: the commands of `./reproduce`, every key of the configuration, and the public modules."""
 
 import json
+import os
+import re
+import subprocess
+import sys
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from mobnet.commands.words import COMMANDS, EXAMPLES, parser_of
 from mobnet.evaluation.report.site.contents import menu
 from mobnet.settings.settings import Settings
 
@@ -24,6 +27,7 @@ LIMITS = {
 }  # fmt: skip
 TYPES = {"array": "list", "object": "mapping", "string": "text", "null": "nothing"}  # as YAML calls them
 REFERENCE = "#/$defs/"
+COMMAND = re.compile(r"^ {2}(\w+) {2,}\w", re.MULTILINE)  # in the list of commands
 
 
 def reference_pages(modules: Mapping[str, Sequence[str]]) -> Iterator[tuple[str, str]]:
@@ -39,11 +43,18 @@ def reference_pages(modules: Mapping[str, Sequence[str]]) -> Iterator[tuple[str,
 
 def commands_page() -> str:
     """Return the page of all commands, each with its own help."""
-    parts = ["# Commands", "`./reproduce` knows these commands, and takes paths of files that a rule makes."]
-    parts.append(f"```text\n{EXAMPLES.strip(chr(10))}\n```")
-    for name in COMMANDS:
-        parts += [f"## ./reproduce {name}", f"```text\n{parser_of(name).format_help().strip()}\n```"]
+    overview = told("--help")
+    parts = ["# Commands", f"```text\n{overview}\n```"]
+    for name in COMMAND.findall(overview):
+        parts += [f"## ./reproduce {name}", f"```text\n{told(name, '--help')}\n```"]
     return "\n\n".join(parts) + "\n"
+
+
+def told(*words: str) -> str:
+    """Return what `./reproduce` prints, which this package must not import."""
+    wide = {**os.environ, "COLUMNS": "100"}
+    done = subprocess.run([sys.executable, "reproduce", *words], capture_output=True, text=True, check=True, env=wide)
+    return done.stdout.strip()
 
 
 def configuration_page(schema: Mapping[str, Any]) -> str:
