@@ -162,6 +162,14 @@ def test_report_is_made_by_one_command(unbroken):
     assert (unbroken / "report.html").stat().st_size > 1_000_000
 
 
+def test_documentation_is_made_by_one_command_and_verify_does_not_mind(unbroken):
+    assert reproduce(unbroken, command="docs").wait() == 0, told(unbroken)
+    assert "MOB-Net, reproduced" in (unbroken / "results" / "smoke" / "docs" / "index.html").read_text()
+    words = ["verify", "--manifest", "results/smoke/MANIFEST.sha256"]
+    done = subprocess.run([sys.executable, str(unbroken / "reproduce"), *words], cwd=unbroken, check=False)
+    assert done.returncode == 0
+
+
 @with_browser
 def test_report_shows_tables_figures_and_trainings(unbroken, open_page):
     browser = open_page(unbroken / "report.html")

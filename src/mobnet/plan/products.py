@@ -97,7 +97,7 @@ class Products:
 
     @property
     def figure_names(self) -> list[str]:
-        """Names of all figures; one that shows data of the project is left out where these are not there yet."""
+        """Names of all figures, without those whose source data do not exist yet."""
         kept = {"learning_curve": Path(self.settings.evaluation.learning_curve.data)}
         made = [*_made_with("figure_dir"), *self.settings.evaluation.figures]
         return [name for name in made if name not in kept or kept[name].is_file()]
