@@ -19,6 +19,15 @@ HANDS = ("figure_07", "figure_12")  # figures that `hand_figure` makes
 TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their rules: the code hash reads Python only
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "png", "csv")  # endings of a table's and of a figure's files
 CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`
+MAIN_TABLES = ("legs", "limbs", "detectors")  # of the paper's main text, one product
+SOURCES = (  # tables that these are made from
+    "table_05", "table_06", "table_07", "table_08", "table_09", "table_13", "methods", "peaks", "false_alarms",
+    "found_by_rate",
+)  # fmt: skip
+QUOTED = (  # tables that the paper's text takes numbers from, beside those of errors
+    "methods", "peaks", "phases", "noise", "error_budget", "label_error", "changed", "hourly", "kinds", "table_09",
+    "false_alarms", "found_by_rate", "smallest_force", "links", "safety", "sensorless",
+)  # fmt: skip
 BARS = ("figure_06", "figure_10")  # figures whose bars have a CSV of their own
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
 TIMED = ("runs.html", "main.pdf", "compute.html")  # they show what jobs took, as the table of compute does
@@ -68,7 +77,7 @@ class Products:
     @property
     def table_names(self) -> list[str]:
         """Names of all tables."""
-        return [*self.settings.evaluation.tables, *_made_with("table_dir")]
+        return [*self.settings.evaluation.tables, *_made_with("table_dir"), *MAIN_TABLES]
 
     @property
     def figure_names(self) -> list[str]:
@@ -84,7 +93,8 @@ class Products:
 
     def _tables_and_figures(self) -> Iterator[Product]:
         """Yield all tables and figures."""
-        tables, figures = self.table_names, self.figure_names
+        figures = self.figure_names
+        tables = [name for name in self.table_names if name not in MAIN_TABLES]
         for name in dict.fromkeys([*tables, *figures]):
             outputs = [self.folders.figures / f"{name}.{ending}" for ending in FIGURE if name in figures]
             outputs += [self.folders.figures / f"{name}_bars.csv"] if name in BARS else []
@@ -107,13 +117,17 @@ class Products:
         """Yield the numbers and tables that the paper's text takes, and the pages of trainings."""
         tables, results = self.folders.tables, self.folders.results
         csvs = [tables / f"{name}.csv" for name in self.settings.evaluation.tables]
+        made = [tables / f"{name}.{ending}" for name in MAIN_TABLES for ending in TABLE]
+        yield self._report_product("main_tables", {"sources": [tables / f"{name}.csv" for name in SOURCES]}, made)
         numbers = {
             "train": self.files.training_size("walk"),
             "table_csvs": csvs,
+            "further_csvs": [tables / f"{name}.csv" for name in QUOTED],
+            "captions": self._captions(),
             "claims_csv": tables / "claims.csv",
             "summary_csv": tables / "claims_summary.csv",
         }
-        yield self._report_product("numbers", numbers, [tables / "numbers.tex"])
+        yield self._report_product("numbers", numbers, [tables / "numbers.tex", tables / "captions.tex"])
         yield self._report_product("deviations", {"markdown": Path("docs/deviations.md")}, [tables / "deviations.tex"])
         networks = {"folders": self.files.all_networks()}
         parts = [TEMPLATES / f"runs.{ending}" for ending in ("html", "css", "js")]
@@ -127,7 +141,7 @@ class Products:
         accounts = {"accounts": results / "logs", "after": [*map(Path, self.stored), *outputs]}
         compute = [results / f"compute.{ending}" for ending in TABLE]
         yield self._report_product("compute", accounts, compute)
-        texts = [tables / f"{name}.tex" for name in (*self.table_names, "numbers", "deviations")] + [compute[1]]
+        texts = [tables / f"{name}.tex" for name in (*self.table_names, "numbers", "captions", "deviations")] + [compute[1]]
         sources = {"main": Path("paper/main.tex"), "references": Path("paper/refs.bib"), "tables": texts}
         figures = [self.folders.figures / f"{name}.pdf" for name in self.figure_names]
         built = [paper / "build.json", *([paper / "main.pdf"] if self.with_pdf else [])]
@@ -142,6 +156,11 @@ class Products:
         equal = [path for path in results_of_all if path not in timed]
         listed = [self.folders.manifest, self.folders.manifest.with_name(TIMES)]
         yield self._report_product("manifest", {"files": equal, "timed": timed}, listed)
+
+    def _captions(self) -> list[Path]:
+        """Return the captions of all tables and figures that the paper shows."""
+        names = {"tables": [*self.table_names, "compute"], "figures": self.figure_names}
+        return [CAPTIONS / kind / f"{name}.rst" for kind, made in names.items() for name in made]
 
     def _report_product(self, name: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:
         """Return a product of the module of its name in `report`."""
