@@ -8,7 +8,7 @@ from mobnet.core.files import write_text
 from mobnet.core.rows import read_texts
 from mobnet.evaluation.compare.rmse import RAW
 from mobnet.evaluation.number.files import read_numbers
-from mobnet.evaluation.number.number import Number, number_text
+from mobnet.evaluation.number.number import Number, interval_text, number_text
 from mobnet.evaluation.report.captions import captions_tex
 from mobnet.evaluation.report.cells import cell_text, cells_of
 from mobnet.evaluation.tables.layout import tex_escape
@@ -26,9 +26,12 @@ LOOKUP = r"""% Written by mobnet.evaluation.report.numbers; do not edit.
 \newcommand{\cell}[1]{\lookup{cell@#1}}
 \newcommand{\cellspan}[1]{\lookup{cellspan@#1}}
 \newcommand{\cellshare}[1]{\lookup{cellshare@#1}}
+\newcommand{\cellsharespan}[1]{\lookup{cellsharespan@#1}}
 \newcommand{\claimed}[1]{\lookup{claimed@#1}}
 \newcommand{\found}[1]{\lookup{found@#1}}
 \newcommand{\foundspan}[1]{\lookup{span@#1}}
+\newcommand{\claimedshare}[1]{\lookup{claimedshare@#1}}
+\newcommand{\foundshare}[1]{\lookup{foundshare@#1}}
 \newcommand{\verdict}[1]{\lookup{verdict@#1}}
 \newcommand{\cause}[1]{\lookup{cause@#1}}
 \newcommand{\scored}[2]{\lookup{scored@#1@#2}}
@@ -55,9 +58,10 @@ def numbers(
 
     \ourcell{scenario}{level}{method}{joint}{metric} and \publishedcell give a cell of a table of errors (metric: `mean`
     if it is the mean of some), \ours{level}{method}{joint} and \published a cell of Table 5. \cell{table@...} gives a
-    number of any other table, by its columns before the number, \cellspan its interval and \cellshare a share [-] in %.
-    \claimed{claim} gives the paper's number of a claim, \found and \foundspan ours and its interval, \verdict and
-    \cause the judgement. \scored{score}{outcome} gives how many statements of a score have a verdict or another outcome
+    number of any other table, by its columns before the number, \cellspan its interval, \cellshare and \cellsharespan
+    those of a share [-] in %.
+    \claimed{claim} gives the paper's number of a claim, \found and \foundspan ours and its interval, \claimedshare
+    and \foundshare both in %, \verdict and \cause the judgement. \scored{score}{outcome} gives how many statements of a score have a verdict or another outcome
     of `claims_summary`, \counted how many claims; \size{name} gives sizes of the scale.
 
     Two guards stand behind sentences whose wording depends on results, and print a dagger where that turned:
@@ -107,7 +111,7 @@ def further_texts(name: str, number: Number) -> dict[str, str]:
     """Return the names and TeX texts of a number of any table, in which a name says table, row and column."""
     texts = {f"cell@{name}": tex_escape(cell_text(number)), f"cellspan@{name}": cell_text(number, "interval")}
     if number.unit == "-":
-        texts[f"cellshare@{name}"] = "-" if number.value is None else f"{100.0 * number.value:.0f}"
+        texts |= {f"cellshare@{name}": share_text(number.value), f"cellsharespan@{name}": share_span(number)}
     if number.value is not None:
         texts[f"value@{name}"] = f"{number.value:.4f}"
     return texts
@@ -117,8 +121,21 @@ def claim_texts(of: Mapping[str, str], number: Number) -> dict[str, str]:
     """Return the names and TeX texts of a claim; `of`: columns `CLAIMS` of its row."""
     value, interval = number.texts()
     texts = {"claimed": number_text(number.published), "found": value, "span": interval}
+    if number.unit == "-":
+        texts |= {"claimedshare": share_text(number.published), "foundshare": share_text(number.value)}
     texts |= {name: of[name] for name in ("verdict", "cause")}
     return {f"{name}@{of['claim']}": tex_escape(text) for name, text in texts.items()}
+
+
+def share_text(share: float | None) -> str:
+    """Return a share [-] in %, a dash where there is none."""
+    return number_text(None if share is None else 100.0 * share, 0)
+
+
+def share_span(number: Number) -> str:
+    """Return the interval of a share [-] in %, nothing where there is none."""
+    ends = (None if end is None else 100.0 * end for end in (number.low, number.high))
+    return interval_text(*ends, digits=0)
 
 
 def size_texts(scale: str, rates: Rates, sizes: Scale, fleet: Fleet, train: Recordings) -> dict[str, str]:
