@@ -31,6 +31,7 @@ QUOTED = (  # tables that the paper's text takes numbers from, beside those of e
 BARS = ("figure_06", "figure_10")  # figures whose bars have a CSV of their own
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
 TIMED = ("runs.html", "main.pdf", "compute.html")  # they show what jobs took, as the table of compute does
+DRAWINGS = ("method", "robot")  # figures that show no results
 CAPTIONS = Path("workflow/report")
 HEADINGS = {"runs.html": "trainings", "main.pdf": "paper", ".html": "tables", ".png": "figures"}
 
@@ -141,7 +142,9 @@ class Products:
         accounts = {"accounts": results / "logs", "after": [*map(Path, self.stored), *outputs]}
         compute = [results / f"compute.{ending}" for ending in TABLE]
         yield self._report_product("compute", accounts, compute)
-        texts = [tables / f"{name}.tex" for name in (*self.table_names, "numbers", "captions", "deviations")] + [compute[1]]
+        texts = [tables / f"{name}.tex" for name in (*self.table_names, "numbers", "captions", "deviations")] + [
+            compute[1]
+        ]
         sources = {"main": Path("paper/main.tex"), "references": Path("paper/refs.bib"), "tables": texts}
         figures = [self.folders.figures / f"{name}.pdf" for name in self.figure_names]
         built = [paper / "build.json", *([paper / "main.pdf"] if self.with_pdf else [])]
@@ -159,7 +162,7 @@ class Products:
 
     def _captions(self) -> list[Path]:
         """Return the captions of all tables and figures that the paper shows."""
-        names = {"tables": [*self.table_names, "compute"], "figures": self.figure_names}
+        names = {"tables": [*self.table_names, "compute"], "figures": dict.fromkeys([*self.figure_names, *DRAWINGS])}
         return [CAPTIONS / kind / f"{name}.rst" for kind, made in names.items() for name in made]
 
     def _report_product(self, name: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:

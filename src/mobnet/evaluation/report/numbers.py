@@ -59,10 +59,10 @@ def numbers(
     \ourcell{scenario}{level}{method}{joint}{metric} and \publishedcell give a cell of a table of errors (metric: `mean`
     if it is the mean of some), \ours{level}{method}{joint} and \published a cell of Table 5. \cell{table@...} gives a
     number of any other table, by its columns before the number, \cellspan its interval, \cellshare and \cellsharespan
-    those of a share [-] in %.
-    \claimed{claim} gives the paper's number of a claim, \found and \foundspan ours and its interval, \claimedshare
-    and \foundshare both in %, \verdict and \cause the judgement. \scored{score}{outcome} gives how many statements of a score have a verdict or another outcome
-    of `claims_summary`, \counted how many claims; \size{name} gives sizes of the scale.
+    those of a share [-] in %. \claimed{claim} gives the paper's number of a claim, \found and \foundspan ours and its
+    interval, \claimedshare and \foundshare both in %, \verdict and \cause the judgement. \scored{score}{outcome} gives
+    how many statements of a score have a verdict or another outcome of `claims_summary`, \counted how many claims;
+    \size{name} gives sizes of the scale.
 
     Two guards stand behind sentences whose wording depends on results, and print a dagger where that turned:
     \holds{claim}{verdict,...} and \below{cell}{cell}, of \cell; `mobnet.evaluation.report.guards` has more of them.

@@ -91,16 +91,16 @@ def copy_sources(sources: Mapping[str, Sequence[Path]], folder: Path) -> None:
 
 
 def set_paper(source: Path, out: Path, settings: PaperText | None) -> None:
-    """Set the copied paper and write the PDF if everything is in its place; `settings` where its guards have to hold."""
-    defined = defined_texts(read_text(source.parent / TABLES / NUMBERS))
-    turned = turned_guards(read_text(source), defined)
-    for line in turned if settings is None else ():
-        log.warning("%s: marked by a dagger: %s", out, line)
-    if turned and settings is not None:
+    """Set a copied paper and write its PDF if all is in its place; without settings its guards need not hold."""
+    turned = turned_guards(read_text(source), defined_texts(read_text(source.parent / TABLES / NUMBERS)))
+    if settings is not None and turned:
         raise PaperError(f"{out}: the text does not fit its results: {'; '.join(turned)}")
+    for line in turned:
+        log.warning("%s: marked by a dagger: %s", out, line)
     compile_pdf(source)
     faults = page_faults(_read(source.with_suffix(".log")))
-    faults += place_faults(label_pages(_read(source.with_suffix(".aux"))), settings.pages) if settings else []
+    if settings is not None:
+        faults += place_faults(label_pages(_read(source.with_suffix(".aux"))), settings.pages)
     if faults:
         raise PaperError(f"{out}: the paper does not fit its pages: {'; '.join(faults)}")
     with atomic_path(out) as temporary:
