@@ -161,9 +161,10 @@ class Products:
         yield self._report_product("manifest", {"files": equal, "timed": timed}, listed)
 
     def _captions(self) -> list[Path]:
-        """Return the captions of all tables and figures that the paper shows."""
+        """Return the captions of all tables and figures that have one, for the paper."""
         names = {"tables": [*self.table_names, "compute"], "figures": dict.fromkeys([*self.figure_names, *DRAWINGS])}
-        return [CAPTIONS / kind / f"{name}.rst" for kind, made in names.items() for name in made]
+        files = [CAPTIONS / kind / f"{name}.rst" for kind, made in names.items() for name in made]
+        return [path for path in files if path.is_file()]
 
     def _report_product(self, name: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:
         """Return a product of the module of its name in `report`."""
