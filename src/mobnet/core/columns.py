@@ -231,7 +231,8 @@ COMPUTE = ("stage", "quantity", "value", "unit")
 
 # Figures.
 COMMANDS = (*BIN, "share", "unit")
-PUSH_ERRORS = ("scenario", "method", "push", "rmse_nm", "low", "high", *SPREAD, "published")
+PUSH_ERRORS = ("scenario", "method", "push", "measure", "value", "low", "high", *SPREAD, "unit", "published")
+JOINT_ERRORS = (*RUN, "joint", "metric", "value", "low", "high", *SPREAD, "unit", "published", "rmse_drawn")
 LOSSES = ("measure", "method", "runs", "epoch", "mean", "low", "high")
 LIMB_ERRORS = ("scenario", "method", "limb", "joint", "rmse_nm", "low", "high", *SPREAD)
 TUNED = ("panel", "line", "seconds", *RUN, "joint", "value", "low", "high", *SPREAD, "unit")

@@ -17,7 +17,7 @@ PLACES = (*(f"{kind}.{part}" for kind in ("tables", "figures") for part in ("pap
 ERRORS = f"{EVALUATION}.tables.paper.error_table:error_table"  # makes every entry of `tables`
 HANDS = ("figure_07", "figure_12")  # figures that `hand_figure` makes
 TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their rules: the code hash reads Python only
-TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "png", "csv")  # endings of a table's and of a figure's files
+TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "svg", "png", "csv")  # endings of a table's and of a figure's files
 CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`
 MAIN_TABLES = ("legs", "limbs", "detectors")  # of the paper's main text, one product
 SOURCES = (  # tables that these are made from
@@ -28,7 +28,7 @@ QUOTED = (  # tables that the paper's text takes numbers from, beside those of e
     "methods", "peaks", "phases", "noise", "error_budget", "label_error", "changed", "hourly", "kinds", "table_09",
     "false_alarms", "found_by_rate", "smallest_force", "links", "safety", "sensorless",
 )  # fmt: skip
-BARS = ("figure_06", "figure_10")  # figures whose bars have a CSV of their own
+BARS = tuple(f"figure_{k:02}" for k in (5, 6, 7, 8, 9, 10, 12))  # figures whose bars have a CSV of their own
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
 TIMED = ("runs.html", "main.pdf", "compute.html")  # they show what jobs took, as the table of compute does
 DRAWINGS = ("method", "robot")  # figures that show no results
@@ -193,11 +193,12 @@ class Products:
     def _own(self, name: str) -> dict[str, object]:
         """Return a product's own name, section of the configuration and numbers of the paper, None if it prints none.
 
+        A section may name the table of the paper whose numbers it shows.
         The chosen scale may replace the start of a gait cycle [s] that the section names.
         """
         evaluation, published = self.settings.evaluation, self.settings.published
         section = {**evaluation.tables, **evaluation.figures}.get(name) or getattr(evaluation, name, None)
-        printed = published.tables.get(name) or getattr(published, name, None)
+        printed = published.tables.get(getattr(section, "table", name)) or getattr(published, name, None)
         shortened = self.settings.sizes.figure_start_s
         start_s = getattr(section, "start_s", None) if shortened is None else shortened
         own = {"name": name, "settings": section, "start_s": start_s}

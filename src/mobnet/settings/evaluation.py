@@ -117,8 +117,13 @@ class Table01(Section):
 
 
 class Figure05(Section):
-    """Figure 5: one joint over a gait cycle, a panel for each method of each level."""
+    """Figure 5: one joint over a gait cycle, by method, at each level; the paper's numbers are those of a table.
 
+    The errors of some methods, `errors_of`, are drawn over time, those of others are far beyond them.
+    """
+
+    table: base.LowerName
+    errors_of: base.MethodNames
     scenario: base.ScenarioName
     joint: base.LegJointName
     start_s: base.NotNegative = Field(le=3600)
@@ -131,20 +136,39 @@ class Figure06(PushedRuns, PushWindow):
     joint: base.LegJointName
 
 
-class HandFigure(Runs):
-    """Figures 7 and 12: a push on a hand; every so many samples is drawn."""
+class ComparedRuns(Runs):
+    """Errors of single joints in one test, beside the paper's at a place of a table.
 
+    The errors of some methods, `errors_of`, are drawn over time, those of others are far beyond them.
+    """
+
+    metric: Metric = "rmse"
+    table: base.LowerName
+    place: base.Text
+    errors_of: base.MethodNames
+
+
+class HandFigure(ComparedRuns):
+    """Figures 7 and 12: a push on a hand, and what it is called; every so many samples is drawn."""
+
+    called: base.LowerName
     joints: base.Distinct[base.JointName]
     start_s: base.NotNegative = Field(le=3600)
     end_s: base.Positive = Field(le=3600)
     every: base.Whole = Field(ge=1, le=1000)
 
 
-class GaitFigure(Runs):
+class GaitFigure(ComparedRuns):
     """Figures 8 and 9: a leg over a gait cycle."""
 
     limb: base.LegName
     start_s: base.NotNegative = Field(le=3600)
+
+
+class Figure09(GaitFigure):
+    """Figure 9: methods side by side; some of the joints are drawn."""
+
+    drawn: base.Distinct[base.LegJointName]
 
 
 class Figure08(GaitFigure):
@@ -160,8 +184,12 @@ class QuietRuns(Runs):
 
 
 class Figure10(PushWindow):
-    """Figure 10: knee collisions; errors are increases over the walk that nothing pushes."""
+    """Figure 10: knee collisions; errors are increases over the walk that nothing pushes.
 
+    The curves of some methods are drawn.
+    """
+
+    drawn: base.MethodNames
     joint: base.LegJointName
     tests: Annotated[dict[base.Text, PushedRuns], Field(min_length=1)]
     against: QuietRuns
@@ -563,7 +591,7 @@ class Evaluation(Section):
     figure_06: Figure06
     figure_07: HandFigure
     figure_08: Figure08
-    figure_09: GaitFigure
+    figure_09: Figure09
     figure_10: Figure10
     figure_12: HandFigure
     figure_17: Figure17

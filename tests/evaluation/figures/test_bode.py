@@ -31,7 +31,7 @@ def test_numbers_stand_at_the_frequency_that_is_injected_on_their_joint(
         slow = (0.9, 0.99) if row.quantity == "gain" else (-5.0, -5.5)  # of MOB and of MOB-Net, a tenth more
         place = section.bands_hz.index(0.5 if row.value in map(pytest.approx, slow) else 2.0)
         assert row.frequency_hz == pytest.approx(lines[row.joint][place])
-    assert {path.suffix for path in tmp_path.glob("bode.*")} == {".csv", ".pdf", ".png"}
+    assert {path.suffix for path in tmp_path.glob("bode.*")} == {".csv", ".pdf", ".svg", ".png"}
     check_golden(tmp_path / "bode.csv")
 
 

@@ -74,7 +74,7 @@ def test_every_claim_is_drawn_once_and_statements_stay_whole(settings: Settings,
     rows = list(csv.DictReader((tmp_path / "claims.csv").read_text().splitlines()))
     assert (tuple(rows[0]), len(rows)) == (FOREST, len(all_judged))
     assert {row["verdict"] for row in rows} <= set(VERDICTS)
-    assert {path.suffix for path in tmp_path.iterdir()} == {".csv", ".pdf", ".png"}
+    assert {path.suffix for path in tmp_path.iterdir()} == {".csv", ".pdf", ".svg", ".png"}
 
 
 def test_labels_fit_beside_their_rows(settings: Settings) -> None:

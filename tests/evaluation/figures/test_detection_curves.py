@@ -26,7 +26,7 @@ def test_curves_and_areas_follow_from_the_files(settings: Settings, tmp_path: Pa
     assert {row.panel for row in rows if row.unit == "ms"} == {"delay"}
     assert sum(row.panel == "area" for row in rows) == 2
     check_golden(tmp_path / "detection_curves.csv")
-    assert {path.suffix for path in tmp_path.glob("detection_curves.*")} == {".csv", ".pdf", ".png"}
+    assert {path.suffix for path in tmp_path.glob("detection_curves.*")} == {".csv", ".pdf", ".svg", ".png"}
 
 
 def test_the_area_is_the_probability_that_a_hit_lies_higher(settings: Settings) -> None:

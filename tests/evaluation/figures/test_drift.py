@@ -25,5 +25,5 @@ def test_bins_stand_at_the_middle_of_their_time_and_those_without_a_phase_are_le
     assert own == [
         ("swing", 0.25, pytest.approx(0.9)), ("swing", 1.25, pytest.approx(0.6)), ("stance", 0.75, pytest.approx(-0.2)),
     ]  # fmt: skip
-    assert {path.suffix for path in tmp_path.glob("drift.*")} == {".csv", ".pdf", ".png"}
+    assert {path.suffix for path in tmp_path.glob("drift.*")} == {".csv", ".pdf", ".svg", ".png"}
     check_golden(tmp_path / "drift.csv")

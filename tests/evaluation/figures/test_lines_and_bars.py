@@ -1,4 +1,4 @@
-"""Lines and bars show the numbers given, each told from the others; the paper's numbers and notes are at their bars."""
+"""Lines and bars show the numbers given, each told from the others."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ from mobnet.evaluation.number.number import Number
 
 BARS = {
     "MOB": [Number(9.0, 8.5, 9.5), Number(7.0, 6.5, 7.5)],
-    "MOB-Net": [Number(2.0, 1.5, 2.5), Number(3.0, 2.5, 3.5, published=12.0)],
+    "MOB-Net": [Number(2.0, 1.5, 2.5), Number(3.0, 2.5, 3.5)],
 }
 
 
@@ -76,25 +76,6 @@ def test_bars_have_heights_and_the_colours_of_their_methods(axis: Axes) -> None:
     assert [patch.get_height() for patch in axis.patches] == [9.0, 7.0, 2.0, 3.0]
     for bars, method in zip(axis.containers[1::2], BARS, strict=True):
         assert {patch.get_facecolor() for patch in bars} == {to_rgba(LOOKS[method].colour)}
-
-
-def test_the_papers_numbers_stand_within_the_bars_that_have_one(axis: Axes) -> None:
-    draw_bar_panel(axis, BarPanel("a", ["1", "2"], BARS, "paper (robot)"))
-    (marks,) = [line for line in axis.lines if line.get_label() == "paper (robot)"]
-    x, y = np.asarray(marks.get_xdata()), np.asarray(marks.get_ydata())
-    assert np.isnan(y[0])
-    assert y[1] == 12.0
-    bar = axis.patches[3]
-    assert bar.get_x() < x[1] < bar.get_x() + bar.get_width()
-
-
-@pytest.mark.parametrize(("angle", "tops"), [(0, [9.5, 7.5, 2.5, 12.0]), (90, [9.5, 12.0, 9.5, 12.0])])
-def test_notes_stand_above_their_bars_or_upright_above_the_group(axis: Axes, angle: int, tops: list[float]) -> None:
-    notes = {"MOB": ["a", "b"], "MOB-Net": ["c", "d"]}
-    draw_bar_panel(axis, BarPanel("a", ["1", "2"], BARS, notes=notes), angle)
-    assert [text.get_text() for text in axis.texts] == ["a", "b", "c", "d"]
-    assert [text.xy[1] for text in axis.texts] == tops  # type: ignore[attr-defined]
-    assert axis.get_ylim()[1] > 12.0
 
 
 def test_without_bars_there_is_an_empty_panel(axis: Axes) -> None:

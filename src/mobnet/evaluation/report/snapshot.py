@@ -34,6 +34,7 @@ RESULTS, MANIFEST = Path("results/default"), Path("results/MANIFEST.sha256")
 COMPUTE = RESULTS / "compute.md"
 UP_TO_DATE = "Nothing to be done"  # by which Snakemake says that no job would run
 DRAWN = "figures"  # folder of the snapshot with the CSVs of figures, compressed
+PICTURES = (".png", ".svg")
 NOTED = ("recordings", "motions", "networks")  # folders of results whose notes name the commit that made them
 README = Path("README.md")
 KEYS = (  # columns that name a row; the others are results
@@ -93,7 +94,7 @@ def check_fingerprints(*words: str) -> None:
 
 
 def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Path, out: Path) -> None:
-    """Copy a scale's tables (CSV, Markdown), figures (PNG, CSV) and table of compute, and note where they come from.
+    """Copy a scale's tables (CSV, Markdown), figures (PNG, SVG, CSV) and table of compute, and note their origin.
 
     Tables and figures of an earlier snapshot that are made no longer are removed. The table of compute differs from run
     to run, so only its Markdown is stored, and no CSV to be compared.
@@ -102,7 +103,8 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Pat
         DataError: there is no table to copy, or a file is missing.
     """
     numbers = sorted(tables.glob("*.csv"))
-    found = [*numbers, *(path.with_suffix(".md") for path in numbers), *sorted(figures.glob("*.png")), compute]
+    pictures = sorted(path for ending in PICTURES for path in figures.glob(f"*{ending}"))
+    found = [*numbers, *(path.with_suffix(".md") for path in numbers), *pictures, compute]
     if not numbers:
         raise DataError(f"{tables}: holds no CSV; ./reproduce all makes them")
     missing = [path for path in found if not path.is_file()]
@@ -117,8 +119,8 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Pat
             temporary.write_bytes(gzip.compress(source.read_bytes(), mtime=0))
     kept = {out / source.name for source in numbers} | {out / DRAWN / f"{source.name}.gz" for source in drawn}
     for path in {*out.glob("*.csv"), *(out / DRAWN).glob("*.csv.gz")} - kept:
-        shown = out / f"{path.name.partition('.')[0]}.{'md' if path.parent == out else 'png'}"
-        for gone in (path, shown):
+        shown = [".md"] if path.parent == out else PICTURES
+        for gone in (path, *(out / f"{path.name.partition('.')[0]}{ending}" for ending in shown)):
             gone.unlink(missing_ok=True)
     write_json(out / "provenance.json", {"scale": settings.scale, **provenance()})
     log.info("%s: %d files", out, len(found))

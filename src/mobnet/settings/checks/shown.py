@@ -201,6 +201,14 @@ def _printed_problems(settings: Settings) -> Iterator[Problem]:
         for k, row in enumerate(table.rows)
     ]
     shown += [(("noise", "paper", name), name, place) for name, place in evaluation.noise.paper.items()]
+    shown += [
+        ((f"figure_{k}", "place"), figure.table, figure.place)
+        for k, figure in {"07": evaluation.figure_07, "08": evaluation.figure_08, "09": evaluation.figure_09,
+                          "12": evaluation.figure_12}.items()
+    ]  # fmt: skip
+    shown += [
+        (("figure_05", "panels", level), evaluation.figure_05.table, level) for level in evaluation.figure_05.panels
+    ]
     for place, name, paper in shown:
         accepted = printed[name].numbers if name in printed else {}
         if paper is not None and paper not in accepted:

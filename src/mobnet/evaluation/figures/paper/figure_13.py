@@ -36,7 +36,7 @@ def figure_13(
     settings: Figure13, detection: Detection, robot: RobotTable, detections: Detections, recordings: Sequence[Path],
     figure_dir: Path,
 ) -> None:  # fmt: skip
-    """Write Figure 13 as PDF, PNG and CSV: the first collision of each cell, when its force is largest."""
+    """Write Figure 13 as PDF, SVG, PNG and CSV: the first collision of each cell, when its force is largest."""
     description, rows = describe(robot), []
     found = rows_of(detections, [settings.level], "collisions", Collision)
     figure, axes = beside(len(settings.cells), HEIGHT_INCH)

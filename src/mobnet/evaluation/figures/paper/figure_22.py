@@ -31,7 +31,7 @@ def figure_22(
     courses: Mapping[str, Path],
     figure_dir: Path,
 ) -> None:
-    """Write Figure 22 as PDF, PNG and CSV: the first walk of each case, before the contact, at it, and after it."""
+    """Write Figure 22 as PDF, SVG, PNG and CSV: the first walk of each case before, at and after the contact."""
     description, rows = describe(robot), list[list[Field]]()
     walks = {case: read_course(courses[case], description.layout) for case in settings.cases}
     figure = Figure(figsize=(PAGE_INCH, ROW_INCH * len(walks)), layout="constrained")
