@@ -96,7 +96,11 @@ def set_paper(source: Path, out: Path, settings: PaperText | None) -> None:
     if settings is not None and turned:
         raise PaperError(f"{out}: the text does not fit its results: {'; '.join(turned)}")
     for line in turned:
-        log.warning("%s: marked by a dagger: %s", out, line)
+        log.info("%s: marked by a dagger: %s", out, line)
+    if turned:
+        log.warning(
+            "%s: %d guarded sentences do not fit the results of this scale, a dagger marks each", out, len(turned)
+        )
     compile_pdf(source)
     faults = page_faults(_read(source.with_suffix(".log")))
     if settings is not None:
