@@ -7,9 +7,10 @@ from pathlib import Path
 
 from mobnet.core.code import start_of
 from mobnet.plan.call import Job, call_of, parameters
+from mobnet.plan.detection import all_detections
 from mobnet.plan.files import Files, files_in
 from mobnet.plan.needs import needs_of
-from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.evaluation import Evaluation, Runs
 from mobnet.settings.settings import Settings
 
 EVALUATION = "mobnet.evaluation"
@@ -18,6 +19,7 @@ ERRORS = f"{EVALUATION}.tables.paper.error_table:error_table"  # makes every ent
 HANDS = ("figure_07", "figure_12")  # figures that `hand_figure` makes
 TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their rules: the code hash reads Python only
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "svg", "png", "csv")  # endings of a table's and of a figure's files
+FILM, DRAWN = ("webp", "gif", "png", "csv"), ("method", "robot")  # endings of the film's files; drawings
 CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`
 MAIN_TABLES = ("legs", "limbs", "detectors")  # of the paper's main text, one product
 SOURCES = (  # tables that these are made from
@@ -31,7 +33,6 @@ QUOTED = (  # tables that the paper's text takes numbers from, beside those of e
 BARS = tuple(f"figure_{k:02}" for k in (5, 6, 7, 8, 9, 10, 12))  # figures whose bars have a CSV of their own
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
 TIMED = ("runs.html", "main.pdf", "compute.html")  # they show what jobs took, as the table of compute does
-DRAWINGS = ("method", "robot")  # figures that show no results
 CAPTIONS = Path("workflow/report")
 HEADINGS = {"runs.html": "trainings", "main.pdf": "paper", ".html": "tables", ".png": "figures"}
 
@@ -89,7 +90,7 @@ class Products:
 
     def all(self) -> list[Product]:
         """Return every product, each after those that it needs."""
-        made = [*self._tables_and_figures(), *self._texts()]
+        made = [*self._tables_and_figures(), self._pictures(), *self._texts()]
         return [*made, *self._report(made)]
 
     def _tables_and_figures(self) -> Iterator[Product]:
@@ -104,6 +105,22 @@ class Products:
             asked = [parameter for some in parameters(function) for parameter in some]
             needs = needs_of(self.files, name, self._own(name).get("settings"), asked)
             yield self._product(name, function, {**needs, **self._tables_of(name)}, outputs)
+
+    def _pictures(self) -> Product:
+        """Return the drawings of method and robot, and the film of a push where there is a robot with detectors."""
+        figures, evaluation, detections = self.folders.figures, self.settings.evaluation, all_detections(self.files)
+        story = evaluation.story
+        is_told, test = story.level in detections, Runs(**story.model_dump(include=set(Runs.model_fields)))
+        needs: dict[str, object] = {
+            "film": evaluation.push_film,
+            **{name: getattr(evaluation, name) for name in ("drawings", "story", "peaks")},
+            "runs": self.files.first_runs(test) if is_told else (),
+            "detections": {story.level: detections[story.level]} if is_told else {},
+            "figure_folder": figures,
+        }
+        outputs = [figures / f"{name}.{ending}" for name in DRAWN for ending in FIGURE]
+        outputs += [figures / f"push.{ending}" for ending in FILM] if is_told else []
+        return self._product("pictures", functions()["pictures"], needs, outputs)
 
     def _tables_of(self, name: str) -> Mapping[str, object]:
         """Return the tables from which another table or figure is made."""
@@ -146,7 +163,7 @@ class Products:
             compute[1]
         ]
         sources = {"main": Path("paper/main.tex"), "references": Path("paper/refs.bib"), "tables": texts}
-        figures = [self.folders.figures / f"{name}.pdf" for name in self.figure_names]
+        figures = [self.folders.figures / f"{name}.pdf" for name in (*self.figure_names, *DRAWN)]
         built = [paper / "build.json", *([paper / "main.pdf"] if self.with_pdf else [])]
         yield self._report_product("paper", {**sources, "figures": figures}, built)
         listed = [*(tables / f"{name}.md" for name in self.table_names), results / "compute.md"]
@@ -162,7 +179,7 @@ class Products:
 
     def _captions(self) -> list[Path]:
         """Return the captions of all tables and figures that have one, for the paper."""
-        names = {"tables": [*self.table_names, "compute"], "figures": dict.fromkeys([*self.figure_names, *DRAWINGS])}
+        names = {"tables": [*self.table_names, "compute"], "figures": dict.fromkeys([*self.figure_names, *DRAWN])}
         files = [CAPTIONS / kind / f"{name}.rst" for kind, made in names.items() for name in made]
         return [path for path in files if path.is_file()]
 
@@ -185,6 +202,7 @@ class Products:
             **{name: getattr(self.settings, name) for name in type(self.settings).model_fields if name != "evaluation"},
             **{name: getattr(evaluation, name) for name in ("statistics", "windows", "coverage")},
             "layout": self.settings.layout,
+            "looks": self.settings.robot.looks,
             "sizes": self.settings.sizes,
             "table_dir": self.folders.tables,
             "figure_dir": self.folders.figures,

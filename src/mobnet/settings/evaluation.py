@@ -317,6 +317,72 @@ class Films(Section):
     slower: Annotated[base.Real, Field(ge=0.1, le=100)]
 
 
+class Story(Section):
+    """The push that the film, the demonstration and the page of pushes show: that of the first run of a test.
+
+    Times before and after it begins; methods, a detector, and the joint whose torque is shown.
+    """
+
+    scenario: base.ScenarioName
+    level: base.LevelName
+    push: base.PushName
+    before_s: base.Real = Field(ge=0.1, le=10)
+    after_s: base.Real = Field(ge=0.1, le=10)
+    joint: base.LegJointName
+    methods: base.MethodNames
+    detector: base.DetectorName
+
+
+class PushFilm(Section):
+    """The film of the push of `story`: real time, some of it slower, and in the middle a still for `hold_s`.
+
+    The view is an azimuth from ahead and an elevation of the eye [deg]; times count from the beginning of the push;
+    the time axis shows `margin_s` more than what is slowed; `colours` is the size of the palette. `kind` is the rule of
+    the thresholds of the detector. Labels of methods, of `truth` and of `swing`, the name of the joint and the lines of
+    the opening are texts of the film.
+    """
+
+    view_deg: tuple[base.Degrees, base.Degrees]
+    frames_hz: base.Real = Field(ge=5, le=60)
+    slowed_hz: base.Real = Field(ge=5, le=60)
+    slower: base.Real = Field(ge=1, le=100)
+    slow_s: base.Span[base.Real]
+    hold_s: base.Seconds
+    margin_s: base.Pause
+    colours: base.Whole = Field(ge=8, le=256)
+    kind: base.ThresholdsName
+    labels: dict[base.Text, base.Text]
+    joint: base.Text
+    opening: base.Some[base.Text]
+
+
+class Note(Section):
+    """A text of the drawing of the robot: a point of a body that it names, and where it begins [m]."""
+
+    text: base.Text
+    body: base.BodyName
+    pos: base.Vector3
+    at_m: tuple[base.Real, base.Real]
+
+
+class Drawings(Section):
+    """The drawings of method and robot: limbs with networks, angles of joints that are not in the posture, the view.
+
+    The view is an azimuth and an elevation [deg]; the corner is the lower left one of the picture, from the base on the
+    ground. The axes of a leg's joints are drawn, and a push of `force_n` from ahead.
+    """
+
+    limbs: base.LimbNames
+    pose_rad: dict[base.JointName, base.Radians]
+    view_deg: tuple[base.Degrees, base.Degrees]
+    corner_m: tuple[base.Real, base.Real]
+    m_per_inch: base.Real = Field(ge=0.01, le=10)
+    floor_m: base.Length
+    leg: base.LegName
+    force_n: base.Newton
+    notes: tuple[Note, ...] = ()
+
+
 class Sensorless(Section):
     """Walks that nothing stands in the way of, with what is estimated in place of force sensors."""
 
@@ -622,6 +688,9 @@ class Evaluation(Section):
     figure_21: Figure21
     figure_22: Figure22
     films: Films
+    story: Story
+    push_film: PushFilm
+    drawings: Drawings
     found_by_rate: FoundByRate
     smallest_force: SmallestForce
     links: Links

@@ -34,7 +34,7 @@ RESULTS, MANIFEST = Path("results/default"), Path("results/MANIFEST.sha256")
 COMPUTE = RESULTS / "compute.md"
 UP_TO_DATE = "Nothing to be done"  # by which Snakemake says that no job would run
 DRAWN = "figures"  # folder of the snapshot with the CSVs of figures, compressed
-PICTURES = (".png", ".svg")
+PICTURES = (".png", ".svg", ".webp")
 NOTED = ("recordings", "motions", "networks")  # folders of results whose notes name the commit that made them
 README = Path("README.md")
 KEYS = (  # columns that name a row; the others are results
@@ -94,7 +94,7 @@ def check_fingerprints(*words: str) -> None:
 
 
 def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Path, out: Path) -> None:
-    """Copy a scale's tables (CSV, Markdown), figures (PNG, SVG, CSV) and table of compute, and note their origin.
+    """Copy a scale's tables (CSV, Markdown), figures (PNG, SVG, WebP, CSV) and table of compute, and note their origin.
 
     Tables and figures of an earlier snapshot that are made no longer are removed. The table of compute differs from run
     to run, so only its Markdown is stored, and no CSV to be compared.

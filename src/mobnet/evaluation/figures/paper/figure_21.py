@@ -12,8 +12,8 @@ from mobnet.control.kinematics import empty_pose, tree_of, update
 from mobnet.core.arrays import Array
 from mobnet.core.course import StoredCourse, read_course
 from mobnet.core.joints import N_VIRTUAL
-from mobnet.evaluation.figures.drawing.robot import hull_of
-from mobnet.evaluation.figures.drawing.scene import PAD, draw_arrow, part_surface
+from mobnet.evaluation.figures.drawing.scene import PAD, draw_arrow, solid_of
+from mobnet.evaluation.figures.drawing.solids import outline_of
 from mobnet.evaluation.figures.style import COLUMN_INCH, legend, save_figure, styled
 from mobnet.robot.description import SIDES, RobotDescription, describe
 from mobnet.settings.data import Obstacle
@@ -27,6 +27,7 @@ COLOURS = {"left": "#0072B2", "right": "#009E73"}
 Step = tuple[str, int, Array]  # side, sample at which the foot stands, its place x, y and yaw (3,) [m, m, rad]
 ARROW_M = 0.25
 PLACES = 6  # of numbers along a sole
+FROM_ABOVE = np.eye(3)  # the axes of the picture
 
 
 @styled
@@ -98,7 +99,7 @@ def _draw(
             axis.annotate(str(count), heel + along * (toe - heel), ha="center", va="center", fontsize=7)
     for name, at in course.note["obstacles"].items():
         for part in obstacles[name].parts:
-            outline = hull_of((np.asarray(at) + part_surface(part))[:, :2])
+            outline = outline_of(solid_of(part, at), FROM_ABOVE)
             axis.add_patch(Polygon(outline, closed=True, facecolor=PAD, edgecolor="0.25", linewidth=0.6, zorder=0))
     end = len(course.q) if reacted is None else reacted
     axis.plot(*course.q[:end, :2].T, color="0.5", linewidth=0.8, label="pelvis until the reaction")
