@@ -179,7 +179,7 @@ class Products:
 
     def _captions(self) -> list[Path]:
         """Return the captions of all tables and figures that have one, for the paper."""
-        names = {"tables": [*self.table_names, "compute"], "figures": dict.fromkeys([*self.figure_names, *DRAWN])}
+        names = {"tables": [*self.table_names, "compute"], "figures": [*self.figure_names, *DRAWN]}
         files = [CAPTIONS / kind / f"{name}.rst" for kind, made in names.items() for name in made]
         return [path for path in files if path.is_file()]
 
