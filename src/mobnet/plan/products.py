@@ -33,6 +33,15 @@ TESTS = (  # scenario and level of those whose errors the page of trainings show
 )  # fmt: skip
 CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`
 FURTHER: Mapping[str, tuple[str, ...]] = {"bode": ("bode_all",), "claims": ("claims_own",)}  # more figures of a product
+MAIN_TABLES = ("legs", "limbs", "detectors")  # of the paper's main text, one product
+SOURCES = (  # tables that these are made from
+    "table_05", "table_06", "table_07", "table_08", "table_09", "table_13", "methods", "peaks", "false_alarms",
+    "found_by_rate",
+)  # fmt: skip
+QUOTED = (  # tables that the paper's text takes numbers from, beside those of errors
+    "methods", "peaks", "phases", "noise", "error_budget", "label_error", "changed", "hourly", "kinds", "table_09",
+    "false_alarms", "found_by_rate", "smallest_force", "links", "safety", "sensorless",
+)  # fmt: skip
 BARS = tuple(f"figure_{k:02}" for k in (5, 6, 7, 8, 9, 10, 12))  # figures whose bars have a CSV of their own
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
 TIMED = ("runs.html", "main.pdf", "compute.html")  # they show what jobs took, as the table of compute does
@@ -93,7 +102,7 @@ class Products:
     @property
     def table_names(self) -> list[str]:
         """Names of all tables."""
-        return [*self.settings.evaluation.tables, *_made_with("table_dir")]
+        return [*self.settings.evaluation.tables, *_made_with("table_dir"), *MAIN_TABLES]
 
     @property
     def figure_names(self) -> list[str]:
@@ -109,7 +118,8 @@ class Products:
 
     def _tables_and_figures(self) -> Iterator[Product]:
         """Yield all tables and figures."""
-        tables, figures = self.table_names, self.figure_names
+        figures = self.figure_names
+        tables = [name for name in self.table_names if name not in MAIN_TABLES]
         for name in dict.fromkeys([*tables, *figures]):
             drawn = pictures(name) if name in figures else ()
             outputs = [self.folders.figures / f"{picture}.{ending}" for picture in drawn for ending in FIGURE]
@@ -148,13 +158,17 @@ class Products:
         """Yield numbers and tables that the paper takes, pages of trainings and pushes, and the stored push."""
         tables, results = self.folders.tables, self.folders.results
         csvs = [tables / f"{name}.csv" for name in self.settings.evaluation.tables]
+        made = [tables / f"{name}.{ending}" for name in MAIN_TABLES for ending in TABLE]
+        yield self._report_product("main_tables", {"sources": [tables / f"{name}.csv" for name in SOURCES]}, made)
         numbers = {
             "train": self.files.training_size("walk"),
             "table_csvs": csvs,
+            "further_csvs": [tables / f"{name}.csv" for name in QUOTED],
+            "captions": self._captions(),
             "claims_csv": tables / "claims.csv",
             "summary_csv": tables / "claims_summary.csv",
         }
-        yield self._report_product("numbers", numbers, [tables / "numbers.tex"])
+        yield self._report_product("numbers", numbers, [tables / "numbers.tex", tables / "captions.tex"])
         yield self._report_product("deviations", {"markdown": Path("docs/deviations.md")}, [tables / "deviations.tex"])
         networks = {"folders": self.files.all_networks()}
         parts = [TEMPLATES / name for name in ("runs.html", "page.css", "runs.css", "page.js", "runs.js", "overlay.js")]
@@ -176,7 +190,8 @@ class Products:
         accounts = {"accounts": results / "logs", "after": [*map(Path, self.stored), *outputs]}
         compute = [results / f"compute.{ending}" for ending in TABLE]
         yield self._report_product("compute", accounts, compute)
-        texts = [tables / f"{name}.tex" for name in (*self.table_names, "numbers", "deviations")] + [compute[1]]
+        names = (*self.table_names, "numbers", "captions", "deviations")
+        texts = [*(tables / f"{name}.tex" for name in names), compute[1]]
         sources = {"main": Path("paper/main.tex"), "references": Path("paper/refs.bib"), "tables": texts}
         drawn = [*(picture for name in self.figure_names for picture in pictures(name)), *DRAWN]
         figures = [self.folders.figures / f"{picture}.pdf" for picture in drawn]
@@ -206,6 +221,13 @@ class Products:
             "templates": {name: TEMPLATES / f"{name}.html" for name in ("table", "claims", "index")},
             "read": [*parts, *(self.folders.tables / f"{name}.csv" for name in ("claims", *HEADLINE))],
         }
+
+    def _captions(self) -> list[Path]:
+        """Return the captions of all tables and figures that have one, for the paper."""
+        drawn = [*(picture for name in self.figure_names for picture in pictures(name)), *DRAWN]
+        names = {"tables": [*self.table_names, "compute"], "figures": drawn}
+        files = [CAPTIONS / kind / f"{name}.rst" for kind, made in names.items() for name in made]
+        return [path for path in files if path.is_file()]
 
     def _report_product(self, name: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:
         """Return a product of the module of its name in `report`."""

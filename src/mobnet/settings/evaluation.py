@@ -653,6 +653,53 @@ class Compute(Section):
     pause_s: base.Real = Field(ge=1, le=3600)
 
 
+class PlantColumns(Section):
+    """Columns of one plant: a walk and a push, each as `<scenario>@<level>`, and the table with the paper's errors."""
+
+    title: base.Text
+    walk: base.Text
+    printed: base.LowerName
+    push: base.Text
+
+
+class LegsTable(Section):
+    """Methods on the left leg, plant by plant."""
+
+    plants: base.Some[PlantColumns]
+    methods: base.MethodNames
+
+
+class LimbLine(Section):
+    """A limb in a test: `test` is `<table>@<scenario>@<level>`, `column` what stands behind a method there."""
+
+    title: base.Text
+    part: base.Text
+    test: base.Text
+    column: base.Text
+
+
+class LimbsTable(Section):
+    """Errors over that of estimating nothing, by limb and method."""
+
+    lines: base.Some[LimbLine]
+    methods: base.MethodNames
+
+
+class MainTables(Section):
+    """The tables of the paper's main text, made from other tables."""
+
+    legs: LegsTable
+    by_limb: LimbsTable
+    detectors: AlarmTable
+
+
+class PaperText(Section):
+    """The text of the paper: the scale for whose results its words were chosen, and the pages of its main text."""
+
+    scale: base.LowerName
+    pages: Annotated[base.Count, Field(le=100)]
+
+
 class Evaluation(Section):
     """All tables and figures."""
 
@@ -715,6 +762,8 @@ class Evaluation(Section):
     latency: Latency
     compute: Compute
     explore: Explore
+    main_tables: MainTables
+    paper: PaperText
 
 
 def measured_in(evaluation: Evaluation) -> dict[str, Section]:
