@@ -53,7 +53,8 @@ def rewrite(old: str, new: str) -> list[str]:
 def test_snapshot_holds_tables_and_pictures_with_their_origin() -> None:
     names = sorted(path.name for path in STORED.iterdir())
     assert names == [
-        "compute.md", "figure_05.png", "figure_05.svg", "figures", "provenance.json", "push.webp", "table_05.csv", "table_05.md"
+        "compute.md", "figure_05.png", "figure_05.svg", "figures", "provenance.json", "push.webp", "table_05.csv",
+        "table_05.md",
     ]  # fmt: skip
     assert set(read_json(STORED / "provenance.json")) == {"scale", "commit", "lock"}
 
@@ -69,8 +70,8 @@ def test_what_is_made_no_longer_is_removed_with_the_next_snapshot() -> None:
     write_snapshot(SETTINGS, TABLES, FIGURES, COMPUTE, STORED)
     names = sorted(path.name for path in STORED.rglob("*") if path.is_file())
     assert names == [
-        "compute.md", "figure_06.csv.gz", "figure_06.png", "figure_06.svg", "provenance.json", "push.webp", "rates.json",
-        "table_05.csv", "table_05.md", "walking.png",
+        "compute.md", "figure_06.csv.gz", "figure_06.png", "figure_06.svg", "provenance.json", "push.webp",
+        "rates.json", "table_05.csv", "table_05.md", "walking.png",
     ]  # fmt: skip
 
 
