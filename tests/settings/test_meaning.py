@@ -248,6 +248,9 @@ MEANINGLESS: list[tuple[str, Any, str]] = [
     ("robot.networks.W.Q", ["V"], "limb with motors"),
     ("robot.joints.3.torque_limit", 289_000.0, "to 5000"),
     ("robot.shapes.2.segment", [0.0] * 6, "two points that differ"),
+    ("robot.looks.shapes.2.segment", [0.0] * 6, "two points that differ"),
+    ("robot.looks.shapes.2.tone", "pink", "tone"),
+    ("robot.looks.shapes.3.name", "left_hip_yaw", "each name once"),
 ]
 
 

@@ -116,7 +116,6 @@ class Products:
             **{name: getattr(evaluation, name) for name in ("drawings", "story", "peaks")},
             "runs": self.files.first_runs(test) if is_told else (),
             "detections": {story.level: detections[story.level]} if is_told else {},
-            "figure_folder": figures,
         }
         outputs = [figures / f"{name}.{ending}" for name in DRAWN for ending in FIGURE]
         outputs += [figures / f"push.{ending}" for ending in FILM] if is_told else []

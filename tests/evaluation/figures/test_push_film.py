@@ -17,7 +17,7 @@ from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.low_pass import low_pass
-from mobnet.evaluation.figures.further.push_film import eased, lines_of, push_film, shots_of
+from mobnet.evaluation.figures.drawing.push_film import eased, lines_of, push_film, shots_of
 from mobnet.evaluation.measure.estimates.story import Felt, read_story
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import PushFilm, Story

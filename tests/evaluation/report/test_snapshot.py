@@ -36,7 +36,7 @@ def stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A working folder with a fresh table and a snapshot of it."""
     monkeypatch.chdir(tmp_path)
     made = {TABLES / "table_05.csv": TABLE, TABLES / "table_05.md": "x", FIGURES / "figure_05.png": "p", COMPUTE: "c"}
-    made |= {FIGURES / "figure_05.svg": "s", FIGURES / "figure_05.csv": "x,y\n1,2\n3,4\n"}
+    made |= {FIGURES / "figure_05.svg": "s", FIGURES / "push.webp": "w", FIGURES / "figure_05.csv": "x,y\n1,2\n3,4\n"}
     for path, text in made.items():
         path.parent.mkdir(exist_ok=True)
         path.write_text(text)
@@ -53,7 +53,7 @@ def rewrite(old: str, new: str) -> list[str]:
 def test_snapshot_holds_tables_and_pictures_with_their_origin() -> None:
     names = sorted(path.name for path in STORED.iterdir())
     assert names == [
-        "compute.md", "figure_05.png", "figure_05.svg", "figures", "provenance.json", "table_05.csv", "table_05.md"
+        "compute.md", "figure_05.png", "figure_05.svg", "figures", "provenance.json", "push.webp", "table_05.csv", "table_05.md"
     ]  # fmt: skip
     assert set(read_json(STORED / "provenance.json")) == {"scale", "commit", "lock"}
 
@@ -69,7 +69,7 @@ def test_what_is_made_no_longer_is_removed_with_the_next_snapshot() -> None:
     write_snapshot(SETTINGS, TABLES, FIGURES, COMPUTE, STORED)
     names = sorted(path.name for path in STORED.rglob("*") if path.is_file())
     assert names == [
-        "compute.md", "figure_06.csv.gz", "figure_06.png", "figure_06.svg", "provenance.json", "rates.json",
+        "compute.md", "figure_06.csv.gz", "figure_06.png", "figure_06.svg", "provenance.json", "push.webp", "rates.json",
         "table_05.csv", "table_05.md", "walking.png",
     ]  # fmt: skip
 

@@ -112,7 +112,9 @@ def _draw_lines(figure: Figure, course: Course, lines: Sequence[str | Sequence[s
             figure.text(TEXT_X, y, line, color=INK)
             continue
         method, *texts = line
-        look = {"color": LOOKS[method].colour, "fontweight": "bold"} if row else {"color": PALE, "fontsize": 10.5}
+        look: dict[str, Any] = {"color": PALE, "fontsize": 10.5}
+        if row:
+            look = {"color": LOOKS[method].colour, "fontweight": "bold"}
         for column, text in enumerate([course.labels.get(method, method), *texts]):
             figure.text(COLUMN_X[column], y, text, ha="right" if column else "left", **look)
 
@@ -139,10 +141,8 @@ def _draw_torque(axis: Axes, moment: Moment, course: Course, drawn_s: float) -> 
     first, last = np.searchsorted(course.time_s, (moment.ends_s[0], drawn_s))
     rows = slice(max(int(first) - 1, 0), int(last) + 1)
     time_s = course.time_s[rows]
-    axis.fill_between(
-        course.time_s, 0, 1, where=course.swing.tolist(), color=SWING, linewidth=0, transform=axis.get_xaxis_transform(),
-        zorder=0,
-    )  # fmt: skip
+    swing, across = course.swing.tolist(), axis.get_xaxis_transform()
+    axis.fill_between(course.time_s, 0, 1, where=swing, color=SWING, linewidth=0, transform=across, zorder=0)
     axis.axhline(0.0, color="0.75", linewidth=0.8, zorder=0.5)
     for curve in course.curves:
         if curve.std is not None:

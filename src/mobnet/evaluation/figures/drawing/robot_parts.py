@@ -1,6 +1,6 @@
 """A robot whose limbs have colours, with the axes of some joints, sensors and a push. Drawing only."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 import numpy as np

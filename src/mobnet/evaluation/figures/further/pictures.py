@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.figures.further.method_and_robot import draw_all
-from mobnet.evaluation.figures.further.push_film import push_film
+from mobnet.evaluation.figures.drawing.method_and_robot import draw_all
+from mobnet.evaluation.figures.drawing.push_film import push_film
 from mobnet.plan.detection import Detections
 from mobnet.plan.runs import Run
 from mobnet.settings.data import Push
@@ -16,12 +16,12 @@ from mobnet.settings.robot import RobotTable
 
 def pictures(
     drawings: Drawings, film: PushFilm, story: Story, pushes: Mapping[str, Push], peaks: Peaks, robot: RobotTable,
-    looks: Looks | None, layout: JointLayout, runs: Sequence[Run], detections: Detections, figure_folder: Path,
+    looks: Looks | None, layout: JointLayout, runs: Sequence[Run], detections: Detections, figure_dir: Path,
 ) -> None:  # fmt: skip
     """Write `method` and `robot` as PDF, SVG, PNG and CSV, and `push` as WebP, GIF, PNG and CSV, into a folder.
 
     Without runs of the story there is no film.
     """
-    draw_all(drawings, pushes[story.push], robot, looks, layout, figure_folder)
+    draw_all(drawings, pushes[story.push], robot, looks, layout, figure_dir)
     if runs:
-        push_film(film, story, peaks, robot, looks, layout, runs, detections, figure_folder / "push.webp")
+        push_film(film, story, peaks, robot, looks, layout, runs, detections, figure_dir / "push.webp")

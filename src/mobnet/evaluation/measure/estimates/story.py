@@ -111,11 +111,11 @@ def _hit(story: Story, detections: Detections, seed: int, kind: str) -> tuple[Co
 
 
 def _felt(run: Run, joint: str, peaks: Peaks, layout: JointLayout, rows: slice, start: int) -> Felt:
-    """Return what a run shows of the push that begins at a row."""
+    """Return what a run shows of the push that begins at a row, or one beside it: its flag is that of a mean."""
     pair = read_pair(run, layout).only([joint])
     scene = Scene(run.recording, layout, Scoring())
     shown, windows = shown_pushes(pair, scene), push_rows(scene.pushed, pair.spans, peaks, pair.rate_hz)
-    around, rise = next(window for window in windows if window[1].start + 1 == start)
+    around, rise = min(windows, key=lambda window: abs(window[1].start + 1 - start))
     turned = np.array([True])
     share, late = slopes(shown, [around], [turned]), delays(shown.push[rise], shown.estimate[rise], turned)
     error = rmse(pair.estimate, pair.truth, ((rows.start, rows.stop),))
