@@ -21,7 +21,7 @@ TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their ru
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "svg", "png", "csv")  # endings of a table's and of a figure's files
 FILM, DRAWN = ("webp", "gif", "png", "csv"), ("method", "robot")  # endings of the film's files; drawings
 CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`
-MAIN_TABLES = ("legs", "limbs", "detectors")  # of the paper's main text, one product
+MAIN_TABLES = ("legs", "limbs", "detectors")  # of the paper's main text, made with its numbers
 SOURCES = (  # tables that these are made from
     "table_05", "table_06", "table_07", "table_08", "table_09", "table_13", "methods", "peaks", "false_alarms",
     "found_by_rate",
@@ -135,16 +135,17 @@ class Products:
         tables, results = self.folders.tables, self.folders.results
         csvs = [tables / f"{name}.csv" for name in self.settings.evaluation.tables]
         made = [tables / f"{name}.{ending}" for name in MAIN_TABLES for ending in TABLE]
-        yield self._report_product("main_tables", {"sources": [tables / f"{name}.csv" for name in SOURCES]}, made)
         numbers = {
             "train": self.files.training_size("walk"),
             "table_csvs": csvs,
             "further_csvs": [tables / f"{name}.csv" for name in QUOTED],
             "captions": self._captions(),
+            "compared": self.settings.evaluation.main_tables,
+            "sources": [tables / f"{name}.csv" for name in SOURCES],
             "claims_csv": tables / "claims.csv",
             "summary_csv": tables / "claims_summary.csv",
         }
-        yield self._report_product("numbers", numbers, [tables / "numbers.tex", tables / "captions.tex"])
+        yield self._report_product("numbers", numbers, [tables / "numbers.tex", tables / "captions.tex", *made])
         yield self._report_product("deviations", {"markdown": Path("docs/deviations.md")}, [tables / "deviations.tex"])
         networks = {"folders": self.files.all_networks()}
         parts = [TEMPLATES / f"runs.{ending}" for ending in ("html", "css", "js")]
