@@ -33,7 +33,7 @@ TESTS = (  # scenario and level of those whose errors the page of trainings show
 )  # fmt: skip
 CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`
 FURTHER: Mapping[str, tuple[str, ...]] = {"bode": ("bode_all",), "claims": ("claims_own",)}  # more figures of a product
-MAIN_TABLES = ("legs", "limbs", "detectors")  # of the paper's main text, one product
+MAIN_TABLES = ("legs", "limbs", "detectors")  # of the paper's main text, made with its numbers
 SOURCES = (  # tables that these are made from
     "table_05", "table_06", "table_07", "table_08", "table_09", "table_13", "methods", "peaks", "false_alarms",
     "found_by_rate",
@@ -159,16 +159,17 @@ class Products:
         tables, results = self.folders.tables, self.folders.results
         csvs = [tables / f"{name}.csv" for name in self.settings.evaluation.tables]
         made = [tables / f"{name}.{ending}" for name in MAIN_TABLES for ending in TABLE]
-        yield self._report_product("main_tables", {"sources": [tables / f"{name}.csv" for name in SOURCES]}, made)
         numbers = {
             "train": self.files.training_size("walk"),
             "table_csvs": csvs,
             "further_csvs": [tables / f"{name}.csv" for name in QUOTED],
             "captions": self._captions(),
+            "compared": self.settings.evaluation.main_tables,
+            "sources": [tables / f"{name}.csv" for name in SOURCES],
             "claims_csv": tables / "claims.csv",
             "summary_csv": tables / "claims_summary.csv",
         }
-        yield self._report_product("numbers", numbers, [tables / "numbers.tex", tables / "captions.tex"])
+        yield self._report_product("numbers", numbers, [tables / "numbers.tex", tables / "captions.tex", *made])
         yield self._report_product("deviations", {"markdown": Path("docs/deviations.md")}, [tables / "deviations.tex"])
         networks = {"folders": self.files.all_networks()}
         parts = [TEMPLATES / name for name in ("runs.html", "page.css", "runs.css", "page.js", "runs.js", "overlay.js")]

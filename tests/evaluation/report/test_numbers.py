@@ -25,7 +25,8 @@ def defined(table: Path, claims_csv: Path, summary_csv: Path, settings: Settings
     """Return name -> text of the numbers of a table and of claims."""
     out, sizes = claims_csv.with_name("numbers.tex"), (settings.scale, settings.rates, settings.sizes, settings.fleet)
     further = [REPO / f"tests/golden/{name}.csv" for name in QUOTED]
-    numbers(*sizes, TRAIN, [table], further, claims_csv, summary_csv, [CAPTION], out)
+    compared = settings.evaluation.main_tables
+    numbers(*sizes, TRAIN, [table], further, claims_csv, summary_csv, [CAPTION], compared, [], out)
     return defined_texts(out.read_text())
 
 

@@ -24,7 +24,6 @@ from mobnet.core.files import write_text
 from mobnet.core.rows import csv_text, read_texts
 from mobnet.evaluation.report.deviations import deviations
 from mobnet.evaluation.report.guards import defined_texts
-from mobnet.evaluation.report.main_tables import main_tables
 from mobnet.evaluation.report.numbers import LOOKUP, numbers
 from mobnet.evaluation.report.paper import PACKAGES, PaperError, copy_sources, missing_packages, paper
 from mobnet.evaluation.tables.further import claims_table, methods
@@ -181,7 +180,9 @@ def write_numbers(products: Products, settings: Settings, claims_csv: Path, summ
     tables, further = ([published(path.stem) for path in wanted[name]] for name in ("table_csvs", "further_csvs"))
     train, sizes = Recordings(shards=1, shard_s=60.0), (settings.scale, settings.rates, settings.sizes, settings.fleet)
     captions = [REPO / path for path in wanted["captions"]]
-    numbers(*sizes, train, tables, further, claims_csv, summary_csv, captions, out)
+    sources = [published(name) for name in SOURCES]
+    compared = settings.evaluation.main_tables
+    numbers(*sizes, train, tables, further, claims_csv, summary_csv, captions, compared, sources, out)
     known = defined_texts(out.read_text())
     made = (name for name in asked_names((REPO / "paper/main.tex").read_text()) if name not in known)
     out.write_text(
@@ -207,7 +208,6 @@ def test_the_paper_itself_builds_from_the_published_tables(
     claims = published_claims(claims_csv, tmp_path / "published_claims.csv")
     write_numbers(products, settings, claims, summary_csv, tmp_path / "numbers.tex")
     write_detection()
-    main_tables(settings.evaluation.main_tables, [published(name) for name in SOURCES], tmp_path / "legs.csv")
     for name in {*products.table_names, "compute"}.difference(DETECTION, MAIN_TABLES):
         write_tex(name, settings, tmp_path / f"{name}.tex")
     names = (*products.table_names, "numbers", "captions", "deviations", "compute")

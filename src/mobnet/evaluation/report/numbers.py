@@ -11,8 +11,10 @@ from mobnet.evaluation.number.files import read_numbers
 from mobnet.evaluation.number.number import Number, interval_text, number_text
 from mobnet.evaluation.report.captions import captions_tex
 from mobnet.evaluation.report.cells import cell_text, cells_of
+from mobnet.evaluation.report.main_tables import main_tables
 from mobnet.evaluation.tables.layout import tex_escape
 from mobnet.settings.data import Recordings
+from mobnet.settings.evaluation import MainTables
 from mobnet.settings.plant import Rates
 from mobnet.settings.scales import Scale
 from mobnet.settings.surrogate import Fleet
@@ -52,9 +54,10 @@ MILLION = 1e6
 
 def numbers(
     scale: str, rates: Rates, sizes: Scale, fleet: Fleet, train: Recordings, table_csvs: Sequence[Path],
-    further_csvs: Sequence[Path], claims_csv: Path, summary_csv: Path, captions: Sequence[Path], out: Path,
+    further_csvs: Sequence[Path], claims_csv: Path, summary_csv: Path, captions: Sequence[Path],
+    compared: MainTables, sources: Sequence[Path], out: Path,
 ) -> None:  # fmt: skip
-    r"""Write the macros that the paper's text uses, a TeX file to \input before it, and captions.tex beside it.
+    r"""Write what the paper's text takes: macros of numbers, captions.tex beside them, and the tables of the main text.
 
     \ourcell{scenario}{level}{method}{joint}{metric} and \publishedcell give a cell of a table of errors (metric: `mean`
     if it is the mean of some), \ours{level}{method}{joint} and \published a cell of Table 5. \cell{table@...} gives a
@@ -78,6 +81,8 @@ def numbers(
         claims_csv: judged claims.
         summary_csv: counts of verdicts.
         captions: files of `workflow/report`.
+        compared: what the tables of the main text compare.
+        sources: the tables that they are made from.
         out: file of the macros.
     """
     values = {f"size@{name}": text for name, text in size_texts(scale, rates, sizes, fleet, train).items()}
@@ -96,6 +101,7 @@ def numbers(
     lines = (rf"\expandafter\def\csname {name}\endcsname{{{text}}}" + "\n" for name, text in values.items())
     write_text(out, LOOKUP + "".join(lines))
     write_text(out.with_name("captions.tex"), captions_tex(captions))
+    main_tables(compared, sources, out.with_name("legs.csv"))
 
 
 def cell_texts(of: Mapping[str, str], number: Number) -> dict[str, str]:
