@@ -18,7 +18,8 @@ from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.low_pass import low_pass
 from mobnet.evaluation.figures.drawing.push_film import eased, lines_of, push_film, shots_of
-from mobnet.evaluation.measure.estimates.story import Felt, read_story
+from mobnet.evaluation.measure.estimates.felt import Felt
+from mobnet.evaluation.measure.estimates.told import read_story
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import PushFilm, Story
 from mobnet.settings.settings import Settings
@@ -70,7 +71,7 @@ def short(settings: Settings) -> PushFilm:
 def test_shares_delays_and_errors_are_those_of_the_estimates(settings: Settings, made: Made) -> None:
     told = read_story(made[0], settings.evaluation.peaks, settings.layout, *made[1:], COLLISION)
     assert {method: felt.share for method, felt in told.felt.items()} == pytest.approx(SHARES, abs=1e-3)
-    assert told.felt["MOB-fric-dahl"].rmse_nm == pytest.approx(OFFSETS_NM["MOB-fric-dahl"], rel=1e-3)
+    assert told.errors_nm["MOB-fric-dahl"] == pytest.approx(OFFSETS_NM["MOB-fric-dahl"], rel=1e-3)
     late = [told.felt[method].delay_ms for method in ("MOB", "MOB-fric-dahl", "MOB-Net")]
     assert late == sorted(late)  # a lower one reaches half of the peak later
     assert (told.time_s[0], told.time_s[-1]) == pytest.approx((-0.3, 0.399))
@@ -104,9 +105,11 @@ def test_the_time_axis_changes_without_a_jump() -> None:
 
 
 def test_the_lines_at_the_end_have_the_numbers_of_each_method() -> None:
-    felt = {"MOB": Felt(1.504, 2.0, 27.8), "MOB-Net": Felt(0.72, 24.7, 3.9)}
-    heads, *lines = lines_of(felt)
-    assert lines == [("MOB-Net", "72 %", "25 ms", "4 N m"), ("MOB", "150 %", "2 ms", "28 N m")]
+    felt = {"MOB": Felt(98.0, 1.504, 2.0), "FTS-e2e": Felt(20.0, 0.3, None), "MOB-Net": Felt(43.0, 0.72, 24.7)}
+    heads, *lines = lines_of(felt, {"MOB": 27.8, "FTS-e2e": 5.4, "MOB-Net": 3.9})
+    assert lines == [
+        ("MOB-Net", "72 %", "25 ms", "4 N m"), ("FTS-e2e", "30 %", "-", "5 N m"), ("MOB", "150 %", "2 ms", "28 N m")
+    ]  # fmt: skip
     assert len(heads) == len(lines[0])
 
 

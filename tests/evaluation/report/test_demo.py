@@ -6,7 +6,6 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -91,22 +90,23 @@ def perfect(push: StoredPush) -> Estimate:
 
 def test_a_perfect_estimate_shows_the_whole_push(push: StoredPush) -> None:
     felt = push.felt(perfect(push))
-    assert felt.peak_share == pytest.approx(1.0)
+    assert felt.share == pytest.approx(1.0)
     assert felt.delay_ms is not None
     assert 0.0 < felt.delay_ms < 15.0  # the observer's low-pass, of 10 ms
-    assert felt.rmse_nm == 0.0
+    assert push.error_nm(perfect(push)) == 0.0
 
 
 def test_a_constant_error_changes_the_rmse_alone(push: StoredPush) -> None:
     felt, off = push.felt(perfect(push)), push.felt(Estimate(push.truth + 3.0))
-    assert off == replace(felt, rmse_nm=pytest.approx(3.0), peak_share=pytest.approx(1.0), delay_ms=felt.delay_ms)
+    assert (off.share, off.delay_ms) == (pytest.approx(felt.share), pytest.approx(felt.delay_ms))
+    assert push.error_nm(Estimate(push.truth + 3.0)) == pytest.approx(3.0)
 
 
 @pytest.mark.parametrize("part", [0.0, 0.5, 2.0])
 def test_a_part_of_the_push_is_a_share_of_its_peak(push: StoredPush, part: float) -> None:
     behind = push.truth - push.filtered(push.external - push.push)
     felt = push.felt(Estimate(push.truth - (1.0 - part) * behind))
-    assert felt.peak_share == pytest.approx(part, abs=1e-6)
+    assert felt.share == pytest.approx(part, abs=1e-6)
     assert (felt.delay_ms is None) == (part <= 0.5)  # behind the low-pass the peak is a little lower
 
 

@@ -25,9 +25,9 @@ from mobnet.detection.watch import LegSetup
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.methods import build_estimator
 from mobnet.estimation.recipe import Recipe
-from mobnet.evaluation.compare.rmse import rmse
 from mobnet.evaluation.compare.windows import FLAG
-from mobnet.evaluation.measure.estimates.peaks import HALF, MS, delays, push_rows
+from mobnet.evaluation.measure.estimates.felt import Felt, felt_of
+from mobnet.evaluation.measure.estimates.peaks import push_rows
 from mobnet.evaluation.number.rows import read_detections
 from mobnet.plan.demo import RECORDING, fit_place, network_place
 from mobnet.robot.description import RobotDescription, describe
@@ -35,22 +35,6 @@ from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.detection import Detector
 from mobnet.settings.evaluation import Story
 from mobnet.settings.settings import Settings
-
-
-@dataclass(frozen=True)
-class Felt:
-    """What a method shows of the push at one joint.
-
-    Attributes:
-        peak_share: largest torque that it shows over that of the push behind the observer's low-pass [-]; what it
-            showed just before the push is its zero.
-        delay_ms: how much later it rises to half of the push's peak than the push itself [ms]; None if it never does.
-        rmse_nm: error of its estimate from `settle_s` on [N m].
-    """
-
-    peak_share: float
-    delay_ms: float | None
-    rmse_nm: float
 
 
 @dataclass(frozen=True)
@@ -172,15 +156,14 @@ class StoredPush:
         k, rate_hz = self.place, self.recording.rate_hz
         spans, peaks = ((0, len(self.pushed)),), self.settings.evaluation.peaks
         rise = next(rows for _, rows in push_rows(self.pushed, spans, peaks, rate_hz))
-        push, truth, tau = (part[:, k : k + 1].astype(np.float64) for part in (self.push, self.truth, estimate.tau_ext))
+        push, truth, tau = (part[:, k].astype(np.float64) for part in (self.push, self.truth, estimate.tau_ext))
         behind = self.filtered(push)
-        shown = behind + tau - truth
-        height = (shown[rise] - shown[rise][0]) * np.sign(behind[np.abs(behind).argmax()])
-        delay = delays(push[rise], shown[rise], np.ones(1, dtype=bool))
-        is_half = height.max() >= HALF * np.abs(push[rise]).max()
-        error = rmse(tau[self.settled], truth[self.settled], ((0, len(truth[self.settled])),))
-        share = float(height.max() / np.abs(behind[rise]).max())
-        return Felt(share, float(delay[0]) * MS / rate_hz if is_half else None, float(error[0]))
+        return felt_of(push[rise], behind[rise], (behind + tau - truth)[rise], rate_hz)
+
+    def error_nm(self, estimate: Estimate) -> float:
+        """Return the RMSE of an estimate of the leg at the joint of the story, from `settle_s` on [N m]."""
+        error = estimate.tau_ext[self.settled, self.place].astype(np.float64) - self.truth[self.settled, self.place]
+        return float(np.sqrt(np.square(error).mean()))
 
     def filtered(self, torque: NDArray[Any]) -> Array:
         """Return torque behind the observer's low-pass, (T, ...) [N m]."""

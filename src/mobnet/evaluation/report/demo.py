@@ -62,8 +62,8 @@ def _notes(push: StoredPush, estimates: Estimates) -> dict[str, tuple[str, str]]
     found = {method: push.felt(estimate) for method, estimate in estimates.items()}
     return {
         method: (
-            f"{one.peak_share:.0%} of the push's peak, {_late(one.delay_ms)}",
-            f"RMSE {one.rmse_nm:.1f} N m over {seconds:.1f} s",
+            f"{one.share:.0%} of the push's peak, {_late(one.delay_ms)}",
+            f"RMSE {push.error_nm(estimates[method]):.1f} N m over {seconds:.1f} s",
         )
         for method, one in found.items()
     }

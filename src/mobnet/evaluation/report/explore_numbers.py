@@ -15,7 +15,8 @@ from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import ALARM_RATIO, GateSignal, run_over
 from mobnet.estimation.low_pass import low_pass
 from mobnet.evaluation.compare.curves import TRUTH
-from mobnet.evaluation.measure.estimates.peaks import HALF, MS, delays
+from mobnet.evaluation.measure.estimates.felt import felt_of
+from mobnet.evaluation.measure.estimates.peaks import MS
 from mobnet.evaluation.report.explore_scenes import Shown
 from mobnet.settings.detection import Detection
 from mobnet.settings.evaluation import Peaks
@@ -66,22 +67,11 @@ def push_numbers(
     for name, torque in torques.items():
         # What an estimate shows of a push is the push behind the low-pass plus its error, as for the table of peaks.
         error = (torque - truth)[rise]
-        size, share, late = _felt(push[rise], behind, behind + error)
+        felt = felt_of(push[rise], behind, behind + error, rate_hz)
         rms = float(np.sqrt(np.mean(error**2)))
         found = alarms(shown, torque, threshold_nm, detection)
-        rows.append(PushNumbers(name, size, share, None if late is None else late * MS / rate_hz, rms, *found))
+        rows.append(PushNumbers(name, felt.peak_nm, felt.share, felt.delay_ms, rms, *found))
     return rows
-
-
-def _felt(push: Array, behind: Array, seen: Array) -> tuple[float, float, float | None]:
-    """Return the peak [N m] and the share [-] that is seen of a push, and how late its half is [rows], if ever."""
-    largest = int(np.abs(behind).argmax())
-    peak = float((np.sign(behind[largest]) * (seen - seen[0])).max())
-    true = float(np.abs(behind[largest]))
-    if not true:
-        return peak, 0.0, None
-    late = delays(push[:, None], seen[:, None], np.ones(1, dtype=bool))
-    return peak, peak / true, float(late[0]) if peak >= HALF * np.abs(push).max() else None
 
 
 def alarms(

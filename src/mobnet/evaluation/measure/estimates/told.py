@@ -17,27 +17,11 @@ from mobnet.evaluation.compare.pair import read_pair
 from mobnet.evaluation.compare.rmse import rmse
 from mobnet.evaluation.compare.scene import Scene, shown_pushes
 from mobnet.evaluation.measure.detection.results import rows_of
-from mobnet.evaluation.measure.estimates.peaks import delays, push_rows, slopes
+from mobnet.evaluation.measure.estimates.felt import Felt, felt_of
+from mobnet.evaluation.measure.estimates.peaks import push_rows
 from mobnet.plan.detection import Detections
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import Peaks, Scoring, Story
-
-MS = 1000.0
-
-
-@dataclass(frozen=True)
-class Felt:
-    """What an estimate of a joint shows of one push.
-
-    Attributes:
-        share: slope on the push behind the observer's low-pass [-], the `push_share` of `peaks`.
-        delay_ms: time to half of the peak, less the time that the push needs [ms], the `rise_delay` of `peaks`.
-        rmse_nm: error over the whole time that is shown [N m].
-    """
-
-    share: float
-    delay_ms: float
-    rmse_nm: float
 
 
 @dataclass(frozen=True)
@@ -51,6 +35,7 @@ class Told:
         force: force of the push (T, 3) [N], world axes.
         curves: truth and estimates of the joint over the whole recording [N m].
         felt: method -> what it shows of the push.
+        errors_nm: method -> its root-mean-square error over the time that is shown [N m].
         collision: the push, as its file says.
         detected: what the detector says of it.
     """
@@ -61,6 +46,7 @@ class Told:
     force: Array
     curves: Curves
     felt: Mapping[str, Felt]
+    errors_nm: Mapping[str, float]
     collision: Collision
     detected: Detected
 
@@ -74,14 +60,13 @@ def read_story(
         DataError: a file is missing or damaged, or the run has no such push.
     """
     hit, found = _hit(story, detections, runs[0].test_seed, kind)
-    stem, curves = (
-        runs[0].recording,
-        read_curves(layout, runs, [story.joint], {SWING: f"{SWING}.{foot_of(layout, story.joint)}"}),
-    )
+    stem = runs[0].recording
+    curves = read_curves(layout, runs, [story.joint], {SWING: f"{SWING}.{foot_of(layout, story.joint)}"})
     start = round(hit.start_s * curves.rate_hz)
     before, after = (round(time_s * curves.rate_hz) for time_s in (story.before_s, story.after_s))
     rows = slice(max(0, start - before), min(len(curves.truth), start + after))
-    felt = {run.method: _felt(run, story.joint, peaks, layout, rows, start) for run in runs}
+    felt = {run.method: _felt(run, story.joint, peaks, layout, start) for run in runs}
+    errors = {run.method: _error_nm(run, story.joint, layout, rows) for run in runs}
     return Told(
         rows,
         (np.arange(rows.start, rows.stop) - start) / curves.rate_hz,
@@ -89,6 +74,7 @@ def read_story(
         read_array(stem, named(PUSH, [f"force_{axis}" for axis in "xyz"]))[0][rows].astype(np.float64),
         curves,
         felt,
+        errors,
         hit,
         found,
     )
@@ -110,13 +96,17 @@ def _hit(story: Story, detections: Detections, seed: int, kind: str) -> tuple[Co
     return hit, found[0]
 
 
-def _felt(run: Run, joint: str, peaks: Peaks, layout: JointLayout, rows: slice, start: int) -> Felt:
+def _felt(run: Run, joint: str, peaks: Peaks, layout: JointLayout, start: int) -> Felt:
     """Return what a run shows of the push that begins at a row, or one beside it: its flag is that of a mean."""
     pair = read_pair(run, layout).only([joint])
     scene = Scene(run.recording, layout, Scoring())
     shown, windows = shown_pushes(pair, scene), push_rows(scene.pushed, pair.spans, peaks, pair.rate_hz)
-    around, rise = min(windows, key=lambda window: abs(window[1].start + 1 - start))
-    turned = np.array([True])
-    share, late = slopes(shown, [around], [turned]), delays(shown.push[rise], shown.estimate[rise], turned)
-    error = rmse(pair.estimate, pair.truth, ((rows.start, rows.stop),))
-    return Felt(float(share[0]), float(late[0]) * MS / pair.rate_hz, float(error[0]))
+    _, rise = min(windows, key=lambda window: abs(window[1].start + 1 - start))
+    push, behind, seen = (part[rise, 0].astype(np.float64) for part in (shown.push, shown.behind, shown.estimate))
+    return felt_of(push, behind, seen, pair.rate_hz)
+
+
+def _error_nm(run: Run, joint: str, layout: JointLayout, rows: slice) -> float:
+    """Return the root-mean-square error of a run in some rows [N m]."""
+    pair = read_pair(run, layout).only([joint])
+    return float(rmse(pair.estimate, pair.truth, ((rows.start, rows.stop),))[0])
