@@ -290,16 +290,18 @@ class Films(Section):
 
 
 class Story(Section):
-    """The push that the film, the demonstration and the page of pushes show: that of the first run of a test.
+    """The push that demo, film and explorer show: the first of its name in the first recording of a robot's test.
 
-    Times before and after it begins; methods, a detector, and the joint whose torque is shown.
+    The time that is shown begins before it and ends after its beginning. An estimator that begins there is not judged
+    for the first `settle_s`.
     """
 
-    scenario: base.ScenarioName
-    level: base.LevelName
+    scenario: base.PushedName
+    level: base.WatchedLevelName
     push: base.PushName
-    before_s: base.Real = Field(ge=0.1, le=10)
-    after_s: base.Real = Field(ge=0.1, le=10)
+    before_s: Annotated[base.Positive, Field(le=10)]
+    after_s: Annotated[base.Positive, Field(le=10)]
+    settle_s: Annotated[base.NotNegative, Field(le=10)]
     joint: base.LegJointName
     methods: base.MethodNames
     detector: base.DetectorName

@@ -25,8 +25,8 @@ from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 from mobnet.simulation.render import Pixels
 
-COLUMNS = ("method", "joint", "push_share", "rise_delay_ms", "rmse_nm")
-HEADS = ("", "share of the push", "delay", "RMSE")
+COLUMNS = ("method", "joint", "peak_share", "rise_delay_ms", "rmse_nm")
+HEADS = ("", "share of the peak", "delay", "RMSE")
 EASED = 8  # frames in which the time axis takes another width
 ROOM = 0.06  # above and below the curves, share of their range
 MS = 1000.0
@@ -58,7 +58,7 @@ def push_film(
 ) -> None:  # fmt: skip
     """Write the film as WebP and GIF, a still of it as PNG, and the numbers in it as CSV, beside each other."""
     told = read_story(story, peaks, layout, runs, detections, settings.kind)
-    rows = [(method, story.joint, felt.share, felt.delay_ms, felt.rmse_nm) for method, felt in told.felt.items()]
+    rows = [(method, story.joint, felt.peak_share, felt.delay_ms, felt.rmse_nm) for method, felt in told.felt.items()]
     write_csv(out.with_suffix(".csv"), COLUMNS, rows)
     stage, shots = _Stage(settings, told, dressed(describe(robot), looks), layout), shots_of(settings, story)
     still, seen_s = stage.still(), [shot.seen_s for shot in shots]
@@ -102,10 +102,15 @@ def eased(start: Ends, end: Ends, k: int) -> Ends:
 def lines_of(felt: Mapping[str, Felt]) -> list[tuple[str, ...]]:
     """Return the lines of the table at the end: heads of columns, then what each method shows, the last one first."""
     rows = [
-        (method, f"{100.0 * own.share:.0f} %", f"{own.delay_ms:.0f} ms", f"{own.rmse_nm:.0f} N m")
+        (method, f"{100.0 * own.peak_share:.0f} %", _late(own.delay_ms), f"{own.rmse_nm:.0f} N m")
         for method, own in felt.items()
     ]
     return [HEADS, *rows[::-1]]
+
+
+def _late(delay_ms: float | None) -> str:
+    """Return a delay as the table has it."""
+    return "never" if delay_ms is None else f"{delay_ms:.0f} ms"
 
 
 class _Stage:

@@ -17,12 +17,10 @@ from mobnet.evaluation.compare.pair import read_pair
 from mobnet.evaluation.compare.rmse import rmse
 from mobnet.evaluation.compare.scene import Scene, shown_pushes
 from mobnet.evaluation.measure.detection.results import rows_of
-from mobnet.evaluation.measure.estimates.peaks import delays, push_rows, slopes
+from mobnet.evaluation.measure.estimates.peaks import HALF, MS, delays, push_rows
 from mobnet.plan.detection import Detections
 from mobnet.plan.runs import Run
 from mobnet.settings.evaluation import Peaks, Scoring, Story
-
-MS = 1000.0
 
 
 @dataclass(frozen=True)
@@ -30,13 +28,14 @@ class Felt:
     """What an estimate of a joint shows of one push.
 
     Attributes:
-        share: slope on the push behind the observer's low-pass [-], the `push_share` of `peaks`.
-        delay_ms: time to half of the peak, less the time that the push needs [ms], the `rise_delay` of `peaks`.
-        rmse_nm: error over the whole time that is shown [N m].
+        peak_share: largest torque that it shows over that of the push behind the observer's low-pass [-]; what it
+            showed just before the push is its zero.
+        delay_ms: how much later it rises to half of the push's peak than the push itself [ms]; None if it never does.
+        rmse_nm: error of its estimate from `settle_s` on [N m].
     """
 
-    share: float
-    delay_ms: float
+    peak_share: float
+    delay_ms: float | None
     rmse_nm: float
 
 
@@ -81,7 +80,8 @@ def read_story(
     start = round(hit.start_s * curves.rate_hz)
     before, after = (round(time_s * curves.rate_hz) for time_s in (story.before_s, story.after_s))
     rows = slice(max(0, start - before), min(len(curves.truth), start + after))
-    felt = {run.method: _felt(run, story.joint, peaks, layout, rows, start) for run in runs}
+    judged = rows.start + round(story.settle_s * curves.rate_hz), rows.stop
+    felt = {run.method: _felt(run, story.joint, peaks, layout, judged, start) for run in runs}
     return Told(
         rows,
         (np.arange(rows.start, rows.stop) - start) / curves.rate_hz,
@@ -110,13 +110,15 @@ def _hit(story: Story, detections: Detections, seed: int, kind: str) -> tuple[Co
     return hit, found[0]
 
 
-def _felt(run: Run, joint: str, peaks: Peaks, layout: JointLayout, rows: slice, start: int) -> Felt:
+def _felt(run: Run, joint: str, peaks: Peaks, layout: JointLayout, judged: tuple[int, int], start: int) -> Felt:
     """Return what a run shows of the push that begins at a row, or one beside it: its flag is that of a mean."""
     pair = read_pair(run, layout).only([joint])
     scene = Scene(run.recording, layout, Scoring())
     shown, windows = shown_pushes(pair, scene), push_rows(scene.pushed, pair.spans, peaks, pair.rate_hz)
-    around, rise = min(windows, key=lambda window: abs(window[1].start + 1 - start))
-    turned = np.array([True])
-    share, late = slopes(shown, [around], [turned]), delays(shown.push[rise], shown.estimate[rise], turned)
-    error = rmse(pair.estimate, pair.truth, ((rows.start, rows.stop),))
-    return Felt(float(share[0]), float(late[0]) * MS / pair.rate_hz, float(error[0]))
+    _, rise = min(windows, key=lambda window: abs(window[1].start + 1 - start))
+    push, behind, seen = (signal[rise].astype(np.float64) for signal in (shown.push, shown.behind, shown.estimate))
+    height = ((seen - seen[0]) * np.sign(behind[np.abs(behind).argmax()])).max()
+    late = delays(push, seen, np.array([True])) * MS / pair.rate_hz
+    error = rmse(pair.estimate, pair.truth, (judged,))
+    is_half = height >= HALF * np.abs(push).max()
+    return Felt(float(height / np.abs(behind).max()), float(late[0]) if is_half else None, float(error[0]))
