@@ -35,7 +35,7 @@ class Told:
         force: force of the push (T, 3) [N], world axes.
         curves: truth and estimates of the joint over the whole recording [N m].
         felt: method -> what it shows of the push.
-        errors_nm: method -> its root-mean-square error over the time that is shown [N m].
+        errors_nm: method -> its root-mean-square error from `settle_s` on [N m].
         collision: the push, as its file says.
         detected: what the detector says of it.
     """
@@ -66,7 +66,8 @@ def read_story(
     before, after = (round(time_s * curves.rate_hz) for time_s in (story.before_s, story.after_s))
     rows = slice(max(0, start - before), min(len(curves.truth), start + after))
     felt = {run.method: _felt(run, story.joint, peaks, layout, start) for run in runs}
-    errors = {run.method: _error_nm(run, story.joint, layout, rows) for run in runs}
+    judged = slice(rows.start + round(story.settle_s * curves.rate_hz), rows.stop)  # as the demo, which begins there
+    errors = {run.method: _error_nm(run, story.joint, layout, judged) for run in runs}
     return Told(
         rows,
         (np.arange(rows.start, rows.stop) - start) / curves.rate_hz,
