@@ -26,8 +26,10 @@ from mobnet.evaluation.report.explore_scenes import Shown, read_scene
 from mobnet.evaluation.report.html import rendered
 from mobnet.plan.scenes import PageScene
 from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.looks import dressed
 from mobnet.settings.detection import Detection
 from mobnet.settings.evaluation import Explore, Peaks, Story
+from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 
 OBSERVER, STORY = "MOB", "story"
@@ -38,7 +40,7 @@ log = logging.getLogger(__name__)
 
 
 def explore(
-    settings: Explore, story: Story, detection: Detection, peaks: Peaks, robot: RobotTable,
+    settings: Explore, story: Story, detection: Detection, peaks: Peaks, robot: RobotTable, looks: Looks | None,
     scenes: Mapping[str, PageScene], collisions: Path, detected: Path, templates: Sequence[Path], out: Path,
 ) -> None:  # fmt: skip
     """Write the page; a scene whose recording has no such push is left out.
@@ -56,7 +58,8 @@ def explore(
     if not shown:
         raise DataError(f"{out}: no recording has a push that the page shows; accepted: one or more")
     alarm = alarm_of(shown[STORY], story, description.layout, collisions, detected) if STORY in shown else None
-    write_text(out, page_of(shown, alarm, settings, story, detection, peaks, description, templates[0]))
+    seen = dressed(description, looks)
+    write_text(out, page_of(shown, alarm, settings, story, detection, peaks, seen, templates[0]))
 
 
 def page_of(
@@ -96,7 +99,7 @@ def page_numbers(settings: Explore, detection: Detection, peaks: Peaks) -> dict[
 
 
 def robot_parts(robot: RobotDescription) -> dict[str, Any]:
-    """Return bodies, joints, solids and soles of a robot, bodies by their number."""
+    """Return bodies, joints, solids with their colours, and soles of a robot, bodies by their number."""
     index = {body.name: k for k, body in enumerate(robot.bodies)}
     limbs = {joint: limb for limb, joints in robot.layout.groups.items() for joint in joints}
     sole = robot.sole
@@ -107,6 +110,7 @@ def robot_parts(robot: RobotDescription) -> dict[str, Any]:
             [index[shape.body], shape.type, shape.size, shape.segment or shape.pos, shape.tone]
             for shape in robot.shapes
         ],
+        "tones": {name: [round(255 * part) for part in colour[:3]] for name, colour in robot.tones.items()},
         "feet": [index[foot.body] for foot in robot.feet.values()],
         "sole": [sole.box_centre, sole.box_half] if sole else None,
     }

@@ -252,17 +252,20 @@ function tell(scene) {
 function readLook() {
   const style = getComputedStyle(document.documentElement), read = (name) => style.getPropertyValue(`--${name}`).trim();
   const rgb = (name) => [1, 3, 5].map((k) => parseInt(read(name).slice(k, k + 2), 16));
-  const tones = (kind) => Object.fromEntries(["light", "dark", "accent"].map((tone) => [tone, rgb(`${kind}-${tone}`)]));
+  // Colours are those of the robot's table, lighter on a dark page; a marked limb is mixed with one of the page.
+  const lift = Number(read("lift")), mark = rgb("marked");
+  const tones = (part) => Object.fromEntries(Object.entries(robot.tones).map(([tone, base]) =>
+    [tone, base.map((own, k) => Math.min(255, Math.round((1 - part) * own + part * mark[k] + lift)))]));
   const names = [
     "ink", "faint", "grid", "zero", "truth", "push", "pushed", "swing", "watched", "contact", "ghost", "shadow",
   ];
   const roles = Object.fromEntries(["observer", "formula", "network", "direct"].map((role) => [role, read(role)]));
   const bands = Object.fromEntries(Object.entries(roles).map(([role, colour]) => [role, `${colour}38`]));
   look = { ...Object.fromEntries(names.map((name) => [name, read(name)])), roles, bands };
-  Object.assign(look, { ground: read("panel"), tones: tones("robot") });
+  Object.assign(look, { ground: read("panel"), tones: tones(0) });
   look.font = `12px ${getComputedStyle(document.body).fontFamily}`;
   look.small = look.font.replace("12px", "10.5px");
-  look.marked = { ...look, tones: tones("marked") };
+  look.marked = { ...look, tones: tones(0.4) };
 }
 
 // Time goes on until it is stopped, the scene ends, or the moment comes at which the page opens.

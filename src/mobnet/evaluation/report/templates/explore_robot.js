@@ -7,7 +7,7 @@ function trace(pen, points, close = true) {
 
 // Fill one solid, with an outline in the ground's colour that parts it from those behind.
 function paint(pen, solid, look) {
-  const base = look.tones[solid.tone] ?? look.tones.light;
+  const base = look.tones[solid.tone];
   pen.lineJoin = "round";
   if (solid.faces) {
     for (const face of solid.faces) {
