@@ -40,7 +40,7 @@ def stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for path, text in made.items():
         path.parent.mkdir(exist_ok=True)
         path.write_text(text)
-    write_snapshot(SETTINGS, TABLES, FIGURES, COMPUTE, STORED)
+    write_snapshot(SETTINGS, TABLES, FIGURES, [COMPUTE], STORED)
 
 
 def rewrite(old: str, new: str) -> list[str]:
@@ -67,7 +67,7 @@ def test_what_is_made_no_longer_is_removed_with_the_next_snapshot() -> None:
         (STORED / name).write_text("{}")
     (STORED / "table_04.csv").write_text("a\n1\n")
     (STORED / "table_04.md").write_text("a")
-    write_snapshot(SETTINGS, TABLES, FIGURES, COMPUTE, STORED)
+    write_snapshot(SETTINGS, TABLES, FIGURES, [COMPUTE], STORED)
     names = sorted(path.name for path in STORED.rglob("*") if path.is_file())
     assert names == [
         "compute.md", "figure_06.csv.gz", "figure_06.png", "figure_06.svg", "provenance.json", "push.webp",
@@ -94,13 +94,13 @@ def test_a_changed_cell_and_a_changed_row_are_told_once(old: str, new: str, told
 @pytest.mark.usefixtures("stored")
 def test_a_missing_file_is_named_and_nothing_is_copied() -> None:
     with pytest.raises(DataError, match=r"none\.md: file is missing; \./reproduce all makes it"):
-        write_snapshot(SETTINGS, TABLES, FIGURES, Path("none.md"), Path("out"))
+        write_snapshot(SETTINGS, TABLES, FIGURES, [Path("none.md")], Path("out"))
     assert not Path("out").exists()
     (TABLES / "table_05.csv").unlink()
     told = ["tables/table_05.csv: file is missing; ./reproduce all makes it"]
     assert compare_snapshot(STORED, TABLES, FIGURES) == told
     with pytest.raises(DataError, match="tables: holds no CSV"):
-        write_snapshot(SETTINGS, TABLES, FIGURES, COMPUTE, Path("out"))
+        write_snapshot(SETTINGS, TABLES, FIGURES, [COMPUTE], Path("out"))
     with pytest.raises(DataError, match="tables: holds no CSV"):
         compare_snapshot(TABLES, STORED, FIGURES)
 

@@ -9,7 +9,7 @@ import logging
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import zip_longest
 from pathlib import Path
 
@@ -36,7 +36,7 @@ log = logging.getLogger(__name__)
 TABLES, FIGURES, SNAPSHOT = Path("tables"), Path("figures"), Path("docs/results")
 DEMO, DEMO_PAGE = Path("docs/demo"), Path("docs/demo.md")
 RESULTS, MANIFEST = Path("results/default"), Path("results/MANIFEST.sha256")
-COMPUTE = RESULTS / "compute.md"
+FURTHER = tuple(RESULTS / name for name in ("compute.md", "explore.html"))
 UP_TO_DATE = "Nothing to be done"  # by which Snakemake says that no job would run
 DRAWN = "figures"  # folder of the snapshot with the CSVs of figures, compressed
 PICTURES = (".png", ".svg", ".webp")
@@ -98,8 +98,8 @@ def check_fingerprints(*words: str) -> None:
         raise DataError(f"{' '.join(words)}: {text}")
 
 
-def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Path, out: Path) -> None:
-    """Copy a scale's tables (CSV, Markdown), figures (PNG, SVG, WebP, CSV) and table of compute, and note their origin.
+def write_snapshot(settings: Settings, tables: Path, figures: Path, further: Sequence[Path], out: Path) -> None:
+    """Copy a scale's tables (CSV, Markdown), figures (PNG, SVG, WebP, CSV) and further files, and note their origin.
 
     Tables and figures of an earlier snapshot that are made no longer are removed. The table of compute differs from run
     to run, so only its Markdown is stored, and no CSV to be compared.
@@ -109,7 +109,7 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Pat
     """
     numbers = sorted(tables.glob("*.csv"))
     pictures = sorted(path for ending in PICTURES for path in figures.glob(f"*{ending}"))
-    found = [*numbers, *(path.with_suffix(".md") for path in numbers), *pictures, compute]
+    found = [*numbers, *(path.with_suffix(".md") for path in numbers), *pictures, *further]
     if not numbers:
         raise DataError(f"{tables}: holds no CSV; ./reproduce all makes them")
     missing = [path for path in found if not path.is_file()]
@@ -209,7 +209,7 @@ def main(words: list[str]) -> int:
             settings = load_settings()
             check_run(RESULTS, options.manifest)
             check_fingerprints("all")
-            write_snapshot(settings, TABLES, FIGURES, COMPUTE, SNAPSHOT)
+            write_snapshot(settings, TABLES, FIGURES, FURTHER, SNAPSHOT)
             copy_demo(RESULTS / FOLDER, DEMO)
             tell_demo(StoredPush(DEMO, settings), DEMO_PAGE)
             plan = make_plan(settings, with_pdf=not missing_packages())
