@@ -200,7 +200,7 @@ def _rows(path: Path, against: Against) -> str:
     shares = {name: len(held.intersection(columns)) / len(columns) for name, columns in kinds.items()}
     kind = max(shares, key=lambda name: shares[name])
     if path.name == METRICS or (kind == "epochs" and shares[kind]):
-        return _training(path.parent) if (path.parent / RUN).exists() else f"{len(read_epochs(path))} epochs"
+        return _training(path.parent) if (path.parent / RUN).exists() else f"{len(read_epochs(path)[0])} epochs"
     if shares[kind] <= HALF:
         raise UnknownKindError(path, "columns", sorted(held))
     if kind == "scores":

@@ -100,7 +100,7 @@ def test_a_stopped_setup_is_begun_again(project, stubs, monkeypatch, capsys):
     assert stubs == ["venv", "install cpu"]
     told = capsys.readouterr().err
     assert "environment.lock has changed" in told
-    assert "2.9 GB of disk, or 6.4 GB where no index offers torch's CPU build (" in told
+    assert "3.0 GB of disk, or 6.4 GB where no index offers torch's CPU build (" in told
     assert "of memory and 1 to 4 minutes" in told
 
 

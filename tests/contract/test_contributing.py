@@ -178,7 +178,7 @@ def test_the_training_set_is_recorded(told):
 
 @pytest.mark.parametrize(("name", "files"), [
     ("roughness", [f"tables/smoke/roughness.{ending}" for ending in ("csv", "tex", "md")]),
-    ("joint_errors", [f"figures/smoke/joint_errors.{ending}" for ending in ("pdf", "png", "csv")]),
+    ("joint_errors", [f"figures/smoke/joint_errors.{ending}" for ending in ("pdf", "svg", "png", "csv")]),
 ])  # fmt: skip
 def test_the_new_product_reads_the_scores_and_writes_its_files(name, files, told, copy):
     inputs, outputs = told["products"][name]

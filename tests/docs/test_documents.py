@@ -3,16 +3,25 @@
 import json
 import pkgutil
 import re
+import shlex
 import tomllib
 from itertools import pairwise
 from pathlib import Path
 
 import pytest
 import yaml
+from links import broken
+
+from mobnet.commands.words import parse
+from mobnet.evaluation.report.readme import blocks
+from mobnet.plan.plan import make_plan
+from mobnet.settings.load import load_settings
 
 ROOT = Path(__file__).parents[2]
 INDEX = ROOT / "docs" / "README.md"
 PAGES = sorted(path for part in ("*.md", "paper/*.md", "docs/*.md", "docs/notes/*.md") for path in ROOT.glob(part))
+COMMAND = re.compile(r"`\./reproduce ([^`]+)`")
+CODE_BLOCK = re.compile(r"^ {4}(\./reproduce .+)$", re.MULTILINE)
 LINK = re.compile(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)")
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 
@@ -22,8 +31,42 @@ def links(page):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
-def test_every_link_leads_somewhere(page):
-    assert [path for path in links(page) if not path.exists()] == []
+def test_every_link_leads_to_a_file_and_to_a_heading_of_it(page):
+    assert list(broken([page])) == []
+
+
+def test_a_link_to_no_file_or_no_heading_is_found(tmp_path):
+    (tmp_path / "b.md").write_text("# One: two, three\n\n## Same\n\n## Same\n")
+    links = ("b.md", "b.md#one-two-three", "b.md#same-1", "https://x.org", "b.md#four", "c.md", "#nowhere")
+    (tmp_path / "a.md").write_text("\n".join(f"[x]({link})" for link in links) + "\n\n    [x](code.md)\n")
+    assert [line.split(": ")[1] for line in broken([tmp_path / "a.md"])] == ["b.md#four", "c.md", "#nowhere"]
+
+
+@pytest.fixture(scope="module")
+def made():
+    """All files that the workflow makes at the scale of the documents."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(ROOT)
+        plan = make_plan(load_settings(overrides={"scale": "default"}), with_pdf=True)
+    products = (*plan.products, *plan.trials, *plan.films, *plan.docs)
+    files = {*plan.stored, *(name for product in products for name in product.outputs)}
+    return files | {str(Path(name).parent) for name in files}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_every_command_of_a_document_is_accepted_and_its_targets_are_made(page, made):
+    for line in COMMAND.findall(CODE_BLOCK.sub(r"`\1`", page.read_text())):
+        words = shlex.split(line.partition("&&")[0], comments=True)
+        words = [word for word in words if word != "--help" and not re.search("[A-Z]{3,}", word)]
+        parse(words or ["all"])
+        targets = [word for word in words if re.match(r"(tables|figures|results)/(?!smoke)", word)]
+        assert [target for target in targets if target not in made] == []
+
+
+def test_blocks_of_the_readme_are_those_of_the_published_results():
+    text = (ROOT / "README.md").read_text()
+    for name, block in blocks(ROOT / "docs" / "results").items():
+        assert f"<!-- {name} -->\n{block.strip()}\n<!-- /{name} -->" in text
 
 
 def test_every_document_and_every_folder_of_documents_is_in_the_index_once():
@@ -33,11 +76,11 @@ def test_every_document_and_every_folder_of_documents_is_in_the_index_once():
     assert [path for path in wanted if found.count(path) != 1] == []
 
 
-def test_the_index_says_one_sentence_of_each_note_and_which_numbers_have_none():
+def test_the_index_says_one_sentence_of_each_note_once_and_which_numbers_have_none():
     rows = re.findall(r"^\| \[(\d{4})\]\(notes/(\d{4})-[^)]*\) \| ([A-Z].*\.) \|$", INDEX.read_text(), re.MULTILINE)
     numbers = [int(number) for number, file, _ in rows if number == file]
     notes = [int(path.name[:4]) for path in sorted((ROOT / "docs" / "notes").glob("*.md"))]
-    assert numbers == notes
+    assert sorted(numbers) == notes
     unused = [number for low, high in pairwise(notes) for number in range(low + 1, high)]
     told = re.search(r"The numbers ([\d,\s]*and \d{4}) are not used", INDEX.read_text())
     assert told

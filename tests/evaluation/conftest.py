@@ -55,13 +55,15 @@ def evaluation(settings: Settings) -> Evaluation:
     """Tables and figures of made-up runs: few draws, joints and times that they have."""
     whole, methods = settings.evaluation, {"methods": ("MOB", "MOB-Net")}
     collisions = {title: test.model_copy(update=methods) for title, test in whole.figure_10.tests.items()}
-    cells = {"phases": 4, "state_cells": 3, "cell_samples": 5}
+    cells, hand = {"phases": 4, "state_cells": 3, "cell_samples": 5}, {"start_s": 0.0, "end_s": 0.5, "every": 5}
+    knee = {"drawn": ("MOB-Net",), "against": whole.figure_10.against.model_copy(update=methods)}
     changes: dict[str, dict[str, Any]] = {
         "figure_06": methods,
-        "figure_07": {"joints": ("W2", "V3"), "start_s": 0.5, "end_s": 1.0, "every": 5},
-        "figure_10": {"tests": collisions, "against": whole.figure_10.against.model_copy(update=methods)},
+        "figure_07": {"joints": ("W2", "V3"), **hand},
+        "figure_10": {"tests": collisions, **knee},
+        "figure_12": hand,
         "figure_18": {"limbs": ("W", "RA"), "methods": ("MOB-Net", "MOB-Net-Single")},
-        "figure_19": {"joints": ("LL2", "LL3"), "dots": 12, "test_dots": 8},
+        "figure_19": {"joints": ("LL2", "LL3"), "dots": 200, "test_dots": 100},
         "coverage": {"samples": 400, "every": 2, "cells": 10, "tests": whole.coverage.tests[:1], **cells},
         "calibration": {"points": 9, "methods": ("MOB-Net",)},
         "commands": {"bins": 5},

@@ -37,7 +37,7 @@ def epoch(number, validation_loss, stride=1):
 @pytest.fixture
 def saved(tmp_path):
     pair = trained(3)
-    done = Progress([epoch(1, 0.5)], checkpoint.copy_weights(pair[0]), 2.5)
+    done = Progress([epoch(1, 0.5)], [[0.25, 0.75]], checkpoint.copy_weights(pair[0]), 2.5)
     checkpoint.save(tmp_path / "c.safetensors", "print", *pair, done)
     return tmp_path / "c.safetensors", pair, done
 
@@ -46,7 +46,7 @@ def test_a_resumed_pair_takes_the_same_next_step(saved):
     path, pair, done = saved
     other = trained(0)
     found = checkpoint.resume(path, "print", *other)
-    assert (found.epochs, found.seconds) == (done.epochs, done.seconds)
+    assert (found.epochs, found.errors, found.seconds) == (done.epochs, done.errors, done.seconds)
     assert all(torch.equal(found.best[name], tensor) for name, tensor in done.best.items())
     for both in (pair, other):
         advance(both)
@@ -87,7 +87,9 @@ def test_the_same_training_writes_the_same_bytes(saved, tmp_path):
 
 def test_metrics_come_back_as_written(tmp_path):
     epochs = [Epoch(number, *(10.0 * number + k for k in range(5)), 1) for number in (1, 2, 3)]
-    checkpoint.write_metrics(tmp_path / METRICS, epochs)
+    errors = [[number + 0.5, number + 0.25] for number in (1, 2, 3)]
+    checkpoint.write_metrics(tmp_path / METRICS, Progress(epochs, errors), ("LL1", "LL2"))
     with (tmp_path / METRICS).open() as file:
         read = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
-    assert read == [vars(epoch) for epoch in epochs]
+    joints = [{"validation_rmse_LL1": one, "validation_rmse_LL2": other} for one, other in errors]
+    assert read == [vars(epoch) | own for epoch, own in zip(epochs, joints, strict=True)]

@@ -13,8 +13,7 @@ import torch
 
 from mobnet.check import Against, check
 from mobnet.core.errors import TrainingError
-from mobnet.core.files import METRICS, RUN, WEIGHTS
-from mobnet.learning.checkpoint import CHECKPOINT
+from mobnet.core.files import CHECKPOINT, METRICS, RUN, WEIGHTS
 from mobnet.learning.deployed.networks import load_network
 from mobnet.learning.job import precision_name, precision_of
 

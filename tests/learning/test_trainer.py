@@ -8,8 +8,8 @@ import pytest
 import torch
 
 from mobnet.core.errors import TrainingError
-from mobnet.core.files import METRICS
-from mobnet.learning.checkpoint import CHECKPOINT
+from mobnet.core.files import CHECKPOINT, METRICS
+from mobnet.evaluation.number.rows import read_epochs
 from mobnet.learning.job import PRECISIONS, TrainingJob
 from mobnet.learning.trainer import Trainer
 from mobnet.settings.networks import Coarse
@@ -25,12 +25,18 @@ def trainer(small, data):
 
 
 def test_it_learns_keeps_the_best_epoch_and_writes_every_one(trainer, tmp_path):
-    done = trainer().run(tmp_path)
+    trained = trainer()
+    done = trained.run(tmp_path)
     losses = [epoch.validation_loss for epoch in done.epochs]
     assert [epoch.epoch for epoch in done.epochs] == list(range(1, EPOCHS + 1))
     assert done.epochs[-1].train_loss < done.epochs[0].train_loss
     assert done.best_epoch().validation_loss == min(losses)
-    assert len((tmp_path / METRICS).read_text().splitlines()) == EPOCHS + 1
+    epochs, errors = read_epochs(tmp_path / METRICS)
+    assert epochs == tuple(done.epochs)
+    assert tuple(errors) == trained.joints
+    means = np.mean(list(errors.values()), axis=0)
+    assert means == pytest.approx([epoch.validation_rmse for epoch in epochs])
+    assert len(set(map(tuple, errors.values()))) == len(errors) > 1
     assert (tmp_path / CHECKPOINT).exists()
 
 

@@ -100,6 +100,41 @@ def test_metrics_that_break_the_contract_are_refused(name, training):
     assert re.search(says, refusal_of(path))
 
 
+JOINT_ERRORS = {
+    "not a number": ((",2.5,3.5\n", ",nan,3.5\n"), "metrics.csv:2: validation_rmse_LL1: 'nan' is not accepted; acc"),
+    "below zero": ((",2.5,3.5\n", ",-2.5,3.5\n"), "metrics.csv:2: validation_rmse_LL1: -2.5 is not .*: 0 or more"),
+    "not the mean's": ((",2.5,3.5\n", ",2.5,4.5\n"), "validation_rmse of epoch 1: .*; accepted: the mean .*, 3.5"),
+    "of another limb": (("_LL2", "_RL2"), "joints with errors: LL1, RL2 in metrics.csv and LL1, LL2 in run.json are"),
+    "of fewer joints": (("validation_rmse_LL2", "more"), "joints with errors: LL1 in metrics.csv and LL1, LL2 in run"),
+}
+
+
+@pytest.fixture
+def with_joints(training):
+    """The training with the errors of its two joints."""
+    path = training / "metrics.csv"
+    head, *lines = path.read_text().splitlines()
+    joints = ",validation_rmse_LL1,validation_rmse_LL2"
+    path.write_text("\n".join([head + joints, *(f"{line},2.5,3.5" for line in lines), ""]))
+    return training
+
+
+def test_errors_of_joints_are_read_and_a_training_may_have_none(with_joints):
+    assert read_training(with_joints).joint_errors == {"LL1": (2.5,) * 3, "LL2": (3.5,) * 3}
+    assert check(with_joints / "metrics.csv", AGAINST) == "training GRU-LL-s1, 3 epochs"
+
+
+@pytest.mark.parametrize("name", JOINT_ERRORS)
+def test_errors_of_joints_that_break_the_contract_are_refused(name, with_joints):
+    (old, new), says = JOINT_ERRORS[name]
+    path = with_joints / "metrics.csv"
+    assert old in path.read_text()
+    path.write_text(path.read_text().replace(old, new))
+    with pytest.raises(DataError, match=says):
+        read_training(with_joints)
+    assert re.search(says, refusal_of(path))
+
+
 @pytest.mark.parametrize("damage", [b"", b"\xff\xfe\x00", b"epoch\n", b"epoch,train_loss"])
 @pytest.mark.parametrize("name", ["metrics.csv", "run.json"])
 def test_a_damaged_file_of_a_training_is_refused(name, damage, training):

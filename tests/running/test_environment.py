@@ -74,6 +74,7 @@ CALLED = {
     "a picture": ["-c", DRAWN],
     "check": ["-m", "mobnet.check", "README.md"],
     "calibrate": ["-m", "mobnet.detection.calibrate", "--recording", "x", "--estimate", "x"],
+    "demo": ["-m", "mobnet.demo", "--out", ".cache/demo.png"],
     "compare": ["-m", "mobnet.evaluation.report.snapshot", "compare"],
     "cost": ["-m", "mobnet.evaluation.report.cost", "--config", "scale=smoke"],
     "schema": ["-m", "mobnet.settings"],

@@ -15,7 +15,10 @@ import pytest
 from mobnet.core.compilation import cache_root
 
 ROOT = Path(__file__).parents[2]
-PARTS = ("Snakefile", "workflow", "profiles", "configs", "src", "docs", "paper", "reproduce", "environment.lock")
+PARTS = (
+    "Snakefile", "workflow", "profiles", "configs", "src", "docs", "paper", "reproduce", "environment.lock",
+    "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff",
+)  # fmt: skip
 COMPILED = Path(".cache") / "numba"
 JOB = re.compile(r"^ *(?:local)?rule (\w+):\n((?: {4,}\w+: .*\n)*)", re.MULTILINE)
 

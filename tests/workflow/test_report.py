@@ -11,9 +11,10 @@ from pathlib import Path
 import pytest
 from browser import with_browser
 
-from mobnet.evaluation.report.pages import pages, table_page
+from mobnet.core.files import write_text
+from mobnet.evaluation.report.pages import table_page, titled
 from mobnet.evaluation.tables.layout import markdown_table
-from mobnet.plan.products import TEMPLATES
+from mobnet.plan.products import CATEGORIES, TEMPLATES
 from mobnet.settings.load import load_settings
 
 from .clicks import MENU, ROWS, choose, explain, show, text_of_frame
@@ -31,6 +32,8 @@ def in_report(made):
         "tables": r"(?:tables/.*|results/\w+/compute)\.md",
         "paper": r".*main\.pdf",
         "trainings": r".*/runs\.html",
+        "explore": r".*/explore\.html",
+        "start": r".*/pages/index\.html",
     }
     return {kind: sorted(Path(name).stem for name in made if re.fullmatch(end, name)) for kind, end in endings.items()}
 
@@ -49,7 +52,7 @@ def test_a_caption_has_a_title_of_its_own_and_is_sound(path):
     assert 10 < len(title) < 60  # the menu is as wide as its longest line
     assert gap == ""
     assert len(text) >= 1
-    page = table_page(TABLE_HTML, markdown_table(["a"], [["b"]]), path.read_text())  # docutils finds no fault
+    page = table_page(TABLE_HTML, markdown_table(["a"], [["b"]]), *titled(path.read_text()))  # docutils finds no fault
     assert title in unescape(page)
     number = re.fullmatch(r"(table|figure)_(\d\d)", path.stem)
     if number:
@@ -74,11 +77,12 @@ def report(make_project, snakemake, outputs):
             path.write_text(markdown_table(["name", "number"], [[path.stem, "1.25"]]))
         elif path.suffix == ".png":
             shutil.copy(ROOT / "docs" / "results" / "figure_05.png", path)
-        elif path.name in ("runs.html", "main.pdf"):
-            path.write_text("<h1>made up</h1>")
-    tables = [folder / name for name in made if name.endswith(".md")]
-    captions = [CAPTIONS / "tables" / f"{table.stem}.rst" for table in tables]
-    pages(tables, captions, TABLE_HTML, folder / "results" / "smoke" / "pages" / "first.html")
+        elif path.name in ("runs.html", "explore.html", "main.pdf", "index.html"):
+            path.write_text(f'<h1 title="&amp;">made up: {path.stem}</h1>\n')
+    for table in (folder / name for name in made if name.endswith(".md")):
+        caption = titled((CAPTIONS / "tables" / f"{table.stem}.rst").read_text())
+        page = table_page(TABLE_HTML, table.read_text(), *caption)
+        write_text(folder / "results" / "smoke" / "pages" / f"{table.stem}.html", page)
     done = snakemake("--config", "scale=smoke", "--report", "report.html", folder=folder)
     assert (folder / "report.html").is_file(), done.stdout + done.stderr
     return folder / "report.html"
@@ -89,8 +93,13 @@ def test_the_first_page_says_what_it_is_and_lists_all_categories(report, open_pa
     browser = open_page(report)
     browser.until("document.querySelector('#app .prose h1')?.textContent", "MOB-Net reproduced in simulation")
     assert "Scale smoke" in browser.value("document.body.innerText")
-    shown = [kind.capitalize() for kind, names in in_report(outputs("smoke")).items() if names]
+    first = "document.querySelector('#app .prose iframe')"
+    browser.until(f"{first}?.contentDocument?.body?.innerText.trim()", "made up: index")
+    assert browser.value(f"{first}.contentDocument.querySelector('h1').title") == "&"
+    assert browser.value(f"{first}.getBoundingClientRect().width > innerWidth / 2")
+    shown = [CATEGORIES.get(kind, kind.capitalize()) for kind, names in in_report(outputs("smoke")).items() if names]
     assert browser.value(MENU)[-len(shown) :] == sorted(shown)
+    assert sorted(shown)[0] == "0 Read me first"
 
 
 @with_browser
@@ -105,7 +114,7 @@ def test_a_category_lists_all_its_results(kind, report, open_page, outputs):
 def test_a_table_is_shown_and_says_where_it_comes_from(report, open_page):
     browser = open_page(report)
     choose(browser, "Tables")
-    show(browser, "table_07", "iframe")
+    show(browser, "table_07", "iframe.w-full")
     text = text_of_frame(browser)
     assert "1.25" in text
     for told in (text, explain(browser, "table_07")):

@@ -85,6 +85,9 @@ def test_smoke_makes_all_that_is_planned(unbroken, plan):
     assert [name for name in names if not (unbroken / name).exists()] == []
     assert (unbroken / "figures" / "smoke" / "figure_05.pdf").read_bytes().startswith(b"%PDF")
     assert "MOB-Net-LL-s0" in (unbroken / "results" / "smoke" / "runs.html").read_text()
+    page = (unbroken / "results" / "smoke" / "explore.html").read_text()
+    assert '<tr data-method="MOB-Net">' in page
+    assert len(page) < 3_000_000
 
 
 def accounts(folder):
@@ -123,7 +126,7 @@ def test_verify_names_every_file_in_which_a_byte_is_flipped_and_no_other(unbroke
     assert subprocess.run(words, cwd=unbroken, check=False, capture_output=True).returncode == 0
     names = [line.split("  ", 1)[1] for line in (unbroken / manifest).read_text().splitlines()]
     flipped = sorted(kinds_of_files(names).values())
-    endings = {".parquet", ".json", ".safetensors", ".csv", ".tex", ".md", ".pdf", ".png", ".html"}
+    endings = {".parquet", ".json", ".safetensors", ".csv", ".tex", ".md", ".pdf", ".svg", ".png", ".html"}
     assert {Path(name).suffix for name in flipped} == endings
     before = {name: ((unbroken / name).read_bytes(), (unbroken / name).stat()) for name in flipped}
     for name, (whole, _) in before.items():
@@ -157,6 +160,14 @@ def test_compute_counts_every_job_before_it(unbroken):
 def test_report_is_made_by_one_command(unbroken):
     assert reproduce(unbroken, command="report").wait() == 0, told(unbroken)
     assert (unbroken / "report.html").stat().st_size > 1_000_000
+
+
+def test_documentation_is_made_by_one_command_and_verify_does_not_mind(unbroken):
+    assert reproduce(unbroken, command="docs").wait() == 0, told(unbroken)
+    assert "MOB-Net, reproduced" in (unbroken / "results" / "smoke" / "docs" / "index.html").read_text()
+    words = ["verify", "--manifest", "results/smoke/MANIFEST.sha256"]
+    done = subprocess.run([sys.executable, str(unbroken / "reproduce"), *words], cwd=unbroken, check=False)
+    assert done.returncode == 0
 
 
 @with_browser

@@ -23,6 +23,7 @@ from mobnet.plan.stamps import Stamped
 from mobnet.plan.texts import text_problems
 from mobnet.running.cluster import LIMITED, failed_jobs, warm_cache
 from mobnet.running.environment import quieten
+from mobnet.running.follow import follow_trainings
 from mobnet.running.gpus import gpus_seen
 from mobnet.running.lock import job_prefix
 from mobnet.running.patches import by_kind, drop_rate_limit, quote_python, set_resources_by_kind
@@ -74,6 +75,8 @@ onstart:
             refuse_lines(Stamped(PLAN).foreign(sorted(read - made)))
         if not workflow.local_exec:
             warm_cache(ROOT, jobs=len(list(workflow.dag.needrun_jobs())))
+        if any(KINDS_OF_RULES.get(job.rule.name) == "train" for job in workflow.dag.needrun_jobs()):
+            follow_trainings(PLAN.folders.results, LOGS / "wandb_live.log")
     except MobnetError as error:
         sys.exit(str(error))
 
@@ -115,4 +118,4 @@ def flagged(name):
     if how is None:
         return output
     labels = {"file": Path(name).stem, "shows": how.title}
-    return report(output, caption=how.caption and ROOT / how.caption, category=how.heading.capitalize(), labels=labels)
+    return report(output, caption=how.caption and ROOT / how.caption, category=how.category, labels=labels)

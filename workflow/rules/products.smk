@@ -1,6 +1,6 @@
-# Every table, figure and text of the plan, each by a rule of its own name, and the trials and films, which `all` does not ask for.
+# Every table, figure and text of the plan, each by a rule of its own name, and the trials, films and documentation, which `all` does not ask for.
 
-for product in (*PLAN.products, *PLAN.trials, *PLAN.films):
+for product in (*PLAN.products, *PLAN.trials, *PLAN.films, *PLAN.docs):
 
     rule:
         name:

@@ -21,10 +21,11 @@ MODULES = {  # command -> the module that `python -m` runs, with words that come
     "calibrate": ("mobnet.detection.calibrate",),
     "observe": ("mobnet.robotlog.observe",),
     "robot": ("mobnet.robot.import_table",),
+    "demo": ("mobnet.demo",),
     "cost": ("mobnet.evaluation.report.cost",),
     **{name: ("mobnet.evaluation.report.snapshot", name) for name in ("verify", "compare", "snapshot")},
 }
-OUTSIDE = ("check", "calibrate", "observe", "robot")  # their words are files of whoever calls, where no code is ours
+OUTSIDE = ("check", "calibrate", "demo", "observe", "robot")  # their words are files of whoever calls, where no code is ours
 REPORT = ("--report", "report.html", "--report-after-run")
 
 

@@ -15,6 +15,7 @@ from mobnet.robotlog.words import observe_parser
 
 COMMANDS = {
     "all": "make every table, figure and the paper (snakemake --cores 2 all); further words go to snakemake",
+    "demo": "show one push as three methods feel it, without training: results/demo.png, or --out FILE",
     "test": "run pytest, lint, format, types and the smoke run included; further words go to pytest",
     "verify": "check every result file against results/MANIFEST.sha256, or --manifest FILE",
     "check": "check recordings, weights and configurations from outside: ./reproduce check FILE...",
@@ -26,6 +27,7 @@ COMMANDS = {
     "lengths": "train for longer and longer, write results/default/trials/lengths.md; no part of all",
     "random_torque": "count falls by random torque, write results/default/trials/random_torque.md; no part of all",
     "films": "make films of walks into obstacles, results/default/films; no part of all",
+    "docs": "make the documentation as pages, results/default/docs/index.html; no part of all",
     "report": "make everything, then report.html: every table and figure with its caption, in one file",
     "compare": "print what differs between docs/results and the fresh tables",
     "snapshot": "store the fresh tables and figures as docs/results",
@@ -40,7 +42,7 @@ EXAMPLES = """
   ./reproduce all --config scale=quick   every table and figure in about an hour, with shorter walks and trainings
   ./reproduce tables/table_05.tex        make one file and what it needs; tables/smoke/table_05.tex at that scale"""
 OWN = {"clean", "setup"}  # commands with options of their own
-APART = ("tuning", "recipes", "lengths", "random_torque", "films")  # rules that `all` does not ask for
+APART = ("tuning", "recipes", "lengths", "random_torque", "films", "docs")  # rules that `all` does not ask for
 TARGETS = {"all": "all", "report": "all", **{name: name for name in APART}}  # command -> rule of the workflow
 HELP = {"-h", "--help"}
 PARSERS = {

@@ -11,7 +11,7 @@ Array = NDArray[np.float64]
 
 
 def rows_of(name: str, array: NDArray[Any], samples: tuple[int, ...], width: int) -> Array:
-    """Return an array (*samples, width) of any float type and memory order as contiguous rows (n, width), float64.
+    """Return an array `(*samples, width)` of any float type and memory order as contiguous rows (n, width), float64.
 
     Raises:
         DataError: it has another shape; compiled code would read what is not there.

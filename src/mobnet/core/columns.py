@@ -119,7 +119,8 @@ class Epoch:
 
     Losses are means of (22) over the samples of the training, and over those held out; `validation_rmse` is the mean
     over the joints of their root-mean-square errors [N m], V1..V3 [N]; `gradient_norm` is the mean norm of the gradient
-    before the clip; `stride` is the distance between two steps [samples], in training and validation.
+    before the clip; `stride` is the distance between two steps [samples], in training and validation. In the file, the
+    errors of the joints follow, in columns of their own: JOINT_ERROR.
     """
 
     epoch: int
@@ -129,6 +130,9 @@ class Epoch:
     rate: float
     gradient_norm: float
     stride: int
+
+
+JOINT_ERROR = "validation_rmse_{}"  # column of metrics.csv with the error of one joint [N m], V1..V3 [N]
 
 
 @dataclass(frozen=True)
@@ -231,17 +235,18 @@ COMPUTE = ("stage", "quantity", "value", "unit")
 
 # Figures.
 COMMANDS = (*BIN, "share", "unit")
-PUSH_ERRORS = ("scenario", "method", "push", "rmse_nm", "low", "high", *SPREAD, "published")
-LOSSES = ("measure", "method", "runs", "epoch", "mean", "low", "high")
+PUSH_ERRORS = ("scenario", "method", "push", "measure", "value", "low", "high", *SPREAD, "unit", "published")
+JOINT_ERRORS = (*RUN, "joint", "metric", "value", "low", "high", *SPREAD, "unit", "published", "rmse_drawn")
+LOSSES = ("measure", "method", "runs", "epoch", "stride", "mean", "low", "high")
 LIMB_ERRORS = ("scenario", "method", "limb", "joint", "rmse_nm", "low", "high", *SPREAD)
 TUNED = ("panel", "line", "seconds", *RUN, "joint", "value", "low", "high", *SPREAD, "unit")
-DOTS = ("kind", "set", "joint", "velocity_rad_s", "torque_nm", "phase")
+PLANES = ("kind", "set", "joint", "from", "to", "torque_from_nm", "torque_to_nm", "share_percent")
 SIZES = (
     "panel", "base", "method", "parameters", "samples", "runs",
-    "loss", "loss_low", "loss_high", "rmse_nm", "rmse_low_nm", "rmse_high_nm",
+    "loss", "loss_low", "loss_high", "rmse_nm", "rmse_low_nm", "rmse_high_nm", "ratio", "ratio_low", "ratio_high",
 )  # fmt: skip
 RESPONSE = ("method", "joint", "frequency_hz", "quantity", "value", "low", "high", *SPREAD, "unit")
-DRIFT = ("panel", *RUN, "phase", "time_s", "share", "low", "high", *SPREAD)
+DRIFT = ("panel", *RUN, "phase", "step", "share", "low", "high", *SPREAD)
 SIGMA = ("panel", "test", "method", "limb", "x", "value", "low", "high", *SPREAD)
-RELIABILITY = ("panel", "method", "limb", "nominal", "before", "after")
-FOREST = ("score", "claim", "verdict", "axis", "value", "low", "high", "from", "to")
+RELIABILITY = ("case", "method", "limb", "nominal", "before", "after")
+FOREST = ("score", "statement", "claims", "worst", "verdict", "axis", "value", "low", "high", "from", "to")

@@ -14,6 +14,7 @@ from typing import Any
 from mobnet.core.errors import DataError, not_accepted, refuse
 
 WEIGHTS, METRICS, RUN = "weights.safetensors", "metrics.csv", "run.json"  # files of a trained network
+CHECKPOINT = "checkpoint.safetensors"  # of a training that is under way, in a folder of its own with METRICS
 TIME = "time.json"  # beside the checkpoint of a network: what its training took [s]
 PARTIAL = ".partial."  # first characters of the name of a file that is being written
 FULL = frozenset({errno.ENOSPC, errno.EDQUOT})

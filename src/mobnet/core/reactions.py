@@ -21,7 +21,7 @@ class Trial:
         walked_s: time that the robot walks as told, watched: until it reacts, is pushed or falls, or to the end.
         velocity_rmse_m_s: error of the base's velocity in this time [m/s], the root of the sum of its three squares.
         tracking_rmse_rad: error of the joints of the leg that swings from their references in this time [rad].
-        power_w: mean of the sum of |motor torque x joint velocity| in this time [W].
+        power_w: mean of the sum of `|motor torque x joint velocity|` in this time [W].
         contact_s: first contact with the obstacle.
         alarm_s: the alarm.
         limb: the limb that was watched.

@@ -18,11 +18,9 @@ from safetensors import SafetensorError, safe_open
 from safetensors.torch import save as to_bytes
 from torch import Tensor, nn
 
-from mobnet.core.columns import EPOCHS, Epoch
+from mobnet.core.columns import EPOCHS, JOINT_ERROR, Epoch
 from mobnet.core.errors import DataError
 from mobnet.core.files import atomic_path, parse_json, write_text
-
-CHECKPOINT = "checkpoint.safetensors"
 
 log = logging.getLogger(__name__)
 
@@ -31,11 +29,13 @@ log = logging.getLogger(__name__)
 class Progress:
     """How far a training has come: finished epochs, weights of the best one, processor time of all starts [s].
 
-    The best epoch has the smallest number in the column `chosen_by`, of those at the finest time. A training whose loss
-    ran away stopped there: it has `diverged`, and is never resumed.
+    The best epoch has the smallest number in the column `chosen_by`, of those at the finest time. The `errors` of an
+    epoch are the RMSE of its validation joint by joint [N, N m]. A training whose loss ran away stopped there: it has
+    `diverged`, and is never resumed.
     """
 
     epochs: list[Epoch] = field(default_factory=list)
+    errors: list[list[float]] = field(default_factory=list)
     best: dict[str, Tensor] = field(default_factory=dict)
     seconds: float = 0.0
     diverged: bool = False
@@ -57,7 +57,8 @@ def save(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.opti
     tensors |= {f"best.{name}": tensor for name, tensor in done.best.items()}
     for index, state in optimizer.state_dict()["state"].items():
         tensors |= {f"optimizer.{index}.{key}": value.detach().cpu().clone() for key, value in state.items()}
-    note = {"fingerprint": fingerprint, "epochs": [asdict(epoch) for epoch in done.epochs], "seconds": done.seconds}
+    epochs = [asdict(epoch) for epoch in done.epochs]
+    note = {"fingerprint": fingerprint, "epochs": epochs, "errors": done.errors, "seconds": done.seconds}
     with atomic_path(path) as temporary:
         temporary.write_bytes(to_bytes(tensors, {"note": json.dumps(note)}))
 
@@ -88,17 +89,18 @@ def resume(path: Path, fingerprint: str, network: nn.Module, optimizer: torch.op
         # A copy, aligned as memory of torch's own is: products round otherwise where it is not, as in a file's bytes.
         state.setdefault(int(index), {})[key] = tensor.clone()
     optimizer.load_state_dict({**optimizer.state_dict(), "state": state})
-    done = Progress([Epoch(**row) for row in note["epochs"]], _below("best.", tensors), note["seconds"])
+    epochs = [Epoch(**row) for row in note["epochs"]]
+    done = Progress(epochs, note["errors"], _below("best.", tensors), note["seconds"])
     log.info("%s: resuming after epoch %d", path, len(done.epochs))
     return done
 
 
-def write_metrics(path: Path, epochs: Sequence[Epoch]) -> None:
-    """Write one line for each epoch; atomic."""
+def write_metrics(path: Path, done: Progress, joints: Sequence[str]) -> None:
+    """Write one line for each epoch, its errors of the n joints after its own columns; atomic."""
     text = io.StringIO()
-    writer = csv.DictWriter(text, EPOCHS, lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(asdict(epoch) for epoch in epochs)
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow((*EPOCHS, *map(JOINT_ERROR.format, joints)))
+    writer.writerows((*asdict(epoch).values(), *errors) for epoch, errors in zip(done.epochs, done.errors, strict=True))
     write_text(path, text.getvalue())
 
 

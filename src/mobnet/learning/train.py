@@ -12,10 +12,10 @@ import numpy as np
 import torch
 from safetensors.torch import save as to_bytes
 
-from mobnet.core.files import METRICS, RUN, TIME, WEIGHTS, atomic_path, write_json
+from mobnet.core.files import CHECKPOINT, METRICS, RUN, TIME, WEIGHTS, atomic_path, write_json
 from mobnet.core.joints import JointLayout
 from mobnet.learning.calibration import StdFactors
-from mobnet.learning.checkpoint import CHECKPOINT, Progress, write_metrics
+from mobnet.learning.checkpoint import Progress, write_metrics
 from mobnet.learning.dataset import Known, LimbData, load_limb_data
 from mobnet.learning.deployed.weights import NOTE, STD_SCALE
 from mobnet.learning.job import TrainingJob, precision_name
@@ -96,7 +96,7 @@ def train_on(data: LimbData, job: TrainingJob, out: Path, state: Path, start: Pa
     calibration = trainer.calibrate(done)
     note = run_note(trainer, data, done, calibration)
     write_weights(out / WEIGHTS, trainer, data, done, calibration)
-    write_metrics(out / METRICS, done.epochs)
+    write_metrics(out / METRICS, done, data.joints)
     write_json(out / RUN, note)
     write_json(state / TIME, {"seconds": round(done.seconds, 3)})  # not in the note, which two runs have alike
     (state / CHECKPOINT).unlink(missing_ok=True)

@@ -13,10 +13,10 @@ from torch import Tensor
 
 from mobnet.core.columns import Epoch
 from mobnet.core.errors import TrainingError
-from mobnet.core.files import METRICS
+from mobnet.core.files import CHECKPOINT, METRICS
 from mobnet.learning import checkpoint
 from mobnet.learning.calibration import StdFactors, calibrate, predict
-from mobnet.learning.checkpoint import CHECKPOINT, Progress, write_metrics
+from mobnet.learning.checkpoint import Progress, write_metrics
 from mobnet.learning.dataset import LimbData, ZScore, scale_of
 from mobnet.learning.device import own_device
 from mobnet.learning.job import TrainingJob
@@ -43,7 +43,7 @@ class Trainer:
         Raises:
             DataError: the network that it starts from is damaged, or another one.
         """
-        self.job = job
+        self.job, self.joints = job, data.joints
         self.device = own_device()
         first = read_start(start, job, data) if start else None
         self.fingerprint = job.fingerprint(data.digest + (first.digest if first else ""), self.device)
@@ -99,7 +99,7 @@ class Trainer:
         while len(done.epochs) < self.job.training.epochs:
             started = time.process_time()
             try:
-                epoch = self._epoch(len(done.epochs))
+                epoch, errors = self._epoch(len(done.epochs))
             except TrainingError as error:
                 if not self.job.training.learning.may_diverge:
                     raise
@@ -107,11 +107,12 @@ class Trainer:
                 done.diverged = True
                 break
             done.epochs.append(epoch)
+            done.errors.append(errors)
             if done.best_epoch() is epoch:
                 done.best = checkpoint.copy_weights(self.network)
             done.seconds += time.process_time() - started
             checkpoint.save(path, self.fingerprint, self.network, self._optimizer, done)
-            write_metrics(state_dir / METRICS, done.epochs)
+            write_metrics(state_dir / METRICS, done, self.joints)
             self._report(done)
         # A training that diverges at once is a result too where it may; it has learned nothing then.
         done.best = done.best or first
@@ -131,15 +132,16 @@ class Trainer:
     def on_windows(self, done: Progress) -> dict[str, float]:
         """Return the best weights' loss (22) and RMSE [N, N m] where every sample re-runs its window from zero."""
         self.network.load_state_dict(done.best)
-        loss, rmse = self._validate(self._windows, LAST_STEP)
-        return {"loss": loss, "rmse": rmse}
+        loss, errors = self._validate(self._windows, LAST_STEP)
+        return {"loss": loss, "rmse": float(errors.mean())}
 
-    def _validate(self, plan: EpochPlan, scored: slice = EVERY_STEP) -> tuple[float, float]:
-        """Return mean loss (22) and RMSE [N, N m] of a validation."""
+    def _validate(self, plan: EpochPlan, scored: slice = EVERY_STEP) -> tuple[float, NDArray[np.floating]]:
+        """Return mean loss (22), and RMSE of each joint (n,) [N, N m], of a validation."""
         loss, rmse = validate(self.network, self._samples, plan, self.job.horizon, scored)
-        return loss, float((rmse.numpy() * self.scales[1].std).mean())
+        return loss, rmse.numpy() * self.scales[1].std
 
-    def _epoch(self, epoch: int) -> Epoch:
+    def _epoch(self, epoch: int) -> tuple[Epoch, list[float]]:
+        """Learn from the data once, and return what the epoch shows and the RMSE of each joint (n,) [N, N m]."""
         job, rate, learning = self.job, self.job.rate(epoch), self.job.training.learning
         for group in self._optimizer.param_groups:
             group["lr"] = rate
@@ -154,9 +156,10 @@ class Trainer:
             )  # fmt: skip
         # The median: a few updates of a training that goes well can have losses of thousands.
         self._check("median training", epoch, losses.median().item(), rate, learning.divergence_loss)
-        validation, rmse = self._validate(self._validation_at(stride))
+        validation, errors = self._validate(self._validation_at(stride))
         self._check("validation", epoch, validation, rate)
-        return Epoch(epoch + 1, losses.mean().item(), validation, rmse, rate, norms.mean().item(), stride)
+        loss, rmse = losses.mean().item(), float(errors.mean())
+        return Epoch(epoch + 1, loss, validation, rmse, rate, norms.mean().item(), stride), errors.tolist()
 
     def _plan(self, epoch: int, stride: int) -> tuple[EpochPlan, slice]:
         """Return the course of an epoch, and which steps of a horizon are in the loss.

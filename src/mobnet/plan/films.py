@@ -19,7 +19,8 @@ def film_products(files: Files) -> Iterator[Product]:
     outs = {case: files.results / "films" / f"{case}.{ending}" for case in section.joints}
     courses = courses_of(files, section.joints)
     arguments = {
-        "settings": section, "robot": settings.robot, "obstacles": settings.obstacles, "courses": courses, "outs": outs,
+        "settings": section, "robot": settings.robot, "looks": settings.robot.looks, "obstacles": settings.obstacles,
+        "courses": courses, "outs": outs,
     }  # fmt: skip
     inputs = tuple(map(str, files_in(courses)))
     job = Job(Call("mobnet.evaluation.figures.further.films:films", arguments), inputs)

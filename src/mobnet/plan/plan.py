@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from mobnet.plan.documentation import documentation
 from mobnet.plan.files import ARRAY, Files
 from mobnet.plan.films import film_products
 from mobnet.plan.places import MAIN
@@ -20,7 +21,8 @@ RECORDED = ("recordings", "residuals", "estimates")  # kinds of arrays whose dur
 class Plan:
     """What the workflow makes at the chosen scale: steps, and products, each after those that it needs.
 
-    The trials are products that are made on their own, by steps of their own; films are made on their own too, by none.
+    The trials are products that are made on their own, by steps of their own; films and the documentation are made on
+    their own too, by none.
     """
 
     settings: Settings
@@ -31,6 +33,7 @@ class Plan:
     trial_steps: tuple[Step, ...]
     trials: tuple[Product, ...]
     films: tuple[Product, ...]
+    docs: tuple[Product, ...]
 
     @property
     def stored(self) -> tuple[str, ...]:
@@ -64,5 +67,6 @@ def make_plan(settings: Settings, *, with_pdf: bool) -> Plan:
     folders = Folders(results, Path("tables") / part, Path("figures") / part, paper, manifest / "MANIFEST.sha256")
     files = Files(Catalogue(settings), results)
     steps, trials, films = tuple(all_steps(files)), tuple(trial_products(files)), tuple(film_products(files))
+    docs = tuple(documentation(files))
     products = Products(settings, files, folders, with_pdf, tuple(name for step in steps for name in step.outputs))
-    return Plan(settings, folders, files, steps, tuple(products.all()), tuple(trial_steps(files)), trials, films)
+    return Plan(settings, folders, files, steps, tuple(products.all()), tuple(trial_steps(files)), trials, films, docs)

@@ -3,13 +3,17 @@
 import functools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from fnmatch import fnmatch
 from pathlib import Path
 
 from mobnet.core.code import start_of
 from mobnet.plan.call import Job, call_of, parameters
+from mobnet.plan.demo import FOLDER, demo_needs, demo_outputs
+from mobnet.plan.detection import all_detections
 from mobnet.plan.files import Files, files_in
 from mobnet.plan.needs import needs_of
-from mobnet.settings.evaluation import Evaluation
+from mobnet.plan.pages import explore_needs
+from mobnet.settings.evaluation import Evaluation, Runs
 from mobnet.settings.settings import Settings
 
 EVALUATION = "mobnet.evaluation"
@@ -17,13 +21,38 @@ PLACES = (*(f"{kind}.{part}" for kind in ("tables", "figures") for part in ("pap
 ERRORS = f"{EVALUATION}.tables.paper.error_table:error_table"  # makes every entry of `tables`
 HANDS = ("figure_07", "figure_12")  # figures that `hand_figure` makes
 TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their rules: the code hash reads Python only
-TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "png", "csv")  # endings of a table's and of a figure's files
+EXPLORE = tuple(
+    TEMPLATES / f"explore{name}"
+    for name in (".html", ".css", "_data.js", "_numbers.js", "_pose.js", "_robot.js", "_plots.js", "_state.js", ".js")
+)
+TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "svg", "png", "csv")  # endings of a table's and of a figure's files
+FILM, DRAWN = ("webp", "gif", "png", "csv"), ("method", "robot")  # endings of the film's files; drawings
+TESTS = (  # scenario and level of those whose errors the page of trainings shows, the first that has a network
+    "forward_walk/all_uncertainty", "motion_test/all_uncertainty", "walk_test/robots", "hand_wrench/robots",
+    "changed_walk/*",
+)  # fmt: skip
 CLAIMED = ("claims", "claims_summary")  # made from the claims, which are no section of `evaluation`
-BARS = ("figure_06", "figure_10")  # figures whose bars have a CSV of their own
+FURTHER: Mapping[str, tuple[str, ...]] = {"bode": ("bode_all",), "claims": ("claims_own",)}  # more figures of a product
+MAIN_TABLES = ("legs", "limbs", "detectors")  # of the paper's main text, made with its numbers
+SOURCES = (  # tables that these are made from
+    "table_05", "table_06", "table_07", "table_08", "table_09", "table_13", "methods", "peaks", "false_alarms",
+    "found_by_rate",
+)  # fmt: skip
+QUOTED = (  # tables that the paper's text takes numbers from, beside those of errors
+    "methods", "peaks", "phases", "noise", "error_budget", "label_error", "changed", "hourly", "kinds", "table_09",
+    "false_alarms", "found_by_rate", "smallest_force", "links", "safety", "sensorless",
+)  # fmt: skip
+BARS = tuple(f"figure_{k:02}" for k in (5, 6, 7, 8, 9, 10, 12))  # figures whose bars have a CSV of their own
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs
 TIMED = ("runs.html", "main.pdf", "compute.html")  # they show what jobs took, as the table of compute does
 CAPTIONS = Path("workflow/report")
-HEADINGS = {"runs.html": "trainings", "main.pdf": "paper", ".html": "tables", ".png": "figures"}
+HEADINGS = {
+    "index.html": "start", "runs.html": "trainings", "explore.html": "explore", "main.pdf": "paper",
+    ".html": "tables", ".png": "figures",
+}  # fmt: skip
+CATEGORIES = {"start": "0 Read me first"}  # the page on which the report opens; the report sorts its categories
+HEADLINE = ("table_05", "table_07", "table_08")  # tables of its errors of five methods
+PICTURED = ("figure_06", "figure_10", "figure_21", "claims")  # its figures
 
 
 @dataclass(frozen=True)
@@ -54,6 +83,11 @@ class Shown:
     title: str
     caption: Path | None
 
+    @property
+    def category(self) -> str:
+        """The category of the report."""
+        return CATEGORIES.get(self.heading, self.heading.capitalize())
+
 
 @dataclass(frozen=True)
 class Products:
@@ -68,31 +102,48 @@ class Products:
     @property
     def table_names(self) -> list[str]:
         """Names of all tables."""
-        return [*self.settings.evaluation.tables, *_made_with("table_dir")]
+        return [*self.settings.evaluation.tables, *_made_with("table_dir"), *MAIN_TABLES]
 
     @property
     def figure_names(self) -> list[str]:
-        """Names of all figures; one that shows data of the project is left out where these are not there yet."""
+        """Names of all figures, without those whose source data do not exist yet."""
         kept = {"learning_curve": Path(self.settings.evaluation.learning_curve.data)}
         made = [*_made_with("figure_dir"), *self.settings.evaluation.figures]
         return [name for name in made if name not in kept or kept[name].is_file()]
 
     def all(self) -> list[Product]:
         """Return every product, each after those that it needs."""
-        made = [*self._tables_and_figures(), *self._texts()]
+        made = [*self._tables_and_figures(), self._pictures(), *self._texts()]
         return [*made, *self._report(made)]
 
     def _tables_and_figures(self) -> Iterator[Product]:
         """Yield all tables and figures."""
-        tables, figures = self.table_names, self.figure_names
+        figures = self.figure_names
+        tables = [name for name in self.table_names if name not in MAIN_TABLES]
         for name in dict.fromkeys([*tables, *figures]):
-            outputs = [self.folders.figures / f"{name}.{ending}" for ending in FIGURE if name in figures]
+            drawn = pictures(name) if name in figures else ()
+            outputs = [self.folders.figures / f"{picture}.{ending}" for picture in drawn for ending in FIGURE]
             outputs += [self.folders.figures / f"{name}_bars.csv"] if name in BARS else []
             outputs += [self.folders.tables / f"{name}.{ending}" for ending in TABLE if name in tables]
             function = ERRORS if name in self.settings.evaluation.tables else functions()[name]
             asked = [parameter for some in parameters(function) for parameter in some]
             needs = needs_of(self.files, name, self._own(name).get("settings"), asked)
             yield self._product(name, function, {**needs, **self._tables_of(name)}, outputs)
+
+    def _pictures(self) -> Product:
+        """Return the drawings of method and robot, and the film of a push where there is a robot with detectors."""
+        figures, evaluation, detections = self.folders.figures, self.settings.evaluation, all_detections(self.files)
+        story = evaluation.story
+        is_told, test = story.level in detections, Runs(**story.model_dump(include=set(Runs.model_fields)))
+        needs: dict[str, object] = {
+            "film": evaluation.push_film,
+            **{name: getattr(evaluation, name) for name in ("drawings", "story", "peaks")},
+            "runs": self.files.first_runs(test) if is_told else (),
+            "detections": {story.level: detections[story.level]} if is_told else {},
+        }
+        outputs = [figures / f"{name}.{ending}" for name in DRAWN for ending in FIGURE]
+        outputs += [figures / f"push.{ending}" for ending in FILM] if is_told else []
+        return self._product("pictures", functions()["pictures"], needs, outputs)
 
     def _tables_of(self, name: str) -> Mapping[str, object]:
         """Return the tables from which another table or figure is made."""
@@ -104,21 +155,34 @@ class Products:
         return {"tables": {table: folder / f"{table}.csv" for table in used}} if name == "claims" else {}
 
     def _texts(self) -> Iterator[Product]:
-        """Yield the numbers and tables that the paper's text takes, and the pages of trainings."""
+        """Yield numbers and tables that the paper takes, pages of trainings and pushes, and the stored push."""
         tables, results = self.folders.tables, self.folders.results
         csvs = [tables / f"{name}.csv" for name in self.settings.evaluation.tables]
+        made = [tables / f"{name}.{ending}" for name in MAIN_TABLES for ending in TABLE]
         numbers = {
             "train": self.files.training_size("walk"),
             "table_csvs": csvs,
+            "further_csvs": [tables / f"{name}.csv" for name in QUOTED],
+            "captions": self._captions(),
+            "compared": self.settings.evaluation.main_tables,
+            "sources": [tables / f"{name}.csv" for name in SOURCES],
             "claims_csv": tables / "claims.csv",
             "summary_csv": tables / "claims_summary.csv",
         }
-        yield self._report_product("numbers", numbers, [tables / "numbers.tex"])
+        yield self._report_product("numbers", numbers, [tables / "numbers.tex", tables / "captions.tex", *made])
         yield self._report_product("deviations", {"markdown": Path("docs/deviations.md")}, [tables / "deviations.tex"])
         networks = {"folders": self.files.all_networks()}
-        parts = [TEMPLATES / f"runs.{ending}" for ending in ("html", "css", "js")]
-        yield self._report_product("runs_page", {**networks, "templates": parts}, [results / "runs.html"])
+        parts = [TEMPLATES / name for name in ("runs.html", "page.css", "runs.css", "page.js", "runs.js", "overlay.js")]
+        scores = self.files.scores(
+            pair for test in TESTS for pair in self.files.scored if fnmatch("/".join(pair), test)
+        )
+        needs = {**networks, "templates": parts, "scores": scores}
+        yield self._report_product("runs_page", needs, [results / "runs.html"])
         yield self._report_product("wandb_runs", networks, [results / "wandb"])
+        push = demo_needs(self.files)
+        yield self._report_product("demo_data", push, [results / FOLDER / name for name in demo_outputs(push)])
+        scenes = explore_needs(self.files)
+        yield self._report_product("explore", {**scenes, "templates": EXPLORE}, [results / "explore.html"])
 
     def _report(self, made: list[Product]) -> Iterator[Product]:
         """Yield what looks at all other products: compute, the paper, the pages of the report and the manifest."""
@@ -127,21 +191,44 @@ class Products:
         accounts = {"accounts": results / "logs", "after": [*map(Path, self.stored), *outputs]}
         compute = [results / f"compute.{ending}" for ending in TABLE]
         yield self._report_product("compute", accounts, compute)
-        texts = [tables / f"{name}.tex" for name in (*self.table_names, "numbers", "deviations")] + [compute[1]]
+        names = (*self.table_names, "numbers", "captions", "deviations")
+        texts = [*(tables / f"{name}.tex" for name in names), compute[1]]
         sources = {"main": Path("paper/main.tex"), "references": Path("paper/refs.bib"), "tables": texts}
-        figures = [self.folders.figures / f"{name}.pdf" for name in self.figure_names]
+        drawn = [*(picture for name in self.figure_names for picture in pictures(name)), *DRAWN]
+        figures = [self.folders.figures / f"{picture}.pdf" for picture in drawn]
         built = [paper / "build.json", *([paper / "main.pdf"] if self.with_pdf else [])]
         yield self._report_product("paper", {**sources, "figures": figures}, built)
         listed = [*(tables / f"{name}.md" for name in self.table_names), results / "compute.md"]
         pages = [results / "pages" / f"{path.stem}.html" for path in listed]
         captions = [found.caption for page in pages if (found := shown(str(page)))]
-        needs = {"tables": listed, "captions": captions, "template": TEMPLATES / "table.html"}
-        yield self._report_product("pages", needs, pages)
+        pages.append(results / "pages" / "index.html")
+        yield self._report_product("pages", {"tables": listed, "captions": captions, **self._first_page()}, pages)
         results_of_all = [*map(Path, self.stored), *outputs, *compute, *built, *pages]
         timed = [*compute, *(path for path in results_of_all if path.name in TIMED)]
         equal = [path for path in results_of_all if path not in timed]
         listed = [self.folders.manifest, self.folders.manifest.with_name(TIMES)]
         yield self._report_product("manifest", {"files": equal, "timed": timed}, listed)
+
+    def _first_page(self) -> dict[str, object]:
+        """Return what the page on which the report opens needs, and the templates of all pages."""
+        parts = [
+            TEMPLATES / name for name in ("page.css", "page.js", "bar.html", "index.css", "claims.css", "claims.js")
+        ]
+        return {
+            "pictures": [
+                (self.folders.figures / f"{name}.png", CAPTIONS / "figures" / f"{name}.rst") for name in PICTURED
+            ],
+            "first": CAPTIONS / "start" / "index.rst",
+            "templates": {name: TEMPLATES / f"{name}.html" for name in ("table", "claims", "index")},
+            "read": [*parts, *(self.folders.tables / f"{name}.csv" for name in ("claims", *HEADLINE))],
+        }
+
+    def _captions(self) -> list[Path]:
+        """Return the captions of all tables and figures that have one, for the paper."""
+        drawn = [*(picture for name in self.figure_names for picture in pictures(name)), *DRAWN]
+        names = {"tables": [*self.table_names, "compute"], "figures": drawn}
+        files = [CAPTIONS / kind / f"{name}.rst" for kind, made in names.items() for name in made]
+        return [path for path in files if path.is_file()]
 
     def _report_product(self, name: str, needs: Mapping[str, object], outputs: list[Path]) -> Product:
         """Return a product of the module of its name in `report`."""
@@ -162,6 +249,7 @@ class Products:
             **{name: getattr(self.settings, name) for name in type(self.settings).model_fields if name != "evaluation"},
             **{name: getattr(evaluation, name) for name in ("statistics", "windows", "coverage")},
             "layout": self.settings.layout,
+            "looks": self.settings.robot.looks,
             "sizes": self.settings.sizes,
             "table_dir": self.folders.tables,
             "figure_dir": self.folders.figures,
@@ -170,15 +258,21 @@ class Products:
     def _own(self, name: str) -> dict[str, object]:
         """Return a product's own name, section of the configuration and numbers of the paper, None if it prints none.
 
+        A section may name the table of the paper whose numbers it shows.
         The chosen scale may replace the start of a gait cycle [s] that the section names.
         """
         evaluation, published = self.settings.evaluation, self.settings.published
         section = {**evaluation.tables, **evaluation.figures}.get(name) or getattr(evaluation, name, None)
-        printed = published.tables.get(name) or getattr(published, name, None)
+        printed = published.tables.get(getattr(section, "table", name)) or getattr(published, name, None)
         shortened = self.settings.sizes.figure_start_s
         start_s = getattr(section, "start_s", None) if shortened is None else shortened
         own = {"name": name, "settings": section, "start_s": start_s}
         return {**{key: value for key, value in own.items() if value is not None}, "published": printed}
+
+
+def pictures(name: str) -> tuple[str, ...]:
+    """Return the names of the files of a figure: its own, and those of what else it draws."""
+    return name, *FURTHER.get(name, ())
 
 
 def shown(file: str) -> Shown | None:

@@ -8,7 +8,9 @@ from mobnet.core.errors import not_accepted
 from mobnet.settings.reading import Place
 from mobnet.settings.settings import Settings
 
-MACROS = re.compile(r"\\(?:claimed|found|foundspan|verdict|cause)\{([\w-]+)\}")  # of `evaluation.report.numbers`
+MACROS = re.compile(
+    r"\\(?:claimed|claimedshare|found|foundshare|foundspan|verdict|cause|holds)\{([\w-]+)\}"
+)  # of `evaluation.report.numbers`
 
 
 def text_problems(settings: Settings, text: Path) -> Iterator[tuple[Place, str]]:

@@ -62,8 +62,10 @@ def trained(files: Files, networks: Sequence[NetworkName]) -> tuple[Amounts, flo
 
 
 def steps_of(files: Files, name: NetworkName) -> float:
-    """Return the time steps that a network learns from, over all epochs."""
+    """Return the time steps that a network learns from, over all epochs; 0 of one without inputs."""
     training = files.catalogue.training(name.method, name.limb)
+    if not (training.network.Q or training.network.T):
+        return 0.0
     read = training_s(files, training.network.data) * files.settings.rates.data_hz / training.learning.data_parts
     return training.epochs * (training.epoch_samples or read)
 

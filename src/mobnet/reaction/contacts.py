@@ -63,9 +63,9 @@ def make_ends(robot: RobotDescription, bodies: Mapping[str, str], numbers: Ident
 def identify(ends: Ends, q: Array, tau: Array) -> None:
     """Fill ends.wrench (k, 6) with what explains the torques tau (nv,) [N, N m] of each limb best at q (nq,).
 
-    (C1) of the joints of a limb tau = J^T F; (C2) the wrench that makes |J^T F - tau|^2 / s^2 + |F|^2 / F_0^2 smallest,
-    with s the error of the torques and F_0 a wrench that is large: F = (J J^T + D)^-1 J tau. The damping D decides
-    where the joints say nothing, as of a force along a straight leg (section 8.4).
+    (C1) of the joints of a limb tau = J^T F; (C2) the wrench that makes `|J^T F - tau|^2 / s^2 + |F|^2 / F_0^2`
+    smallest, with s the error of the torques and F_0 a wrench that is large: F = (J J^T + D)^-1 J tau. The damping D
+    decides where the joints say nothing, as of a force along a straight leg (section 8.4).
     """
     update(ends.tree, q, ends.still, 0.0, ends.pose)
     arm, column = vector3(), vector3()

@@ -33,7 +33,7 @@ class Course:
         base: place of the base (T, 3) [m], world axes, as it was.
         error: of the base's sensed velocity (T, 3) [m/s], world axes.
         tracking: error of the joints of the leg that swings from their references (T, 6) [rad]; NaN while none does.
-        power: sum of |motor torque x joint velocity| (T, 1) [W].
+        power: sum of `|motor torque x joint velocity|` (T, 1) [W].
         obstacles: places of the obstacles by name (3,) [m].
         reacted: the reaction and its sample, if there was one.
         fallen: whether the robot fell at the end.

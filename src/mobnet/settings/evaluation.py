@@ -117,8 +117,13 @@ class Table01(Section):
 
 
 class Figure05(Section):
-    """Figure 5: one joint over a gait cycle, a panel for each method of each level."""
+    """Figure 5: one joint over a gait cycle, by method, at each level; the paper's numbers are those of a table.
 
+    The errors of some methods, `errors_of`, are drawn over time, those of others are far beyond them.
+    """
+
+    table: base.LowerName
+    errors_of: base.MethodNames
     scenario: base.ScenarioName
     joint: base.LegJointName
     start_s: base.NotNegative = Field(le=3600)
@@ -131,20 +136,39 @@ class Figure06(PushedRuns, PushWindow):
     joint: base.LegJointName
 
 
-class HandFigure(Runs):
-    """Figures 7 and 12: a push on a hand; every so many samples is drawn."""
+class ComparedRuns(Runs):
+    """Errors of single joints in one test, beside the paper's at a place of a table.
 
+    The errors of some methods, `errors_of`, are drawn over time, those of others are far beyond them.
+    """
+
+    metric: Metric = "rmse"
+    table: base.LowerName
+    place: base.Text
+    errors_of: base.MethodNames
+
+
+class HandFigure(ComparedRuns):
+    """Figures 7 and 12: a push on a hand, and what it is called; every so many samples is drawn."""
+
+    called: base.LowerName
     joints: base.Distinct[base.JointName]
     start_s: base.NotNegative = Field(le=3600)
     end_s: base.Positive = Field(le=3600)
     every: base.Whole = Field(ge=1, le=1000)
 
 
-class GaitFigure(Runs):
+class GaitFigure(ComparedRuns):
     """Figures 8 and 9: a leg over a gait cycle."""
 
     limb: base.LegName
     start_s: base.NotNegative = Field(le=3600)
+
+
+class Figure09(GaitFigure):
+    """Figure 9: methods side by side; some of the joints are drawn."""
+
+    drawn: base.Distinct[base.LegJointName]
 
 
 class Figure08(GaitFigure):
@@ -160,8 +184,12 @@ class QuietRuns(Runs):
 
 
 class Figure10(PushWindow):
-    """Figure 10: knee collisions; errors are increases over the walk that nothing pushes."""
+    """Figure 10: knee collisions; errors are increases over the walk that nothing pushes.
 
+    The curves of some methods are drawn.
+    """
+
+    drawn: base.MethodNames
     joint: base.LegJointName
     tests: Annotated[dict[base.Text, PushedRuns], Field(min_length=1)]
     against: QuietRuns
@@ -192,11 +220,12 @@ class Figure18(Section):
 
 
 class Figure19(Section):
-    """Figure 19: velocity and torque in training and tests."""
+    """Figure 19: velocity and torque at so many samples of training and tests; an outline holds a share of these."""
 
     joints: base.Distinct[base.MotorName]
     dots: base.Whole = Field(ge=10, le=1_000_000)
     test_dots: base.Whole = Field(ge=10, le=1_000_000)
+    outlined: base.PositiveShare
 
 
 class Figure20(Section):
@@ -216,10 +245,16 @@ class MethodsRow(Runs):
 
 
 class LearningCurve(Section):
-    """Error over the length of the training: a table of trials that is kept, and the title of each task's panels."""
+    """Error over the length of the training: a table of trials that is kept, and how its names are shown.
+
+    `titles` are those of each task's panels, `recipes` and `beside` are names in the legend and in notes: of recipes of
+    learning, and of methods that do not learn.
+    """
 
     data: base.Text
     titles: dict[base.TaskName, base.Text]
+    recipes: dict[base.LowerName, base.Text]
+    beside: dict[base.MethodName, base.Text]
 
 
 class CoverageTest(Section):
@@ -275,6 +310,24 @@ class Figure22(Section):
     views_deg: dict[base.CaseName, tuple[base.Real, base.Real]]
 
 
+class Story(Section):
+    """The push that demo, film and explorer show: the first of its name in the first recording of a robot's test.
+
+    The time that is shown begins before it and ends after its beginning. An estimator that begins there is not judged
+    for the first `settle_s`.
+    """
+
+    scenario: base.PushedName
+    level: base.WatchedLevelName
+    push: base.PushName
+    before_s: Annotated[base.Positive, Field(le=10)]
+    after_s: Annotated[base.Positive, Field(le=10)]
+    settle_s: Annotated[base.NotNegative, Field(le=10)]
+    joint: base.LegJointName
+    methods: base.MethodNames
+    detector: base.DetectorName
+
+
 class Films(Section):
     """Films of the first walk of each case: the joint that is shown, the view, and the time that a film has.
 
@@ -287,6 +340,56 @@ class Films(Section):
     history_s: Annotated[base.Real, Field(ge=0.1, le=60)]
     frames_hz: Annotated[base.Real, Field(ge=1, le=60)]
     slower: Annotated[base.Real, Field(ge=0.1, le=100)]
+
+
+class PushFilm(Section):
+    """The film of the push of `story`: real time, some of it slower, and in the middle a still for `hold_s`.
+
+    The view is an azimuth from ahead and an elevation of the eye [deg]; times count from the beginning of the push;
+    the time axis shows `margin_s` more than what is slowed; `colours` is the size of the palette. `kind` is the rule of
+    the thresholds of the detector. Labels of methods, of `truth` and of `swing`, the name of the joint and the lines of
+    the opening are texts of the film.
+    """
+
+    view_deg: tuple[base.Degrees, base.Degrees]
+    frames_hz: base.Real = Field(ge=5, le=60)
+    slowed_hz: base.Real = Field(ge=5, le=60)
+    slower: base.Real = Field(ge=1, le=100)
+    slow_s: base.Span[base.Real]
+    hold_s: base.Seconds
+    margin_s: base.Pause
+    colours: base.Whole = Field(ge=8, le=256)
+    kind: base.ThresholdsName
+    labels: dict[base.Text, base.Text]
+    joint: base.Text
+    opening: base.Some[base.Text]
+
+
+class Note(Section):
+    """A text of the drawing of the robot: a point of a body that it names, and where it begins [m]."""
+
+    text: base.Text
+    body: base.BodyName
+    pos: base.Vector3
+    at_m: tuple[base.Real, base.Real]
+
+
+class Drawings(Section):
+    """The drawings of method and robot: limbs with networks, angles of joints that are not in the posture, the view.
+
+    The view is an azimuth and an elevation [deg]; the corner is the lower left one of the picture, from the base on the
+    ground. The axes of a leg's joints are drawn, and a push of `force_n` from ahead.
+    """
+
+    limbs: base.LimbNames
+    pose_rad: dict[base.JointName, base.Radians]
+    view_deg: tuple[base.Degrees, base.Degrees]
+    corner_m: tuple[base.Real, base.Real]
+    m_per_inch: base.Real = Field(ge=0.01, le=10)
+    floor_m: base.Length
+    leg: base.LegName
+    force_n: base.Newton
+    notes: tuple[Note, ...] = ()
 
 
 class Sensorless(Section):
@@ -321,11 +424,16 @@ class CalibrationTest(CoverageTest):
 
 
 class CalibrationTable(Section):
-    """How far the networks' standard deviations can be trusted; nominal shares are those of section `learning`."""
+    """How far the networks' standard deviations can be trusted; nominal shares are those of section `learning`.
+
+    The figure has a panel for each of the `parts` of the body, and calls tests with pushes by their `names`.
+    """
 
     tolerance: base.Real = Field(ge=0.001, le=0.5)
     points: base.Whole = Field(ge=3, le=1000)
     methods: base.Distinct[base.LearnedName]
+    parts: Annotated[dict[base.Text, base.Distinct[base.LimbName]], Field(min_length=1)]
+    names: dict[base.ScenarioName, base.Text]
     tests: base.Some[CalibrationTest]
 
 
@@ -364,9 +472,13 @@ class Peaks(Section):
 
 
 class Bode(Runs):
-    """Gain and phase: bands of frequency, in each of which every joint of a limb is driven at one line."""
+    """Gain and phase: bands of frequency, in each of which every joint of a limb is driven at one line.
+
+    A figure of its own has the joints `shown`, another one has all.
+    """
 
     limb: base.LegName
+    shown: base.Distinct[base.LegJointName]
     bands_hz: base.Rising[base.Positive]
 
 
@@ -377,13 +489,51 @@ class HeldRuns(Runs):
 
 
 class Drift(Section):
-    """How long pushes are held: a leg's estimate over the time since a push began, in bins."""
+    """How long pushes are held: a leg's estimate in so many steps, swings and stances, since a push began."""
 
     limb: base.LegName
-    bin_s: base.Real = Field(ge=0.01, le=10)
-    longest_s: base.Real = Field(ge=0.1, le=60)
+    steps: base.Whole = Field(ge=1, le=50)
     calm_s: base.NotNegative = Field(le=10)
     tests: Annotated[dict[base.Text, HeldRuns], Field(min_length=1)]
+
+
+class ExploreStory(Section):
+    """How the page calls the push and the plant of section `story`, and methods that it shows besides."""
+
+    push: base.Text
+    plant: base.Text
+    threshold_nm: base.Real = Field(ge=0.1, le=1000)
+    further: base.MethodNames
+
+
+class ExploreScene(LimbRuns):
+    """A scene of the page: the first push of the first run that begins from a time on, and the joint shown first.
+
+    `push` and `plant` are the texts of its buttons.
+    """
+
+    scenario: base.PushedName
+    push: base.Text
+    plant: base.Text
+    joint: base.MotorName
+    threshold_nm: base.Real = Field(ge=0.1, le=1000)
+    from_s: base.NotNegative = Field(default=0.0, le=3600)
+
+
+class Explore(Section):
+    """The page on which a reader plays with pushes.
+
+    Samples are stored from `lead_s` before a scene on, torques in steps of `step_nm`, poses and forces at `pose_hz`. A
+    slider runs between two ends; it begins at the observer's gain, or at the `threshold_nm` of the scene.
+    """
+
+    lead_s: base.Positive = Field(le=10)
+    pose_hz: base.Real = Field(ge=10, le=1000)
+    step_nm: base.Real = Field(ge=0.001, le=1)
+    gains_hz: base.Span[Annotated[base.Real, Field(ge=1, le=1000)]]
+    thresholds_nm: base.Span[Annotated[base.Real, Field(ge=0.1, le=1000)]]
+    story: ExploreStory
+    scenes: Annotated[dict[base.LowerName, ExploreScene], Field(min_length=1)]
 
 
 class Phases(Section):
@@ -503,6 +653,53 @@ class Compute(Section):
     pause_s: base.Real = Field(ge=1, le=3600)
 
 
+class PlantColumns(Section):
+    """Columns of one plant: a walk and a push, each as `<scenario>@<level>`, and the table with the paper's errors."""
+
+    title: base.Text
+    walk: base.Text
+    printed: base.LowerName
+    push: base.Text
+
+
+class LegsTable(Section):
+    """Methods on the left leg, plant by plant."""
+
+    plants: base.Some[PlantColumns]
+    methods: base.MethodNames
+
+
+class LimbLine(Section):
+    """A limb in a test: `test` is `<table>@<scenario>@<level>`, `column` what stands behind a method there."""
+
+    title: base.Text
+    part: base.Text
+    test: base.Text
+    column: base.Text
+
+
+class LimbsTable(Section):
+    """Errors over that of estimating nothing, by limb and method."""
+
+    lines: base.Some[LimbLine]
+    methods: base.MethodNames
+
+
+class MainTables(Section):
+    """The tables of the paper's main text, made from other tables."""
+
+    legs: LegsTable
+    by_limb: LimbsTable
+    detectors: AlarmTable
+
+
+class PaperText(Section):
+    """The text of the paper: the scale for whose results its words were chosen, and the pages of its main text."""
+
+    scale: base.LowerName
+    pages: Annotated[base.Count, Field(le=100)]
+
+
 class Evaluation(Section):
     """All tables and figures."""
 
@@ -516,7 +713,7 @@ class Evaluation(Section):
     figure_06: Figure06
     figure_07: HandFigure
     figure_08: Figure08
-    figure_09: GaitFigure
+    figure_09: Figure09
     figure_10: Figure10
     figure_12: HandFigure
     figure_17: Figure17
@@ -546,7 +743,10 @@ class Evaluation(Section):
     figure_16: Figure16
     figure_21: Figure21
     figure_22: Figure22
+    story: Story
     films: Films
+    push_film: PushFilm
+    drawings: Drawings
     found_by_rate: FoundByRate
     smallest_force: SmallestForce
     links: Links
@@ -561,6 +761,9 @@ class Evaluation(Section):
     label_error: LabelError
     latency: Latency
     compute: Compute
+    explore: Explore
+    main_tables: MainTables
+    paper: PaperText
 
 
 def measured_in(evaluation: Evaluation) -> dict[str, Section]:

@@ -138,7 +138,7 @@ class Learning(Section):
 
 
 class Training(Section):
-    """All that one training takes of the configuration: a network of a method, with that method's changes."""
+    """Everything one training reads from the configuration: a method's network, with the method's overrides applied."""
 
     method: str
     limb: str

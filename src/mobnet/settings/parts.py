@@ -138,6 +138,13 @@ class ShapeRow(PointRow):
         return self
 
 
+class Looks(Section):
+    """Shells, hands and head that pictures show in place of a robot's `shapes`; nothing touches or weighs them."""
+
+    tones: dict[base.PartName, Colour] = Field(default_factory=dict)
+    shapes: base.Some[ShapeRow]
+
+
 class ImuRow(Section):
     """Where the inertial sensor is, pos [m]."""
 

@@ -18,6 +18,7 @@ from mobnet.settings.parts import (
     ImuRow,
     JointRow,
     LegRow,
+    Looks,
     PointRow,
     PostureRow,
     ShapeRow,
@@ -61,11 +62,16 @@ class RobotTable(Section):
     tones: dict[PartName, Colour] = Field(default_factory=dict)
     shapes: tuple[ShapeRow, ...] = ()
     points: tuple[PointRow, ...] = ()
+    looks: Looks | None = None
 
     def __repr_args__(self) -> Iterator[tuple[str, str]]:
-        """Name the robot and a digest of all figures: the table is a parameter of every rule that takes it."""
+        """Name the robot and a digest of all figures: the table is a parameter of every rule that takes it.
+
+        Looks are left out, so that no recording is made again because a shell has another form; what draws them takes
+        them as a parameter of its own.
+        """
         yield "name", self.name
-        yield "digest", hashlib.sha256(self.model_dump_json().encode()).hexdigest()[:16]
+        yield "digest", hashlib.sha256(self.model_dump_json(exclude={"looks"}).encode()).hexdigest()[:16]
 
     @property
     def layout(self) -> JointLayout:
@@ -88,7 +94,8 @@ class RobotTable(Section):
         return {
             "joint": joints, "motor": order.actuated, "limb": self.groups, "limb or joint": (*self.groups, *joints),
             "leg": legs, "joint of a leg": [joint for limb in legs for joint in self.groups.get(limb, ())],
-            "body": [body.name for body in self.bodies], "tone": self.tones,
+            "body": [body.name for body in self.bodies],
+            "tone": {**self.tones, **(self.looks.tones if self.looks else {})},
             "network of the robot": self.networks,
             "point": [
                 *(name for point in self.points for name in with_image(point.name)),

@@ -15,6 +15,8 @@ from mobnet.control.upper_body import UpperBody
 from mobnet.core.code import ROOT
 from mobnet.core.errors import ConfigError, DrawingError, MobnetError, not_accepted
 from mobnet.plan.jobs import walk_settings
+from mobnet.robot.description import WalkingRobot
+from mobnet.robot.looks import dressed
 from mobnet.running.environment import quieten
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.sections import accepted_names
@@ -150,7 +152,7 @@ def _draw(simulator: Simulator, options: argparse.Namespace, seconds: float) -> 
         if upright(simulator):
             walk_to_mid_stride(simulator)
         with _tolerant():
-            save_picture(simulator.robot, simulator.world.terrain, simulator.world.data.qpos, options.picture)
+            save_picture(_seen(simulator), simulator.world.terrain, simulator.world.data.qpos, options.picture)
 
 
 @contextlib.contextmanager
@@ -162,10 +164,15 @@ def _tolerant() -> Iterator[None]:
         log.warning("not drawn: %s", error)
 
 
+def _seen(simulator: Simulator) -> WalkingRobot:
+    """Return the robot of a simulator as pictures show it."""
+    return dressed(simulator.robot, simulator.settings.robot.looks)
+
+
 def _frames(simulator: Simulator, width: int, seconds: float) -> Iterator[Pixels]:
     """Yield the frames of a walk, reporting how many while it takes long; sizes are even, as MP4 asks for."""
     size = width // 2 * 2, round(width * HEIGHT_OF_WIDTH / 2) * 2
-    model = picture_model(simulator.robot, simulator.world.terrain, size)
+    model = picture_model(_seen(simulator), simulator.world.terrain, size)
     reported = time.perf_counter()
     for number, frame in enumerate(draw_frames(model, walk(simulator, seconds, 1 / FRAMES_HZ))):
         yield frame

@@ -24,15 +24,16 @@ def test_numbers_stand_at_the_frequency_that_is_injected_on_their_joint(
     test = LimbRuns(scenario=section.scenario, level=section.level, methods=section.methods, limbs=(section.limb,))
     bode(section, settings.pushes, layout, settings.observer, settings.rates, evaluation.statistics,
          write_measured([test], METRICS), tmp_path)  # fmt: skip
-    rows = read_table(tmp_path / "bode.csv")
+    rows = read_table(tmp_path / "bode_all.csv")
     lines = {push.joint: push.sines.frequency_hz for push in settings.pushes.values() if push.sines}
     assert {row.joint for row in rows} == set(lines)
     for row in rows:
         slow = (0.9, 0.99) if row.quantity == "gain" else (-5.0, -5.5)  # of MOB and of MOB-Net, a tenth more
         place = section.bands_hz.index(0.5 if row.value in map(pytest.approx, slow) else 2.0)
         assert row.frequency_hz == pytest.approx(lines[row.joint][place])
-    assert {path.suffix for path in tmp_path.glob("bode.*")} == {".csv", ".pdf", ".png"}
-    check_golden(tmp_path / "bode.csv")
+    assert {row.joint for row in read_table(tmp_path / "bode.csv")} == set(section.shown)
+    assert {path.suffix for path in tmp_path.glob("bode*")} == {".csv", ".pdf", ".svg", ".png"}
+    check_golden(tmp_path / "bode.csv", tmp_path / "bode_all.csv")
 
 
 def test_every_joint_has_a_panel_of_gain_above_one_of_phase_with_the_reference() -> None:
@@ -40,12 +41,15 @@ def test_every_joint_has_a_panel_of_gain_above_one_of_phase_with_the_reference()
     joints = ["LL1", "LL2", "LL3", "LL4"]
     answers = [Answer("MOB", joint, quantity, numbers) for joint in joints for quantity in ("gain", "phase")]
     frequencies = np.array([0.5, 5.0])
-    figure = draw_bode(answers, joints, (frequencies, {"gain": np.ones(2), "phase": np.zeros(2)}))
+    figure = draw_bode(answers, joints, (frequencies, {"gain": np.ones(2), "phase": np.zeros(2)}), 1.0)
     shown = [axis for axis in figure.axes if axis.get_visible()]
     assert len(shown) == 8
     assert [axis.get_title("left") for axis in shown if axis.get_title("left")] == [
         "(a) LL1", "(b) LL2", "(c) LL3", "(d) LL4",
     ]  # fmt: skip
+    gains = [axis for axis in shown if axis.get_title("left")]
+    assert {axis.get_ylim() for axis in gains} == {gains[0].get_ylim()}
+    assert gains[0].get_ylim()[0] == 0.0
     for axis in shown:
         assert REFERENCE in [line.get_label() for line in axis.lines]
         assert axis.get_xscale() == "log"
@@ -53,5 +57,5 @@ def test_every_joint_has_a_panel_of_gain_above_one_of_phase_with_the_reference()
 
 def test_without_a_push_the_reference_is_drawn_alone() -> None:
     response = np.ones(2), {"gain": np.ones(2), "phase": np.zeros(2)}
-    figure = draw_bode([Answer("MOB", "LL1", "gain", {})], ["LL1"], response)
+    figure = draw_bode([Answer("MOB", "LL1", "gain", {})], ["LL1"], response, 1.0)
     assert [len(axis.lines) for axis in figure.axes if axis.get_visible()] == [1, 1]

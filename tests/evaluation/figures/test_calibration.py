@@ -1,41 +1,86 @@
-"""The reliability plot draws the numbers given, each limb in one colour."""
+"""The reliability plot draws observed less nominal coverage, a panel for each part of the body, a colour for a case."""
+
+from pathlib import Path
 
 import numpy as np
+import pytest
+from csv_files import read_table
 
-from mobnet.evaluation.figures.further.reliability import CoverageCurve, ReliabilityPanel, curve_rows, draw_reliability
+from mobnet.evaluation.figures.further.reliability import (
+    CoverageCurve,
+    ReliabilityPanel,
+    curve_rows,
+    curves_of,
+    draw_reliability,
+    panels_of,
+    reliability,
+)
+from mobnet.evaluation.measure.learning.calibration import CoverageGrid
+from mobnet.settings.settings import Settings
 
 NOMINAL = np.array([0.25, 0.5, 0.75])
 
 
-def panel(method: str, title: str, *limbs: str) -> ReliabilityPanel:
-    """A panel of made-up curves, each limb with its own."""
-    curves = [CoverageCurve(limb, NOMINAL, NOMINAL - 0.1 * len(limb), NOMINAL + 0.01 * len(title)) for limb in limbs]
-    return ReliabilityPanel(method, title, curves)
+def curve(case: str, limb: str, method: str = "A") -> CoverageCurve:
+    """A made-up curve: 10 points too low as learned, a point too high scaled."""
+    return CoverageCurve(case, method, limb, limb, NOMINAL, NOMINAL - 0.1, NOMINAL + 0.01)
 
 
-def test_a_row_a_method_a_column_a_test_and_no_panel_where_none_is_given() -> None:
-    panels = [panel("A", "walk", "LL", "RL"), panel("B", "walk", "RL"), panel("B", "pushed", "RL")]
-    figure = draw_reliability(panels)
-    shown = {(axis.get_ylabel(), axis.get_title("left")): axis for axis in figure.axes if axis.get_visible()}
-    assert list(shown) == [("A", "walk"), ("B", "walk"), ("B", "pushed")]
-    for one in panels:
-        lines = {line.get_label(): line for line in shown[one.method, one.title].lines}
-        for curve in one.curves:
-            np.testing.assert_array_equal(lines[curve.label].get_xdata(), NOMINAL)
-            np.testing.assert_array_equal(lines[curve.label].get_ydata(), curve.after)
+def grid(test: str, limb: str, pushed: str = "", method: str = "MOB-Net") -> CoverageGrid:
+    """A made-up grid of three nominal points behind two levels of the table, likelihood and CRPS."""
+    values = np.tile([0.5, 0.68, 0.2, 0.5, 0.8, -1.0, 1.0], (1, 1, 2, 1))
+    return CoverageGrid(test, "robots", pushed, method, limb, "N m", values)
 
 
-def test_a_limb_has_one_colour_in_every_panel_and_limbs_differ() -> None:
-    figure = draw_reliability([panel("A", "walk", "LL", "RL"), panel("B", "walk", "RL")])
-    colours = {
-        label: {line.get_color() for axis in figure.axes for line in axis.lines if line.get_label() == label}
-        for label in ("LL", "RL")
-    }
-    assert all(len(found) == 1 for found in colours.values())
-    assert colours["LL"] != colours["RL"]
+def test_lines_are_observed_less_nominal_in_points_as_learned_pale_and_scaled_full() -> None:
+    figure = draw_reliability([ReliabilityPanel("legs", [curve("walk", "LL")])], 0.05)
+    axis = figure.axes[0]
+    pale, full = (line for line in axis.lines if len(np.asarray(line.get_xdata())) == len(NOMINAL))
+    np.testing.assert_allclose(np.asarray(pale.get_ydata()), -10.0)
+    np.testing.assert_allclose(np.asarray(full.get_ydata()), 1.0)
+    assert (pale.get_alpha() or 1.0) < (full.get_alpha() or 1.0) == 1.0
+    low, high = axis.get_ylim()
+    assert (low, high) == (-high, high)
+    (band,) = axis.patches
+    assert (band.get_y(), band.get_height()) == (-5.0, 10.0)  # type: ignore[attr-defined]
+
+
+def test_a_case_has_one_colour_in_every_panel_and_two_limbs_differ_in_width() -> None:
+    panels = [
+        ReliabilityPanel("legs", [curve("walk", "LL"), curve("walk", "RL"), curve("hit", "LL")]),
+        ReliabilityPanel("waist", [curve("hit", "W")]),
+    ]
+    figure = draw_reliability(panels, 0.05)
+    first, second = (
+        [line for line in axis.lines if len(np.asarray(line.get_xdata())) == 3] for axis in figure.axes[:2]
+    )
+    assert first[0].get_color() == first[2].get_color() != first[4].get_color() == second[0].get_color()
+    assert first[0].get_linewidth() > first[2].get_linewidth()
+    key = figure.axes[2].get_legend()
+    assert key is not None
+    assert [text.get_text() for text in key.get_texts()][:2] == ["walk", "hit"]
+
+
+def test_limbs_stand_in_the_panel_of_their_part_and_the_neck_in_none(settings: Settings, tmp_path: Path) -> None:
+    section = settings.evaluation.calibration
+    grids = [
+        grid("walk_test", "LL"),
+        grid("motion_test", "N"),
+        grid("motion_test", "LA"),
+        grid("hand_wrench", "RA", "RA2"),
+        grid("knee_swing", "LL", "LL3", "FTS-e2e"),
+    ]
+    curves = curves_of(grids, section, 2, NOMINAL.tolist())
+    panels = panels_of(curves, section)
+    assert [panel.title for panel in panels] == ["legs (LL), MOB-Net", "legs (LL), FTS-e2e", "arms (LA, RA), MOB-Net"]
+    assert [one.case for one in panels[2].curves] == ["in distribution", section.names["hand_wrench"]]
+    np.testing.assert_allclose(curves[0].after, [0.2, 0.5, 0.8])
+    reliability(section, grids, 2, NOMINAL.tolist(), tmp_path)
+    rows = read_table(tmp_path / "calibration.csv")
+    assert {row.limb for row in rows} == {"LL", "N", "LA", "RA"}
 
 
 def test_plotted_numbers_are_told_as_learned_and_scaled() -> None:
-    rows = list(curve_rows([panel("A", "walk", "LL")]))
-    assert rows[1] == ("walk", "A", "LL", 0.5, 0.3, 0.54)
+    rows = list(curve_rows([curve("walk", "LL")]))
+    assert rows[1] == ("walk", "A", "LL", 0.5, pytest.approx(0.4), pytest.approx(0.51))
     assert len(rows) == len(NOMINAL)

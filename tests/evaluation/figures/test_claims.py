@@ -1,26 +1,30 @@
-"""The figure of claims: each once, over the paper or beyond its bound; statements are whole, labels fit."""
+"""The figures of claims: each statement once by its worst claim, over the paper or beyond its bound; texts fit."""
 
 import csv
+from collections import Counter
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from mobnet.core.columns import FOREST, VERDICTS
-from mobnet.evaluation.figures.further.forest import (
+from mobnet.core.columns import FOREST, SIGN_ONLY, VERDICTS
+from mobnet.evaluation.figures.further.forest import ENDS, LOOKS, draw_forest, forest, text_of
+from mobnet.evaluation.measure.claims.bounds import ranges_of
+from mobnet.evaluation.measure.claims.places import (
     BEYOND_BOUND,
     OVER_PAPER,
+    Place,
+    Statement,
     beyond_bound,
-    columns_of,
-    forest,
     over_paper,
+    statements_of,
 )
-from mobnet.evaluation.measure.claims.bounds import ranges_of
-from mobnet.evaluation.measure.claims.verdicts import Judged, rows_of, score_of, verdict_of
+from mobnet.evaluation.measure.claims.verdicts import Judged, rows_of, score_of, verdict_of, worst
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.settings import Settings
 
-LONGEST_LABEL = 64  # characters in a column of the page
+LONGEST_LABEL = 64  # characters of what a claim says
 
 
 def judged(settings: Settings, name: str, ours: Number, **changes: Any) -> Judged:
@@ -62,19 +66,89 @@ def test_without_a_number_of_the_paper_the_claimed_side_is_on_the_right(
     assert place.values == pytest.approx(values)
 
 
-def test_every_claim_is_drawn_once_and_statements_stay_whole(settings: Settings, tmp_path: Path) -> None:
-    all_judged = [judged(settings, row.name, Number(1.0, 0.9, 1.1)) for row in rows_of(settings.claims)]
-    all_judged[0] = judged(settings, "mob-exact", Number(None))
-    columns = columns_of([over_paper(each) for each in all_judged])
-    drawn = [place.judged.row for column in columns for panel in column for place in panel]
-    assert sorted(row.name for row in drawn) == sorted(each.row.name for each in all_judged)
-    statements = [row.statement for row in drawn]
-    assert len(dict.fromkeys(statements)) == sum(a != b for a, b in zip(statements, ["", *statements], strict=False))
-    forest(all_judged, 0.95, tmp_path)
-    rows = list(csv.DictReader((tmp_path / "claims.csv").read_text().splitlines()))
-    assert (tuple(rows[0]), len(rows)) == (FOREST, len(all_judged))
-    assert {row["verdict"] for row in rows} <= set(VERDICTS)
-    assert {path.suffix for path in tmp_path.iterdir()} == {".csv", ".pdf", ".png"}
+def all_judged(settings: Settings) -> list[Judged]:
+    """Return all claims of the configuration, judged on made-up numbers."""
+    made = (Number(1.0, 0.9, 1.1), Number(30.0, 29.0, 31.0), Number(-0.5, -0.6, -0.4), Number(None))
+    return [judged(settings, row.name, made[k % len(made)]) for k, row in enumerate(rows_of(settings.claims))]
+
+
+def test_a_statement_has_the_verdict_of_its_worst_claim_and_counts_against_us_first(settings: Settings) -> None:
+    every = all_judged(settings)
+    statements = statements_of(every)
+    own: dict[str, list[str]] = {}
+    for each in every:
+        own.setdefault(each.row.statement, []).append(each.verdict)
+    assert {each.worst.judged.row.statement: each.worst.judged.verdict for each in statements} == {
+        name: worst(verdicts) for name, verdicts in own.items()
+    }
+    assert {each.worst.judged.row.statement: each.claims for each in statements} == {k: len(v) for k, v in own.items()}
+    for score in {each.worst.judged.score for each in statements}:
+        order = [VERDICTS.index(each.worst.judged.verdict) for each in statements if each.worst.judged.score == score]
+        assert order == sorted(order)
+        assert len(set(order)) > 1
+
+
+def test_every_statement_is_in_one_of_the_two_figures(settings: Settings, tmp_path: Path) -> None:
+    every = all_judged(settings)
+    forest(every, 0.95, tmp_path)
+    found = {}
+    for stem in ("claims", "claims_own"):
+        rows = list(csv.DictReader((tmp_path / f"{stem}.csv").read_text().splitlines()))
+        assert tuple(rows[0]) == FOREST
+        assert {path.suffix for path in tmp_path.glob(f"{stem}.*")} == {".csv", ".pdf", ".svg", ".png"}
+        found[stem] = Counter(row["statement"] for row in rows)
+        assert {row["score"] == SIGN_ONLY for row in rows} == {stem == "claims_own"}
+    assert found["claims"] + found["claims_own"] == Counter({each.row.statement: 1 for each in every})
+
+
+def of(settings: Settings, values: tuple[float | None, ...], name: str = "noise-floor") -> Statement:
+    """Return a statement whose place has some values."""
+    number = Number(*(None if value is None else 1.22 * value for value in values))
+    one = judged(settings, name, number)
+    return Statement(Place(one, OVER_PAPER, values, (0.5, 2.0)), 7)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("values", "arrows"),
+    [
+        ((1.0, 0.9, 1.1), ""), ((0.01, 0.009, 0.011), "<"), ((99.0, 90.0, 110.0), ">"), ((1.0, 0.01, 1.1), "<"),
+        ((1.0, 0.01, 99.0), "<>"), ((None, None, None), ""),
+    ],
+)  # fmt: skip
+def test_what_lies_beyond_the_axis_is_an_arrow_at_its_end(
+    values: tuple[float | None, ...], arrows: str, settings: Settings
+) -> None:
+    (axis,) = draw_forest([of(settings, values)], OVER_PAPER, "95% interval").axes
+    drawn = [line for line in axis.lines if line.get_marker() in ("<", ">")]
+    assert "".join(str(line.get_marker()) for line in drawn) == arrows
+    ends = {"<": ENDS[OVER_PAPER][0], ">": ENDS[OVER_PAPER][1]}
+    assert all(line.get_xdata()[0] == ends[str(line.get_marker())] for line in drawn)  # type: ignore[index]
+    if values[0] is None:
+        assert "not measured" in [text.get_text() for text in axis.texts]
+
+
+def test_texts_stand_beside_one_another_within_the_page_and_are_large_enough(settings: Settings) -> None:
+    for name in (OVER_PAPER, BEYOND_BOUND):
+        shown = [each for each in statements_of(all_judged(settings)) if each.worst.axis == name]
+        figure = draw_forest(shown, name, "95% interval")
+        figure.draw_without_rendering()
+        (axis,) = figure.axes
+        rows: dict[float, list[Any]] = {}
+        for text in axis.texts:
+            assert text.get_fontsize() >= 6.0
+            rows.setdefault(text.get_position()[1], []).append(text.get_window_extent())
+        assert len(rows) >= len(shown)
+        for boxes in rows.values():
+            assert boxes[0].x0 >= 0.0
+            assert boxes[-1].x1 <= figure.bbox.width
+            assert all(one.x1 < other.x0 for one, other in pairwise(boxes))
+        (key,) = figure.legends
+        assert 0.0 <= key.get_window_extent().x0 < key.get_window_extent().x1 <= figure.bbox.width
+        assert [text.get_text().split(" (")[0].split(" ", 1)[1] for text in key.get_texts()[:-1]] == list(LOOKS)
+        left = axis.get_window_extent().x0
+        says = [text for text in axis.texts if text.get_text() in {text_of(each) for each in shown}]
+        assert len(says) == len(shown)
+        assert [text.get_text() for text in says if text.get_window_extent().x1 > left] == []
 
 
 def test_labels_fit_beside_their_rows(settings: Settings) -> None:

@@ -1,19 +1,27 @@
-"""Figures show the arrays given, and equal arrays give equal files."""
+"""Panels show the arrays given, errors stand on a scale of their own, and equal arrays give equal files."""
 
 import csv
 from pathlib import Path
 
+import matplotlib as mpl
 import numpy as np
 import pytest
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from mobnet.evaluation.compare.curves import Panel, TorqueCurve
-from mobnet.evaluation.figures.drawing.curves import draw_panels, table_of
-from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, save_figure
+from mobnet.evaluation.compare.errors import ZERO, compared
+from mobnet.evaluation.figures.drawing.compared import bars_of, draw_columns, draw_leg, draw_stack
+from mobnet.evaluation.figures.drawing.curves import draw_panel, held, table_of
+from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, UNDATED, save_figure, shortened
 from mobnet.evaluation.number.files import write_csv
+from mobnet.evaluation.number.number import Number
 
 TIME = np.arange(140) / 100.0
 TRUTH = 40.0 * np.sin(4.5 * TIME)
 SWING = {"swing": TIME < 0.7, "push": (TIME > 0.2) & (TIME < 0.3)}
+ERRORS = {"MOB": 15.0, "FTS-e2e": 2.5, "MOB-Net": 1.5}
+NUMBERS = {name: Number(error, error - 0.5, error + 0.5) for name, error in {ZERO: 28.0, **ERRORS}.items()}
 
 
 @pytest.fixture
@@ -26,68 +34,155 @@ def panels() -> list[Panel]:
     ]
 
 
-def test_each_panel_draws_its_own_arrays(panels: list[Panel]) -> None:
-    figure = draw_panels(panels, "time [s]", "torque [N m]")
-    assert len(figure.axes) == len(panels)
-    for axis, panel in zip(figure.axes, panels, strict=True):
-        drawn = {line.get_label(): np.asarray(line.get_ydata()) for line in axis.lines}
-        assert list(drawn) == [curve.label for curve in panel.curves]
-        for curve in panel.curves:
-            np.testing.assert_array_equal(drawn[curve.label], curve.values)
+@pytest.fixture
+def panel() -> Panel:
+    """A panel of three methods, of which one has a standard deviation."""
+    std = np.linspace(1.0, 2.0, len(TIME))
+    curves = [TorqueCurve(name, TRUTH + error, std if name == "MOB-Net" else None) for name, error in ERRORS.items()]
+    return Panel("LL3", TIME, [TorqueCurve("truth", TRUTH), *curves], SWING)
 
 
-def test_a_flag_is_marked_where_it_holds_and_not_named_where_it_never_does(panels: list[Panel]) -> None:
-    never = Panel("none", TIME, panels[0].curves, {"swing": TIME < 0.0})
-    figure = draw_panels([panels[0], never], "time [s]", "torque [N m]")
-    marks = {mark.get_label(): mark.get_paths() for mark in figure.axes[0].collections}
+@pytest.fixture
+def axis() -> Axes:
+    """An empty panel."""
+    return Figure().subplots()
+
+
+def drawn_in(axis: Axes) -> dict[str, np.ndarray]:
+    """Return the named lines of an axis."""
+    lines = {str(line.get_label()): np.asarray(line.get_ydata()) for line in axis.lines}
+    return {label: values for label, values in lines.items() if not label.startswith("_")}
+
+
+def test_a_panel_draws_its_own_arrays(axis: Axes, panel: Panel) -> None:
+    draw_panel(axis, panel)
+    drawn = drawn_in(axis)
+    assert list(drawn) == [curve.label for curve in panel.curves]
+    for curve in panel.curves:
+        np.testing.assert_array_equal(drawn[curve.label], curve.values)
+
+
+def test_a_flag_is_marked_where_it_holds_and_not_named_where_it_never_does(axis: Axes, panels: list[Panel]) -> None:
+    draw_panel(axis, panels[0])
+    marks = {mark.get_label(): mark.get_paths() for mark in axis.collections}
     assert list(marks) == ["swing", "push"]
     for name, flags in SWING.items():
         (path,) = marks[name]
         assert (path.vertices[:, 0].min(), path.vertices[:, 0].max()) == (TIME[flags][0], TIME[flags][-1])
-    assert not figure.axes[1].collections
+    other = axis.figure.add_subplot()
+    draw_panel(other, Panel("none", TIME, panels[0].curves, {"swing": TIME < 0.0}))
+    assert not other.collections
 
 
-def test_a_band_is_a_standard_deviation_wide_on_both_sides() -> None:
-    std = np.linspace(1.0, 2.0, len(TIME))
-    panel = Panel("band", TIME, [TorqueCurve("MOB-Net", TRUTH, std)], {})
-    (band,) = draw_panels([panel], "time [s]", "torque [N m]").axes[0].collections
-    edges = band.get_paths()[0].vertices
+def test_a_flag_may_hold_several_times_and_at_both_ends() -> None:
+    assert held(np.array([1, 1, 0, 0, 1, 0, 1])) == [(0, 1), (4, 4), (6, 6)]
+    assert held(np.zeros(3)) == []
+
+
+def test_a_band_is_a_standard_deviation_wide_on_both_sides(axis: Axes, panel: Panel) -> None:
+    draw_panel(axis, panel)
+    (band,) = [one for one in axis.collections if "std" in str(one.get_label())]
+    assert band.get_label() == "\N{PLUS-MINUS SIGN} 1 std of MOB-Net"
+    edges, ours = band.get_paths()[0].vertices, panel.curves[-1]
     for side in (-1, 1):
-        expected = np.stack([TIME, TRUTH + side * std], axis=1)
+        expected = np.stack([TIME, ours.values + side * np.asarray(ours.std)], axis=1)
         assert {tuple(row) for row in expected.tolist()} <= {tuple(row) for row in np.asarray(edges).tolist()}
 
 
-@pytest.mark.parametrize("one_scale", [True, False])
-def test_scales_are_one_where_wanted_and_the_axes_name_their_units(panels: list[Panel], one_scale: bool) -> None:
-    wider = Panel("wide", TIME, [TorqueCurve("truth", 10.0 * TRUTH)], {})
-    figure = draw_panels([*panels, wider], "time [s]", "torque of LL3 [N m]", one_scale=one_scale)
-    assert (len({axis.get_ylim() for axis in figure.axes}) == 1) is one_scale
-    assert (figure.get_supxlabel(), figure.get_supylabel()) == ("time [s]", "torque of LL3 [N m]")
+def test_errors_are_what_estimates_are_off_the_truth_and_zero_errs_by_all_of_it(panel: Panel) -> None:
+    pair = compared(panel)
+    for curve in pair.error.curves:
+        np.testing.assert_allclose(curve.values, ERRORS[curve.label])
+    assert pair.rmse == pytest.approx({ZERO: np.sqrt(np.mean(TRUTH**2)), **ERRORS})
+    assert compared(panel, "push").rmse[ZERO] == pytest.approx(np.sqrt(np.mean(TRUTH[SWING["push"]] ** 2)))
+    calm = Panel("", TIME, panel.curves, {"push": np.zeros(len(TIME), dtype=bool)})
+    assert compared(calm, "push").rmse == {}
 
 
-@pytest.mark.parametrize(("columns", "width"), [(1, COLUMN_INCH), (2, PAGE_INCH), (3, PAGE_INCH)])
-def test_panels_side_by_side_take_two_columns_and_leave_spare_places_empty(
-    panels: list[Panel], columns: int, width: float
-) -> None:
-    figure = draw_panels(panels, "time [s]", "torque [N m]", columns)
-    assert figure.get_figwidth() == pytest.approx(width)
-    assert sum(axis.get_visible() for axis in figure.axes) == len(panels)
+def test_errors_have_an_axis_of_their_own_with_one_and_two_standard_deviations(panel: Panel) -> None:
+    figure = draw_columns(
+        [compared(panel)], [bars_of(NUMBERS, {})], ["N m"], ["FTS-e2e", "MOB-Net"], "time [s]", "paper"
+    )
+    torque, error, below = figure.axes
+    assert list(drawn_in(torque)) == ["truth", *ERRORS]
+    assert list(drawn_in(error)) == ["FTS-e2e", "MOB-Net"]
+    assert error.get_ylim() == pytest.approx((-1.25 * ERRORS["MOB-Net"], 1.25 * ERRORS["MOB-Net"]))
+    bands = {str(one.get_label()): one.get_paths()[0].vertices[:, 1] for one in error.collections}
+    for times in (1, 2):
+        edges = bands[f"\N{PLUS-MINUS SIGN} {times} std of MOB-Net"]
+        assert (edges.min(), edges.max()) == (-2.0 * times, 2.0 * times)
+    assert [text.get_text() for text in below.get_yticklabels()] == list(NUMBERS)
+    assert (torque.get_ylabel(), error.get_ylabel()) == ("torque [N m]", "error [N m]")
 
 
-def test_nothing_drawn_is_twice_in_the_legend(panels: list[Panel]) -> None:
-    (legend,) = draw_panels(panels, "time [s]", "torque [N m]").legends
+def test_a_method_far_off_the_others_is_cut_by_the_axis_of_torque(panel: Panel) -> None:
+    far = Panel("LL3", TIME, [panel.curves[0], TorqueCurve("MOB", TRUTH + 500.0), *panel.curves[2:]], {})
+    figure = draw_columns([compared(far)], [bars_of(NUMBERS, {})], ["N m"], ["MOB-Net"], "time [s]", "paper")
+    low, high = figure.axes[0].get_ylim()
+    assert low < TRUTH.min() < TRUTH.max() + 1.5 < high < 100.0
+
+
+def test_joints_of_two_units_name_them_in_their_titles_alone(panel: Panel) -> None:
+    pairs = [compared(panel)] * 2
+    figure = draw_columns(pairs, [bars_of(NUMBERS, {})] * 2, ["N m", "N"], ["MOB-Net"], "time [s]", "paper")
+    assert {axis.get_ylabel() for axis in figure.axes} == {"torque or force", "error", ""}
+    assert [axis.get_xlabel() for axis in figure.axes[-2:]] == ["RMSE [N m]", "RMSE [N]"]
+
+
+def test_levels_are_a_column_wide_and_joints_a_page(panel: Panel, panels: list[Panel]) -> None:
+    stack = draw_stack([compared(panels[0]), compared(panel)], bars_of(NUMBERS, {}), ["MOB-Net"], "RMSE", "LL3")
+    leg = draw_leg([compared(panel)] * 6)
+    assert (stack.get_figwidth(), leg.get_figwidth()) == (pytest.approx(COLUMN_INCH), pytest.approx(PAGE_INCH))
+    assert (len(stack.axes), len(leg.axes)) == (5, 12)
+    titles = [axis.get_title(loc="left") for axis in stack.axes]
+    assert titles == ["(a) MOB, 0", "", "(b) LL3", "", "(c) RMSE"]
+    assert list(drawn_in(stack.axes[1])) == ["MOB"]  # the only one there is
+
+
+def test_nothing_drawn_is_twice_in_the_legend(panel: Panel) -> None:
+    (legend,) = draw_leg([compared(panel)] * 6).legends
     names = [text.get_text() for text in legend.get_texts()]
-    assert sorted(names) == ["FTS-e2e", "MOB", "MOB-Net", "push", "swing", "truth"]
+    assert sorted(name for name in names if "std" not in name) == [
+        "FTS-e2e",
+        "MOB",
+        "MOB-Net",
+        "push",
+        "swing",
+        "truth",
+    ]
+    assert len(names) == 8
 
 
-def test_equal_arrays_give_equal_files_without_dates(tmp_path: Path, panels: list[Panel]) -> None:
+def test_equal_arrays_give_equal_files_without_dates(tmp_path: Path, panel: Panel) -> None:
     for name in ("a", "b"):
-        save_figure(draw_panels(panels, "time [s]", "torque [N m]"), tmp_path / name, *table_of(panels))
-    for suffix in (".pdf", ".png"):
+        save_figure(draw_leg([compared(panel)] * 3), tmp_path / name, *table_of([panel]))
+    for suffix in UNDATED:
         one, two = ((tmp_path / name).with_suffix(suffix).read_bytes() for name in ("a", "b"))
         assert one == two
     assert b"CreationDate" not in (tmp_path / "a.pdf").read_bytes()
+    assert b"<dc:date>" not in (tmp_path / "a.svg").read_bytes()
     assert b"/FontFile2" in (tmp_path / "a.pdf").read_bytes()
+
+
+def test_a_drawing_loses_digits_of_its_paths_alone() -> None:
+    svg = '<path d="M 1.23456 -7.891 L 10 0.5" style="stroke-width: 0.8125"/><g transform="scale(0.0655)"/>'
+    assert shortened(svg) == svg.replace("1.23456", "1.23").replace("7.891", "7.89")
+
+
+def test_every_text_is_six_points_high_or_more_and_lies_on_the_page(panel: Panel) -> None:
+    figures = [
+        draw_columns([compared(panel)] * 4, [bars_of(NUMBERS, {})] * 4, ["N m"] * 4, ["MOB-Net"], "time [s]", "paper"),
+        draw_stack([compared(panel)] * 2, bars_of(NUMBERS, {}), ["MOB-Net"], "RMSE", "LL3"),
+        draw_leg([compared(panel)] * 6),
+    ]
+    for figure in figures:
+        with mpl.rc_context({"savefig.dpi": 100}):
+            figure.draw_without_rendering()
+        texts = [text for text in figure.findobj(mpl.text.Text) if text.get_text() and text.get_visible()]
+        assert min(text.get_fontsize() for text in texts) >= 6.0
+        (key,) = figure.legends
+        box = key.get_window_extent()
+        assert 0.0 <= box.x0 < box.x1 <= figure.bbox.width
 
 
 def test_written_numbers_are_those_drawn_and_a_missing_curve_is_empty(tmp_path: Path, panels: list[Panel]) -> None:

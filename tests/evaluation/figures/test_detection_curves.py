@@ -7,7 +7,8 @@ import pytest
 from csv_files import check_golden, read_table
 from made_detections import write_detections
 
-from mobnet.evaluation.figures.further.detection_curves import area_of, detection_curves
+from mobnet.evaluation.figures.further.detection_curves import area_of, detection_curves, looks_of
+from mobnet.evaluation.figures.style import LOOKS
 from mobnet.settings.settings import Settings
 
 
@@ -26,7 +27,7 @@ def test_curves_and_areas_follow_from_the_files(settings: Settings, tmp_path: Pa
     assert {row.panel for row in rows if row.unit == "ms"} == {"delay"}
     assert sum(row.panel == "area" for row in rows) == 2
     check_golden(tmp_path / "detection_curves.csv")
-    assert {path.suffix for path in tmp_path.glob("detection_curves.*")} == {".csv", ".pdf", ".png"}
+    assert {path.suffix for path in tmp_path.glob("detection_curves.*")} == {".csv", ".pdf", ".svg", ".png"}
 
 
 def test_the_area_is_the_probability_that_a_hit_lies_higher(settings: Settings) -> None:
@@ -42,3 +43,11 @@ def test_the_area_is_the_probability_that_a_hit_lies_higher(settings: Settings) 
         held += number.low <= 0.7602 <= number.high
     assert held >= 0.90 * 200
     assert area_of(np.array([]), np.array([1.0]), statistics).value is None
+
+
+def test_a_detector_has_the_colour_of_its_method_and_two_of_a_method_differ(settings: Settings) -> None:
+    found = looks_of(settings.evaluation.detection_curves.detectors)
+    assert found["MOB-Net-ratio"] == LOOKS["MOB-Net"]
+    assert found["FTS-e2e-mean"] == LOOKS["FTS-e2e"]
+    same = [found[name] for name in found if found[name].colour == LOOKS["MOB-Net"].colour]
+    assert len({str(look.dash) for look in same}) == len({look.marker for look in same}) == len(same) == 3

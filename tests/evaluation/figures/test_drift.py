@@ -1,4 +1,4 @@
-"""The share of a long push that is held is drawn over time, in swing and in stance."""
+"""The share of a long push that is held is drawn step by step, in swing and in stance."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -6,12 +6,13 @@ from pathlib import Path
 import pytest
 from csv_files import check_golden, read_table
 
-from mobnet.evaluation.figures.further.drift import drift
+from mobnet.evaluation.figures.further.drift import beyond, drift
+from mobnet.evaluation.number.number import Number
 from mobnet.settings.evaluation import Evaluation, LimbRuns
 from mobnet.settings.settings import Settings
 
 
-def test_bins_stand_at_the_middle_of_their_time_and_those_without_a_phase_are_left_out(
+def test_steps_stand_at_their_number_and_those_that_no_push_has_are_left_out(
     tmp_path: Path, settings: Settings, evaluation: Evaluation, write_measured: Callable[..., list[Path]]
 ) -> None:
     name, test = next(iter(evaluation.drift.tests.items()))
@@ -21,9 +22,15 @@ def test_bins_stand_at_the_middle_of_their_time_and_those_without_a_phase_are_le
     metrics = {"held_swing_1": (0.9, "-"), "held_swing_3": (0.6, "-"), "held_stance_2": (-0.2, "-")}
     drift(section, evaluation.statistics, write_measured([runs], metrics), tmp_path)
     rows = read_table(tmp_path / "drift.csv")
-    own = [(row.phase, row.time_s, row.share) for row in rows if row.method == "MOB"]
+    own = [(row.phase, row.step, row.share) for row in rows if row.method == "MOB"]
     assert own == [
-        ("swing", 0.25, pytest.approx(0.9)), ("swing", 1.25, pytest.approx(0.6)), ("stance", 0.75, pytest.approx(-0.2)),
+        ("swing", 1, pytest.approx(0.9)), ("swing", 3, pytest.approx(0.6)), ("stance", 2, pytest.approx(-0.2)),
     ]  # fmt: skip
-    assert {path.suffix for path in tmp_path.glob("drift.*")} == {".csv", ".pdf", ".png"}
+    assert {path.suffix for path in tmp_path.glob("drift.*")} == {".csv", ".pdf", ".svg", ".png"}
     check_golden(tmp_path / "drift.csv")
+
+
+def test_shares_beyond_the_axis_are_written_in_the_panel() -> None:
+    held = {"MOB": {1: Number(1.62), 2: Number(1.0), 3: Number(-0.2)}, "MOB-Net": {1: Number(0.9)}}
+    assert beyond(held) == "beyond: MOB 1.62, -0.20"
+    assert beyond({"MOB": {1: Number(1.3), 2: Number(0.0)}}) == ""

@@ -1,7 +1,6 @@
-"""Figure 17 shows the mean over runs of every epoch, between its lowest and highest run."""
+"""Figure 17 shows where trainings end, as the table of kinds does; its CSV file has every epoch with its stride."""
 
 from collections.abc import Callable
-from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -9,36 +8,50 @@ import pytest
 from csv_files import check_golden, read_table
 
 from mobnet.core.errors import DataError
-from mobnet.evaluation.figures.paper.figure_17 import curve, figure_17
+from mobnet.evaluation.figures.paper.figure_17 import draw_losses, figure_17
+from mobnet.evaluation.measure.learning.losses import Loss, losses_of
 from mobnet.evaluation.measure.learning.trainings import read_trainings
+from mobnet.evaluation.number.number import Number
+from mobnet.settings.evaluation import Statistics
 
 Write = Callable[..., Path]
+STATISTICS = Statistics(confidence=0.95)
 
 
-def test_curve_is_the_mean_of_the_runs_within_their_spread(write_training: Write) -> None:
-    trainings = read_trainings(write_training("GRU", seed, loss) for seed, loss in enumerate((-4.0, -3.0, -2.6)))["GRU"]
-    line = curve("GRU", trainings, "validation_loss")
-    assert list(line.x) == [1, 2, 3]
-    np.testing.assert_allclose(line.columns, [[-2.2, -3.2, -2.7], [-3.0, -4.0, -3.5], [-1.6, -2.6, -2.1]])
+def test_the_end_is_the_last_epoch_in_training_and_the_kept_one_in_validation(write_training: Write) -> None:
+    folders = [write_training("GRU", seed, loss) for seed, loss in enumerate((-4.0, -3.0, -2.6))]
+    losses = list(losses_of("GRU", read_trainings(folders)["GRU"], STATISTICS))
+    ends = {loss.measure: loss for loss in losses if loss.epoch is None}
+    assert ends["training loss"].runs == pytest.approx((-3.75, -2.75, -2.35))
+    assert ends["validation loss"].runs == pytest.approx((-4.0, -3.0, -2.6))
+    assert ends["validation loss"].number.value == pytest.approx(-3.2)
+    low, high = ends["validation loss"].number.with_ends[1:]
+    assert low is not None
+    assert high is not None
+    half = 4.3027 * np.std([-4.0, -3.0, -2.6], ddof=1) / 3**0.5  # Student's law with two degrees of freedom
+    assert (low, high) == (pytest.approx(-3.2 - half, abs=1e-3), pytest.approx(-3.2 + half, abs=1e-3))
 
 
-def test_csv_holds_both_losses_of_every_kind_and_epoch(tmp_path: Path, write_training: Write) -> None:
+def test_csv_holds_both_losses_of_every_kind_and_epoch_and_of_the_end(tmp_path: Path, write_training: Write) -> None:
     losses = {"GRU": -4.0, "LSTM": -3.8, "RNN": -3.1, "TCN": -3.5, "MLP": -3.0, "MLP-500": -3.3}
     folders = [write_training(kind, seed, loss + 0.05 * seed) for kind, loss in losses.items() for seed in range(2)]
-    figure_17(folders, tmp_path / "out")
+    figure_17(folders, STATISTICS, tmp_path / "out")
     rows = read_table(tmp_path / "out/figure_17.csv")
-    keys = [(row.measure, row.method, row.epoch) for row in rows]
-    assert keys == list(product(("training loss", "validation loss"), losses, (1, 2, 3)))
-    assert {row.runs for row in rows} == {2}
+    for kind in losses:
+        own = [(row.measure, row.epoch) for row in rows if row.method == kind]
+        assert sorted(own, key=str) == sorted(
+            [(name, epoch) for name in ("training loss", "validation loss") for epoch in (1, 2, 3, None)], key=str
+        )
+    assert {(row.runs, row.stride) for row in rows} == {(2, 1)}
     check_golden(tmp_path / "out/figure_17.csv")
     assert (tmp_path / "out/figure_17.pdf").read_bytes().startswith(b"%PDF")
 
 
-def test_a_run_that_diverged_does_not_bend_the_curve(tmp_path: Path, write_training: Write) -> None:
+def test_a_run_that_diverged_does_not_count(tmp_path: Path, write_training: Write) -> None:
     good, bad = write_training("GRU", 0), write_training("GRU", 1, loss=40.0, epochs=2, diverged=True)
     lost = write_training("RNN", 0, epochs=1, diverged=True)
-    figure_17([good], tmp_path / "alone")
-    figure_17([good, bad, lost], tmp_path / "beside")
+    figure_17([good], STATISTICS, tmp_path / "alone")
+    figure_17([good, bad, lost], STATISTICS, tmp_path / "beside")
     texts = [(tmp_path / name / "figure_17.csv").read_text() for name in ("alone", "beside")]
     assert texts[0] == texts[1]
 
@@ -46,4 +59,20 @@ def test_a_run_that_diverged_does_not_bend_the_curve(tmp_path: Path, write_train
 def test_runs_of_unlike_length_are_refused(write_training: Write) -> None:
     trainings = read_trainings([write_training("GRU", 0), write_training("GRU", 1, epochs=4)])["GRU"]
     with pytest.raises(DataError, match="GRU: runs of 3, 4 epochs"):
-        curve("GRU", trainings, "train_loss")
+        list(losses_of("GRU", trainings, STATISTICS))
+
+
+def test_a_kind_has_one_row_in_both_panels_with_its_number_beside_its_interval() -> None:
+    numbers = {"GRU": Number(-3.0, -3.2, -2.8), "LSTM": Number(-2.0)}
+    losses = [
+        Loss(measure, kind, None, 1, number, (float(number.value or 0.0),))
+        for measure in ("training loss", "validation loss") for kind, number in numbers.items()
+    ]  # fmt: skip
+    figure = draw_losses(losses)
+    for axis in figure.axes:
+        assert [text.get_text() for text in axis.texts] == ["-3.00", "-2.00"]
+        interval = axis.lines[0]
+        np.testing.assert_array_equal(np.asarray(interval.get_xdata()), [-3.2, -2.8])
+        assert axis.get_xlim() == figure.axes[0].get_xlim()
+    assert [label.get_text() for label in figure.axes[0].get_yticklabels()] == list(numbers)
+    assert figure.axes[0].get_ylim()[0] > figure.axes[0].get_ylim()[1]  # the first kind is on top

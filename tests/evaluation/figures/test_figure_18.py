@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType, SimpleNamespace
 
+import numpy as np
 import pytest
 from csv_files import check_golden, read_table, write_rows
 
@@ -13,7 +14,7 @@ from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.rows import read_rows
 from mobnet.evaluation.compare.rmse import PUSHED
-from mobnet.evaluation.figures.paper.figure_18 import UPPER_BODY, figure_18, panel_of
+from mobnet.evaluation.figures.paper.figure_18 import UPPER_BODY, LimbPanel, draw_limbs, figure_18, panel_of
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.evaluation import Evaluation, PushWindow
 from mobnet.settings.settings import Settings
@@ -92,3 +93,19 @@ def test_a_missing_method_is_named(tmp_path: Path, draw: Draw, write_limb_scores
     with pytest.raises(DataError, match="MOB-Net-Single"):
         draw({}, scores)
     assert not (tmp_path / "out").exists()
+
+
+def test_bars_have_their_heights_intervals_and_numbers_and_all_limbs_stand_apart() -> None:
+    heights = {"a": [1.0, 2.0, 3.0], "b": [3.0, 4.0, 5.0]}
+    bars = {name: [Number(height, height - 0.5, height + 0.25) for height in own] for name, own in heights.items()}
+    figure = draw_limbs([LimbPanel("ID", [UPPER_BODY, "W", "RA"], bars)] * 2, "RMSE [N m]")
+    first, second = figure.axes
+    assert first.get_ylim() == second.get_ylim()
+    assert first.get_ylim()[0] == 0.0
+    assert [patch.get_height() for patch in first.patches] == [1.0, 2.0, 3.0, 3.0, 4.0, 5.0]
+    assert [text.get_text() for text in first.texts] == ["1.0", "2.0", "3.0", "3.0", "4.0", "5.0"]
+    ends = np.concatenate([np.asarray(lines.get_segments())[:, :, 1] for lines in first.collections])
+    np.testing.assert_allclose(ends[0], [0.5, 1.25])
+    one, two, three = first.get_xticks()
+    assert two - one > three - two
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["a", "b"]

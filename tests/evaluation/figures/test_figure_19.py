@@ -1,101 +1,107 @@
-"""Figure 19 shows samples of the recordings, evenly thinned and the same in every run."""
+"""Figure 19 shows how the samples of two training sets differ, where those of the tests lie, and torques by phase."""
 
-from collections import Counter
 from pathlib import Path
 
 import numpy as np
 import pytest
 from csv_files import check_golden, read_table
+from numpy.typing import NDArray
 
 from mobnet.core.columns import FEET
 from mobnet.core.errors import DataError
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
 from mobnet.evaluation.compare.windows import Pushed, evenly
-from mobnet.evaluation.figures.paper.figure_19 import Cloud, draw_clouds, figure_19, range_of, read_dots
+from mobnet.evaluation.figures.paper.figure_19 import draw_planes, figure_19
 from mobnet.evaluation.measure.data.conditional import gait_phase
+from mobnet.evaluation.measure.data.planes import TESTS, Plane, fullest, plane_of, read_samples
 from mobnet.settings.evaluation import Coverage, Evaluation
 
 Sets = dict[str, list[Path]]
 
 
-def test_dots_are_samples_in_the_order_of_time(data_sets: Sets) -> None:
+def test_samples_are_in_the_order_of_time_where_the_phase_is_known(data_sets: Sets) -> None:
     stems = data_sets["walk"]
-    dots = read_dots(stems, ["LL3", "LL4"], 100, FEET[0])
+    samples = read_samples(stems, ["LL3", "LL4"], 100, FEET[0])
     names = ["swing.left_foot", "v.LL3", "tau_des.LL3", "v.LL4", "tau_des.LL4"]
     read = [read_array(stem, names) for stem in stems]
     phase = np.concatenate([gait_phase(array[:, 0] > 0.5, note["segments"]) for array, note in read])
     known = np.isfinite(phase)
     whole = np.concatenate([array for array, _ in read])[known][:, 1:].reshape(-1, 2, 2)
-    assert dots.shape == (100, 2, 3)
+    assert samples.shape == (100, 2, 3)
     picked = evenly(int(known.sum()), 100)
-    np.testing.assert_array_equal(dots[..., :2], whole[picked])
-    np.testing.assert_array_equal(dots[:, 0, 2], phase[known][picked].astype(np.float32))
+    np.testing.assert_array_equal(samples[..., :2], whole[picked])
+    np.testing.assert_array_equal(samples[:, 0, 2], phase[known][picked].astype(np.float32))
 
 
-def test_a_test_without_pushes_gives_no_dots(data_sets: Sets) -> None:
-    assert read_dots(data_sets["test"][:1], ["LL3"], 10, FEET[0], Pushed("LL3", 1e6, 0.1)).shape == (0, 1, 3)
-
-
-def test_every_set_has_the_dots_asked_for(
-    tmp_path: Path, evaluation: Evaluation, layout: JointLayout, data_sets: Sets
-) -> None:
-    training = {"with RTE": data_sets["walk"], "without RTE": data_sets["walk_plain"]}
-    figure_19(evaluation.figure_19, evaluation.coverage, layout, training, [data_sets["test"]], tmp_path)
-    counts = Counter((row.set, row.joint) for row in read_table(tmp_path / "figure_19.csv"))
-    dots = {**dict.fromkeys(training, 12), "walk_test": 8}
-    assert counts == {(name, joint): count for name, count in dots.items() for joint in ("LL2", "LL3")}
-    check_golden(tmp_path / "figure_19.csv")
-    assert (tmp_path / "figure_19.png").read_bytes().startswith(b"\x89PNG")
+def test_a_test_without_pushes_gives_no_samples(data_sets: Sets) -> None:
+    assert read_samples(data_sets["test"][:1], ["LL3"], 10, FEET[0], Pushed("LL3", 1e6, 0.1)).shape == (0, 1, 3)
 
 
 def test_an_unknown_joint_is_named(data_sets: Sets) -> None:
     with pytest.raises(DataError, match=r"v\.XX1"):
-        read_dots(data_sets["walk"][:1], ["XX1"], 5, FEET[0])
+        read_samples(data_sets["walk"][:1], ["XX1"], 5, FEET[0])
 
 
-def cloud(joint: str, training: str, dots: np.ndarray, test: np.ndarray, coverage: Coverage) -> Cloud:
-    return Cloud(joint, training, dots, test, range_of(dots, coverage))
+def test_the_file_has_the_cells_of_every_set_and_joint_and_the_ranges_by_phase(
+    tmp_path: Path, evaluation: Evaluation, layout: JointLayout, data_sets: Sets
+) -> None:
+    training = {"with RTE": data_sets["walk"], "without RTE": data_sets["walk_plain"]}
+    figure_19(evaluation.figure_19, evaluation.coverage, layout, training, [data_sets["test"]], tmp_path)
+    rows = read_table(tmp_path / "figure_19.csv")
+    shares = {(row.set, row.joint): 0.0 for row in rows if row.kind == "plane"}
+    assert set(shares) == {(name, joint) for name in (*training, TESTS) for joint in ("LL2", "LL3")}
+    for row in (row for row in rows if row.kind == "plane"):
+        shares[row.set, row.joint] += row.share_percent
+    assert all(90.0 < share <= 100.0 + 1e-3 for (name, _), share in shares.items() if name != TESTS)
+    check_golden(tmp_path / "figure_19.csv")
+    assert (tmp_path / "figure_19.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_each_panel_shows_its_joint_and_set_under_the_test(rng: np.random.Generator, evaluation: Evaluation) -> None:
-    clouds = [
-        cloud(joint, name, rng.uniform(size=(50, 3)), rng.uniform(size=(3, 3)), evaluation.coverage)
-        for name in ("with RTE", "without RTE")
-        for joint in ("LL2", "LL3")
-    ]
-    figure = draw_clouds(clouds, "test")
-    assert len(figure.axes) == 6
-    for axis, one in zip(figure.axes, clouds, strict=False):
-        training, test = (collection.get_offsets() for collection in axis.collections)
-        np.testing.assert_array_equal(training, one.dots[:, :2])
-        np.testing.assert_array_equal(test, one.test[:, :2])
-        assert all(collection.get_rasterized() for collection in axis.collections)
+def made(rng: np.random.Generator, shift: float, count: int = 4000) -> NDArray[np.float64]:
+    """Return samples of normal velocities and torques around a velocity [rad/s], at even phases."""
+    return np.stack([rng.normal(shift, 1.0, count), rng.normal(0.0, 10.0, count), rng.uniform(size=count)], axis=1)
+
+
+def plane(rng: np.random.Generator, coverage: Coverage, shift: float) -> Plane:
+    """Return the plane of two sets, the second one shifted, and of tests like the first."""
+    sets = {"with RTE": made(rng, 0.0), "without RTE": made(rng, shift), TESTS: made(rng, 0.0, 500)}
+    return plane_of("LL2", sets, 0.9, coverage)
+
+
+def test_sets_that_are_alike_have_all_in_common_and_sets_apart_have_nothing(evaluation: Evaluation) -> None:
+    coverage = evaluation.coverage.model_copy(update={"cell_range": (0.0, 1.0)})
+    alike, apart = (plane(np.random.default_rng(1), coverage, shift) for shift in (0.0, 50.0))
+    assert alike.common > 80.0
+    assert apart.common == 0.0
+    np.testing.assert_allclose(alike.difference.sum(), 0.0, atol=1e-9)
+    assert apart.difference.max() > 0.0 > apart.difference.min()
+
+
+def test_the_outline_has_the_fullest_cells_that_hold_the_share_and_not_one_more() -> None:
+    shares = np.array([[50.0, 30.0], [15.0, 5.0]])
+    np.testing.assert_array_equal(fullest(shares, 0.8), [[True, True], [False, False]])
+    np.testing.assert_array_equal(fullest(shares, 0.81), [[True, True], [True, False]])
+    assert not fullest(np.zeros((2, 2)), 0.9).any()
+
+
+def test_a_column_shows_difference_outline_and_ranges_on_one_torque_axis(
+    rng: np.random.Generator, evaluation: Evaluation
+) -> None:
+    one = plane(rng, evaluation.coverage, 0.5)
+    figure = draw_planes([one, one], 0.9)
+    above, below = figure.axes[0], figure.axes[2]
+    mesh = above.collections[0]
+    np.testing.assert_array_equal(np.asarray(mesh.get_array()), one.difference.T)
+    low, high = mesh.get_clim()
+    assert low == -high
+    filled, *outlines = below.patches
+    values, edges, baseline = filled.get_data()  # type: ignore[attr-defined]
+    np.testing.assert_array_equal(values, one.ranges["with RTE"].high)
+    np.testing.assert_array_equal(baseline, one.ranges["with RTE"].low)
+    assert len(edges) == evaluation.coverage.phases + 1
+    assert len(outlines) == 2 * 3
+    assert above.get_ylim() == below.get_ylim()
+    assert above.texts[0].get_text() == f"{one.common:.0f} % in common"
     names = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert names == ["training with RTE", "training without RTE", "test"]
-    assert figure.axes[0].get_ylabel() == "desired torque [N m]"
-    assert figure.axes[2].get_xlabel() == "velocity [rad/s]"
-
-
-def test_the_last_row_shades_the_range_by_phase_of_every_set(rng: np.random.Generator, evaluation: Evaluation) -> None:
-    dots = {name: rng.uniform(size=(400, 3)) * [1.0, size, 1.0] for name, size in (("a", 10.0), ("b", 4.0))}
-    clouds = [cloud("LL2", name, one, np.full((2, 3), 0.25), evaluation.coverage) for name, one in dots.items()]
-    last = draw_clouds(clouds, "test").axes[-1]
-    for patch, one in zip(last.patches, clouds, strict=True):
-        values, edges, baseline = patch.get_data()
-        np.testing.assert_array_equal(values, one.range.high)
-        np.testing.assert_array_equal(baseline, one.range.low)
-        assert len(edges) == evaluation.coverage.phases + 1
-    assert (clouds[0].range.high > 9.0).all()
-    assert (clouds[1].range.high < 4.0).all()
-    (test,) = last.collections
-    np.testing.assert_array_equal(test.get_offsets(), [[0.25, 0.25]] * 2)
-
-
-def test_a_column_has_one_scale(evaluation: Evaluation) -> None:
-    clouds = [
-        cloud("LL2", name, np.full((2, 3), k), np.zeros((1, 3)), evaluation.coverage) for k, name in enumerate("ab")
-    ]
-    one, two, phases = draw_clouds(clouds, "test").axes
-    assert one.get_xlim() == two.get_xlim() != phases.get_xlim()
-    assert one.get_ylim() == two.get_ylim() == phases.get_ylim()
+    assert names == ["training with RTE", "training without RTE", "tests; outline: 90% of them"]

@@ -6,11 +6,14 @@ from pathlib import Path
 import pytest
 from csv_files import check_golden, read_table
 
-from mobnet.evaluation.figures.paper.figure_20 import figure_20, growth_line, sizes_of
+from mobnet.evaluation.figures.paper.figure_20 import figure_20, growth_line, printed_size
+from mobnet.evaluation.measure.learning.sizes import sizes_of
 from mobnet.evaluation.number.number import Number
 from mobnet.plan.runs import SweptSize
+from mobnet.settings.evaluation import Statistics
 
 Write = Callable[..., Path]
+STATISTICS = Statistics(confidence=0.95)
 
 
 def of_runs(mean: float, low: float, high: float, count: int) -> Number:
@@ -25,7 +28,7 @@ def test_rows_rise_with_the_size_that_their_panel_varies(tmp_path: Path, write_t
         for base in ("MOB-Net", "FTS-e2e")
         for k in (2, 1)
     ]
-    figure_20(swept, tmp_path / "out")
+    figure_20(swept, STATISTICS, tmp_path / "out")
     rows = read_table(tmp_path / "out/figure_20.csv")
     assert len(rows) == 8
     for panel in ("parameters", "samples"):
@@ -33,6 +36,7 @@ def test_rows_rise_with_the_size_that_their_panel_varies(tmp_path: Path, write_t
             own = [row for row in rows if (row.panel, row.base) == (panel, base)]
             assert [getattr(row, panel) for row in own] == [10000, 20000]
             assert [row.loss for row in own] == [-4.0, -5.0]
+            assert [row.ratio for row in own] == [pytest.approx(6.0 / 5.0, rel=1e-5), 1.0]  # of the largest data
     check_golden(tmp_path / "out/figure_20.csv")
     assert (tmp_path / "out/figure_20.png").read_bytes().startswith(b"\x89PNG")
 
@@ -42,13 +46,30 @@ def test_a_place_is_the_mean_of_its_sound_runs(write_training: Write) -> None:
         (write_training("a", 0, -4.0), write_training("a", 1, -3.0)),
         write_training("a", 2, 9.0, diverged=True),
     )
-    (size,) = sizes_of(SweptSize("samples", "MOB-Net", (*good, lost)))
+    (size,) = sizes_of([SweptSize("samples", "MOB-Net", (*good, lost))], STATISTICS)
     assert (size.loss, size.rmse) == (of_runs(-3.5, -4.0, -3.0, 2), of_runs(6.5, 6.0, 7.0, 2))
-    assert sizes_of(SweptSize("samples", "MOB-Net", (lost,))) == []
+    assert sizes_of([SweptSize("samples", "MOB-Net", (lost,))], STATISTICS) == []
 
 
-def test_line_is_drawn_over_thousands(write_training: Write) -> None:
-    sizes = sizes_of(SweptSize("parameters", "MOB-Net", (write_training("a", parameters=83712),)))
-    line = growth_line(sizes, "MOB-Net")
+def test_the_ratio_has_an_interval_where_there_are_several_networks_and_else_none(write_training: Write) -> None:
+    several = [
+        SweptSize("samples", "MOB-Net", tuple(write_training(name, k, loss + 0.1 * k, samples=n) for k in range(3)))
+        for name, loss, n in (("small", -3.0, 1000), ("all", -4.0, 2000))
+    ]
+    small, printed = sizes_of(several, STATISTICS)
+    assert small.ratio.value == pytest.approx(7.1 / 6.1)
+    assert small.ratio.low is not None
+    assert small.ratio.low < 7.1 / 6.1
+    assert printed.ratio.value == 1.0
+    (alone,) = sizes_of([SweptSize("samples", "MOB-Net", several[1].folders[:1])], STATISTICS)
+    assert (alone.ratio.value, alone.ratio.low) == (1.0, None)
+    assert printed_size([small, printed], "MOB-Net") == "MOB-Net: 1 is 6.10 N m"
+
+
+def test_line_is_drawn_over_thousands_of_what_has_a_ratio(write_training: Write) -> None:
+    folders = (write_training("a", parameters=83712),)
+    swept = [SweptSize("parameters", "MOB-Net", folders), SweptSize("samples", "MOB-Net", folders)]
+    line = growth_line([size for size in sizes_of(swept, STATISTICS) if size.panel == "parameters"], "MOB-Net")
     assert line.x == pytest.approx([83.712])
-    assert line.numbers == [of_runs(-4.0, -4.0, -4.0, 1)]
+    assert [number.value for number in line.numbers] == [1.0]
+    assert growth_line(sizes_of(swept[:1], STATISTICS), "MOB-Net").x == []

@@ -13,7 +13,8 @@ from mobnet.core.detections import Collision, Threshold
 from mobnet.core.errors import DataError
 from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
-from mobnet.evaluation.figures.drawing.robot import hull_of, lowest, projection, surface_of
+from mobnet.evaluation.figures.drawing.robot import lowest, projection
+from mobnet.evaluation.figures.drawing.solids import Solid, outline_of
 from mobnet.evaluation.figures.paper.figure_13 import figure_13
 from mobnet.evaluation.figures.paper.figure_14 import figure_14
 from mobnet.evaluation.figures.paper.figure_15 import figure_15
@@ -53,7 +54,7 @@ def test_a_picture_shows_the_collision_when_its_force_is_largest(
 ) -> None:
     stem, detections, _ = made
     section = settings.evaluation.figure_13.model_copy(update={"cells": CELLS})
-    figure_13(section, settings.detection, settings.robot, detections, [stem], tmp_path)
+    figure_13(section, settings.detection, settings.robot, settings.robot.looks, detections, [stem], tmp_path)
     (row,) = read_table(tmp_path / "figure_13.csv")
     assert (row.panel, row.force_n) == ("foot front", pytest.approx(PEAK, rel=0.01))
     assert row.time_s == pytest.approx((START + LENGTH / 2) / RATE_HZ, abs=0.002)
@@ -62,17 +63,18 @@ def test_a_picture_shows_the_collision_when_its_force_is_largest(
     assert row.point_z_m == pytest.approx(0.1, abs=0.15)  # near the ground
     wrong = section.model_copy(update={"cells": ("knee front",)})
     with pytest.raises(DataError, match="collision of LL in collisions: 'knee front' is not accepted"):
-        figure_13(wrong, settings.detection, settings.robot, detections, [stem], tmp_path)
+        figure_13(wrong, settings.detection, settings.robot, settings.robot.looks, detections, [stem], tmp_path)
 
 
 def test_solids_are_seen_as_large_as_they_are(robot: WalkingRobot) -> None:
     view = projection(0.0, 0.0)  # from ahead: right is the robot's left, up is up
     np.testing.assert_allclose(view, [[0, 1, 0], [0, 0, 1], [1, 0, 0]], atol=1e-12)
     foot = next(shape for shape in robot.shapes if shape.name == "left_foot")
-    outline = hull_of((surface_of(foot) @ view.T)[:, :2])
+    outline = outline_of(Solid(foot, np.eye(3), np.zeros(3), "0.5"), view)
     np.testing.assert_allclose(np.ptp(outline, axis=0), [2 * foot.size[1], 2 * foot.size[2]])
     thigh = next(shape for shape in robot.shapes if shape.name == "left_thigh")
-    assert np.ptp(surface_of(thigh)[:, 2]) == pytest.approx(0.23 + 2 * thigh.size[0])
+    outline = outline_of(Solid(thigh, np.eye(3), np.zeros(3), "0.5"), view)
+    assert np.ptp(outline[:, 1]) == pytest.approx(0.23 + 2 * thigh.size[0], rel=0.01)  # of a polygon
     q = np.eye(1, robot.layout.nq, 3)[0]
     assert lowest(robot, q) < -0.8
 

@@ -7,7 +7,9 @@ from PIL import Image
 
 from mobnet.core.course import read_course
 from mobnet.core.rows import read_texts
-from mobnet.evaluation.figures.drawing.scene import draw_scene, part_surface
+from mobnet.evaluation.figures.drawing.robot import projection
+from mobnet.evaluation.figures.drawing.scene import draw_scene, solid_of
+from mobnet.evaluation.figures.drawing.solids import outline_of
 from mobnet.evaluation.figures.further.films import films, read_curves
 from mobnet.evaluation.figures.paper.figure_21 import figure_21, sole_corners
 from mobnet.evaluation.figures.paper.figure_22 import figure_22, moments_of
@@ -15,6 +17,7 @@ from mobnet.settings.load import load_settings
 
 SETTINGS = load_settings()
 SHOWN = SETTINGS.robot, SETTINGS.obstacles
+DRESSED = SETTINGS.robot, SETTINGS.robot.looks, SETTINGS.obstacles
 
 
 @pytest.fixture
@@ -33,7 +36,9 @@ def test_a_course_has_the_base_where_it_was_and_the_samples_of_its_times(course,
 @pytest.mark.parametrize("name", list(SETTINGS.obstacles))
 def test_surfaces_of_obstacles_are_as_large_as_their_parts(name):
     for part in SETTINGS.obstacles[name].parts:
-        spread = np.ptp(part_surface(part), axis=0) / 2
+        seen = [outline_of(solid_of(part, (1.0, 2.0, 3.0)), view) for view in (np.eye(3), projection(0.0, 0.0))]
+        (x, y), (_, z) = (np.ptp(outline, axis=0) / 2 for outline in seen)  # from above, and from ahead
+        spread = np.array([x, y, z])
         along = "xyz".index(part.axis)
         if part.type == "box":
             assert spread == pytest.approx(part.size)
@@ -58,7 +63,7 @@ def test_a_sole_seen_from_above_has_its_size(robot):
 
 def test_figure_22_shows_moments_from_the_contact_on_and_the_end(tmp_path, course):
     section = SETTINGS.evaluation.figure_22
-    figure_22(section, *SHOWN, dict.fromkeys(section.cases, course), tmp_path)
+    figure_22(section, *DRESSED, dict.fromkeys(section.cases, course), tmp_path)
     rows = read_texts(tmp_path / "figure_22.csv")
     assert len(rows) == len(section.cases) * (len(section.moments_s) + 1)
     assert [float(row["time_s"]) for row in rows[:2]] == pytest.approx(section.moments_s[:2])
@@ -91,7 +96,7 @@ def test_curves_count_time_from_the_contact(course, layout):
 def test_a_film_has_a_frame_for_each_step_of_time_and_ends_with_the_walk(tmp_path, course):
     section = SETTINGS.evaluation.films.model_copy(update={"shown_s": (0.3, 9.0), "frames_hz": 10.0, "slower": 1.0})
     out = tmp_path / "foot.webp"
-    films(section, *SHOWN, {"foot": course}, {"foot": out})
+    films(section, *DRESSED, {"foot": course}, {"foot": out})
     with Image.open(out) as film:
         assert film.n_frames == 2  # at 0.3 and 0.4 s; the walk ends at 0.499 s
         first = np.asarray(film.convert("RGB"))

@@ -32,7 +32,7 @@ def test_it_shows_every_line_of_a_changed_robot_at_every_number_of_seconds(
     check_golden(tmp_path / "out/fine_tuning.csv")
     shown = {(row.line, row.seconds): row.value for row in read_table(tmp_path / "out/fine_tuning.csv")}
     expected = {(BEFORE, 10): 5.4, (BEFORE, 60): 5.4, (KNOWN, 10): 3.0, (KNOWN, 60): 3.0}
-    expected |= {("labels", 10): 4.5, ("labels", 60): 3.8}
-    expected |= {("free swings", 10): 5.0, ("free swings", 60): 4.8}
+    expected |= {("fine-tuned on labels", 10): 4.5, ("fine-tuned on labels", 60): 3.8}
+    expected |= {("fine-tuned on free swings", 10): 5.0, ("fine-tuned on free swings", 60): 4.8}
     assert shown == {place: pytest.approx(value) for place, value in expected.items()}
     assert (tmp_path / "out/fine_tuning.png").read_bytes().startswith(b"\x89PNG")

@@ -6,10 +6,16 @@ from pathlib import Path
 from csv_files import read_table
 
 from mobnet.core.columns import TRIALS, TrialError
-from mobnet.evaluation.figures.further.learning_curve import AXES, curves_of, learning_curve
+from mobnet.evaluation.figures.further.learning_curve import AXES, beside, curves_of, learning_curve
 from mobnet.evaluation.number.files import write_csv
-from mobnet.evaluation.number.number import Number
 from mobnet.settings.evaluation import LearningCurve
+
+SETTINGS = LearningCurve(
+    data="lengths.csv",
+    titles={"plant_leg": "left leg"},
+    recipes={"adam": "Adam"},
+    beside={"zero": "estimating nothing"},
+)
 
 
 def row(steps: int, error: float, seed: int = 0, state: str = "", joint: str = "avg") -> TrialError:
@@ -20,7 +26,7 @@ def row(steps: int, error: float, seed: int = 0, state: str = "", joint: str = "
 def test_it_shows_the_mean_over_joints_of_trainings_that_did_not_diverge(tmp_path: Path) -> None:
     rows = [row(10, 2.0), row(3, 4.0), row(3, 9.0, joint="LL1"), row(39, 99.0, state="diverged")]
     write_csv(tmp_path / "lengths.csv", TRIALS, [astuple(one) for one in rows])
-    settings = LearningCurve(data=str(tmp_path / "lengths.csv"), titles={"plant_leg": "left leg"})
+    settings = SETTINGS.model_copy(update={"data": str(tmp_path / "lengths.csv")})
     learning_curve(settings, tmp_path / "lengths.csv", tmp_path)
     shown = read_table(tmp_path / "learning_curve.csv")
     assert [(one.steps, one.rmse_nm) for one in shown] == [(10, 2.0), (3, 4.0)]
@@ -29,8 +35,16 @@ def test_it_shows_the_mean_over_joints_of_trainings_that_did_not_diverge(tmp_pat
 
 def test_a_place_is_the_mean_of_its_networks() -> None:
     rows = [row(3_000_000, 2.0), row(3_000_000, 4.0, seed=1), row(1_000_000, 5.0)]
-    (line,), (timed,) = (curves_of(rows, place) for place in AXES.values())
-    assert (line.label, line.x, timed.x) == ("LSTM, adam", [1.0, 3.0], [2.0, 6.0])
-    assert line.numbers == [
-        Number(5.0, 5.0, 5.0, networks=(1,), walks=(1,)), Number(3.0, 2.0, 4.0, networks=(2,), walks=(1,)),
-    ]  # fmt: skip
+    (line,), (timed,) = (curves_of(SETTINGS, rows, place) for place in AXES.values())
+    assert (line.label, line.x, timed.x) == ("LSTM, Adam", [1.0, 3.0], [2.0, 6.0])
+    assert [number.value for number in line.numbers] == [5.0, 3.0]
+    assert line.dots == [[5.0], [2.0, 4.0]]
+
+
+def test_methods_that_do_not_learn_stand_in_the_panel_unless_nothing_pushes() -> None:
+    def of(error: float) -> TrialError:
+        return TrialError("plant_leg", "zero", "", "", 0, None, None, "", None, "avg", error, 0.1, 6, 0)
+
+    assert beside(SETTINGS, [of(33.774), row(3, 2.0)]) == "estimating nothing: 33.77 N m"
+    assert beside(SETTINGS, [of(0.0)]) == ""
+    assert curves_of(SETTINGS, [of(33.774)], AXES["processor time [s]"]) == []

@@ -3,17 +3,42 @@
 from itertools import combinations
 
 import matplotlib as mpl
+import numpy as np
 import pytest
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
-from mobnet.evaluation.figures.style import LOOKS, PAGE_INCH, PALETTE, STYLE, Look, legend, looks
+from mobnet.evaluation.figures.style import KINDS, LOOKS, PAGE_INCH, PALETTE, STYLE, Look, legend, looks
 from mobnet.settings.settings import Settings
 
 
 def unlike(found: list[Look]) -> bool:
-    """Return whether any two differ in colour, and in dash, hatch and marker without it."""
-    keys = ("colour", "dash", "hatch", "marker")
-    return all(getattr(one, key) != getattr(two, key) for one, two in combinations(found, 2) for key in keys)
+    """Return whether any two differ in colour, and without it in hatch, marker, and dash or width of their lines."""
+    ways = [lambda look: look.colour, lambda look: look.hatch, lambda look: look.marker]
+    ways += [lambda look: (str(look.dash), look.width)]
+    return all(way(one) != way(two) for one, two in combinations(found, 2) for way in ways)
+
+
+def lightness(colour: str) -> float:
+    """Return CIE's L* of a colour, 0 to 100."""
+    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in to_rgb(colour)]
+    y = float(np.dot([0.2126, 0.7152, 0.0722], linear))
+    return 116.0 * y ** (1 / 3) - 16.0
+
+
+def test_our_networks_the_formula_and_the_truth_are_solid_and_other_baselines_are_not() -> None:
+    solid = {name for name, look in LOOKS.items() if look.dash == "-"} - set(KINDS)
+    assert solid == {"MOB-Net", "MOB-Net-Single", "MOB-fric-load", "MOB-fric-dahl", "truth", "target"}
+
+
+@pytest.mark.parametrize(("one", "two"), [("MOB", "MOB-fric"), ("MOB-Net", "MOB-fric-dahl"), ("MOB-Net", "MOB")])
+def test_methods_side_by_side_differ_in_lightness_and_width(one: str, two: str) -> None:
+    lights, widths = (
+        [getter(LOOKS[name]) for name in (one, two)]
+        for getter in (lambda look: lightness(look.colour), lambda look: look.width)
+    )
+    assert abs(lights[0] - lights[1]) > 8.0
+    assert abs(widths[0] - widths[1]) >= 0.4
 
 
 def test_methods_of_one_figure_differ_in_colour_and_without_it(settings: Settings) -> None:

@@ -6,9 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mobnet.core.columns import Score
-from mobnet.core.rows import read_rows
 from mobnet.evaluation.measure.estimates.pushes import AVERAGE, INCREASE, PushErrors, collision_errors, push_metrics
+from mobnet.evaluation.number.lookup import Lookup, read_lookup
 from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.settings import Settings
 
@@ -21,17 +20,19 @@ def measure(settings: Settings, evaluation: Evaluation) -> Callable[..., PushErr
     """Return a function of (title of a test, scores) that measures its errors."""
     figure, printed = evaluation.figure_10, settings.published.tables["figure_10"]
 
-    def errors_of(title: str, rows: list[Score]) -> PushErrors:
-        return collision_errors(settings.layout, figure, figure.tests[title], printed, rows, evaluation.statistics)
+    def errors_of(title: str, rows: Lookup) -> PushErrors:
+        return collision_errors(settings.layout, figure, figure.tests[title], printed, rows)
 
     return errors_of
 
 
 @pytest.fixture
-def errors(measure: Callable[..., PushErrors], write_push_scores: WritePushScores) -> PushErrors:
+def errors(
+    evaluation: Evaluation, measure: Callable[..., PushErrors], write_push_scores: WritePushScores
+) -> PushErrors:
     """Errors of two pushes on the knee, of MEANS and a tenth more, where walking has one N m less than MEANS."""
-    rows = [row for name in ("knee_swing", "walk_test") for row in read_rows(write_push_scores(name, MEANS), Score)]
-    return measure("swing knee", rows)
+    paths = [write_push_scores(name, MEANS) for name in ("knee_swing", "walk_test")]
+    return measure("swing knee", read_lookup(paths, evaluation.statistics))
 
 
 def test_average_is_that_of_the_pushes_and_increase_is_over_walking(errors: PushErrors) -> None:
@@ -52,12 +53,9 @@ def test_intervals_hold_their_numbers_and_only_the_average_has_a_printed_one(err
 
 
 def test_pushes_are_counted_in_the_scores(
-    write_push_scores: WritePushScores, measure: Callable[..., PushErrors]
+    evaluation: Evaluation, write_push_scores: WritePushScores, measure: Callable[..., PushErrors]
 ) -> None:
-    rows = [
-        row
-        for name, pushes in (("knee_swing", 12), ("knee_support", 0))
-        for row in read_rows(write_push_scores(name, MEANS, pushes), Score)
-    ]
+    paths = [write_push_scores(name, MEANS, pushes) for name, pushes in (("knee_swing", 12), ("knee_support", 0))]
+    rows = read_lookup(paths, evaluation.statistics)
     assert push_metrics(rows, "knee_swing") == [f"rmse_push_{k}" for k in range(1, 13)]
     assert measure("support knee", rows) == {}

@@ -148,7 +148,7 @@ def test_every_metric_that_a_run_can_write_passes_the_reader(
     own = {name: drift if name == "drift" else limbs for name in SECTIONS if name != "bode"}
     sections = {name: getattr(evaluation, name).model_copy(update=shown) for name, shown in own.items()}
     sections["changed"] = sections["changed"].model_copy(update={"window_s": 2.0})
-    sections["bode"] = Bode(**test, limb="LL", bands_hz=(0.5, 2.0))
+    sections["bode"] = Bode(**test, limb="LL", shown=("LL3",), bands_hz=(0.5, 2.0))
     window = PushWindow(before_s=0.1, after_s=0.2)
     numbers = {"touch_down_s": 0.1, "stuck_rad_s": 0.1, "cover_share": 0.68, "lines": {"LL3": (0.5, 2.0)}}
     run = walk(-3.0, steps=8, std=2.0)

@@ -59,9 +59,9 @@ def test_the_bar_is_judged_without_collision_only(made: Path) -> None:
     assert [verdict(grid, Number(bar), 0.68, 0.05) for bar in (0.64, 0.74)] == ["yes", "no"]
 
 
-def test_figure_has_a_panel_without_and_one_under_collision(made: Path, evaluation: Evaluation) -> None:
+def test_figure_has_a_case_without_and_one_under_collision(made: Path, evaluation: Evaluation) -> None:
     rows = read_table(made / "figures/calibration.csv")
-    assert list(dict.fromkeys(row.panel for row in rows)) == ["in distribution", "knee swing, pushed"]
+    assert list(dict.fromkeys(row.case for row in rows)) == ["in distribution", "knee hit in swing"]
     assert len(rows) == 2 * evaluation.calibration.points
     for row in rows[:3]:
         assert row.after == pytest.approx(row.nominal, abs=0.06)

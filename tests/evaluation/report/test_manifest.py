@@ -9,7 +9,7 @@ from mobnet.core.errors import DataError
 from mobnet.core.files import write_text
 from mobnet.evaluation.report.manifest import TIMES, differences, manifest
 
-ENDINGS = ["parquet", "json", "safetensors", "csv", "tex", "md", "png", "pdf", "html"]
+ENDINGS = ["parquet", "json", "safetensors", "csv", "tex", "md", "png", "svg", "pdf", "html"]
 
 
 @pytest.fixture

@@ -3,32 +3,44 @@
 import csv
 import json
 import re
+import shutil
+import subprocess
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import made_detections
+import numpy as np
 import pytest
+from asked_numbers import asked_names
 from csv_files import read_table
 from matplotlib.figure import Figure
+from PIL import Image
 
+from mobnet.core.columns import CLAIMS
 from mobnet.core.errors import DataError
+from mobnet.core.files import write_text
+from mobnet.core.rows import csv_text, read_texts
 from mobnet.evaluation.report.deviations import deviations
-from mobnet.evaluation.report.numbers import numbers
+from mobnet.evaluation.report.guards import defined_texts
+from mobnet.evaluation.report.numbers import LOOKUP, numbers
 from mobnet.evaluation.report.paper import PACKAGES, PaperError, copy_sources, missing_packages, paper
 from mobnet.evaluation.tables.further import claims_table, methods
 from mobnet.evaluation.tables.further.uncertainty import text_of
 from mobnet.evaluation.tables.layout import PART, long_table, note_tex, text_table
 from mobnet.plan.files import Files
-from mobnet.plan.products import Folders, Products
+from mobnet.plan.products import DRAWN, MAIN_TABLES, SOURCES, Folders, Products
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.data import Recordings
+from mobnet.settings.evaluation import PaperText
 from mobnet.settings.settings import Settings
 
 REPO = Path(__file__).parents[3]
 GOLDEN, PUBLISHED = REPO / "tests/golden", REPO / "docs/results"
 DETECTION = ("table_09", "table_13", "false_alarms", "found_by_rate", "smallest_force", "links")
+TEXT = PaperText(scale="default", pages=8)
+EDGE_MM = 8.0  # of a page's lower edge
 SHOWN = 4  # columns of another table whose text nobody published yet
 SOURCE = r"""\documentclass{article}
 \pdfinfoomitdate=1 \pdftrailerid{} \providecommand{\tables}{../tables}
@@ -43,6 +55,7 @@ def source(tmp_path: Path) -> Path:
     for name in ("paper", "tables", "figures"):
         (tmp_path / name).mkdir()
     (tmp_path / "tables/table_05.tex").write_text("nineteen")
+    (tmp_path / "tables/numbers.tex").write_text("")
     (tmp_path / "paper/refs.bib").write_text("")
     (tmp_path / "paper/main.tex").write_text(SOURCE)
     return tmp_path / "paper/main.tex"
@@ -101,10 +114,11 @@ def in_parts(header: list[str], lines: list[list[str]], left: int, parts: Sequen
     return PART.join(texts)
 
 
-def build(source: Path) -> Any:
-    """Build the paper into a folder `out` and return the note."""
+def build(source: Path, scale: str = "smoke") -> Any:
+    """Build the paper, whose words are those of another scale, into a folder `out` and return the note."""
     root = source.parents[1]
-    paper("default", source, source.with_name("refs.bib"), [root / "tables/table_05.tex"], [], root / "out/build.json")
+    tables = [root / f"tables/{name}.tex" for name in ("table_05", "numbers")]
+    paper(scale, TEXT, source, source.with_name("refs.bib"), tables, [], root / "out/build.json")
     return json.loads((root / "out/build.json").read_text())
 
 
@@ -115,7 +129,7 @@ def test_without_tex_the_note_names_the_packages_and_no_old_pdf_is_left(
     stale.parent.mkdir()
     stale.write_text("old")
     monkeypatch.setattr("shutil.which", lambda name: None)
-    assert build(source) == {"scale": "default", "pdf": None, "missing_packages": list(PACKAGES)}
+    assert build(source) == {"scale": "smoke", "pdf": None, "missing_packages": list(PACKAGES)}
     assert "apt-get install texlive-latex-recommended texlive-publishers" in caplog.text
     assert not stale.exists()
 
@@ -123,7 +137,7 @@ def test_without_tex_the_note_names_the_packages_and_no_old_pdf_is_left(
 @with_tex
 def test_with_tex_equal_input_gives_equal_bytes(source: Path) -> None:
     pdf = source.parents[1] / "out/main.pdf"
-    assert build(source) == {"scale": "default", "pdf": "main.pdf", "missing_packages": []}
+    assert build(source) == {"scale": "smoke", "pdf": "main.pdf", "missing_packages": []}
     once = pdf.read_bytes()
     build(source)
     assert pdf.read_bytes() == once
@@ -146,26 +160,77 @@ def write_detection(
     return write
 
 
+def published(name: str) -> Path:
+    """Return a table's CSV file: the published one, or the golden one of a table that nobody published yet."""
+    path = PUBLISHED / f"{name}.csv"
+    return path if path.is_file() else GOLDEN / f"{name}.csv"
+
+
+def published_claims(made: Path, out: Path) -> Path:
+    """Write the published claims, and of those that nobody published yet the made-up ones, and return the file."""
+    rows = {row["claim"]: row for path in (made, PUBLISHED / "claims.csv") for row in read_texts(path)}
+    write_text(out, csv_text(CLAIMS, [[row[name] for name in CLAIMS] for row in rows.values()]))
+    return out
+
+
+def write_numbers(products: Products, settings: Settings, claims_csv: Path, summary_csv: Path, out: Path) -> None:
+    """Write numbers and captions from what is published, and a made-up number for each other one that the text asks."""
+    (product,) = (product for product in products.all() if product.name == "numbers")
+    wanted: Any = product.job.call.arguments
+    tables, further = ([published(path.stem) for path in wanted[name]] for name in ("table_csvs", "further_csvs"))
+    train, sizes = Recordings(shards=1, shard_s=60.0), (settings.scale, settings.rates, settings.sizes, settings.fleet)
+    captions = [REPO / path for path in wanted["captions"]]
+    sources = [published(name) for name in SOURCES]
+    compared = settings.evaluation.main_tables
+    numbers(*sizes, train, tables, further, claims_csv, summary_csv, captions, compared, sources, out)
+    known = defined_texts(out.read_text())
+    made = (name for name in asked_names((REPO / "paper/main.tex").read_text()) if name not in known)
+    out.write_text(
+        out.read_text() + "".join(rf"\expandafter\def\csname {name}\endcsname{{0.5}}" + "\n" for name in made)
+    )
+
+
+@pytest.fixture(scope="session")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of the paper's own PDF, with the published numbers and tables as large as the published ones."""
+    return tmp_path_factory.mktemp("built")
+
+
 @with_tex
-def test_the_paper_itself_builds_from_the_golden_tables(
-    tmp_path: Path, claims_csv: Path, summary_csv: Path, settings: Settings, write_detection: Callable[[], None]
-) -> None:
-    """And fits its pages with tables as large as the published ones; every figure is the same picture."""
+def test_the_paper_itself_builds_from_the_published_tables(
+    tmp_path: Path, claims_csv: Path, summary_csv: Path, settings: Settings, write_detection: Callable[[], None],
+    built: Path,
+) -> None:  # fmt: skip
+    """And fits its pages and its results: every guard of its words holds. Every figure is the same picture."""
     folders = Folders(tmp_path, tmp_path, tmp_path, tmp_path / "out", tmp_path / "MANIFEST.sha256")
     products = Products(settings, Files(Catalogue(settings), tmp_path), folders, with_pdf=True, stored=())
     deviations(REPO / "docs/deviations.md", tmp_path / "deviations.tex")
-    train, sizes = Recordings(shards=1, shard_s=60.0), (settings.scale, settings.rates, settings.sizes, settings.fleet)
-    numbers(*sizes, train, [GOLDEN / "table_05.csv"], claims_csv, summary_csv, tmp_path / "numbers.tex")
+    claims = published_claims(claims_csv, tmp_path / "published_claims.csv")
+    write_numbers(products, settings, claims, summary_csv, tmp_path / "numbers.tex")
     write_detection()
-    for name in {*products.table_names, "compute"}.difference(DETECTION):
+    for name in {*products.table_names, "compute"}.difference(DETECTION, MAIN_TABLES):
         write_tex(name, settings, tmp_path / f"{name}.tex")
-    tables = [tmp_path / f"{name}.tex" for name in (*products.table_names, "numbers", "deviations", "compute")]
-    figures = [tmp_path / f"{name}.pdf" for name in products.figure_names]
+    names = (*products.table_names, "numbers", "captions", "deviations", "compute")
+    figures = [tmp_path / f"{name}.pdf" for name in dict.fromkeys([*products.figure_names, *DRAWN])]
     for path in figures:
         Figure().savefig(path)
-    main, references = REPO / "paper/main.tex", REPO / "paper/refs.bib"
-    paper(settings.scale, main, references, tables, figures, tmp_path / "out/build.json")
-    assert (tmp_path / "out/main.pdf").stat().st_size > 50_000
+    main, references, tables = REPO / "paper/main.tex", REPO / "paper/refs.bib", [tmp_path / f"{n}.tex" for n in names]
+    paper(settings.scale, settings.evaluation.paper, main, references, tables, figures, built / "build.json")
+    assert (built / "main.pdf").stat().st_size > 50_000
+
+
+@with_tex
+@pytest.mark.skipif(shutil.which("pdftoppm") is None, reason="pdftoppm, of poppler-utils, is not installed")
+def test_no_ink_comes_near_the_lower_edge(built: Path) -> None:
+    """A table that TeX let run off its page would be there."""
+    if not (built / "main.pdf").is_file():
+        pytest.skip("the paper was not built in this run")
+    subprocess.run(["pdftoppm", "-r", "50", "-gray", built / "main.pdf", built / "page"], check=True)
+    pages = sorted(built.glob("page-*.pgm"))
+    assert len(pages) > TEXT.pages
+    edge = int(EDGE_MM / 25.4 * 50)
+    inked = [path.name for path in pages if np.asarray(Image.open(path))[-edge:].min() < 128]
+    assert inked == []
 
 
 @with_tex
@@ -184,6 +249,35 @@ def test_what_runs_off_its_page_or_has_a_label_twice_is_named_and_leaves_no_pdf(
         "Float too large for page by  on input line 3 (after tables/table_05.tex)",
     ]
     assert not (source.parents[1] / "out").exists()
+
+
+@with_tex
+def test_words_that_do_not_fit_the_results_stop_the_text_s_own_scale_only(
+    source: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    r"""Elsewhere they are logged; `smoke`'s verdicts mean nothing."""
+    (source.parents[1] / "tables/numbers.tex").write_text(
+        LOOKUP + "\\expandafter\\def\\csname verdict@a-claim\\endcsname{inconclusive}\n"
+    )
+    guarded = r"\begin{document}\input{\tables/numbers}it holds\holds{a-claim}{reproduced,direction}\end{document}"
+    source.write_text(re.sub(r"\\begin\{doc.*", lambda _: guarded, SOURCE))
+    told = "claim 'a-claim' is 'inconclusive', and the text needs 'reproduced' or 'direction'"
+    with caplog.at_level("INFO"):
+        assert build(source)["pdf"] == "main.pdf"
+    assert told in caplog.text
+    assert "1 guarded sentences do not fit" in caplog.text
+    with pytest.raises(PaperError, match=told):
+        build(source, "default")
+    assert not (source.parents[1] / "out/main.pdf").exists()
+
+
+@with_tex
+def test_a_main_text_that_is_too_long_stops_the_text_s_own_scale_only(source: Path) -> None:
+    long = r"\begin{document}a%s\label{end:main}\end{document}" % (r"\newpage b" * TEXT.pages)
+    source.write_text(re.sub(r"\\begin\{doc.*", lambda _: long, SOURCE))
+    assert build(source)["pdf"] == "main.pdf"
+    with pytest.raises(PaperError, match="the main text ends on page 9; accepted: 8"):
+        build(source, "default")
 
 
 @with_tex

@@ -43,8 +43,8 @@ def test_errors_stand_beside_those_of_the_paper_and_a_dash_where_no_method_ran(r
 
 def test_findings_have_the_numbers_of_claims_and_the_falls_of_reactions_that_do_not_wait(results: Path) -> None:
     text = blocks(results)["findings"]
-    assert "MOB-Net errs 0.50 times as much in random walking (paper nan)" in text
-    assert "1 of 20 fall with the reaction and 20 of 20 without" in text
+    assert "multiplies MOB-Net's error by 0.50 in random walking (paper nan)" in text
+    assert "1 of 20 fall with the reaction and 20 of 20 without it." in text
     assert len(text.splitlines()) == len(FINDINGS)
 
 

@@ -3,13 +3,16 @@
 import re
 from collections import Counter
 from collections.abc import Callable
+from dataclasses import astuple
 from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
 from browser import Browser, with_browser
 
-from mobnet.core.files import TIME, write_json
+from mobnet.core.columns import SCORES, Score
+from mobnet.core.files import TIME, write_json, write_text
+from mobnet.core.rows import csv_text
 from mobnet.evaluation.report.runs_page import COLUMNS, runs_page
 from mobnet.plan.products import TEMPLATES
 
@@ -21,7 +24,7 @@ RUNS = {  # name -> cell, best validation loss, RMSE [N m]; the first one diverg
     "LSTM-LL-s0": ("LSTM", -4.5, 2.5),
 }
 LOST = "FTS-e2e-LL-s0"  # what its training took
-SHOWN = "[...document.querySelectorAll('tbody:not([hidden])')].map((run) => run.dataset.name)"
+SHOWN = "[...document.querySelectorAll('#runs > tbody:not([hidden])')].map((run) => run.dataset.name)"
 OPEN = "[...document.querySelectorAll('.more')].filter((row) => row.getClientRects().length).map((row) => row.id)"
 
 
@@ -39,10 +42,16 @@ def page(tmp_path_factory: pytest.TempPathFactory, write_run: Callable[..., Path
 
 
 def make_page(networks: Path) -> Path:
-    """Write the page of all trainings in a folder, beside that folder."""
-    parts = [REPO / TEMPLATES / f"runs.{ending}" for ending in ("html", "css", "js")]
-    page = networks.with_name("runs.html")
-    runs_page("default", sorted(networks.iterdir()), parts, page)
+    """Write the page of all trainings in a folder, and of the errors of one in two tests, beside that folder."""
+    page, scores = networks.with_name("runs.html"), []
+    for test, values in {"walk": (2.0, 3.0), "motion": (9.0,)}.items():
+        rows = [
+            Score(test, "robots", "GRU", 1, walk, "LL", "avg", "rmse", value, "N m")
+            for walk, value in enumerate(values)
+        ]
+        scores.append(networks.with_name(test) / "robots.csv")
+        write_text(scores[-1], csv_text(SCORES, [astuple(row) for row in rows]))
+    runs_page("default", sorted(networks.iterdir()), scores, [REPO / TEMPLATES / "runs.html"], page)
     return page
 
 
@@ -85,10 +94,10 @@ def test_every_run_has_a_row_with_its_numbers(page: Path) -> None:
     """The page is complete without scripts; a dash stands for a number that does not exist."""
     rows = {row[0]: row for row in Reader(page).rows}
     assert rows["GRU-LL-s1"][2:] == [
-        "GRU", "LL", "1", "GRU", "83,712", "1,800,000", "3", "2", "-4.000", "11.50", "360.0", "cpu", "float32", "done",
+        "GRU", "83,712", "1,800,000", "3", "2", "-4.000", "11.50", "2.50", "360.0", "done",
     ]  # fmt: skip
-    assert rows["FTS-e2e-LL-s0"][8:12] == ["0", "–", "–", "–"]
-    assert rows[LOST][12] == "–"
+    assert rows["FTS-e2e-LL-s0"][5:10] == ["0", "–", "–", "–", "–"]
+    assert rows[LOST][10] == "–"
     assert rows["FTS-e2e-LL-s0"][-1] == "diverged"
     assert len(rows["name"]) == len(COLUMNS) + 1
 
@@ -168,13 +177,13 @@ def test_typing_filters_and_the_address_keeps_up(browse: Callable[[str], Browser
 def test_a_name_opens_and_closes_its_run_and_back_undoes_it(browse: Callable[[str], Browser]) -> None:
     browser = browse("")
     assert browser.value(OPEN) == []
-    browser.click("[data-name=GRU-LL-s1] a")
+    browser.click("[data-name=GRU-LL-s1] th a")
     browser.until(OPEN, ["more-GRU-LL-s1"])
     assert browser.value("document.querySelectorAll('#more-GRU-LL-s1 .charts > svg').length") == 3
     assert browser.value("document.querySelector('[aria-expanded=true]').textContent") == "GRU-LL-s1"
     browser.click("[data-name=LSTM-LL-s0] a")
     browser.until(OPEN, ["more-GRU-LL-s1", "more-LSTM-LL-s0"])
-    browser.click("[data-name=GRU-LL-s1] a")
+    browser.click("[data-name=GRU-LL-s1] th a")
     browser.until(OPEN, ["more-LSTM-LL-s0"])
     browser.value("history.back()")
     browser.until(OPEN, ["more-GRU-LL-s1", "more-LSTM-LL-s0"])
@@ -186,7 +195,7 @@ def test_the_keyboard_alone_sorts_and_opens(browse: Callable[[str], Browser]) ->
     browser.value("document.querySelector('[data-key=loss] a').focus()")
     browser.press("Enter", 13, "\r")
     browser.until(SHOWN, ["GRU-LL-s0", "LSTM-LL-s0", "GRU-LL-s1", "FTS-e2e-LL-s0"])
-    for _ in range(len(COLUMNS) - [column.key for column in COLUMNS].index("loss")):
+    for _ in range(len(COLUMNS) - [column.key for column in COLUMNS].index("loss") + 1):  # the last one passes a box
         browser.press("Tab", 9)
     browser.press("Enter", 13, "\r")
     browser.until(OPEN, ["more-GRU-LL-s0"])
@@ -224,3 +233,85 @@ def test_without_scripts_every_run_is_open(browse: Callable[[str], Browser]) -> 
         browser.until(f"{OPEN}.length", len(RUNS))
     finally:
         browser.tell("Emulation.setScriptExecutionDisabled", value=False)
+
+
+CHOSEN = "[...document.querySelectorAll('#runs input:checked')].map((box) => box.closest('tbody').dataset.name)"
+LEGEND = "[...document.querySelectorAll('#legend li')].map((entry) => entry.textContent)"
+ROW = "(row) => [...row.cells].map((cell) => cell.textContent)"
+DIFFERENT = f"[...document.querySelectorAll('#difference tbody tr')].map({ROW})"
+
+
+def heights(browser: Browser) -> list[list[float]]:
+    """Return how high the curves of the chart of chosen runs are at each epoch."""
+    lines = browser.value(
+        "[...document.querySelectorAll('#overlay polyline')].map((line) => line.getAttribute('points'))"
+    )
+    return [[-float(point.split(",")[1]) for point in line.split(" ")] for line in lines]
+
+
+@with_browser
+def test_chosen_runs_stand_in_one_chart_and_in_the_address(browse: Callable[[str], Browser]) -> None:
+    """Curves that the page has on grids of their own are on one axis here: a run with twice the error lies higher."""
+    browser = browse("#curve=rmse")
+    assert browser.value("document.querySelector('#compare').getClientRects().length") == 0
+    for name in ("GRU-LL-s1", "GRU-LL-s0"):
+        browser.click(f"[data-name={name}] input")
+    browser.until(CHOSEN, ["GRU-LL-s0", "GRU-LL-s1"])
+    assert browser.value(LEGEND) == ["GRU-LL-s1", "GRU-LL-s0"]
+    assert browser.value("location.hash") == "#curve=rmse&sort=name&pick=GRU-LL-s1&pick=GRU-LL-s0"
+    upper, lower = heights(browser)
+    assert min(upper) > max(lower)
+    step = upper[0] - upper[1]  # 1 N m, ten of which lie between the two runs
+    assert [a - b for a, b in zip(upper, lower, strict=True)] == pytest.approx([10 * step] * 3, rel=0.02)
+    browser.click("#none")
+    browser.until(CHOSEN, [])
+
+
+@with_browser
+def test_a_mean_over_seeds_lies_between_them_in_a_band(browse: Callable[[str], Browser]) -> None:
+    (upper, lower), (mean,) = (
+        heights(browse(f"#curve=rmse&{rest}")) for rest in ("pick=GRU-LL-s1&pick=GRU-LL-s0", "pick=GRU-LL-s0&mean=1")
+    )
+    assert mean == pytest.approx([(a + b) / 2 for a, b in zip(upper, lower, strict=True)], abs=1.0)
+    browser = browse("#curve=rmse&pick=GRU-LL-s0&mean=1")
+    assert browser.value(LEGEND) == ["GRU LL, 2 seeds"]
+    band = browser.value("document.querySelector('#overlay polygon').getAttribute('points')").split(" ")
+    edges = [-float(point.split(",")[1]) for point in band]
+    assert edges == pytest.approx([*lower, *reversed(upper)], abs=1.0)
+
+
+@with_browser
+def test_settings_of_two_chosen_runs_are_compared(browse: Callable[[str], Browser]) -> None:
+    assert browse("#pick=GRU-LL-s0&pick=LSTM-LL-s0").value(DIFFERENT) == [["settings.network.cell", "GRU", "LSTM"]]
+    browser = browse("#pick=GRU-LL-s0&pick=LSTM-LL-s0&pick=GRU-LL-s1")
+    assert browser.value("document.querySelector('#difference').hidden")
+
+
+@with_browser
+def test_a_run_without_epochs_and_a_name_of_none_do_no_harm(browse: Callable[[str], Browser]) -> None:
+    browser = browse("#pick=FTS-e2e-LL-s0&pick=nobody&curve=nothing&sort=nothing")
+    assert browser.value(LEGEND) == ["FTS-e2e-LL-s0: no epoch was finished"]
+    assert browser.value("document.querySelectorAll('#overlay polyline').length") == 0
+
+
+@with_browser
+@pytest.mark.parametrize("width", [400, 1280])
+def test_the_page_is_not_wider_than_the_screen_and_names_stay(browse: Callable[[str], Browser], width: int) -> None:
+    browse("").tell("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=True)
+    browser = browse("#pick=GRU-LL-s0&pick=LSTM-LL-s0&open=GRU-LL-s0")
+    try:
+        assert browser.value("document.documentElement.scrollWidth") == width
+        browser.value("document.querySelector('#table').scrollLeft = 500")
+        lefts = [
+            browser.value(f"document.querySelector('{place}').getBoundingClientRect().left")
+            for place in ("#runs > tbody:not([hidden]) th", "#table")
+        ]
+        assert lefts[0] == pytest.approx(lefts[1], abs=2)
+    finally:
+        browser.tell("Emulation.clearDeviceMetricsOverride")
+
+
+def test_what_all_runs_share_is_shown_once(page: Path) -> None:
+    text = page.read_text()
+    assert text.count("<dt>provenance.commit</dt>") == 1
+    assert text.count("<dt>settings.network.cell</dt>") == len(RUNS)

@@ -36,11 +36,11 @@ def stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A working folder with a fresh table and a snapshot of it."""
     monkeypatch.chdir(tmp_path)
     made = {TABLES / "table_05.csv": TABLE, TABLES / "table_05.md": "x", FIGURES / "figure_05.png": "p", COMPUTE: "c"}
-    made[FIGURES / "figure_05.csv"] = "x,y\n1,2\n3,4\n"
+    made |= {FIGURES / "figure_05.svg": "s", FIGURES / "push.webp": "w", FIGURES / "figure_05.csv": "x,y\n1,2\n3,4\n"}
     for path, text in made.items():
         path.parent.mkdir(exist_ok=True)
         path.write_text(text)
-    write_snapshot(SETTINGS, TABLES, FIGURES, COMPUTE, STORED)
+    write_snapshot(SETTINGS, TABLES, FIGURES, [COMPUTE], STORED)
 
 
 def rewrite(old: str, new: str) -> list[str]:
@@ -52,23 +52,26 @@ def rewrite(old: str, new: str) -> list[str]:
 @pytest.mark.usefixtures("stored")
 def test_snapshot_holds_tables_and_pictures_with_their_origin() -> None:
     names = sorted(path.name for path in STORED.iterdir())
-    assert names == ["compute.md", "figure_05.png", "figures", "provenance.json", "table_05.csv", "table_05.md"]
+    assert names == [
+        "compute.md", "figure_05.png", "figure_05.svg", "figures", "provenance.json", "push.webp", "table_05.csv",
+        "table_05.md",
+    ]  # fmt: skip
     assert set(read_json(STORED / "provenance.json")) == {"scale", "commit", "lock"}
 
 
 @pytest.mark.usefixtures("stored")
 def test_what_is_made_no_longer_is_removed_with_the_next_snapshot() -> None:
-    (FIGURES / "figure_05.png").rename(FIGURES / "figure_06.png")
-    (FIGURES / "figure_05.csv").rename(FIGURES / "figure_06.csv")
+    for ending in ("png", "svg", "csv"):
+        (FIGURES / f"figure_05.{ending}").rename(FIGURES / f"figure_06.{ending}")
     for name in ("rates.json", "walking.png"):  # made by other means
         (STORED / name).write_text("{}")
     (STORED / "table_04.csv").write_text("a\n1\n")
     (STORED / "table_04.md").write_text("a")
-    write_snapshot(SETTINGS, TABLES, FIGURES, COMPUTE, STORED)
+    write_snapshot(SETTINGS, TABLES, FIGURES, [COMPUTE], STORED)
     names = sorted(path.name for path in STORED.rglob("*") if path.is_file())
     assert names == [
-        "compute.md", "figure_06.csv.gz", "figure_06.png", "provenance.json", "rates.json", "table_05.csv",
-        "table_05.md", "walking.png",
+        "compute.md", "figure_06.csv.gz", "figure_06.png", "figure_06.svg", "provenance.json", "push.webp",
+        "rates.json", "table_05.csv", "table_05.md", "walking.png",
     ]  # fmt: skip
 
 
@@ -91,13 +94,13 @@ def test_a_changed_cell_and_a_changed_row_are_told_once(old: str, new: str, told
 @pytest.mark.usefixtures("stored")
 def test_a_missing_file_is_named_and_nothing_is_copied() -> None:
     with pytest.raises(DataError, match=r"none\.md: file is missing; \./reproduce all makes it"):
-        write_snapshot(SETTINGS, TABLES, FIGURES, Path("none.md"), Path("out"))
+        write_snapshot(SETTINGS, TABLES, FIGURES, [Path("none.md")], Path("out"))
     assert not Path("out").exists()
     (TABLES / "table_05.csv").unlink()
     told = ["tables/table_05.csv: file is missing; ./reproduce all makes it"]
     assert compare_snapshot(STORED, TABLES, FIGURES) == told
     with pytest.raises(DataError, match="tables: holds no CSV"):
-        write_snapshot(SETTINGS, TABLES, FIGURES, COMPUTE, Path("out"))
+        write_snapshot(SETTINGS, TABLES, FIGURES, [COMPUTE], Path("out"))
     with pytest.raises(DataError, match="tables: holds no CSV"):
         compare_snapshot(TABLES, STORED, FIGURES)
 

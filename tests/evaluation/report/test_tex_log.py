@@ -14,6 +14,8 @@ from mobnet.evaluation.report.tex_log import page_faults
         (r"Overfull \vbox (5.1pt too high) has occurred while", "(after main file)"),
         ("Float too large for page by 271.5pt on input line 282", "(after main file)"),
         ("Label `tab:claims' multiply defined", ""),
+        ("Reference `tab:none' on page 3 undefined", ""),
+        ("Citation `nobody2020' on page 3 undefined", ""),
     ],
 )
 def test_a_fault_is_told_as_tex_tells_it(log: str, told: str) -> None:

@@ -19,7 +19,7 @@ def test_numbers_of_the_best_epoch_come_from_the_metrics(tmp_path: Path, write_r
     run = read_training_run(write_run(tmp_path, NAME, lines, precision="bfloat16"))
     assert (run.best_epoch, run.loss, run.rmse, run.epoch_count) == (2, -3.0, 2.0, 3)
     assert (run.name, run.cell, run.parameters) == (NAME, "GRU", 83712)
-    assert (run.seconds, run.precision, run.state) == (None, "bfloat16", "done")
+    assert (run.seconds, run.settings["precision"], run.state) == (None, "bfloat16", "done")
 
 
 def test_another_best_epoch_in_the_note_is_refused(tmp_path: Path, write_run: Write) -> None:

@@ -1,6 +1,7 @@
 """What all figures share: the look of each method, sizes, the legend, and a saver whose files never change."""
 
 import logging
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import ceil
@@ -27,11 +28,18 @@ STYLE: dict[Any, Any] = {
     "lines.linewidth": 0.9,
     "hatch.linewidth": 0.5,
     "pdf.fonttype": 42,
+    "svg.hashsalt": "mobnet",  # names of parts of a drawing, the same in every run
     "savefig.dpi": 200,
 }
 styled = mpl.rc_context(STYLE)  # decorates functions that draw
 COLUMN_INCH, PAGE_INCH = 3.4, 7.0  # width of one column of the paper and of two
 LETTERS = "abcdefghijkl"
+PATHS, DIGITS = re.compile(r' d="[^"]*"'), re.compile(r"(\.\d\d)\d+")
+UNDATED: Mapping[str, dict[str, Any]] = {  # ending of a picture -> what would make equal pictures differ
+    ".pdf": {"CreationDate": None, "Producer": None},
+    ".svg": {"Date": None, "Creator": None},
+    ".png": {"Software": None},
+}
 
 
 @dataclass(frozen=True)
@@ -72,22 +80,26 @@ PALETTE = (
     Look("0.45", (0, (4, 1, 1, 1)), "||||", "p"),
     Look("#F0E442", (0, (3, 2)), "oooo", "*"),
 )
-METHODS = ("MOB-Net", "MOB", "MOB-Net-Single", "FTS-e2e", "MOB-fric-BPF", "MOB-fric")
-# method -> that whose look it shares, because no figure has both
-BASELINES = {
-    "MOB-fric-load": "MOB-fric-BPF",
-    "MOB-fric-dahl": "MOB-Net-Single",
-    "MOB-Kalman": "MOB-fric",
-    "MOB-Net-gray": "MOB-Net-Single",
-}
-KINDS = ("GRU", "LSTM", "RNN", "TCN", "MLP", "MLP-500")  # of networks; never in a figure with the methods above
+KINDS = ("GRU", "LSTM", "RNN", "TCN", "MLP", "MLP-500")  # of networks; never in a figure with the methods below
+# The fitted friction model that is shown beside networks: one of the two in a figure, the better one on its plant.
+FORMULA = Look("#8A6100", "-", "\\\\", "h", 0.7, 2.2)
+# Solid are our networks, the formula and the truth; dashes, and lighter or thinner lines, are for other baselines.
 LOOKS: Mapping[str, Look] = {
-    **dict(zip(METHODS, PALETTE, strict=False)),
     **dict(zip(KINDS, PALETTE, strict=False)),
-    **{name: PALETTE[METHODS.index(other)] for name, other in BASELINES.items()},
-    "MOB-Net-Single-2X": PALETTE[-1],
-    "truth": Look("black", (0, (1, 1)), width=1.1, order=3.0),  # on top of all
-    "target": Look("0.72", width=2.0, order=1.0),  # wide, below all
+    "MOB-Net": Look("#D55E00", "-", "////", "D", 1.2, 2.6),
+    "MOB-Net-Single": Look("#009E73", "-", "xxxx", "^", 1.1, 2.4),
+    "MOB-Net-Single-2X": Look("#F0E442", (0, (3, 2)), "oooo", "*"),
+    "MOB-Net-gray": Look("#009E73", (0, (5, 1.5)), "xxxx", "^", 1.1, 2.4),
+    "FTS-e2e": Look("#CC79A7", (0, (6, 1, 1.5, 1)), "++++", "P", 1.1, 2.7),
+    "MOB": Look("#0072B2", (0, (4, 1)), "", "o", 0.6, 2.0),
+    "MOB-fric": Look("#7CC7F0", (0, (8, 1.5)), "....", "s", 1.2, 1.9),
+    "MOB-fric-BPF": Look("#E69F00", (0, (3, 1, 1, 1, 1, 1)), "||||", "v"),
+    "MOB-fric-load": FORMULA,
+    "MOB-fric-dahl": FORMULA,
+    "MOB-Kalman": Look("0.45", (0, (4, 1, 1, 1)), "----", "p"),
+    "zero": Look("0.8", (0, (1, 1)), "*", "X"),
+    "truth": Look("black", "-", width=0.8, order=3.0),  # on top of all
+    "target": Look("0.6", "-", width=2.2, order=1.0),
 }
 
 
@@ -148,13 +160,20 @@ def legend(figure: Figure, axes: Sequence[Axes], columns: int | None = None, las
 
 
 def save_figure(figure: Figure, stem: Path, columns: Sequence[str], rows: Iterable[Sequence[Field]]) -> None:
-    """Write the plotted numbers as `stem.csv`, and `stem.pdf` (vector, fonts embedded) and `stem.png` without dates.
+    """Write the plotted numbers as `stem.csv`, and `stem.pdf` (fonts embedded), `.svg` and `.png` without dates.
 
     So equal numbers give equal files.
     """
     write_csv(stem.with_suffix(".csv"), columns, rows)
     with mpl.rc_context(STYLE):
-        for suffix, metadata in ((".pdf", {"CreationDate": None, "Producer": None}), (".png", {"Software": None})):
+        for suffix, metadata in UNDATED.items():
             with atomic_path(stem.with_suffix(suffix)) as temporary:
                 figure.savefig(temporary, format=suffix[1:], metadata=metadata)
+                if suffix == ".svg":
+                    temporary.write_text(shortened(temporary.read_text(encoding="utf-8")), encoding="utf-8")
     log.info("%s.pdf: %d panels", stem, len(figure.axes))
+
+
+def shortened(svg: str) -> str:
+    """Return a drawing whose paths have two digits behind the point, a hundredth of 1/72 inch: half as many bytes."""
+    return PATHS.sub(lambda path: DIGITS.sub(r"\1", path[0]), svg)

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from mobnet.core.joints import JointLayout
-from mobnet.evaluation.figures.further.reliability import nominal_points, panels_of, reliability
+from mobnet.evaluation.figures.further.reliability import nominal_points, reliability
 from mobnet.evaluation.measure.learning.calibration import held_out, in_tests
 from mobnet.evaluation.tables.further.calibration_table import trust_table
 from mobnet.plan.runs import Run
@@ -24,4 +24,4 @@ def calibration(
     grids = in_tests(layout, coverage, settings.tests, runs, [*levels, *points])
     held = held_out(layout, folders, levels)
     trust_table(settings, learning, statistics, [*held, *grids], table_dir)
-    reliability(panels_of(grids, settings.methods, len(levels), points), figure_dir)
+    reliability(settings, grids, len(levels), points, figure_dir)

@@ -21,7 +21,10 @@ class Tick:
 
 @dataclass(frozen=True)
 class Chart:
-    """A drawing of GRID x GRID, y downwards: the SVG points of each curve, the x of a marked place, and the ticks."""
+    """A drawing of GRID x GRID, y downwards: the SVG points of each curve, the x of a marked place, and the ticks.
+
+    `spans` are the numbers at its left, right, lower and upper end.
+    """
 
     key: str
     title: str
@@ -29,6 +32,7 @@ class Chart:
     marked: int
     x_ticks: Sequence[Tick]
     y_ticks: Sequence[Tick]
+    spans: tuple[float, float, float, float]
 
 
 def line_chart(key: str, title: str, x: Sequence[float], lines: Mapping[str, Sequence[float]],
@@ -40,7 +44,7 @@ def line_chart(key: str, title: str, x: Sequence[float], lines: Mapping[str, Seq
         key, title,
         {name: points(x, values, across, up) for name, values in lines.items()},
         round(GRID * share(marked, across)),
-        ticks(across, whole=True), ticks(up),
+        ticks(across, whole=True), ticks(up), (*across, *up),
     )  # fmt: skip
 
 

@@ -17,7 +17,7 @@ TIMES = "TIMES.sha256"  # beside the manifest
 RESULTS = "results"
 # Folders of results, and names of files, that no list has: logs, what a training goes on from, views, others' files
 STATE = "state"
-UNLISTED = ("logs", STATE, "wandb")
+UNLISTED = ("logs", STATE, "wandb", "docs")
 KEPT = (".gitignore", ".snakemake_timestamp")
 
 

@@ -28,17 +28,18 @@ METHODS = {
 }
 # Sentences with numbers of claims.csv (c) and falls of safety.csv (s, by case and detector).
 FINDINGS = (
-    "Without random torques in its training MOB-Net errs {c[rte-walk].value:.2f} times as much in random walking "
-    "(paper {c[rte-walk].published:.2f}) and {c[rte-swing].value:.2f} times as much when the swinging knee is hit "
-    "(paper {c[rte-swing].published:.2f}).",
-    "The best formula without a network errs {c[model-walk].value:.1f} times as much as MOB-Net on the left leg of the "
-    "surrogate robots, {c[model-right-arm].value:.1f} times as much on the right arm and {c[model-waist].value:.1f} "
-    "times as much on the waist.",
-    "Of the collisions of a swinging leg MOB finds {c[found-mob].value:.0%} (paper {c[found-mob].published:.0%}) and "
+    "Training without random torques multiplies MOB-Net's error by {c[rte-walk].value:.2f} in random walking (paper "
+    "{c[rte-walk].published:.2f}) and by {c[rte-swing].value:.2f} when the swinging knee is hit (paper "
+    "{c[rte-swing].published:.2f}).",
+    "On the surrogate robots the best friction formula has {c[model-walk].value:.1f} times the error of MOB-Net on the "
+    "left leg, {c[model-right-arm].value:.1f} times on the right arm and {c[model-waist].value:.1f} times on the "
+    "waist.",
+    "MOB finds {c[found-mob].value:.0%} of the collisions of a swinging leg (paper {c[found-mob].published:.0%}), and "
     "MOB-Net-OR {c[found-or].value:.0%} (paper {c[found-or].published:.0%}).",
     "Of the robots that walk into a block with the foot, {s[foot MOB-Net-ratio].fell} of {s[foot MOB-Net-ratio].walks} "
-    "fall with the reaction and {s[foot none].fell} of {s[foot none].walks} without; with the knee into a bar, "
-    "{s[knee MOB-Net-ratio].fell} of {s[knee MOB-Net-ratio].walks} and {s[knee none].fell} of {s[knee none].walks}.",
+    "fall with the reaction and {s[foot none].fell} of {s[foot none].walks} without it. Of those that walk into a bar "
+    "with the knee, {s[knee MOB-Net-ratio].fell} of {s[knee MOB-Net-ratio].walks} and {s[knee none].fell} of "
+    "{s[knee none].walks} fall.",
 )
 Row = Mapping[str, str]
 

@@ -1,24 +1,40 @@
 """The page of all trainings: one HTML file that needs no other, with a table that has curves in every row.
 
-The address holds what is shown (order, filter, opened rows): `runs.html#sort=-rmse&filter=LSTM&open=LSTM-LL-s0`.
+The address holds what is shown (order, filter, opened and chosen rows, which curve of these):
+`runs.html#sort=-rmse&filter=LSTM&open=LSTM-LL-s0&pick=GRU-LL-s0&curve=rmse`.
 """
 
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from statistics import fmean
 from typing import Any
 
 from mobnet.core.columns import Epoch
 from mobnet.core.files import METRICS, RUN, read_json, write_text
 from mobnet.evaluation.measure.learning.trainings import TrainedNetwork, read_training, training_seconds
+from mobnet.evaluation.number.rows import read_scores
 from mobnet.evaluation.report.charts import Chart, line_chart
 from mobnet.evaluation.report.html import rendered
 
-SETTINGS = ("target", "settings", "fingerprint", "provenance")  # keys of run.json that say what was trained on what
-SHOWN = ("name", "limb", "device", "precision")  # keys that are shown as they are
+# keys of run.json that say what was trained on what
+SETTINGS = ("target", "settings", "device", "precision", "fingerprint", "provenance")
+SHOWN = ("name", "limb")  # keys that are shown as they are
 ENDED, DIVERGED = "done", "diverged"
 MISSING = "–"
+
+
+Key = tuple[str, str, int]  # method, limb and seed of a network
+
+
+@dataclass(frozen=True)
+class TestError:
+    """The error of a network's estimates in a test, scenario and level: RMSE [N m; N of the base's forces]."""
+
+    __test__ = False  # pytest would take it for a class of tests
+    test: str
+    rmse: float
 
 
 @dataclass(frozen=True)
@@ -28,20 +44,18 @@ class TrainingRun(TrainedNetwork):
     Attributes:
         name: method, limb and seed, such as `MOB-Net-LL-s0`.
         limb: row of the configuration's networks.
-        device: `cpu` or `cuda`.
-        precision: number format of the products.
         cell: kind of network.
         settings: what was trained on what, dotted name -> text.
+        tested: error of its estimates in a test; None where it was in none.
         metrics: file that holds the curves.
         seconds: time of the training's epochs [s], of all starts; None where it is not known.
     """
 
     name: str
     limb: str
-    device: str
-    precision: str
     cell: str
     settings: Mapping[str, str]
+    tested: TestError | None
     metrics: Path
     seconds: float | None
 
@@ -75,8 +89,35 @@ class TrainingRun(TrainedNetwork):
         """RMSE on the validation blocks at the best epoch [N m]."""
         return self.best.validation_rmse if self.best else None
 
+    @property
+    def test_rmse(self) -> float | None:
+        """RMSE of the external torque in a test [N m; N of the base's forces]."""
+        return self.tested.rmse if self.tested else None
 
-def read_training_run(folder: Path) -> TrainingRun:
+    @property
+    def best_joints(self) -> Mapping[str, float]:
+        """Joint -> RMSE on the validation blocks at the best epoch [N m; V1 to V3 in N]."""
+        return {name: errors[self.best.epoch - 1] for name, errors in self.joint_errors.items()} if self.best else {}
+
+
+def read_test_errors(scores: Sequence[Path]) -> dict[Key, TestError]:
+    """Return method, limb and seed -> error in the first of some files of scores that has it, a mean over walks.
+
+    Raises:
+        DataError: a file is missing or damaged.
+    """
+    found: dict[Key, TestError] = {}
+    for path in scores:
+        values: dict[Key, list[float]] = {}
+        for row in read_scores(path):
+            if (row.metric, row.joint) == ("rmse", "avg"):
+                values.setdefault((row.method, row.limb, row.network_seed), []).append(row.value)
+        test = f"{path.parent.name}, {path.stem}"
+        found = {key: TestError(test, fmean(own)) for key, own in values.items()} | found
+    return found
+
+
+def read_training_run(folder: Path, tested: Mapping[Key, TestError] | None = None) -> TrainingRun:
     """Read a network's folder, and what its training took from the folder of its checkpoint.
 
     Raises:
@@ -88,6 +129,7 @@ def read_training_run(folder: Path) -> TrainingRun:
         **{key: note[key] for key in SHOWN},
         cell=note["settings"]["network"]["cell"],
         settings=dict(pair for key in SETTINGS for pair in flattened(key, note[key])),
+        tested=(tested or {}).get((note["method"], note["limb"], note["seed"])),
         metrics=folder / METRICS,
         seconds=training_seconds(folder),
     )
@@ -128,35 +170,48 @@ class RunColumn:
 
 COLUMNS = (
     RunColumn("name", "name"),
-    RunColumn("method", "method"),
-    RunColumn("limb", "limb"),
-    RunColumn("seed", "seed", layout="d"),
     RunColumn("cell", "cell"),
     RunColumn("parameters", "parameters", layout=",d"),
     RunColumn("samples", "samples", layout=",d"),
     RunColumn("epoch_count", "epochs", layout="d"),
     RunColumn("best_epoch", "best epoch", layout="d"),
     RunColumn("loss", "best validation loss", layout=".3f"),
-    RunColumn("rmse", "RMSE", "N m", ".2f"),
+    RunColumn("rmse", "validation RMSE", "N m", ".2f"),
+    RunColumn("test_rmse", "test RMSE", "N m", ".2f"),
     RunColumn("seconds", "time", "s", ".1f"),
-    RunColumn("device", "device"),
-    RunColumn("precision", "precision"),
     RunColumn("state", "state"),
 )
 
 
-def runs_page(scale: str, folders: Sequence[Path], templates: Sequence[Path], out: Path) -> None:
+def runs_page(
+    scale: str, folders: Sequence[Path], scores: Sequence[Path], templates: Sequence[Path], out: Path
+) -> None:
     """Write the page of all trained networks; its links to the metrics are relative.
 
-    `templates` has the page's HTML, then the files that it includes.
+    Of the `scores`, the first file that has a network gives its error in a test. `templates` has the page's HTML, then
+    the files that it includes.
+
+    Raises:
+        DataError: a file is missing or damaged.
     """
-    runs = sorted(map(read_training_run, folders), key=lambda run: (run.method, run.limb, run.seed))
+    tested = read_test_errors(scores)
+    runs = [read_training_run(folder, tested) for folder in folders]
+    runs.sort(key=lambda run: (run.method, run.limb, run.seed))
     text = rendered(
         templates[0], scale=scale, columns=COLUMNS, runs=runs, diverged=DIVERGED,
+        shared=shared_settings(runs),
         charts={run.name: charts(run) for run in runs},
         links={run.name: os.path.relpath(run.metrics, out.parent) for run in runs},
     )  # fmt: skip
     write_text(out, text)
+
+
+def shared_settings(runs: Sequence[TrainingRun]) -> dict[str, str]:
+    """Return the settings that all of several trainings have alike, which the page shows once."""
+    if len(runs) < 2:
+        return {}
+    first, *others = (run.settings for run in runs)
+    return {name: text for name, text in first.items() if all(other.get(name) == text for other in others)}
 
 
 def charts(run: TrainingRun) -> list[Chart]:

@@ -9,17 +9,21 @@ import logging
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import zip_longest
 from pathlib import Path
 
 from mobnet.core.errors import DataError, MobnetError
 from mobnet.core.files import atomic_path, read_json, read_text, write_json, write_text
 from mobnet.core.rows import read_texts
+from mobnet.evaluation.measure.story import StoredPush
+from mobnet.evaluation.report.demo import lines_of, title_of
+from mobnet.evaluation.report.demo_data import copy_demo
 from mobnet.evaluation.report.manifest import differences, file_hash
 from mobnet.evaluation.report.paper import missing_packages
 from mobnet.evaluation.report.rates import RATES, measured
 from mobnet.evaluation.report.readme import blocks
+from mobnet.plan.demo import FOLDER
 from mobnet.plan.plan import make_plan
 from mobnet.running.accounts import read_account
 from mobnet.running.logs import LOGS
@@ -30,10 +34,12 @@ from mobnet.settings.settings import Settings
 log = logging.getLogger(__name__)
 
 TABLES, FIGURES, SNAPSHOT = Path("tables"), Path("figures"), Path("docs/results")
+DEMO, DEMO_PAGE = Path("docs/demo"), Path("docs/demo.md")
 RESULTS, MANIFEST = Path("results/default"), Path("results/MANIFEST.sha256")
-COMPUTE = RESULTS / "compute.md"
+FURTHER = tuple(RESULTS / name for name in ("compute.md", "explore.html"))
 UP_TO_DATE = "Nothing to be done"  # by which Snakemake says that no job would run
 DRAWN = "figures"  # folder of the snapshot with the CSVs of figures, compressed
+PICTURES = (".png", ".svg", ".webp")
 NOTED = ("recordings", "motions", "networks")  # folders of results whose notes name the commit that made them
 README = Path("README.md")
 KEYS = (  # columns that name a row; the others are results
@@ -92,8 +98,8 @@ def check_fingerprints(*words: str) -> None:
         raise DataError(f"{' '.join(words)}: {text}")
 
 
-def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Path, out: Path) -> None:
-    """Copy a scale's tables (CSV, Markdown), figures (PNG, CSV) and table of compute, and note where they come from.
+def write_snapshot(settings: Settings, tables: Path, figures: Path, further: Sequence[Path], out: Path) -> None:
+    """Copy a scale's tables (CSV, Markdown), figures (PNG, SVG, WebP, CSV) and further files, and note their origin.
 
     Tables and figures of an earlier snapshot that are made no longer are removed. The table of compute differs from run
     to run, so only its Markdown is stored, and no CSV to be compared.
@@ -102,7 +108,8 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Pat
         DataError: there is no table to copy, or a file is missing.
     """
     numbers = sorted(tables.glob("*.csv"))
-    found = [*numbers, *(path.with_suffix(".md") for path in numbers), *sorted(figures.glob("*.png")), compute]
+    pictures = sorted(path for ending in PICTURES for path in figures.glob(f"*{ending}"))
+    found = [*numbers, *(path.with_suffix(".md") for path in numbers), *pictures, *further]
     if not numbers:
         raise DataError(f"{tables}: holds no CSV; ./reproduce all makes them")
     missing = [path for path in found if not path.is_file()]
@@ -117,18 +124,25 @@ def write_snapshot(settings: Settings, tables: Path, figures: Path, compute: Pat
             temporary.write_bytes(gzip.compress(source.read_bytes(), mtime=0))
     kept = {out / source.name for source in numbers} | {out / DRAWN / f"{source.name}.gz" for source in drawn}
     for path in {*out.glob("*.csv"), *(out / DRAWN).glob("*.csv.gz")} - kept:
-        shown = out / f"{path.name.partition('.')[0]}.{'md' if path.parent == out else 'png'}"
-        for gone in (path, shown):
+        shown = [".md"] if path.parent == out else PICTURES
+        for gone in (path, *(out / f"{path.name.partition('.')[0]}{ending}" for ending in shown)):
             gone.unlink(missing_ok=True)
     write_json(out / "provenance.json", {"scale": settings.scale, **provenance()})
     log.info("%s: %d files", out, len(found))
 
 
-def with_block(text: str, name: str, block: str) -> str:
+def tell_demo(push: StoredPush, page: Path) -> None:
+    """Write into the page of the demo what it prints."""
+    estimates = {method: push.estimate(method) for method in push.story.methods}
+    said = "\n".join(["```", title_of(push), *lines_of(push, estimates), "```"])
+    write_text(page, with_block(read_text(page), "demo", said, page))
+
+
+def with_block(text: str, name: str, block: str, page: Path = README) -> str:
     """Return a page with a block between its marks, which it must have."""
     first, last = f"<!-- {name} -->\n", f"<!-- /{name} -->"
     if first not in text or last not in text:
-        raise DataError(f"{README}: the marks {first.strip()!r} and {last!r} are missing")
+        raise DataError(f"{page}: the marks {first.strip()!r} and {last!r} are missing")
     return text[: text.index(first)] + first + block.strip() + "\n" + text[text.index(last) :]
 
 
@@ -195,7 +209,9 @@ def main(words: list[str]) -> int:
             settings = load_settings()
             check_run(RESULTS, options.manifest)
             check_fingerprints("all")
-            write_snapshot(settings, TABLES, FIGURES, COMPUTE, SNAPSHOT)
+            write_snapshot(settings, TABLES, FIGURES, FURTHER, SNAPSHOT)
+            copy_demo(RESULTS / FOLDER, DEMO)
+            tell_demo(StoredPush(DEMO, settings), DEMO_PAGE)
             plan = make_plan(settings, with_pdf=not missing_packages())
             jobs = map(read_account, sorted((RESULTS / "logs").rglob("*.json")))
             write_json(RATES, measured(plan, jobs).model_dump())

@@ -29,13 +29,13 @@ def measured_problems(results: Results) -> Iterator[Problem]:
 
 
 def _push_problems(results: Results) -> Iterator[Problem]:
-    """Yield bins that are longer than the time that is looked at, and a time that is longer than the pushes."""
-    settings, drift, place = results.settings, results.settings.evaluation.drift, (*ROOT, "drift", "longest_s")
+    """Yield more steps than begin during the pushes, where swing and stance take their shortest time."""
+    settings, drift, place = results.settings, results.settings.evaluation.drift, (*ROOT, "drift", "steps")
     for test in drift.tests.values():
         pushes = [settings.pushes[name] for name in settings.scenarios[test.scenario].pushes]
         longest = max((push.duration_s[1] for push in pushes), default=0.0)
-        yield from at_most(place, drift.longest_s, longest, f"the longest push of {test.scenario}")
-    yield from at_most((*ROOT, "drift", "bin_s"), drift.bin_s, drift.longest_s, "longest_s")
+        most = 1 + int(longest / (2.0 * settings.commands.duration_s[0]))
+        yield from at_most(place, drift.steps, most, f"the steps that begin in the longest push of {test.scenario}")
 
 
 def _learned_problems(results: Results) -> Iterator[Problem]:
@@ -46,7 +46,7 @@ def _learned_problems(results: Results) -> Iterator[Problem]:
 
 
 def _line_problems(results: Results) -> Iterator[Problem]:
-    """Yield joints that are driven at another number of lines than there are bands, or not at all."""
+    """Yield joints that are driven at another number of lines than there are bands, or not at all, and shown anyhow."""
     settings, bode = results.settings, results.settings.evaluation.bode
     pushes = [settings.pushes[name] for name in settings.scenarios[bode.scenario].pushes]
     lines = {push.joint: push.sines.frequency_hz for push in pushes if push.joint and push.sines}
@@ -54,6 +54,9 @@ def _line_problems(results: Results) -> Iterator[Problem]:
         yield (*ROOT, "bode", "scenario"), misfit(bode.scenario, "a test whose pushes are sines, each on its own joint")
     if not set(lines) & set(results.joints(bode.limb)):
         yield (*ROOT, "bode", "scenario"), misfit(bode.scenario, f"a test with sines on joints of {bode.limb}")
+    for k, joint in enumerate(bode.shown):
+        if joint not in (driven := [name for name in results.joints(bode.limb) if name in lines]):
+            yield (*ROOT, "bode", "shown", k), not_accepted("joint with sines", joint, driven)
     for joint, frequencies in lines.items():
         if len(frequencies) != len(bode.bands_hz):
             text = misfit(f"{len(bode.bands_hz)} bands", f"{len(frequencies)}, one for each line on {joint}")

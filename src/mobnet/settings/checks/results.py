@@ -110,12 +110,14 @@ class Results:
         return {**dict.fromkeys(self.settings.evaluation.tables, ERRORS), **TABLES}
 
     def pushed_joints(self, scenario: str) -> list[str]:
-        """Return the joints that the pushes of a scenario turn: the one that is driven, or all above a point."""
-        robot, found = self.settings.robot, list[str]()
+        """Return the joints that the pushes of a scenario turn."""
+        names = self.settings.scenarios[scenario].pushes
+        return list(dict.fromkeys(joint for name in names for joint in self.turned_joints(name)))
+
+    def turned_joints(self, name: str) -> list[str]:
+        """Return the joints that a push turns: the one that is driven, or all above a point."""
+        robot, push = self.settings.robot, self.settings.pushes[name]
         bodies = {f"{side}_sole": foot.body for side, foot in robot.feet.items()}
         for point in robot.points:
             bodies |= dict(zip(with_image(point.name), (point.body, right_of(point.body)), strict=False))
-        for name in self.settings.scenarios[scenario].pushes:
-            push = self.settings.pushes[name]
-            found += [push.joint] if push.joint else joints_above(robot, bodies.get(push.point or "", ""))
-        return list(dict.fromkeys(found))
+        return [push.joint] if push.joint else joints_above(robot, bodies.get(push.point or "", ""))

@@ -1,6 +1,6 @@
 """What must hold between the rows of a robot's table: a tree, motors in order, figures that fit each other."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import zip_longest
 from math import dist
 
@@ -10,6 +10,7 @@ from mobnet.core.errors import misfit, not_accepted
 from mobnet.core.joints import N_VIRTUAL, right_of, with_image
 from mobnet.settings.checks.limits import as_many, within
 from mobnet.settings.names import unknown, uses
+from mobnet.settings.parts import PointRow, ShapeRow
 from mobnet.settings.reading import Place, Problem
 from mobnet.settings.robot import WORLD, RobotTable
 
@@ -39,6 +40,11 @@ def joints_above(table: RobotTable, body: str) -> list[str]:
     return found[::-1]
 
 
+def shapes_of_looks(table: RobotTable) -> Sequence[ShapeRow]:
+    """Return the solids of a robot's looks; none where it has none."""
+    return table.looks.shapes if table.looks else ()
+
+
 def _repeated(table: RobotTable) -> Iterator[Problem]:
     """Yield names that occur twice where each may occur once."""
     lists: dict[Place, list[str]] = {
@@ -48,6 +54,7 @@ def _repeated(table: RobotTable) -> Iterator[Problem]:
         ("groups",): [joint for limb in table.groups.values() for joint in limb],
         ("shapes",): [name for shape in table.shapes for name in with_image(shape.name)],
         ("points",): [name for point in table.points for name in with_image(point.name)],
+        ("looks", "shapes"): [name for shape in shapes_of_looks(table) for name in with_image(shape.name)],
     }
     for kind, found in (("groups", table.groups), ("networks", table.networks)):
         lists[kind,] = [*lists.get((kind,), []), *(name.casefold() for name in found)]  # names of files
@@ -66,11 +73,12 @@ def _tree_problems(table: RobotTable) -> Iterator[Problem]:
             branch = branch[: branch.index(body.parent) + 1]
         branch = [name for name in branch if name != WORLD] + [body.name]
     names = {body.name for body in table.bodies}
-    rows = [*(("shapes", k, row) for k, row in enumerate(table.shapes))]
-    rows += [*(("points", k, row) for k, row in enumerate(table.points))]
-    for kind, index, row in rows:
+    mirrored: Mapping[Place, Sequence[PointRow]] = {
+        ("shapes",): table.shapes, ("points",): table.points, ("looks", "shapes"): shapes_of_looks(table)
+    }  # fmt: skip
+    for place, index, row in ((place, k, row) for place, rows in mirrored.items() for k, row in enumerate(rows)):
         if len(with_image(row.name)) > 1 and row.body in names and right_of(row.body) not in names:
-            yield (kind, index, "body"), not_accepted("body of the mirror image", right_of(row.body), names)
+            yield (*place, index, "body"), not_accepted("body of the mirror image", right_of(row.body), names)
 
 
 def _order_problems(table: RobotTable) -> Iterator[Problem]:
@@ -180,9 +188,12 @@ def _size_problems(table: RobotTable) -> Iterator[Problem]:
         if not low <= radius <= high:
             text = misfit(f"a radius of gyration of {radius:.3g} m", f"{low} to {high}, [kg m^2] and [kg]")
             yield ("bodies", index, "inertia"), text
-    for index, shape in enumerate(table.shapes):
+    solids: Mapping[Place, Sequence[ShapeRow]] = {
+        ("shapes",): table.shapes, ("looks", "shapes"): shapes_of_looks(table)
+    }  # fmt: skip
+    for place, index, shape in ((place, k, row) for place, rows in solids.items() for k, row in enumerate(rows)):
         if shape.segment is not None and dist(shape.segment[:3], shape.segment[3:]) < LENGTH_TOLERANCE_M:
-            yield ("shapes", index, "segment"), misfit(list(shape.segment), "two points that differ")
+            yield (*place, index, "segment"), misfit(list(shape.segment), "two points that differ")
 
 
 def _total_problems(table: RobotTable) -> Iterator[Problem]:

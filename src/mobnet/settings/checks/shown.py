@@ -8,8 +8,10 @@ from mobnet.settings.checks.claims import claim_problems
 from mobnet.settings.checks.detection import detection_problems
 from mobnet.settings.checks.estimates import asked_problems
 from mobnet.settings.checks.measures import measured_problems
+from mobnet.settings.checks.pages import page_problems
 from mobnet.settings.checks.reaction import reaction_problems
 from mobnet.settings.checks.results import Results
+from mobnet.settings.checks.story import story_problems
 from mobnet.settings.evaluation import ErrorTable, Mean
 from mobnet.settings.reading import Place, Problem
 from mobnet.settings.settings import Settings
@@ -34,6 +36,8 @@ def shown_problems(catalogue: Catalogue) -> Iterator[Problem]:
     yield from measured_problems(results)
     yield from detection_problems(results)
     yield from reaction_problems(results)
+    yield from story_problems(results)
+    yield from page_problems(results)
     yield from asked_problems(catalogue)
     yield from claim_problems(results)
     yield from _printed_problems(settings)
@@ -201,6 +205,14 @@ def _printed_problems(settings: Settings) -> Iterator[Problem]:
         for k, row in enumerate(table.rows)
     ]
     shown += [(("noise", "paper", name), name, place) for name, place in evaluation.noise.paper.items()]
+    shown += [
+        ((f"figure_{k}", "place"), figure.table, figure.place)
+        for k, figure in {"07": evaluation.figure_07, "08": evaluation.figure_08, "09": evaluation.figure_09,
+                          "12": evaluation.figure_12}.items()
+    ]  # fmt: skip
+    shown += [
+        (("figure_05", "panels", level), evaluation.figure_05.table, level) for level in evaluation.figure_05.panels
+    ]
     for place, name, paper in shown:
         accepted = printed[name].numbers if name in printed else {}
         if paper is not None and paper not in accepted:

@@ -5,58 +5,23 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from mobnet.evaluation.compare.curves import Panel
-from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, STYLE, entitle, legend, looks, styled
+from mobnet.evaluation.figures.style import looks
 from mobnet.evaluation.number.files import Field
 
-FLAGS: Mapping[str, tuple[float, Mapping[str, Any]]] = {  # name -> lower edge of its mark [of the height], its look
-    "swing": (0.0, {"color": "#009E73", "alpha": 0.15}),
-    "push": (0.95, {"color": "0.35"}),
-}
-PANEL_INCH, LEGEND_INCH = 1.1, 0.5  # height of a panel, and of legend and labels together
+Mark = tuple[float, Mapping[str, Any]]  # of a flag: its lower edge [of the height], its look
+FLAGS: Mapping[str, Mark] = {"swing": (0.0, {"color": "#009E73", "alpha": 0.15})}
+PUSH: Mark = (0.95, {"color": "0.35"})  # of a push, whatever it is called
 BAND_ALPHA = 0.35
 FROM_LIFT_OFF = "time from lift-off [s]"
-SIDE_BY_SIDE, HEIGHT_INCH = 3, 1.5  # panels of a leg's joints
-
-
-@styled
-def draw_panels(
-    panels: Sequence[Panel], x_label: str, y_label: str, columns: int = 1, *, height_inch: float = PANEL_INCH,
-    one_scale: bool = False,
-) -> Figure:  # fmt: skip
-    """Draw panels in rows, one column of the paper wide or, with several side by side, two (Figures 5, 7, 8 and 9).
-
-    The curves are torque [N m] or force [N], (T,); with `one_scale`, all panels have the same vertical scale.
-    """
-    rows = -(-len(panels) // columns)
-    size = COLUMN_INCH if columns == 1 else PAGE_INCH, height_inch * rows + LEGEND_INCH
-    figure = Figure(figsize=size, layout="constrained")
-    grid = figure.subplots(rows, columns, sharex=True, sharey=one_scale, squeeze=False)
-    axes: list[Axes] = grid.ravel().tolist()
-    for spare in axes[len(panels) :]:
-        spare.set_visible(False)
-    for k, (axis, panel) in enumerate(zip(axes, panels, strict=False)):
-        draw_panel(axis, panel)
-        entitle(axis, k, panel.title)
-    axes[0].set_xlim(min(panel.time[0] for panel in panels), max(panel.time[-1] for panel in panels))
-    figure.supxlabel(x_label, fontsize=STYLE["axes.labelsize"])
-    figure.supylabel(y_label, fontsize=STYLE["axes.labelsize"])
-    legend(figure, axes[: len(panels)])
-    return figure
 
 
 def draw_panel(axis: Axes, panel: Panel) -> None:
     """Draw the curves (T,) [N m] of one panel with their bands, and mark where its flags hold."""
-    across = axis.get_xaxis_transform()
     for name, flags in panel.flags.items():
-        bottom, mark = FLAGS[name]
-        if np.any(flags):
-            axis.fill_between(
-                panel.time, bottom, 1.0, where=flags.astype(bool), transform=across, linewidth=0.0, label=name, **mark
-            )
+        mark_flag(axis, name, panel.time, flags)
     styles = looks(curve.label for curve in panel.curves)
     for curve in panel.curves:
         look = styles[curve.label]
@@ -65,13 +30,23 @@ def draw_panel(axis: Axes, panel: Panel) -> None:
             low, high = curve.values - curve.std, curve.values + curve.std
             axis.fill_between(
                 panel.time, low, high, color=look.colour, alpha=BAND_ALPHA, linewidth=0.0, zorder=1.5,
-                label=f"{curve.label} \N{PLUS-MINUS SIGN} 1 std",
+                label=f"\N{PLUS-MINUS SIGN} 1 std of {curve.label}",
             )  # fmt: skip
 
 
-def draw_leg(panels: Sequence[Panel], y_label: str) -> Figure:
-    """Draw the joints of a leg [N m] over a gait cycle (Figures 8 and 9)."""
-    return draw_panels(panels, FROM_LIFT_OFF, y_label, SIDE_BY_SIDE, height_inch=HEIGHT_INCH)
+def mark_flag(axis: Axes, name: str, time: NDArray[Any], flags: NDArray[Any]) -> None:
+    """Mark where a flag holds (T,) over time (T,) [s]: the swing over the whole height, a push as a bar on top."""
+    bottom, mark = FLAGS.get(name, PUSH)
+    if np.any(flags):
+        bars = [(time[start], time[last] - time[start]) for start, last in held(flags)]
+        across = axis.get_xaxis_transform()
+        axis.broken_barh(bars, (bottom, 1.0 - bottom), transform=across, linewidth=0.0, label=name, **mark)
+
+
+def held(flags: NDArray[Any]) -> list[tuple[int, int]]:
+    """Return the first and the last sample of each time in which a flag (T,) holds."""
+    edges = np.flatnonzero(np.diff(np.pad(flags.astype(np.int8), 1)))
+    return [(int(start), int(end) - 1) for start, end in edges.reshape(-1, 2)]
 
 
 def table_of(panels: Sequence[Panel]) -> tuple[list[str], list[tuple[Field, ...]]]:

@@ -1,104 +1,128 @@
-"""Curves around pushes above the bars of their errors (Figures 6 and 10)."""
+"""Curves around pushes, above numbers of each method: error, share of the push that it shows, delay. Drawing only."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from math import lcm
 from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from mobnet.core.columns import PUSH_ERRORS
 from mobnet.evaluation.compare.curves import Panel
-from mobnet.evaluation.figures.drawing.bars import BarPanel, draw_bar_panel
-from mobnet.evaluation.figures.drawing.curves import LEGEND_INCH, draw_panel, table_of
-from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, entitle, legend, save_figure, styled
-from mobnet.evaluation.measure.estimates.pushes import INCREASE, PushErrors
-from mobnet.evaluation.number.files import write_csv
+from mobnet.evaluation.figures.drawing.curves import draw_panel
+from mobnet.evaluation.figures.drawing.named_bars import BAR_INCH, NamedBar, draw_named_bars, draw_named_dots
+from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, entitle, legend, styled
 
-MINUS = "\N{MINUS SIGN}"
-CURVES_INCH, BARS_INCH = 1.4, 1.7  # height of a row of curves and of the bars
-LEGEND_COLUMNS = 4  # entries in a row, in one column of the paper
+STEP_INCH, HIT_INCH = 1.6, 1.15  # height of curves in one column of the paper and in two
+REST_INCH, GROUP_INCH = 0.95, 0.66  # of legend and labels in one column; of titles and labels of a group in two
+FROM_PUSH = "time from push [s]"
+EACH = "RMSE of each push"
 
 
 @dataclass(frozen=True)
 class PushGroup:
-    """Curves of the pushes of a test, a panel each, and the errors of each method [N m] with a title of their own."""
+    """Curves of the pushes of a test, a panel each [N m], and a row for each method.
 
-    scenario: str
+    Attributes:
+        panels: curves of each push.
+        title: of the numbers.
+        errors: RMSE [N m], with that of each push as marks.
+        shares: shares of the pushes that a method shows [-].
+        delays: delays of the rise [ms].
+        observer_ms: delay of an observer without errors [ms]; None where nothing pushes.
+    """
+
     panels: Sequence[Panel]
-    errors: PushErrors
     title: str
-    source: str = "paper"
-
-    def bars(self) -> BarPanel:
-        """Return the errors as bars [N m]: a group for each push and for their average, in each a bar for each method.
-
-        Above the last bar of a method its error is written and, where it is known, the increase.
-        """
-        shown = {method: {k: n for k, n in own.items() if k != INCREASE} for method, own in self.errors.items()}
-        notes = {}
-        for method, own in self.errors.items():
-            *_, last = shown[method].values()
-            more = f" ({own[INCREASE].value:+.1f})" if INCREASE in own else ""
-            notes[method] = [""] * (len(shown[method]) - 1) + [(last.text(1) + more).replace("-", MINUS)]
-        groups = list(dict.fromkeys(push for own in shown.values() for push in own))
-        return BarPanel(self.title, groups, {k: list(own.values()) for k, own in shown.items()}, self.source, notes)
-
-
-def save_pushes(groups: Sequence[PushGroup], joint: str, stem: Path) -> None:
-    """Write curves and errors [N m] as CSV, and the figure."""
-    rows = [
-        (group.scenario, method, push, *error.with_ends, *error.spread, error.published)
-        for group in groups for method, own in group.errors.items() for push, error in own.items()
-    ]  # fmt: skip
-    across, note_deg = (1, 0) if len(groups) == 1 else (2, 90)
-    write_csv(stem.with_name(f"{stem.name}_bars.csv"), PUSH_ERRORS, rows)
-    panels = [panel for group in groups for panel in group.panels]
-    save_figure(draw_pushes(groups, joint, across, note_deg), stem, *table_of(panels))
+    errors: Sequence[NamedBar]
+    shares: Sequence[NamedBar]
+    delays: Sequence[NamedBar]
+    observer_ms: float | None
 
 
 @styled
-def draw_pushes(groups: Sequence[PushGroup], joint: str, across: int = 1, note_deg: int = 0) -> Figure:
-    """Draw groups side by side, one in one column of the paper and more in two: curves, and their bars below.
+def draw_step(panels: Sequence[Panel], bars: Sequence[NamedBar], joint: str, title: str) -> Figure:
+    """Draw curves around a push on a joint [N m], none if nothing pushes, above the RMSE of each method [N m].
 
-    Curves [N m] are over time from the push [s], `across` of them in a row of a group; notes at bars have an angle
-    [deg].
+    It is as wide as a column of the paper.
     """
-    rows = max(1, *(-(-len(group.panels) // across) for group in groups))
-    places: list[Any] = [
-        [f"{k}.{row * across + i}" for k in range(len(groups)) for i in range(across)] for row in range(rows)
-    ]
-    places.append([f"{k}.bars" for k in range(len(groups)) for _ in range(across)])
-    size = COLUMN_INCH if len(groups) == 1 else PAGE_INCH, CURVES_INCH * rows + BARS_INCH + LEGEND_INCH
-    figure = Figure(figsize=size, layout="constrained")
-    axes = figure.subplot_mosaic(places, height_ratios=[*[CURVES_INCH] * rows, BARS_INCH])
-    for k, group in enumerate(groups):
-        bars = axes[f"{k}.bars"]
-        draw_bar_panel(bars, group.bars(), note_deg)
-        entitle(bars, 2 * k + 1, group.title)
-        bars.set_ylabel("RMSE [N m]")
-        curves = [axes[f"{k}.{i}"] for i in range(rows * across)]
-        _curves(curves, group, across, joint)
-        entitle(curves[0], 2 * k, curves[0].get_title(loc="left"))
-    legend(figure, list(axes.values()), LEGEND_COLUMNS * len(groups))
+    heights = STEP_INCH, BAR_INCH * len(bars)
+    figure = Figure(figsize=(COLUMN_INCH, sum(heights) + REST_INCH), layout="constrained")
+    curves, below = figure.subplots(2, 1, height_ratios=heights).tolist()
+    for panel in panels:
+        _curves(curves, panel)
+        entitle(curves, 0, panel.title)
+    curves.set(xlabel=FROM_PUSH, ylabel=f"{joint} [N m]")
+    draw_named_bars(below, bars, "N m")
+    entitle(below, 1, title)
+    legend(figure, [curves, below], 4)
     return figure
 
 
-def _curves(axes: Sequence[Axes], group: PushGroup, across: int, joint: str) -> None:
-    """Draw a group's curves [N m] on one scale, `across` in a row; only outer panels have labels."""
-    for axis in axes[len(group.panels) :]:
-        axis.set_visible(False)
-    used = axes[: len(group.panels)]
-    for axis, panel in zip(used, group.panels, strict=True):
-        draw_panel(axis, panel)
+@styled
+def draw_hits(groups: Sequence[PushGroup], joint: str, source: str) -> Figure:
+    """Draw groups of pushes below one another, as wide as a page: curves side by side, below them numbers by method.
+
+    Curves [N m] of a group have one scale; the legend calls the paper's numbers `source`.
+    """
+    rows = max(len(group.errors) for group in groups)
+    heights = (HIT_INCH, BAR_INCH * max(rows, 1)) * len(groups)
+    figure = Figure(
+        figsize=(PAGE_INCH, sum(heights) + REST_INCH + GROUP_INCH * (2 * len(groups) - 1)), layout="constrained"
+    )
+    axes = figure.subplot_mosaic(_places(groups), height_ratios=heights)
+    for k, group in enumerate(groups):
+        curves = [axes[f"{k}.{i}"] for i in range(max(len(group.panels), 1))]
+        _row(curves, group, joint)
+        entitle(curves[0], 2 * k, curves[0].get_title(loc="left"))
+        errors, shares, delays = (axes[f"{k}.{name}"] for name in NUMBERS)
+        draw_named_bars(errors, group.errors, "N m", source=source, marked=EACH)
+        entitle(errors, 2 * k + 1, group.title)
+        draw_named_dots(shares, group.shares, "share of the push shown [-]", 1.0)
+        draw_named_dots(delays, group.delays, "delay of the rise [ms]", group.observer_ms)
+        for axis in (shares, delays):
+            axis.tick_params(labelleft=False)
+    for name in NUMBERS:
+        _one_scale([axes[f"{k}.{name}"] for k in range(len(groups))])
+    legend(figure, list(axes.values()))
+    return figure
+
+
+NUMBERS = ("errors", "shares", "delays")  # panels of a group below its curves
+
+
+def _places(groups: Sequence[PushGroup]) -> list[Any]:
+    """Return the places of all panels: of each group a row of curves, and one of numbers."""
+    width = lcm(len(NUMBERS), *(max(len(group.panels), 1) for group in groups))
+    places: list[Any] = []
+    for k, group in enumerate(groups):
+        count = max(len(group.panels), 1)
+        places.append([f"{k}.{i}" for i in range(count) for _ in range(width // count)])
+        places.append([f"{k}.{name}" for name in NUMBERS for _ in range(width // len(NUMBERS))])
+    return places
+
+
+def _one_scale(axes: Sequence[Axes]) -> None:
+    """Let the horizontal axes of groups have one scale, which holds them all."""
+    ends = [end for axis in axes for end in axis.get_xlim()]
+    for axis in axes:
+        axis.set_xlim(min(ends), max(ends))
+
+
+def _row(axes: Sequence[Axes], group: PushGroup, joint: str) -> None:
+    """Draw a group's curves [N m] on one scale; only the first panel names it."""
+    for axis, panel in zip(axes, group.panels, strict=False):
+        _curves(axis, panel)
         axis.set_title(panel.title, loc="left", pad=3)
-        axis.set_xlim(panel.time[0], panel.time[-1])
-    ends = [end for axis in used for end in axis.get_ylim()]
-    for i, axis in enumerate(used):
+        axis.set_xlabel(FROM_PUSH)
+    ends = [end for axis in axes for end in axis.get_ylim()]
+    for axis in axes:
         axis.set_ylim(min(ends), max(ends))
-        axis.tick_params(labelleft=i % across == 0)
-        if i % across == 0:
-            axis.set_ylabel(f"{joint} torque [N m]")
-        if i + across >= len(used):
-            axis.set_xlabel("time from push [s]")
+        axis.tick_params(labelleft=axis is axes[0])
+    axes[0].set_ylabel(f"{joint} [N m]")
+
+
+def _curves(axis: Axes, panel: Panel) -> None:
+    """Draw the curves of a panel over its whole time."""
+    draw_panel(axis, panel)
+    axis.set_xlim(panel.time[0], panel.time[-1])

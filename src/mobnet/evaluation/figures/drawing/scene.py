@@ -1,13 +1,14 @@
 """A robot and what it walks into as pictures, with the force of the obstacle as an arrow. Drawing only."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
 
 from mobnet.core.arrays import Array
 from mobnet.core.course import StoredCourse
-from mobnet.evaluation.figures.drawing.robot import Solid, draw_solids, solids_of, surface_of
+from mobnet.evaluation.figures.drawing.robot import solids_of
+from mobnet.evaluation.figures.drawing.solids import Solid, draw_solids
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Obstacle, ObstaclePart
 from mobnet.settings.parts import ShapeRow
@@ -43,18 +44,15 @@ def draw_arrow(axis: Axes, start: tuple[float, float], end: tuple[float, float])
 def obstacle_solids(obstacles: Mapping[str, Obstacle], course: StoredCourse) -> list[Solid]:
     """Return the solids of the obstacles of a walk, where they stood."""
     places = course.note["obstacles"]
-    return [
-        (np.asarray(place) + part_surface(part), PAD)
-        for name, place in places.items()
-        for part in obstacles[name].parts
-    ]
+    return [solid_of(part, place) for name, place in places.items() for part in obstacles[name].parts]
 
 
-def part_surface(part: ObstaclePart) -> Array:
-    """Return points on the surface of a part of an obstacle (n, 3) [m], from its place."""
+def solid_of(part: ObstaclePart, place: Sequence[float]) -> Solid:
+    """Return a part of an obstacle at its place (3,) [m]."""
     like = {"name": "part", "body": "world", "type": part.type, "tone": "", "pos": (0.0, 0.0, 0.0), "segment": None}
     if part.type == "box":
-        return surface_of(ShapeRow.model_construct(**{**like, "size": part.size, "pos": part.pos}))
-    reach = part.size[1] * np.array(AXES[part.axis])
-    ends = (*(np.array(part.pos) - reach), *(np.array(part.pos) + reach))
-    return surface_of(ShapeRow.model_construct(**{**like, "size": part.size[:1], "segment": ends}))
+        own = {"size": part.size, "pos": part.pos}
+    else:
+        reach = part.size[1] * np.array(AXES[part.axis])
+        own = {"size": part.size[:1], "segment": (*(np.array(part.pos) - reach), *(np.array(part.pos) + reach))}
+    return Solid(ShapeRow.model_construct(**{**like, **own}), np.eye(3), np.asarray(place), PAD)

@@ -26,7 +26,8 @@ REFERENCE = "low-pass of (11)"  # the observer's response to what it sees withou
 REFERENCE_LOOK: Mapping[str, Any] = {"color": "0.6", "linewidth": 2.0, "zorder": 1.0}
 POINTS = 200  # of the reference
 TICKS_HZ = (0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
-ACROSS, ROW_INCH, LEGEND_INCH = 3, 1.35, 0.5  # joints in a row, height of a row of panels and of legend and labels
+SHOWN_INCH, ALL_INCH, LEGEND_INCH = 1.75, 1.35, 0.5  # height of a row of panels, of some joints or all; of the legend
+MOST_ACROSS = 3  # joints in a row
 QUANTITIES = {"gain": (GAIN, "gain [-]"), "phase": (PHASE, "phase [deg]")}
 
 
@@ -44,7 +45,10 @@ def bode(
     settings: Bode, pushes: Mapping[str, Push], layout: JointLayout, observer: Observer, rates: Rates,
     statistics: Statistics, scores: Sequence[Path], figure_dir: Path,
 ) -> None:  # fmt: skip
-    """Write gain [-] and phase [deg] over frequency [Hz] for each joint of a leg and method, as PDF, PNG and CSV."""
+    """Write gain [-] and phase [deg] over frequency [Hz] of each method, as PDF, PNG and CSV.
+
+    `bode` has the joints that the settings show, `bode_all` every joint of the leg.
+    """
     lookup = read_lookup(scores, statistics)
     lines = {push.joint: push.sines.frequency_hz for push in pushes.values() if push.joint and push.sines}
     joints = [joint for joint in layout.limb(settings.limb) if joint in lines]
@@ -56,7 +60,9 @@ def bode(
     frequencies = np.geomspace(*ends, POINTS)
     response = observer_response(frequencies, observer.gain_hz, rates.data_hz)
     reference = frequencies, {"gain": np.abs(response), "phase": np.angle(response, deg=True)}
-    save_figure(draw_bode(answers, joints, reference), figure_dir / "bode", RESPONSE, rows_of(answers))
+    for name, shown, row_inch in (("bode", settings.shown, SHOWN_INCH), ("bode_all", joints, ALL_INCH)):
+        own = [one for one in answers if one.joint in shown]
+        save_figure(draw_bode(own, shown, reference, row_inch), figure_dir / name, RESPONSE, rows_of(own))
 
 
 def answer(lookup: Lookup, settings: Bode, method: str, joint: str, quantity: str, lines: Sequence[float]) -> Answer:
@@ -79,22 +85,25 @@ def rows_of(answers: Sequence[Answer]) -> Iterator[tuple[Field, ...]]:
 
 
 @styled
-def draw_bode(answers: Sequence[Answer], joints: Sequence[str], reference: tuple[Any, Mapping[str, Any]]) -> Figure:
-    """Draw a column of gain [-] and phase [deg] for each joint, three joints side by side.
+def draw_bode(
+    answers: Sequence[Answer], joints: Sequence[str], reference: tuple[Any, Mapping[str, Any]], row_inch: float
+) -> Figure:
+    """Draw a column of gain [-] and phase [deg] for each joint, at most three joints side by side.
 
     The reference is a low-pass: frequencies (n,) [Hz], and quantity -> (n,).
     """
     styles = looks(one.method for one in answers)
-    blocks = -(-len(joints) // ACROSS)
-    size = PAGE_INCH, ROW_INCH * 2 * blocks + LEGEND_INCH
-    figure = Figure(figsize=size, layout="constrained")
-    axes = figure.subplots(2 * blocks, ACROSS, sharex=True, sharey="row", squeeze=False)
+    across = min(MOST_ACROSS, len(joints))
+    blocks = -(-len(joints) // across)
+    figure = Figure(figsize=(PAGE_INCH, row_inch * 2 * blocks + LEGEND_INCH), layout="constrained")
+    axes = figure.subplots(2 * blocks, across, sharex=True, squeeze=False)
     for axis in axes.flat:
         axis.set_visible(False)
     for k, joint in enumerate(joints):
-        for row, (quantity, (_, label)) in enumerate(QUANTITIES.items(), start=2 * (k // ACROSS)):
-            axis: Axes = axes[row, k % ACROSS]
+        for row, (quantity, (_, label)) in enumerate(QUANTITIES.items(), start=2 * (k // across)):
+            axis: Axes = axes[row, k % across]
             axis.set_visible(True)
+            axis.sharey(axes[row % 2, 0])  # a quantity has one scale
             axis.plot(reference[0], reference[1][quantity], label=REFERENCE, **REFERENCE_LOOK)
             for one in answers:
                 if (one.joint, one.quantity) == (joint, quantity) and one.numbers:
@@ -102,19 +111,19 @@ def draw_bode(answers: Sequence[Answer], joints: Sequence[str], reference: tuple
             axis.set_xscale("log")
             axis.set_xticks(TICKS_HZ, [f"{tick:g}" for tick in TICKS_HZ])
             axis.minorticks_off()
-            if k % ACROSS == 0:
+            if k % across == 0:
                 axis.set_ylabel(label)
             if quantity == "gain":
                 axis.set_title(f"({LETTERS[k]}) {joint}", loc="left", pad=3)
+    axes[0, 0].set_ylim(0.0, None)
     figure.supxlabel("frequency [Hz]", fontsize=STYLE["axes.labelsize"])
     legend(figure, axes.ravel().tolist())
     return figure
 
 
 def _draw(axis: Axes, one: Answer, look: Look) -> None:
-    """Draw the gain [-] or phase [deg] of a method with its intervals."""
+    """Draw the gain [-] or phase [deg] of a method with its intervals, which the legend does not show."""
+    x = list(one.numbers)
     mean, low, high = np.array([number.range for number in one.numbers.values()], dtype=np.float64).T
-    axis.errorbar(
-        list(one.numbers), mean, [mean - low, high - mean], label=one.method, marker=look.marker, markersize=2.5,
-        capsize=1.5, elinewidth=0.6, **look.line,
-    )  # fmt: skip
+    axis.plot(x, mean, label=one.method, marker=look.marker, markersize=3.0, **look.line)
+    axis.vlines(x, low, high, color=look.colour, linewidth=0.8, zorder=look.order)

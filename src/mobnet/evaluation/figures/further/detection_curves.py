@@ -1,15 +1,17 @@
 """What lower and higher thresholds do: collisions and delays over false alarms; and found shares over the force."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import StrMethodFormatter
 
 from mobnet.core.detections import COLLISION, HELD_OUT, CurvePoint, FreeSwing, Promise
-from mobnet.evaluation.figures.style import beside, entitle, legend, looks, save_figure, styled
+from mobnet.evaluation.figures.style import LOOKS, Look, beside, entitle, legend, save_figure, styled
 from mobnet.evaluation.measure.detection.results import (
     MS,
     Detections,
@@ -38,6 +40,13 @@ LABELS = {
 HEIGHT_INCH = 2.5
 RATE_MOST = 1000.0  # false alarms in an hour above which nobody detects
 RATE_FLOOR = 0.3  # false alarms in an hour below which a rate is drawn here: none was counted
+BREAK = 0.4  # where the axis breaks between no false alarm and one
+RATES = (RATE_FLOOR, 1.0, 10.0, 100.0, 1000.0)  # that are named
+BAND_ALPHA = 0.12  # opacity of intervals
+OTHERS = (
+    ((0, (1.5, 1)), "v"),
+    ((0, (6, 1.5, 1, 1.5)), "X"),
+)  # dash and marker of the second and third detector of a method
 
 
 @dataclass(frozen=True)
@@ -127,19 +136,42 @@ def area_of(hits: np.ndarray, quiet: np.ndarray, statistics: Statistics) -> Numb
 
 @styled
 def draw_courses(courses: Sequence[DetectorLine]) -> Figure:
-    """Draw the three panels side by side."""
-    styles = looks(one.detector for one in courses)
+    """Draw the three panels side by side, those over false alarms with a break left of which none was counted."""
+    styles = looks_of(one.detector for one in courses)
     figure, axes = beside(len(LABELS), HEIGHT_INCH)
     for k, (panel, axis) in enumerate(zip(LABELS, axes, strict=True)):
         for one in (one for one in courses if one.panel == panel):
-            look = styles[one.detector]
-            values = [np.nan if number.value is None else number.value for number in one.numbers]
-            x = np.maximum(one.x, RATE_FLOOR) if panel != FORCE else np.asarray(one.x)
-            axis.plot(x, values, label=one.detector, marker=look.marker if panel == FORCE else "", markersize=3,
-                      **look.line)  # fmt: skip
+            _draw(axis, one, styles[one.detector])
         axis.set(xlabel=LABELS[panel][0], ylabel=LABELS[panel][1], xscale="log")
         axis.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        if panel != FORCE:
+            axis.minorticks_off()
+            axis.set_xticks(RATES, ["0", *(f"{rate:g}" for rate in RATES[1:])])
+            axis.axvline(BREAK, color="0.6", linewidth=0.6, linestyle=(0, (2, 2)), zorder=0)
         axis.set_ylim(0.0, None if panel == DELAY else 1.05)
         entitle(axis, k, panel)
     legend(figure, axes)
     return figure
+
+
+def looks_of(detectors: Iterable[str]) -> dict[str, Look]:
+    """Return the looks of detectors: the first one of a method has the method's, others its colour and another dash."""
+    found, seen = dict[str, Look](), Counter[str]()
+    for name in dict.fromkeys(detectors):
+        method = max((known for known in LOOKS if name.startswith(known)), key=len)
+        others = dict(zip(("dash", "marker"), OTHERS[seen[method] - 1], strict=True)) if seen[method] else {}
+        found[name] = replace(LOOKS[method], **others)
+        seen[method] += 1
+    return found
+
+
+def _draw(axis: Axes, one: DetectorLine, look: Look) -> None:
+    """Draw a line with its intervals, where it has any: bars at the forces, bands over the rates."""
+    mean, low, high = np.array([number.range for number in one.numbers], dtype=np.float64).reshape(-1, 3).T
+    x = np.asarray(one.x) if one.panel == FORCE else np.maximum(one.x, RATE_FLOOR)
+    marker = look.marker if one.panel == FORCE else ""
+    axis.plot(x, mean, label=one.detector, marker=marker, markersize=3, **look.line)
+    if one.panel == FORCE:
+        axis.vlines(x, low, high, color=look.colour, linewidth=0.6, alpha=0.7, zorder=look.order)
+    else:
+        axis.fill_between(x, low, high, color=look.colour, alpha=BAND_ALPHA, linewidth=0.0)

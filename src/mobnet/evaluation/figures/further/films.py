@@ -17,8 +17,10 @@ from mobnet.evaluation.figures.drawing.robot import projection
 from mobnet.evaluation.figures.drawing.scene import FORCE, draw_scene
 from mobnet.evaluation.figures.style import styled
 from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.looks import dressed
 from mobnet.settings.data import Obstacle
 from mobnet.settings.evaluation import Films
+from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 from mobnet.simulation.clip import save_clip
 from mobnet.simulation.render import Pixels
@@ -50,11 +52,11 @@ class Curves:
 
 
 def films(
-    settings: Films, robot: RobotTable, obstacles: Mapping[str, Obstacle], courses: Mapping[str, Path],
-    outs: Mapping[str, Path],
+    settings: Films, robot: RobotTable, looks: Looks | None, obstacles: Mapping[str, Obstacle],
+    courses: Mapping[str, Path], outs: Mapping[str, Path],
 ) -> None:  # fmt: skip
     """Write a film of the first walk of each case; its ending says of which kind."""
-    description = describe(robot)
+    description = dressed(describe(robot), looks)
     for case, out in outs.items():
         course = read_course(courses[case], description.layout)
         curves = read_curves(courses[case], course, settings.joints[case])

@@ -11,8 +11,10 @@ from mobnet.evaluation.number.rows import read_scores
 from mobnet.settings.evaluation import FineTuning, Statistics, TunedTest
 from mobnet.settings.methods import swept_name
 
-BEFORE, KNOWN = "not tuned", "own walks"
-X_LABEL, Y_LABEL = "new data [s]", "RMSE [N m]"
+BEFORE, KNOWN = "not fine-tuned", "on its own robot"
+X_LABEL, Y_LABEL = "data of the changed robot [s]", "RMSE [N m]"
+COLUMNS, PANEL_INCH = 4, 2.0
+APART = 0.02  # between two marks at one place [decades]
 
 
 def fine_tuning(
@@ -20,21 +22,25 @@ def fine_tuning(
 ) -> None:
     """Write the figure as PDF, PNG and CSV: RMSE [N m] of networks on changed robots over their new data [s].
 
-    Beside it stand, at every place, the networks before and those that learned from the robot's own walks.
+    Two bands stand beside them: the networks before, and on the robot that they learned from.
     """
     read, panels, rows = read_scores(*scores), [], []
     for title, test in settings.tests.items():
-        lines = []
+        bands, lines = {}, []
         for label, shown in shown_of(settings, seconds, test).items():
             errors = [number_of(read, [wanted], statistics) for wanted in shown]
-            lines.append(Line(label, seconds, errors))
+            if label in (BEFORE, KNOWN):
+                bands[label] = errors[0]
+            else:
+                lines.append(Line(label, seconds, errors))
             rows += [
                 (title, label, time, wanted.scenario, wanted.level, wanted.method, wanted.joint,
                  *error.with_ends, *error.spread, error.unit)
                 for time, wanted, error in zip(seconds, shown, errors, strict=True)
             ]  # fmt: skip
-        panels.append(LinePanel(title, X_LABEL, Y_LABEL, lines, sizes=True))
-    save_figure(draw_lines(panels), figure_dir / "fine_tuning", TUNED, rows)
+        panels.append(LinePanel(title, X_LABEL, Y_LABEL, lines, bands, dodge=APART))
+    figure = draw_lines(panels, min(COLUMNS, len(panels)), PANEL_INCH)
+    save_figure(figure, figure_dir / "fine_tuning", TUNED, rows)
 
 
 def shown_of(settings: FineTuning, seconds: Sequence[int], test: TunedTest) -> dict[str, list[Wanted]]:

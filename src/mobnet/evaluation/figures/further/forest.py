@@ -1,13 +1,11 @@
-"""All claims at a glance: our interval beside the paper's number, the range where it is reproduced, and the verdict.
+"""All statements at a glance: the worst claim of each, our interval, the range where it is reproduced, and the verdict.
 
-Of a claim with a number of the paper the axis has our number over the paper's, on a log scale; of a cut both are what
-remains of the error. Without such a number it has how far ours lies on the claimed side of the claim's bound, as a
-share of the farthest end of its interval.
+One figure has the statements with a number of the paper, ours over the paper's on a log axis; another one those
+without, how far ours lies on the claimed side of the bound.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from itertools import accumulate, groupby, pairwise
+from collections.abc import Mapping, Sequence
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -15,200 +13,151 @@ import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from mobnet.core.columns import FOREST, SIGN_ONLY, VERDICTS
+from mobnet.core.columns import FOREST, SCORED, VERDICTS
 from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, save_figure
+from mobnet.evaluation.measure.claims.bounds import range_text
+from mobnet.evaluation.measure.claims.places import BEYOND_BOUND, OVER_PAPER, Place, Statement, statements_of
 from mobnet.evaluation.measure.claims.verdicts import Judged
-from mobnet.settings.claims import Bounds
+from mobnet.evaluation.number.number import Number
 
-OVER_PAPER, BEYOND_BOUND = "ours over the paper's", "beyond the bound"  # what an axis has
+STEMS = {OVER_PAPER: "claims", BEYOND_BOUND: "claims_own"}  # of the two figures
 ENDS: Mapping[str, tuple[float, float]] = {OVER_PAPER: (1 / 8, 8.0), BEYOND_BOUND: (-1.15, 1.15)}  # of the axes
 EQUAL: Mapping[str, float] = {OVER_PAPER: 1.0, BEYOND_BOUND: 0.0}
-MARKS = (("#D55E00", "X"), ("#E69F00", "s"), ("#0072B2", "^"), ("#009E73", "o"), ("0.5", ""))
-# verdict -> colour, of Okabe and Ito's palette, and marker
-LOOKS: Mapping[str, tuple[str, str]] = dict(zip(VERDICTS, MARKS, strict=True))
-ROW_INCH, HEAD_INCH, POINTS = 0.108, 0.28, 4.8  # height of a row and of a panel's head and axis, size of letters
-COLUMNS, LABEL_SHARE = 2, 0.62  # of the page, and the share of a column that labels take
-JOINT_SHARE = 0.45  # height of a joint's row over that of a claim's
-
-
-@dataclass(frozen=True)
-class Place:
-    """Where a claim stands on its axis [-]: our number with its interval, and the range where it is reproduced."""
-
-    judged: Judged
-    axis: str
-    values: tuple[float | None, float | None, float | None]
-    band: Bounds
-
-    @property
-    def record(self) -> tuple[str | float | None, ...]:
-        """Return the row of claims.csv among the figures."""
-        return (self.judged.score, self.judged.row.name, self.judged.verdict, self.axis, *self.values, *self.band)
-
-
-Panel = Sequence[Place]
+TICKS: Mapping[str, Mapping[float, str]] = {
+    OVER_PAPER: {0.125: "1/8", 0.25: "1/4", 0.5: "1/2", 1.0: "1", 2.0: "2", 4.0: "4", 8.0: "8"},
+    BEYOND_BOUND: {-1.0: "against", 0.0: "bound", 1.0: "for"},
+}
+HEADS: Mapping[str, str] = dict(
+    zip(SCORED, ("about the observer", "about networks", "without a number of the paper"), strict=True)
+)
+MARKS = (("#D55E00", "X", "\N{BALLOT X}"), ("#9A6700", "s", "?"), ("#0072B2", "^", "\N{NORTH EAST ARROW}"),
+         ("#00795A", "o", "\N{CHECK MARK}"), ("0.45", "", "\N{EN DASH}"))  # fmt: skip
+# verdict -> colour, dark enough for text, marker, and sign before a text
+LOOKS: Mapping[str, tuple[str, str, str]] = dict(zip(VERDICTS, MARKS, strict=True))
+POINTS, ROW_INCH, HEAD_INCH, KEY_INCH = 6.5, 0.13, 0.2, 0.38  # size of text; heights of a row, a head and the legend
+KEY_COLUMNS = 3
+AXIS_INCH = 0.33  # height below the last row, of an axis
+TEXT_INCH, LEFT_INCH, WIDTH_INCH = 0.12, 3.84, 1.36  # where texts begin; where the axis does, and its width
+COLUMN_INCH = {"ours": 5.28, "other": 6.95}  # where our number begins and the other column ends
 
 
 def forest(judged: Sequence[Judged], confidence: float, figure_dir: Path) -> None:
-    """Write the figure of all claims as PDF, PNG and CSV; `confidence` is that of the intervals, a share [-]."""
-    places = [beyond_bound(each) if each.score == SIGN_ONLY else over_paper(each) for each in judged]
-    save_figure(
-        draw_forest(columns_of(places), confidence), figure_dir / "claims", FOREST, [place.record for place in places]
-    )
+    """Write the figures of statements as PDF, PNG and CSV; `confidence` is that of the intervals, a share [-]."""
+    statements = statements_of(judged)
+    for axis, stem in STEMS.items():
+        own = [each for each in statements if each.worst.axis == axis]
+        figure = draw_forest(own, axis, f"{confidence:.0%} interval")
+        save_figure(figure, figure_dir / stem, FOREST, [each.record for each in own])
 
 
-def over_paper(judged: Judged) -> Place:
-    """Return where our number is over the paper's [-]; of a cut, where what remains of an error is."""
-    published, is_cut = judged.row.claim.published or 1.0, judged.row.claim.quantity == "cut"
-
-    def over(number: float | None) -> float | None:
-        if number is None:
-            return None
-        return (1.0 - number) / (1.0 - published) if is_cut else number / published
-
-    (value, low, high), (first, last) = map(over, judged.ours.with_ends), map(over, judged.ranges.reproduced)
-    return Place(judged, OVER_PAPER, (value, *in_order(low, high, is_cut)), in_order(first, last, is_cut))
-
-
-def in_order(low: float | None, high: float | None, turned: bool) -> tuple[float | None, float | None]:
-    """Return two ends [-], the other way round where the axis is turned."""
-    return (high, low) if turned else (low, high)
-
-
-def beyond_bound(judged: Judged) -> Place:
-    """Return how far our number lies on the claimed side of its bound, as a share of the farthest end [-]."""
-    found = [None if number is None else margin(number, judged.ranges.reproduced) for number in judged.ours.with_ends]
-    held = [each for each in found if each is not None]
-    scale = max(map(abs, held), default=0.0) or 1.0
-    value, low, high = (None if each is None else each / scale for each in found)
-    if value is not None and low is not None and high is not None:  # in a two-sided range the middle lies farthest in
-        low, high = min(low, high), max(low, high, value)
-    return Place(judged, BEYOND_BOUND, (value, low, high), (0.0, None))
-
-
-def margin(number: float, bounds: Bounds) -> float:
-    """Return how far a number lies inside a range, below zero outside [its unit]."""
-    low, high = bounds
-    return min(number - low if low is not None else float("inf"), high - number if high is not None else float("inf"))
-
-
-def columns_of(places: Sequence[Place]) -> list[list[Panel]]:
-    """Return the columns of the page, each with panels of one score; statements are not cut."""
-    statements = [list(own) for _, own in groupby(sorted_by_score(places), lambda place: place.judged.row.statement)]
-    share, tall = height_of(places) / COLUMNS, 0.0
-    columns: list[list[list[Place]]] = [[]]
-    for own in statements:
-        if tall >= share and len(columns) < COLUMNS:
-            columns.append([])
-            tall = 0.0
-        if not columns[-1] or columns[-1][-1][-1].judged.score != own[0].judged.score:
-            columns[-1].append([])
-        columns[-1][-1] += own
-        tall += height_of(own)
-    return [list(column) for column in columns]
-
-
-def rows_of(panel: Iterable[Place]) -> list[float]:
-    """Return where the middle of each row is, from the top down [heights of a row]; those of joints are low."""
-    heights = [height_of([place]) for place in panel]
-    return [top + height / 2.0 for top, height in zip(accumulate(heights, initial=0.0), heights, strict=False)]
-
-
-def height_of(panel: Iterable[Place]) -> float:
-    """Return the height of rows [heights of a row]."""
-    return sum(JOINT_SHARE if place.judged.row.joint else 1.0 for place in panel)
-
-
-def sorted_by_score(places: Iterable[Place]) -> list[Place]:
-    """Return places score by score, statement by statement, each in the order in which it comes first."""
-    held = list(places)
-    first = list(dict.fromkeys(place.judged.row.statement for place in held))
-    scores = list(dict.fromkeys(place.judged.score for place in held))
-    return sorted(held, key=lambda place: (scores.index(place.judged.score), first.index(place.judged.row.statement)))
-
-
-def draw_forest(columns: Sequence[Sequence[Panel]], confidence: float) -> Figure:
-    """Draw panels of claims in the columns of a page."""
-    heights = [sum(HEAD_INCH + ROW_INCH * height_of(panel) for panel in column) for column in columns]
-    tall, wide = max(heights) + HEAD_INCH, PAGE_INCH / len(columns)
+def draw_forest(statements: Sequence[Statement], axis_name: str, interval: str) -> Figure:
+    """Draw statements below one another, section by section, on one axis; the legend calls the interval so."""
+    sections = [list(own) for _, own in groupby(statements, lambda each: each.worst.judged.score)]
+    rows = ROW_INCH * len(statements) + HEAD_INCH * max(1, len(sections))
+    tall = KEY_INCH + rows + AXIS_INCH
     with mpl.rc_context({**STYLE, "font.size": POINTS}):
         figure = Figure(figsize=(PAGE_INCH, tall))
-        for k, column in enumerate(columns):
-            top = tall - HEAD_INCH
-            for panel in column:
-                high = ROW_INCH * height_of(panel)
-                left, width = (k + LABEL_SHARE) * wide, (1.0 - LABEL_SHARE) * wide - 0.08
-                axis = figure.add_axes((left / PAGE_INCH, (top - high) / tall, width / PAGE_INCH, high / tall))
-                draw_panel(axis, panel)
-                top -= high + HEAD_INCH
-        key(figure, f"{confidence:.0%} interval")
+        place = (LEFT_INCH / PAGE_INCH, AXIS_INCH / tall, WIDTH_INCH / PAGE_INCH, rows / tall)
+        axis = figure.add_axes(place)
+        _scale(axis, axis_name, rows)
+        top = 0.0
+        for own in sections:
+            _head(axis, top, own, axis_name)
+            top += HEAD_INCH
+            for each in own:
+                _row(axis, top + ROW_INCH / 2.0, each)
+                top += ROW_INCH
+        _key(figure, statements, f"reproduced if the {interval} lies here")
     return figure
 
 
-def draw_panel(axis: Axes, panel: Panel) -> None:
-    """Draw the claims of one score, the first one on top."""
-    name, rows = panel[0].axis, rows_of(panel)
-    first, last = ENDS[name]
-    for row, place in zip(rows, panel, strict=True):
-        low, high = (edge if end is None else end for end, edge in zip(place.band, (first, last), strict=True))
-        low, high, height = max(low, first), min(high, last), 0.9 * height_of([place])
-        axis.barh(row, high - low, left=low, height=height, color="0.88", linewidth=0)
-        draw_place(axis, row, place)
-    axis.axvline(EQUAL[name], color="0.4", linewidth=0.4, zorder=1.5)
-    for (row, before), (_, place) in pairwise(zip(rows, panel, strict=True)):
-        if before.judged.row.statement != place.judged.row.statement:
-            edge = row + height_of([before]) / 2.0
-            axis.plot([-LABEL_SHARE / (1.0 - LABEL_SHARE) + 0.05, 1.0], [edge, edge], color="0.75", linewidth=0.3,
-                      transform=axis.get_yaxis_transform(), clip_on=False, zorder=1.0)  # fmt: skip
+def _scale(axis: Axes, name: str, rows: float) -> None:
+    """Set the scales of an axis whose rows are so high together [inch]."""
     if name == OVER_PAPER:
         axis.set_xscale("log", base=2)
-        axis.set_xticks([0.125, 0.25, 0.5, 1, 2, 4, 8], ["1/8", "1/4", "1/2", "1", "2", "4", "8"])
-    else:
-        axis.set_xticks([-1, 0, 1], ["against", "bound", "for"])
-    axis.set(xlim=(first, last), ylim=(height_of(panel), 0.0))
-    axis.set_yticks(*labels_of(panel, rows))
-    axis.tick_params(length=1.5, pad=1.5, labelsize=POINTS, width=0.4)
-    axis.tick_params(axis="y", length=0)
-    axis.set_title(f"{panel[0].judged.score}: {name}", fontsize=POINTS + 1, pad=2, loc="right", weight="bold")
+    axis.set_xticks(list(TICKS[name]), list(TICKS[name].values()))
+    axis.minorticks_off()
+    axis.set(xlim=ENDS[name], ylim=(rows, 0.0), xlabel=f"{name} [-]")
+    axis.axvline(EQUAL[name], color="0.4", linewidth=0.5, zorder=1.5)
+    axis.spines["left"].set_visible(False)
+    axis.set_yticks([])
+    axis.tick_params(length=2.0, pad=1.5, labelsize=POINTS, width=0.4)
+    axis.xaxis.label.set_size(POINTS)
 
 
-def labels_of(panel: Panel, rows: Sequence[float]) -> tuple[list[float], list[str]]:
-    """Return places and texts beside the rows: what a claim says, and the first and the last of its joints."""
-    places, texts = list[float](), list[str]()
-    for is_joint, own in groupby(zip(rows, panel, strict=True), lambda each: bool(each[1].judged.row.joint)):
-        held = list(own)
-        if is_joint:
-            places.append((held[0][0] + held[-1][0]) / 2.0)
-            texts.append(f"{held[0][1].judged.row.joint} (top) to {held[-1][1].judged.row.joint}")
-        else:
-            places += [row for row, _ in held]
-            texts += [place.judged.row.claim.says.removesuffix(".") for _, place in held]
-    return places, texts
+def _text(axis: Axes, inch: float, row: float, text: str, **look: Any) -> None:
+    """Write a text beside an axis, so far from the page's left side and from the first row's top [inch]."""
+    axis.text((inch - LEFT_INCH) / WIDTH_INCH, row, text, transform=axis.get_yaxis_transform(), va="center",
+              fontsize=POINTS, **look)  # fmt: skip
 
 
-def draw_place(axis: Axes, row: float, place: Place) -> None:
-    """Draw our number and its interval, an arrow where it lies beyond an end of the axis."""
-    value, low, high = place.values
-    colour, marker = LOOKS[place.judged.verdict]
-    small = bool(place.judged.row.joint)
+def _head(axis: Axes, top: float, own: Sequence[Statement], name: str) -> None:
+    """Write the head of a section at its top [inch]."""
+    middle = top + HEAD_INCH / 2.0
+    says = f"Statements {HEADS[own[0].worst.judged.score]} ({len(own)})"
+    _text(axis, TEXT_INCH, middle, says, weight="bold")
+    _text(axis, COLUMN_INCH["ours"], middle, "ours, with interval", weight="bold")
+    _text(axis, COLUMN_INCH["other"], middle, "paper" if name == OVER_PAPER else "holds if", weight="bold", ha="right")
+    line = {"color": "0.5", "linewidth": 0.5, "clip_on": False, "transform": axis.get_yaxis_transform()}
+    ends = [(inch - LEFT_INCH) / WIDTH_INCH for inch in (0.0, COLUMN_INCH["other"])]
+    axis.plot(ends, [top + HEAD_INCH - 0.02] * 2, **line)
+
+
+def _row(axis: Axes, row: float, statement: Statement) -> None:
+    """Draw a statement in its row [inch]: sign, text, interval and numbers."""
+    place = statement.worst
+    judged, claim = place.judged, place.judged.row.claim
+    colour, _, sign = LOOKS[judged.verdict]
+    _text(axis, 0.0, row, sign, color=colour, weight="bold")
+    _text(axis, TEXT_INCH, row, text_of(statement))
+    unit = "" if judged.ours.unit == "-" else f" {judged.ours.unit}"
+    value, interval = judged.ours.texts()
+    ours = "not measured" if judged.ours.value is None else f"{value} {interval}{unit}"
+    _text(axis, COLUMN_INCH["ours"], row, ours, color=colour)
+    printed = Number(claim.published, unit=judged.ours.unit).texts()[0]
+    other = range_text(judged.ranges.reproduced) if place.axis == BEYOND_BOUND else printed
+    _text(axis, COLUMN_INCH["other"], row, other, ha="right")
+    _place(axis, row, place)
+
+
+def text_of(statement: Statement) -> str:
+    """Return what the worst claim of a statement says, with its joint, and of how many claims it is one."""
+    row = statement.worst.judged.row
+    joint = f", {row.joint}" if row.joint else ""
+    return row.claim.says.removesuffix(".") + joint + (f" (1 of {statement.claims})" if statement.claims > 1 else "")
+
+
+def _place(axis: Axes, row: float, place: Place) -> None:
+    """Draw the range where a claim is reproduced, our number and its interval, arrows where they leave the axis."""
     first, last = ENDS[place.axis]
+    low, high = (edge if end is None else end for end, edge in zip(place.band, (first, last), strict=True))
+    low, high = max(low, first), min(high, last)
+    axis.barh(row, high - low, left=low, height=0.8 * ROW_INCH, color="0.88", linewidth=0)
+    value, low, high = place.values
+    colour, marker, _ = LOOKS[place.judged.verdict]
     if value is None:
-        axis.text(EQUAL[place.axis], row, "not measured", fontsize=POINTS - 1, color=colour, ha="center", va="center")
         return
     if low is not None and high is not None:
         ends = [min(max(end, first), last) for end in (low, high)]
-        axis.plot(ends, [row, row], color=colour, linewidth=0.6 if small else 1.0, solid_capstyle="butt", zorder=3)
-    beyond = "<" if value < first else ">" if value > last else marker
-    look: dict[str, Any] = {"markersize": 1.8 if small else 3.2, "markeredgewidth": 0.0, "zorder": 4, "clip_on": False}
-    axis.plot([min(max(value, first), last)], [row], linestyle="", marker=beyond, color=colour, **look)
+        axis.plot(ends, [row, row], color=colour, linewidth=1.2, solid_capstyle="butt", zorder=3)
+    look: dict[str, Any] = {"color": colour, "markeredgewidth": 0.0, "zorder": 4, "clip_on": False}
+    for end, outside, arrow in ((first, min(value, low or value) < first, "<"),
+                                (last, max(value, high or value) > last, ">")):  # fmt: skip
+        if outside:
+            axis.plot([end], [row], arrow, markersize=4.0, **look)
+    if first <= value <= last:
+        axis.plot([value], [row], marker, markersize=3.8, **look)
 
 
-def key(figure: Figure, interval: str) -> None:
-    """Put what colours and markers mean on top of a figure."""
+def _key(figure: Figure, statements: Sequence[Statement], band: str) -> None:
+    """Put what colours, signs and markers mean on top of a figure, with how many statements have each verdict."""
+    counts = {name: sum(each.worst.judged.verdict == name for each in statements) for name in VERDICTS}
     handles: list[Any] = [
-        mpl.lines.Line2D([], [], color=colour, marker=marker or "_", markersize=4, linewidth=1.0, label=verdict)
-        for verdict, (colour, marker) in LOOKS.items()
-    ]
-    handles.append(mpl.patches.Patch(color="0.9", label=f"reproduced if the {interval} lies here"))
-    figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 1.0), ncols=len(handles), frameon=False,
-                  fontsize=POINTS + 1, borderaxespad=0.2)  # fmt: skip
+        mpl.lines.Line2D([], [], color=colour, marker=marker, markersize=4, linewidth=1.2 if marker else 0.0,
+                         label=f"{sign} {verdict} ({counts[verdict]})")
+        for verdict, (colour, marker, sign) in LOOKS.items()
+    ]  # fmt: skip
+    handles.append(mpl.patches.Patch(color="0.88", label=band))
+    figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 1.0), ncols=KEY_COLUMNS, frameon=False,
+                  fontsize=POINTS, borderaxespad=0.3, handlelength=1.4, columnspacing=1.0,
+                  handletextpad=0.4)  # fmt: skip

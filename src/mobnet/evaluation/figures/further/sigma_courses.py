@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodFormatter
 
 from mobnet.core.columns import SIGMA
-from mobnet.evaluation.figures.style import Look, beside, entitle, legend, looks, save_figure, styled
+from mobnet.evaluation.figures.style import PAGE_INCH, Look, entitle, legend, looks, save_figure, styled
 from mobnet.evaluation.measure.estimates.sigma import COVER, MEMORY, STD
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.lookup import Lookup
@@ -19,11 +20,18 @@ from mobnet.settings.evaluation import LimbRuns, Sigma
 
 COVERAGE, ERROR, CORRELATION = "coverage", "error over sigma", "autocorrelation"
 LABELS = {
-    COVERAGE: ("part of the samples by size of sigma", "covered share [-]"),
     ERROR: ("mean predicted sigma [N m]", "RMSE [N m]"),
+    COVERAGE: ("part of the samples by size of sigma", "covered share [-]"),
     CORRELATION: ("lag [ms]", "autocorrelation [-]"),
 }
-HEIGHT_INCH = 2.4
+SIZE_INCH, WIDTHS = (PAGE_INCH, 3.6), (1.45, 1.0)  # of the figure; share of the large panel and of the two others
+NAME: dict[str, Any] = {
+    "textcoords": "offset points",
+    "ha": "right",
+    "va": "center",
+    "fontsize": 7,
+}  # of a thin grey line
+DIAGONAL = "error = sigma"
 GUIDE = {"color": "0.7", "linewidth": 0.6, "linestyle": "-", "zorder": 0}  # where sigma would be true
 
 
@@ -85,10 +93,11 @@ def courses_of(
 
 @styled
 def draw_sigma(courses: Sequence[SigmaLine], share: float) -> Figure:
-    """Draw the three panels side by side; thin grey lines show where a sigma that is true would be."""
+    """Draw a large panel and two small ones beside it; thin grey lines show where a sigma that is true would be."""
     styles = looks(course.label for course in courses)
-    figure, row = beside(len(LABELS), HEIGHT_INCH)
-    axes = dict(zip(LABELS, row, strict=True))
+    figure = Figure(figsize=SIZE_INCH, layout="constrained")
+    axes = figure.subplot_mosaic([[ERROR, COVERAGE], [ERROR, CORRELATION]], width_ratios=WIDTHS)
+    axes = {panel: axes[panel] for panel in LABELS}
     for k, (panel, axis) in enumerate(axes.items()):
         for course in courses:
             if course.panel == panel:
@@ -96,8 +105,13 @@ def draw_sigma(courses: Sequence[SigmaLine], share: float) -> Figure:
         axis.set(xlabel=LABELS[panel][0], ylabel=LABELS[panel][1])
         entitle(axis, k, panel)
     axes[COVERAGE].axhline(share, **GUIDE)
-    sizes = [x for course in courses if course.panel == ERROR for x in course.x]
+    axes[COVERAGE].set_ylim(0.0, 1.0)
+    for part in sorted({x for course in courses if course.panel == COVERAGE for x in course.x})[-1:]:
+        axes[COVERAGE].annotate(f"nominal share: {share:.0%}", (part, share), (0.0, -14.0), **NAME)
+    sizes = sorted(x for course in courses if course.panel == ERROR for x in course.x)
     axes[ERROR].plot(sizes, sizes, **GUIDE)
+    for x in sizes[-1:]:
+        axes[ERROR].annotate(DIAGONAL, (x, x), (-4.0, 0.0), **NAME)
     axes[ERROR].set(xscale="log", yscale="log")
     axes[CORRELATION].set_xscale("log")
     axes[COVERAGE].xaxis.set_major_locator(MaxNLocator(integer=True))
@@ -107,7 +121,7 @@ def draw_sigma(courses: Sequence[SigmaLine], share: float) -> Figure:
         scale.set_major_formatter(StrMethodFormatter("{x:g}"))
         scale.set_minor_formatter(NullFormatter())
     axes[CORRELATION].axhline(0.0, **GUIDE)
-    legend(figure, row)
+    legend(figure, list(axes.values()))
     return figure
 
 

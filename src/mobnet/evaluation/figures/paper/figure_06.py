@@ -1,34 +1,36 @@
 """Figure 6: estimates around a step of torque on a swinging hip, and their errors in the windows that are scored."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from mobnet.core.joints import JointLayout
+from mobnet.evaluation.compare.errors import compared, without_zero
 from mobnet.evaluation.compare.rmse import PUSHED
-from mobnet.evaluation.figures.drawing.pushes import PushGroup, save_pushes
-from mobnet.evaluation.measure.estimates.pushes import ALL, PushErrors, read_pushes, wanted_of
-from mobnet.evaluation.number.grid import number_of
-from mobnet.evaluation.number.number import published_value
-from mobnet.evaluation.number.rows import read_scores
+from mobnet.evaluation.figures.drawing.compared import bars_of, save_compared
+from mobnet.evaluation.figures.drawing.pushes import draw_step
+from mobnet.evaluation.measure.estimates.joint_errors import error_rows, joint_errors
+from mobnet.evaluation.measure.estimates.pushes import read_pushes
+from mobnet.evaluation.number.lookup import read_lookup
 from mobnet.plan.runs import Run
+from mobnet.settings.data import Push, Scenario
 from mobnet.settings.evaluation import Figure06, Statistics
 from mobnet.settings.published import PublishedTable
 
 
 def figure_06(
-    settings: Figure06, published: PublishedTable, layout: JointLayout, statistics: Statistics,
-    runs: Sequence[Run], scores: Sequence[Path], figure_dir: Path,
+    settings: Figure06, published: PublishedTable, layout: JointLayout, statistics: Statistics, runs: Sequence[Run],
+    scenarios: Mapping[str, Scenario], pushes: Mapping[str, Push], scores: Sequence[Path], figure_dir: Path,
 ) -> None:  # fmt: skip
-    """Write Figure 6, a step of torque on a swinging hip [N m]: curves around the first, errors in all windows.
+    """Write Figure 6, a step of torque on a swinging hip [N m]: curves around the first, errors around all.
 
     The runs are one of each method, all of one recording.
     """
-    joint, rows = settings.joint, read_scores(*scores)
-    errors: PushErrors = {}
-    for method in settings.methods:
-        wanted = wanted_of(layout, settings, method, joint, PUSHED)
-        printed = published_value(published, settings.level, method, joint)
-        errors[method] = {ALL: number_of(rows, [wanted], statistics, published=printed)}
-    panels = read_pushes(layout, settings, runs, f"step {{}} on {joint}")[:1]
-    group = PushGroup(settings.scenario, panels, errors, "error around the steps")
-    save_pushes([group], joint, figure_dir / "figure_06")
+    joint, (name,) = settings.joint, scenarios[settings.scenario].pushes
+    errors = joint_errors(read_lookup(scores, statistics), layout, settings, [joint], PUSHED, published, settings.level)
+    sizes = pushes[name].torque_nm
+    title = f"{f'{sizes[0]:g} N m' if sizes else 'push'} on {joint} in the swing"
+    panels = read_pushes(layout, settings, without_zero(runs), title)[:1]
+    drawn = compared(panels[0]).rmse if panels else {}
+    figure = draw_step(panels, bars_of(errors[joint], drawn), joint, "RMSE around all steps")
+    written = error_rows(settings, PUSHED, errors, {joint: drawn})
+    save_compared(figure, figure_dir / "figure_06", panels, written)

@@ -1,27 +1,41 @@
-"""Figure 8: uncertainty torque of the joints of a leg over one gait cycle, and what a network predicts of it."""
+"""Figure 8: uncertainty torque of the joints of a leg over one gait cycle, what a network predicts, and its errors."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.compare.curves import read_cycle
-from mobnet.evaluation.compare.rmse import rmse
-from mobnet.evaluation.figures.drawing.curves import draw_leg, table_of
-from mobnet.evaluation.figures.style import save_figure
+from mobnet.evaluation.compare.errors import Compared, compared
+from mobnet.evaluation.figures.drawing.compared import draw_leg, save_compared
+from mobnet.evaluation.measure.estimates.joint_errors import error_rows, joint_errors
+from mobnet.evaluation.number.lookup import read_lookup
+from mobnet.evaluation.number.number import Number
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import GaitFigure
+from mobnet.settings.evaluation import Figure08, Statistics
+from mobnet.settings.published import PublishedTable
 
 
-def figure_08(settings: GaitFigure, start_s: float, layout: JointLayout, runs: Sequence[Run], figure_dir: Path) -> None:
+def figure_08(
+    settings: Figure08, start_s: float, layout: JointLayout, statistics: Statistics, published: PublishedTable,
+    runs: Sequence[Run], scores: Sequence[Path], figure_dir: Path,
+) -> None:  # fmt: skip
     """Write Figure 8, uncertainty torque of a leg over one gait cycle [N m]: the target and what a network predicts.
 
-    There is one run; the error in a panel's title is that over the whole recording, as in the paper.
+    There is one run. The titles have the RMSE of the cycle and that over all walks and robots.
     """
+    (method,) = settings.methods
     curves, rows = read_cycle(layout, runs, layout.limb(settings.limb), start_s)
-    (estimate,) = curves.estimates.values()
-    errors = rmse(estimate, curves.truth, curves.spans).tolist()
-    panels = [
-        curves.uncertainty_panel(f"{joint}, RMSE {error:.2f} N m", joint, rows, zero=rows.start)
-        for joint, error in zip(curves.joints, errors, strict=True)
-    ]
-    save_figure(draw_leg(panels, "uncertainty torque [N m]"), figure_dir / "figure_08", *table_of(panels))
+    pairs = {joint: compared(curves.uncertainty_panel(joint, joint, rows, zero=rows.start)) for joint in curves.joints}
+    lookup, drawn = read_lookup(scores, statistics), {joint: pair.rmse for joint, pair in pairs.items()}
+    errors = joint_errors(lookup, layout, settings, curves.joints, settings.metric, published, settings.place)
+    titled = [entitled(pair, method, errors[joint][method]) for joint, pair in pairs.items()]
+    written = error_rows(settings, settings.metric, errors, drawn)
+    figure = draw_leg(titled)
+    save_compared(figure, figure_dir / "figure_08", [pair.torque for pair in pairs.values()], written)
+
+
+def entitled(pair: Compared, method: str, error: Number) -> Compared:
+    """Return a pair with its errors [N m] in the title: RMSE of the cycle, and over all walks."""
+    title = f"{pair.torque.title}: cycle {pair.rmse[method]:.2f}, all {error.text()} N m"
+    return replace(pair, torque=replace(pair.torque, title=title))

@@ -6,20 +6,19 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 
-from mobnet.control.kinematics import empty_pose, tree_of, update
-from mobnet.core.arrays import Array
 from mobnet.core.columns import PUSH, named
 from mobnet.core.detections import Collision
 from mobnet.core.errors import DataError, not_accepted
-from mobnet.core.joints import N_VIRTUAL
 from mobnet.core.recording import read_sensed
 from mobnet.core.store import read_array
-from mobnet.evaluation.figures.drawing.robot import draw_robot, lowest, projection
+from mobnet.evaluation.figures.drawing.robot import draw_robot, lowest, place_of, projection
 from mobnet.evaluation.figures.style import beside, entitle, save_figure, styled
 from mobnet.evaluation.measure.detection.results import Detections, rows_of
 from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.looks import dressed
 from mobnet.settings.detection import Detection
 from mobnet.settings.detection_tables import Figure13
+from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 
 COLUMNS = (
@@ -33,11 +32,11 @@ ROOM_M = (-0.7, 0.7, -0.12, 1.75)  # of a panel: right of the robot's base, and 
 
 @styled
 def figure_13(
-    settings: Figure13, detection: Detection, robot: RobotTable, detections: Detections, recordings: Sequence[Path],
-    figure_dir: Path,
+    settings: Figure13, detection: Detection, robot: RobotTable, looks: Looks | None, detections: Detections,
+    recordings: Sequence[Path], figure_dir: Path,
 ) -> None:  # fmt: skip
-    """Write Figure 13 as PDF, PNG and CSV: the first collision of each cell, when its force is largest."""
-    description, rows = describe(robot), []
+    """Write Figure 13 as PDF, SVG, PNG and CSV: the first collision of each cell, when its force is largest."""
+    description, rows = dressed(describe(robot), looks), []
     found = rows_of(detections, [settings.level], "collisions", Collision)
     figure, axes = beside(len(settings.cells), HEIGHT_INCH)
     for k, (axis, cell) in enumerate(zip(axes, settings.cells, strict=True)):
@@ -79,12 +78,3 @@ def _draw(axis: Axes, robot: RobotDescription, hit: Collision, recordings: Seque
     axis.axhline(ground, color="0.6", linewidth=0.6, zorder=0)
     axis.set(xlim=ROOM_M[:2], ylim=(ground + ROOM_M[2], ground + ROOM_M[3]))
     return (row / rate, float(np.linalg.norm(force)), *point.tolist(), *force.tolist())
-
-
-def place_of(robot: RobotDescription, q: Array, name: str) -> Array:
-    """Return where a point of the robot is (3,) [m] at a position q (nq,)."""
-    row = next(row for row in robot.points if row.name == name)
-    tree = tree_of(robot, 1.0)
-    pose, body = empty_pose(tree), [body.name for body in robot.bodies].index(row.body)
-    update(tree, q, np.zeros(N_VIRTUAL + len(tree.body_of_joint)), 0.0, pose)
-    return pose.position[body] + pose.rotation[body] @ np.asarray(row.pos)

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from mobnet.core.detections import Collision
-from mobnet.evaluation.figures.style import beside, entitle, legend, looks, save_figure, styled
+from mobnet.evaluation.figures.style import Look, beside, entitle, legend, looks, save_figure, styled
 from mobnet.evaluation.measure.detection.results import MS, Detections, owners, rows_of
 from mobnet.evaluation.number.files import Field
 from mobnet.settings.detection import Detection
@@ -17,10 +17,11 @@ COLUMNS = ("level", "quantity", "bin_from", "bin_to", "count", "mean", "least", 
 LABELS = {"largest force": "N", "impulse": "N s", "contact time": "ms"}
 PUBLISHED = {"largest force": None, "impulse": 7.0, "contact time": 78.0}  # means, section 5.3
 HEIGHT_INCH = 2.1
+GREY = Look("0.35")
 
 
 def figure_14(settings: Figure14, detection: Detection, detections: Detections, figure_dir: Path) -> None:
-    """Write Figure 14 as PDF, PNG and CSV: histograms of the collisions, those of a level's robots together."""
+    """Write Figure 14 as PDF, SVG, PNG and CSV: histograms of the collisions, those of a level's robots together."""
     found, own_leg = {}, {"scenario": detection.collisions, "leg": settings.leg}
     for level in settings.levels:
         names = owners(detections, level, settings.levels)
@@ -49,7 +50,7 @@ def quantities(collisions: Sequence[Collision]) -> dict[str, np.ndarray]:
 @styled
 def draw_histograms(found: Mapping[str, Mapping[str, np.ndarray]], edges: Mapping[str, np.ndarray]) -> Figure:
     """Draw a panel for each quantity; a dashed line is the paper's mean."""
-    styles = looks(found)
+    styles = dict(zip(found, (GREY, *looks(found).values()), strict=False))  # colours are those of methods
     figure, axes = beside(len(LABELS), HEIGHT_INCH)
     for k, (axis, (name, unit)) in enumerate(zip(axes, LABELS.items(), strict=True)):
         for level, own in found.items():

@@ -11,6 +11,7 @@ from mobnet.core.columns import PUSH, STD, SWING, foot_of, named
 from mobnet.core.detections import Collision, Threshold
 from mobnet.core.joints import JointLayout
 from mobnet.core.store import read_array
+from mobnet.evaluation.figures.drawing.curves import mark_flag
 from mobnet.evaluation.figures.style import beside, entitle, legend, looks, save_figure, styled
 from mobnet.evaluation.measure.detection.results import Detections, rows_of
 from mobnet.settings.detection import Detection
@@ -36,7 +37,7 @@ def figure_15(
     settings: Figure15, detection: Detection, layout: JointLayout, detections: Detections,
     recordings: Sequence[Path], estimates: Mapping[str, Sequence[Path]], figure_dir: Path,
 ) -> None:  # fmt: skip
-    """Write Figure 15 as PDF, PNG and CSV: the first collision of each cell."""
+    """Write Figure 15 as PDF, SVG, PNG and CSV: the first collision of each cell."""
     collisions = rows_of(detections, [settings.level], "collisions", Collision)
     signal = f"{STD}.{settings.joint}"
     found = {
@@ -85,9 +86,13 @@ def draw_courses(courses: Sequence[CollisionCourse], joint: str) -> Figure:
     for k, (axis, course) in enumerate(zip(axes, courses, strict=True)):
         for method in methods:
             axis.plot(course.time, course.stds[method], label=method, **styles[method].line)
-            axis.axhline(course.thresholds[method], color=styles[method].colour, linestyle=":", linewidth=0.8)
+            axis.axhline(
+                course.thresholds[method], color=styles[method].colour, linestyle=":", linewidth=0.9,
+                label=f"threshold of {method}",
+            )  # fmt: skip
+        mark_flag(axis, "swing", course.time, course.swing)
         behind = axis.twinx()
-        behind.fill_between(course.time, course.force, color="0.8", linewidth=0.0, zorder=0)
+        behind.fill_between(course.time, course.force, color="0.75", linewidth=0.0, zorder=0, label="force")
         behind.set_ylim(0.0, 2.0 * max(float(one.force.max()) for one in courses))
         behind.spines["right"].set_visible(True)
         behind.set_ylabel("force [N]" if axis is axes[-1] else "")
@@ -95,11 +100,9 @@ def draw_courses(courses: Sequence[CollisionCourse], joint: str) -> Figure:
         axis.set_zorder(behind.get_zorder() + 1)
         axis.patch.set_visible(False)
         low, high = (float(course.time[end]) for end in (0, -1))
-        axis.fill_between(course.time, 0.0, 0.03, where=course.swing > 0, transform=axis.get_xaxis_transform(),
-                          color="#CC79A7", linewidth=0.0, label="swing by the plan")  # fmt: skip
         axis.set(xlabel="time from the contact [s]", xlim=(low, high))
         entitle(axis, k, course.title)
     axes[0].set_ylabel(f"sigma of {joint} [N m]")
     axes[0].set_ylim(bottom=0.0)
-    legend(figure, axes)
+    legend(figure, figure.axes)
     return figure

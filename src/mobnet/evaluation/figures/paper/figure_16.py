@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from mobnet.core.arrays import Array
 from mobnet.core.reactions import Trial
 from mobnet.core.store import read_array
-from mobnet.evaluation.figures.style import beside, entitle, legend, save_figure, styled
+from mobnet.evaluation.figures.style import LOOKS, beside, entitle, legend, save_figure, styled
 from mobnet.evaluation.measure.detection.results import MS
 from mobnet.evaluation.measure.reaction.results import (
     FALLS,
@@ -31,7 +31,8 @@ from mobnet.settings.reaction import Reaction, watches_of
 COLUMNS = ("case", "quantity", "time_s", "value", "low", "high", "unit", "published")
 LABELS = {PEAK: "largest force [N]", IMPULSE: "impulse [N s]"}
 HEIGHT_INCH = 2.1
-MARKERS = "os^v"
+MARKERS, COLOURS = "os^v", ("black", "0.55")  # of cases
+OURS, REACTION = "0.6", LOOKS["MOB-Net"].colour  # the reaction is that of a method with MOB-Net
 APART_MS = 4.0  # so that intervals of two cases do not cover each other
 
 
@@ -39,7 +40,7 @@ def figure_16(
     settings: Figure16, reaction: Reaction, statistics: Statistics, published: PublishedContacts,
     reactions: Reactions, courses: Mapping[str, Path], figure_dir: Path,
 ) -> None:  # fmt: skip
-    """Write Figure 16 as PDF, PNG and CSV.
+    """Write Figure 16 as PDF, SVG, PNG and CSV.
 
     It has the force over time in one walk of each case, means over all walks, and the share of walks with a fall by how
     long the reaction waits.
@@ -105,7 +106,7 @@ def draw(
     for k, (axis, (case, (times, force, marks))) in enumerate(zip(axes, forces.items(), strict=False)):
         axis.plot(times, force, color="black", linewidth=0.8)
         if len(times) and (reacted := marks["reacted"]) is not None and reacted <= times[-1]:
-            axis.axvline(reacted, color="C3", linestyle="--", linewidth=0.8, label="reaction")
+            axis.axvline(reacted, color=REACTION, linestyle="--", linewidth=0.9, label="reaction")
         axis.set(xlabel="time from contact [s]", ylabel="force [N]")
         entitle(axis, k, case)
     for k, (axis, (name, label)) in enumerate(
@@ -125,8 +126,13 @@ def draw_late(axis: Axes, late: Mapping[str, Mapping[float, Number]]) -> None:
     for k, (case, own) in enumerate(late.items()):
         value, low, high = np.array([number.range for number in own.values()], dtype=np.float64).T
         waits = MS * np.array(list(own)) + k * APART_MS
-        look = {"marker": MARKERS[k % len(MARKERS)], "markersize": 3, "linewidth": 0.8, "capsize": 2.0}
-        axis.errorbar(waits, value, [value - low, high - value], label=case, **look)
+        look = {
+            "marker": MARKERS[k % len(MARKERS)],
+            "color": COLOURS[k % len(COLOURS)],
+            "markersize": 3,
+            "linewidth": 0.8,
+        }
+        axis.errorbar(waits, value, [value - low, high - value], label=case, capsize=2.0, **look)
     axis.set(xlabel="delay [ms]", ylabel="share of walks", ylim=(-0.05, 1.05))
 
 
@@ -136,7 +142,7 @@ def draw_means(axis: Axes, numbers: Mapping[str, Number], published: PublishedCo
     value, low, high = np.array(
         [[np.nan if end is None else end for end in number.range] for number in numbers.values()]
     ).T
-    axis.bar(places, value, 0.6, color="C0", edgecolor="black", linewidth=0.4, label="ours",
+    axis.bar(places, value, 0.6, color=OURS, edgecolor="black", linewidth=0.4, label="ours",
              yerr=[value - low, high - value], error_kw={"linewidth": 0.8, "capsize": 2.0})  # fmt: skip
     printed = [printed_of(published, case, name) for case in numbers]
     axis.plot(places, [np.nan if one is None else one for one in printed], "kD", markersize=3, label="paper")

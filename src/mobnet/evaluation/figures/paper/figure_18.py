@@ -1,22 +1,40 @@
 """Figure 18: one network for each limb against one network for the whole body, errors of the upper body."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from mobnet.core.columns import LIMB_ERRORS
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.compare.rmse import PUSHED
-from mobnet.evaluation.figures.drawing.bars import BarPanel, draw_bars
-from mobnet.evaluation.figures.style import save_figure
+from mobnet.evaluation.figures.style import entitle, legend, looks, save_figure, stacked, styled
 from mobnet.evaluation.measure.estimates.scores import AVERAGE
 from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.rows import read_scores
 from mobnet.settings.evaluation import Figure18, PushWindow, Statistics
 
-UPPER_BODY = "upper body"  # all limbs of the figure together
-
+UPPER_BODY = "all"  # limbs of the figure together, the mean over their joints
+PANEL_INCH, LEGEND_INCH = 1.6, 0.35  # height of a panel and of the legend above all
+APART = 1.35  # distance of the first limb from all limbs together [distances of two limbs]
+BAR_SHARE = 0.84  # of the distance of two limbs
+NUMBER_POINTS, ROOM = 6.0, 1.12  # size of a number above its bar, height of the axis over the highest bar
 Errors = dict[tuple[str, str], Number]  # limb or UPPER_BODY, joint or AVERAGE -> error [N m]
+HATCHED: Mapping[str, Any] = {"edgecolor": "white", "linewidth": 0.0}
+
+
+@dataclass(frozen=True)
+class LimbPanel:
+    """One panel, of n groups of bars: a method has a number [N m] with its interval in each of them."""
+
+    title: str
+    groups: Sequence[str]
+    bars: Mapping[str, Sequence[Number]]
 
 
 def figure_18(
@@ -39,13 +57,13 @@ def figure_18(
             (scenario, method, *place, *error.with_ends, *error.spread)
             for method, found in errors.items() for place, error in found.items()
         ]  # fmt: skip
-    save_figure(draw_bars(panels, "RMSE [N m]"), figure_dir / "figure_18", LIMB_ERRORS, rows)
+    save_figure(draw_limbs(panels, "RMSE [N m]"), figure_dir / "figure_18", LIMB_ERRORS, rows)
 
 
 def wanted_of(
     settings: Figure18, layout: JointLayout, scenario: str, method: str, metric: str = "rmse"
 ) -> dict[tuple[str, str], list[Wanted]]:
-    """Return limb and joint -> the errors whose mean is shown: of the upper body, then of each limb and its joints."""
+    """Return limb and joint -> the errors whose mean is shown: of all limbs, then of each limb and its joints."""
     limbs = {
         limb: [Wanted(scenario, limb, settings.level, method, joint, metric) for joint in layout.limb(limb)]
         for limb in settings.limbs
@@ -56,11 +74,41 @@ def wanted_of(
     return found
 
 
-def panel_of(title: str, errors: Mapping[str, Errors]) -> BarPanel:
-    """Return a panel: a group for the upper body and for each limb, in each a bar for each method [N m]."""
+def panel_of(title: str, errors: Mapping[str, Errors]) -> LimbPanel:
+    """Return a panel: a group for all limbs and for each limb, in each a bar for each method [N m]."""
     bars = {
         method: {limb: error for (limb, joint), error in own.items() if joint == AVERAGE}
         for method, own in errors.items()
     }
     groups = dict.fromkeys(limb for own in bars.values() for limb in own)
-    return BarPanel(title, list(groups), {method: list(own.values()) for method, own in bars.items()})
+    return LimbPanel(title, list(groups), {method: list(own.values()) for method, own in bars.items()})
+
+
+@styled
+def draw_limbs(panels: Sequence[LimbPanel], y_label: str) -> Figure:
+    """Draw bars [N m] with intervals and numbers, a panel for each test; all limbs together stand apart at the left."""
+    figure, axes = stacked([y_label] * len(panels), PANEL_INCH, LEGEND_INCH)
+    for k, (axis, panel) in enumerate(zip(axes, panels, strict=True)):
+        _draw(axis, panel)
+        axis.set_ylabel(y_label)
+        entitle(axis, k, panel.title)
+    legend(figure, axes)
+    return figure
+
+
+def _draw(axis: Axes, panel: LimbPanel) -> None:
+    """Draw the bars [N m] of a panel."""
+    places = np.arange(len(panel.groups)) + (np.arange(len(panel.groups)) > 0) * (APART - 1.0)
+    width, styles = BAR_SHARE / max(1, len(panel.bars)), looks(panel.bars)
+    for k, (method, numbers) in enumerate(panel.bars.items()):
+        x = places + (k - (len(panel.bars) - 1) / 2) * width
+        value, low, high = np.array([number.range for number in numbers], dtype=np.float64).reshape(-1, 3).T
+        look = {"color": styles[method].colour, "hatch": styles[method].hatch, **HATCHED}
+        axis.bar(x, value, 0.92 * width, label=method, **look)
+        axis.vlines(x, low, high, color="black", linewidth=0.8)
+        for place, number, top in zip(x, numbers, high, strict=True):
+            axis.annotate(number.text(1), (place, top), (0.0, 1.5), textcoords="offset points", ha="center",
+                          va="bottom", fontsize=NUMBER_POINTS)  # fmt: skip
+        axis.set_ylim(0.0, max(axis.get_ylim()[1], ROOM * float(high.max(initial=0.0))))
+    axis.set_xticks(places, panel.groups)
+    axis.tick_params(axis="x", length=0.0)

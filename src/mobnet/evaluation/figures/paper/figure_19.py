@@ -1,138 +1,118 @@
-"""Figure 19: velocities and torques of joints in training and in the tests, and their torques by the gait's phase."""
+"""Figure 19: what random torque exploration adds to the samples of training, and the torques by the gait's phase."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
+from matplotlib.lines import Line2D
 
-from mobnet.core.columns import DESIRED, DOTS, SWING, VELOCITY, foot_of
+from mobnet.core.columns import PLANES, foot_of
 from mobnet.core.joints import JointLayout
-from mobnet.core.store import read_array
-from mobnet.evaluation.compare.windows import FLAG, Pushed, evenly, pushed_of
-from mobnet.evaluation.figures.style import PAGE_INCH, entitle, legend, looks, save_figure, styled
-from mobnet.evaluation.measure.data.conditional import HALF, TorqueRange, even_cells, gait_phase, torque_range
+from mobnet.evaluation.compare.windows import pushed_of
+from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, entitle, save_figure, styled
+from mobnet.evaluation.measure.data.conditional import HALF
+from mobnet.evaluation.measure.data.planes import TESTS, Plane, plane_of, read_samples
 from mobnet.settings.evaluation import Coverage, Figure19
 
-CLOUD_INCH = 2.0  # height of a row
-TEST_COLOUR = "black"
-DOT, MARKER = 1.6, 4.0  # size of a dot [points^2]; how much larger it is in the legend
-SHADE = 0.35  # opacity of a range by phase
-
-
-@dataclass(frozen=True)
-class Cloud:
-    """One panel of Figure 19, in the column of its joint and in the row and colour of its training set.
-
-    Dots are joint velocity [rad/s], desired torque [N m] and phase of the gait [-], of training (n, 3) and, drawn over
-    it, of the tests (m, 3). The range is that of the training's torque by phase.
-    """
-
-    joint: str
-    training: str
-    dots: NDArray[Any]
-    test: NDArray[Any]
-    range: TorqueRange
-
-
-@styled
-def draw_clouds(clouds: Sequence[Cloud], test: str) -> Figure:
-    """Draw desired torque [N m] over joint velocity [rad/s], a column for each joint, a row for each training set.
-
-    Below, the central range of the torque [N m] over the phase of the gait [-], all training sets in one panel. The
-    tests' dots have the label `test`.
-    """
-    joints, sets = (list(dict.fromkeys(getattr(cloud, key) for cloud in clouds)) for key in ("joint", "training"))
-    styles = looks(sets)
-    figure = Figure(figsize=(PAGE_INCH, CLOUD_INCH * (len(sets) + 1)), layout="constrained")
-    axes = figure.subplots(len(sets) + 1, len(joints), sharey="col", squeeze=False)
-    for cloud in clouds:
-        row, column = sets.index(cloud.training), joints.index(cloud.joint)
-        colour = styles[cloud.training].colour
-        axes[row, column].sharex(axes[0, column])
-        _scatter(axes[row, column], cloud.dots[:, :2], colour, f"training {cloud.training}")
-        _scatter(axes[row, column], cloud.test[:, :2], TEST_COLOUR, test)
-        _shade(axes[-1, column], cloud.range, colour)
-        if row == len(sets) - 1:
-            _scatter(axes[-1, column], cloud.test[:, [2, 1]], TEST_COLOUR, test)
-            axes[row, column].set_xlabel("velocity [rad/s]")
-            axes[-1, column].set_xlabel(f"phase: swing to {HALF:g}, then stance")
-    for k, (joint, axis) in enumerate(zip(joints, axes[0], strict=True)):
-        entitle(axis, k, joint)
-    for axis in axes[:, 0]:
-        axis.set_ylabel("desired torque [N m]")
-    legend(figure, axes[:, 0].tolist(), last=test, markerscale=MARKER)
-    return figure
-
-
-def _scatter(axis: Axes, dots: NDArray[Any], colour: str, label: str) -> None:
-    """Draw dots (n, 2) as pixels: thousands of vector dots would make a slow page."""
-    axis.scatter(dots[:, 0], dots[:, 1], s=DOT, c=colour, linewidths=0, label=label, rasterized=True)
-
-
-def _shade(axis: Axes, torque: TorqueRange, colour: str) -> None:
-    """Shade a range of the torque [N m] over the phase of the gait [-]."""
-    axis.stairs(torque.high, torque.cells.edges[0], baseline=torque.low, fill=True, color=colour, alpha=SHADE, lw=0)
+ROW_INCH, LEGEND_INCH = 1.9, 0.35  # height of a row of panels and of the legend
+FIRST, SECOND, TEST = "#D55E00", "#0072B2", "black"  # colours of the two training sets and of the tests
+MORE = LinearSegmentedColormap.from_list("more", [SECOND, "white", FIRST])
+SHOWN = 0.995  # quantile of the differences at which the colours end
+SHADE, NOTE_POINTS = 0.25, 6.5  # opacity of a range; size of a note
+DIFFERENCE = "with less without RTE\n[% of all samples]"
+FINE = 20  # points along a cell's side for its outline
 
 
 def figure_19(
     settings: Figure19, coverage: Coverage, layout: JointLayout, training: Mapping[str, Sequence[Path]],
     tests: Sequence[Sequence[Path]], figure_dir: Path,
 ) -> None:  # fmt: skip
-    """Write Figure 19, desired torque [N m] over velocity [rad/s] of some joints, and by phase, as PDF, PNG and CSV.
+    """Write Figure 19, samples in the plane of velocity [rad/s] and desired torque [N m], as PDF, PNG and CSV.
 
-    Each training set has a row of panels; the tests are shown together, each with the same number of dots. The range by
-    phase is that of the dots shown.
+    The training sets are those with and without random torque exploration; the tests are taken together, with equally
+    many samples of each.
     """
     joints, share = settings.joints, settings.test_dots // len(tests)
     foot = foot_of(layout, layout.limb(coverage.limb)[0])
-    learnt = {name: read_dots(stems, joints, settings.dots, foot) for name, stems in training.items()}
-    tested = {
-        test.scenario: read_dots(stems, joints, share, foot, pushed_of(test, coverage))
+    sets = {name: read_samples(stems, joints, settings.dots, foot) for name, stems in training.items()}
+    tested = [
+        read_samples(stems, joints, share, foot, pushed_of(test, coverage))
         for test, stems in zip(coverage.tests, tests, strict=True)
-    }
-    together = np.concatenate(list(tested.values()))
-    clouds = [
-        Cloud(joint, name, dots[:, k], together[:, k], range_of(dots[:, k], coverage))
-        for name, dots in learnt.items()
+    ]
+    sets[TESTS] = np.concatenate(tested)
+    planes = [
+        plane_of(joint, {name: samples[:, k] for name, samples in sets.items()}, settings.outlined, coverage)
         for k, joint in enumerate(joints)
     ]
-    rows = [
-        (kind, name, joint, *dot)
-        for kind, sets in (("training", learnt), ("test", tested))
-        for name, dots in sets.items()
-        for k, joint in enumerate(joints)
-        for dot in dots[:, k].tolist()
-    ]
-    save_figure(draw_clouds(clouds, "test"), figure_dir / "figure_19", DOTS, rows)
+    rows = [row for plane in planes for row in plane.rows()]
+    save_figure(draw_planes(planes, settings.outlined), figure_dir / "figure_19", PLANES, rows)
 
 
-def range_of(dots: NDArray[Any], coverage: Coverage) -> TorqueRange:
-    """Return the central range by phase of the torque of dots (n, 3): velocity, torque [N m], phase [-]."""
-    cells = even_cells([(0.0, 1.0)], [coverage.phases])
-    return torque_range(cells, dots[:, 2:], dots[:, 1], coverage.range, coverage.cell_samples)
+@styled
+def draw_planes(planes: Sequence[Plane], outlined: float) -> Figure:
+    """Draw a column for each joint: the difference of two training sets in the plane, and torque ranges by phase.
 
-
-def read_dots(
-    stems: Sequence[Path], joints: Sequence[str], count: int, foot: str, pushed: Pushed | None = None
-) -> NDArray[np.float32]:
-    """Return velocity [rad/s], desired torque [N m] and phase [-] at evenly spread samples (n, joints, 3).
-
-    The phase is that of a foot's gait. At most `count` samples of all recordings together are taken, where the phase is
-    known, and around pushes only where those are given.
+    The outline is that of the tests, of which it holds the share `outlined` [-].
     """
-    names = [f"{SWING}.{foot}", *(f"{quantity}.{joint}" for joint in joints for quantity in (VELOCITY, DESIRED))]
-    arrays = [np.zeros((0, len(joints), 3), dtype=np.float32)]
-    for stem in stems:
-        array, meta = read_array(stem, names)
-        phase = gait_phase(array[:, 0] > FLAG, meta["segments"]).astype(np.float32)
-        both = array[:, 1:].reshape(len(array), len(joints), 2)
-        dots = np.concatenate([both, np.broadcast_to(phase[:, None, None], (*both.shape[:2], 1))], axis=2)
-        spans = pushed.spans(stem) if pushed else meta["segments"]
-        arrays += [dots[start:end][np.isfinite(phase[start:end])] for start, end in spans]
-    together = np.concatenate(arrays)
-    return together[evenly(len(together), count)]
+    figure = Figure(figsize=(PAGE_INCH, 2 * ROW_INCH + LEGEND_INCH), layout="constrained")
+    axes = figure.subplots(2, len(planes), squeeze=False)
+    most = max(float(np.quantile(np.abs(plane.difference), SHOWN)) for plane in planes) or 1.0
+    for k, (plane, above, below) in enumerate(zip(planes, *axes, strict=True)):
+        drawn = _plane(above, plane, most)
+        _ranges(below, plane)
+        below.sharey(above)
+        entitle(above, k, plane.joint)
+        above.set_xlabel("velocity [rad/s]")
+        below.set(xlabel="phase of the gait [-]", xlim=(0.0, 1.0))
+        above.text(0.03, 0.97, f"{plane.common:.0f} % in common", transform=above.transAxes, va="top",
+                   fontsize=NOTE_POINTS)  # fmt: skip
+        if k == len(planes) - 1:
+            figure.colorbar(drawn, ax=axes[0].tolist(), label=DIFFERENCE, fraction=0.03, pad=0.01, aspect=25)
+    for axis in axes[:, 0]:
+        axis.set_ylabel("desired torque [N m]")
+    _key(figure, list(planes[0].ranges), outlined)
+    return figure
+
+
+def _plane(axis: Axes, plane: Plane, most: float) -> Any:
+    """Draw the difference [points] in the cells, up to `most` to each side, and the outline of the tests."""
+    x, y = plane.edges
+    drawn = axis.pcolormesh(x, y, plane.difference.T, cmap=MORE, vmin=-most, vmax=most, rasterized=True)
+    inside = np.pad(np.kron(plane.outline.T, np.ones((FINE, FINE))), FINE)
+    places = [
+        np.interp(np.arange(inside.shape[1 - k]) / FINE - 1.0 + 0.5 / FINE, np.arange(len(edges)), edges)
+        for k, edges in enumerate((x, y))
+    ]
+    if plane.outline.any():
+        axis.contour(*places, inside, levels=[0.5], colors=TEST, linewidths=0.7)
+    return drawn
+
+
+def _ranges(axis: Axes, plane: Plane) -> None:
+    """Draw the ranges of the torque [N m] over the phase of the gait [-]: one filled, the others as outlines."""
+    colours = dict(zip(plane.ranges, (FIRST, SECOND, TEST), strict=True))
+    for k, (name, found) in enumerate(plane.ranges.items()):
+        edges, colour = found.cells.edges[0], colours[name]
+        if k == 0:
+            axis.stairs(found.high, edges, baseline=found.low, fill=True, color=colour, alpha=SHADE, lw=0)
+        for end in (found.low, found.high):
+            axis.stairs(end, edges, baseline=None, color=colour, linewidth=0.8)
+    axis.axvline(HALF, color="0.6", linewidth=0.6, linestyle=(0, (2, 2)), zorder=0)
+    for middle, name in ((HALF / 2.0, "swing"), ((1.0 + HALF) / 2.0, "stance")):
+        axis.text(middle, 1.0, name, transform=axis.get_xaxis_transform(), ha="center", va="bottom",
+                  fontsize=NOTE_POINTS)  # fmt: skip
+
+
+def _key(figure: Figure, sets: Sequence[str], outlined: float) -> None:
+    """Put the legend above all: the two training sets, and the tests."""
+    colours = dict(zip(sets, (FIRST, SECOND, TEST), strict=True))
+    names = {
+        name: f"training {name}" if name != TESTS else f"{TESTS}; outline: {outlined:.0%} of them" for name in sets
+    }
+    handles = [Line2D([], [], color=colours[name], linewidth=1.5, label=names[name]) for name in sets]
+    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), frameon=False,
+                  fontsize=STYLE["legend.fontsize"], borderpad=0.0)  # fmt: skip

@@ -12,20 +12,22 @@ from mobnet.control.kinematics import empty_pose, tree_of, update
 from mobnet.core.arrays import Array
 from mobnet.core.course import StoredCourse, read_course
 from mobnet.core.joints import N_VIRTUAL
-from mobnet.evaluation.figures.drawing.robot import hull_of
-from mobnet.evaluation.figures.drawing.scene import PAD, draw_arrow, part_surface
-from mobnet.evaluation.figures.style import PAGE_INCH, legend, save_figure, styled
+from mobnet.evaluation.figures.drawing.scene import PAD, draw_arrow, solid_of
+from mobnet.evaluation.figures.drawing.solids import outline_of
+from mobnet.evaluation.figures.style import COLUMN_INCH, legend, save_figure, styled
 from mobnet.robot.description import SIDES, RobotDescription, describe
 from mobnet.settings.data import Obstacle
 from mobnet.settings.evaluation import Figure21
 from mobnet.settings.robot import RobotTable
 
 COLUMNS = ("foot", "step", "reacting", "time_s", "x_m", "y_m", "yaw_rad")
-HEIGHT_INCH = 2.4
+HEIGHT_INCH = 2.9
 IN_THE_AIR = 0.5  # of a flag
 COLOURS = {"left": "#0072B2", "right": "#009E73"}
 Step = tuple[str, int, Array]  # side, sample at which the foot stands, its place x, y and yaw (3,) [m, m, rad]
 ARROW_M = 0.25
+FROM_ABOVE = np.eye(3)  # the axes of the picture
+PLACES = 6  # of numbers along a sole
 
 
 @styled
@@ -36,7 +38,7 @@ def figure_21(
     courses: Mapping[str, Path],
     figure_dir: Path,
 ) -> None:
-    """Write Figure 21 as PDF, PNG and CSV: where the feet stood in the first walk of a case, before and after."""
+    """Write Figure 21 as PDF, SVG, PNG and CSV: where the feet stood in the first walk of a case, before and after."""
     description = describe(robot)
     course = read_course(courses[settings.case], description.layout)
     reacted, rate_hz = course.at("reacted_s"), course.note["rate_hz"]
@@ -76,7 +78,7 @@ def _draw(
     robot: RobotDescription, obstacles: Mapping[str, Obstacle], course: StoredCourse, steps: list[Step]
 ) -> Figure:
     """Draw soles, obstacles, the way of the base, and the force until the reaction."""
-    figure = Figure(figsize=(PAGE_INCH, HEIGHT_INCH), layout="constrained")
+    figure = Figure(figsize=(COLUMN_INCH, HEIGHT_INCH), layout="constrained")
     axis: Axes = figure.subplots()
     reacted, first = course.at("reacted_s"), course.at("contact_s")
     corners, count = sole_corners(robot), 0
@@ -87,13 +89,16 @@ def _draw(
         count += is_reacting
         axis.add_patch(Polygon(
             outline, closed=True, edgecolor=COLOURS[side], facecolor=COLOURS[side] if is_reacting else "none",
-            alpha=0.45 if is_reacting else 1.0, linewidth=0.8,
+            alpha=0.45 if is_reacting else 1.0, linewidth=0.8, label=f"{side} sole",
         ))  # fmt: skip
         if is_reacting:
-            axis.annotate(str(count), outline.mean(axis=0), ha="center", va="center", fontsize=7)
+            heel, toe = outline[[1, 2]].mean(axis=0), outline[[0, 3]].mean(axis=0)
+            # Soles that lie on one another have their numbers beside each other.
+            along = (count % PLACES + 0.5) / PLACES
+            axis.annotate(str(count), heel + along * (toe - heel), ha="center", va="center", fontsize=7)
     for name, at in course.note["obstacles"].items():
         for part in obstacles[name].parts:
-            outline = hull_of((np.asarray(at) + part_surface(part))[:, :2])
+            outline = outline_of(solid_of(part, at), FROM_ABOVE)
             axis.add_patch(Polygon(outline, closed=True, facecolor=PAD, edgecolor="0.25", linewidth=0.6, zorder=0))
     end = len(course.q) if reacted is None else reacted
     axis.plot(*course.q[:end, :2].T, color="0.5", linewidth=0.8, label="pelvis until the reaction")

@@ -11,8 +11,10 @@ from mobnet.evaluation.figures.drawing.scene import draw_scene
 from mobnet.evaluation.figures.style import PAGE_INCH, entitle, save_figure, styled
 from mobnet.evaluation.number.files import Field
 from mobnet.robot.description import describe
+from mobnet.robot.looks import dressed
 from mobnet.settings.data import Obstacle
 from mobnet.settings.evaluation import Figure22
+from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 
 COLUMNS = (
@@ -27,12 +29,13 @@ ROOM_M = (-0.75, 0.75, -0.1, 1.9)  # of a panel: right of the base's first place
 def figure_22(
     settings: Figure22,
     robot: RobotTable,
+    looks: Looks | None,
     obstacles: Mapping[str, Obstacle],
     courses: Mapping[str, Path],
     figure_dir: Path,
 ) -> None:
-    """Write Figure 22 as PDF, PNG and CSV: the first walk of each case, before the contact, at it, and after it."""
-    description, rows = describe(robot), list[list[Field]]()
+    """Write Figure 22 as PDF, SVG, PNG and CSV: the first walk of each case before, at and after the contact."""
+    description, rows = dressed(describe(robot), looks), list[list[Field]]()
     walks = {case: read_course(courses[case], description.layout) for case in settings.cases}
     figure = Figure(figsize=(PAGE_INCH, ROW_INCH * len(walks)), layout="constrained")
     grid = figure.subplots(len(walks), len(settings.moments_s) + 1, squeeze=False)

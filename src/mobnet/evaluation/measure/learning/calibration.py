@@ -1,4 +1,4 @@
-"""How far the predicted standard deviations can be trusted, as learned and scaled: on held-out data and in tests.
+"""How far the predicted standard deviations can be trusted, uncalibrated and calibrated: on held-out data and in tests.
 
 Held-out rows come from the trainings' own notes: there, the factors are fitted to the first half of the validation data
 and tested on the second half. In tests the factors are those that were fitted to all validation data.
@@ -39,8 +39,8 @@ class CoverageGrid:
     """Measures of one limb of a method in one test, or in VALIDATION, at one level.
 
     Where only samples around pushes count, `pushed` is the joint that is pushed, else it is empty. Values are means
-    over the limb's joints (networks, tests, 2, k + 2), as learned and scaled: coverage of k nominal shares, negative
-    log-likelihood [nats] and CRPS [unit].
+    over the limb's joints (networks, tests, 2, k + 2), uncalibrated and calibrated: coverage of k nominal shares,
+    negative log-likelihood [nats] and CRPS [unit].
     """
 
     test: str

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from math import isclose
 from operator import attrgetter
 from pathlib import Path
+from statistics import fmean
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
@@ -111,7 +112,8 @@ class TrainedNetwork:
     The samples are those learned from, without those held out; an epoch has `epoch_samples` of them. A training that
     diverged was stopped as its loss grew; its epochs end there. `windows_loss` is the validation loss (22) of the epoch
     kept if the network starts from a zero state a window before every sample; for all other losses its state is
-    carried from sample to sample.
+    carried from sample to sample. `joint_errors` are joint -> its RMSE of each epoch [N, N m]; a training of an earlier
+    version has none.
     """
 
     method: str
@@ -123,6 +125,7 @@ class TrainedNetwork:
     chosen_by: str
     epoch_samples: int
     epochs: tuple[Epoch, ...]
+    joint_errors: Mapping[str, Sequence[float]]
 
     @property
     def steps(self) -> int:
@@ -146,11 +149,11 @@ def read_training(folder: Path) -> TrainedNetwork:
     Raises:
         DataError: a file is missing or damaged, or they do not agree, one line for each fault.
     """
-    note, epochs = read_training_note(folder), read_epochs(folder / METRICS)
-    refuse(folder, _disagreements(note, epochs))
+    note, (epochs, errors) = read_training_note(folder), read_epochs(folder / METRICS)
+    refuse(folder, [*_disagreements(note, epochs), *_errors_apart(note, epochs, errors)])
     return TrainedNetwork(
         note.method, note.seed, note.parameters, note.samples, note.diverged, note.on_windows.loss, note.chosen_by,
-        note.settings.epoch_samples or note.samples, epochs,
+        note.settings.epoch_samples or note.samples, epochs, errors,
     )  # fmt: skip
 
 
@@ -184,6 +187,19 @@ def _disagreements(note: TrainingNote, epochs: Sequence[Epoch]) -> Iterator[str]
         said, found = getattr(note.best, name), getattr(kept, name)
         if said is not None and not isclose(said, found, rel_tol=DIGITS):
             yield _apart(f"{name} of epoch {noted}", found, said)
+
+
+def _errors_apart(note: TrainingNote, epochs: Sequence[Epoch], errors: Mapping[str, Sequence[float]]) -> Iterator[str]:
+    """Yield joints that are not the note's, and the first epoch whose error is not the mean over the joints."""
+    joints = note.calibration.joints
+    if errors and list(errors) != list(joints):
+        yield _apart("joints with errors", ", ".join(errors), ", ".join(joints))
+    for epoch, own in zip(epochs, zip(*errors.values(), strict=True), strict=False):
+        if not isclose(fmean(own), epoch.validation_rmse, rel_tol=DIGITS):
+            yield f"validation_rmse of epoch {epoch.epoch}: " + not_accepted(
+                METRICS, epoch.validation_rmse, [f"the mean over the joints, {fmean(own):.6g}"]
+            )
+            return
 
 
 def _apart(what: str, found: object, said: object) -> str:

@@ -13,7 +13,7 @@ from mobnet.settings.networks import Learning
 
 COVERAGE, NLL, CRPS = "coverage", "nll", "crps"
 
-Trust = Mapping[tuple[str, float | None], tuple[Number, Number]]  # measure, nominal share -> as learned, scaled
+Trust = Mapping[tuple[str, float | None], tuple[Number, Number]]  # measure, nominal share -> uncalibrated, scaled
 
 
 def trust_table(
@@ -50,11 +50,11 @@ def trust_of(grid: CoverageGrid, levels: Sequence[float], statistics: Statistics
 
 
 def table_header(settings: CalibrationTable, learning: Learning, confidence: float) -> list[str]:
-    """Return the header: coverage of the bar's share as learned, of each level scaled, then NLL [nats] and CRPS."""
+    """Return the header: coverage of the bar's share uncalibrated, of each level scaled, then NLL [nats] and CRPS."""
     share = f"{learning.calibration_share:.0%}"
     return [
-        "Test", "Method", "Limb", f"{share}, as learned", *(f"{level:.0%}" for level in learning.calibration_levels),
-        f"{confidence:.0%} of {share}", "NLL, as learned", "NLL", "CRPS, as learned", "CRPS",
+        "Test", "Method", "Limb", f"{share}, uncalibrated", *(f"{level:.0%}" for level in learning.calibration_levels),
+        f"{confidence:.0%} of {share}", "NLL, uncalibrated", "NLL", "CRPS, uncalibrated", "CRPS",
         f"{share} within {settings.tolerance:.0%}",
     ]  # fmt: skip
 

@@ -16,7 +16,7 @@ COLUMNS = r">{\raggedright\arraybackslash}p{.42\linewidth}>{\raggedright\arrayba
 
 
 def claim_table(judged: Sequence[Judged], confidence: float, table_dir: Path) -> None:
-    """Write claims.csv, .md and .tex; the TeX file has no rows of single joints, which the figure shows.
+    """Write claims.csv, .md and .tex; the TeX file has no rows of single joints.
 
     `confidence` is that of the intervals, a share [-].
     """

@@ -1,0 +1,42 @@
+"""How Sphinx builds the documentation: `./reproduce docs` puts this file, documents and made pages in one folder."""
+
+import re
+
+project = "MOB-Net, reproduced"
+html_title = project
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+root_doc = "index"
+html_theme = "furo"
+html_static_path = ["docs/site.css"]
+html_css_files = ["site.css"]
+html_copy_source = html_show_sourcelink = html_show_sphinx = html_show_copyright = False
+html_show_search_summary = False  # it loads each page found, which a browser refuses without a server
+html_last_updated_fmt = None  # the same pages on every day
+myst_enable_extensions = ["colon_fence"]
+myst_heading_anchors = 4  # as code hosts make them
+autodoc_member_order = "bysource"
+autodoc_typehints_format = "short"
+default_role = "code"  # what docstrings set in single backticks
+napoleon_google_docstring, napoleon_numpy_docstring = True, False
+nitpicky = True  # every reference must lead somewhere, but for
+nitpick_ignore_regex = [
+    (r"py:.*", r"(?!mobnet\.).*"),  # types of Python and of packages: their documentation is on no disk
+    (r"py:.*", r"mobnet\.(settings|plan|running|control|commands|evaluation)\..*"),  # they have no page of modules
+    (r"py:.*", r"mobnet\..*\.(_\w+|Kind|Named|Row|State)"),  # private names, variables of types, other names of types
+]
+ARRAY = re.compile(r"~?numpy\.ndarray\[tuple\[[^][]*\], ~?numpy\.dtype\[[^][]*\]\]")
+
+
+def setup(app):  # noqa: ANN001, ANN201, D103
+    app.connect("autodoc-skip-member", skipped)
+    app.connect("autodoc-process-signature", shortened)
+
+
+def skipped(app, what, name, member, skip, options):  # noqa: ANN001, ANN201
+    """Leave out the fields of a NamedTuple, which its docstring describes."""
+    return True if type(member).__name__ == "_tuplegetter" else None
+
+
+def shortened(app, what, name, member, options, arguments, returned):  # noqa: ANN001, ANN201
+    """Call an array `ndarray` whatever its numbers are: docstrings tell shapes and units."""
+    return tuple(text and ARRAY.sub("~numpy.ndarray", text) for text in (arguments, returned))

@@ -1,0 +1,75 @@
+"""One push as several methods feel it: `./reproduce demo`, and its estimators for programs of others (docs/demo.md).
+
+Weights, fit and recording are those of the published run (docs/demo); nothing is trained or simulated.
+"""
+
+import argparse
+import logging
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from mobnet.core.code import ROOT
+from mobnet.core.errors import MobnetError, not_accepted
+from mobnet.core.estimator import Estimator
+from mobnet.core.recording import Sensed
+from mobnet.evaluation.measure.story import StoredPush
+from mobnet.evaluation.report.demo import draw, lines_of, title_of
+from mobnet.running.environment import quieten
+from mobnet.settings.load import load_settings
+
+DATA = ROOT / "docs" / "demo"
+PICTURE = ROOT / "results" / "demo.png"
+ENDINGS = (".png", ".pdf", ".svg")
+log = logging.getLogger(__name__)
+
+
+def load(method: str = "MOB-Net", folder: Path = DATA) -> tuple[Estimator, Sensed]:
+    """Return the estimator of a method, and samples of a walking robot that is pushed, to step through one by one.
+
+    The estimator has `joints` (n,), `init()` and `step(state, sample)`, which returns the next state and an `Estimate`
+    with tau_ext and, where the method has one, std (n,) [N m]. Samples are at 1 kHz, their units are those of `Sensed`.
+
+    Raises:
+        ConfigError: the method is none of those whose files are stored.
+        DataError: a file is missing or damaged.
+    """
+    push = StoredPush(folder, load_settings())
+    return push.estimator(method), push.recording.sensed
+
+
+def main(words: Sequence[str]) -> int:
+    """Run the command; return its exit status."""
+    parser = argparse.ArgumentParser(prog="./reproduce demo", description="Show one push as several methods feel it.")
+    parser.add_argument("--out", type=Path, default=PICTURE, help="the picture (default: results/demo.png)")
+    parser.add_argument("--data", type=Path, default=DATA, help="folder of the stored push (default: docs/demo)")
+    options = parser.parse_args(words)
+    if options.out.suffix not in ENDINGS:
+        parser.error(not_accepted("--out: ending", options.out.suffix, ENDINGS))
+    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+    logging.getLogger("matplotlib").setLevel(logging.WARNING)  # it tells of its cache of fonts
+    quieten(ROOT)
+    try:
+        show(StoredPush(options.data, load_settings()), options.out)
+    except MobnetError as error:
+        log.error("%s", error)
+        return 1
+    return 0
+
+
+def show(push: StoredPush, out: Path) -> None:
+    """Print what each method shows of a stored push, and write the picture.
+
+    Raises:
+        DataError: a file is missing or damaged, or the picture cannot be written.
+    """
+    log.info("%s", title_of(push))
+    estimates = {method: push.estimate(method) for method in push.story.methods}
+    for line in lines_of(push, estimates):
+        log.info("%s", line)
+    draw(push, estimates, out)
+    log.info("%s", out)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

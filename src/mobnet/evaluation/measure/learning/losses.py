@@ -1,0 +1,62 @@
+"""Losses of kinds of networks: epoch by epoch, and where a training ends, with intervals over its runs."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mobnet.core.errors import DataError
+from mobnet.evaluation.measure.learning.trainings import MEASURES, TrainedNetwork
+from mobnet.evaluation.number.intervals import RunGrid, summarise
+from mobnet.evaluation.number.number import Number
+from mobnet.settings.evaluation import Statistics
+
+COURSES = {"train_loss": "training loss", "validation_loss": "validation loss"}  # fields of `columns.Epoch`
+ENDS = {"training loss at the end": "training loss", "validation loss": "validation loss"}  # of MEASURES -> its course
+
+
+@dataclass(frozen=True)
+class Loss:
+    """A loss (22) of a kind of network [-], the mean over its runs: of an epoch, or None for that of the end.
+
+    At the end it is the training loss of the last epoch, or the validation loss of the epoch kept. `stride` is the
+    distance between two time steps of the epoch [samples]: losses at unlike strides are those of unlike tasks. `runs`
+    are the losses of the single runs.
+    """
+
+    measure: str
+    method: str
+    epoch: int | None
+    stride: int
+    number: Number
+    runs: tuple[float, ...]
+
+    def record(self) -> tuple[str | float | None, ...]:
+        """Return the row of figure_17.csv."""
+        return self.measure, self.method, len(self.runs), self.epoch, self.stride, *self.number.with_ends
+
+
+def losses_of(method: str, trainings: Sequence[TrainedNetwork], statistics: Statistics) -> Iterator[Loss]:
+    """Yield the losses of every epoch of a kind's runs, which did not diverge, and those of their end.
+
+    Raises:
+        DataError: the runs have different numbers of epochs.
+    """
+    counts = {len(training.epochs) for training in trainings}
+    if len(counts) != 1:
+        raise DataError(f"{method}: runs of {', '.join(map(str, sorted(counts)))} epochs do not make one curve")
+    for field, measure in COURSES.items():
+        for k, epoch in enumerate(trainings[0].epochs):
+            values = [float(getattr(training.epochs[k], field)) for training in trainings]
+            yield _loss(measure, method, epoch.epoch, epoch.stride, values, statistics)
+    for name, measure in ENDS.items():
+        values = [MEASURES[name][0](training) for training in trainings]
+        yield _loss(measure, method, None, trainings[0].kept.stride, values, statistics)
+
+
+def _loss(
+    measure: str, method: str, epoch: int | None, stride: int, values: Sequence[float], statistics: Statistics
+) -> Loss:
+    """Return a loss of some runs (n,) [-]."""
+    number = summarise([RunGrid(np.array(values)[:, None])], statistics)
+    return Loss(measure, method, epoch, stride, number, tuple(values))

@@ -1,0 +1,108 @@
+"""The documentation's pages: every link leads somewhere, nothing comes from elsewhere, search works from a folder."""
+
+from pathlib import Path
+
+import pytest
+from browser import with_browser
+from links import broken, outside
+
+from mobnet.core.errors import DataError
+from mobnet.evaluation.report.docs import build, docs, modules_of, relinked
+from mobnet.plan.plan import make_plan
+from mobnet.settings.load import load_settings
+
+ROOT = Path(__file__).parents[3]
+
+
+@pytest.fixture(scope="module")
+def arguments():
+    """What the rule gives to its function."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(ROOT)
+        (product,) = make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False).docs
+        yield product.job.call.arguments
+
+
+@pytest.fixture(scope="module")
+def site(arguments, tmp_path_factory):
+    """The documentation as the rule makes it."""
+    folder = tmp_path_factory.mktemp("site") / "docs"
+    docs(**{**arguments, "out": folder})
+    return folder
+
+
+def test_links_to_folders_and_to_the_readme_lead_to_pages(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    sources = tmp_path / "sources"
+    (sources / "docs" / "results").mkdir(parents=True)
+    (tmp_path / "configs").mkdir()
+    (tmp_path / "configs" / "one.yaml").write_text("a: 1\n")
+    text = "[a](results) [b](../README.md#limits) [c](../configs/one.yaml) [d](b.md) [e](https://x.org/README.md)"
+    found = relinked(text, Path("docs/page.md"), sources)
+    assert found == (
+        "[a](results/README.md) [b](../index.md#limits) [c](../configs/one.yaml) [d](b.md) [e](https://x.org/README.md)"
+    )
+    assert (sources / "configs" / "one.yaml").read_text() == "a: 1\n"
+
+
+def test_modules_that_are_run_and_packages_that_are_not_public_have_no_page():
+    names = ("core/rows.py", "core/__init__.py", "settings/base.py", "simulation/__main__.py", "robot/frames.py")
+    found = modules_of([Path("src/mobnet") / name for name in names])
+    assert {name: modules for name, modules in found.items() if modules} == {
+        "core": ["mobnet.core.rows"],
+        "robot": ["mobnet.robot.frames"],
+    }
+
+
+def test_a_link_that_leads_nowhere_stops_the_build_with_its_line(tmp_path):
+    (tmp_path / "sources" / "docs").mkdir(parents=True)
+    conf = (ROOT / "docs" / "conf.py").read_text()
+    (tmp_path / "sources" / "conf.py").write_text(conf)
+    (tmp_path / "sources" / "docs" / "site.css").touch()
+    (tmp_path / "sources" / "index.md").write_text("# Title\n\nText with a [link](nowhere.md).\n")
+    with pytest.raises(DataError, match=r"index\.md:3: WARNING: .*nowhere\.md"):
+        build(tmp_path / "sources", tmp_path / "pages")
+
+
+@pytest.mark.slow
+def test_every_link_of_every_page_leads_to_a_file_and_a_place_in_it(site):
+    pages = sorted(site.rglob("*.html"))
+    assert len(pages) > 100
+    assert list(broken(pages)) == []
+
+
+@pytest.mark.slow
+def test_nothing_is_loaded_from_elsewhere(site):
+    assert outside([*site.rglob("*.html"), *site.rglob("*.css")]) == set()
+
+
+@pytest.mark.slow
+def test_every_document_is_a_page_and_every_published_figure_is_shown(site):
+    documents = [*(ROOT / "docs").glob("*.md"), *(ROOT / "docs" / "notes").glob("*.md")]
+    pages = [site / path.relative_to(ROOT).with_suffix(".html") for path in documents]
+    assert [page for page in pages if not page.is_file()] == []
+    gallery = (site / "docs" / "results" / "README.html").read_text()
+    drawn = [path.stem for path in (ROOT / "docs" / "results").glob("*.png")]
+    assert [name for name in drawn if f"{name}.png" not in gallery] == []
+
+
+@pytest.mark.slow
+def test_two_builds_are_equal_to_the_byte(site, arguments, tmp_path):
+    docs(**{**arguments, "out": tmp_path / "docs"})
+    found = {path.relative_to(site): path.read_bytes() for path in site.rglob("*") if path.is_file()}
+    again = {path.relative_to(tmp_path / "docs"): path for path in (tmp_path / "docs").rglob("*") if path.is_file()}
+    assert found.keys() == again.keys()
+    assert [path for path, content in found.items() if again[path].read_bytes() != content] == []
+
+
+@pytest.mark.slow
+@with_browser
+def test_search_finds_a_page_without_a_server(site, running):
+    running.events.clear()
+    running.go(f"{(site / 'search.html').as_uri()}?q=momentum+observer")
+    running.until("document.querySelectorAll('#search-results li a').length > 5", True)
+    links = running.value("[...document.querySelectorAll('#search-results li a')].map(a => a.href)")
+    assert any("0034-observer.html" in link for link in links)
+    assert [event for event in running.events if event["method"] == "Runtime.exceptionThrown"] == []
+    asked = [event["params"]["request"]["url"] for event in running.events if event["method"].endswith("WillBeSent")]
+    assert [url for url in asked if not url.startswith(("file:", "data:", "about:"))] == []

@@ -1,0 +1,40 @@
+"""The documentation is made apart from all other products, from files that are in the project."""
+
+from pathlib import Path
+
+import pytest
+
+from mobnet.plan.plan import Plan, make_plan
+from mobnet.plan.products import Product
+from mobnet.settings.load import load_settings
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def plan() -> Plan:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(ROOT)
+        return make_plan(load_settings(overrides={"scale": "smoke"}), with_pdf=False)
+
+
+@pytest.fixture
+def product(plan: Plan) -> Product:
+    (product,) = plan.docs
+    return product
+
+
+def test_no_product_needs_it_and_it_needs_none(plan: Plan, product: Product) -> None:
+    assert product.outputs == ("results/smoke/docs",)
+    made = {*plan.stored, *(name for one in plan.products for name in one.outputs)}
+    assert not made & set(product.job.inputs)
+    assert not [one.name for one in plan.products if set(one.job.inputs) & set(product.outputs)]
+
+
+def test_it_is_made_again_when_a_document_a_caption_a_result_or_a_docstring_changes(product: Product) -> None:
+    wanted = (
+        "README.md", "docs/README.md", "docs/conf.py", "docs/notes/0034-observer.md", "docs/results/figure_06.png",
+        "docs/results/claims.csv", "workflow/report/tables/table_05.rst", "src/mobnet/settings/base.py",
+    )  # fmt: skip
+    assert [name for name in wanted if name not in product.job.inputs] == []
+    assert [name for name in product.job.inputs if not (ROOT / name).is_file()] == []

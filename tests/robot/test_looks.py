@@ -1,0 +1,55 @@
+"""Looks are for pictures alone: physics, contacts and what a recording depends on are the same with and without."""
+
+import numpy as np
+import pytest
+
+from mobnet.evaluation.figures.drawing.robot import lowest
+from mobnet.robot.description import WalkingRobot, describe
+from mobnet.robot.looks import dressed
+from mobnet.robot.plant import robot_spec
+from mobnet.settings.settings import Settings
+
+PHYSICS = (
+    "nq", "nv", "nu", "nbody", "nsite", "nsensor", "body_mass", "body_inertia", "body_ipos", "body_iquat", "body_pos",
+    "body_parentid", "dof_armature", "jnt_axis", "jnt_range", "actuator_gear", "sensor_type", "site_pos",
+)  # fmt: skip
+
+
+def test_a_robot_with_looks_has_the_same_physics_and_the_same_contacts(settings: Settings, robot: WalkingRobot) -> None:
+    plain, shown = (robot_spec(one).compile() for one in (robot, dressed(robot, settings.robot.looks)))
+    for name in PHYSICS:
+        np.testing.assert_array_equal(getattr(plain, name), getattr(shown, name), err_msg=name)
+    assert shown.ngeom > plain.ngeom
+    for one in (plain, shown):
+        touching = (one.geom_contype != 0) | (one.geom_conaffinity != 0)
+        assert [one.geom(k).name for k in np.flatnonzero(touching)] == ["left_sole", "right_sole"]
+    for name in ("pos", "size", "friction"):
+        for sole in ("left_sole", "right_sole"):
+            np.testing.assert_array_equal(getattr(plain.geom(sole), name), getattr(shown.geom(sole), name))
+
+
+def test_no_job_depends_on_looks_by_the_table(settings: Settings) -> None:
+    table = settings.robot
+    without = table.model_copy(update={"looks": None})
+    assert repr(without) == repr(table)
+    assert (describe(without).shapes, describe(without).tones) == (describe(table).shapes, describe(table).tones)
+    other = table.model_copy(update={"shapes": table.shapes[1:]})
+    assert repr(other) != repr(table)  # these do touch
+
+
+def test_a_robot_without_looks_is_shown_as_it_is(robot: WalkingRobot) -> None:
+    assert dressed(robot, None) is robot
+
+
+def test_looks_stand_on_the_same_soles_and_are_as_high_as_the_robot(settings: Settings, robot: WalkingRobot) -> None:
+    shown, q = dressed(robot, settings.robot.looks), np.eye(1, robot.layout.nq, 3)[0]
+    assert lowest(shown, q) == pytest.approx(lowest(robot, q))
+    heads = [max(row.pos[2] + row.size[-1] for row in one.shapes if row.body == "Head_Link") for one in (robot, shown)]
+    assert heads[0] == pytest.approx(heads[1], abs=0.02)
+
+
+def test_every_solid_of_a_side_has_its_mirror_image(settings: Settings, robot: WalkingRobot) -> None:
+    names = [shape.name for shape in dressed(robot, settings.robot.looks).shapes]
+    left = [name for name in names if name.startswith("left_")]
+    assert len(left) > 30
+    assert {name.replace("left_", "right_", 1) for name in left} <= set(names)
