@@ -25,7 +25,7 @@ MODULES = {  # command -> the module that `python -m` runs, with words that come
     "cost": ("mobnet.evaluation.report.cost",),
     **{name: ("mobnet.evaluation.report.snapshot", name) for name in ("verify", "compare", "snapshot")},
 }
-OUTSIDE = ("check", "calibrate", "demo", "observe", "robot")  # their words are files of whoever calls, where no code is ours
+OUTSIDE = ("check", "calibrate", "demo", "observe", "robot")  # their words are files of the caller, no code of ours
 REPORT = ("--report", "report.html", "--report-after-run")
 
 

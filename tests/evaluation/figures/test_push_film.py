@@ -35,7 +35,8 @@ Made = tuple[Story, list[Run], dict[str, dict[str, Path]]]
 def made(settings: Settings, tmp_path: Path) -> Made:
     """A walk with one push, estimates with known shares of it, and what the detector says."""
     layout, sensed = settings.layout, swinging(settings.layout, 1)
-    rows, story = len(sensed), settings.evaluation.story.model_copy(update={"before_s": 0.3, "after_s": 0.4, "settle_s": 0.1})
+    rows, shorter = len(sensed), {"before_s": 0.3, "after_s": 0.4, "settle_s": 0.1}
+    story = settings.evaluation.story.model_copy(update=shorter)
     wave = np.zeros(rows)
     wave[START : START + LENGTH] = np.sin(np.pi * (np.arange(LENGTH) + 0.5) / LENGTH)
     push, torque = np.zeros((rows, 4)), np.zeros((rows, layout.nv))
