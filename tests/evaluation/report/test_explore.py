@@ -232,7 +232,8 @@ def test_the_page_is_written_and_its_numbers_are_json(recorded, settings, robot_
     evaluation, out = settings.evaluation, tmp_path / "explore.html"
     scenes = {"b": scene_of(recorded, settings), "c": scene_of(recorded, settings, from_s=6.0)}
     explore(evaluation.explore, evaluation.story, settings.detection, evaluation.peaks, robot_table,
-            robot_table.looks, scenes, tmp_path / "c.csv", tmp_path / "d.csv", [REPO / path for path in EXPLORE], out)  # fmt: skip
+            robot_table.looks, scenes, tmp_path / "c.csv", tmp_path / "d.csv",
+            [REPO / path for path in EXPLORE], out)  # fmt: skip
     told = json.loads(re.search(r'id="told">(.*?)</script>', out.read_text(), re.DOTALL)[1])
     assert [scene["name"] for scene in told["scenes"]] == ["b"]
     assert told["scenes"][0]["flags"]["pushed"] == [[LEAD + 1700, LEAD + 1800]]
