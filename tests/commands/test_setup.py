@@ -132,5 +132,5 @@ def test_too_little_disk_is_told_before_anything_is_loaded(project, monkeypatch)
     from mobnet.commands.builds import check_disk
 
     monkeypatch.setattr("shutil.disk_usage", lambda _: type("Usage", (), {"free": 1.2e9})())
-    with pytest.raises(CommandError, match=r"1\.2 GB free, 3\.5 GB needed"):
+    with pytest.raises(CommandError, match=r"1\.2 GB free, 3\.6 GB needed"):
         check_disk(project, "cpu")

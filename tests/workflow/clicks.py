@@ -33,7 +33,8 @@ def choose(browser: Browser, category: str) -> None:
 
 def show(browser: Browser, name: str, kind: str) -> None:
     """Click on the eye beside a result, which opens an element of some kind, such as an `iframe`."""
-    click(browser, _button(name, 0), f"document.querySelector('#app {kind}') != null")
+    # The page on which the report opens is a frame too, and stays until a result takes its place.
+    click(browser, _button(name, 0), f"document.querySelector('#app {kind}:not([srcdoc])') != null")
 
 
 def explain(browser: Browser, name: str) -> str:
@@ -58,5 +59,5 @@ def text_of_frame(browser: Browser) -> str:
 
 
 def _frame(browser: Browser) -> dict[str, Any]:
-    (tree,) = browser.tell("Page.getFrameTree")["frameTree"]["childFrames"]
-    return tree["frame"]
+    trees = browser.tell("Page.getFrameTree")["frameTree"]["childFrames"]
+    return next((tree["frame"] for tree in trees if tree["frame"]["url"].startswith("data:")), trees[0]["frame"])

@@ -76,7 +76,7 @@ onstart:
         if not workflow.local_exec:
             warm_cache(ROOT, jobs=len(list(workflow.dag.needrun_jobs())))
         if any(KINDS_OF_RULES.get(job.rule.name) == "train" for job in workflow.dag.needrun_jobs()):
-            follow_trainings(PLAN.folders.results, LOGS / "wandb_live.log")
+            follow_trainings(PLAN.folders.results, Path(".cache") / "wandb_live.log")
     except MobnetError as error:
         sys.exit(str(error))
 

@@ -30,7 +30,7 @@ from mobnet.evaluation.tables.further import claims_table, methods
 from mobnet.evaluation.tables.further.uncertainty import text_of
 from mobnet.evaluation.tables.layout import PART, long_table, note_tex, text_table
 from mobnet.plan.files import Files
-from mobnet.plan.products import DRAWN, MAIN_TABLES, SOURCES, Folders, Products
+from mobnet.plan.products import DRAWN, MAIN_TABLES, SOURCES, Folders, Products, pictures
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.data import Recordings
 from mobnet.settings.evaluation import PaperText
@@ -211,7 +211,8 @@ def test_the_paper_itself_builds_from_the_published_tables(
     for name in {*products.table_names, "compute"}.difference(DETECTION, MAIN_TABLES):
         write_tex(name, settings, tmp_path / f"{name}.tex")
     names = (*products.table_names, "numbers", "captions", "deviations", "compute")
-    figures = [tmp_path / f"{name}.pdf" for name in dict.fromkeys([*products.figure_names, *DRAWN])]
+    drawn = [*(picture for name in products.figure_names for picture in pictures(name)), *DRAWN]
+    figures = [tmp_path / f"{name}.pdf" for name in dict.fromkeys(drawn)]
     for path in figures:
         Figure().savefig(path)
     main, references, tables = REPO / "paper/main.tex", REPO / "paper/refs.bib", [tmp_path / f"{n}.tex" for n in names]

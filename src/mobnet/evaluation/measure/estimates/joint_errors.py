@@ -26,7 +26,8 @@ def joint_errors(
 
     def error(method: str, joint: str) -> Number:
         wanted = Wanted(test.scenario, limbs[joint], test.level, method, joint, metric)
-        return replace(lookup.number([wanted]), published=published_value(published, place, method, joint))
+        number, unit = lookup.number([wanted]), layout.unit(joint)
+        return replace(number, unit=unit, published=published_value(published, place, method, joint))
 
     return {joint: {method: error(method, joint) for method in test.methods} for joint in joints}
 
