@@ -57,6 +57,8 @@ def broken(paths: Iterable[Path]) -> Iterator[str]:
             target = (path.parent / unquote(parts.path)).resolve() if parts.path else path.resolve()
             if not target.exists():
                 yield f"{path}: {link}: there is no such file"
+            elif "=" in parts.fragment:
+                continue  # the state of a page, which its script reads
             elif target.suffix in (".html", ".md") and unquote(parts.fragment) not in read(target).places:
                 yield f"{path}: {link}: there is no such place in it"
 
