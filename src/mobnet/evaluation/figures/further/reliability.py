@@ -134,7 +134,7 @@ def _draw(axis: Axes, panel: ReliabilityPanel, colours: Mapping[str, str]) -> No
 def _key(axis: Axes, colours: Mapping[str, str], tolerance: float) -> None:
     """Put the legend into an empty place: cases, what is pale, and the band."""
     handles: list[Any] = [Line2D([], [], color=colour, label=case) for case, colour in colours.items()]
-    handles.append(Line2D([], [], color="black", alpha=LEARNED_ALPHA, label="pale: sigma as learned"))
+    handles.append(Line2D([], [], color="black", alpha=LEARNED_ALPHA, label="pale: uncalibrated"))
     handles.append(Patch(label=f"within {100.0 * tolerance:g} points", **BAND))
     axis.legend(handles=handles, loc="center left", frameon=False, handlelength=1.8, borderpad=0.0)
 
