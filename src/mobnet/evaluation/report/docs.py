@@ -140,7 +140,7 @@ def build(folder: Path, out: Path) -> Path:
     """
     words = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-E", "-b", "html"]
     words += ["-d", str(out.with_name("doctrees")), str(folder), str(out)]
-    # Packages that are imported for their docstrings leave caches in the temporary folder: one that goes with the build.
+    # Packages imported for their docstrings leave caches in the temporary folder: it is one that goes with the build.
     fixed = {**os.environ, **FIXED, "TMPDIR": str(folder.parent)}
     done = subprocess.run(words, capture_output=True, text=True, check=False, env=fixed)
     if done.returncode:
