@@ -97,14 +97,15 @@ function drawPlots(pen, view, width, height, look) {
     pen.stroke();
   }
   pen.setLineDash([]);
-  methods.forEach(([method, role]) => {
+  const curves = (values, yOf, [own, other]) => methods.forEach(([method, role], k) => {
     const std = view.stds[method];
     pen.fillStyle = look.bands[role];
-    if (std && role === "network") band(pen, torques[method], std, page, xOf, scale.at, perPixel);
+    if (std && role === "network") band(pen, values[k], std, page, xOf, yOf, perPixel);
     pen.strokeStyle = look.roles[role];
-    pen.lineWidth = role === "network" ? 2.2 : 1.5;
-    line(pen, torques[method], page, xOf, scale.at, perPixel);
+    pen.lineWidth = role === "network" ? own : other;
+    line(pen, values[k], page, xOf, yOf, perPixel);
   });
+  curves(methods.map(([method]) => torques[method]), scale.at, [2.2, 1.5]);
   if (shown.includes("truth")) {
     pen.strokeStyle = look.truth;
     pen.lineWidth = 2;
@@ -115,14 +116,7 @@ function drawPlots(pen, view, width, height, look) {
   pen.restore();
   pen.save();
   clip(pen, error);
-  methods.forEach(([method, role], k) => {
-    const std = view.stds[method];
-    pen.fillStyle = look.bands[role];
-    if (std && role === "network") band(pen, errors[k], std, page, xOf, off.at, perPixel);
-    pen.strokeStyle = look.roles[role];
-    pen.lineWidth = role === "network" ? 2 : 1.3;
-    line(pen, errors[k], page, xOf, off.at, perPixel);
-  });
+  curves(errors, off.at, [2, 1.3]);
   pen.restore();
   drawAlarms(pen, view, alarms, xOf, numbers, look);
   return { frames, xOf, scale, page };
