@@ -22,9 +22,12 @@ ERRORS = f"{EVALUATION}.tables.paper.error_table:error_table"  # makes every ent
 HANDS = ("figure_07", "figure_12")  # figures that `hand_figure` makes
 TEMPLATES = Path("src/mobnet/evaluation/report/templates")  # inputs of their rules: the code hash reads Python only
 EXPLORE = tuple(
-    TEMPLATES / f"explore{name}"
-    for name in (".html", ".css", "_data.js", "_numbers.js", "_pose.js", "_robot.js", "_plots.js", "_state.js", ".js")
-)
+    TEMPLATES / name
+    for name in (
+        "explore.html", "page.html", "explore.css", "explore_data.js", "explore_numbers.js", "explore_pose.js",
+        "explore_robot.js", "explore_plots.js", "explore_state.js", "explore.js",
+    )
+)  # fmt: skip
 TABLE, FIGURE = ("csv", "tex", "md"), ("pdf", "svg", "png", "csv")  # endings of a table's and of a figure's files
 FILM, DRAWN = ("webp", "gif", "png", "csv"), ("method", "robot")  # endings of the film's files; drawings
 TESTS = (  # scenario and level of those whose errors the page of trainings shows, the first that has a network
@@ -172,7 +175,8 @@ class Products:
         yield self._report_product("numbers", numbers, [tables / "numbers.tex", tables / "captions.tex", *made])
         yield self._report_product("deviations", {"markdown": Path("docs/deviations.md")}, [tables / "deviations.tex"])
         networks = {"folders": self.files.all_networks()}
-        parts = [TEMPLATES / name for name in ("runs.html", "page.css", "runs.css", "page.js", "runs.js", "overlay.js")]
+        names = ("runs.html", "page.html", "page.css", "runs.css", "page.js", "runs.js", "overlay.js")
+        parts = [TEMPLATES / name for name in names]
         scores = self.files.scores(
             pair for test in TESTS for pair in self.files.scored if fnmatch("/".join(pair), test)
         )
@@ -211,9 +215,8 @@ class Products:
 
     def _first_page(self) -> dict[str, object]:
         """Return what the page on which the report opens needs, and the templates of all pages."""
-        parts = [
-            TEMPLATES / name for name in ("page.css", "page.js", "bar.html", "index.css", "claims.css", "claims.js")
-        ]
+        names = ("page.html", "page.css", "page.js", "bar.html", "index.css", "claims.css", "claims.js")
+        parts = [TEMPLATES / name for name in names]
         return {
             "pictures": [
                 (self.folders.figures / f"{name}.png", CAPTIONS / "figures" / f"{name}.rst") for name in PICTURED

@@ -22,7 +22,6 @@ from mobnet.evaluation.report.explore import explore, joint_names, page_of
 from mobnet.evaluation.report.explore_numbers import ALREADY, ASLEEP, NEVER, push_numbers
 from mobnet.evaluation.report.explore_pack import Part, packed
 from mobnet.evaluation.report.explore_scenes import read_scene
-from mobnet.plan.plan import make_plan
 from mobnet.plan.products import EXPLORE, TEMPLATES
 from mobnet.plan.runs import Run
 from mobnet.plan.scenes import PageScene
@@ -116,13 +115,6 @@ def test_page_without_scripts_says_so_and_has_the_numbers(robot, settings):
     row = re.search(r'<tr data-method="MOB-Net">.*?</tr>', text, re.DOTALL)
     assert row
     assert f"<td>{found['MOB-Net'].peak:.1f}</td>" in row[0]
-
-
-def test_every_template_is_an_input_of_the_rule(settings):
-    used = {path.name for path in (REPO / TEMPLATES).glob("explore*")}
-    assert {path.name for path in EXPLORE} == used
-    product = next(one for one in make_plan(settings, with_pdf=False).products if one.name == "explore")
-    assert {str(path) for path in EXPLORE} <= set(product.job.inputs)
 
 
 def test_joints_have_names_that_a_reader_knows(robot):
