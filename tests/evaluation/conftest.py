@@ -23,8 +23,10 @@ from mobnet.plan.call import call_of
 from mobnet.plan.products import ERRORS, functions
 from mobnet.plan.runs import Run
 from mobnet.settings.claims import Cell, Claim
-from mobnet.settings.evaluation import CalibrationTest, ErrorRow, Evaluation
+from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.measures import CalibrationTest
 from mobnet.settings.settings import Settings
+from mobnet.settings.tables import ErrorRow
 
 RATE_HZ = 100.0
 STEP_ROWS = 70  # rows in the air and rows on the ground of the made-up walk

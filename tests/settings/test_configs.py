@@ -13,10 +13,10 @@ from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.claims import metrics_of
 from mobnet.settings.checks.results import Results
 from mobnet.settings.claims import Bounds, Cell, Claim, MadeNumber, TrainingMetric
-from mobnet.settings.evaluation import ErrorTable
 from mobnet.settings.load import load_settings
 from mobnet.settings.published import ARCHITECTURE
 from mobnet.settings.robot import WORLD
+from mobnet.settings.tables import ErrorTable
 
 SETTINGS = load_settings()
 RESULTS = Results(Catalogue(SETTINGS))

@@ -10,9 +10,9 @@ from mobnet.core.files import METRICS, RUN, WEIGHTS
 from mobnet.plan.runs import Run, SweptSize
 from mobnet.plan.seeds import Seeds
 from mobnet.settings.asked import asked_in
-from mobnet.settings.evaluation import Runs
 from mobnet.settings.fleet import FIRST_SEED
 from mobnet.settings.methods import swept_name, swept_names
+from mobnet.settings.runs import Runs
 
 ARRAY, NOTE = ".parquet", ".json"  # endings of the two files of an array
 COURSE = (RUN, METRICS)  # files of a trained network that say how its training went

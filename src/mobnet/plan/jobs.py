@@ -15,7 +15,8 @@ from mobnet.running.stage import Stage
 from mobnet.settings.asked import tests_in
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.data import Terrain
-from mobnet.settings.evaluation import Scoring, measured_in
+from mobnet.settings.evaluation import measured_in
+from mobnet.settings.measures import Scoring
 from mobnet.settings.settings import Settings, WalkSettings
 from mobnet.settings.walking import Walking
 

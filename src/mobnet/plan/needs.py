@@ -12,7 +12,7 @@ from mobnet.plan.detection import all_detections
 from mobnet.plan.files import Files
 from mobnet.plan.reactions import all_reactions, courses_of
 from mobnet.settings.asked import tests_in
-from mobnet.settings.evaluation import Runs
+from mobnet.settings.runs import Runs
 
 Needs = Mapping[str, object]
 

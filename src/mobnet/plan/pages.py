@@ -4,7 +4,7 @@ from mobnet.plan.detection import detection_files
 from mobnet.plan.files import Files
 from mobnet.plan.scenes import PageScene
 from mobnet.settings.data import Push
-from mobnet.settings.evaluation import Runs
+from mobnet.settings.runs import Runs
 
 
 def explore_needs(files: Files) -> dict[str, object]:

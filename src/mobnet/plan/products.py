@@ -13,7 +13,8 @@ from mobnet.plan.detection import all_detections
 from mobnet.plan.files import Files, files_in
 from mobnet.plan.needs import needs_of
 from mobnet.plan.pages import explore_needs
-from mobnet.settings.evaluation import Evaluation, Runs
+from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.runs import Runs
 from mobnet.settings.settings import Settings
 
 EVALUATION = "mobnet.evaluation"

@@ -11,10 +11,13 @@ from pydantic import BaseModel
 
 from mobnet.settings.claims import Cell
 from mobnet.settings.detection import Detection
-from mobnet.settings.evaluation import CalibrationTest, ErrorRow, Figure05, Figure18, FineTuning, Mean, Runs
+from mobnet.settings.figures import Figure05, Figure18, FineTuning
+from mobnet.settings.measures import CalibrationTest
 from mobnet.settings.methods import swept_name
 from mobnet.settings.reading import Place
+from mobnet.settings.runs import Mean, Runs
 from mobnet.settings.settings import Settings
+from mobnet.settings.tables import ErrorRow
 
 SHOWN = ("limbs", "limb", "columns", "joints", "joint")  # keys that say what is shown, the first one that is there
 

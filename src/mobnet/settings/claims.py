@@ -22,8 +22,8 @@ from mobnet.settings.base import (
     Text,
     distinct,
 )
-from mobnet.settings.evaluation import Metric
 from mobnet.settings.reading import Place, mapping
+from mobnet.settings.runs import Metric
 
 SHORT_CELL = ("level", "method", "joint")
 Quantity = Literal[

@@ -10,7 +10,8 @@ from csv_files import check_golden, read_table
 from mobnet.core.joints import JointLayout
 from mobnet.evaluation.figures.further.bode import REFERENCE, Answer, bode, draw_bode
 from mobnet.evaluation.number.number import Number
-from mobnet.settings.evaluation import Evaluation, LimbRuns
+from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.runs import LimbRuns
 from mobnet.settings.settings import Settings
 
 METRICS = {"gain_0.5hz": (0.9, "-"), "phase_0.5hz": (-5.0, "deg"), "gain_2hz": (0.5, "-"), "phase_2hz": (-40.0, "deg")}

@@ -8,7 +8,8 @@ from csv_files import check_golden, read_table
 
 from mobnet.evaluation.figures.further.drift import beyond, drift
 from mobnet.evaluation.number.number import Number
-from mobnet.settings.evaluation import Evaluation, LimbRuns
+from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.runs import LimbRuns
 from mobnet.settings.settings import Settings
 
 

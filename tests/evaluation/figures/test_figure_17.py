@@ -12,7 +12,7 @@ from mobnet.evaluation.figures.paper.figure_17 import draw_losses, figure_17
 from mobnet.evaluation.measure.learning.losses import Loss, losses_of
 from mobnet.evaluation.measure.learning.trainings import read_trainings
 from mobnet.evaluation.number.number import Number
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 Write = Callable[..., Path]
 STATISTICS = Statistics(confidence=0.95)

@@ -16,7 +16,8 @@ from mobnet.core.rows import read_rows
 from mobnet.evaluation.compare.rmse import PUSHED
 from mobnet.evaluation.figures.paper.figure_18 import UPPER_BODY, LimbPanel, draw_limbs, figure_18, panel_of
 from mobnet.evaluation.number.number import Number
-from mobnet.settings.evaluation import Evaluation, PushWindow
+from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.runs import PushWindow
 from mobnet.settings.settings import Settings
 
 MEANS = {"MOB-Net": 2.0, "MOB-Net-Single": 2.5}

@@ -15,7 +15,8 @@ from mobnet.evaluation.compare.windows import Pushed, evenly
 from mobnet.evaluation.figures.paper.figure_19 import draw_planes, figure_19
 from mobnet.evaluation.measure.data.conditional import gait_phase
 from mobnet.evaluation.measure.data.planes import TESTS, Plane, fullest, plane_of, read_samples
-from mobnet.settings.evaluation import Coverage, Evaluation
+from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.measures import Coverage
 
 Sets = dict[str, list[Path]]
 

@@ -10,7 +10,7 @@ from mobnet.evaluation.figures.paper.figure_20 import figure_20, growth_line, pr
 from mobnet.evaluation.measure.learning.sizes import sizes_of
 from mobnet.evaluation.number.number import Number
 from mobnet.plan.runs import SweptSize
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 Write = Callable[..., Path]
 STATISTICS = Statistics(confidence=0.95)

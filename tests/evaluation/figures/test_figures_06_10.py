@@ -15,7 +15,8 @@ from mobnet.evaluation.figures.paper.figure_10 import figure_10
 from mobnet.evaluation.measure.estimates.pushes import read_pushes
 from mobnet.plan.call import call_of
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import Evaluation, Figure06, Figure10
+from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.figures import Figure06, Figure10
 from mobnet.settings.settings import Settings
 
 Walk = Callable[..., Run]

@@ -8,7 +8,7 @@ from csv_files import read_table
 from mobnet.core.columns import TRIALS, TrialError
 from mobnet.evaluation.figures.further.learning_curve import AXES, beside, curves_of, learning_curve
 from mobnet.evaluation.number.files import write_csv
-from mobnet.settings.evaluation import LearningCurve
+from mobnet.settings.figures import LearningCurve
 
 SETTINGS = LearningCurve(
     data="lengths.csv",

@@ -21,7 +21,7 @@ from mobnet.evaluation.figures.drawing.push_film import eased, lines_of, push_fi
 from mobnet.evaluation.measure.estimates.felt import Felt
 from mobnet.evaluation.measure.estimates.told import read_story
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import PushFilm, Story
+from mobnet.settings.pages import PushFilm, Story
 from mobnet.settings.settings import Settings
 
 START, LENGTH, PEAK_N, PEAK_NM, GAIN_HZ = GROUND + 150, 80, 150.0, 50.0, 100.0

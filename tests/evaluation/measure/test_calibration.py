@@ -20,7 +20,8 @@ from mobnet.evaluation.measure.learning.calibration import (
 )
 from mobnet.learning.calibration import calibrate
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import CalibrationTest, Evaluation
+from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.measures import CalibrationTest
 
 SHARES = [0.5, 0.68]
 Test = tuple[CalibrationTest, list[Run]]

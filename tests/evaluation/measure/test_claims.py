@@ -12,7 +12,7 @@ from mobnet.evaluation.measure.claims.cells import Evidence
 from mobnet.evaluation.measure.claims.verdicts import cause_of, rows_of, score_of, verdict_of, worst
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.claims import Claim
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 from mobnet.settings.settings import Settings
 
 RANGES = Ranges((1.0, 2.0), (0.5, None))

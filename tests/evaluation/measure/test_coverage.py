@@ -23,7 +23,8 @@ from mobnet.evaluation.measure.data.coverage import (
 )
 from mobnet.evaluation.measure.data.samples import equal_sets, read_blocks, refer, scale_of
 from mobnet.learning.features import limb_inputs
-from mobnet.settings.evaluation import CoverageTest, Evaluation
+from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.measures import CoverageTest
 from mobnet.settings.settings import Settings
 
 Sets = dict[str, list[Path]]

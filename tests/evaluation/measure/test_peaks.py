@@ -6,7 +6,8 @@ import pytest
 from mobnet.estimation.low_pass import low_pass
 from mobnet.evaluation.compare.scene import ShownPushes
 from mobnet.evaluation.measure.estimates.peaks import delays, first_above, medians, push_rows, slopes, turned_joints
-from mobnet.settings.evaluation import Peaks, PushedLimbRuns
+from mobnet.settings.measures import Peaks
+from mobnet.settings.runs import PushedLimbRuns
 
 TEST = PushedLimbRuns(scenario="knee_swing", level="ideal", methods=("MOB",), limbs=("LL",))
 SETTINGS = Peaks(turned_share=0.5, before_s=0.03, after_s=0.05, longest_s=0.2, tests=(TEST,))

@@ -18,7 +18,9 @@ from mobnet.evaluation.compare.scene import Scene
 from mobnet.evaluation.measure.estimates.scores import limb_values, score, score_run
 from mobnet.evaluation.number.rows import read_scores
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import Bode, Evaluation, LimbRuns, PushWindow, Runs, Scoring
+from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.measures import Bode, Scoring
+from mobnet.settings.runs import LimbRuns, PushWindow, Runs
 
 Walk = Callable[..., Run]
 RATE = {"rate_hz": 100.0}

@@ -13,7 +13,7 @@ from mobnet.evaluation.number.intervals import MEAN, RATIO, Formula, RunGrid, su
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.quantities import BELOW, CUT, GAP_RATIO
 from mobnet.evaluation.number.single import share, trend
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 STATISTICS = Statistics(confidence=0.95)
 DRAWS, LEAST = 200, 0.90

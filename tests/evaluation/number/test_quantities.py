@@ -6,7 +6,7 @@ import pytest
 from mobnet.evaluation.number.intervals import RunGrid
 from mobnet.evaluation.number.quantities import QUANTITIES, Cell
 from mobnet.settings.claims import TAKES
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 STATISTICS = Statistics(confidence=0.95)
 EXAMPLES = {

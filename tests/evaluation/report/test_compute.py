@@ -10,7 +10,7 @@ from mobnet.core.errors import DataError
 from mobnet.core.files import write_json
 from mobnet.evaluation.report.compute import ELAPSED, STAGES, WHOLE, compute
 from mobnet.running.logs import Account
-from mobnet.settings.evaluation import Compute
+from mobnet.settings.tables import Compute
 
 JOBS = {  # job -> end [s], wall time [s], CPU time [s], memory [MiB]; two cores, and an hour between two runs
     "collect/walk-s1": (1010.0, 10.0, 10.0, 300.0),

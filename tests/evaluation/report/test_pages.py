@@ -14,7 +14,7 @@ from mobnet.evaluation.report.pages import pages, table_page, titled
 from mobnet.evaluation.report.readme import COLUMNS
 from mobnet.evaluation.tables.layout import markdown_table
 from mobnet.plan.products import HEADLINE, TEMPLATES
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 REPO = Path(__file__).parents[3]
 PARTS = {name: REPO / TEMPLATES / f"{name}.html" for name in ("table", "claims", "index")}

@@ -33,7 +33,7 @@ from mobnet.plan.files import Files
 from mobnet.plan.products import DRAWN, MAIN_TABLES, SOURCES, Folders, Products, pictures
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.data import Recordings
-from mobnet.settings.evaluation import PaperText
+from mobnet.settings.pages import PaperText
 from mobnet.settings.settings import Settings
 
 REPO = Path(__file__).parents[3]

@@ -7,7 +7,8 @@ import pytest
 from csv_files import check_golden, markdown_cells, read_table
 
 from mobnet.evaluation.report.sigma import sigma
-from mobnet.settings.evaluation import Evaluation, LimbRuns
+from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.runs import LimbRuns
 from mobnet.settings.settings import Settings
 
 LIKE = LimbRuns(scenario="walk_test", level="all_uncertainty", methods=("MOB-Net", "FTS-e2e"), limbs=("LL",))

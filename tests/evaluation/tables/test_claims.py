@@ -21,8 +21,8 @@ from mobnet.evaluation.number.quantities import QUANTITIES
 from mobnet.evaluation.tables.further.hourly import ALL, FLAG
 from mobnet.evaluation.tables.further.latency import MET
 from mobnet.settings.claims import Cell, Claim, MadeNumber
-from mobnet.settings.evaluation import Statistics
 from mobnet.settings.published import Published, PublishedTable
+from mobnet.settings.runs import Statistics
 from mobnet.settings.settings import Settings
 
 BRANCHES = {"MOB": 19.0, "MOB-fric": 15.0, "MOB-fric-load": 3.0, "MOB-Net": 1.5, "FTS-e2e": 2.0, "MOB-Net-plain": 2.5}

@@ -13,9 +13,9 @@ from mobnet.evaluation.number.averages import Column
 from mobnet.evaluation.number.number import Number, published_row, published_value
 from mobnet.evaluation.tables.layout import GAP, RULE
 from mobnet.evaluation.tables.paper.error_table import TableLook, TableRow, table_lines, write_error_table
-from mobnet.settings.evaluation import ErrorTable
 from mobnet.settings.published import Floor
 from mobnet.settings.settings import Settings
+from mobnet.settings.tables import ErrorTable
 
 Make = Callable[..., Path]
 Scores = Callable[..., list[Score]]

@@ -12,7 +12,7 @@ from mobnet.evaluation.measure.data.falls import count_falls
 from mobnet.evaluation.number.files import write_csv
 from mobnet.evaluation.tables.further.falls import ALL, falls
 from mobnet.plan.jobs import walk_settings
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 from mobnet.settings.settings import Settings
 
 

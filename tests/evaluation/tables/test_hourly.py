@@ -9,7 +9,9 @@ from csv_files import check_golden, read_table
 from mobnet.core.files import write_json
 from mobnet.evaluation.number.single import rate
 from mobnet.evaluation.tables.further.hourly import ALL, FALL, FLAG
-from mobnet.settings.evaluation import Evaluation, Hourly, LegRuns, Statistics
+from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.runs import LegRuns, Statistics
+from mobnet.settings.tables import Hourly
 
 COUNTS = {"rmse": (2.0, "N m"), "flags": (1.0, "-"), "watched": (0.5, "h")}
 STATISTICS = Statistics(confidence=0.95)

@@ -9,7 +9,8 @@ from csv_files import check_golden, markdown_cells, read_table, write_rows
 from mobnet.core.columns import Score
 from mobnet.core.rows import read_rows
 from mobnet.evaluation.tables.further.phases import PARTS
-from mobnet.settings.evaluation import Evaluation, LimbRuns
+from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.runs import LimbRuns
 
 Make, Write = Callable[..., Path], Callable[..., list[Path]]
 LEVELS = {"as known": "robots", "warmed up": "robots_warm"}

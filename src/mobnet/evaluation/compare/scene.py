@@ -16,7 +16,7 @@ from mobnet.core.store import NOTE, file_of, read_array
 from mobnet.estimation.low_pass import low_pass
 from mobnet.evaluation.compare.pair import Pair
 from mobnet.evaluation.compare.windows import FLAG
-from mobnet.settings.evaluation import Scoring
+from mobnet.settings.measures import Scoring
 
 SWINGING, TOUCH_DOWN, STANCE = "swing", "touch_down", "stance"  # phases of a leg
 

@@ -11,7 +11,7 @@ from mobnet.core.columns import CONTACT, EXTERNAL, FEET, PUSHED, SWING
 from mobnet.core.errors import DataError
 from mobnet.core.store import read_array
 from mobnet.evaluation.compare.rmse import Spans
-from mobnet.settings.evaluation import Coverage, CoverageTest
+from mobnet.settings.measures import Coverage, CoverageTest
 
 FLAG = 0.5  # a stored flag above this is 1
 

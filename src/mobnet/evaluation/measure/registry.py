@@ -9,8 +9,8 @@ from pydantic import ValidationError
 from mobnet.core.errors import not_accepted
 from mobnet.core.metrics import SECTIONS
 from mobnet.settings.base import Section
-from mobnet.settings.evaluation import Measure
 from mobnet.settings.faults import problems
+from mobnet.settings.measures import Measure
 from mobnet.settings.reading import Place
 from mobnet.settings.settings import Settings
 

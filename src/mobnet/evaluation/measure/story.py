@@ -33,7 +33,7 @@ from mobnet.plan.demo import RECORDING, fit_place, network_place
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.detection import Detector
-from mobnet.settings.evaluation import Story
+from mobnet.settings.pages import Story
 from mobnet.settings.settings import Settings
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import JointLayout
-from mobnet.settings.evaluation import Mean
+from mobnet.settings.runs import Mean
 
 
 @dataclass(frozen=True)

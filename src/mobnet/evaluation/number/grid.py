@@ -9,8 +9,8 @@ from mobnet.core.columns import Score
 from mobnet.core.errors import DataError
 from mobnet.evaluation.number.intervals import MEAN, Formula, RunGrid, summarise
 from mobnet.evaluation.number.number import Number
-from mobnet.settings.evaluation import Statistics
 from mobnet.settings.fleet import FIRST_SEED
+from mobnet.settings.runs import Statistics
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are importe
 from numpy.typing import NDArray
 
 from mobnet.evaluation.number.number import Number
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 STEP = 1e-6  # of a derivative, as a share of what changes
 Array = NDArray[np.float64]

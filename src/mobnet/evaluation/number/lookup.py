@@ -10,7 +10,7 @@ from mobnet.evaluation.number.grid import Wanted, run_grid
 from mobnet.evaluation.number.intervals import MEAN, Formula, summarise
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.rows import read_scores
-from mobnet.settings.evaluation import Runs, Statistics
+from mobnet.settings.runs import Runs, Statistics
 
 AVERAGE = "avg"
 

@@ -9,7 +9,7 @@ import numpy as np
 from mobnet.evaluation.number.intervals import MEAN, RATIO, Array, Formula, RunGrid, summarise
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.single import share, trend
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 Cell = Sequence[RunGrid]  # runs of some joints or metrics, of which the mean is meant
 Quantity = Callable[[Sequence[Cell], Statistics, str], Number]  # cells, statistics, unit -> number

@@ -7,7 +7,7 @@ import scipy  # pyright: ignore[reportMissingTypeStubs]  # its parts are importe
 
 from mobnet.evaluation.number.intervals import Array, RunGrid, quantile_of
 from mobnet.evaluation.number.number import Number
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 
 def trend(grids: Sequence[RunGrid], statistics: Statistics, unit: str = "-") -> Number:

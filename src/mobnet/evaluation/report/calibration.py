@@ -8,8 +8,9 @@ from mobnet.evaluation.figures.further.reliability import nominal_points, reliab
 from mobnet.evaluation.measure.learning.calibration import held_out, in_tests
 from mobnet.evaluation.tables.further.calibration_table import trust_table
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import CalibrationTable, Coverage, Statistics
+from mobnet.settings.measures import CalibrationTable, Coverage
 from mobnet.settings.networks import Learning
+from mobnet.settings.runs import Statistics
 
 
 def calibration(

@@ -10,8 +10,8 @@ from mobnet.evaluation.measure.claims.cells import read_results
 from mobnet.evaluation.measure.claims.verdicts import judge, rows_of
 from mobnet.evaluation.tables.further.claims_table import claim_table
 from mobnet.settings.claims import Claim
-from mobnet.settings.evaluation import Statistics
 from mobnet.settings.methods import Method
+from mobnet.settings.runs import Statistics
 
 log = logging.getLogger(__name__)
 

@@ -13,7 +13,7 @@ from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
 from mobnet.running.accounts import read_account
 from mobnet.running.logs import Account
-from mobnet.settings.evaluation import Compute
+from mobnet.settings.tables import Compute
 
 STAGES = {  # stage -> its rules; those of no stage make tables and figures
     "collect": ("motion", "collect"),

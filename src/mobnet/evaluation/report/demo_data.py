@@ -23,7 +23,7 @@ from mobnet.evaluation.number.rows import read_detections
 from mobnet.evaluation.report.manifest import file_hash
 from mobnet.plan.demo import RECORDING, SOURCES, estimate_place
 from mobnet.running.provenance import provenance
-from mobnet.settings.evaluation import Story
+from mobnet.settings.pages import Story
 
 OWN = ("rows", "segments", "columns", "footer", "stamp", "terrains")  # of an array's note, of its own rows
 KEPT = (*Sensed.__dataclass_fields__, EXTERNAL, PUSH_TORQUE, PUSH)  # of a recording: sensed, and what pushes did

@@ -28,7 +28,8 @@ from mobnet.plan.scenes import PageScene
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.looks import dressed
 from mobnet.settings.detection import Detection
-from mobnet.settings.evaluation import Explore, Peaks, Story
+from mobnet.settings.measures import Peaks
+from mobnet.settings.pages import Explore, Story
 from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 

@@ -19,7 +19,7 @@ from mobnet.evaluation.measure.estimates.felt import felt_of
 from mobnet.evaluation.measure.estimates.peaks import MS
 from mobnet.evaluation.report.explore_scenes import Shown
 from mobnet.settings.detection import Detection
-from mobnet.settings.evaluation import Peaks
+from mobnet.settings.measures import Peaks
 
 ALREADY, NEVER, ASLEEP = "on before", "none", "not watched"  # of an alarm without a delay
 

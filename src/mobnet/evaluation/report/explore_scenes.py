@@ -22,7 +22,8 @@ from mobnet.evaluation.compare.windows import FLAG, flagged_spans
 from mobnet.plan.scenes import PageScene
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.detection import Detection
-from mobnet.settings.evaluation import Explore, Scoring, Story
+from mobnet.settings.measures import Scoring
+from mobnet.settings.pages import Explore, Story
 
 ARROWS = named(PUSH, ("row", "force_x", "force_y", "force_z"))
 FORCES = [f"wrench_{foot}.force_{axis}" for foot in FEET for axis in "xyz"]

@@ -8,7 +8,7 @@ from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.report.cells import cell_text, cells_of
 from mobnet.evaluation.tables.layout import Line, Table, write_table
 from mobnet.settings.detection_tables import AlarmTable
-from mobnet.settings.evaluation import LegsTable, LimbsTable, MainTables
+from mobnet.settings.tables import LegsTable, LimbsTable, MainTables
 
 COLUMNS = ("row", "quantity", "value", "low", "high", "unit", "published")
 NONE = Number(None)

@@ -14,10 +14,10 @@ from mobnet.evaluation.report.cells import cell_text, cells_of
 from mobnet.evaluation.report.main_tables import main_tables
 from mobnet.evaluation.tables.layout import tex_escape
 from mobnet.settings.data import Recordings
-from mobnet.settings.evaluation import MainTables
 from mobnet.settings.plant import Rates
 from mobnet.settings.scales import Scale
 from mobnet.settings.surrogate import Fleet
+from mobnet.settings.tables import MainTables
 
 LOOKUP = r"""% Written by mobnet.evaluation.report.numbers; do not edit.
 \newcommand{\lookup}[1]{\ifcsname #1\endcsname\csname #1\endcsname\else\errmessage{numbers.tex has no #1}\fi}

@@ -11,7 +11,7 @@ from mobnet.core.files import read_text, write_text
 from mobnet.evaluation.report.claims_page import claims_page
 from mobnet.evaluation.report.first_page import first_page
 from mobnet.evaluation.report.html import rendered
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 log = logging.getLogger(__name__)
 

@@ -13,7 +13,7 @@ from mobnet.core.files import atomic_path, check_room, read_text, write_json
 from mobnet.evaluation.report.guards import defined_texts, turned_guards
 from mobnet.evaluation.report.tex_log import page_faults
 from mobnet.evaluation.report.tex_pages import label_pages, place_faults
-from mobnet.settings.evaluation import PaperText
+from mobnet.settings.pages import PaperText
 
 log = logging.getLogger(__name__)
 

@@ -7,8 +7,9 @@ from mobnet.core.joints import JointLayout
 from mobnet.evaluation.figures.further.sigma_courses import sigma_figure
 from mobnet.evaluation.number.lookup import read_lookup
 from mobnet.evaluation.tables.further.sigma_table import sigma_table
-from mobnet.settings.evaluation import Sigma, Statistics
+from mobnet.settings.measures import Sigma
 from mobnet.settings.networks import Learning
+from mobnet.settings.runs import Statistics
 
 
 def sigma(

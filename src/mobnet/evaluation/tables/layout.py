@@ -17,7 +17,7 @@ from mobnet.evaluation.number.files import Field, write_csv
 from mobnet.evaluation.number.grid import Wanted
 from mobnet.evaluation.number.lookup import AVERAGE, Lookup
 from mobnet.evaluation.number.number import Number
-from mobnet.settings.evaluation import LimbRuns
+from mobnet.settings.runs import LimbRuns
 
 log = logging.getLogger(__name__)
 

@@ -22,8 +22,9 @@ from mobnet.core.metrics import metric_of
 from mobnet.settings.asked import tests_in
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.robot import joints_above
-from mobnet.settings.evaluation import Mean, measured_in
+from mobnet.settings.evaluation import measured_in
 from mobnet.settings.methods import swept_names
+from mobnet.settings.runs import Mean
 from mobnet.settings.settings import Settings
 
 TABLES = {  # that are no entry of `tables` -> their columns

@@ -12,9 +12,10 @@ from mobnet.settings.checks.pages import page_problems
 from mobnet.settings.checks.reaction import reaction_problems
 from mobnet.settings.checks.results import Results
 from mobnet.settings.checks.story import story_problems
-from mobnet.settings.evaluation import ErrorTable, Mean
 from mobnet.settings.reading import Place, Problem
+from mobnet.settings.runs import Mean
 from mobnet.settings.settings import Settings
+from mobnet.settings.tables import ErrorTable
 
 ROOT: Place = ("evaluation",)
 LEAST_DRAWN = 10  # samples of a figure

@@ -7,7 +7,7 @@ from mobnet.core.errors import misfit
 from mobnet.settings.catalogue import Catalogue
 from mobnet.settings.checks.limits import at_most, below
 from mobnet.settings.checks.walking import is_whole
-from mobnet.settings.evaluation import Figure05, GaitFigure, HandFigure
+from mobnet.settings.figures import Figure05, GaitFigure, HandFigure
 from mobnet.settings.fleet import FIRST_SEED
 from mobnet.settings.reading import Place, Problem
 from mobnet.settings.scales import Scale

@@ -18,7 +18,7 @@ from mobnet.evaluation.figures.style import COLUMN_INCH, PAGE_INCH, save_figure,
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.looks import dressed
 from mobnet.settings.data import Push
-from mobnet.settings.evaluation import Drawings
+from mobnet.settings.pages import Drawings
 from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 

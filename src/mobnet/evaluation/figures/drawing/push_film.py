@@ -21,7 +21,8 @@ from mobnet.plan.detection import Detections
 from mobnet.plan.runs import Run
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.looks import dressed
-from mobnet.settings.evaluation import Peaks, PushFilm, Story
+from mobnet.settings.measures import Peaks
+from mobnet.settings.pages import PushFilm, Story
 from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 from mobnet.simulation.render import Pixels

@@ -18,9 +18,10 @@ from mobnet.evaluation.number.grid import Wanted
 from mobnet.evaluation.number.lookup import Lookup, read_lookup
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.data import Push
-from mobnet.settings.evaluation import Bode, Statistics
+from mobnet.settings.measures import Bode
 from mobnet.settings.methods import Observer
 from mobnet.settings.plant import Rates
+from mobnet.settings.runs import Statistics
 
 REFERENCE = "low-pass of (11)"  # the observer's response to what it sees without any error
 REFERENCE_LOOK: Mapping[str, Any] = {"color": "0.6", "linewidth": 2.0, "zorder": 1.0}

@@ -14,7 +14,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.evaluation.figures.style import beside, legend, save_figure, styled
 from mobnet.evaluation.measure.data.steps import CHOICES, KEYS, UNITS, bin_edges, bin_of, read_steps
 from mobnet.settings.data import Commands
-from mobnet.settings.evaluation import CommandsFigure
+from mobnet.settings.figures import CommandsFigure
 
 BARS_INCH = 1.9  # height of the figure
 BAR_SHARE = 0.85  # of a bin

@@ -28,7 +28,7 @@ from mobnet.evaluation.measure.detection.results import (
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.detection import Detection
 from mobnet.settings.detection_tables import DetectionCurves
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 COLUMNS = ("panel", "level", "detector", "x", "value", "low", "high", "count", "unit")
 FOUND, DELAY, FORCE, AREA = "found collisions", "delay", "found by force", "area"

@@ -11,7 +11,8 @@ from mobnet.evaluation.measure.estimates.drift import HELD_STEP
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.lookup import Lookup, read_lookup
 from mobnet.evaluation.number.number import Number
-from mobnet.settings.evaluation import Drift, Runs, Statistics
+from mobnet.settings.measures import Drift
+from mobnet.settings.runs import Runs, Statistics
 
 X_LABEL, Y_LABEL = "number of the step since the push began", "share of the push [-]"
 ENDS = (0.0, 1.3)  # of the axis

@@ -19,8 +19,8 @@ from mobnet.evaluation.figures.style import styled
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.looks import dressed
 from mobnet.settings.data import Obstacle
-from mobnet.settings.evaluation import Films
 from mobnet.settings.parts import Looks
+from mobnet.settings.reaction_tables import Films
 from mobnet.settings.robot import RobotTable
 from mobnet.simulation.clip import save_clip
 from mobnet.simulation.render import Pixels

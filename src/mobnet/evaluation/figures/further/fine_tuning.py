@@ -8,8 +8,9 @@ from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from mobnet.evaluation.figures.style import save_figure
 from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.rows import read_scores
-from mobnet.settings.evaluation import FineTuning, Statistics, TunedTest
+from mobnet.settings.figures import FineTuning, TunedTest
 from mobnet.settings.methods import swept_name
+from mobnet.settings.runs import Statistics
 
 BEFORE, KNOWN = "not fine-tuned", "on its own robot"
 X_LABEL, Y_LABEL = "data of the changed robot [s]", "RMSE [N m]"

@@ -12,7 +12,7 @@ from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from mobnet.evaluation.figures.style import save_figure
 from mobnet.evaluation.measure.estimates.scores import AVERAGE
 from mobnet.evaluation.number.number import Number, number_text
-from mobnet.settings.evaluation import LearningCurve
+from mobnet.settings.figures import LearningCurve
 
 MILLION = 1e6
 PANEL_INCH = 1.7

@@ -9,7 +9,8 @@ from mobnet.evaluation.figures.drawing.push_film import push_film
 from mobnet.plan.detection import Detections
 from mobnet.plan.runs import Run
 from mobnet.settings.data import Push
-from mobnet.settings.evaluation import Drawings, Peaks, PushFilm, Story
+from mobnet.settings.measures import Peaks
+from mobnet.settings.pages import Drawings, PushFilm, Story
 from mobnet.settings.parts import Looks
 from mobnet.settings.robot import RobotTable
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from mobnet.core.columns import RELIABILITY
 from mobnet.evaluation.figures.style import LETTERS, PAGE_INCH, PALETTE, STYLE, save_figure, styled
 from mobnet.evaluation.measure.learning.calibration import CoverageGrid
-from mobnet.settings.evaluation import CalibrationTable
+from mobnet.settings.measures import CalibrationTable
 
 ACROSS, PANEL_INCH, LABELS_INCH = 3, 1.6, 0.3  # panels in a row, height of a row and of the label below all
 MOST = 33.0  # end of the axis [points]

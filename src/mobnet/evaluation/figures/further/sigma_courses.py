@@ -16,7 +16,8 @@ from mobnet.evaluation.measure.estimates.sigma import COVER, MEMORY, STD
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.lookup import Lookup
 from mobnet.evaluation.number.number import Number
-from mobnet.settings.evaluation import LimbRuns, Sigma
+from mobnet.settings.measures import Sigma
+from mobnet.settings.runs import LimbRuns
 
 COVERAGE, ERROR, CORRELATION = "coverage", "error over sigma", "autocorrelation"
 LABELS = {

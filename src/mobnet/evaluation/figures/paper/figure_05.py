@@ -15,8 +15,9 @@ from mobnet.evaluation.measure.estimates.run_errors import ERROR
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.lookup import read_lookup
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import Figure05, Runs, Statistics
+from mobnet.settings.figures import Figure05
 from mobnet.settings.published import PublishedTable
+from mobnet.settings.runs import Runs, Statistics
 
 
 def figure_05(

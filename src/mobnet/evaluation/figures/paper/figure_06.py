@@ -13,8 +13,9 @@ from mobnet.evaluation.measure.estimates.pushes import read_pushes
 from mobnet.evaluation.number.lookup import read_lookup
 from mobnet.plan.runs import Run
 from mobnet.settings.data import Push, Scenario
-from mobnet.settings.evaluation import Figure06, Statistics
+from mobnet.settings.figures import Figure06
 from mobnet.settings.published import PublishedTable
+from mobnet.settings.runs import Statistics
 
 
 def figure_06(

@@ -12,8 +12,9 @@ from mobnet.evaluation.measure.estimates.joint_errors import error_rows, joint_e
 from mobnet.evaluation.number.lookup import read_lookup
 from mobnet.evaluation.number.number import Number
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import Figure08, Statistics
+from mobnet.settings.figures import Figure08
 from mobnet.settings.published import PublishedTable
+from mobnet.settings.runs import Statistics
 
 
 def figure_08(

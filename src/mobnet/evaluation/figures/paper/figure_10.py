@@ -26,8 +26,9 @@ from mobnet.evaluation.number.files import Field, write_csv
 from mobnet.evaluation.number.lookup import read_lookup
 from mobnet.evaluation.number.number import Number
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import Figure10, Statistics
+from mobnet.settings.figures import Figure10
 from mobnet.settings.published import PublishedTable
+from mobnet.settings.runs import Statistics
 
 
 def figure_10(

@@ -24,9 +24,10 @@ from mobnet.evaluation.measure.reaction.results import (
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.number import Number
 from mobnet.plan.reactions import Reactions
-from mobnet.settings.evaluation import Figure16, Statistics
 from mobnet.settings.published import PublishedContacts
 from mobnet.settings.reaction import Reaction, watches_of
+from mobnet.settings.reaction_tables import Figure16
+from mobnet.settings.runs import Statistics
 
 COLUMNS = ("case", "quantity", "time_s", "value", "low", "high", "unit", "published")
 LABELS = {PEAK: "largest force [N]", IMPULSE: "impulse [N s]"}

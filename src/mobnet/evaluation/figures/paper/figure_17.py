@@ -11,7 +11,7 @@ from mobnet.core.columns import LOSSES
 from mobnet.evaluation.figures.style import COLUMN_INCH, Look, entitle, looks, save_figure, styled
 from mobnet.evaluation.measure.learning.losses import ENDS, Loss, losses_of
 from mobnet.evaluation.measure.learning.trainings import read_trainings, sound
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 ROW_INCH, LABELS_INCH = 0.24, 0.6  # height of a kind, and of titles and labels
 NUMBER_POINTS = 6.5  # size of a number

@@ -17,7 +17,8 @@ from mobnet.evaluation.measure.estimates.scores import AVERAGE
 from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.rows import read_scores
-from mobnet.settings.evaluation import Figure18, PushWindow, Statistics
+from mobnet.settings.figures import Figure18
+from mobnet.settings.runs import PushWindow, Statistics
 
 UPPER_BODY = "all"  # limbs of the figure together, the mean over their joints
 PANEL_INCH, LEGEND_INCH = 1.6, 0.35  # height of a panel and of the legend above all

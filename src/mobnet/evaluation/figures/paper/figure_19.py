@@ -16,7 +16,8 @@ from mobnet.evaluation.compare.windows import pushed_of
 from mobnet.evaluation.figures.style import PAGE_INCH, STYLE, entitle, save_figure, styled
 from mobnet.evaluation.measure.data.conditional import HALF
 from mobnet.evaluation.measure.data.planes import TESTS, Plane, plane_of, read_samples
-from mobnet.settings.evaluation import Coverage, Figure19
+from mobnet.settings.figures import Figure19
+from mobnet.settings.measures import Coverage
 
 ROW_INCH, LEGEND_INCH = 1.9, 0.35  # height of a row of panels and of the legend
 FIRST, SECOND, TEST = "#D55E00", "#0072B2", "black"  # colours of the two training sets and of the tests

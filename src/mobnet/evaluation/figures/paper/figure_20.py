@@ -8,7 +8,7 @@ from mobnet.evaluation.figures.drawing.lines import Line, LinePanel, draw_lines
 from mobnet.evaluation.figures.style import save_figure
 from mobnet.evaluation.measure.learning.sizes import Size, sizes_of
 from mobnet.plan.runs import SweptSize
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 TITLES = {"parameters": "size of the network, all data", "samples": "size of the data, printed network"}
 X_LABELS = {"parameters": "parameters [thousand]", "samples": "samples learned from [thousand]"}

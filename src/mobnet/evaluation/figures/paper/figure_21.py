@@ -17,7 +17,7 @@ from mobnet.evaluation.figures.drawing.solids import outline_of
 from mobnet.evaluation.figures.style import COLUMN_INCH, legend, save_figure, styled
 from mobnet.robot.description import SIDES, RobotDescription, describe
 from mobnet.settings.data import Obstacle
-from mobnet.settings.evaluation import Figure21
+from mobnet.settings.reaction_tables import Figure21
 from mobnet.settings.robot import RobotTable
 
 COLUMNS = ("foot", "step", "reacting", "time_s", "x_m", "y_m", "yaw_rad")

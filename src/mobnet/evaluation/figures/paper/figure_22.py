@@ -13,8 +13,8 @@ from mobnet.evaluation.number.files import Field
 from mobnet.robot.description import describe
 from mobnet.robot.looks import dressed
 from mobnet.settings.data import Obstacle
-from mobnet.settings.evaluation import Figure22
 from mobnet.settings.parts import Looks
+from mobnet.settings.reaction_tables import Figure22
 from mobnet.settings.robot import RobotTable
 
 COLUMNS = (

@@ -12,9 +12,10 @@ from mobnet.evaluation.figures.drawing.named_bars import PAPER_LABEL
 from mobnet.evaluation.measure.estimates.joint_errors import error_rows, joint_errors
 from mobnet.evaluation.number.lookup import read_lookup
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import HandFigure, Statistics
+from mobnet.settings.figures import HandFigure
 from mobnet.settings.fleet import Fleet
 from mobnet.settings.published import PublishedTable
+from mobnet.settings.runs import Statistics
 
 
 def hand_figure(

@@ -19,8 +19,8 @@ from mobnet.evaluation.measure.claims.cells import Evidence, listed
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.quantities import QUANTITIES
 from mobnet.settings.claims import CAUSED, Claim, MadeNumber, TrainingMetric
-from mobnet.settings.evaluation import Statistics
 from mobnet.settings.methods import Method
+from mobnet.settings.runs import Statistics
 
 NOT_REPRODUCED, INCONCLUSIVE, DIRECTION, REPRODUCED, NOT_MEASURED = VERDICTS
 DETECTOR = re.compile("-(OR|mean|sigma)$")  # what the name of a detector has behind that of its method

@@ -24,8 +24,9 @@ from mobnet.evaluation.measure.data.samples import Blocks, Reference, equal_sets
 from mobnet.evaluation.number.intervals import RATIO, RunGrid, summarise
 from mobnet.evaluation.number.number import Number
 from mobnet.learning.features import limb_inputs
-from mobnet.settings.evaluation import Coverage, CoverageTest, Statistics
+from mobnet.settings.measures import Coverage, CoverageTest
 from mobnet.settings.networks import Limb
+from mobnet.settings.runs import Statistics
 
 log = logging.getLogger(__name__)
 

@@ -13,7 +13,7 @@ from mobnet.core.columns import DESIRED, SWING, VELOCITY
 from mobnet.core.store import read_array
 from mobnet.evaluation.compare.windows import FLAG, Pushed, evenly
 from mobnet.evaluation.measure.data.conditional import TorqueRange, even_cells, gait_phase, torque_range
-from mobnet.settings.evaluation import Coverage
+from mobnet.settings.measures import Coverage
 
 TESTS = "tests"  # name of all tests together beside those of training sets
 PERCENT = 100.0

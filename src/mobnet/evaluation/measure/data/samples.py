@@ -16,7 +16,7 @@ from mobnet.core.recording import read_sensed
 from mobnet.evaluation.compare.windows import FLAG, Pushed, blocks_of, evenly
 from mobnet.evaluation.measure.data.conditional import gait_phase
 from mobnet.learning.features import LimbInputs
-from mobnet.settings.evaluation import Coverage
+from mobnet.settings.measures import Coverage
 
 Blocks = Sequence[NDArray[Any]]  # one array (n, ...) for each block of samples
 

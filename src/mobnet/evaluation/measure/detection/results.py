@@ -15,7 +15,7 @@ from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.single import share
 from mobnet.plan.detection import Detections
 from mobnet.settings.detection_tables import AlarmTable
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 Row = TypeVar("Row")
 MS = 1000.0

@@ -11,7 +11,7 @@ import numpy as np
 from mobnet.core.arrays import Array
 from mobnet.evaluation.number.number import Number
 from mobnet.settings.detection_tables import SmallestForce
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 HALVES, STEPS = 120, 24  # laws along the force for one half, and along the steepness
 

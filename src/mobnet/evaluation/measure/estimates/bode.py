@@ -10,7 +10,7 @@ from mobnet.evaluation.compare.pair import Pair
 from mobnet.evaluation.compare.scene import Scene, shown_pushes
 from mobnet.evaluation.compare.values import Measured, Measures
 from mobnet.evaluation.compare.windows import flagged_spans
-from mobnet.settings.evaluation import Bode
+from mobnet.settings.measures import Bode
 
 GAIN, PHASE = "gain_{:g}hz", "phase_{:g}hz"  # with the frequency after which a band of lines is named
 METRICS = (

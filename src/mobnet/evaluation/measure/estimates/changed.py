@@ -11,7 +11,7 @@ from mobnet.evaluation.compare.scene import Scene
 from mobnet.evaluation.compare.values import Measured, Measures
 from mobnet.learning.gaussian import half_width
 from mobnet.learning.swings import hanging
-from mobnet.settings.evaluation import Changed
+from mobnet.settings.measures import Changed
 
 KNOWN, FREE, FLAGGED = "known_share", "free_share", "flagged_share"
 FLAGS, WATCHED = "flags", "watched"

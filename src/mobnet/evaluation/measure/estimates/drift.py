@@ -11,7 +11,7 @@ from mobnet.evaluation.compare.rmse import Spans
 from mobnet.evaluation.compare.scene import STANCE, SWINGING, Scene, shown_pushes
 from mobnet.evaluation.compare.values import Measured, Measures
 from mobnet.evaluation.compare.windows import flagged_spans, rows_in
-from mobnet.settings.evaluation import Drift
+from mobnet.settings.measures import Drift
 
 HELD = "held_{}"  # phase: over the whole push
 HELD_STEP = "held_{}_{}"  # phase, and its number since the push began, from 1 on

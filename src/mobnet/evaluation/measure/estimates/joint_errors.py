@@ -8,8 +8,8 @@ from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.grid import Wanted
 from mobnet.evaluation.number.lookup import Lookup
 from mobnet.evaluation.number.number import Number, published_value
-from mobnet.settings.evaluation import Runs
 from mobnet.settings.published import PublishedTable
+from mobnet.settings.runs import Runs
 
 JointErrors = Mapping[str, Mapping[str, Number]]  # joint -> method -> its error [N m], V1..V3 [N]
 

@@ -13,7 +13,7 @@ from mobnet.evaluation.compare.rmse import Spans
 from mobnet.evaluation.compare.scene import Scene, ShownPushes, shown_pushes
 from mobnet.evaluation.compare.values import Measured, Measures
 from mobnet.evaluation.compare.windows import flagged_spans
-from mobnet.settings.evaluation import Peaks
+from mobnet.settings.measures import Peaks
 
 SHARE, DELAY = "push_share", "rise_delay"
 OBSERVER = "_observer"  # the delay of the push behind the observer's low-pass: what a perfect residual would show

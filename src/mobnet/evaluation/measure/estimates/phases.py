@@ -7,7 +7,7 @@ from mobnet.evaluation.compare.masks import masked_mean, parts_of
 from mobnet.evaluation.compare.pair import Pair
 from mobnet.evaluation.compare.scene import Scene
 from mobnet.evaluation.compare.values import Measured, Measures
-from mobnet.settings.evaluation import Phases
+from mobnet.settings.measures import Phases
 
 METRICS = (Metric("rmse_(swing|touch_down|stance|stuck|moving)"),)
 

@@ -17,8 +17,9 @@ from mobnet.evaluation.number.intervals import Formula
 from mobnet.evaluation.number.lookup import AVERAGE, Lookup
 from mobnet.evaluation.number.number import Number, published_value
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import Figure06, Figure10, PushedRuns, Runs
+from mobnet.settings.figures import Figure06, Figure10
 from mobnet.settings.published import PublishedTable
+from mobnet.settings.runs import PushedRuns, Runs
 
 INCREASE = "increase"  # the mean of the errors of pushes less the error where nothing pushes
 INCREASED = Formula(lambda means: means[:-1].mean(axis=0, keepdims=True) - means[-1:])  # mean of all but the last

@@ -20,7 +20,7 @@ from mobnet.evaluation.measure.registry import module_of, numbers_of
 from mobnet.evaluation.number.files import write_csv
 from mobnet.plan.runs import Run
 from mobnet.settings.base import Section
-from mobnet.settings.evaluation import Scoring
+from mobnet.settings.measures import Scoring
 
 log = logging.getLogger(__name__)
 

@@ -14,7 +14,7 @@ from mobnet.evaluation.compare.scene import Scene
 from mobnet.evaluation.compare.values import Measured, Measures
 from mobnet.evaluation.compare.windows import rows_in
 from mobnet.learning.gaussian import half_width
-from mobnet.settings.evaluation import Sigma
+from mobnet.settings.measures import Sigma
 
 STD, COVER = "std", "cover"  # mean standard deviation [N m], V1..V3 [N], and share of errors in their interval [-]
 EXCURSION, MEMORY = "excursion", "acf_{:g}ms"

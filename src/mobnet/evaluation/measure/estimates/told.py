@@ -21,7 +21,8 @@ from mobnet.evaluation.measure.estimates.felt import Felt, felt_of
 from mobnet.evaluation.measure.estimates.peaks import push_rows
 from mobnet.plan.detection import Detections
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import Peaks, Scoring, Story
+from mobnet.settings.measures import Peaks, Scoring
+from mobnet.settings.pages import Story
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,7 @@ from mobnet.evaluation.compare.windows import pushed_of
 from mobnet.evaluation.measure.learning.trainings import read_training_note
 from mobnet.learning.gaussian import Fit, fit_of
 from mobnet.plan.runs import Run
-from mobnet.settings.evaluation import CalibrationTest, Coverage
+from mobnet.settings.measures import CalibrationTest, Coverage
 
 log = logging.getLogger(__name__)
 

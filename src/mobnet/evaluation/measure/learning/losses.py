@@ -9,7 +9,7 @@ from mobnet.core.errors import DataError
 from mobnet.evaluation.measure.learning.trainings import MEASURES, TrainedNetwork
 from mobnet.evaluation.number.intervals import RunGrid, summarise
 from mobnet.evaluation.number.number import Number
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 COURSES = {"train_loss": "training loss", "validation_loss": "validation loss"}  # fields of `columns.Epoch`
 ENDS = {"training loss at the end": "training loss", "validation loss": "validation loss"}  # of MEASURES -> its course

@@ -10,7 +10,7 @@ from mobnet.evaluation.number.intervals import RATIO, RunGrid, summarise
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.single import extremes
 from mobnet.plan.runs import SweptSize
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 SAMPLES = "samples"  # panel of the sizes of the data; the largest of them is all data, by a network of the printed size
 

@@ -10,9 +10,9 @@ from mobnet.evaluation.measure.detection.results import MS, mean_of, share_of
 from mobnet.evaluation.measure.estimates.changed import HOUR_S
 from mobnet.evaluation.number.number import Number
 from mobnet.plan.reactions import Reactions
-from mobnet.settings.evaluation import Statistics
 from mobnet.settings.published import PublishedContacts
 from mobnet.settings.reaction import Watch
+from mobnet.settings.runs import Statistics
 
 FALLS, PEAK, FIRST, IMPULSE, ALARM, WITHIN, BASE_WITHIN, EARLY = (
     "falls", "first_peak", "first_impulse", "impulse", "alarm", "within", "base_within", "early",

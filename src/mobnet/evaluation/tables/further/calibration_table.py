@@ -8,8 +8,9 @@ from mobnet.evaluation.measure.learning.calibration import STAGES, CoverageGrid
 from mobnet.evaluation.number.intervals import RunGrid, summarise
 from mobnet.evaluation.number.number import Number, interval_text
 from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
-from mobnet.settings.evaluation import CalibrationTable, Statistics
+from mobnet.settings.measures import CalibrationTable
 from mobnet.settings.networks import Learning
+from mobnet.settings.runs import Statistics
 
 COVERAGE, NLL, CRPS = "coverage", "nll", "crps"
 

@@ -7,8 +7,9 @@ from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.estimates.changed import FLAGGED, FREE, KNOWN
 from mobnet.evaluation.number.lookup import read_lookup
 from mobnet.evaluation.tables.layout import percent, write_measured
-from mobnet.settings.evaluation import Changed, LimbRuns, Statistics
+from mobnet.settings.measures import Changed
 from mobnet.settings.networks import Learning
+from mobnet.settings.runs import LimbRuns, Statistics
 
 ERROR = "rmse"
 SHARES = (KNOWN, FREE, FLAGGED)

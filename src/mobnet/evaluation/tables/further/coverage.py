@@ -8,8 +8,9 @@ from mobnet.core.joints import JointLayout
 from mobnet.evaluation.measure.data.coverage import ALL, NEAREST, WIDTH, WITHOUT, Covered, covered
 from mobnet.evaluation.number.number import number_text
 from mobnet.evaluation.tables.layout import Line, Table, in_blocks, write_table
-from mobnet.settings.evaluation import Coverage, Statistics
+from mobnet.settings.measures import Coverage
 from mobnet.settings.networks import Limb
+from mobnet.settings.runs import Statistics
 
 
 def coverage(

@@ -20,9 +20,9 @@ from mobnet.evaluation.tables.layout import Table, write_table
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.data import Commands, RecordingSettings, Terrain
-from mobnet.settings.evaluation import DataTable
 from mobnet.settings.published import PublishedData
 from mobnet.settings.robot import RobotTable
+from mobnet.settings.tables import DataTable
 from mobnet.settings.walking import Walking
 
 Found = tuple[str, str, float, str]  # quantity, part, value, unit

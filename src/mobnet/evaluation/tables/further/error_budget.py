@@ -15,7 +15,8 @@ from mobnet.evaluation.number.intervals import Array, Formula, RunGrid, summaris
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.rows import read_scores
 from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
-from mobnet.settings.evaluation import BudgetRow, ErrorBudget, Statistics
+from mobnet.settings.runs import Statistics
+from mobnet.settings.tables import BudgetRow, ErrorBudget
 
 METRIC, GONE = "rmse", "gone"
 DIGITS, SIGN = {METRIC: 2, GONE: 0}, {METRIC: "", GONE: " %"}

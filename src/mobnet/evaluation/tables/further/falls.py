@@ -10,7 +10,7 @@ from mobnet.core.rows import read_rows
 from mobnet.evaluation.measure.detection.results import rate_of
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.tables.layout import Table, write_table
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 ALL, CHOSEN, HOUR_S = "all", "largest without a fall", 3600.0
 

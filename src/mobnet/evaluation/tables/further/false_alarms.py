@@ -20,7 +20,7 @@ from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
 from mobnet.settings.detection import Detection
 from mobnet.settings.detection_tables import AlarmTable
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 PROMISED, MEASURED, WITHIN = "promised", "measured", "within"
 RANDOM, BETWEEN, COUNTED = "random", "between pushes", "held out"  # cells; the last one is the first two together

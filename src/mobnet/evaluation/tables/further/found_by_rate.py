@@ -10,7 +10,7 @@ from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.tables.layout import Table, in_blocks, percent, write_table
 from mobnet.settings.detection import Detection
 from mobnet.settings.detection_tables import FoundByRate
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 FOUND, DELAY = "found", "delay"
 Shares = Mapping[str, Sequence[Number]]  # detector -> found shares at each rate [-]

@@ -11,7 +11,9 @@ from mobnet.evaluation.number.grid import Wanted
 from mobnet.evaluation.number.lookup import AVERAGE, Lookup, read_lookup
 from mobnet.evaluation.number.single import rate
 from mobnet.evaluation.tables.layout import Table, write_table
-from mobnet.settings.evaluation import Changed, Hourly, LegRuns, Statistics
+from mobnet.settings.measures import Changed
+from mobnet.settings.runs import LegRuns, Statistics
+from mobnet.settings.tables import Hourly
 
 FALL, FLAG, ALL = "fall", "false flag", "all of these"
 Counted = tuple[str, str, str, float, int]  # event, walks, method, time [h], number of events

@@ -13,8 +13,10 @@ from mobnet.evaluation.measure.learning.trainings import MEASURES, TrainedNetwor
 from mobnet.evaluation.number.intervals import RunGrid, summarise
 from mobnet.evaluation.number.number import Number, number_text
 from mobnet.evaluation.tables.layout import GAP, RULE, Line, Table, with_intervals, write_table
-from mobnet.settings.evaluation import Figure17, Kinds, Statistics
+from mobnet.settings.figures import Figure17
 from mobnet.settings.published import PublishedKinds
+from mobnet.settings.runs import Statistics
+from mobnet.settings.tables import Kinds
 
 ORDERED_BY = "validation loss"
 HEADER = ["Order", "Paper", "Network", "Parameters", "Paper", "Runs", "Val. loss", "RMSE [N m]",

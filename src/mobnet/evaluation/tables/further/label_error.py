@@ -16,9 +16,9 @@ from mobnet.evaluation.number.number import number_text
 from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
-from mobnet.settings.evaluation import LabelError
 from mobnet.settings.methods import Observer
 from mobnet.settings.robot import RobotTable
+from mobnet.settings.tables import LabelError
 
 LABELS = {"as read": False, "without the plate": True}  # label -> whether the plate's inertia is taken off
 WALK, SWING, GROUND = PHASES = ("walk", "swing", "ground")

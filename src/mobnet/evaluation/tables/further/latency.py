@@ -17,8 +17,9 @@ from mobnet.evaluation.number.intervals import RunGrid
 from mobnet.evaluation.number.single import share
 from mobnet.evaluation.tables.layout import Table, write_table
 from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
-from mobnet.settings.evaluation import Latency, Statistics
 from mobnet.settings.plant import Rates
+from mobnet.settings.runs import Statistics
+from mobnet.settings.tables import Latency
 
 MET = "stretches within a tick"
 MS = 1e3

@@ -9,7 +9,7 @@ from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.tables.layout import Line, Table, in_blocks, write_table
 from mobnet.settings.detection import Detection
 from mobnet.settings.detection_tables import Links
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 NAMED, RIGHT_LINK, RIGHT_CELL = "named", "right_link", "right_cell"
 

@@ -11,7 +11,8 @@ from mobnet.evaluation.number.lookup import AVERAGE, Lookup, read_lookup
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.number.quantities import CUT
 from mobnet.evaluation.tables.layout import Line, Table, in_blocks, long_table, write_table
-from mobnet.settings.evaluation import MethodsRow, Statistics
+from mobnet.settings.runs import Statistics
+from mobnet.settings.tables import MethodsRow
 
 ZERO, SKILL = "zero", "skill"  # the method that estimates nothing, and 1 - RMSE / RMSE of it
 CAPTION = r"\methodscaption"  # the paper's

@@ -15,8 +15,9 @@ from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.number import Number, number_text, published_row
 from mobnet.evaluation.number.rows import read_scores
 from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
-from mobnet.settings.evaluation import NoiseTable, Statistics
 from mobnet.settings.published import PublishedTable
+from mobnet.settings.runs import Statistics
+from mobnet.settings.tables import NoiseTable
 
 METRIC, FACTOR, ALL = "rmse", "factor", "all"
 Readings = Mapping[str, tuple[Sequence[Number], Mapping[str, Number]]]  # label -> errors by joint, factors by limb

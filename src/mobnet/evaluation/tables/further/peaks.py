@@ -9,7 +9,8 @@ from mobnet.evaluation.measure.estimates.peaks import DELAY, OBSERVER, SHARE
 from mobnet.evaluation.number.lookup import Lookup, read_lookup
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.tables.layout import write_measured
-from mobnet.settings.evaluation import LimbRuns, Peaks, Statistics
+from mobnet.settings.measures import Peaks
+from mobnet.settings.runs import LimbRuns, Statistics
 
 REFERENCE = "low-pass of (11)"  # what a residual without any error would show
 

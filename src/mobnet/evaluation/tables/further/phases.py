@@ -8,7 +8,8 @@ from mobnet.evaluation.compare.masks import MOVING, STUCK
 from mobnet.evaluation.compare.scene import STANCE, SWINGING, TOUCH_DOWN
 from mobnet.evaluation.number.lookup import read_lookup
 from mobnet.evaluation.tables.layout import write_measured
-from mobnet.settings.evaluation import LimbRuns, Phases, Statistics
+from mobnet.settings.measures import Phases
+from mobnet.settings.runs import LimbRuns, Statistics
 
 WHOLE = "rmse"
 PARTS = {SWINGING: "swing", TOUCH_DOWN: "touch-down", STANCE: "stance", STUCK: "stuck", MOVING: "moving"}

@@ -23,8 +23,9 @@ from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.tables.layout import RULE, Line, Table, write_table
 from mobnet.plan.reactions import Reactions
-from mobnet.settings.evaluation import Safety, Statistics
 from mobnet.settings.published import PublishedContacts
+from mobnet.settings.reaction_tables import Safety
+from mobnet.settings.runs import Statistics
 
 DIGITS = {FALLS: 2, PEAK: 0, FIRST: 1, IMPULSE: 1, ALARM: 0, WITHIN: 2, BASE_WITHIN: 2, EARLY: 2}
 

@@ -9,7 +9,8 @@ from mobnet.evaluation.measure.reaction.results import groups_of, read_trials, w
 from mobnet.evaluation.number.files import Field
 from mobnet.evaluation.tables.layout import Line, Table, write_table
 from mobnet.plan.reactions import Reactions
-from mobnet.settings.evaluation import Sensorless, Statistics
+from mobnet.settings.reaction_tables import Sensorless
+from mobnet.settings.runs import Statistics
 
 MINUTES = 60.0  # in an hour
 

@@ -12,7 +12,8 @@ from mobnet.evaluation.number.grid import Wanted
 from mobnet.evaluation.number.intervals import RATIO
 from mobnet.evaluation.number.lookup import AVERAGE, Lookup
 from mobnet.evaluation.tables.layout import percent, write_measured
-from mobnet.settings.evaluation import LimbRuns, Runs, Sigma
+from mobnet.settings.measures import Sigma
+from mobnet.settings.runs import LimbRuns, Runs
 
 ERROR = "rmse"
 PARTS = {

@@ -14,7 +14,7 @@ from mobnet.evaluation.number.number import Number
 from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
 from mobnet.settings.detection import Detection
 from mobnet.settings.detection_tables import SmallestForce
-from mobnet.settings.evaluation import Statistics
+from mobnet.settings.runs import Statistics
 
 QUANTITY = "smallest_force"
 

@@ -13,8 +13,8 @@ from mobnet.evaluation.tables.layout import Table, in_blocks, write_table
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.data import Commands
-from mobnet.settings.evaluation import Steps as StepsTable
 from mobnet.settings.robot import RobotTable
+from mobnet.settings.tables import Steps as StepsTable
 from mobnet.settings.walking import Walking
 
 HEADER = ["Set", "Command", "from", "to", "Steps", "Commanded", "Measured", "Ratio", "Within"]

@@ -11,9 +11,9 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.store import label_of, read_array
 from mobnet.evaluation.number.number import number_text
 from mobnet.evaluation.tables.layout import OUTSIDE, Line, Table, in_blocks, write_table
-from mobnet.settings.evaluation import Uncertainty
 from mobnet.settings.networks import NetworkRow
 from mobnet.settings.published import PublishedUncertainty
+from mobnet.settings.tables import Uncertainty
 
 PLANT = "section 5.1"  # head of the column of its plant
 Record = tuple[str, str, str, float, str, float | None, float | None, str]  # a row of UNCERTAINTY

@@ -14,8 +14,9 @@ from mobnet.evaluation.number.grid import Wanted, number_of
 from mobnet.evaluation.number.number import Number, number_text, published_row
 from mobnet.evaluation.number.rows import read_scores
 from mobnet.evaluation.tables.layout import PART, Line, Table, in_blocks, text_table, write_table
-from mobnet.settings.evaluation import ErrorTable, Statistics
 from mobnet.settings.published import Floor, PublishedTable
+from mobnet.settings.runs import Statistics
+from mobnet.settings.tables import ErrorTable
 
 OURS, PAPER = ("ours", "ours, simulated"), ("paper", "paper, robot")  # where they simulated, and where they measured
 RAW_LABEL = "raw truth"  # of the line of errors against it

@@ -19,8 +19,8 @@ from mobnet.evaluation.number.number import number_text, published_row
 from mobnet.evaluation.tables.layout import PART, RULE, Line, Table, text_table, write_table
 from mobnet.settings.detection import Detection
 from mobnet.settings.detection_tables import DetectorTable
-from mobnet.settings.evaluation import Statistics
 from mobnet.settings.published import PublishedTable
+from mobnet.settings.runs import Statistics
 
 FOUND, DELAY, ONSET, PERFECT = "found", "delay", "delay_onset", "perfect_delay"
 DETECTED, DELAY_MS = "detected", "delay_ms"  # places of the paper's numbers
