@@ -5,7 +5,6 @@ above 1 means that ours is faster. The long ones, run when named, hold quantitie
 writes it to results/bench.csv.
 """
 
-import argparse
 import csv
 import importlib
 import sys
@@ -13,10 +12,10 @@ from pathlib import Path
 
 from mobnet.core.files import atomic_path
 from mobnet.running.threads import one_thread
+from mobnet.running.words import bench_parser
 
 NAMES = ("collect_speed", "observer_speed", "train_speed", "step_latency", "estimate_speed", "loop_speed")
 LONG = ("collect_growth", "collect_hour", "torque_amplitude", "walk_quality")  # minutes each
-OUT = Path("results") / "bench.csv"
 BEFORE = ("benchmark", "name", "ours", "reference", "unit", "ratio", "ratio_min")  # columns that come first
 BOUNDS = {"bar": "ratio", "at_least": "at least", "at_most": "at most"}  # columns next, and how a table says it
 Row = dict[str, float | str]
@@ -24,10 +23,7 @@ Row = dict[str, float | str]
 
 def main() -> int:
     """Run those asked for; return 1 if one misses its bar."""
-    parser = argparse.ArgumentParser(prog="./reproduce bench", description="Run benchmarks and print one table.")
-    accepted = ", ".join((*NAMES, *LONG))
-    parser.add_argument("names", nargs="*", metavar="NAME", help=f"of: {accepted}; {', '.join(NAMES)} without one")
-    parser.add_argument("--out", type=Path, default=OUT, help=f"CSV, default {OUT}")
+    parser, accepted = bench_parser(), ", ".join((*NAMES, *LONG))
     options = parser.parse_args()
     for name in set(options.names) - {*NAMES, *LONG}:
         parser.error(f"NAME: {name!r} is not accepted; accepted: {accepted}")

@@ -4,7 +4,6 @@ Readers of jobs ask for the same contract; here all columns of a file are looked
 file below results/ must also be the one that its job makes (`mobnet.running.stamp`).
 """
 
-import argparse
 import functools
 import logging
 import math
@@ -51,15 +50,12 @@ from mobnet.plan.plan import make_plan
 from mobnet.plan.precision import with_precision
 from mobnet.plan.stamps import Stamped
 from mobnet.running.accounts import AccountNote, read_account
+from mobnet.running.words import KINDS, check_parser
 from mobnet.settings.load import load_section, load_settings
 from mobnet.settings.reading import read_yaml
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.settings import Settings
 
-KINDS = (
-    "a recording, residual, estimate or motion (.parquet with its .json), weights.safetensors, run.json, metrics.csv, "
-    "scores, what detectors find, a fit, an account of a job, a file of configs, a robot's table, a folder of these"
-)
 FITS = {FrictionNote: read_friction, DahlNote: read_dahl}
 NOTES = (ArrayNote, TrainingNote, AccountNote, *FITS)
 HALF = 0.5  # of the columns of a kind, which a file of rows has to pass to be one
@@ -264,10 +260,7 @@ def accepted(file: Path, against: Against, asked: bool) -> bool:
 
 def main(words: list[str]) -> int:
     """Check some files and return the exit status: 0 if all are accepted."""
-    parser = argparse.ArgumentParser(prog="./reproduce check", description="Check files before they are used.")
-    parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help=f"accepted: {KINDS}")
-    parser.add_argument("--robot", type=Path, help="the robot's table, if it is not that of configs")
-    parser.add_argument("--rate", type=float, metavar="HZ", help="samples per second, if not that of configs")
+    parser = check_parser()
     options = parser.parse_args(words)
     if options.rate is not None and not 0.0 < options.rate < math.inf:
         parser.error(not_accepted("--rate", options.rate, ["a number above 0"]))

@@ -3,7 +3,6 @@
 Weights, fit and recording are those of the published run (docs/demo); nothing is trained or simulated.
 """
 
-import argparse
 import logging
 import sys
 from collections.abc import Sequence
@@ -16,6 +15,7 @@ from mobnet.core.recording import Sensed
 from mobnet.evaluation.measure.story import StoredPush
 from mobnet.evaluation.report.demo import draw, lines_of, title_of
 from mobnet.running.environment import quieten
+from mobnet.running.words import demo_parser
 from mobnet.settings.load import load_settings
 
 DATA = ROOT / "docs" / "demo"
@@ -40,17 +40,16 @@ def load(method: str = "MOB-Net", folder: Path = DATA) -> tuple[Estimator, Sense
 
 def main(words: Sequence[str]) -> int:
     """Run the command; return its exit status."""
-    parser = argparse.ArgumentParser(prog="./reproduce demo", description="Show one push as several methods feel it.")
-    parser.add_argument("--out", type=Path, default=PICTURE, help="the picture (default: results/demo.png)")
-    parser.add_argument("--data", type=Path, default=DATA, help="folder of the stored push (default: docs/demo)")
+    parser = demo_parser()
     options = parser.parse_args(words)
-    if options.out.suffix not in ENDINGS:
-        parser.error(not_accepted("--out: ending", options.out.suffix, ENDINGS))
+    data, out = options.data or DATA, options.out or PICTURE
+    if out.suffix not in ENDINGS:
+        parser.error(not_accepted("--out: ending", out.suffix, ENDINGS))
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
     logging.getLogger("matplotlib").setLevel(logging.WARNING)  # it tells of its cache of fonts
     quieten(ROOT)
     try:
-        show(StoredPush(options.data, load_settings()), options.out)
+        show(StoredPush(data, load_settings()), out)
     except MobnetError as error:
         log.error("%s", error)
         return 1

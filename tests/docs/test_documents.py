@@ -12,7 +12,7 @@ import pytest
 import yaml
 from links import broken
 
-from mobnet.commands.words import parse
+from mobnet.commands.words import PARSERS, parse
 from mobnet.evaluation.report.readme import blocks
 from mobnet.plan.plan import make_plan
 from mobnet.settings.load import load_settings
@@ -54,11 +54,14 @@ def made():
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
-def test_every_command_of_a_document_is_accepted_and_its_targets_are_made(page, made):
+def test_every_command_of_a_document_is_accepted_with_its_options_and_its_targets_are_made(page, made):
     for line in COMMAND.findall(CODE_BLOCK.sub(r"`\1`", page.read_text())):
         words = shlex.split(line.partition("&&")[0], comments=True)
         words = [word for word in words if word != "--help" and not re.search("[A-Z]{3,}", word)]
-        parse(words or ["all"])
+        command = parse(words or ["all"]).command
+        if command in PARSERS:
+            known = PARSERS[command]().format_help()
+            assert [word for word in words if word.startswith("--") and f"{word} " not in known] == []
         targets = [word for word in words if re.match(r"(tables|figures|results)/(?!smoke)", word)]
         assert [target for target in targets if target not in made] == []
 

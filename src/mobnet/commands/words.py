@@ -2,6 +2,7 @@
 
 import argparse
 import difflib
+import functools
 import re
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -12,28 +13,29 @@ from mobnet.detection.words import calibrate_parser
 from mobnet.plan.places import scale_of
 from mobnet.robot.import_words import import_parser
 from mobnet.robotlog.words import observe_parser
+from mobnet.running.words import RESULTS, bench_parser, check_parser, cost_parser, demo_parser, results_parser
 
 COMMANDS = {
-    "all": "make every table, figure and the paper (snakemake --cores 2 all); further words go to snakemake",
-    "demo": "show one push as three methods feel it, without training: results/demo.png, or --out FILE",
-    "test": "run pytest, lint, format, types and the smoke run included; further words go to pytest",
-    "verify": "check every result file against results/MANIFEST.sha256, or --manifest FILE",
-    "check": "check recordings, weights and configurations from outside: ./reproduce check FILE...",
+    "all": "make every table, figure and the paper (snakemake --cores 2 all); further options go to snakemake",
+    "demo": "show one push as three methods estimate it, without training; --help says how",
+    "test": "run every test and check, the workflow at a small scale included; further options go to pytest",
+    "verify": "list the missing, changed and unexpected files of a run, by results/MANIFEST.sha256",
+    "check": "check recordings, weights and configurations from outside; --help says how",
     "robot": "make a robot's table from its URDF or MJCF file; --help says how",
     "observe": "make the residual of a robot's own log, and say what looks wrong with it; --help says how",
     "calibrate": "print thresholds of collision detection for a wanted rate of false alarms; --help says how",
-    "tuning": "train what configs/trials.yaml lists, write results/default/trials/tuning.md; no part of all",
-    "recipes": "train each method with each recipe, write results/default/trials/recipes.md; no part of all",
-    "lengths": "train for longer and longer, write results/default/trials/lengths.md; no part of all",
-    "random_torque": "count falls by random torque, write results/default/trials/random_torque.md; no part of all",
-    "films": "make films of walks into obstacles, results/default/films; no part of all",
-    "docs": "make the documentation as pages, results/default/docs/index.html; no part of all",
-    "report": "make everything, then report.html: every table and figure with its caption, in one file",
-    "compare": "print what differs between docs/results and the fresh tables",
-    "snapshot": "store the fresh tables and figures as docs/results",
-    "cost": "print what a run will cost: jobs, core-hours, memory, disk; with targets: what is out of date of them",
-    "bench": "run the benchmarks; prints ratios taken in one run; further words are names of benchmarks",
-    "clean": "remove results, tables, figures and paper outputs after a question; --all: environment and caches too",
+    "tuning": "train what configs/trials.yaml lists, write results/default/trials/tuning.md; not part of all",
+    "recipes": "train each method with each recipe, write results/default/trials/recipes.md; not part of all",
+    "lengths": "train for longer and longer, write results/default/trials/lengths.md; not part of all",
+    "random_torque": "count falls by random torque, write results/default/trials/random_torque.md; not part of all",
+    "films": "make films of walks into obstacles, results/default/films; not part of all",
+    "docs": "make the documentation as pages, results/default/docs/index.html; not part of all",
+    "report": "make everything, then report.html: every table and figure with its caption in one file",
+    "compare": "list the differences between the published tables and figures, docs/results, and yours",
+    "snapshot": "store your tables and figures as the published ones, docs/results",
+    "cost": "print what a run will take: jobs, core-hours, memory, disk; with targets: what would run again",
+    "bench": "run benchmarks and compare each number with its bound; --help says how",
+    "clean": "remove results, tables, figures and paper outputs after a question; --help says how",
     "setup": "make .venv from environment.lock and stop; --cpu or --cuda: which build of torch",
 }
 EXAMPLES = """
@@ -46,9 +48,14 @@ APART = ("tuning", "recipes", "lengths", "random_torque", "films", "docs")  # ru
 TARGETS = {"all": "all", "report": "all", **{name: name for name in APART}}  # command -> rule of the workflow
 HELP = {"-h", "--help"}
 PARSERS = {
+    "bench": bench_parser,
     "calibrate": calibrate_parser,
+    "check": check_parser,
+    "cost": cost_parser,
+    "demo": demo_parser,
     "observe": observe_parser,
     "robot": import_parser,
+    **{name: functools.partial(results_parser, name) for name in RESULTS},
 }  # of commands whose module has words of its own
 CONFIG = {"-C", "--config"}
 KEY = re.compile(r"[a-zA-Z_]\w+")  # as Snakemake takes it: of two signs or more
@@ -87,7 +94,7 @@ def overview() -> argparse.ArgumentParser:
     listing = "".join(f"\n  {name:<15}{text}" for name, text in COMMANDS.items())
     return argparse.ArgumentParser(
         prog="./reproduce",
-        usage="./reproduce COMMAND [WORDS], or ./reproduce TARGET...",
+        usage="./reproduce COMMAND [OPTIONS], or ./reproduce TARGET...",
         description="Set up the project and run it: one command from an empty machine to every table and figure.",
         epilog=f"commands:{listing}\n{EXAMPLES}",
         formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -98,7 +105,7 @@ def parser_of(command: str) -> argparse.ArgumentParser:
     """Return the parser of a command's own options."""
     if command in PARSERS:
         return PARSERS[command]()
-    usage = None if command in OWN else f"./reproduce {command} [WORDS]"
+    usage = None if command in OWN else f"./reproduce {command} [OPTIONS]"
     parser = argparse.ArgumentParser(f"./reproduce {command}", usage, description=COMMANDS[command], allow_abbrev=False)
     if command == "clean":
         parser.add_argument("--all", action="store_true", help="remove .venv and the caches too")

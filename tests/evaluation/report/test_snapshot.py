@@ -11,7 +11,6 @@ from mobnet.core.files import read_json, write_json
 from mobnet.evaluation.report.manifest import manifest
 from mobnet.evaluation.report.readme import blocks
 from mobnet.evaluation.report.snapshot import (
-    MANIFEST,
     RESULTS,
     check_run,
     compare_snapshot,
@@ -21,6 +20,7 @@ from mobnet.evaluation.report.snapshot import (
     write_snapshot,
 )
 from mobnet.running.logs import Account
+from mobnet.running.words import MANIFEST
 from mobnet.settings.load import load_settings
 
 REPO = Path(__file__).parents[3]

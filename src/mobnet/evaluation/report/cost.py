@@ -4,7 +4,6 @@ Without targets it prices a run from nothing; with some, what a run of them woul
 after an edit, or `./reproduce cost tables/table_06.tex`.
 """
 
-import argparse
 import logging
 import re
 import subprocess
@@ -23,6 +22,7 @@ from mobnet.evaluation.tables.layout import markdown_table
 from mobnet.plan.disk import bytes_of
 from mobnet.plan.plan import Plan, make_plan
 from mobnet.plan.work import Work
+from mobnet.running.words import cost_parser
 from mobnet.settings.load import load_settings
 
 log = logging.getLogger(__name__)
@@ -111,10 +111,7 @@ def overrides(words: Sequence[str]) -> dict[str, Any]:
 
 def main(words: Sequence[str]) -> int:
     """Print what a run will cost; return the exit status."""
-    parser = argparse.ArgumentParser(prog="./reproduce cost", description=__doc__)
-    parser.add_argument("targets", nargs="*", metavar="TARGET", help="what a run of these would start now (or `all`)")
-    parser.add_argument("--config", "-C", nargs="+", default=[], metavar="KEY=VALUE", help="as of ./reproduce all")
-    options = parser.parse_args(words)
+    options = cost_parser().parse_args(words)
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
     with_pdf = not missing_packages()
     try:

@@ -3,7 +3,6 @@
 `./reproduce` calls `python -m mobnet.evaluation.report.snapshot {snapshot,compare,verify}`.
 """
 
-import argparse
 import gzip
 import logging
 import shutil
@@ -28,6 +27,7 @@ from mobnet.plan.plan import make_plan
 from mobnet.running.accounts import read_account
 from mobnet.running.logs import LOGS
 from mobnet.running.provenance import CHANGED, UNKNOWN, commit, provenance
+from mobnet.running.words import results_parser
 from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
@@ -35,7 +35,7 @@ log = logging.getLogger(__name__)
 
 TABLES, FIGURES, SNAPSHOT = Path("tables"), Path("figures"), Path("docs/results")
 DEMO, DEMO_PAGE = Path("docs/demo"), Path("docs/demo.md")
-RESULTS, MANIFEST = Path("results/default"), Path("results/MANIFEST.sha256")
+RESULTS = Path("results/default")
 FURTHER = tuple(RESULTS / name for name in ("compute.md", "explore.html"))
 UP_TO_DATE = "Nothing to be done"  # by which Snakemake says that no job would run
 DRAWN = "figures"  # folder of the snapshot with the CSVs of figures, compressed
@@ -199,13 +199,11 @@ def read_keyed(path: Path) -> Rows:
 
 def main(words: list[str]) -> int:
     """Run one of the commands and return the exit status: 0 if nothing differs."""
-    parser = argparse.ArgumentParser(prog="./reproduce", description="Store, compare or verify the results.")
-    parser.add_argument("command", choices=("snapshot", "compare", "verify"))
-    parser.add_argument("--manifest", type=Path, default=MANIFEST, help="manifest to verify (default: %(default)s)")
-    options = parser.parse_args(words)
+    command, *others = words
+    options = results_parser(command).parse_args(others)
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
     try:
-        if options.command == "snapshot":
+        if command == "snapshot":
             settings = load_settings()
             check_run(RESULTS, options.manifest)
             check_fingerprints("all")
@@ -220,7 +218,7 @@ def main(words: list[str]) -> int:
                 page = with_block(page, name, text)
             write_text(README, page)
             return 0
-        compares = options.command == "compare"
+        compares = command == "compare"
         found = compare_snapshot(SNAPSHOT, TABLES, FIGURES) if compares else differences(options.manifest)
     except MobnetError as error:
         log.error("%s", error)

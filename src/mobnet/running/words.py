@@ -1,0 +1,74 @@
+"""The words of commands about files of a run. Standard library only: help is printed before there is an environment."""
+
+import argparse
+from pathlib import Path
+
+MANIFEST = Path("results/MANIFEST.sha256")
+KINDS = (
+    "a recording, residual, estimate or motion (.parquet with its .json), weights.safetensors, run.json, metrics.csv, "
+    "scores, what detectors find, a fit, an account of a job, a file of configs, a robot's table, a folder of these"
+)
+RESULTS = {  # command -> what it does with the results of a run
+    "verify": "List the missing, changed and unexpected files of a run, by its manifest.",
+    "compare": "List the differences between the published tables and figures, docs/results, and those of this folder.",
+    "snapshot": "Store the tables and figures of this folder as the published ones, docs/results.",
+}
+
+
+def check_parser() -> argparse.ArgumentParser:
+    """Return the parser of `./reproduce check`."""
+    parser = argparse.ArgumentParser(prog="./reproduce check", description="Check files before they are used.")
+    parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help=f"accepted: {KINDS}")
+    parser.add_argument("--robot", type=Path, help="the robot's table (default: that of configs)")
+    parser.add_argument("--rate", type=float, metavar="HZ", help="samples per second (default: that of configs)")
+    return parser
+
+
+def demo_parser() -> argparse.ArgumentParser:
+    """Return the parser of `./reproduce demo`; paths are None where they are not given."""
+    parser = argparse.ArgumentParser(
+        prog="./reproduce demo", description="Show one push as three methods estimate it, without training."
+    )
+    parser.add_argument("--out", type=Path, help="the picture: .png, .pdf or .svg (default: results/demo.png)")
+    parser.add_argument("--data", type=Path, help="folder of the stored push (default: docs/demo)")
+    return parser
+
+
+def cost_parser() -> argparse.ArgumentParser:
+    """Return the parser of `./reproduce cost`."""
+    parser = argparse.ArgumentParser(
+        prog="./reproduce cost",
+        description="Print the jobs, core-hours, memory and disk of a run, priced by the rates of the published one.",
+    )
+    parser.add_argument(
+        "targets", nargs="*", metavar="TARGET",
+        help="`all`, or files: price what a run of them would start now (default: a run from nothing)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--config", "-C", nargs="+", default=[], metavar="KEY=VALUE",
+        help="keys of the configuration, such as scale=quick, as ./reproduce all takes them",
+    )  # fmt: skip
+    return parser
+
+
+def results_parser(command: str) -> argparse.ArgumentParser:
+    """Return the parser of one of the commands that look at the results of a run."""
+    parser = argparse.ArgumentParser(prog=f"./reproduce {command}", description=RESULTS[command])
+    if command != "compare":
+        parser.add_argument(
+            "--manifest", type=Path, default=MANIFEST, help="list of files with their hashes (default: %(default)s)"
+        )
+    return parser
+
+
+def bench_parser() -> argparse.ArgumentParser:
+    """Return the parser of `./reproduce bench`."""
+    parser = argparse.ArgumentParser(
+        prog="./reproduce bench", description="Run benchmarks and print one table, in which each number has its bound."
+    )
+    parser.add_argument(
+        "names", nargs="*", metavar="NAME",
+        help="modules of benchmarks, such as collect_hour (default: those that compare speed)",
+    )  # fmt: skip
+    parser.add_argument("--out", type=Path, default=Path("results/bench.csv"), help="CSV (default: %(default)s)")
+    return parser
