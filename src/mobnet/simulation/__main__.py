@@ -59,16 +59,18 @@ def _parse(words: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--scenario", default="forward_walk", help="key of `scenarios` (%(default)s)")
     parser.add_argument("--level", default="all_uncertainty", help="key of `levels` (%(default)s)")
     parser.add_argument("--terrain", help="key of `terrain`; without it, one of the scenario's is drawn")
-    parser.add_argument("--seed", type=int, default=1, help="of commands, noise, terrain and place (%(default)s)")
+    parser.add_argument("--seed", type=int, default=1, help="seed of commands, noise, terrain and place (%(default)s)")
     parser.add_argument(
         "--seconds", type=float, help=f"simulated time ({SECONDS:g}; in the viewer: until it is closed)"
     )
     parser.add_argument("--video", type=Path, metavar="FILE", help=".gif, .webp, or .mp4 where there is an ffmpeg")
-    parser.add_argument("--width", type=int, default=400, metavar="PIXELS", help="of the video (%(default)s)")
+    parser.add_argument("--width", type=int, default=400, metavar="PIXELS", help="width of the video (%(default)s)")
     parser.add_argument(
         "--picture", type=Path, metavar="FILE", help=".png of the first left step in mid-stride after that time"
     )
-    parser.add_argument("--config", type=Path, default=CONFIGS, metavar="FOLDER", help="where these keys stand")
+    parser.add_argument(
+        "--config", type=Path, default=CONFIGS, metavar="FOLDER", help="folder with these keys"
+    )
     return parser.parse_args(words)
 
 

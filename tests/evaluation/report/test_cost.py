@@ -113,6 +113,16 @@ def test_with_targets_only_what_is_out_of_date_is_priced(told: Told, monkeypatch
     assert asked[-1][-4:] == ("--config", "scale=smoke", "--", "tables/smoke/table_05.tex")
 
 
+def test_of_a_target_that_is_up_to_date_nothing_is_priced(told: Told, monkeypatch: pytest.MonkeyPatch) -> None:
+    done = subprocess.CompletedProcess(
+        (), 0, "Nothing to be done (all requested files are present and up to date).", ""
+    )
+    monkeypatch.setattr(subprocess, "run", lambda *_, **__: done)
+    assert main(["tables/smoke/table_05.tex", "--config", "scale=smoke"]) == 0
+    assert "nothing would run" in told()
+    assert "| stage |" not in told()
+
+
 def test_a_target_that_nobody_makes_is_one_line(told: Told, monkeypatch: pytest.MonkeyPatch) -> None:
     def dry_run(words: Sequence[str], **_: object) -> subprocess.CompletedProcess[str]:
         return subprocess.CompletedProcess(

@@ -55,7 +55,7 @@ def report(plan: Plan, rates: RatesNote, rules: Collection[str]) -> str:
     lines = [
         f"scale {plan.settings.scale}, priced as on this processor: {rates.processor}",
         "",
-        markdown_table(HEADER, rows),
+        markdown_table(HEADER, rows) if works else "nothing would run: all is up to date",
         f"disk: {bytes_of(plan, files) / GIB:.1f} GiB; time: the core-hours over the number of cores",
         "GPU-hours: none, as no training on a GPU has been measured",
     ]

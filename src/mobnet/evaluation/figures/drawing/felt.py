@@ -83,7 +83,7 @@ def draw_felt(felt: FeltPush) -> Figure:
                 _notes(axis, felt, row)
         axes[1][column].set_xlabel("time from the beginning of the push [s]")
     every = [axis for row in axes for axis in row]
-    titles = f"external torque of {felt.joint}", "close to the push", "estimate less truth", "close to the push"
+    titles = f"external torque of {felt.joint}", "close to the push", "estimate minus truth", "close to the push"
     for k, (axis, title) in enumerate(zip(every, titles, strict=True)):
         entitle(axis, k, title)
     axes[0][0].set_ylabel("torque [N m]")

@@ -55,7 +55,7 @@ function drawPage(scene) {
     scene, page, torques: drawn.torques, stds: drawn.stds, shown: state.lines, numbers: drawn.numbers,
     threshold: state.threshold,
     laneOf: (method, role) => (role === "formula" && labelOf(scene, method) === method ? role : labelOf(scene, method)),
-    titles: [`external torque, ${name} [N m]`, "error: estimate less truth [N m]", `alarms at ${state.threshold} N m`],
+    titles: [`external torque, ${name} [N m]`, "error: estimate minus truth [N m]", `alarms at ${state.threshold} N m`],
   };
   plot = drawPlots(pen, drawn.view, ...size, look);
 }
