@@ -68,9 +68,7 @@ def _parse(words: list[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--picture", type=Path, metavar="FILE", help=".png of the first left step in mid-stride after that time"
     )
-    parser.add_argument(
-        "--config", type=Path, default=CONFIGS, metavar="FOLDER", help="folder with these keys"
-    )
+    parser.add_argument("--config", type=Path, default=CONFIGS, metavar="FOLDER", help="folder with these keys")
     return parser.parse_args(words)
 
 
