@@ -6,7 +6,8 @@ import select
 import shutil
 import subprocess
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
 from typing import Any, TypeVar
@@ -89,6 +90,26 @@ class Browser:
         self.until("location.href + document.readyState", "about:blankcomplete")
         self.tell("Page.navigate", url=address)
         self.until("location.protocol + document.readyState", "file:complete")
+
+    @contextmanager
+    def sized(self, width: int, height: int = 900, *, mobile: bool = False) -> Iterator[None]:
+        """Give the window a size [px] for a while."""
+        size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": mobile}
+        self.tell("Emulation.setDeviceMetricsOverride", **size)
+        try:
+            yield
+        finally:
+            self.tell("Emulation.clearDeviceMetricsOverride")
+
+    @contextmanager
+    def without_scripts(self) -> Iterator[None]:
+        """Load the page again without its scripts, and allow them afterwards."""
+        self.tell("Emulation.setScriptExecutionDisabled", value=True)
+        try:
+            self.tell("Page.reload")
+            yield
+        finally:
+            self.tell("Emulation.setScriptExecutionDisabled", value=False)
 
     def click(self, selector: str) -> None:
         box = self.value(

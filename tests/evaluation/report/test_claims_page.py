@@ -151,14 +151,13 @@ def test_a_menu_and_typing_filter_and_the_address_keeps_up(browse: Callable[[str
 def test_a_click_on_a_head_sorts_and_a_second_one_turns_it_round(browse: Callable[[str], Browser]) -> None:
     browser = browse("")
     orders = [[VERDICTS.index(one.verdict) for one in read_statements(GOLDEN)]]
-    browser.tell("Emulation.setDeviceMetricsOverride", width=1280, height=900, deviceScaleFactor=1, mobile=False)
-    for sign in (1, -1):
-        browser.click("[data-key=verdict] a")
-        browser.until("location.hash", f"#sort={'-' * (sign < 0)}verdict")
-        browser.until("document.querySelector('[aria-sort]').ariaSort", "ascending" if sign > 0 else "descending")
-        names = {one.name: VERDICTS.index(one.verdict) for one in read_statements(GOLDEN)}
-        orders.append([sign * names[name] for name in browser.value(SHOWN)])
-    browser.tell("Emulation.clearDeviceMetricsOverride")
+    with browser.sized(1280):
+        for sign in (1, -1):
+            browser.click("[data-key=verdict] a")
+            browser.until("location.hash", f"#sort={'-' * (sign < 0)}verdict")
+            browser.until("document.querySelector('[aria-sort]').ariaSort", "ascending" if sign > 0 else "descending")
+            names = {one.name: VERDICTS.index(one.verdict) for one in read_statements(GOLDEN)}
+            orders.append([sign * names[name] for name in browser.value(SHOWN)])
     assert orders[0] != sorted(orders[0])
     assert all(order == sorted(order) for order in orders[1:])
 
@@ -201,24 +200,17 @@ def test_it_filters_within_the_report_too(page: Path, open_page: Callable[..., B
 @with_browser
 @pytest.mark.parametrize("width", [400, 1280])
 def test_nothing_is_wider_than_the_screen(browse: Callable[[str], Browser], width: int) -> None:
-    browse("").tell("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=True)
-    browser = browse("#open=all")
-    try:
+    with browse("").sized(width, mobile=True):
+        browser = browse("#open=all")
         assert browser.value("document.documentElement.scrollWidth") == width
         assert browser.value("document.querySelector('svg[viewBox]').getBoundingClientRect().width") == 160
-    finally:
-        browser.tell("Emulation.clearDeviceMetricsOverride")
 
 
 @with_browser
 def test_without_scripts_it_is_a_plain_table_whose_lines_open(browse: Callable[[str], Browser]) -> None:
     browser = browse("")
-    browser.tell("Emulation.setScriptExecutionDisabled", value=True)
-    browser.tell("Page.reload")
-    try:
+    with browser.without_scripts():
         browser.until(f"{SHOWN}.length", len(read_statements(GOLDEN)))
         assert browser.value("document.querySelector('form').getClientRects().length") == 0
         browser.click("summary")
         browser.until(f"{OPEN}.length", 1)
-    finally:
-        browser.tell("Emulation.setScriptExecutionDisabled", value=False)

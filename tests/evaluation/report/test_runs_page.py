@@ -216,23 +216,16 @@ def test_curves_are_drawn_large_where_a_run_is_opened(browse: Callable[[str], Br
 
 @with_browser
 def test_a_link_to_an_opened_run_shows_it_without_scrolling(browse: Callable[[str], Browser]) -> None:
-    browse("").tell("Emulation.setDeviceMetricsOverride", width=1000, height=300, deviceScaleFactor=1, mobile=False)
-    browser = browse("#open=LSTM-LL-s0")
-    try:
+    with browse("").sized(1000, 300):
+        browser = browse("#open=LSTM-LL-s0")
         browser.until("document.querySelector('.open').getBoundingClientRect().top < innerHeight", True)
-    finally:
-        browser.tell("Emulation.clearDeviceMetricsOverride")
 
 
 @with_browser
 def test_without_scripts_every_run_is_open(browse: Callable[[str], Browser]) -> None:
     browser = browse("")
-    browser.tell("Emulation.setScriptExecutionDisabled", value=True)
-    browser.tell("Page.reload")
-    try:
+    with browser.without_scripts():
         browser.until(f"{OPEN}.length", len(RUNS))
-    finally:
-        browser.tell("Emulation.setScriptExecutionDisabled", value=False)
 
 
 CHOSEN = "[...document.querySelectorAll('#runs input:checked')].map((box) => box.closest('tbody').dataset.name)"
@@ -297,9 +290,8 @@ def test_a_run_without_epochs_and_a_name_of_none_do_no_harm(browse: Callable[[st
 @with_browser
 @pytest.mark.parametrize("width", [400, 1280])
 def test_the_page_is_not_wider_than_the_screen_and_names_stay(browse: Callable[[str], Browser], width: int) -> None:
-    browse("").tell("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=True)
-    browser = browse("#pick=GRU-LL-s0&pick=LSTM-LL-s0&open=GRU-LL-s0")
-    try:
+    with browse("").sized(width, mobile=True):
+        browser = browse("#pick=GRU-LL-s0&pick=LSTM-LL-s0&open=GRU-LL-s0")
         assert browser.value("document.documentElement.scrollWidth") == width
         browser.value("document.querySelector('#table').scrollLeft = 500")
         lefts = [
@@ -307,8 +299,6 @@ def test_the_page_is_not_wider_than_the_screen_and_names_stay(browse: Callable[[
             for place in ("#runs > tbody:not([hidden]) th", "#table")
         ]
         assert lefts[0] == pytest.approx(lefts[1], abs=2)
-    finally:
-        browser.tell("Emulation.clearDeviceMetricsOverride")
 
 
 def test_what_all_runs_share_is_shown_once(page: Path) -> None:

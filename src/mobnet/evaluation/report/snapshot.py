@@ -197,6 +197,27 @@ def read_keyed(path: Path) -> Rows:
     return {tuple(row[key] for key in keys if key in row): row for row in read_texts(path)}
 
 
+def store(manifest: Path) -> None:
+    """Store the run's results as the published ones, and renew what the documents say of them.
+
+    Raises:
+        DataError: the results are not those of the present commit, or a file is missing or damaged.
+    """
+    settings = load_settings()
+    check_run(RESULTS, manifest)
+    check_fingerprints("all")
+    write_snapshot(settings, TABLES, FIGURES, FURTHER, SNAPSHOT)
+    copy_demo(RESULTS / FOLDER, DEMO)
+    tell_demo(StoredPush(DEMO, settings), DEMO_PAGE)
+    plan = make_plan(settings, with_pdf=not missing_packages())
+    jobs = map(read_account, sorted((RESULTS / LOGS).rglob("*.json")))
+    write_json(RATES, measured(plan, jobs).model_dump())
+    page = read_text(README)
+    for name, text in blocks(SNAPSHOT).items():
+        page = with_block(page, name, text)
+    write_text(README, page)
+
+
 def main(words: list[str]) -> int:
     """Run one of the commands and return the exit status: 0 if nothing differs."""
     command, *others = words
@@ -204,19 +225,7 @@ def main(words: list[str]) -> int:
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
     try:
         if command == "snapshot":
-            settings = load_settings()
-            check_run(RESULTS, options.manifest)
-            check_fingerprints("all")
-            write_snapshot(settings, TABLES, FIGURES, FURTHER, SNAPSHOT)
-            copy_demo(RESULTS / FOLDER, DEMO)
-            tell_demo(StoredPush(DEMO, settings), DEMO_PAGE)
-            plan = make_plan(settings, with_pdf=not missing_packages())
-            jobs = map(read_account, sorted((RESULTS / "logs").rglob("*.json")))
-            write_json(RATES, measured(plan, jobs).model_dump())
-            page = read_text(README)
-            for name, text in blocks(SNAPSHOT).items():
-                page = with_block(page, name, text)
-            write_text(README, page)
+            store(options.manifest)
             return 0
         compares = command == "compare"
         found = compare_snapshot(SNAPSHOT, TABLES, FIGURES) if compares else differences(options.manifest)
