@@ -1,0 +1,1 @@
+"""What was learned here, for other programs: files that run on a robot without this project."""
