@@ -146,7 +146,7 @@ def _check_networks(networks: Sequence[Weights]) -> None:
 
 
 def _network(tensors: Mapping[str, NDArray[np.float32]], note: WeightsNote, layout: JointLayout) -> bytes:
-    """Return a network: sizes, what its inputs are, joints, z-scores and weights, as `mobnet.learning.gates` has them."""
+    """Return a network: sizes, what its inputs are, joints, z-scores, weights as `mobnet.learning.gates` has them."""
     recurrent = note.cell.cell == "GRU"
     if recurrent:
         *trained, w_out, b_out = (tensors[name] for name in GRU_TENSORS)

@@ -20,7 +20,7 @@ def leg_record(nominal: NominalModel, gate: LegGate) -> bytes:
 
 
 def _sole(nominal: NominalModel, leg: Leg, foot: int) -> bytes:
-    """Return the link that carries a foot, and the foot's origin and the corners of its sole in that link's axes [m]."""
+    """Return the link that carries a foot, and in its axes the foot's origin and the corners of its sole [m]."""
     body, robot = foot, nominal.robot
     while body > 0 and leg.tree.joint[body] < 0:  # welded to its parent
         body = int(leg.tree.parent[body])
