@@ -1,1 +1,1 @@
-"""What was learned here, for other programs: files that run on a robot without this project."""
+"""Trained networks as files that run without this project: ONNX with its contract, and how they run from Python."""
