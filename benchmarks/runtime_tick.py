@@ -1,8 +1,8 @@
 """Time of one tick of the C library on one core: observer, the six networks of Table 1, a detector for each limb.
 
-The program `src/runtime/bench.c` steps at a paced 1 kHz, as a robot does: between two ticks the core may sleep, and other
-work may take its caches. It also counts the calls for memory, which are none. Weights are random: the time does not
-depend on them.
+The program `src/runtime/bench.c` steps at a paced 1 kHz, as a robot does: between two ticks the core may sleep, and
+other work may take its caches. It also counts the calls for memory. Weights are random: the time does not depend on
+them.
 """
 
 import subprocess
@@ -15,7 +15,7 @@ from benchmarks.step_latency import six_trainings
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegGate
 from mobnet.estimation.observe import observer_of
-from mobnet.export.runtime import RuntimeDetector, Weights, write_model
+from mobnet.export.model_file import RuntimeDetector, RuntimeNetwork, write_model_file
 from mobnet.learning.deployed.weights import WeightsNote
 from mobnet.learning.features import limb_inputs
 from mobnet.learning.model import build_network
@@ -62,12 +62,12 @@ def write_six(path: Path, settings: Settings) -> None:
         gate = LegGate.of(detection.gate, robot, limb, rate_hz) if limb in detection.legs else None
         if not set(joints) & set(robot.layout.virtual):
             detectors.append(RuntimeDetector(limb, joints, ("ratio",), chain, gate))
-    weights = [_weights(training, settings) for training in trainings.values()]
-    write_model(path, observer_of(robot, *known, rate_hz, settings.observer.torque), weights, detectors)
+    observer = observer_of(robot, *known, rate_hz, settings.observer.torque)
+    write_model_file(path, observer, [_network(one, settings) for one in trainings.values()], detectors)
 
 
-def _weights(training: Training, settings: Settings) -> Weights:
-    """Return a network with its first weights, and what a file says of it."""
+def _network(training: Training, settings: Settings) -> RuntimeNetwork:
+    """Return a network with its first weights."""
     layout, network, std_min = settings.layout, training.network, training.learning.std_min
     names, joints = limb_inputs(layout, network).names, layout.limbs(network.joints)
     model = build_network(network, len(names), len(joints), std_min, seed=0)
@@ -76,7 +76,7 @@ def _weights(training: Training, settings: Settings) -> Weights:
         tensors |= {f"{kind}.mean": np.zeros(count, np.float32), f"{kind}.std": np.ones(count, np.float32)}
     row = network.model_dump(mode="json", exclude_none=True)
     told = {"name": training.limb, "limb": training.limb, "joints": [*joints], "inputs": [*names], "std_min": std_min}
-    return tensors, WeightsNote.model_validate({**told, "network": row})
+    return RuntimeNetwork(tensors, WeightsNote.model_validate({**told, "network": row}))
 
 
 if __name__ == "__main__":

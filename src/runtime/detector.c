@@ -116,11 +116,17 @@ int watch(const struct robot *robot, struct detector *d, const mobnet_sample *sa
     return !s->landed;
 }
 
+/* What a detector takes for the external torque of all joints. */
+const double *watched_torque(const struct detector *d, const struct tick *tick) {
+    return d->residual ? tick->residual : tick->tau_ext;
+}
+
 /* Signals of an estimate, one kind after the other, joint by joint (D1). */
 static void find_signals(const struct detector *d, const struct tick *tick) {
+    const double *torque = watched_torque(d, tick);
     for (size_t i = 0; i < d->kinds; i++)
         for (size_t k = 0; k < d->joints; k++) {
-            double mean = tick->tau_ext[d->joint[k]], std = tick->std[d->joint[k]];
+            double mean = torque[d->joint[k]], std = tick->std[d->joint[k]];
             d->signal[i * d->joints + k] = d->kind[i] == 0 ? mean : d->kind[i] == 1 ? std : mean / std;
         }
 }

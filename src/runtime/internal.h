@@ -56,6 +56,7 @@ struct input {
 
 struct network {
     size_t inputs, hidden, joints;
+    int direct; /* whether it predicts the external torque, and not what is taken off the residual */
     float std_min;
     struct input *input; /* (inputs) */
     uint32_t *joint;     /* (joints) where they stand in a velocity */
@@ -94,6 +95,7 @@ struct detector {
     uint32_t kind[KINDS];
     uint32_t *joint; /* (joints) where they stand in a velocity */
     double pole, *threshold; /* (phases, signals) */
+    int residual; /* whether it watches the residual, and not the estimate */
     int gated;
     size_t foot; /* among the feet of a sample */
     struct gate gate;
@@ -150,6 +152,7 @@ void first_columns(const double *quaternion, double *rotation);
 void predict(const struct mobnet *m, const struct network *net, const mobnet_sample *sample, const struct tick *last,
              struct tick *next);
 int watch(const struct robot *robot, struct detector *d, const mobnet_sample *sample, const double *tau);
+const double *watched_torque(const struct detector *d, const struct tick *tick);
 double advance_chain(struct detector *d, const struct tick *tick, int watched);
 
 #endif

@@ -122,11 +122,10 @@ static int advance(struct mobnet *m, const mobnet_sample *sample, const struct t
     observe(m, sample, last, next);
     if (m->robot.floating)
         first_columns(sample->q + 3, m->rotation);
+    for (size_t k = 0; k < nv; k++)
+        next->tau_ext[k] = next->residual[k];
     for (size_t k = 0; k < m->networks; k++)
         predict(m, &m->network[k], sample, last, next);
-    /* (O9) of note 0034, from (15). */
-    for (size_t k = 0; k < nv; k++)
-        next->tau_ext[k] = next->residual[k] - next->mean[k];
     return are_finite(next->momentum, nv) && are_finite(next->beta, nv) && are_finite(next->residual, nv) &&
            are_finite(next->tau_ext, nv) && are_finite_f(next->std, nv) && are_finite_f(next->hidden, m->hidden);
 }
@@ -134,7 +133,7 @@ static int advance(struct mobnet *m, const mobnet_sample *sample, const struct t
 static void detect(struct mobnet *m, const mobnet_sample *sample, const struct tick *tick) {
     for (size_t k = 0; k < m->detectors; k++) {
         struct detector *d = &m->detector[k];
-        m->alarm[k].watched = watch(&m->robot, d, sample, tick->tau_ext);
+        m->alarm[k].watched = watch(&m->robot, d, sample, watched_torque(d, tick));
         m->alarm[k].ratio = advance_chain(d, tick, m->alarm[k].watched);
         m->alarm[k].signal = (int)d->highest;
     }

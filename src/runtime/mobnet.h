@@ -50,7 +50,7 @@ typedef struct mobnet_alarm {
 /* What a sample led to. The arrays belong to the handle and hold until its next step. */
 typedef struct mobnet_result {
     const double *residual;     /* (nv) r of (9) [N, N m] */
-    const double *tau_ext;      /* (nv) residual less what the networks predict [N, N m]; r itself without a network */
+    const double *tau_ext;      /* (nv) estimated external torque, (15) [N, N m]; r itself where no network predicts */
     const float *mean;          /* (nv) what the networks predict [N, N m]; 0 without one */
     const float *std;           /* (nv) its standard deviation [N, N m]; 0 without one */
     const mobnet_alarm *alarms; /* (detectors) */

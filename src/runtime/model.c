@@ -196,6 +196,7 @@ static void read_network(struct mobnet *m, size_t k, struct arena *arena, struct
     net->inputs = whole(c, 0, MOST_UNITS);
     net->hidden = whole(c, 0, MOST_UNITS);
     net->joints = whole(c, 1, (uint32_t)m->robot.nv);
+    net->direct = (int)whole(c, 0, 1);
     floats(c, 1, FLT_MIN, &net->std_min);
     net->input = take(arena, net->inputs, sizeof *net->input);
     read_inputs(m, net, c);
@@ -239,7 +240,7 @@ static void read_gate(struct mobnet *m, struct detector *d, struct cursor *c) {
     read_sole(m, &d->leg.other, c);
 }
 
-/* Read which joints are watched: where no network predicts a standard deviation, only the mean can be. */
+/* Read which joints are watched: of the residual, and where no network predicts, there is no standard deviation. */
 static void read_watched(struct mobnet *m, struct detector *d, struct arena *arena, struct cursor *c) {
     int mean = 1;
     for (size_t i = 0; i < d->kinds; i++)
@@ -247,7 +248,7 @@ static void read_watched(struct mobnet *m, struct detector *d, struct arena *are
     d->joint = take(arena, d->joints, sizeof *d->joint);
     for (size_t i = 0; i < d->joints && !c->fault; i++) {
         uint32_t joint = whole(c, 0, (uint32_t)m->robot.nv - 1);
-        need(c, mean || m->predicted[joint]);
+        need(c, mean || (m->predicted[joint] && !d->residual));
         if (d->joint)
             d->joint[i] = joint;
     }
@@ -264,7 +265,7 @@ static void read_detector(struct mobnet *m, size_t k, struct arena *arena, struc
     d->hold = whole(c, 1, MOST_SAMPLES);
     d->gated = (int)whole(c, 0, 1);
     d->foot = whole(c, 0, 1);
-    whole(c, 0, 0);
+    d->residual = (int)whole(c, 0, 1);
     doubles(c, 1, 0.0, 1.0, &d->pole);
     d->signals = d->kinds * d->joints;
     d->threshold = take(arena, d->phases * d->signals, sizeof(double));

@@ -100,7 +100,10 @@ void predict(const struct mobnet *m, const struct network *net, const mobnet_sam
         float raw = net->output[joints + k];
         /* (N10), the softplus in a form that does not overflow, and (N11). */
         float soft = (raw > 0.0f ? raw : 0.0f) + logf(1.0f + expf(-fabsf(raw)));
-        next->mean[net->joint[k]] = net->output[k] * net->target_std[k] + net->target_mean[k];
-        next->std[net->joint[k]] = (soft < net->std_min ? net->std_min : soft) * net->std_unit[k];
+        size_t joint = net->joint[k];
+        next->mean[joint] = net->output[k] * net->target_std[k] + net->target_mean[k];
+        next->std[joint] = (soft < net->std_min ? net->std_min : soft) * net->std_unit[k];
+        /* (O9) of note 0034, from (15). */
+        next->tau_ext[joint] = net->direct ? next->mean[joint] : next->residual[joint] - next->mean[joint];
     }
 }
