@@ -80,8 +80,7 @@ static void floats(struct cursor *c, size_t count, float low, float *to) {
 static void name(struct cursor *c, char *to) {
     char text[NAME];
     copy(c, text, NAME);
-    need(c, text[0] && memchr(text, 0, NAME) != NULL);
-    text[NAME - 1] = 0;
+    need(c, text[0] && !text[NAME - 1]);
     if (to)
         memcpy(to, text, NAME);
 }

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[1]
 SOURCES = ROOT / "src" / "runtime"
 REASON = "no C compiler or make (Debian: gcc libc6-dev make)"
 HAS_COMPILER = shutil.which("cc") is not None and shutil.which("make") is not None
@@ -50,6 +50,13 @@ def make(target, out, *words):
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     return out / target
+
+
+def program(path, *words):
+    """Run a program that must succeed; return the words that it prints."""
+    done = subprocess.run([str(path), *map(str, words)], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout.split()
 
 
 def load(path):
