@@ -181,14 +181,14 @@ def _network(network: RuntimeNetwork, layout: JointLayout) -> bytes:
 
 def _source(name: str, layout: JointLayout) -> tuple[int, int]:
     """Return where an input of a network comes from, a number of `enum source` in internal.h, and its place there."""
-    for k, names in enumerate(BASE_SOURCES):
-        if name in names and layout.virtual:
-            return len(JOINT_SOURCES) + k, names.index(name)
-    signal, _, joint = name.partition(".")
-    if signal not in JOINT_SOURCES or joint not in layout.actuated:
-        accepted = [f"{one}.<joint>" for one in JOINT_SOURCES] + [f"{names[0]}, ..." for names in BASE_SOURCES]
-        raise DataError(not_accepted("input of a network", name, accepted))
-    return JOINT_SOURCES.index(signal), layout.actuated.index(joint)
+    sources = [[f"{signal}.{joint}" for joint in layout.actuated] for signal in JOINT_SOURCES]
+    accepted = [f"{signal}.<joint>" for signal in JOINT_SOURCES]
+    if layout.virtual:
+        sources, accepted = [*sources, *BASE_SOURCES], [*accepted, *(f"{names[0]}, ..." for names in BASE_SOURCES)]
+    for k, names in enumerate(sources):
+        if name in names:
+            return k, names.index(name)
+    raise DataError(not_accepted("input of a network", name, accepted))
 
 
 def _detector(detector: RuntimeDetector, observer: MomentumObserver) -> bytes:
