@@ -99,7 +99,7 @@ def difference(one: Trained, path: Path) -> float:
     tensors, rng = one.tensors, np.random.default_rng(SEED)
     lane = rng.normal(tensors["input.mean"], tensors["input.std"], (SAMPLES, len(one.note.inputs))).astype(np.float32)
     (own,), (exported,) = deployed(tensors, one.note).run_all([lane]), OnnxNetwork(path).run_all([lane])
-    apart = np.subtract([own.mean, own.std], [exported.mean, exported.std])
+    apart = np.array([own.mean, own.std], np.float32) - np.array([exported.mean, exported.std], np.float32)
     return float(np.max(np.abs(apart) / tensors["target.std"]))
 
 
