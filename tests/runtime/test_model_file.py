@@ -160,7 +160,10 @@ def test_what_the_library_does_not_run_is_not_written(observer_of, tmp_path):
     with pytest.raises(DataError, match="joint of two networks: 'J1'"):
         write_model_file(path, observer, [network, network], [])
     unknown = replace(network, note=network.note.model_copy(update={"inputs": ["acc.x", *network.note.inputs[1:]]}))
-    with pytest.raises(DataError, match=r"input of a network: 'acc.x' is not accepted; accepted: q.<joint>, tau_des.<joint>, v.<joint>$"):
+    with pytest.raises(
+        DataError,
+        match=r"input of a network: 'acc.x' is not accepted; accepted: q.<joint>, tau_des.<joint>, v.<joint>$",
+    ):
         write_model_file(path, observer, [unknown], [])
     for thresholds, norm in (([[1.0]], False), ([[1.0, 1.0]], True)):
         detector = RuntimeDetector("A", layout.names, ("mean",), chain_of(thresholds)._replace(norm=norm))

@@ -1,10 +1,11 @@
 """The programs beside the library: the example's flags, a tick without memory, and attempts to break it."""
 
+import re
 import subprocess
 
 import numpy as np
 import pytest
-from c_library import SOURCES, make, program
+from c_library import ROOT, SOURCES, make, program
 
 from mobnet.detection.detector import ALARM_RATIO, LegDetector, LegGate
 from mobnet.detection.signals import Watched
@@ -53,6 +54,10 @@ def test_the_example_prints_the_flags_of_the_project(built, push, published, tmp
     assert [line.split(",")[0] for line in lines] == [str(k) for k in rows]
     assert [line.split(",")[2:4] for line in lines] == [["LL", names[k]] for k in alarm.signal[rows]]
     np.testing.assert_allclose([float(line.split(",")[4]) for line in lines], alarm.ratio[rows], rtol=1e-5)
+    header, *lines = program(make("example", built), tmp_path / "model.bin", csv, "torque")
+    columns = [header.split(",").index(f"tau_ext.{joint}") for joint in push.joints]
+    found = np.array([line.split(",") for line in lines], dtype=float)[:, columns]
+    np.testing.assert_allclose(found, estimate.tau_ext, rtol=0, atol=1e-5 * np.abs(estimate.tau_ext).max())
 
 
 def test_the_example_says_what_it_misses(built, model, tmp_path):
@@ -97,6 +102,27 @@ def test_the_header_serves_cpp(tmp_path):
     if "cc1plus" in found.stderr:
         pytest.skip("no C++ compiler (Debian: g++)")
     assert found.returncode == 0, found.stderr
+
+
+def test_the_code_of_the_guide_compiles(built, tmp_path):
+    (code,) = re.findall(r"```c\n(.*?)```", (ROOT / "docs" / "runtime.md").read_text(), re.DOTALL)
+    (tmp_path / "guide.c").write_text(f"{code}\nint main(void) {{ return run(NULL, 0, NULL, 0) != MOBNET_NULL; }}\n")
+    library = make("libmobnet.a", built)
+    words = [
+        "-std=c99",
+        "-Wall",
+        "-Wextra",
+        "-Werror",
+        "-pedantic",
+        f"-I{SOURCES}",
+        "guide.c",
+        library,
+        "-lm",
+        "-o",
+        "guide",
+    ]
+    subprocess.run(["cc", *words], cwd=tmp_path, check=True)
+    program(tmp_path / "guide")
 
 
 @pytest.fixture(scope="session")

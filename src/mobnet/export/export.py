@@ -19,6 +19,7 @@ from mobnet.core.files import atomic_path, write_json
 from mobnet.detection.threshold_file import read_thresholds
 from mobnet.export.contract import CONTRACT, Contract, ObserverContract, TorqueKind
 from mobnet.export.graph import graph_of
+from mobnet.export.runtime import MODEL, runs_in_c, write_model
 from mobnet.export.session import OnnxNetwork
 from mobnet.export.trained import Trained, check_apart, contract_of, read_trained
 from mobnet.export.words import export_parser
@@ -139,6 +140,9 @@ def main(words: list[str]) -> int:
         )
         contract = export(networks, robot, run, [read_thresholds(path) for path in options.thresholds], options.out)
         lines = list(told(contract, networks, options.out))
+        if runs_in_c(networks):
+            write_model(options.out / MODEL, robot, contract, networks, settings.detection.gate)
+            lines.append(f"{options.out / MODEL}: for the C library in src/runtime")
     except MobnetError as error:
         log.error("%s", error)
         return 1
