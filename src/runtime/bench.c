@@ -98,8 +98,8 @@ static int run(mobnet *model, size_t ticks, double *times) {
     qsort(times, ticks, sizeof *times, rising);
     for (size_t k = 0; k < ticks; k++)
         late += times[k] > PERIOD_S;
-    printf("%.3f %.3f %.3f %lu %lu\n", 1e6 * times[ticks / 2], 1e6 * times[ticks * 99 / 100], 1e6 * times[ticks - 1], late,
-           asked);
+    double median = times[ticks / 2], p99 = times[ticks * 99 / 100], largest = times[ticks - 1];
+    printf("%.3f %.3f %.3f %lu %lu\n", 1e6 * median, 1e6 * p99, 1e6 * largest, late, asked);
     return 0;
 }
 

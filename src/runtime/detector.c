@@ -1,4 +1,7 @@
-/* From an estimate to an alarm: gate of a leg, low-pass, threshold, a time without a gap (docs/notes/0036-detection.md). */
+/* From an estimate to an alarm: gate of a leg, low-pass, threshold, a time without a gap.
+ *
+ * (D1) to (D8) are derived in docs/notes/0036-detection.md.
+ */
 #include <math.h>
 
 #include "internal.h"
@@ -85,8 +88,8 @@ static int is_ground(const struct robot *robot, const struct gate *gate, const s
     return size > gate->force && load[2] > gate->upright * size && height < gate->low;
 }
 
-/* Take one sample, after the momentum of the same sample, whose rotations it uses; return whether the limb is watched. */
-int watch(const struct robot *robot, struct detector *d, const mobnet_sample *sample, const double *tau) {
+/* Take one sample, after its momentum, whose rotations the gate uses; return whether the limb is watched. */
+static int watch(const struct robot *robot, struct detector *d, const mobnet_sample *sample, const double *tau) {
     struct gate_state *s = &d->state;
     if (!d->gated)
         return 1;
@@ -100,7 +103,7 @@ int watch(const struct robot *robot, struct detector *d, const mobnet_sample *sa
     s->air++;
     double since = (double)s->air * d->gate.period;
     s->phase = since / (since + landing);
-    /* (D3) [5.3]: only unexpected collisions count. While a foot leaves or meets the ground, ground forces are expected. */
+    /* (D3) [5.3]: while a foot leaves or meets the ground, ground forces are expected. */
     if (s->landed || s->air < d->gate.lift_off || landing <= d->gate.landing)
         return 0;
     /* (D6) [7]: an early landing ends the swing, though the plan does not know yet. */
@@ -117,7 +120,7 @@ int watch(const struct robot *robot, struct detector *d, const mobnet_sample *sa
 }
 
 /* What a detector takes for the external torque of all joints. */
-const double *watched_torque(const struct detector *d, const struct tick *tick) {
+static const double *watched_torque(const struct detector *d, const struct tick *tick) {
     return d->residual ? tick->residual : tick->tau_ext;
 }
 
@@ -132,7 +135,7 @@ static void find_signals(const struct detector *d, const struct tick *tick) {
 }
 
 /* Take one sample; return how often the highest signal lies above its threshold, held without a gap. */
-double advance_chain(struct detector *d, const struct tick *tick, int watched) {
+static double advance_chain(struct detector *d, const struct tick *tick, int watched) {
     size_t part = (size_t)(d->state.phase * (double)d->phases), row = d->samples++ % d->hold;
     const double *threshold = d->threshold + (part < d->phases ? part : d->phases - 1) * d->signals;
     double highest = 0.0;
@@ -140,7 +143,7 @@ double advance_chain(struct detector *d, const struct tick *tick, int watched) {
     for (size_t k = 0; k < d->signals; k++) {
         /* (D7). The filter runs on the ground too: a state that began at the gate would hide the start of a swing. */
         d->low[k] = d->pole * d->low[k] + (1.0 - d->pole) * d->signal[k];
-        /* (D8): one sample that is not watched breaks what is held, so that no alarm reaches back to before the gate. */
+        /* (D8): a sample that is not watched breaks what is held: no alarm reaches back to before the gate. */
         double least = d->held[row * d->signals + k] = watched ? fabs(d->low[k]) / threshold[k] : 0.0;
         for (size_t i = 0; i < d->hold; i++)
             least = fmin(least, d->held[i * d->signals + k]);
@@ -151,4 +154,11 @@ double advance_chain(struct detector *d, const struct tick *tick, int watched) {
         }
     }
     return highest;
+}
+
+void mobnet_detect(const struct robot *robot, struct detector *d, const mobnet_sample *sample, const struct tick *tick,
+                   mobnet_alarm *alarm) {
+    alarm->watched = watch(robot, d, sample, watched_torque(d, tick));
+    alarm->ratio = advance_chain(d, tick, alarm->watched);
+    alarm->signal = (int)d->highest;
 }

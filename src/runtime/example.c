@@ -25,7 +25,7 @@ static size_t cut(char *line, char **fields) {
     return count;
 }
 
-/* Find each column of a sample among the fields of the first line; return 0, with a line that says so, if one is missing. */
+/* Find each column of a sample among the fields of the first line; return 0, and say which one, if one is missing. */
 static int find_columns(const mobnet *model, size_t columns, char **fields, size_t count, size_t *place) {
     for (size_t k = 0; k < columns; k++) {
         for (place[k] = 0; place[k] < count; place[k]++)

@@ -1,7 +1,7 @@
-/* Try to break the library: `fuzz samples MODEL COUNT SEED` steps through random samples, with numbers that are not
- * finite, huge or out of bounds, and `fuzz models MODEL COUNT SEED` reads damaged copies of a model file, their checksum
- * made right again, and steps through those that are accepted. Built with the compiler's own checks (Makefile), it ends
- * at the first wrong access; it returns 1 where a state is not finite.
+/* Try to break the library: `fuzz samples MODEL COUNT SEED` steps through random samples, a quarter of them with
+ * numbers that are not finite, huge or out of bounds. `fuzz models MODEL COUNT SEED` reads damaged copies of a model
+ * file, their checksum made right again, and steps through those that are accepted. Built with the compiler's checks
+ * (Makefile), it ends at the first wrong access; it returns 1 where a state is not finite.
  */
 #include <math.h>
 #include <stdint.h>

@@ -1,4 +1,6 @@
-/* What the parts of the library share; nothing here is for its users. */
+/* What the parts of the library share; nothing here is for its users. Functions have names by which the linker tells
+ * them from those of a program.
+ */
 #ifndef MOBNET_INTERNAL_H
 #define MOBNET_INTERNAL_H
 
@@ -40,13 +42,15 @@ struct robot {
     double gravity[3]; /* [m/s^2] */
     struct link *link; /* (links), the base first */
     struct moving *moving;
-    double *p, *beta; /* (nv) room for the terms of a sample */
 };
 
 struct observer {
     double pole, rate_hz;
     int sampled; /* whether torques are samples at the ticks, and not means over the intervals that end there */
 };
+
+/* Kinds of sections of a model file, in their order. */
+enum part { ROBOT = 1, JOINTS, COLUMNS, OBSERVER, NETWORK, DETECTOR };
 
 enum source { FROM_Q, FROM_V, FROM_TORQUE, FROM_ROTATION, FROM_OMEGA, FROM_ACC, SOURCES };
 
@@ -95,7 +99,7 @@ struct detector {
     uint32_t kind[KINDS];
     uint32_t *joint; /* (joints) where they stand in a velocity */
     double pole, *threshold; /* (phases, signals) */
-    int residual; /* whether it watches the residual, and not the estimate */
+    int residual;            /* whether it watches the residual, and not the estimate */
     int gated;
     size_t foot; /* among the feet of a sample */
     struct gate gate;
@@ -106,8 +110,8 @@ struct detector {
     size_t highest;
 };
 
-/* What follows from a sample. There are two of them: the last one, and that of the sample that is being looked at, which
- * takes its place if all of its numbers are finite. */
+/* What follows from a sample. There are two of them: the last one, and that of the sample that is being looked at,
+ * which takes its place if all of its numbers are finite. */
 struct tick {
     double *momentum, *beta, *residual, *torque, *tau_ext;
     float *mean, *std, *hidden;
@@ -128,10 +132,10 @@ struct mobnet {
     struct detector *detector;
     mobnet_alarm *alarm;
     struct tick tick[2];
-    int now;    /* which of the two is the last one */
-    int begun;  /* whether its momentum is that of the sample before the next one */
-    double rotation[6];                     /* room: first two columns of the base's rotation */
-    char predicted[MOST_LINKS + BASE_V];    /* whether a network predicts a joint's torque */
+    int now;                             /* which of the two is the last one */
+    int begun;                           /* whether it is one period before the next one */
+    double rotation[6];                  /* room: first two columns of the base's rotation */
+    char predicted[MOST_LINKS + BASE_V]; /* whether a network predicts a joint's torque */
 };
 
 /* Where arrays go. Without a beginning it only counts what they take. */
@@ -140,19 +144,22 @@ struct arena {
     size_t used;
 };
 
-void *take(struct arena *arena, size_t count, size_t size);
+struct cursor;
 
-mobnet_status read_model(struct mobnet *m, struct arena *arena, const void *model, size_t size);
+void *mobnet_take(struct arena *arena, size_t count, size_t size);
+mobnet_status mobnet_read_model(struct mobnet *m, struct arena *arena, const void *model, size_t size);
+void mobnet_read_part(struct mobnet *m, struct arena *arena, uint32_t kind, uint32_t number, struct cursor *c);
 
-void momentum_and_beta(const struct robot *robot, const double *q, const double *v, double *p, double *beta);
-void observe(const struct mobnet *m, const mobnet_sample *sample, const struct tick *last, struct tick *next);
-void lay_out(size_t rows, size_t columns, const unsigned char *from, float *to);
-size_t padded(size_t rows);
-void first_columns(const double *quaternion, double *rotation);
-void predict(const struct mobnet *m, const struct network *net, const mobnet_sample *sample, const struct tick *last,
-             struct tick *next);
-int watch(const struct robot *robot, struct detector *d, const mobnet_sample *sample, const double *tau);
-const double *watched_torque(const struct detector *d, const struct tick *tick);
-double advance_chain(struct detector *d, const struct tick *tick, int watched);
+void mobnet_momentum(const struct robot *robot, const double *q, const double *v, double *p, double *beta);
+void mobnet_observe(const struct mobnet *m, const mobnet_sample *sample, const struct tick *last, struct tick *next);
+
+size_t mobnet_padded(size_t rows);
+void mobnet_lay_out(size_t rows, size_t columns, const unsigned char *from, float *to);
+void mobnet_first_columns(const double *quaternion, double *rotation);
+void mobnet_predict(const struct mobnet *m, const struct network *net, const mobnet_sample *sample,
+                    const struct tick *last, struct tick *next);
+
+void mobnet_detect(const struct robot *robot, struct detector *d, const mobnet_sample *sample, const struct tick *tick,
+                   mobnet_alarm *alarm);
 
 #endif

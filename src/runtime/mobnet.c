@@ -11,7 +11,7 @@ static const double NORM = 0.01;    /* by which a quaternion's norm may differ f
 static const char *const KIND[KINDS] = {"mean", "std", "ratio"};
 
 /* Return zeroed room for an array, aligned; NULL where the arena only counts. */
-void *take(struct arena *arena, size_t count, size_t size) {
+void *mobnet_take(struct arena *arena, size_t count, size_t size) {
     unsigned char *room = arena->begin ? arena->begin + arena->used : NULL;
     size_t bytes = (count * size + ALIGNED - 1) / ALIGNED * ALIGNED;
     arena->used += bytes;
@@ -32,8 +32,8 @@ mobnet_status mobnet_size(const void *model, size_t model_size, size_t *size) {
     if (!is_known_host())
         return MOBNET_HOST;
     memset(&m, 0, sizeof m);
-    take(&counted, 1, sizeof m);
-    mobnet_status status = read_model(&m, &counted, model, model_size);
+    mobnet_take(&counted, 1, sizeof m);
+    mobnet_status status = mobnet_read_model(&m, &counted, model, model_size);
     *size = status == MOBNET_OK ? counted.used + ALIGNED : 0;
     return status;
 }
@@ -49,8 +49,8 @@ mobnet_status mobnet_init(void *memory, size_t size, const void *model, size_t m
     if (size < needed)
         return MOBNET_MEMORY;
     struct arena arena = {(unsigned char *)memory + (ALIGNED - (uintptr_t)memory % ALIGNED) % ALIGNED, 0};
-    struct mobnet *m = take(&arena, 1, sizeof *m);
-    status = read_model(m, &arena, model, model_size);
+    struct mobnet *m = mobnet_take(&arena, 1, sizeof *m);
+    status = mobnet_read_model(m, &arena, model, model_size);
     if (status == MOBNET_OK)
         *handle = m;
     return status;
@@ -71,8 +71,8 @@ void mobnet_reset(mobnet *m) {
     }
 }
 
-/* Return whether a part of a sample lies in its bounds; otherwise the column that does not is `*column`, which else moves
- * on to the next part. */
+/* Return whether a part of a sample, which begins at `*column`, lies in its bounds. The column moves on to the next
+ * part, or to the number that does not. */
 static int is_accepted(const struct mobnet *m, const double *part, size_t count, size_t *column) {
     for (size_t k = 0; k < count; k++, ++*column)
         if (!(part[k] >= m->column[*column].low && part[k] <= m->column[*column].high))
@@ -119,24 +119,15 @@ static int are_finite_f(const float *x, size_t count) {
 /* Fill the next tick from a sample and the last one; return whether all of its numbers are finite. */
 static int advance(struct mobnet *m, const mobnet_sample *sample, const struct tick *last, struct tick *next) {
     size_t nv = m->robot.nv;
-    observe(m, sample, last, next);
+    mobnet_observe(m, sample, last, next);
     if (m->robot.floating)
-        first_columns(sample->q + 3, m->rotation);
+        mobnet_first_columns(sample->q + 3, m->rotation);
     for (size_t k = 0; k < nv; k++)
         next->tau_ext[k] = next->residual[k];
     for (size_t k = 0; k < m->networks; k++)
-        predict(m, &m->network[k], sample, last, next);
+        mobnet_predict(m, &m->network[k], sample, last, next);
     return are_finite(next->momentum, nv) && are_finite(next->beta, nv) && are_finite(next->residual, nv) &&
            are_finite(next->tau_ext, nv) && are_finite_f(next->std, nv) && are_finite_f(next->hidden, m->hidden);
-}
-
-static void detect(struct mobnet *m, const mobnet_sample *sample, const struct tick *tick) {
-    for (size_t k = 0; k < m->detectors; k++) {
-        struct detector *d = &m->detector[k];
-        m->alarm[k].watched = watch(&m->robot, d, sample, watched_torque(d, tick));
-        m->alarm[k].ratio = advance_chain(d, tick, m->alarm[k].watched);
-        m->alarm[k].signal = (int)d->highest;
-    }
 }
 
 mobnet_status mobnet_step(mobnet *m, const mobnet_sample *sample, mobnet_result *result) {
@@ -149,7 +140,8 @@ mobnet_status mobnet_step(mobnet *m, const mobnet_sample *sample, mobnet_result 
     m->begun = status == MOBNET_OK;
     if (status == MOBNET_OK) {
         m->now = 1 - m->now;
-        detect(m, sample, &m->tick[m->now]);
+        for (size_t k = 0; k < m->detectors; k++)
+            mobnet_detect(&m->robot, &m->detector[k], sample, &m->tick[m->now], &m->alarm[k]);
     }
     const struct tick *tick = &m->tick[m->now];
     result->residual = tick->residual;

@@ -1,7 +1,7 @@
 /* p = M v of (4) and beta = C^T v - g of (6) in one sweep out along the tree and one back.
  *
- * The equations (a) to (d) are derived in src/mobnet/robot/momentum.py. Every sum stands here in the same order as there,
- * so that both give the same bits where sine and cosine do.
+ * (a) to (d) are derived in src/mobnet/robot/momentum.py. Every sum stands here in the same order as there, so that
+ * both give the same bits where sine and cosine do.
  */
 #include <math.h>
 
@@ -79,7 +79,7 @@ static void tell_base(const struct robot *robot, double *p, double *beta) {
     put(beta + 3, rate(base));
 }
 
-void momentum_and_beta(const struct robot *robot, const double *q, const double *v, double *p, double *beta) {
+void mobnet_momentum(const struct robot *robot, const double *q, const double *v, double *p, double *beta) {
     struct link *link = robot->link;
     struct moving *moving = robot->moving;
     size_t q_joints = robot->nq - robot->nu, v_joints = robot->nv - robot->nu;

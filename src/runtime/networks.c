@@ -9,13 +9,13 @@
 
 #include "internal.h"
 
-size_t padded(size_t rows) {
+size_t mobnet_padded(size_t rows) {
     return (rows + ROWS - 1) / ROWS * ROWS;
 }
 
 /* Lay a matrix of floats in rows (rows, columns) out in blocks; what a block has more than the matrix stays zero. */
-void lay_out(size_t rows, size_t columns, const unsigned char *from, float *to) {
-    for (size_t i = 0; i < padded(rows); i++)
+void mobnet_lay_out(size_t rows, size_t columns, const unsigned char *from, float *to) {
+    for (size_t i = 0; i < mobnet_padded(rows); i++)
         for (size_t j = 0; j < columns; j++) {
             float value = 0.0f;
             if (i < rows)
@@ -61,7 +61,7 @@ static void open_gates(size_t n, const float *restrict by_state, const float *re
 }
 
 /* The first two columns of the rotation of a quaternion w x y z, (N1). */
-void first_columns(const double *quaternion, double *rotation) {
+void mobnet_first_columns(const double *quaternion, double *rotation) {
     double w = quaternion[0], x = quaternion[1], y = quaternion[2], z = quaternion[3];
     double columns[6] = {1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y),
                          2 * (x * y - w * z),     1 - 2 * (x * x + z * z), 2 * (y * z + w * x)};
@@ -87,15 +87,15 @@ static float seen(const struct mobnet *m, struct input input, const mobnet_sampl
     }
 }
 
-void predict(const struct mobnet *m, const struct network *net, const mobnet_sample *sample, const struct tick *last,
-             struct tick *next) {
+void mobnet_predict(const struct mobnet *m, const struct network *net, const mobnet_sample *sample,
+                    const struct tick *last, struct tick *next) {
     size_t n = net->hidden, joints = net->joints;
     for (size_t i = 0; i < net->inputs; i++)
         net->scaled[i] = (seen(m, net->input[i], sample) - net->input_mean[i]) / net->input_std[i];
-    multiply(padded(3 * n), n, net->w_state, net->b_state, last->hidden + net->first, net->by_state);
-    multiply(padded(3 * n), net->inputs, net->w_in, net->b_in, net->scaled, net->by_in);
+    multiply(mobnet_padded(3 * n), n, net->w_state, net->b_state, last->hidden + net->first, net->by_state);
+    multiply(mobnet_padded(3 * n), net->inputs, net->w_in, net->b_in, net->scaled, net->by_in);
     open_gates(n, net->by_state, net->by_in, last->hidden + net->first, next->hidden + net->first);
-    multiply(padded(2 * joints), n, net->w_out, net->b_out, next->hidden + net->first, net->output);
+    multiply(mobnet_padded(2 * joints), n, net->w_out, net->b_out, next->hidden + net->first, net->output);
     for (size_t k = 0; k < joints; k++) {
         float raw = net->output[joints + k];
         /* (N10), the softplus in a form that does not overflow, and (N11). */

@@ -7,11 +7,11 @@ static double mean_torque(const struct observer *observer, double now, double be
     return observer->sampled ? (now + before) / 2 : now;
 }
 
-void observe(const struct mobnet *m, const mobnet_sample *sample, const struct tick *last, struct tick *next) {
+void mobnet_observe(const struct mobnet *m, const mobnet_sample *sample, const struct tick *last, struct tick *next) {
     const struct robot *robot = &m->robot;
     const struct observer *observer = &m->observer;
     size_t motors = robot->nv - robot->nu;
-    momentum_and_beta(robot, sample->q, sample->v, next->momentum, next->beta);
+    mobnet_momentum(robot, sample->q, sample->v, next->momentum, next->beta);
     for (size_t k = 0; k < robot->nu; k++)
         next->torque[k] = sample->tau_motor[k];
     for (size_t k = 0; k < robot->nv; k++) {

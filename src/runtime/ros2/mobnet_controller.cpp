@@ -1,6 +1,6 @@
-// A ros2_control controller around the library: it reads state interfaces, commands nothing, and exports what it finds as
-// state interfaces that other controllers read: <controller>/<joint>/external_torque, <joint>/std, <detector>/alarm and
-// status. Written for the interface of ros2_control in Jazzy; it has never been compiled with ROS (README.md).
+// A ros2_control controller around the library: it reads state interfaces, commands nothing, and exports what it finds
+// as state interfaces that other controllers read (README.md). Written for the interface of ros2_control in Jazzy; it
+// has never been compiled with ROS.
 #include <cmath>
 #include <fstream>
 #include <iterator>
