@@ -143,6 +143,18 @@ def test_networks_and_watched_limbs(runtime, observer_of, machine, cell, estimat
     assert alarms[:, 0, 2].all()
 
 
+@pytest.mark.parametrize("raw", [-40.0, 0.0, 60.0])
+def test_standard_deviations_at_their_ends(runtime, observer_of, raw):
+    """Neither end of the softplus overflows, and below the smallest one there is the smallest one, (N10)."""
+    observer = observer_of("arm")
+    network = network_of(observer.nominal.robot.layout, "A", {"cell": "constant"})
+    network.tensors["head.bias"][2:] = raw
+    _, _, std, _, _ = run(runtime(observer, [network]), moving(observer.nominal.robot.layout, 3))
+    unit = network.tensors["target.std"] * network.tensors["std.scale"]
+    wanted = {-40.0: network.note.std_min, 0.0: np.log(2.0), 60.0: 60.0}[raw]
+    np.testing.assert_allclose(std, np.tile(wanted * unit, (3, 1)), rtol=1e-6)
+
+
 def test_a_detector_of_the_residual_does_not_see_the_network(runtime, observer_of):
     observer = observer_of("arm")
     layout, sensed = observer.nominal.robot.layout, moving(observer.nominal.robot.layout, 200)

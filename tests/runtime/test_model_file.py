@@ -145,6 +145,34 @@ def test_values_that_are_not_accepted_are_refused(library, model, kind, place, f
     assert status_of(library, model_file.file_of(parts)) in (VALUE, SECTION)
 
 
+@pytest.mark.parametrize(("place", "value"), [
+    (8, 1), (8, 2**40), (8, 2**64 - 64), (8, 64), (16, 2**63), (16, 4096), (0, 9), (0, 3),
+])  # fmt: skip  # where a section is, its size, its kind
+def test_a_section_elsewhere_in_the_file_is_refused(library, model, place, value):
+    """The entry of the last section, with a right checksum; its bytes may be the same as before."""
+    changed, entry = bytearray(model), 64 + 32 * 5
+    struct.pack_into("<Q" if place else "<I", changed, entry + place, value)
+    struct.pack_into("<I", changed, 8, zlib.crc32(changed[12:]))
+    assert status_of(library, bytes(changed)) == SECTION
+
+
+def test_a_section_that_is_not_aligned_or_ends_behind_the_file_is_refused(library, model):
+    """Even if what it says of itself would lead a reader there."""
+    entry = 64 + 32 * 5
+    offset, size = struct.unpack_from("<QQ", model, entry + 8)
+    for place, length, phases in ((offset + 8, size - 8, 1), (offset, size + 8 * 4 * 99, 100)):
+        changed = bytearray(model)
+        struct.pack_into("<QQ", changed, entry + 8, place, length)
+        struct.pack_into("<I", changed, offset + 52, phases)
+        struct.pack_into("<I", changed, 8, zlib.crc32(changed[12:]))
+        assert status_of(library, bytes(changed)) == SECTION
+
+
+def test_a_joint_has_one_network(library, model):
+    parts = sections(model)
+    assert status_of(library, model_file.file_of([*parts[:5], parts[4], parts[5]])) == VALUE
+
+
 def test_a_ratio_needs_a_network(library, observer_of, tmp_path):
     observer = observer_of("arm")
     write_model_file(tmp_path / "m.bin", observer, [], [watching(observer.nominal.robot.layout, "A", ("ratio",))])
