@@ -14,7 +14,15 @@ from pathlib import Path
 from mobnet.core.files import atomic_path
 from mobnet.running.threads import one_thread
 
-NAMES = ("collect_speed", "observer_speed", "train_speed", "step_latency", "estimate_speed", "loop_speed")
+NAMES = (
+    "collect_speed",
+    "observer_speed",
+    "train_speed",
+    "step_latency",
+    "onnx_latency",
+    "estimate_speed",
+    "loop_speed",
+)
 LONG = ("collect_growth", "collect_hour", "torque_amplitude", "walk_quality")  # minutes each
 OUT = Path("results") / "bench.csv"
 BEFORE = ("benchmark", "name", "ours", "reference", "unit", "ratio", "ratio_min")  # columns that come first

@@ -34,10 +34,10 @@ def estimates_of(network, session, inputs, residual):
 def alarms_of(detector, rate_hz, estimates):
     """Yield whether there is an alarm, and its joint, sample by sample: low-pass, threshold, a time without a gap."""
     pole, hold = np.exp(-2 * np.pi * detector["low_pass_hz"] / rate_hz), max(1, round(detector["hold_s"] * rate_hz))
-    low = above = 0
-    for tau, std in estimates:
+    low, above, limits = 0, 0, np.array(detector["thresholds"])
+    for k, (tau, std) in enumerate(estimates):
         low = pole * low + (1 - pole) * {"mean": tau, "std": std, "ratio": tau / std}[detector["signal"]]
-        above = np.where(np.abs(low) > detector["thresholds"], above + 1, 0)
+        above = np.where((np.abs(low) > limits) & (k >= round(detector["settle_s"] * rate_hz)), above + 1, 0)
         yield above.max() >= hold, detector["joints"][above.argmax()]
 
 
