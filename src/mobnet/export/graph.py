@@ -81,6 +81,8 @@ def _vector(name: str, size: int) -> onnx.ValueInfoProto:
 
 def _recurrent(operator: str, gates: str, order: str) -> Callable[[GraphBuilder, NetworkCell, Tensors, str], str]:
     """Return the maker of a recurrent cell whose gates torch has in the order `gates`, and ONNX in `order`."""
+    # One operator with a sequence of one step: a tick of six GRUs takes a tenth less time in ONNX Runtime than with
+    # products, sums and gates as nodes of their own.
     places = [gates.index(gate) for gate in order]
 
     def sorted_gates(rows: Array) -> Array:
