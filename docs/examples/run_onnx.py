@@ -34,14 +34,13 @@ def estimates_of(network, session, inputs, residual):
 def alarms_of(detector, rate_hz, estimates):
     """Yield the sample and the joint at which an alarm begins: low-pass, threshold, a time without a gap."""
     pole, hold = np.exp(-2 * np.pi * detector["low_pass_hz"] / rate_hz), max(1, round(detector["hold_s"] * rate_hz))
-    low, above, before, limits = 0, 0, False, np.array(detector["thresholds"])
+    low, above, alarm, limits = 0, 0, False, np.array(detector["thresholds"])
     for k, (tau, std) in enumerate(estimates):
         low = pole * low + (1 - pole) * {"mean": tau, "std": std, "ratio": tau / std}[detector["signal"]]
         above = np.where((np.abs(low) > limits) & (k >= round(detector["settle_s"] * rate_hz)), above + 1, 0)
-        alarm = above.max() >= hold
-        if alarm and not before:
+        if above.max() >= hold and not alarm:
             yield k, detector["joints"][above.argmax()]
-        before = alarm
+        alarm = above.max() >= hold
 
 
 export, stem, other = map(Path, sys.argv[1:])
@@ -51,11 +50,10 @@ options = ort.SessionOptions()
 options.intra_op_num_threads = 1
 watched = [one for one in contract["detectors"] if (one["method"], one["watched"]) == ("MOB-Net", "always")]
 for detector in watched:  # others need no network, or the gate of a swinging leg, which is in the C library
-    network = next(one for one in contract["networks"] if one["limb"] == detector["limb"])
+    network, rate_hz = next(one for one in contract["networks"] if one["limb"] == detector["limb"]), contract["rate_hz"]
     session = ort.InferenceSession(export / network["file"], options, providers=["CPUExecutionProvider"])
     x = inputs_of(network, contract["quaternion"], columns)
     r = mob[[f"tau_ext.{one['joint']}" for one in network["outputs"]]].to_numpy()
     for start, end in json.loads(Path(f"{stem}.json").read_text())["segments"]:
-        estimates = estimates_of(network, session, x[start:end], r[start:end])
-        for k, joint in alarms_of(detector, contract["rate_hz"], estimates):
-            print(f"{(start + k) / contract['rate_hz']:.3f} s: {detector['limb']}, first {joint}")
+        for k, joint in alarms_of(detector, rate_hz, estimates_of(network, session, x[start:end], r[start:end])):
+            print(f"{(start + k) / rate_hz:.3f} s: {detector['limb']}, first {joint}")
