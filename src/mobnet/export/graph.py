@@ -123,7 +123,7 @@ def _window(build: GraphBuilder, cell: NetworkCell, tensors: Tensors, scaled: st
         channels = build.add("Transpose", build.add("Reshape", samples, table), perm=[0, 2, 1])
         for k, dilation in enumerate(cell.dilations or ()):
             channels = _block(build, k, dilation, tensors, channels)
-        # What is left after the blocks has one window; channels come first, as in the weight.
+        # The blocks leave one window, whose channels come first, as in the weight.
         samples = build.add("Reshape", channels, *_indices(build, flat=-1))
         matrix = weight.reshape(len(weight), -1)
     else:
