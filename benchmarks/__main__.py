@@ -19,6 +19,7 @@ NAMES = (
     "observer_speed",
     "train_speed",
     "step_latency",
+    "onnx_latency",
     "estimate_speed",
     "loop_speed",
     "runtime_tick",

@@ -32,13 +32,15 @@ def estimates_of(network, session, inputs, residual):
 
 
 def alarms_of(detector, rate_hz, estimates):
-    """Yield whether there is an alarm, and its joint, sample by sample: low-pass, threshold, a time without a gap."""
+    """Yield the sample and the joint at which an alarm begins: low-pass, threshold, a time without a gap."""
     pole, hold = np.exp(-2 * np.pi * detector["low_pass_hz"] / rate_hz), max(1, round(detector["hold_s"] * rate_hz))
-    low = above = 0
-    for tau, std in estimates:
+    low, above, alarm, limits = 0, 0, False, np.array(detector["thresholds"])
+    for k, (tau, std) in enumerate(estimates):
         low = pole * low + (1 - pole) * {"mean": tau, "std": std, "ratio": tau / std}[detector["signal"]]
-        above = np.where(np.abs(low) > detector["thresholds"], above + 1, 0)
-        yield above.max() >= hold, detector["joints"][above.argmax()]
+        above = np.where((np.abs(low) > limits) & (k >= round(detector["settle_s"] * rate_hz)), above + 1, 0)
+        if above.max() >= hold and not alarm:
+            yield k, detector["joints"][above.argmax()]
+        alarm = above.max() >= hold
 
 
 export, stem, other = map(Path, sys.argv[1:])
@@ -46,14 +48,12 @@ contract = json.loads((export / "contract.json").read_text())
 columns, mob = (pd.read_parquet(f"{one}.parquet").astype(float) for one in (stem, other))
 options = ort.SessionOptions()
 options.intra_op_num_threads = 1
-for detector in contract["detectors"]:  # the gate of one that watches in `swing` is in the C library
-    network = next(one for one in contract["networks"] if one["limb"] == detector["limb"])
+watched = [one for one in contract["detectors"] if (one["method"], one["watched"]) == ("MOB-Net", "always")]
+for detector in watched:  # others need no network, or the gate of a swinging leg, which is in the C library
+    network, rate_hz = next(one for one in contract["networks"] if one["limb"] == detector["limb"]), contract["rate_hz"]
     session = ort.InferenceSession(export / network["file"], options, providers=["CPUExecutionProvider"])
     x = inputs_of(network, contract["quaternion"], columns)
     r = mob[[f"tau_ext.{one['joint']}" for one in network["outputs"]]].to_numpy()
     for start, end in json.loads(Path(f"{stem}.json").read_text())["segments"]:
-        before, estimates = False, estimates_of(network, session, x[start:end], r[start:end])
-        for k, (alarm, joint) in enumerate(alarms_of(detector, contract["rate_hz"], estimates), start):
-            if alarm and not before:
-                print(f"{k / contract['rate_hz']:.3f} s: {detector['limb']}, first {joint}")
-            before = alarm
+        for k, joint in alarms_of(detector, rate_hz, estimates_of(network, session, x[start:end], r[start:end])):
+            print(f"{(start + k) / rate_hz:.3f} s: {detector['limb']}, first {joint}")

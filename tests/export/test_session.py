@@ -86,11 +86,16 @@ def test_what_is_no_exported_network_is_refused_in_one_line(content, tmp_path):
     assert "\n" not in str(refused.value)
 
 
-def test_a_graph_without_a_contract_is_refused(demo, tmp_path):
+@pytest.mark.parametrize(("metadata", "text"), [
+    ({}, "LL.onnx: format: key is missing"),
+    ({"author": "A. N. Other"}, "LL.onnx: metadata: not JSON"),
+])  # fmt: skip
+def test_a_graph_with_other_metadata_is_refused(metadata, text, demo, tmp_path):
     model = onnx.load(demo / "LL.onnx")
     del model.metadata_props[:]
+    onnx.helper.set_model_props(model, metadata)
     onnx.save(model, tmp_path / "LL.onnx")
-    with pytest.raises(DataError, match=r"LL.onnx: format: key is missing"):
+    with pytest.raises(DataError, match=text):
         OnnxNetwork(tmp_path / "LL.onnx")
 
 

@@ -111,7 +111,7 @@ def told(contract: Contract, networks: Sequence[Trained], out: Path) -> Iterator
     for one, own in zip(networks, contract.networks, strict=True):
         size = f"{len(own.inputs)} inputs, {len(own.outputs)} joints, state {own.state}"
         apart = difference(one, out / own.file)
-        yield f"{out / own.file}: {own.cell}, {size}; differs from the network by {apart:.1e} of the target's std"
+        yield f"{out / own.file}: {own.cell}, {size}; differs by {apart:.1e} of the target's standard deviation"
     for detector in contract.detectors:
         yield f"detector of {detector.limb}: {detector.signal} of {', '.join(detector.joints)}, {detector.watched}"
     yield f"{out / CONTRACT}"

@@ -81,6 +81,8 @@ def _vector(name: str, size: int) -> onnx.ValueInfoProto:
 
 def _recurrent(operator: str, gates: str, order: str) -> Callable[[GraphBuilder, NetworkCell, Tensors, str], str]:
     """Return the maker of a recurrent cell whose gates torch has in the order `gates`, and ONNX in `order`."""
+    # One operator with a sequence of one step: a tick of six GRUs takes a tenth less time in ONNX Runtime than with
+    # products, sums and gates as nodes of their own.
     places = [gates.index(gate) for gate in order]
 
     def sorted_gates(rows: Array) -> Array:
@@ -121,7 +123,7 @@ def _window(build: GraphBuilder, cell: NetworkCell, tensors: Tensors, scaled: st
         channels = build.add("Transpose", build.add("Reshape", samples, table), perm=[0, 2, 1])
         for k, dilation in enumerate(cell.dilations or ()):
             channels = _block(build, k, dilation, tensors, channels)
-        # What is left after the blocks has one window; channels come first, as in the weight.
+        # The blocks leave one window, whose channels come first, as in the weight.
         samples = build.add("Reshape", channels, *_indices(build, flat=-1))
         matrix = weight.reshape(len(weight), -1)
     else:

@@ -4,7 +4,7 @@ A step copies its inputs into buffers that are bound once, so that ONNX Runtime 
 """
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,7 @@ import onnxruntime as ort
 from numpy.typing import NDArray
 
 from mobnet.core.errors import DataError
+from mobnet.core.files import parse_json
 from mobnet.core.joints import JointLayout
 from mobnet.core.notes import checked
 from mobnet.export.contract import Contract, read_contract
@@ -41,8 +42,7 @@ class OnnxNetwork:
         except Exception as error:  # noqa: BLE001, onnxruntime has a class for each kind of fault
             text = f"not an exported network ({' '.join(str(error).split())}); accepted: a file of ./reproduce export"
             raise DataError(f"{path}: {text}") from None
-        told = self._session.get_modelmeta().custom_metadata_map
-        self.contract = checked(path, {key: json.loads(value) for key, value in told.items()}, Contract)
+        self.contract = _contract(path, self._session.get_modelmeta().custom_metadata_map)
         (network,) = self.contract.networks
         self.limb, self.joints = network.limb, network.joints
         self.input_names = tuple(one.name for one in network.inputs)
@@ -81,6 +81,12 @@ class OnnxNetwork:
             state, found = self.step(state, x)
             mean[k], std[k] = found.mean, found.std
         return Prediction(mean, std)
+
+
+def _contract(path: Path, metadata: Mapping[str, str]) -> Contract:
+    """Return the contract that the metadata of a file are."""
+    entries = ", ".join(f"{json.dumps(key)}: {value}" for key, value in metadata.items())
+    return checked(path, parse_json(f"{{{entries}}}", f"{path}: metadata"), Contract)
 
 
 def load_exported(folder: Path, layout: JointLayout) -> LimbNetworks:

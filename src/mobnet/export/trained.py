@@ -72,7 +72,7 @@ def read_trained(folder: Path, layout: JointLayout) -> Trained:
 
 
 def check_apart(networks: Sequence[Trained]) -> None:
-    """Raise a DataError unless each joint has one network, or is of one limb alone."""
+    """Raise a DataError where two networks estimate one joint."""
     seen: dict[str, Path] = {}
     for one in networks:
         for joint in one.note.joints:

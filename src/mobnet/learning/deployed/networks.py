@@ -29,7 +29,7 @@ class Prediction:
     std: NDArray[Any] | None = None
 
 
-class Running(Protocol):
+class Runnable(Protocol):
     """A limb network that runs: one of `Deployed`, or one that was exported."""
 
     limb: str
