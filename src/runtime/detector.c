@@ -91,8 +91,9 @@ static int is_ground(const struct robot *robot, const struct gate *gate, const s
 /* Take one sample, after its momentum, whose rotations the gate uses; return whether the limb is watched. */
 static int watch(const struct robot *robot, struct detector *d, const mobnet_sample *sample, const double *tau) {
     struct gate_state *s = &d->state;
+    /* Observer and network start from zero, and what they have not yet found would look like a push. */
     if (!d->gated)
-        return 1;
+        return d->samples >= d->settle;
     double swing = sample->swing[d->foot], landing = sample->landing[d->foot];
     if (swing < IN_THE_AIR) {
         s->air = s->touching = s->landed = 0;

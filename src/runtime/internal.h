@@ -100,6 +100,7 @@ struct detector {
     uint32_t *joint; /* (joints) where they stand in a velocity */
     double pole, *threshold; /* (phases, signals) */
     int residual;            /* whether it watches the residual, and not the estimate */
+    uint64_t settle;         /* samples after the start in which a limb without a gate is not watched */
     int gated;
     size_t foot; /* among the feet of a sample */
     struct gate gate;

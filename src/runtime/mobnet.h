@@ -44,7 +44,7 @@ typedef struct mobnet_sample {
 typedef struct mobnet_alarm {
     double ratio; /* of the highest signal to its threshold, held for long enough: above 1 is a collision */
     int signal;   /* which of the detector's signals that is: one kind after the other, joint by joint */
-    int watched;  /* whether the limb is watched: a leg in its swing, another limb always */
+    int watched;  /* whether the limb is watched: a leg in its swing, another limb once its estimate has settled */
 } mobnet_alarm;
 
 /* What a sample led to. The arrays belong to the handle and hold until its next step. */

@@ -179,6 +179,8 @@ static void read_detector(struct mobnet *m, size_t k, struct arena *arena, struc
     d->gated = (int)whole(c, 0, 1);
     d->foot = whole(c, 0, 1);
     d->residual = (int)whole(c, 0, 1);
+    d->settle = whole(c, 0, UINT32_MAX);
+    whole(c, 0, 0);
     doubles(c, 1, 0.0, 1.0, &d->pole);
     d->signals = d->kinds * d->joints;
     d->threshold = mobnet_take(arena, d->phases * d->signals, sizeof(double));

@@ -5,7 +5,7 @@ import pytest
 from c_library import OK, Runtime, load, make
 
 from mobnet.core.estimator import Estimate
-from mobnet.detection.detector import ALARM_RATIO, LegDetector, LegGate
+from mobnet.detection.detector import ALARM_RATIO, GateSignal, LegDetector, LegGate, run_over
 from mobnet.detection.signals import Watched
 from mobnet.estimation.kinds.residual import ResidualEstimator
 from mobnet.export.model_file import RuntimeDetector, write_model_file
@@ -153,6 +153,20 @@ def test_standard_deviations_at_their_ends(runtime, observer_of, raw):
     unit = network.tensors["target.std"] * network.tensors["std.scale"]
     wanted = {-40.0: network.note.std_min, 0.0: np.log(2.0), 60.0: 60.0}[raw]
     np.testing.assert_allclose(std, np.tile(wanted * unit, (3, 1)), rtol=1e-6)
+
+
+def test_a_limb_is_watched_once_its_estimate_has_settled(runtime, observer_of):
+    observer = observer_of("arm")
+    layout, sensed = observer.nominal.robot.layout, moving(observer.nominal.robot.layout, 150)
+    chain = chain_of([[1.0, 1.0]])
+    detector = RuntimeDetector("A", layout.limb("A"), ("mean",), chain, settle=100)
+    *_, alarms = run(runtime(observer, [], [detector]), sensed)
+    gate = GateSignal(np.arange(150) >= 100, np.zeros(150))
+    wanted = run_over(chain, observer.residual(sensed), gate)
+    np.testing.assert_allclose(alarms[:, 0, 0], wanted.ratio, rtol=EXACT)
+    np.testing.assert_array_equal(alarms[:, 0, 2], gate.watched)
+    assert not wanted.ratio[103]
+    assert wanted.ratio[104] > ALARM_RATIO  # after the time for which a signal must last
 
 
 def test_a_detector_of_the_residual_does_not_see_the_network(runtime, observer_of):

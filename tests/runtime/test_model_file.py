@@ -135,7 +135,7 @@ def test_numbers_that_are_not_finite_are_refused(library, model, data):
     (5, 32, "<I", 5), (5, 36, "<I", 9000), (5, 40, "<I", 0), (5, 44, "<I", 2), (5, 48, "<f", 0.0),  # sizes, std_min
     (5, 52, "<H", 9), (5, 54, "<H", 2), (5, 52, "<H", 3), (5, 76, "<I", 1),  # source, place, no IMU, a joint twice
     (6, 32, "<I", 0), (6, 36, "<I", 4), (6, 40, "<I", 3), (6, 52, "<I", 0), (6, 56, "<I", 0),  # sizes, kind, hold
-    (6, 60, "<I", 1), (6, 68, "<I", 1), (6, 72, "<d", -0.1), (6, 80, "<d", 0.0),  # gate, residual, pole, threshold
+    (6, 60, "<I", 1), (6, 68, "<I", 1), (6, 80, "<d", -0.1), (6, 88, "<d", 0.0),  # gate, residual, pole, threshold
 ])  # fmt: skip
 def test_values_that_are_not_accepted_are_refused(library, model, kind, place, form, value):
     parts = sections(model)

@@ -62,7 +62,8 @@ class RuntimeDetector:
         joints: names of the watched joints (n,).
         signals: kinds of signals, each of all joints.
         chain: low-pass, hold and thresholds (phases, kinds * n) [N, N m], of a ratio [-]; without a norm.
-        gate: when a leg is watched; None for a limb that is always watched.
+        gate: when a leg is watched; None for a limb that is always watched,
+        settle: but for so many samples after the start, or after a gap.
         residual: whether it watches the residual, as without a network, and not the estimate.
     """
 
@@ -71,6 +72,7 @@ class RuntimeDetector:
     signals: tuple[Signal, ...]
     chain: Chain
     gate: LegGate | None = None
+    settle: int = 0
     residual: bool = False
 
 
@@ -198,8 +200,9 @@ def _detector(detector: RuntimeDetector, observer: MomentumObserver) -> bytes:
     if chain.norm or columns != len(kinds) * len(detector.joints):
         accepted = [f"{len(kinds) * len(detector.joints)}, one for each signal, and no norm"]
         raise ConfigError(not_accepted(f"detector {detector.name}: number of thresholds", columns, accepted))
-    numbers = (*kinds, *[0] * (len(KINDS) - len(kinds)), phases, chain.hold, gate is not None, gate.foot if gate else 0)
-    head = struct.pack("<10I", len(detector.joints), len(kinds), *numbers, detector.residual) + _doubles(chain.pole)
+    sizes = len(detector.joints), len(kinds), *kinds, *[0] * (len(KINDS) - len(kinds)), phases, chain.hold
+    when = gate is not None, gate.foot if gate else 0, detector.residual, detector.settle, 0
+    head = struct.pack("<12I", *sizes, *when) + _doubles(chain.pole)
     joints = observer.nominal.robot.layout.columns(detector.joints).astype("<u4").tobytes()
     watched = leg_record(observer.nominal, gate) if gate else b""
     return _name(detector.name) + head + _doubles(chain.thresholds) + watched + joints

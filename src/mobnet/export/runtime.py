@@ -53,4 +53,5 @@ def _detector(one: LimbThresholds, robot: RobotDescription, gate: SwingGate) -> 
     """Return the detector of a limb's thresholds."""
     chain = make_chain(one.low_pass_hz, one.hold_s, one.rate_hz, np.array([one.thresholds]))
     swing = LegGate.of(gate, robot, one.limb, one.rate_hz) if one.watched == "swing" else None
-    return RuntimeDetector(one.limb, tuple(one.joints), (one.signal,), chain, swing, one.method == "MOB")
+    settle = 0 if swing else round(one.settle_s * one.rate_hz)
+    return RuntimeDetector(one.limb, tuple(one.joints), (one.signal,), chain, swing, settle, one.method == "MOB")
