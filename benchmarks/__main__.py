@@ -14,7 +14,16 @@ from mobnet.core.files import atomic_path
 from mobnet.running.threads import one_thread
 from mobnet.running.words import bench_parser
 
-NAMES = ("collect_speed", "observer_speed", "train_speed", "step_latency", "estimate_speed", "loop_speed")
+NAMES = (
+    "collect_speed",
+    "observer_speed",
+    "train_speed",
+    "step_latency",
+    "onnx_latency",
+    "estimate_speed",
+    "loop_speed",
+    "runtime_tick",
+)
 LONG = ("collect_growth", "collect_hour", "torque_amplitude", "walk_quality")  # minutes each
 BEFORE = ("benchmark", "name", "ours", "reference", "unit", "ratio", "ratio_min")  # columns that come first
 BOUNDS = {"bar": "ratio", "at_least": "at least", "at_most": "at most"}  # columns next, and how a table says it

@@ -39,16 +39,16 @@ def main() -> list[Row]:
     settings = load_settings(overrides={"scale": "default"})
     layout, level = settings.layout, settings.levels["all_uncertainty"]
     six = six_trainings(settings)
-    models = {limb: _model(training, layout) for limb, training in six.items()}
+    models = {limb: model_of(training, layout) for limb, training in six.items()}
     networks = LimbNetworks([_network(six[limb], layout, model) for limb, model in models.items()], layout)
     known = describe(settings.robot), level, settings.plant.gravity_m_s2
     observer = observer_of(*known, settings.observer.gain_hz, settings.rates.data_hz, settings.observer.torque)
     whole_tick = ResidualEstimator(observer, layout, networks)
-    ticks = [_stepper(networks), _stepper(whole_tick), _eager(six, layout, models)]
-    ours, whole, eager = _times(ticks, layout)
+    ticks = [stepper(networks), stepper(whole_tick), _eager(six, layout, models)]
+    ours, whole, eager = times_of(ticks, layout)
     return [
-        _row("six networks, one tick, against torch eager", ours, eager),
-        _row("MOB-Net with observer, one tick, against torch eager networks alone", whole, eager),
+        row_of("six networks, one tick, against torch eager", ours, eager),
+        row_of("MOB-Net with observer, one tick, against torch eager networks alone", whole, eager),
     ]
 
 
@@ -62,11 +62,11 @@ def six_trainings(settings: Settings) -> dict[str, Training]:
 def six_networks(settings: Settings) -> LimbNetworks:
     """Return those networks with their first weights, as they run on a robot."""
     layout = settings.layout
-    networks = [_network(one, layout, _model(one, layout)) for one in six_trainings(settings).values()]
+    networks = [_network(one, layout, model_of(one, layout)) for one in six_trainings(settings).values()]
     return LimbNetworks(networks, layout)
 
 
-def _row(name: str, ours: NDArray[Any], reference: NDArray[Any]) -> Row:
+def row_of(name: str, ours: NDArray[Any], reference: NDArray[Any]) -> Row:
     """Return a row from the times of all ticks (TICKS,) [s]; the ratio is of the medians."""
     p50, p99 = np.percentile(ours, [50, 99]) * 1e6
     row: Row = {"name": name, "ours": float(p50), "reference": float(np.median(reference) * 1e6), "unit": "us"}
@@ -79,7 +79,7 @@ def _row(name: str, ours: NDArray[Any], reference: NDArray[Any]) -> Row:
     }
 
 
-def _times(ticks: list[Tick], layout: JointLayout) -> NDArray[np.float64]:
+def times_of(ticks: list[Tick], layout: JointLayout) -> NDArray[np.float64]:
     """Return the time of each tick of each contender, (contenders, TICKS) [s], taken in turns."""
     rng = np.random.default_rng(0)
     sample = _sample(layout, rng)
@@ -92,7 +92,7 @@ def _times(ticks: list[Tick], layout: JointLayout) -> NDArray[np.float64]:
     return times[:, WARM_UP:]
 
 
-def _stepper(estimator: Any) -> Tick:
+def stepper(estimator: Any) -> Tick:
     """Return a tick of something with `init` and `step`."""
     state = estimator.init()
 
@@ -119,7 +119,7 @@ def _eager(trainings: Mapping[str, Training], layout: JointLayout, models: Mappi
     return tick
 
 
-def _model(training: Training, layout: JointLayout) -> LimbNetwork:
+def model_of(training: Training, layout: JointLayout) -> LimbNetwork:
     """Return a limb's network with its first weights."""
     network = training.network
     sizes = len(limb_inputs(layout, network).names), len(layout.limbs(network.joints))
@@ -129,10 +129,15 @@ def _model(training: Training, layout: JointLayout) -> LimbNetwork:
 def _network(training: Training, layout: JointLayout, model: LimbNetwork) -> GruNetwork:
     """Return the same network as it runs on a robot."""
     names, joints = limb_inputs(layout, training.network).names, layout.limbs(training.network.joints)
+    return GruNetwork(tensors_of(model, len(names), len(joints)), training.limb, joints, names, model.std_min)
+
+
+def tensors_of(model: LimbNetwork, inputs: int, joints: int) -> dict[str, NDArray[np.float32]]:
+    """Return the weights of a network, and z-scores that change nothing."""
     tensors = {name: tensor.numpy() for name, tensor in model.state_dict().items()}
-    for kind, count in (("input", len(names)), ("target", len(joints))):
+    for kind, count in (("input", inputs), ("target", joints)):
         tensors |= {f"{kind}.mean": np.zeros(count, np.float32), f"{kind}.std": np.ones(count, np.float32)}
-    return GruNetwork(tensors, training.limb, joints, names, model.std_min)
+    return tensors
 
 
 def _sample(layout: JointLayout, rng: np.random.Generator) -> Sensed:

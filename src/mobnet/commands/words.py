@@ -10,6 +10,7 @@ from typing import NamedTuple
 from mobnet.commands.builds import BUILDS
 from mobnet.core.errors import CommandError, not_accepted
 from mobnet.detection.words import calibrate_parser
+from mobnet.export.words import export_parser
 from mobnet.plan.places import scale_of
 from mobnet.robot.import_words import import_parser
 from mobnet.robotlog.words import observe_parser
@@ -24,6 +25,7 @@ COMMANDS = {
     "robot": "make a robot's table from its URDF or MJCF file; --help says how",
     "observe": "make the residual of a robot's own log, and say what looks wrong with it; --help says how",
     "calibrate": "print thresholds of collision detection for a wanted rate of false alarms; --help says how",
+    "export": "write trained networks as ONNX files that run without this project; --help says how",
     "tuning": "train what configs/trials.yaml lists, write results/default/trials/tuning.md; not part of all",
     "recipes": "train each method with each recipe, write results/default/trials/recipes.md; not part of all",
     "lengths": "train for longer and longer, write results/default/trials/lengths.md; not part of all",
@@ -53,6 +55,7 @@ PARSERS = {
     "check": check_parser,
     "cost": cost_parser,
     "demo": demo_parser,
+    "export": export_parser,
     "observe": observe_parser,
     "robot": import_parser,
     **{name: functools.partial(results_parser, name) for name in RESULTS},

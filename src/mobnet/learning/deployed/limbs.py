@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
-from mobnet.learning.deployed.networks import Deployed, Prediction, load_network
+from mobnet.learning.deployed.networks import Prediction, Runnable, load_network
 from mobnet.learning.features import signal_names, signals
 
 State = tuple[Any, ...]  # state of each network, such as (hidden,) of a GRU
@@ -19,7 +19,7 @@ State = tuple[Any, ...]  # state of each network, such as (hidden,) of a GRU
 class LimbNetworks:
     """Limb networks side by side, Figure 2 (b); `joints` are the names of all their joints, (n,), in their order."""
 
-    def __init__(self, networks: Sequence[Deployed], layout: JointLayout) -> None:
+    def __init__(self, networks: Sequence[Runnable], layout: JointLayout) -> None:
         """Find each network's inputs among the robot's signals."""
         self.networks = tuple(networks)
         self.joints = tuple(joint for network in networks for joint in network.joints)
@@ -61,7 +61,7 @@ def load_limb_networks(folders: Mapping[str, Path], layout: JointLayout) -> Limb
     return LimbNetworks(networks, layout)
 
 
-def check_limb(network: Deployed, limb: str, folder: Path, layout: JointLayout) -> None:
+def check_limb(network: Runnable, limb: str, folder: Path, layout: JointLayout) -> None:
     """Raise unless a network is of a limb, with the limb's joints, or, over several limbs, with joints of the robot.
 
     Its inputs must be signals of the robot.
@@ -79,7 +79,7 @@ def check_limb(network: Deployed, limb: str, folder: Path, layout: JointLayout) 
         )
 
 
-def _columns(network: Deployed, layout: JointLayout) -> NDArray[np.intp]:
+def _columns(network: Runnable, layout: JointLayout) -> NDArray[np.intp]:
     """Return where a network's inputs stand in `signals`, (n_in,)."""
     where = {name: i for i, name in enumerate(signal_names(layout))}
     return np.array([where[name] for name in network.input_names], dtype=np.intp)

@@ -8,7 +8,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +27,26 @@ class Prediction:
 
     mean: NDArray[Any]
     std: NDArray[Any] | None = None
+
+
+class Runnable(Protocol):
+    """A limb network that runs: one of `Deployed`, or one that was exported."""
+
+    limb: str
+    joints: tuple[str, ...]
+    input_names: tuple[str, ...]
+
+    def init(self) -> Any:
+        """Return the state before the first sample."""
+        ...
+
+    def step(self, state: Any, x: Array) -> tuple[Any, Prediction]:
+        """Advance by one sample of inputs (n_in,); return the new state and the prediction (n,) [N, N m]."""
+        ...
+
+    def run_all(self, lanes: Sequence[Array]) -> list[Prediction]:
+        """Run over contiguous recordings of inputs (T_i, n_in), each from a fresh state; return (T_i, n) [N, N m]."""
+        ...
 
 
 class Deployed(ABC):

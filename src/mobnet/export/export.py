@@ -1,0 +1,155 @@
+"""Networks as files for a robot's own program: `./reproduce export NET... --robot TABLE --out DIR` (docs/runtime.md).
+
+It writes one ONNX file for each limb, and the contract of all of them. It runs each file beside the project's own
+network on random inputs, and prints by how much they differ.
+"""
+
+import logging
+import math
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+
+from mobnet.core.errors import DataError, MobnetError, not_accepted
+from mobnet.core.files import atomic_path, write_json
+from mobnet.detection.threshold_file import read_thresholds
+from mobnet.export.contract import CONTRACT, Contract, ObserverContract, TorqueKind
+from mobnet.export.graph import graph_of
+from mobnet.export.runtime import MODEL, runs_in_c, write_model
+from mobnet.export.session import OnnxNetwork
+from mobnet.export.trained import Trained, check_apart, contract_of, read_trained
+from mobnet.export.words import export_parser
+from mobnet.learning.deployed.networks import deployed
+from mobnet.robot.description import RobotDescription, describe
+from mobnet.settings.limb_thresholds import LimbThresholds
+from mobnet.settings.load import load_section, load_settings
+from mobnet.settings.robot import RobotTable
+
+log = logging.getLogger(__name__)
+SAMPLES, SEED = 1000, 1  # of the random inputs on which a file is compared with its network
+Value = TypeVar("Value", TorqueKind, float)
+
+
+@dataclass(frozen=True)
+class RunTime:
+    """How a robot runs exported networks: samples per second [Hz], and its observer."""
+
+    rate_hz: float
+    observer: ObserverContract
+
+
+def export(
+    networks: Sequence[Trained], robot: RobotDescription, run: RunTime, thresholds: Sequence[LimbThresholds], out: Path
+) -> Contract:
+    """Write networks and their contract into a folder; return the contract.
+
+    Raises:
+        DataError: two networks estimate one joint, thresholds belong to something else, or a file cannot be written.
+    """
+    check_apart(networks)
+    check_thresholds(thresholds, networks, robot, run)
+    contract = contract_of(robot.name, robot.layout, networks, run.rate_hz, run.observer, thresholds)
+    for one, own in zip(networks, contract.networks, strict=True):
+        model = graph_of(one.tensors, one.note)
+        for key, value in contract.of(own).metadata().items():
+            model.metadata_props.add(key=key, value=value)
+        content = model.SerializeToString(deterministic=True)
+        with atomic_path(out / own.file, len(content)) as temporary:
+            temporary.write_bytes(content)
+    write_json(out / CONTRACT, contract.as_json())
+    return contract
+
+
+def check_thresholds(
+    thresholds: Sequence[LimbThresholds], networks: Sequence[Trained], robot: RobotDescription, run: RunTime
+) -> None:
+    """Raise a DataError unless thresholds belong to the robot, its run time and, where they name it, the network."""
+    fingerprints = {one.note.limb: one.run.fingerprint for one in networks}
+    for one in thresholds:
+        expected = {
+            "robot": robot.name, "rate_hz": run.rate_hz, "gain_hz": run.observer.gain_hz, "torque": run.observer.torque,
+            "joints": robot.layout.limb(one.limb),
+            **({"network": fingerprints.get(one.limb, "that of an exported network")} if one.network else {}),
+        }  # fmt: skip
+        for key, accepted in expected.items():
+            if getattr(one, key) != accepted:
+                raise DataError(not_accepted(f"thresholds of {one.limb}: {key}", getattr(one, key), [accepted]))
+
+
+def agreed(name: str, given: Value | None, trained: Sequence[Value | None], default: Value) -> Value:
+    """Return a value that is given, else that of the trainings, else a default.
+
+    Raises:
+        DataError: the trainings differ.
+    """
+    found = sorted({value for value in trained if value is not None})
+    if given is None and len(found) > 1:
+        raise DataError(not_accepted(f"{name} of the networks", found, [f"one, or --{name}"]))
+    return given if given is not None else (found or [default])[0]
+
+
+def difference(one: Trained, path: Path) -> float:
+    """Return by how much an exported network differs from the project's own on random inputs.
+
+    It is the largest difference of mean and standard deviation, as a share of the target's standard deviation.
+    """
+    tensors, rng = one.tensors, np.random.default_rng(SEED)
+    lane = rng.normal(tensors["input.mean"], tensors["input.std"], (SAMPLES, len(one.note.inputs))).astype(np.float32)
+    (own,), (exported,) = deployed(tensors, one.note).run_all([lane]), OnnxNetwork(path).run_all([lane])
+    apart = np.array([own.mean, own.std], np.float32) - np.array([exported.mean, exported.std], np.float32)
+    return float(np.max(np.abs(apart) / tensors["target.std"]))
+
+
+def told(contract: Contract, networks: Sequence[Trained], out: Path) -> Iterator[str]:
+    """Yield what the command prints."""
+    observer = contract.observer
+    yield f"{contract.robot} at {contract.rate_hz:g} Hz, gain {observer.gain_hz:g} 1/s, torques: {observer.torque}"
+    for one, own in zip(networks, contract.networks, strict=True):
+        size = f"{len(own.inputs)} inputs, {len(own.outputs)} joints, state {own.state}"
+        apart = difference(one, out / own.file)
+        yield f"{out / own.file}: {own.cell}, {size}; differs by {apart:.1e} of the target's standard deviation"
+    for detector in contract.detectors:
+        yield f"detector of {detector.limb}: {detector.signal} of {', '.join(detector.joints)}, {detector.watched}"
+    yield f"{out / CONTRACT}"
+
+
+def main(words: list[str]) -> int:
+    """Run the command; return its exit status."""
+    options = export_parser().parse_args(words)
+    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+    try:
+        settings = load_settings()
+        robot = describe(load_section(options.robot, RobotTable) if options.robot else settings.robot)
+        networks = [read_trained(folder, robot.layout) for folder in options.network]
+        notes, own = [one.run for one in networks], settings.observer
+        for word in ("rate", "gain"):
+            value = getattr(options, word)
+            if value is not None and not 0.0 < value < math.inf:
+                raise DataError(not_accepted(f"--{word}", value, ["a number above 0"]))
+        run = RunTime(
+            agreed("rate", options.rate, [note.rate_hz for note in notes], settings.rates.data_hz),
+            ObserverContract(
+                gain_hz=agreed("gain", options.gain, [note.gain_hz for note in notes], own.gain_hz),
+                torque=agreed("torque", options.torque, [note.torque for note in notes], own.torque),
+                gravity_m_s2=settings.plant.gravity_m_s2,
+            ),
+        )
+        contract = export(networks, robot, run, [read_thresholds(path) for path in options.thresholds], options.out)
+        lines = list(told(contract, networks, options.out))
+        if runs_in_c(networks):
+            write_model(options.out / MODEL, robot, contract, networks, settings.detection.gate)
+            lines.append(f"{options.out / MODEL}: for the C library in src/runtime")
+    except MobnetError as error:
+        log.error("%s", error)
+        return 1
+    for line in lines:
+        log.info("%s", line)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,208 @@
+"""The model file of the C library in `src/runtime`: robot, observer, networks and detectors in one file.
+
+`docs/runtime.md` describes the format. All numbers are little-endian; a section begins at a multiple of 64 bytes.
+"""
+
+import struct
+import zlib
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.columns import recording_columns
+from mobnet.core.contract import rule_of
+from mobnet.core.errors import ConfigError, DataError, not_accepted
+from mobnet.core.files import atomic_path
+from mobnet.core.joints import JointLayout
+from mobnet.detection.chain import Chain
+from mobnet.detection.detector import LegGate
+from mobnet.estimation.observer import MomentumObserver
+from mobnet.export.contract import Target
+from mobnet.export.soles import leg_record
+from mobnet.learning.deployed.networks import WITHOUT_TORCH
+from mobnet.learning.deployed.weights import GRU_TENSORS, WeightsNote, std_scale_of
+from mobnet.learning.features import ROTATION_NAMES
+from mobnet.learning.gates import ordered
+from mobnet.settings.detection import Signal
+
+MAGIC, VERSION = b"MOBNETRT", 1
+HEADER, ENTRY, ALIGNED, NAME = 64, 32, 64, 32  # bytes
+CHECKED = 12  # bytes in front of what the checksum covers
+ROBOT, JOINTS, COLUMNS, OBSERVER, NETWORK, DETECTOR = range(1, 7)  # kinds of sections
+# fields of a sample, in the order of `mobnet_sample` in mobnet.h
+SAMPLE = ("q", "v", "tau_motor", "tau_des", "acc_base_in_base", "swing", "landing")
+JOINT_SOURCES = ("q", "v", "tau_des")  # inputs of a network from a joint, in the order of `enum source` in internal.h
+BASE_SOURCES = (ROTATION_NAMES, tuple(f"v.omega_{a}" for a in "xyz"), tuple(f"acc.{a}" for a in "xyz"))
+KINDS: tuple[Signal, ...] = ("mean", "std", "ratio")
+LONGEST = NAME - 1  # of a name, one byte of which is zero
+
+
+@dataclass(frozen=True)
+class RuntimeNetwork:
+    """A network of the library: tensors and note as `read_weights` returns them, and what it estimates.
+
+    That is the uncertainty, which is subtracted from the residual, (15), or the `external` torque itself.
+    """
+
+    tensors: Mapping[str, NDArray[np.float32]]
+    note: WeightsNote
+    estimates: Target = "uncertainty"
+
+
+@dataclass(frozen=True)
+class RuntimeDetector:
+    """A detector of the library.
+
+    Attributes:
+        name: of the limb that it watches.
+        joints: names of the watched joints (n,).
+        signals: kinds of signals, each of all joints.
+        chain: low-pass, hold and thresholds (phases, kinds * n) [N, N m], of a ratio [-]; without a norm.
+        gate: when a leg is watched; None for a limb that is always watched,
+        settle: but for so many samples after the start, or after a gap.
+        residual: whether it watches the residual, as without a network, and not the estimate.
+    """
+
+    name: str
+    joints: tuple[str, ...]
+    signals: tuple[Signal, ...]
+    chain: Chain
+    gate: LegGate | None = None
+    settle: int = 0
+    residual: bool = False
+
+
+def write_model_file(
+    path: Path, observer: MomentumObserver, networks: Sequence[RuntimeNetwork], detectors: Sequence[RuntimeDetector]
+) -> None:  # fmt: skip
+    """Write the file of an observer that knows its robot, and of the networks and detectors of the robot's limbs.
+
+    Raises:
+        DataError: a network has a cell that the library does not run, or two predict the same joint.
+        ConfigError: a detector has a norm, thresholds of another number than its signals, or unknown joints.
+    """
+    layout = observer.nominal.robot.layout
+    _check_networks(networks)
+    sections = [
+        (ROBOT, _robot(observer)),
+        (JOINTS, b"".join(_name(joint) for joint in layout.names)),
+        (COLUMNS, b"".join(_columns(layout))),
+        (OBSERVER, struct.pack("<ddII", observer.pole, observer.rate_hz, observer.torque == "sample", 0)),
+        *((NETWORK, _network(network, layout)) for network in networks),
+        *((DETECTOR, _detector(detector, observer)) for detector in detectors),
+    ]
+    content = file_of(sections)
+    with atomic_path(path, len(content)) as temporary:
+        temporary.write_bytes(content)
+
+
+def file_of(sections: Sequence[tuple[int, bytes]]) -> bytes:
+    """Return the bytes of a file of sections, each a kind and its bytes, with the header in front."""
+    place = _up(HEADER + ENTRY * len(sections))
+    table, body = b"", b""
+    for kind, content in sections:
+        table += struct.pack("<IIQQQ", kind, 0, place + len(body), len(content), 0)
+        body += content.ljust(_up(len(content)), b"\0")
+    table = table.ljust(place - HEADER, b"\0")
+    checked = struct.pack("<IQI", VERSION, place + len(body), len(sections)).ljust(HEADER - CHECKED, b"\0")
+    checked += table + body
+    return MAGIC + struct.pack("<I", zlib.crc32(checked)) + checked
+
+
+def _up(size: int) -> int:
+    return -(-size // ALIGNED) * ALIGNED
+
+
+def _name(text: str) -> bytes:
+    """Return a name with zeros behind it."""
+    encoded = text.encode()
+    if not 0 < len(encoded) <= LONGEST:
+        raise ConfigError(not_accepted("name", text, [f"1 to {LONGEST} bytes"]))
+    return encoded.ljust(NAME, b"\0")
+
+
+def _doubles(values: Any) -> bytes:
+    return np.asarray(values, dtype="<f8").tobytes()
+
+
+def _floats(values: Any) -> bytes:
+    return np.asarray(values, dtype="<f4").tobytes()
+
+
+def _robot(observer: MomentumObserver) -> bytes:
+    """Return the tree as `LINK` has it, without its rotations."""
+    nominal = observer.nominal
+    links, gravity = nominal.linkage
+    feet = len(recording_columns(nominal.robot.layout)["swing"])
+    return struct.pack("<4I", nominal.robot.floating, len(links), feet, 0) + _doubles(gravity) + links.tobytes()
+
+
+def _columns(layout: JointLayout) -> Iterable[bytes]:
+    """Yield name, smallest and largest number of each column of a sample."""
+    columns = recording_columns(layout)
+    for field in SAMPLE:
+        for name, _, _ in columns[field]:
+            rule = rule_of(name, layout)
+            yield _name(name) + _doubles([rule.low, rule.high])
+
+
+def _check_networks(networks: Sequence[RuntimeNetwork]) -> None:
+    """Raise unless the library runs the networks' cells and each joint has one network at most."""
+    predicted: set[str] = set()
+    for note in (network.note for network in networks):
+        if note.cell.cell not in WITHOUT_TORCH:
+            raise DataError(not_accepted(f"network {note.name}: cell", note.cell.cell, WITHOUT_TORCH))
+        if twice := predicted & {*note.joints}:
+            raise DataError(not_accepted("joint of two networks", min(twice), ["joints that one network predicts"]))
+        predicted |= {*note.joints}
+
+
+def _network(network: RuntimeNetwork, layout: JointLayout) -> bytes:
+    """Return a network: sizes, what its inputs are, joints, z-scores, weights as `mobnet.learning.gates` has them."""
+    tensors, note = network.tensors, network.note
+    recurrent = note.cell.cell == "GRU"
+    if recurrent:
+        *trained, w_out, b_out = (tensors[name] for name in GRU_TENSORS)
+        w_in, w_state, bias = ordered(*trained)
+    else:
+        w_in = w_state = bias = w_out = np.zeros((0, 0))
+        b_out = tensors["head.bias"]
+    inputs, hidden = note.inputs if recurrent else [], w_state.shape[1]
+    means = [tensors[f"input.{part}"][: len(inputs)] for part in ("mean", "std")]
+    target = tensors["target.mean"], tensors["target.std"]
+    sizes = struct.pack("<4If", len(inputs), hidden, len(note.joints), network.estimates == "external", note.std_min)
+    places = b"".join(struct.pack("<2H", *_source(name, layout)) for name in inputs)
+    joints = layout.columns(note.joints).astype("<u4").tobytes()
+    numbers = (*means, *target, target[1] * std_scale_of(tensors), w_in, w_state, bias, w_out, b_out)
+    return _name(note.limb) + sizes + places + joints + b"".join(map(_floats, numbers))
+
+
+def _source(name: str, layout: JointLayout) -> tuple[int, int]:
+    """Return where an input of a network comes from, a number of `enum source` in internal.h, and its place there."""
+    sources = [[f"{signal}.{joint}" for joint in layout.actuated] for signal in JOINT_SOURCES]
+    accepted = [f"{signal}.<joint>" for signal in JOINT_SOURCES]
+    if layout.virtual:
+        sources, accepted = [*sources, *BASE_SOURCES], [*accepted, *(f"{names[0]}, ..." for names in BASE_SOURCES)]
+    for k, names in enumerate(sources):
+        if name in names:
+            return k, names.index(name)
+    raise DataError(not_accepted("input of a network", name, accepted))
+
+
+def _detector(detector: RuntimeDetector, observer: MomentumObserver) -> bytes:
+    """Return a detector: sizes, low-pass, thresholds, gate, joints."""
+    chain, gate, kinds = detector.chain, detector.gate, [KINDS.index(kind) for kind in detector.signals]
+    phases, columns = chain.thresholds.shape
+    if chain.norm or columns != len(kinds) * len(detector.joints):
+        accepted = [f"{len(kinds) * len(detector.joints)}, one for each signal, and no norm"]
+        raise ConfigError(not_accepted(f"detector {detector.name}: number of thresholds", columns, accepted))
+    sizes = len(detector.joints), len(kinds), *kinds, *[0] * (len(KINDS) - len(kinds)), phases, chain.hold
+    when = gate is not None, gate.foot if gate else 0, detector.residual, detector.settle, 0
+    head = struct.pack("<12I", *sizes, *when) + _doubles(chain.pole)
+    joints = observer.nominal.robot.layout.columns(detector.joints).astype("<u4").tobytes()
+    watched = leg_record(observer.nominal, gate) if gate else b""
+    return _name(detector.name) + head + _doubles(chain.thresholds) + watched + joints

@@ -1,0 +1,141 @@
+"""Trained networks as they are exported: their folders, and the contract that belongs to them."""
+
+import hashlib
+import tomllib
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from mobnet.core.code import ROOT
+from mobnet.core.columns import Column, recording_columns, torque_columns
+from mobnet.core.errors import DataError
+from mobnet.core.files import RUN, WEIGHTS
+from mobnet.core.joints import JointLayout
+from mobnet.core.notes import Note, Positive, Text, read_note
+from mobnet.export.contract import (
+    FORMAT,
+    OPSET,
+    Contract,
+    InputContract,
+    NetworkContract,
+    ObserverContract,
+    OutputContract,
+    Target,
+    TorqueKind,
+)
+from mobnet.export.graph import state_size
+from mobnet.learning.deployed.limbs import check_limb
+from mobnet.learning.deployed.networks import Array, deployed
+from mobnet.learning.deployed.weights import WeightsNote, read_weights, std_scale_of
+from mobnet.learning.features import QUATERNION_NAMES, ROTATION_NAMES
+from mobnet.settings.limb_thresholds import LimbThresholds
+
+# The first two columns of the rotation from base to world axes, of a unit quaternion w x y z.
+FORMULAS = (
+    "1 - 2*(y*y + z*z)", "2*(x*y + w*z)", "2*(x*z - w*y)",
+    "2*(x*y - w*z)", "1 - 2*(x*x + z*z)", "2*(y*z + w*x)",
+)  # fmt: skip
+
+
+class TrainedNote(Note):
+    """What `run.json` says of the run time; the numbers that it leaves out are those of configs."""
+
+    target: Target
+    fingerprint: Text
+    rate_hz: Positive | None = None
+    gain_hz: Positive | None = None
+    torque: TorqueKind | None = None
+
+
+@dataclass(frozen=True)
+class Trained:
+    """A trained network: its folder, weights with their hash, and what their notes say."""
+
+    folder: Path
+    tensors: Mapping[str, Array]
+    note: WeightsNote
+    run: TrainedNote
+    sha256: str
+
+
+def read_trained(folder: Path, layout: JointLayout) -> Trained:
+    """Read a network from the folder of its training.
+
+    Raises:
+        DataError: a file is missing or damaged, or the network belongs to another robot.
+    """
+    weights = folder / WEIGHTS
+    tensors, note = read_weights(weights)
+    check_limb(deployed(tensors, note), note.limb, folder, layout)
+    run = read_note(folder / RUN, TrainedNote)
+    return Trained(folder, tensors, note, run, hashlib.sha256(weights.read_bytes()).hexdigest())
+
+
+def check_apart(networks: Sequence[Trained]) -> None:
+    """Raise a DataError where two networks estimate one joint."""
+    seen: dict[str, Path] = {}
+    for one in networks:
+        for joint in one.note.joints:
+            if joint in seen:
+                text = f"joint {joint!r} is estimated by {seen[joint]} too; accepted: one network for each joint"
+                raise DataError(f"{one.folder}: {text}")
+            seen[joint] = one.folder
+
+
+def contract_of(
+    robot: str, layout: JointLayout, networks: Sequence[Trained], rate_hz: float, observer: ObserverContract,
+    thresholds: Iterable[LimbThresholds],
+) -> Contract:  # fmt: skip
+    """Return the contract of some networks of a robot and of detectors of their limbs."""
+    version = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
+    return Contract(
+        format=FORMAT,
+        version=version,
+        opset=OPSET,
+        robot=robot,
+        rate_hz=rate_hz,
+        observer=observer,
+        quaternion=dict(zip("wxyz", QUATERNION_NAMES, strict=True)) if layout.virtual else {},
+        networks=[_network(one, layout) for one in networks],
+        detectors=list(thresholds),
+    )
+
+
+def _network(one: Trained, layout: JointLayout) -> NetworkContract:
+    """Return the contract of a network."""
+    tensors, note = one.tensors, one.note
+    scores = {name: tensors[name].tolist() for name in ("input.mean", "input.std", "target.mean", "target.std")}
+    signals = {name: (unit, frame) for name, unit, frame in _signals(layout)}
+    formulas = dict(zip(ROTATION_NAMES, FORMULAS, strict=True))
+    inputs = [
+        InputContract(name=name, unit=unit, frame=frame, formula=formulas.get(name), mean=mean, std=std)
+        for name, (unit, frame), mean, std in zip(
+            note.inputs, (signals[name] for name in note.inputs), scores["input.mean"], scores["input.std"], strict=True
+        )
+    ]
+    columns, scale = torque_columns(layout, ["tau"], note.joints), std_scale_of(tensors).tolist()
+    outputs = [
+        OutputContract(joint=joint, unit=unit, frame=frame, mean=mean, std=std, std_scale=factor)
+        for joint, (_, unit, frame), mean, std, factor in zip(
+            note.joints, columns, scores["target.mean"], scores["target.std"], scale, strict=True
+        )
+    ]
+    return NetworkContract(
+        file=f"{note.limb}.onnx",
+        name=note.name,
+        limb=note.limb,
+        estimates=one.run.target,
+        cell=note.cell.cell,
+        state=state_size(note.cell, len(note.inputs)),
+        std_min=note.std_min,
+        weights_sha256=one.sha256,
+        inputs=inputs,
+        outputs=outputs,
+    )
+
+
+def _signals(layout: JointLayout) -> Iterator[Column]:
+    """Yield name, unit and frame of what a network may see."""
+    for field in ("q", "v", "tau_des", "acc_base_in_base"):
+        yield from recording_columns(layout)[field]
+    yield from ((name, "-", "world") for name in ROTATION_NAMES)

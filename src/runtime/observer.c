@@ -1,0 +1,31 @@
+/* The momentum observer in discrete time; (O1) to (O5) are derived in docs/notes/0034-observer.md. */
+#include "internal.h"
+
+/* u_k from the motors' torque at this sample and at the one before. */
+static double mean_torque(const struct observer *observer, double now, double before) {
+    /* (O2): a value at the tick taken for the mean would be half a sample late. */
+    return observer->sampled ? (now + before) / 2 : now;
+}
+
+void mobnet_observe(const struct mobnet *m, const mobnet_sample *sample, const struct tick *last, struct tick *next) {
+    const struct robot *robot = &m->robot;
+    const struct observer *observer = &m->observer;
+    size_t motors = robot->nv - robot->nu;
+    mobnet_momentum(robot, sample->q, sample->v, next->momentum, next->beta);
+    for (size_t k = 0; k < robot->nu; k++)
+        next->torque[k] = sample->tau_motor[k];
+    for (size_t k = 0; k < robot->nv; k++) {
+        /* (O5): without a sample just before there is no momentum to take a difference from. */
+        next->residual[k] = last->residual[k];
+        if (!m->begun)
+            continue;
+        double applied = 0.0;
+        if (k >= motors)
+            applied = mean_torque(observer, next->torque[k - motors], last->torque[k - motors]);
+        /* (O1): beta is known at both ends of the sample; either of them alone would cost an order in T. */
+        double change = (next->momentum[k] - last->momentum[k]) * observer->rate_hz;
+        double raw = change - applied - (next->beta[k] + last->beta[k]) / 2;
+        /* (O4), the solution of (10) over a sample. */
+        next->residual[k] = observer->pole * last->residual[k] + (1 - observer->pole) * raw;
+    }
+}

@@ -1,0 +1,96 @@
+"""`./reproduce export`: what it writes and prints, and what it refuses."""
+
+import hashlib
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from mobnet.core.errors import DataError
+from mobnet.detection.threshold_file import write_thresholds
+from mobnet.export.export import agreed, export, main
+from mobnet.export.trained import read_trained
+from mobnet.settings.networks import NetworkCell
+
+
+@pytest.fixture
+def called(caplog):
+    """Return a function of words that runs the command, and returns its status and what it printed."""
+
+    def call(*words):
+        caplog.clear()
+        caplog.set_level("INFO")
+        status = main([*map(str, words)])
+        return status, [record.message for record in caplog.records if record.name == "mobnet.export.export"]
+
+    return call
+
+
+def test_the_command_writes_a_file_for_each_limb_and_says_how_close_it_is(called, save, tmp_path, thresholds):
+    folders = save(tmp_path / "a", "LL"), save(tmp_path / "b", "RA", NetworkCell(cell="LSTM", hidden=5))
+    write_thresholds(tmp_path / "LL.yaml", thresholds("LL"))
+    status, lines = called(*folders, "--thresholds", tmp_path / "LL.yaml", "--out", tmp_path / "out")
+    assert status == 0, lines
+    assert {path.name for path in (tmp_path / "out").iterdir()} >= {"LL.onnx", "RA.onnx", "contract.json"}
+    assert lines[0] == "TOCABI at 1000 Hz, gain 100 1/s, torques: mean"
+    assert "LL.onnx: GRU, 30 inputs, 6 joints, state 16; differs" in lines[1]
+    assert "RA.onnx: LSTM" in lines[2]
+    assert all(0 < float(line.split(" differs by ")[1].split()[0]) < 1e-5 for line in lines[1:3])
+    assert lines[3] == "detector of LL: mean of LL1, LL2, LL3, LL4, LL5, LL6, always"
+
+
+def test_equal_networks_give_equal_bytes(robot, run, save, tmp_path):
+    networks = [read_trained(save(tmp_path / "a"), robot.layout)]
+    for out in ("one", "two"):
+        export(networks, robot, run, [], tmp_path / out)
+    for name in ("LL.onnx", "contract.json"):
+        assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes()
+
+
+def test_numbers_are_those_given_then_those_of_the_training_then_those_of_configs(called, save, tmp_path):
+    folder = save(tmp_path / "a", rate_hz=500.0, torque="sample")
+    status, lines = called(folder, "--gain", 50, "--out", tmp_path / "out")
+    assert (status, lines[0]) == (0, "TOCABI at 500 Hz, gain 50 1/s, torques: sample")
+    _, lines = called(folder, "--rate", 250, "--torque", "mean", "--out", tmp_path / "out")
+    assert lines[0] == "TOCABI at 250 Hz, gain 100 1/s, torques: mean"
+
+
+def test_trainings_that_differ_need_a_word():
+    assert agreed("rate", None, [None, 500.0, 500.0], 1000.0) == 500.0
+    with pytest.raises(DataError, match="rate of the networks"):
+        agreed("rate", None, [500.0, 1000.0], 1000.0)
+
+
+def test_what_does_not_fit_is_refused_in_one_line(called, save, tmp_path, thresholds):
+    left, again = save(tmp_path / "a"), save(tmp_path / "b", seed=1)
+    out = "--out", tmp_path / "out"
+    assert called(left, again, *out) == (
+        1, [f"{again}: joint 'LL1' is estimated by {left} too; accepted: one network for each joint"],
+    )  # fmt: skip
+    for changes, text in (
+        ({"robot": "other"}, "thresholds of LL: robot: 'other' is not accepted; accepted: TOCABI"),
+        ({"rate_hz": 100.0}, "thresholds of LL: rate_hz: 100.0 is not accepted; accepted: 1000.0"),
+        ({"network": "RL7"}, "thresholds of LL: network: 'RL7' is not accepted; accepted: LL0"),
+        ({"torque": "sample"}, "thresholds of LL: torque: 'sample' is not accepted; accepted: mean"),
+    ):
+        write_thresholds(tmp_path / "t.yaml", thresholds("LL", **changes))
+        assert called(left, "--thresholds", tmp_path / "t.yaml", *out) == (1, [text])
+    assert not (tmp_path / "out").exists()
+    assert called(left, "--rate", 0, *out) == (1, ["--rate: 0.0 is not accepted; accepted: a number above 0"])
+    (left / "run.json").unlink()
+    assert called(left, *out) == (1, [f"{left}/run.json: file is missing; accepted: a text file"])
+
+
+def test_a_network_of_another_robot_is_refused(called, save, tmp_path):
+    arm = Path(__file__).parents[1] / "data" / "arm.yaml"
+    status, (line,) = called(save(tmp_path / "a"), "--robot", arm, "--out", tmp_path / "out")
+    assert status == 1
+    assert re.search(r"a: input: 'q.LL1' is not accepted; accepted: q.J1", line)
+
+
+def test_the_contract_names_the_weights(robot, run, save, tmp_path):
+    folder = save(tmp_path / "a")
+    export([read_trained(folder, robot.layout)], robot, run, [], tmp_path / "out")
+    (network,) = json.loads((tmp_path / "out" / "contract.json").read_text())["networks"]
+    assert network["weights_sha256"] == hashlib.sha256((folder / "weights.safetensors").read_bytes()).hexdigest()
