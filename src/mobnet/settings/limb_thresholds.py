@@ -21,6 +21,8 @@ class LimbThresholds(Section):
             [N m], or `ratio`, the first over the second [-].
         thresholds: of each joint (n,) [N m], of a ratio [-].
         watched: when: in the `swing` of a leg (`detection.gate`), or `always`.
+        settle_s: time after the start of the estimate in which nothing is watched, as observer and network start from
+            zero [s].
         low_pass_hz: cut-off frequency of the first-order low-pass of every signal [Hz].
         hold_s: time for which a signal must lie above its threshold [s].
         rate_hz: samples per second of the estimate [Hz].
@@ -39,6 +41,7 @@ class LimbThresholds(Section):
     signal: Signal
     thresholds: Some[Positive]
     watched: Literal["always", "swing"]
+    settle_s: Annotated[NotNegative, Field(le=60)] = 0.0
     low_pass_hz: Positive
     hold_s: Annotated[NotNegative, Field(le=1)]
     rate_hz: Positive

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mobnet.settings.base import Count, InnerShare, Positive, Real, Seconds, Section, Share, Some, Text
+from mobnet.settings.base import Count, InnerShare, NetworkName, Positive, Real, Seconds, Section, Share, Some, Text
 
 Unit = Literal[
     "rad", "deg", "rad/s", "deg/s", "rpm", "N m", "mN m", "kN m", "A", "m", "mm", "m/s", "m/s^2", "g", "N", "kN", "s",
@@ -82,6 +82,30 @@ class LogMap(Section):
     landing: Signal | None = None
 
 
+class LogLearning(Section):
+    """How a network learns from a log of one's own, `./reproduce learn`, and when the log suffices.
+
+    Attributes:
+        cell: network of configs/networks.yaml whose cell a limb takes that has none there.
+        epochs: number of epochs.
+        epoch_samples: samples of an epoch, which goes through the log as often as that takes.
+        updates: least number of updates of an epoch; of a log that is shorter fewer lanes learn at once.
+        held_out: share of the log, its end, on which the network is tried and that it never sees.
+        margin: share of an input's range in training by which it may lie outside.
+        outside: share of the samples held out with an input further outside above which the log does not suffice.
+        worse: the same for the error on what is held out over that on as long a part that trained it.
+    """
+
+    cell: NetworkName
+    epochs: Count
+    epoch_samples: Count
+    updates: Count
+    held_out: Annotated[InnerShare, Field(ge=0.02, le=0.5)]
+    margin: Share
+    outside: InnerShare
+    worse: Annotated[Positive, Field(ge=1)]
+
+
 class RobotLog(Section):
     """How a log becomes a recording, and when a hint is given; hints are no errors.
 
@@ -102,6 +126,10 @@ class RobotLog(Section):
         delay_s: largest delay that is looked for [s].
         gravity: share of gravity by which a resting accelerometer may differ.
         weight: share of the robot's weight by which the feet's mean vertical force may differ.
+        learn: how a network learns from it.
+        settle_s: time after the start of a segment in which a limb without swings is not watched [s].
+        percentiles: share of the rates of false alarms of recordings drawn anew that the interval of a limb that is
+            watched all the time holds.
     """
 
     gap_intervals: Annotated[Positive, Field(ge=1.5, le=1000)]
@@ -120,3 +148,6 @@ class RobotLog(Section):
     delay_s: Seconds
     gravity: InnerShare
     weight: InnerShare
+    learn: LogLearning
+    percentiles: InnerShare
+    settle_s: Seconds
