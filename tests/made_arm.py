@@ -8,7 +8,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from mobnet.robot.description import RobotDescription
-from mobnet.robot.dynamics import bias, inverse_dynamics
+from mobnet.robot.dynamics import bias
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.plant import robot_spec
 

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError, not_accepted
@@ -38,7 +39,7 @@ def setup_of(detection: Detection, robot: RobotDescription, limb: str, rate_hz: 
 
 def always_watched(
     setup: LimbSetup, watched: Watched, paths: Sequence[Path], read: Sequence[SensedRecording],
-    estimates: Sequence[Estimate], window_s: float,
+    estimates: Sequence[Estimate], window_s: float, settle_s: float,
 ) -> tuple[float, list[LegRecording]]:  # fmt: skip
     """Return a limb in recordings, watched in windows that fill their segments, and the length of these [s].
 
@@ -46,29 +47,43 @@ def always_watched(
         DataError: there are fewer windows than a law takes, of the length `window_s` or of that at which they are not
             alike.
     """
+    gates = [always_on(len(one.sensed), one.segments, settle_s, setup.rate_hz) for one in read]
     signals = [watched.of(own, one.sensed.command) for one, own in zip(read, estimates, strict=True)]
     low = [np.abs(setup.low_passed(own, one.segments)) for own, one in zip(signals, read, strict=True)]
     least = setup.detection.thresholds.least_swings
     while True:
         length = round(window_s * setup.rate_hz)
-        windows = [windows_of(one.segments, length) for one in read]
+        windows = [windows_of(gate.watched, one.segments, length) for gate, one in zip(gates, read, strict=True)]
         if (count := sum(map(len, windows))) < least:
             what = f"seconds of free motion, in windows of {window_s:g} s, as shorter ones are alike"
             raise DataError(not_accepted(what, round(count * window_s, 1), [f"{least * window_s:g} or more"]))
         if not alike([largest(*pair) for pair in zip(low, windows, strict=True)]):
             break
         window_s *= 2.0
-    always = [GateSignal(np.ones(len(own), dtype=bool), np.zeros(len(own))) for own in signals]
-    rows = zip(paths, read, always, windows, strict=True)
+    rows = zip(paths, read, gates, windows, strict=True)
     return window_s, [
         LegRecording(path, one.segments, one.sensed.command, gate, spans, (UNKNOWN,) * len(spans), spans)
         for path, one, gate, spans in rows
     ]
 
 
-def windows_of(segments: Spans, length: int) -> Spans:
-    """Return the rows (start, end) of whole windows of so many samples in contiguous segments."""
-    return tuple((k, k + length) for start, end in segments for k in range(start, end - length + 1, length))
+def always_on(rows: int, segments: Spans, settle_s: float, rate_hz: float) -> GateSignal:
+    """Return a gate (T,) that is open but for the first part [s] of each contiguous segment."""
+    watched, settling = np.zeros(rows, dtype=bool), round(settle_s * rate_hz)
+    for start, end in segments:
+        watched[start + settling : end] = True
+    return GateSignal(watched, np.zeros(rows))
+
+
+def windows_of(watched: NDArray[np.bool_], segments: Spans, length: int) -> Spans:
+    """Return the rows (start, end) of whole windows of so many samples in the watched part (T,) of segments."""
+    firsts = [start + int(np.argmax(watched[start:end])) for start, end in segments]
+    return tuple(
+        (k, k + length)
+        for first, (_, end) in zip(firsts, segments, strict=True)
+        if watched[first]
+        for k in range(first, end - length + 1, length)
+    )
 
 
 def alike(parts: Sequence[Array]) -> bool:

@@ -75,10 +75,12 @@ def run(options: Namespace) -> list[str]:
         limb = options.limb or next(iter(robot.layout.legs.values()), None) or limb_of(robot.layout, None)
         own, sampling = of_files(options, robot, limb), None
     found = calibrate_limb(own, robot, limb, options.signal, options.rate, settings)
-    confidence = settings.detection.thresholds.confidence
     if options.out and sampling:
-        write_thresholds(options.out, thresholds_of(found, options.rate, confidence, sampling, network))
-    return [*report(found, confidence), *([f"written: {options.out}"] if options.out else [])]
+        write_thresholds(options.out, thresholds_of(found, options.rate, settings, sampling, network))
+    return [
+        *report(found, settings.detection.thresholds.confidence),
+        *([f"written: {options.out}"] if options.out else []),
+    ]
 
 
 def _check(options: Namespace) -> None:
@@ -93,9 +95,7 @@ def _check(options: Namespace) -> None:
     if options.signal not in SIGNALS:
         raise DataError(not_accepted("--signal", options.signal, SIGNALS))
     if options.folders and options.signal != "mean" and not options.network:
-        raise DataError(
-            not_accepted("--signal", options.signal, ["mean, or --network, which has a standard deviation"])
-        )
+        raise DataError(not_accepted("--signal", options.signal, ["mean; or it with --network"]))
     if not LEAST_RATE <= options.rate < math.inf:
         raise DataError(not_accepted("--rate", options.rate, [f"a number from {LEAST_RATE:g}, one in a century"]))
 

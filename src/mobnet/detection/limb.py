@@ -17,7 +17,7 @@ from mobnet.detection.always import always_watched, setup_of
 from mobnet.detection.calibration import QuietWalk, check_signals, rate_scales, unit_of
 from mobnet.detection.points import axis_forces
 from mobnet.detection.sensitivity import found_forces
-from mobnet.detection.signals import MEAN, STD, Watched
+from mobnet.detection.signals import STD, Watched
 from mobnet.detection.thresholds import Calibrated
 from mobnet.detection.watch import LegRecording, LegSetup, LimbSetup, read_estimate
 from mobnet.robot.description import RobotDescription
@@ -122,7 +122,8 @@ def _watched(
     if isinstance(setup, LegSetup):
         return None, [setup.record(one.path, one.read, one.estimate.tau_ext) for one in own]
     paths, read, estimates = zip(*((one.path, one.read, one.estimate) for one in own), strict=True)
-    return always_watched(setup, watched, paths, read, estimates, settings.reaction.window_s)
+    lengths = settings.reaction.window_s, settings.robotlog.settle_s
+    return always_watched(setup, watched, paths, read, estimates, *lengths)
 
 
 def _usual_std(own: Sequence[OwnRecording]) -> Array:

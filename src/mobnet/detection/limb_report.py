@@ -10,6 +10,7 @@ from mobnet.detection.limb import LimbCalibration
 from mobnet.detection.points import AXES
 from mobnet.estimation.own import LEARNED, OBSERVER, OwnNetwork, Sampling
 from mobnet.settings.limb_thresholds import LimbThresholds
+from mobnet.settings.settings import Settings
 
 
 def report(found: LimbCalibration, confidence: float) -> Iterator[str]:
@@ -22,7 +23,7 @@ def report(found: LimbCalibration, confidence: float) -> Iterator[str]:
     time = "walking" if found.window_s is None else "free motion"
     yield from ("", f"false alarms to expect: {promise.rate_per_h:.2g} in an hour of {time}, {interval}", "")
     if not found.forces:
-        yield "smallest force that is found: not told, as the robot's table has no `points` on this limb or sigma is watched"
+        yield "smallest force that is found: not told, as the table has no `points` on this limb, or sigma is watched"
         return
     along = f", along {', '.join(AXES)} of its body" if found.window_s is not None else ""
     yield f"smallest force that is found [N], by point of the limb{along}:"
@@ -31,7 +32,7 @@ def report(found: LimbCalibration, confidence: float) -> Iterator[str]:
 
 
 def thresholds_of(
-    found: LimbCalibration, rate_per_h: float, confidence: float, sampling: Sampling, network: OwnNetwork | None
+    found: LimbCalibration, rate_per_h: float, settings: Settings, sampling: Sampling, network: OwnNetwork | None
 ) -> LimbThresholds:
     """Return the section of a limb's thresholds, made for a rate of false alarms [1/h].
 
@@ -44,8 +45,9 @@ def thresholds_of(
     return LimbThresholds(
         robot=setup.robot.name, limb=setup.limb, joints=setup.joints, method=LEARNED if network else OBSERVER,
         network=network.fingerprint if network else None, signal=found.signal, thresholds=values,
-        watched="swing" if found.window_s is None else "always", low_pass_hz=setup.detection.low_pass_hz,
+        watched="swing" if found.window_s is None else "always",
+        settle_s=0.0 if found.window_s is None else settings.robotlog.settle_s, low_pass_hz=setup.detection.low_pass_hz,
         hold_s=setup.detection.hold_s, rate_hz=sampling.rate_hz, gain_hz=sampling.gain_hz, torque=sampling.torque,
         rate_per_h=rate_per_h, expected_per_h=promise.rate_per_h, low_per_h=promise.low, high_per_h=promise.high,
-        confidence=confidence,
+        confidence=settings.detection.thresholds.confidence,
     )  # fmt: skip

@@ -1,4 +1,4 @@
-"""A log of one's own as `./reproduce observe` wrote it, a network that `./reproduce learn` made of one, and estimates."""
+"""A log of one's own as `./reproduce observe` wrote it, a network that `./reproduce learn` made, and estimates."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""From a wrench at a foot's sensor, or at a point of any body, to the generalized external torque, tau_e = J^T F of (2)."""
+"""From a wrench at a foot's sensor or a point of a body to the generalized external torque, tau_e = J^T F of (2)."""
 
 import math
 from collections.abc import Mapping, Sequence
