@@ -13,6 +13,7 @@ from mobnet.detection.words import calibrate_parser
 from mobnet.export.words import export_parser
 from mobnet.plan.places import scale_of
 from mobnet.robot.import_words import import_parser
+from mobnet.robotlog.learning_words import detect_parser, learn_parser
 from mobnet.robotlog.words import observe_parser
 from mobnet.running.words import RESULTS, bench_parser, check_parser, cost_parser, demo_parser, results_parser
 
@@ -24,7 +25,9 @@ COMMANDS = {
     "check": "check recordings, weights and configurations from outside; --help says how",
     "robot": "make a robot's table from its URDF or MJCF file; --help says how",
     "observe": "make the residual of a robot's own log, and say what looks wrong with it; --help says how",
-    "calibrate": "print thresholds of collision detection for a wanted rate of false alarms; --help says how",
+    "learn": "train a network on a robot's own logs, and try it on their end; --help says how",
+    "calibrate": "print thresholds of detection for a wanted rate of false alarms; --help says how",
+    "detect": "write when something pushes a limb in a robot's own log; --help says how",
     "export": "write trained networks as ONNX files that run without this project; --help says how",
     "tuning": "train what configs/trials.yaml lists, write results/default/trials/tuning.md; not part of all",
     "recipes": "train each method with each recipe, write results/default/trials/recipes.md; not part of all",
@@ -55,7 +58,9 @@ PARSERS = {
     "check": check_parser,
     "cost": cost_parser,
     "demo": demo_parser,
+    "detect": detect_parser,
     "export": export_parser,
+    "learn": learn_parser,
     "observe": observe_parser,
     "robot": import_parser,
     **{name: functools.partial(results_parser, name) for name in RESULTS},
