@@ -94,20 +94,20 @@ def at(signal: Timed, ticks: Array) -> Array:
 def stamp_hints(columns: Iterable[Column], bounds: RobotLog) -> Iterator[str]:
     """Yield what looks wrong with the stamps of messages, of one column for each topic."""
     lags = dict[str, Array]()
-    for column in {column.topic: column for column in columns if column.recorded_s is not None}.values():
+    for topic, column in {column.topic: column for column in columns}.items():
         if column.is_stamped is False:
-            yield f"stamps of {column.topic}: zero; the times of recording are taken instead"
-        elif column.is_stamped and column.time_s is not None:
-            lags[column.topic] = column.recorded_s - column.time_s
-            back = int((np.diff(column.time_s) <= 0).sum())
-            if back:
-                yield f"stamps of {column.topic}: {back} of {len(column.time_s)} are not after the one before"
+            yield f"stamps of {topic}: zero; the times of recording are taken instead"
+        elif column.is_stamped and column.time_s is not None and column.recorded_s is not None:
+            lags[topic] = column.recorded_s - column.time_s
+            if back := int((np.diff(column.time_s) <= 0).sum()):
+                yield f"stamps of {topic}: {back} of {len(column.time_s)} are not after the one before"
     usual = {topic: float(np.median(lag)) for topic, lag in lags.items()}
     for topic, lag in usual.items():
         least = min(usual, key=lambda key: abs(usual[key]))
         if abs(lag - usual[least]) > bounds.apart_s:
             text = f"{lag:.3g} s before the recording, those of {least} {usual[least]:.3g} s"
-            yield f"stamps of {topic}: {text}: another clock, or late; `clock: {{stamp: recorded}}` takes the other times"
+            other = "another clock, or late; `clock: {stamp: recorded}` takes the times of recording"
+            yield f"stamps of {topic}: {text}: {other}"
     for topic, lag in lags.items():
         part = max(1, len(lag) // 10)
         drift = float(np.median(lag[-part:]) - np.median(lag[:part]))
