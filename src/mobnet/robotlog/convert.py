@@ -81,7 +81,8 @@ def _timed(path: Path, columns: Columns, signal: Signal, meaning: LogMap, clock:
         own_time, own = _in_order(columns[name], meaning)
         if not np.isfinite(own).all():
             row = int(np.argmin(np.isfinite(own)))
-            raise DataError(f"{path}: {not_accepted(f'column {name!r}, row {row}', own[row], ['finite numbers'])}")
+            value = float(own[row])
+            raise DataError(f"{path}: {not_accepted(f'column {name!r}, row {row}', value, ['finite numbers'])}")
         if own_time is not None and not np.array_equal(own_time, time_s):
             own = np.interp(time_s, own_time, own)
         parts.append(own)

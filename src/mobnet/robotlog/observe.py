@@ -25,9 +25,15 @@ from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.convert import Converted, convert
 from mobnet.robotlog.formats import column_names, read_log
 from mobnet.robotlog.hints.base import base_hints, weight_hints
-from mobnet.robotlog.hints.columns import clock_hints, column_hints, limit_hints
-from mobnet.robotlog.hints.delay import delay_hints
-from mobnet.robotlog.hints.motion import motion_hints
+from mobnet.robotlog.hints.columns import (
+    base_column_hints,
+    clock_hints,
+    column_hints,
+    limit_hints,
+    unit_hints,
+)
+from mobnet.robotlog.hints.delay import delay_hints, speed_delay_hints
+from mobnet.robotlog.hints.motion import jump_hints, motion_hints
 from mobnet.robotlog.hints.torque import torque_hints
 from mobnet.robotlog.hints.windows import known_joints, windows_of
 from mobnet.robotlog.meaning import default_map, resolved, wanted_columns
@@ -99,13 +105,20 @@ def hints_of(found: Converted, nominal: NominalModel, gravity_m_s2: float, bound
     read, layout = found.recording, nominal.robot.layout
     sensed, spans, rate_hz = read.sensed, read.spans(), read.rate_hz
     yield from found.hints
+    if units := list(unit_hints(found.clocks)):
+        yield from units
+        return
     yield from clock_hints(found.clocks, bounds)
     yield from column_hints(sensed, layout.actuated, bounds)
     yield from limit_hints(sensed, layout)
     motors = sensed.q[:, -layout.nu :], sensed.v[:, -layout.nu :]
     wrong = list(motion_hints(*motors, spans, rate_hz, layout.actuated, bounds))
     yield from wrong
+    yield from jump_hints(motors[0], spans, rate_hz, layout)
+    late = [] if wrong else list(speed_delay_hints(*motors, spans, rate_hz, layout.actuated, bounds))
+    yield from late
     if nominal.robot.floating:
+        yield from base_column_hints(sensed, bounds)
         wrong += (own := list(base_hints(sensed, spans, rate_hz, bounds)))
         yield from own
     if not wrong:  # torques that a wrong motion would need say nothing
@@ -113,7 +126,8 @@ def hints_of(found: Converted, nominal: NominalModel, gravity_m_s2: float, bound
         if windows := windows_of(nominal, sensed, spans, rate_hz, found.wrenches, bounds):
             needed = windows.needed(nominal)
             known = known_joints(nominal, windows, needed, found.wrenches, bounds)
-            yield from delay_hints(nominal, sensed, spans, rate_hz, found.wrenches, known, bounds)
+            if not late:  # late speeds make torques look early
+                yield from delay_hints(nominal, sensed, spans, rate_hz, found.wrenches, known, bounds)
             yield from torque_hints(nominal, windows, needed, known, bounds)
 
 
