@@ -9,6 +9,7 @@ import logging
 import time
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import islice
 from operator import attrgetter, itemgetter
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -23,6 +24,7 @@ from mobnet.robotlog.sources import Message, opened
 NANO = 1e-9
 NAMES = ("name", "names", "joint_names", "interface_names")  # fields that name the entries of the arrays beside them
 STAMPS = (("sec", "nanosec"), ("secs", "nsecs"), ("sec", "nsec"))  # of a header's time
+FIRST = 20  # messages of a topic in which its columns are looked for
 MOST = 1000  # entries of an array above which it is a picture or a map, and no signal
 TOLD_S, LOOKED = 5.0, 10_000  # seconds between two lines of progress, messages between two looks at the clock
 log = logging.getLogger(__name__)
@@ -41,29 +43,28 @@ class Part(NamedTuple):
 class Gathered:
     """What was read of a topic: times of recording and stamps [ns]; of each part the rows by its entries' names."""
 
-    parts: Sequence[Part]
     stamp: Callable[[Any], int] | None
+    parts: dict[str, Part] = field(default_factory=dict)
     recorded: list[int] = field(default_factory=list)
     stamps: list[int] = field(default_factory=list)
     rows: dict[str, dict[tuple[str, ...], tuple[list[int], list[Any]]]] = field(default_factory=dict)
 
 
 def message_names(path: Path) -> list[str]:
-    """Return the columns in the first message of each topic of a log."""
+    """Return the columns in the first messages of each topic of a log."""
     found = []
     with opened(path) as source:
         for topic in source.topics:
-            first = next(source.messages([topic]), None)
-            if first is not None:
-                found += [name for part in _parts(first.content, topic) for name in _in(part, first.content)]
-    return found
+            for _, _, content in islice(source.messages([topic]), FIRST):
+                found += [name for part in _parts(content, topic) for name in _in(part, content)]
+    return list(dict.fromkeys(found))
 
 
 def message_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
     """Return wanted columns of a log; only messages of their topics are decoded.
 
     Raises:
-        DataError: a message lacks a field that the first one of its topic has.
+        DataError: a message lacks a field that one before it has.
     """
     with opened(path) as source:
         topics = [topic for topic in source.topics if any(name.startswith(f"{topic}.") for name in wanted)]
@@ -155,16 +156,23 @@ def _gathered(messages: Iterator[Message], wanted: Collection[str]) -> dict[str,
     for count, (topic, recorded_ns, content) in enumerate(messages, 1):
         own = topics.get(topic)
         if own is None:
-            parts = [part for part in _parts(content, topic) if not wanted.isdisjoint(_in(part, content))]
-            own = topics[topic] = Gathered(parts, _stamp_of(content))
+            own = topics[topic] = Gathered(_stamp_of(content))
+        if len(own.recorded) < FIRST:  # several nodes may publish one topic, each its own joints
+            parts = (part for part in _parts(content, topic) if _is_wanted(part.name, wanted))
+            own.parts = {**{part.name: part for part in parts}, **own.parts}
         own.recorded.append(recorded_ns)
         own.stamps.append(own.stamp(content) if own.stamp else 0)
-        for part in own.parts:
+        for part in own.parts.values():
             _gather(own, part, content)
         if count % LOOKED == 0 and time.monotonic() - told > TOLD_S:
             told = time.monotonic()
             log.info("%d messages read", count)
     return topics
+
+
+def _is_wanted(part: str, wanted: Collection[str]) -> bool:
+    """Return whether a wanted column is a part or one of its entries."""
+    return any(name == part or name.startswith(f"{part}.") for name in wanted)
 
 
 def _in(part: Part, content: Any) -> tuple[str, ...]:
@@ -178,7 +186,7 @@ def _gather(own: Gathered, part: Part, content: Any) -> None:
         values = _at(content, part.steps)
         names = _entries(part, content, values)
     except (AttributeError, IndexError, KeyError, TypeError):
-        text = not_accepted(f"message {len(own.recorded)}", "it", [f"one with {part.name}, as the first one has"])
+        text = not_accepted(f"message {len(own.recorded)}", "it", [f"one with {part.name}, as one before it has"])
         raise DataError(f"{part.name}: {text}") from None
     rows, numbers = own.rows.setdefault(part.name, {}).setdefault(names, ([], []))
     rows.append(len(own.recorded) - 1)
@@ -188,7 +196,7 @@ def _gather(own: Gathered, part: Part, content: Any) -> None:
 def _columns_of(topic: str, own: Gathered, began_ns: int) -> dict[str, Column]:
     """Return the columns of a topic; what stands in some of its messages alone has their times."""
     recorded = NANO * (np.array(own.recorded) - began_ns)
-    is_stamped = own.stamps.count(0) <= 1 if own.stamp else None  # the time of a simulation begins with zero
+    is_stamped = 2 * own.stamps.count(0) <= len(own.stamps) if own.stamp else None  # a simulation begins at zero
     times = NANO * (np.array(own.stamps) - began_ns) if is_stamped else recorded
     pieces: dict[str, list[tuple[list[int], NDArray[Any]]]] = {}
     for layouts in own.rows.values():

@@ -17,7 +17,7 @@ ALIKE = 2.0  # factor that friction and a wrong model may make of a torque
 GEAR = (10.0, 500.0)  # reductions of gears
 UNITS = {"mN m": 1e-3, "kN m": 1e3}
 APART_RAD = np.radians(15.0)  # between zeros of a joint that are tried
-LEAST_RAD = np.radians(5.0)  # shift of a zero below which nothing is said
+LEAST_RAD = np.radians(12.0)  # shift of a zero below which friction may be the cause
 LEAST_ORDER = 3  # joints that stand in another order; two are exchanged
 
 
@@ -105,7 +105,7 @@ def zero_changes(nominal: NominalModel, thin: Windows, few: Sequence[int]) -> It
 
         best, apart = 0.0, APART_RAD
         tried = np.arange(-np.pi, np.pi, apart)
-        while apart > LEAST_RAD / 10:
+        while apart > LEAST_RAD / 20:
             best = float(min(tried, key=left))
             tried, apart = best + apart * np.linspace(-1, 1, 7), apart / 3
         if abs(best) > LEAST_RAD:
