@@ -140,3 +140,13 @@ def test_columns_named_as_in_a_recording_need_no_map(clean, arm, stored):
     meaning = default_map(columns, arm.layout)
     assert meaning.q.columns == ("q.J1", "q.J2")
     assert meaning.acc is None
+
+
+def test_a_pause_of_a_year_takes_no_memory(made, plain):
+    """A computer that gets its time from the network after a start in 1970."""
+    slow = {name: values[::2] for name, values in plain.items() if name.startswith("tau")}
+    late = np.where(np.arange(ROWS) < 20, TIME, TIME + 3e7)
+    log = columns_of({name: values for name, values in plain.items() if name[0] in "qv"}, late)
+    found = made(log | columns_of(slow, late[::2]))
+    assert found.interpolated
+    assert found.recording.segments == ((0, 18), (18, 397))

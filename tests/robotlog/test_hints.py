@@ -1,12 +1,19 @@
 """Mistakes that labs make with logs are named, each by its own hint, and a clean log has none."""
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from mobnet.robot.description import describe
+from mobnet.robot.dynamics import gravity
+from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.observe import observe_log
+from mobnet.settings.load import load_section
+from mobnet.settings.robot import RobotTable
 
+ARM = Path("tests/data/arm.yaml")
 BOTH = ("J1", "J2")
 LATE = 12  # samples
 SEEDS = range(5)
@@ -41,6 +48,25 @@ def held(column):
     return np.repeat(column[::10], 10)[: len(column)]
 
 
+def lost(column):
+    return np.where(np.isin(np.arange(len(column)), (3000, 7000, 7001)), 0.0, column)
+
+
+def wrapped(column):
+    """Return an angle that a sensor counts from zero to a full turn."""
+    return np.mod(column, 2 * np.pi)
+
+
+def with_speeds_as_positions(table):
+    return table.assign(**{f"{a}.{j}": table[f"{b}.{j}"] for j in BOTH for a, b in (("q", "v"), ("v", "q"))})
+
+
+def without_gravity(table):
+    nominal = NominalModel(describe(load_section(ARM, RobotTable)))
+    load = np.array([gravity(nominal, q) for q in table[["q.J1", "q.J2"]].to_numpy()])
+    return table.assign(**{f"tau_motor.{j}": table[f"tau_motor.{j}"] - load[:, k] for k, j in enumerate(BOTH)})
+
+
 MISTAKES = {  # name -> what a lab does to its log, and the hint
     "torque of the wrong sign": (
         lambda t: changed(t, ["J2"], ["tau_motor"], np.negative),
@@ -72,6 +98,20 @@ MISTAKES = {  # name -> what a lab does to its log, and the hint
     "speed of the wrong sign": (lambda t: changed(t, ["J1"], ["v"], np.negative), "q of J1: changes by -1 times"),
     "late torque": (lambda t: changed(t, BOTH, ["tau_motor"], late), "tau_motor: 12 ms late against the motion"),
     "held speed": (lambda t: changed(t, BOTH, ["v"], held), "v of J1, J2: 90% of the samples repeat"),
+    "clock in ns": (lambda t: t.assign(time=1e9 * t["time"]), r"clock of .*: 1e\+06 s between samples: in ns\?"),
+    "clock in us": (lambda t: t.assign(time=1e6 * t["time"]), r"clock of .*: 1e\+03 s between samples: in us"),
+    "a number in place of a clock": (
+        lambda t: t.assign(time=np.arange(len(t))),
+        "q of J1, J2: .* the clock in ms",
+    ),
+    "speed by sample": (lambda t: changed(t, BOTH, ["v"], lambda x: x / 1e3), "v in rad from one sample to the next"),
+    "positions and speeds exchanged": (with_speeds_as_positions, "q and v of J1, J2: .*: exchanged"),
+    "a wrapped angle": (lambda t: changed(t, ["J2"], ["q"], wrapped), "q of J2: jumps .* 6.2. rad .*: wrapped"),
+    "lost samples": (lambda t: changed(t, ["J1"], ["q"], lost), "q of J1: jumps .*: samples are lost or wrong"),
+    "another zero": (lambda t: changed(t, ["J2"], ["q"], lambda x: x + 0.6), r"J2: q reads \+0.\d+ rad \(\+3\d deg"),
+    "late speed": (lambda t: changed(t, BOTH, ["v"], late), "v of J1, J2: 12 ms late against q"),
+    "held torque": (lambda t: changed(t, BOTH, ["tau_motor"], held), "tau_motor of J1, J2: 90% of the samples repeat"),
+    "torque without gravity": (without_gravity, "J1 and J2: tau_motor lacks the torque of gravity"),
     "clock in ms": (lambda t: t.assign(time=1e3 * t["time"]), "q of J1, J2: .* the clock in ms"),
 }  # fmt: skip
 

@@ -6,6 +6,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
@@ -62,15 +63,23 @@ def common_ticks(path: Path, clocks: Mapping[str, Array], rate_hz: float, bounds
     if end - start < 2 / rate_hz:
         text = f"clock: {last} begins at {start:.3f} s and {earliest} ends at {end:.3f} s"
         raise DataError(f"{path}: {text}; accepted: signals that overlap; of messages `clock: {{stamp: recorded}}`")
-    ticks = start + np.arange(int((end - start) * rate_hz + ROUND) + 1) / rate_hz
+    ticks = _grid(first, pauses, start, end, rate_hz)
     whole = np.ones(len(ticks), dtype=bool)
     for clock in {id(clock): clock for clock in clocks.values()}.values():
         steps = np.diff(clock)
         before = np.clip(np.searchsorted(clock, ticks, side="right") - 1, 0, len(steps) - 1)
         whole &= steps[before] <= bounds.gap_intervals * np.median(steps)
     kept = ticks[whole]
-    ends = [0, *(np.flatnonzero(np.diff(np.flatnonzero(whole)) > 1) + 1).tolist(), len(kept)]
+    ends = [0, *(np.flatnonzero(np.diff(kept) > 1.5 / rate_hz) + 1).tolist(), len(kept)]
     return Ticks(kept, _long_enough(path, pairwise(ends)), interpolated=True)
+
+
+def _grid(clock: Array, pauses: NDArray[np.bool_], start: float, end: float, rate_hz: float) -> Array:
+    """Return even times at a rate from a start to an end [s], without those in pauses of a clock, which may be long."""
+    ends = np.r_[clock[0], clock[1:][pauses]], np.r_[clock[:-1][pauses], clock[-1]]
+    first, last = (np.clip((part - start) * rate_hz, 0.0, (end - start) * rate_hz) for part in ends)
+    spans = zip(np.ceil(first - ROUND).astype(int), np.floor(last + ROUND).astype(int), strict=True)
+    return start + np.unique(np.concatenate([np.arange(a, b + 1) for a, b in spans])) / rate_hz
 
 
 def _long_enough(path: Path, segments: Iterable[tuple[int, int]]) -> Segments:
@@ -94,20 +103,20 @@ def at(signal: Timed, ticks: Array) -> Array:
 def stamp_hints(columns: Iterable[Column], bounds: RobotLog) -> Iterator[str]:
     """Yield what looks wrong with the stamps of messages, of one column for each topic."""
     lags = dict[str, Array]()
-    for column in {column.topic: column for column in columns if column.recorded_s is not None}.values():
+    for topic, column in {column.topic: column for column in columns}.items():
         if column.is_stamped is False:
-            yield f"stamps of {column.topic}: zero; the times of recording are taken instead"
-        elif column.is_stamped and column.time_s is not None:
-            lags[column.topic] = column.recorded_s - column.time_s
-            back = int((np.diff(column.time_s) <= 0).sum())
-            if back:
-                yield f"stamps of {column.topic}: {back} of {len(column.time_s)} are not after the one before"
+            yield f"stamps of {topic}: zero; the times of recording are taken instead"
+        elif column.is_stamped and column.time_s is not None and column.recorded_s is not None:
+            lags[topic] = column.recorded_s - column.time_s
+            if back := int((np.diff(column.time_s) <= 0).sum()):
+                yield f"stamps of {topic}: {back} of {len(column.time_s)} are not after the one before"
     usual = {topic: float(np.median(lag)) for topic, lag in lags.items()}
     for topic, lag in usual.items():
         least = min(usual, key=lambda key: abs(usual[key]))
         if abs(lag - usual[least]) > bounds.apart_s:
             text = f"{lag:.3g} s before the recording, those of {least} {usual[least]:.3g} s"
-            yield f"stamps of {topic}: {text}: another clock, or late; `clock: {{stamp: recorded}}` takes the other times"
+            other = "another clock, or late; `clock: {stamp: recorded}` takes the times of recording"
+            yield f"stamps of {topic}: {text}: {other}"
     for topic, lag in lags.items():
         part = max(1, len(lag) // 10)
         drift = float(np.median(lag[-part:]) - np.median(lag[:part]))

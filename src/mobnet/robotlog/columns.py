@@ -8,7 +8,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
@@ -56,6 +55,7 @@ def module_of(name: str, path: Path) -> ModuleType:
 
 def near_names(names: Iterable[str], wanted: str, most: int = 5) -> Sequence[str]:
     """Return the few names that are most like a wanted one, the most alike first."""
+
     def alike(name: str) -> float:
         return SequenceMatcher(None, wanted.lower(), name.lower()).ratio()
 

@@ -32,7 +32,7 @@ ACCEPTED = (*(kind for kind in FORMATS if kind != METADATA), "a folder of `ros2 
 
 
 def column_names(path: Path) -> list[str]:
-    """Return the names of all columns of a log; of messages those in the first message of each topic.
+    """Return the names of all columns of a log; of messages those in the first ones of each topic.
 
     Raises:
         DataError: the format is not known, its reader is not installed, or the file is missing or damaged.

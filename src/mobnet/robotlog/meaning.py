@@ -1,6 +1,5 @@
 """Which columns of a log are which signals: a map by full names, and that of a log without one."""
 
-import re
 from collections.abc import Collection, Iterator
 from pathlib import Path
 
@@ -83,7 +82,7 @@ def wanted_columns(meaning: LogMap, names: Collection[str]) -> list[str]:
 def _full(key: str, signal: Signal, held: Collection[str], joints: Collection[str], width: int) -> Signal:
     """Return a signal with the columns below the one that it names, if it names one alone."""
     stem = signal.columns[0]
-    if len(signal.columns) > 1 or stem in held and width == 1:
+    if len(signal.columns) > 1 or (stem in held and width == 1):
         return signal
     named = [f"{stem}.{end}" for end in (joints if key in MOTORS else ENDS.get(key, ()))]
     numbered = [f"{stem}.{k}" for k in range(width)]

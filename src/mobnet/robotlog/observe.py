@@ -14,21 +14,28 @@ from pathlib import Path
 import numpy as np
 
 from mobnet.core.arrays import Array
-from mobnet.core.columns import EXTERNAL, torque_columns
+from mobnet.core.columns import EXTERNAL, recording_columns, torque_columns
 from mobnet.core.errors import DataError, MobnetError, not_accepted
 from mobnet.core.joints import JointLayout
-from mobnet.core.recording import write_recording
-from mobnet.core.store import write_array
-from mobnet.estimation.observer import MomentumObserver
+from mobnet.core.recording import Recording
+from mobnet.core.store import GROUP_ROWS, array_writer, write_array
+from mobnet.estimation import observer
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.convert import Converted, convert
 from mobnet.robotlog.formats import column_names, read_log
 from mobnet.robotlog.hints.base import base_hints, weight_hints
-from mobnet.robotlog.hints.columns import clock_hints, column_hints, limit_hints
-from mobnet.robotlog.hints.delay import delay_hints
-from mobnet.robotlog.hints.motion import motion_hints
-from mobnet.robotlog.hints.torque import known_joints, torque_hints, windows_of
+from mobnet.robotlog.hints.columns import (
+    base_column_hints,
+    clock_hints,
+    column_hints,
+    limit_hints,
+    unit_hints,
+)
+from mobnet.robotlog.hints.delay import delay_hints, speed_delay_hints
+from mobnet.robotlog.hints.motion import jump_hints, motion_hints
+from mobnet.robotlog.hints.torque import torque_hints
+from mobnet.robotlog.hints.windows import known_joints, windows_of
 from mobnet.robotlog.meaning import default_map, resolved, wanted_columns
 from mobnet.robotlog.plot import plot_residual
 from mobnet.robotlog.tool import with_tool
@@ -39,6 +46,7 @@ from mobnet.settings.robotlog import LogMap, RobotLog
 
 log = logging.getLogger(__name__)
 RECORDING, ESTIMATE, PLOT = "recording", "estimate", "residual"  # names of what is made
+MANY = 100_000  # samples above which progress is told
 
 
 @dataclass(frozen=True)
@@ -68,9 +76,20 @@ def observe_log(
         converted = with_tool(converted, nominal, meaning.tool)
     read = converted.recording
     kind = "mean" if (torque or (meaning.torque if meaning else "sample")) == "mean" else "sample"
-    observer = MomentumObserver(nominal, gain_hz, read.rate_hz, kind)
-    residual = np.concatenate([observer.residual(read.sensed[span]) for span in read.spans()])
+    mob = observer.MomentumObserver(nominal, gain_hz, read.rate_hz, kind)
+    rows = len(read.sensed)
+    _progress(rows, f"{rows} samples read")
+    residual = np.empty(read.sensed.v.shape)
+    for span in read.spans():
+        residual[span] = mob.residual(read.sensed[span])
+    _progress(rows, "residual computed; looking for what is wrong with the log")
     return Observed(converted, residual, tuple(hints_of(converted, nominal, gravity_m_s2, bounds)))
+
+
+def _progress(rows: int, text: str) -> None:
+    """Tell how far a log of many rows is, which takes more than a few seconds."""
+    if rows > MANY:
+        log.info("%s", text)
 
 
 def converted_log(path: Path, layout: JointLayout, meaning: LogMap | None, bounds: RobotLog) -> Converted:
@@ -90,21 +109,30 @@ def hints_of(found: Converted, nominal: NominalModel, gravity_m_s2: float, bound
     read, layout = found.recording, nominal.robot.layout
     sensed, spans, rate_hz = read.sensed, read.spans(), read.rate_hz
     yield from found.hints
+    if units := list(unit_hints(found.clocks)):
+        yield from units
+        return
     yield from clock_hints(found.clocks, bounds)
     yield from column_hints(sensed, layout.actuated, bounds)
     yield from limit_hints(sensed, layout)
     motors = sensed.q[:, -layout.nu :], sensed.v[:, -layout.nu :]
     wrong = list(motion_hints(*motors, spans, rate_hz, layout.actuated, bounds))
     yield from wrong
+    yield from jump_hints(motors[0], spans, rate_hz, layout)
+    late = [] if wrong else list(speed_delay_hints(*motors, spans, rate_hz, layout.actuated, bounds))
+    yield from late
     if nominal.robot.floating:
+        yield from base_column_hints(sensed, bounds)
         wrong += (own := list(base_hints(sensed, spans, rate_hz, bounds)))
         yield from own
     if not wrong:  # torques that a wrong motion would need say nothing
         yield from weight_hints(nominal, sensed, found.wrenches, gravity_m_s2, bounds)
         if windows := windows_of(nominal, sensed, spans, rate_hz, found.wrenches, bounds):
-            known = known_joints(nominal, windows, found.wrenches, bounds)
-            yield from delay_hints(nominal, sensed, spans, rate_hz, found.wrenches, known, bounds)
-            yield from torque_hints(nominal, windows, known, bounds)
+            needed = windows.needed(nominal)
+            known = known_joints(nominal, windows, needed, found.wrenches, bounds)
+            if not late:  # late speeds make torques look early
+                yield from delay_hints(nominal, sensed, spans, rate_hz, found.wrenches, known, bounds)
+            yield from torque_hints(nominal, windows, needed, known, bounds)
 
 
 def write_observed(found: Observed, robot: RobotDescription, gain_hz: float, torque: str, out: Path) -> None:
@@ -112,11 +140,22 @@ def write_observed(found: Observed, robot: RobotDescription, gain_hz: float, tor
     out.mkdir(parents=True, exist_ok=True)
     read = found.converted.recording
     meta = {**read.meta, "gain_hz": gain_hz, "torque": torque}
-    write_recording(out / RECORDING, replace(read, meta=meta), robot.layout)
+    _write_recording(out / RECORDING, replace(read, meta=meta), robot.layout)
     columns = torque_columns(robot.layout, [EXTERNAL], robot.layout.names)
     note = {"rate_hz": read.rate_hz, **meta, "method": "MOB"}
     write_array(out / ESTIMATE, found.residual, columns, note, read.segments)
     plot_residual(read.rate_hz, read.segments, found.residual, robot.layout, out / PLOT)
+
+
+def _write_recording(stem: Path, recording: Recording, layout: JointLayout) -> None:
+    """Write a recording as `mobnet.core.recording` does, in pieces, because a log may be as large as the memory."""
+    columns = recording_columns(layout)
+    fields = {**vars(recording.sensed), **vars(recording.truth)}
+    with array_writer(stem, [column for group in columns.values() for column in group]) as writer:
+        for first in range(0, len(recording.sensed), GROUP_ROWS):
+            rows = slice(first, first + GROUP_ROWS)
+            writer.append(np.concatenate([fields[name][rows] for name in columns], axis=1))
+        writer.close({"rate_hz": recording.rate_hz, **recording.meta}, recording.segments)
 
 
 def told(found: Observed, robot: RobotDescription, out: Path) -> Iterator[str]:
@@ -144,6 +183,7 @@ def main(words: list[str]) -> int:
     """Run the command; return its exit status."""
     options = observe_parser().parse_args(words)
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+    logging.getLogger(observer.__name__).setLevel(logging.WARNING)  # it tells of each segment
     try:
         settings = load_settings()
         robot = describe(load_section(options.robot, RobotTable) if options.robot else settings.robot)

@@ -1,4 +1,4 @@
-"""Logs that are tables: CSV, Parquet and HDF5. Their packages are imported where they are needed, as they start slowly."""
+"""Logs that are tables: CSV, Parquet and HDF5. Their packages start slowly and are imported where they are needed."""
 
 import csv
 from collections.abc import Collection
@@ -6,10 +6,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError
 from mobnet.robotlog.columns import Column, module_of
+
+BLOCK_BYTES = 4 * 2**20  # of a CSV file that are read together
 
 
 def csv_names(path: Path) -> list[str]:
@@ -35,13 +37,17 @@ def csv_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
 
     names, between = _csv_header(path)
     layout, asked = arrow.ParseOptions(delimiter=between), set(wanted)
-    rows = arrow.ReadOptions(column_names=names, skip_rows=1)
+    rows = arrow.ReadOptions(column_names=names, skip_rows=1, block_size=BLOCK_BYTES)
     empty = [*arrow.ConvertOptions().null_values, " "]
     kept = {"include_columns": [name for name in names if name in asked], "null_values": empty}
     with arrow.open_csv(path, rows, layout, arrow.ConvertOptions(**kept)) as file:
         first = file.schema  # of the first block: what looks whole there, or empty, may be a fraction further down
     kinds = {f.name: pa.float64() for f in first if pa.types.is_integer(f.type) or pa.types.is_null(f.type)}
-    return _of_table(arrow.read_csv(path, rows, layout, arrow.ConvertOptions(**kept, column_types=kinds)))
+    with arrow.open_csv(path, rows, layout, arrow.ConvertOptions(**kept, column_types=kinds)) as file:
+        held = [k for k, kind in enumerate(file.schema.types) if _is_numeric(kind)]
+        # Whole columns of Arrow's own reader would take twice the memory.
+        blocks = [np.stack([_numbers(batch.column(k)) for k in held]) for batch in file if held]
+        return dict(zip((file.schema.names[k] for k in held), map(Column, np.concatenate(blocks, axis=1)), strict=True))
 
 
 def parquet_names(path: Path) -> list[str]:
@@ -55,32 +61,34 @@ def parquet_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
     """Read columns of a Parquet file."""
     import pyarrow.parquet as pq
 
-    return _of_table(pq.read_table(path, columns=list(wanted)))
+    table = pq.read_table(path, columns=list(wanted))
+    held = [name for name, kind in zip(table.schema.names, table.schema.types, strict=True) if _is_numeric(kind)]
+    return {name: Column(_numbers(table[name].combine_chunks())) for name in held}
 
 
-def _of_table(table: Any) -> dict[str, Column]:
-    """Return the columns of a table that hold numbers or points in time, which become seconds since the first."""
+def _is_numeric(kind: Any) -> bool:
+    """Return whether a column of this type of Arrow holds numbers, or points in time."""
+    from pyarrow import types
+
+    tests = types.is_floating, types.is_integer, types.is_boolean, types.is_timestamp
+    return any(test(kind) for test in tests)
+
+
+def _numbers(column: Any) -> NDArray[Any]:
+    """Return a column as floating numbers, NaN where it has none; points in time become seconds since 1970.
+
+    Arrow's own conversion would import pandas.
+    """
     import pyarrow as pa
     import pyarrow.compute as pc
 
-    found = dict[str, Column]()
-    for name, kind in zip(table.schema.names, table.schema.types, strict=True):
-        column = table[name]
-        if pa.types.is_timestamp(kind):
-            since = pc.subtract(pc.cast(column, pa.timestamp("ns", kind.tz)).cast(pa.int64()), column[0].value)
-            found[name] = Column(1e-9 * _numbers(since))
-        elif pa.types.is_floating(kind) or pa.types.is_integer(kind) or pa.types.is_boolean(kind):
-            found[name] = Column(_numbers(column))
-    return found
-
-
-def _numbers(column: Any) -> Array:
-    """Return a column of a table in float64, NaN where it has no number; Arrow's own way would import pandas."""
-    import pyarrow as pa
-    import pyarrow.compute as pc
-
-    whole = pc.cast(column, pa.float64()).combine_chunks()
-    return np.from_dlpack(whole.fill_null(np.nan) if whole.null_count else whole)
+    is_time = pa.types.is_timestamp(column.type)
+    if is_time:
+        column = pc.cast(column, pa.timestamp("ns", column.type.tz)).cast(pa.int64())
+    if column.type not in (pa.float32(), pa.float64()):
+        column = pc.cast(column, pa.float64(), safe=False)
+    values: NDArray[Any] = np.from_dlpack(column.fill_null(np.nan) if column.null_count else column)
+    return values * 1e-9 if is_time else values
 
 
 def hdf5_names(path: Path) -> list[str]:
@@ -114,5 +122,3 @@ def _hdf5_parts(path: Path) -> list[tuple[str, tuple[str, int]]]:
     with h5py.File(path, "r") as file:
         file.visititems(visit)
     return found
-
-

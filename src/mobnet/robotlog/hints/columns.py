@@ -12,8 +12,12 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Sensed
 from mobnet.settings.robotlog import RobotLog
 
+TURN = 2 * np.pi  # beyond which an angle of a joint may be in degrees
 FEW = 5  # of a list of joints that are named
 SAME = 1e-9  # difference of two columns that are the same, as a share of their size
+SLOWEST_S = 10.0  # between two samples of a log
+CLOCKS, RATES = {"ms": 1e-3, "us": 1e-6, "ns": 1e-9}, (20.0, 20_000.0)  # units of clocks, and usual rates [Hz]
+LOOKED = 1000  # samples of two columns that are compared first
 LEAST_CLIPPED = 20  # samples at a torque's largest value, below which nothing is said
 
 
@@ -27,14 +31,15 @@ def column_hints(sensed: Sensed, joints: Sequence[str], bounds: RobotLog) -> Ite
         still = ~changes[name] & others  # a joint that rests has nothing to change
         if still.any():
             yield f"{name} of {listed(joints, still)}: never changes, {values[0, still][0]:g} in all samples"
+        few = values[:: max(1, len(values) // LOOKED)]  # most pairs differ in any sample
         for i, j in combinations(np.flatnonzero(changes[name]).tolist(), 2):
-            if np.abs(values[:, i] - values[:, j]).max() <= SAME * np.abs(values[:, i]).max():
+            if _same(few, i, j) and _same(values, i, j):
                 yield f"{name} of {joints[i]} and {joints[j]}: the same numbers in both columns"
-    held = _held(signals["v"])
-    late = held > bounds.held
-    if late.any():
-        text = f"{held[late].max():.0%} of the samples repeat the one before"
-        yield f"v of {listed(joints, late)}: {text}: the signal is updated more slowly than the log is written"
+    for name in ("v", "tau_motor"):
+        held = held_share(signals[name])
+        late = (held > bounds.held) & changes[name]
+        if late.any():
+            yield f"{name} of {listed(joints, late)}: {_repeats(held[late].max())}"
     clipped = np.array([_clipped(column) for column in signals["tau_motor"].T])
     cut = clipped > bounds.clipped
     if cut.any():
@@ -43,6 +48,13 @@ def column_hints(sensed: Sensed, joints: Sequence[str], bounds: RobotLog) -> Ite
             f"tau_motor of {listed(joints, cut)}: {clipped[cut].max():.1%} of the samples stand at the largest value "
             f"({largest} N m): clipped by the log or the drive"
         )
+
+
+def base_column_hints(sensed: Sensed, bounds: RobotLog) -> Iterator[str]:
+    """Yield hints on the columns of a floating base that repeat the sample before."""
+    for name, values in (("omega", sensed.v[:, 3:6]), ("acc", sensed.acc_base_in_base), ("velocity", sensed.v[:, :3])):
+        if (share := float(held_share(values).max())) > bounds.held:
+            yield f"{name}: {_repeats(share)}"
 
 
 def limit_hints(sensed: Sensed, layout: JointLayout) -> Iterator[str]:
@@ -55,9 +67,18 @@ def limit_hints(sensed: Sensed, layout: JointLayout) -> Iterator[str]:
         far = own > most
         if far.any():
             k = int(np.argmax(own / most))
-            degrees = ": in degrees?" if signal == "q" and (np.radians(own[far]) <= most[far]).all() else ""
+            degrees = ": in degrees?" if signal == "q" and TURN < own[k] <= np.degrees(most[k]) else ""
             text = f"{joints[k]} reaches {own[k]:.4g} {rules[k].places[0][0]}, accepted are {most[k]:.4g}"
             yield f"{signal} of {listed(joints, far)}: beyond the robot's table: {text}{degrees}"
+
+
+def unit_hints(clocks: Mapping[str, Array]) -> Iterator[str]:
+    """Yield a hint if the clocks (T,) [s] of signals are of another unit; then no other hint means anything."""
+    for names, clock in _together(clocks):
+        median = float(np.median(np.diff(clock)))
+        if median > SLOWEST_S:
+            units = [unit for unit, size in CLOCKS.items() if RATES[0] <= 1 / (median * size) <= RATES[1]]
+            yield f"clock of {names}: {median:.3g} s between samples" + f": in {' or '.join(units)}?" * bool(units)
 
 
 def clock_hints(clocks: Mapping[str, Array], bounds: RobotLog) -> Iterator[str]:
@@ -80,7 +101,17 @@ def listed(joints: Sequence[str], which: NDArray[np.bool_]) -> str:
     return ", ".join(names[:FEW]) + (f" and {len(names) - FEW} more" if len(names) > FEW else "")
 
 
-def _held(speed: NDArray[np.floating]) -> NDArray[np.float64]:
+def _same(values: NDArray[np.floating], i: int, j: int) -> bool:
+    """Return whether two columns hold the same numbers."""
+    return bool(np.abs(values[:, i] - values[:, j]).max() <= SAME * np.abs(values[:, i]).max())
+
+
+def _repeats(share: float) -> str:
+    """Return what it means that a share of samples repeat the one before."""
+    return f"{share:.0%} of the samples repeat the one before: updated more slowly than the log is written, or coarse"
+
+
+def held_share(speed: NDArray[np.floating]) -> NDArray[np.float64]:
     """Return the share of samples that repeat the one before, where the joint moves (n,)."""
     same, moves = speed[1:] == speed[:-1], speed[1:] != 0.0
     return (same & moves).sum(axis=0) / np.maximum(moves.sum(axis=0), 1)

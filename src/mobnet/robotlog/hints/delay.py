@@ -10,6 +10,7 @@ from mobnet.core.recording import Sensed
 from mobnet.robot.dynamics import momentum_and_beta
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import feet_torque
+from mobnet.robotlog.hints.columns import held_share, listed
 from mobnet.settings.robotlog import RobotLog
 
 LEAST = 2  # samples below which a delay is none
@@ -17,6 +18,7 @@ STRETCH_S, STRETCHES = 2.0, 30  # of contiguous samples that are looked at, and 
 SMOOTH_S = 0.05  # mean over which the noise of velocities is small
 APART_S = 0.01  # between two rows that are looked at
 STEADY = 0.05  # speed [rad/s] at which dry friction has turned round
+MOVES_RAD_S = 0.05  # root mean square of a speed below which a joint tells nothing
 BETTER = 0.5  # share of the unexplained part that is left when the delay is undone
 
 
@@ -37,6 +39,36 @@ def delay_hints(
         fits = f"{left[best]:.1%} of it unexplained in place of {left[most]:.1%}"
         way = "late" if lag > 0 else "early"
         yield f"tau_motor: {abs(lag) / rate_hz * 1e3:.3g} ms {way} against the motion ({fits}); give it as delay_s"
+
+
+def speed_delay_hints(
+    q: Array, v: Array, spans: Sequence[slice], rate_hz: float, joints: Sequence[str], bounds: RobotLog
+) -> Iterator[str]:
+    """Yield a hint if velocities (T, n) [rad/s] fit the changes of positions (T, n) [rad] better when moved in time."""
+    most, smooth = round(bounds.delay_s * rate_hz), max(1, round(SMOOTH_S * rate_hz))
+    kept = stretches(spans, round(STRETCH_S * rate_hz) + 2 * most + smooth)
+    moves = ~np.any(held_share(v)[None] > bounds.held, axis=0)
+    if most < LEAST or not kept or not moves.any():
+        return
+    lags = np.arange(-most, most + 1)
+    left, size = np.zeros((len(lags), len(joints))), np.zeros(len(joints))
+    for rows in kept:
+        turned = (q[rows][smooth:] - q[rows][:-smooth]) * (rate_hz / smooth)
+        mean = _means((v[rows][1:] + v[rows][:-1]) / 2, smooth)
+        middle = np.arange(most, len(turned) - most, max(1, round(APART_S * rate_hz)))
+        left += np.square(turned[middle] - mean[middle + lags[:, None]]).sum(axis=1)
+        size += np.square(turned[middle]).sum(axis=0)
+    moves &= size > MOVES_RAD_S**2 * len(kept) * STRETCH_S / APART_S
+    shares = left[:, moves] / size[moves]
+    best = np.argmin(shares, axis=0)
+    late = (np.abs(lags[best]) >= LEAST) & (np.abs(lags[best]) < most)
+    late &= shares[best, np.arange(len(best))] < BETTER * shares[most]
+    if late.any():
+        which = np.zeros(len(joints), dtype=bool)
+        which[np.flatnonzero(moves)[late]] = True
+        lag = float(np.median(lags[best][late])) / rate_hz
+        way = "late" if lag > 0 else "early"
+        yield f"v of {listed(joints, which)}: {abs(lag) * 1e3:.3g} ms {way} against q; give it as delay_s"
 
 
 def stretches(spans: Sequence[slice], rows: int) -> list[slice]:

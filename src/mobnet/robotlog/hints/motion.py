@@ -6,10 +6,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
+from mobnet.core.contract import BEYOND_SPEED
+from mobnet.core.joints import JointLayout
+from mobnet.robotlog.hints.columns import listed
 from mobnet.settings.robotlog import RobotLog
 
 MOVES_RAD = 0.005  # mean turn in a window below which a joint tells nothing
 ALIKE = 0.95  # correlation above which a column is what another one should be
+LOOKED = 100_000  # samples of which the usual step is taken
+JUMP = 20.0  # times the usual step of a position that is a jump
+WRAPPED = 0.1  # share of a full turn within which a jump is one
 FACTORS = {  # of the change of q over the integral of v -> what it means
     180 / np.pi: "q in degrees, or v in 57.3 rad/s",
     np.pi / 180: "v in deg/s",
@@ -17,6 +23,7 @@ FACTORS = {  # of the change of q over the integral of v -> what it means
     -1.0: "one of them has the wrong sign",
     1e3: "q in mrad",
     1e-3: "the clock in ms, or v in mrad/s",
+    1e-6: "the clock in us",
 }
 
 
@@ -29,13 +36,16 @@ def motion_hints(
     moves = size > MOVES_RAD
     match = _correlation(change, integral)
     slope = (change * integral).sum(axis=0) / np.maximum(np.square(integral).sum(axis=0), np.finfo(float).tiny)
+    if moves.any() and _are_exchanged(change, integral, turns(v, q, spans, rate_hz, bounds.window_s), moves, bounds):
+        yield f"q and v of {listed(joints, moves)}: v changes by the integral of q, and not q by that of v: exchanged"
+        return
     told: dict[str, list[str]] = {}
     for k in np.flatnonzero(moves).tolist():
         twin = int(np.argmax(np.abs(match[k])))
         if abs(match[k, k]) < ALIKE < abs(match[k, twin]) and moves[twin]:
             text = f"follows v of {joints[twin]} and not its own v: exchanged"
         elif abs(match[k, k]) >= ALIKE and not 1 - bounds.factor < slope[k] < 1 + bounds.factor:
-            text = f"changes by {slope[k]:.3g} times the integral of v{_meaning(slope[k], bounds)}"
+            text = f"changes by {slope[k]:.3g} times the integral of v{_meaning(slope[k], rate_hz, bounds)}"
         else:
             continue
         told.setdefault(text, []).append(joints[k])
@@ -57,10 +67,37 @@ def turns(q: Array, v: Array, spans: Sequence[slice], rate_hz: float, window_s: 
     return np.concatenate(change), np.concatenate(integral)
 
 
-def _meaning(slope: float, bounds: RobotLog) -> str:
+def jump_hints(q: Array, spans: Sequence[slice], rate_hz: float, layout: JointLayout) -> Iterator[str]:
+    """Yield hints on positions of joints (T, nu) [rad] that jump from one sample to the next within a span."""
+    steps = np.concatenate([np.abs(np.diff(q[span], axis=0)) for span in spans])
+    usual = np.quantile(steps[:: max(1, len(steps) // LOOKED)], 0.99, axis=0)
+    speeds = np.array([layout.limits[joint].speed for joint in layout.actuated])
+    far = steps > np.maximum(JUMP * usual, BEYOND_SPEED * speeds / rate_hz)
+    for k in np.flatnonzero(far.any(axis=0)).tolist():
+        largest = float(steps[far[:, k], k].max())
+        turn = ": wrapped at a full turn" if abs(largest / (2 * np.pi) - 1) < WRAPPED else ": samples are lost or wrong"
+        count = int(far[:, k].sum())
+        times = f"{count} time{'s' * (count > 1)}"
+        yield f"q of {layout.actuated[k]}: jumps {times}, by up to {largest:.3g} rad from one sample to the next{turn}"
+
+
+def _are_exchanged(
+    change: Array, integral: Array, other: tuple[Array, Array], moves: NDArray[np.bool_], bounds: RobotLog
+) -> bool:
+    """Return whether all joints that move follow the other signal, whose changes and integrals (W, nu) are `other`."""
+
+    def fits(change: Array, integral: Array) -> NDArray[np.bool_]:
+        slope = (change * integral).sum(axis=0) / np.maximum(np.square(integral).sum(axis=0), np.finfo(float).tiny)
+        return (np.diag(_correlation(change, integral)) >= ALIKE) & (np.abs(slope - 1) < bounds.factor)
+
+    return bool((fits(*other)[moves] & ~fits(change, integral)[moves]).all())
+
+
+def _meaning(slope: float, rate_hz: float, bounds: RobotLog) -> str:
     """Return what a factor may mean, if it is a known one."""
-    texts = [text for factor, text in FACTORS.items() if abs(slope / factor - 1) < bounds.factor]
-    return f": {texts[0]}" if texts else ""
+    known = [*FACTORS.items(), (rate_hz, "v in rad from one sample to the next")]
+    texts = [text for factor, text in known if abs(slope / factor - 1) < bounds.factor]
+    return f": {', or '.join(texts)}" if texts else ""
 
 
 def _correlation(one: NDArray[np.floating], other: NDArray[np.floating]) -> Array:

@@ -1,0 +1,239 @@
+"""Messages of bags: topics at other rates and with other clocks, joints by name, kinds of messages of one's own."""
+
+import numpy as np
+import pytest
+from made_logs import IMU, JOINTS, TOPIC, WRENCH, Sample, bag1, bag2, states
+
+from mobnet.core.errors import DataError
+from mobnet.robotlog.formats import column_names, read_log
+from mobnet.robotlog.observe import converted_log, observe_log
+from mobnet.settings.robotlog import LogMap
+
+ROWS = 2000
+OWN = """std_msgs/Header header
+uint32 tick
+my_robot/Motor[] motors
+================================================================================
+MSG: my_robot/Motor
+float64 q
+float64 dq
+float64 tau_est
+"""
+STATE = "my_robot/msg/State"
+OWN_FIELDS = {"q": "q", "v": "dq", "tau_motor": "tau_est"}
+OWN_MAP = {name: {"columns": [f"/low.motors.*.{field}"]} for name, field in OWN_FIELDS.items()}
+APART_MAP = {
+    "q": {"columns": ["/motion.position"]},
+    "v": {"columns": ["/motion.velocity"]},
+    "tau_motor": {"columns": ["/torque.effort"]},
+}
+JOINT_MAP = {name: {"columns": [f"{TOPIC}.{field}"]} for name, field in (("q", "position"), ("v", "velocity"))}
+FEET = ("left_foot", "right_foot")
+EPOCH_NS = 1_764_000_000_000_000_000  # a day of 2025
+
+
+@pytest.fixture(scope="module")
+def read(arm, settings):
+    """Return a function that makes a recording of a log of the arm."""
+
+    def convert(path, mapping=None):
+        meaning = None if mapping is None else LogMap.model_validate(mapping)
+        return converted_log(path, arm.layout, meaning, settings.robotlog)
+
+    return convert
+
+
+def apart(samples, topic, fields):
+    """Return messages with some of the fields alone, as a topic of their own."""
+    return [
+        one._replace(topic=topic, fields={"name": one.fields["name"], **{f: one.fields[f] for f in fields}})
+        for one in samples
+    ]
+
+
+@pytest.mark.parametrize("write", [bag1, bag2])
+def test_joints_are_found_by_name_in_any_order_that_may_change(write, clean, read, tmp_path):
+    table = clean[:ROWS]
+    turned = [
+        one if k % 3 else other
+        for k, (one, other) in enumerate(zip(states(table), states(table, JOINTS[::-1]), strict=True))
+    ]
+    sensed = read(write(turned, tmp_path / ("log.bag" if write is bag1 else "log"))).recording.sensed
+    for k, joint in enumerate(JOINTS):
+        np.testing.assert_allclose(sensed.q[:, k], table[f"q.{joint}"], atol=1e-12)
+        np.testing.assert_allclose(sensed.tau_motor[:, k], table[f"tau_motor.{joint}"], atol=1e-12)
+
+
+def test_joints_of_other_names_stand_in_the_map_in_the_order_of_the_table(clean, read, tmp_path):
+    samples = [one._replace(fields={**one.fields, "name": ["shoulder", "elbow"]}) for one in states(clean[:100])]
+    path = bag2(samples, tmp_path / "bag")
+    names = {"tau_motor": {"columns": [f"{TOPIC}.effort"]}, **JOINT_MAP, "joints": ["elbow", "shoulder"]}
+    np.testing.assert_allclose(read(path, names).recording.sensed.q[:, 0], clean["q.J2"][:100], atol=1e-12)
+    with pytest.raises(
+        DataError, match=r"column: '/joint_states\.position' .*: /joint_states\.position\.elbow, .* others"
+    ):
+        read(path, names | {"joints": None})
+
+
+def test_two_publishers_of_one_topic_are_joined_by_the_names_of_joints(clean, read, tmp_path):
+    """Each arm, say, publishes its own joints in turn."""
+    both = [
+        one._replace(
+            recorded_ns=one.recorded_ns + 250_000 * k, stamp_ns=one.stamp_ns,
+            fields={key: [values[k]] for key, values in one.fields.items()},
+        )
+        for one in states(clean[:ROWS])
+        for k in (0, 1)
+    ]  # fmt: skip
+    found = read(bag2(both, tmp_path / "bag")).recording
+    np.testing.assert_allclose(found.sensed.v[:, 1], clean["v.J2"][:ROWS], atol=1e-9)
+
+
+@pytest.mark.parametrize("storage", ["SQLITE3", "MCAP"])
+def test_topics_at_other_rates_come_to_one_clock(storage, clean, read, tmp_path):
+    """Torques are published at a fifth of the rate, beginning later; in between they are interpolated."""
+    samples = states(clean[:ROWS])
+    motion, effort = apart(samples, "/motion", ("position", "velocity")), apart(samples[3::5], "/torque", ("effort",))
+    path = bag2([*motion, *effort], tmp_path / "bag", storage)
+    found = read(path, APART_MAP)
+    assert found.interpolated
+    assert found.recording.rate_hz == 1000.0
+    assert {len(clock) for clock in found.clocks.values()} == {ROWS, ROWS // 5}
+    sensed, first = found.recording.sensed, 3
+    np.testing.assert_allclose(sensed.q[:, 0], clean["q.J1"][first : first + len(sensed)], atol=1e-6)
+    np.testing.assert_allclose(
+        sensed.tau_motor[::5, 1], clean["tau_motor.J2"][first : first + len(sensed) : 5], atol=1e-6
+    )
+
+
+def test_stamps_and_times_of_recording_are_told_apart(clean, read, tmp_path):
+    """What is recorded comes late and with jitter, and the map says which clock counts."""
+    jitter = np.random.default_rng(0).integers(0, 700_000, ROWS).tolist()
+    late = [
+        one._replace(recorded_ns=one.recorded_ns + add) for one, add in zip(states(clean[:ROWS]), jitter, strict=True)
+    ]
+    path = bag2(late, tmp_path / "bag")
+    stamped = read(path)
+    assert (stamped.interpolated, stamped.hints) == (False, ())
+    columns = {"tau_motor": {"columns": [f"{TOPIC}.effort"]}, **JOINT_MAP}
+    assert read(path, {**columns, "clock": {"stamp": "recorded"}}).interpolated
+
+
+def test_zero_stamps_are_named_and_not_used(clean, read, tmp_path):
+    found = read(bag2(states(clean[:ROWS], stamp=lambda ns: 0), tmp_path / "bag"))
+    assert found.hints == (f"stamps of {TOPIC}: zero; the times of recording are taken instead",)
+    assert found.recording.rate_hz == 1000.0
+
+
+def test_clocks_that_are_apart_or_drift_are_named(clean, read, tmp_path):
+    """The torques' computer is 0.35 s behind; that of the motion runs away by a hundredth."""
+    samples = states(clean[:ROWS])
+    motion = apart(samples, "/motion", ("position", "velocity"))
+    effort = [
+        one._replace(stamp_ns=max(one.stamp_ns - 350_000_000, 1)) for one in apart(samples, "/torque", ("effort",))
+    ]
+    path = bag2([*motion, *effort[400:]], tmp_path / "bag")
+    (hint,) = read(path, APART_MAP).hints
+    assert hint.startswith("stamps of /torque: 0.35 s before the recording, those of /motion 3.7e-08 s: another clock")
+    found = read(path, APART_MAP | {"clock": {"stamp": "recorded"}})
+    assert found.hints == ()
+    np.testing.assert_allclose(found.recording.sensed.tau_motor[:, 0], clean["tau_motor.J1"][400:ROWS], atol=1e-4)
+    fast = [one._replace(stamp_ns=one.stamp_ns + (one.stamp_ns // 50)) for one in samples]
+    (hint,) = read(bag2(fast, tmp_path / "fast")).hints
+    assert "against the recording they drift by -0.03" in hint
+
+
+def test_clocks_that_never_meet_are_one_line(clean, read, tmp_path):
+    """Headers of one topic count from the start of a computer, those of the other since 1970."""
+    samples = states(clean[:100])
+    motion = [
+        one._replace(stamp_ns=one.stamp_ns + EPOCH_NS) for one in apart(samples, "/motion", ("position", "velocity"))
+    ]
+    path = bag2([*motion, *apart(samples, "/torque", ("effort",))], tmp_path / "bag")
+    with pytest.raises(
+        DataError, match=r"clock: q begins at .* s and tau_motor ends at .*`clock: \{stamp: recorded\}`$"
+    ):
+        read(path, APART_MAP)
+
+
+def test_messages_out_of_order_and_twice_are_put_in_order(clean, read, tmp_path):
+    samples = states(clean[:ROWS])
+    samples[10], samples[11] = (
+        samples[k]._replace(recorded_ns=samples[j].recorded_ns) for k, j in ((11, 10), (10, 11))
+    )
+    found = read(bag2([*samples, samples[50]._replace(recorded_ns=samples[50].recorded_ns + 1)], tmp_path / "bag"))
+    assert found.hints == (f"stamps of {TOPIC}: 2 of {ROWS + 1} are not after the one before",)
+    np.testing.assert_allclose(found.recording.sensed.q[:, 0], clean["q.J1"][:ROWS], atol=1e-12)
+
+
+@pytest.mark.parametrize("storage", ["SQLITE3", "MCAP"])
+def test_kinds_of_messages_of_ones_own_are_read_by_their_definition_in_the_bag(storage, clean, arm, settings, tmp_path):
+    samples = [
+        one._replace(
+            topic="/low", kind=STATE,
+            fields={"tick": k, "motors": [
+                dict(zip(("q", "dq", "tau_est"), values, strict=True))
+                for values in zip(*(one.fields[field] for field in ("position", "velocity", "effort")), strict=True)
+            ]},
+        )
+        for k, one in enumerate(states(clean[:ROWS]))
+    ]  # fmt: skip
+    path = bag2(samples, tmp_path / "bag", storage, [(STATE, OWN)])
+    assert "/low.motors.1.tau_est" in column_names(path)
+    found = observe_log(path, arm, LogMap.model_validate(OWN_MAP), None, 100.0, 9.81, settings.robotlog)
+    np.testing.assert_allclose(found.converted.recording.sensed.v[:, 1], clean["v.J2"][:ROWS], atol=1e-12)
+
+
+def test_a_message_that_lacks_a_field_is_one_line(tmp_path):
+    samples = [Sample("/low", STATE, k, k, {"motors": [{"q": 1.0}] * (2 - k // 5)}) for k in range(1, 8)]
+    path = bag2(samples, tmp_path / "bag", definitions=[(STATE, OWN)])
+    with pytest.raises(DataError, match=r"/low\.motors\.1\.q: message 5: .* one with /low\.motors\.1\.q, as one"):
+        read_log(path, ["/low.motors.1.q"])
+
+
+def test_a_humanoids_topics_become_the_signals_of_its_base_and_feet(layout, settings, tmp_path):
+    """A base yawed by 90 degrees, with an IMU at 200 Hz; axes are taken by their names, whatever the map's order."""
+    half, names, samples = np.sqrt(0.5), list(reversed(layout.actuated)), []
+    wrench = {"force": {"x": 1.0, "y": 2.0, "z": 3.0}, "torque": {"x": 4.0, "y": 5.0, "z": 6.0}}
+    for k in range(400):
+        ns = k * 1_000_000
+        numbers = [layout.actuated.index(name) + 1e-3 * k for name in names]
+        fields = {"name": names, "position": numbers, "velocity": [1.0] * len(names), "effort": numbers}
+        samples.append(Sample(TOPIC, "sensor_msgs/msg/JointState", ns, ns, fields))
+        samples += [Sample(f"/{foot}", WRENCH, ns, ns, {"wrench": wrench}) for foot in FEET]
+        if k % 5 == 0:
+            imu = {
+                "orientation": {"w": half, "x": 0.0, "y": 0.0, "z": half}, "angular_velocity": {"z": 0.5},
+                "linear_acceleration": {"x": 0.0, "z": 9.80665},
+            }  # fmt: skip
+            samples.append(Sample("/imu", IMU, ns, ns, imu))
+            samples.append(
+                Sample("/odom", "nav_msgs/msg/Odometry", ns, ns, {"twist": {"twist": {"linear": {"x": 1.0}}}})
+            )
+    mapping = {
+        **JOINT_MAP, "tau_motor": {"columns": [f"{TOPIC}.effort"]},
+        "quaternion": {"columns": ["/imu.orientation"], "order": "xyzw"},
+        "omega": {"columns": ["/imu.angular_velocity"]},
+        "acc": {"columns": ["/imu.linear_acceleration"]},
+        "velocity": {"columns": ["/odom.twist.twist.linear"], "frame": "base"},
+        **{foot: {"columns": [f"/{foot}.wrench"]} for foot in FEET},
+    }  # fmt: skip
+    path = bag2(samples, tmp_path / "bag")
+    found = converted_log(path, layout, LogMap.model_validate(mapping), settings.robotlog)
+    sensed = found.recording.sensed
+    np.testing.assert_allclose(sensed.q[7, 7:], np.arange(layout.nu) + 7e-3, atol=1e-9)
+    np.testing.assert_allclose(sensed.q[:, 3:7], np.tile([half, 0, 0, half], (len(sensed), 1)), atol=1e-12)
+    np.testing.assert_allclose(sensed.v[3, :6], [0.0, 1.0, 0.0, 0.0, 0.0, 0.5], atol=1e-12)
+    np.testing.assert_allclose(sensed.acc_base_in_base[0], [0.0, 0.0, 9.80665])
+    np.testing.assert_allclose(found.wrenches["left"][0], [1, 2, 3, 4, 5, 6])
+
+
+def test_a_wrong_name_is_one_line_with_the_names_that_are_like_it(clean, read, tmp_path):
+    path = bag2(states(clean[:10]), tmp_path / "bag")
+    wrong = {**JOINT_MAP, "tau_motor": {"columns": ["/joint_state.effort.J1", "/joint_states.effort.J2"]}}
+    with pytest.raises(
+        DataError, match=r"bag: column: '/joint_state\.effort\.J1' is not accepted; accepted: /joint_states\.effort\.J1"
+    ):
+        read(path, wrong)
+    with pytest.raises(DataError, match=r"tau_motor\.sign: number: 3 is not accepted; accepted: 1, 2"):
+        read(path, {**JOINT_MAP, "tau_motor": {"columns": [f"{TOPIC}.effort"], "sign": [1, 1, 1]}})
