@@ -2,8 +2,8 @@
 
     python tests/data/readings.py g1_29dof_rev_1_0.urdf tests/data/g1.npz --floating
 
-The file is read without the code of this project: its shapes are left out because they need meshes, a free joint is added for
-a floating base, and what slides stands at zero. MuJoCo then computes everything from the links of the file.
+The file is read without the code of this project: its shapes are left out because they need meshes, a free joint is
+added for a floating base, and what slides stands at zero. MuJoCo then computes everything from the links of the file.
 """
 
 import argparse
@@ -62,4 +62,4 @@ if __name__ == "__main__":
     parser.add_argument("out", type=Path)
     parser.add_argument("--floating", action="store_true")
     words = parser.parse_args()
-    np.savez_compressed(words.out, **readings(compiled(words.file, words.floating)))
+    np.savez_compressed(words.out, allow_pickle=False, **readings(compiled(words.file, words.floating)))

@@ -1,7 +1,7 @@
 """The tables of configs/robots that are made from files of others: equal to MuJoCo's own reading of these files.
 
-`tests/data/NAME.npz` has that reading, made by `tests/data/readings.py` from the URDF that the head of the table names; neither
-the package with the URDF nor the import is needed here.
+`tests/data/NAME.npz` has that reading, made by `tests/data/readings.py` from the URDF that the head of the table names;
+neither the package with the URDF nor the import is needed here.
 """
 
 from dataclasses import replace
@@ -73,7 +73,6 @@ def test_why_a_robot_does_not_walk_is_one_line(name, lacks):
         for_walking(robot)
     assert "\n" not in str(told.value)
     assert all(part in str(told.value) for part in lacks)
-    assert str(told.value).count(", ") < 20
 
 
 def test_limbs_and_networks_cover_every_motor_once(imported):

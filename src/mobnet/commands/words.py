@@ -11,6 +11,7 @@ from mobnet.core.errors import CommandError, not_accepted
 from mobnet.detection.words import calibrate_parser
 from mobnet.plan.places import scale_of
 from mobnet.robot.import_words import import_parser
+from mobnet.robotlog.motion_words import motion_parser
 from mobnet.robotlog.words import observe_parser
 
 COMMANDS = {
@@ -20,6 +21,7 @@ COMMANDS = {
     "verify": "check every result file against results/MANIFEST.sha256, or --manifest FILE",
     "check": "check recordings, weights and configurations from outside: ./reproduce check FILE...",
     "robot": "make a robot's table from its URDF or MJCF file; --help says how",
+    "motion": "simulate the log of a robot of a table that moves without walking; --help says how",
     "observe": "make the residual of a robot's own log, and say what looks wrong with it; --help says how",
     "calibrate": "print thresholds of collision detection for a wanted rate of false alarms; --help says how",
     "tuning": "train what configs/trials.yaml lists, write results/default/trials/tuning.md; no part of all",
@@ -47,6 +49,7 @@ TARGETS = {"all": "all", "report": "all", **{name: name for name in APART}}  # c
 HELP = {"-h", "--help"}
 PARSERS = {
     "calibrate": calibrate_parser,
+    "motion": motion_parser,
     "observe": observe_parser,
     "robot": import_parser,
 }  # of commands whose module has words of its own
