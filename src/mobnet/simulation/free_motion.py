@@ -1,8 +1,8 @@
 """A smooth random motion of all joints of any robot, within its ranges, speeds and torques and without self-collision.
 
-Joints follow a uniform cubic B-spline: positions, velocities and accelerations are continuous, the curve stays within the
-bounds of its points, and its speed within that of the steps between them. Each point is drawn near the one before it
-and kept if the curve meets what is asked up to there, and also if it stopped there: so there is always a way on.
+Joints follow a uniform cubic B-spline: positions, velocities and accelerations are continuous, the curve stays within
+the bounds of its points, and its speed within that of the steps between them. Each point is drawn near the one before
+it and kept if the curve meets what is asked up to there, and also if it stopped there: so there is always a way on.
 """
 
 from collections.abc import Sequence
@@ -38,7 +38,7 @@ class TableModel:
         self.nu = robot.layout.nu
 
     def torque(self, q: Array, v: Array, acceleration: Array) -> Array:
-        """Return the motors' torques (nu,) [N m] at q (nq,), v (nv,) for accelerations of the joints (nu,) [rad/s^2]."""
+        """Return the motors' torques (nu,) [N m] at q (nq,), v (nv,) for the joints' accelerations (nu,) [rad/s^2]."""
         data = self.data
         data.qpos[:], data.qvel[:] = q, v
         data.qacc[-self.nu :] = acceleration
@@ -62,16 +62,16 @@ def plan_motion(
     def fault(stretch: Sequence[Array]) -> str | None:
         return _fault(stretch, robot, settings, table, clearance)
 
+    def leads_on(new: Array) -> bool:
+        with_stop = [*points[-DEGREE:], new, new, new]
+        return not any(fault(with_stop[k : k + DEGREE + 1]) for k in range(DEGREE))
+
     if (found := fault([*points, points[-1]])) is not None:
         raise SimulationError(f"motion of {robot.name}: its posture is not accepted as a start: {found}")
     for _ in range(int(np.ceil(seconds / settings.knot_s)) + 1):
-        for reach in REACHES:  # the last one is a stop, which every point before it allows
-            here = points[-1]
-            new = rng.uniform(np.maximum(low, here - reach * step), np.minimum(high, here + reach * step))
-            with_stop = [*points[-DEGREE:], new, new, new]
-            if not any(fault(with_stop[k : k + DEGREE + 1]) for k in range(DEGREE)):
-                break
-        points.append(new)
+        ends = (np.maximum(low, points[-1] - step), np.minimum(high, points[-1] + step))
+        drawn = (points[-1] + reach * (rng.uniform(*ends) - points[-1]) for reach in REACHES)
+        points.append(next(new for new in drawn if leads_on(new)))  # the last one is a stop, which is always accepted
     return curve(points, settings.knot_s)
 
 

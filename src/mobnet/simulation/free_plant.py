@@ -1,4 +1,4 @@
-"""The plant of any robot that moves without walking: what its table does not tell, what holds it, and what pushes it."""
+"""The plant of a robot that moves without walking: what its table does not tell, what holds it, and what pushes it."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -19,7 +19,7 @@ NO_LOAD = 1e-9  # share of its torque that a force of 1 N takes of a joint, belo
 
 
 class JointFriction(NamedTuple):
-    """Friction of all joints: dry and viscous (nu,) [N m], [N m s/rad], shares and speeds [rad/s] as in HiddenJoints."""
+    """Friction of joints: dry and viscous (nu,) [N m], [N m s/rad], shares and speeds [rad/s] as in HiddenJoints."""
 
     dry: Array
     viscous: Array
@@ -115,11 +115,7 @@ def draw_pushes(
 
 
 class Pushing:
-    """Pushes one after another, each of the size that its share of the joints' torques asks for where it begins.
-
-    Attributes:
-        acts: whether one acted when it was last asked for its torque.
-    """
+    """Pushes one after another, each of the size that its share of the joints' torques asks for where it begins."""
 
     def __init__(self, pushes: Sequence[Push], limits: Array, settings: LinkPushes) -> None:
         """Take pushes in the order of their times, and the largest torques of the joints (nu,) [N m]."""

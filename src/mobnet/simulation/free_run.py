@@ -102,7 +102,7 @@ class Run:
                 self.tau[k], before = (before + torque) / 2, torque
                 held, pushed = self.step(torque, pushes)
                 if k + 1 < samples:
-                    self.ext[k + 1], self.push[k + 1], self.pushed[k + 1] = held + pushed, pushed, pushes.acts
+                    self.ext[k + 1], self.push[k + 1], self.pushed[k + 1] = held + pushed, pushed, pushed.any()
 
     def control(self, q: Array, v: Array, acceleration: Array) -> Array:
         """Return the motors' torques (nu,) [N m] that follow a motion (nu,) by the model of the table."""
