@@ -17,7 +17,7 @@ def motion_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--pushes",
         action="store_true",
-        help="forces on its links, short and long; the log then has the truth, tau_ext; that of a floating base always has",
+        help="forces on its links; the log then has tau_ext, the truth, as that of a floating base always has",
     )
     parser.add_argument(
         "--ideal", action="store_true", help="without friction, errors of masses and motors, and noise of sensors"
