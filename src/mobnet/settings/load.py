@@ -37,7 +37,8 @@ PARTS: Mapping[str, tuple[str, ...]] = {  # file -> the sections that stand in i
     "trials": ("development", "trials"),
     "detection": ("detection",),
     "reaction": ("reaction",),
-    "robotlog": ("robotlog", "free_motion"),
+    "robotlog": ("robotlog",),
+    "motion": ("free_motion",),
     "evaluation": ("evaluation",),
     "scales": ("scales",),
 }  # fmt: skip
