@@ -5,7 +5,7 @@ import pytest
 
 from mobnet.core.errors import ConfigError
 from mobnet.core.joints import N_VIRTUAL, NQ_BASE
-from mobnet.core.recording import read_sensed, write_recording
+from mobnet.core.recording import Sensed, read_sensed, write_recording
 from mobnet.core.store import read_array
 from mobnet.learning.features import limb_inputs, signal_names, signals
 from mobnet.robot.frames import rotation
@@ -59,6 +59,18 @@ def test_a_sample_gives_its_row_of_the_recording(made_up, layout):
     assert whole.dtype == np.float32
     assert whole.shape == (len(sensed), len(signal_names(layout)))
     np.testing.assert_array_equal(signals(sensed[7]), whole[7])
+
+
+def test_a_fixed_base_has_joints_alone(arm):
+    rng = np.random.default_rng(0)
+    q, v, tau, none = *rng.normal(size=(3, 5, 2)), np.zeros((5, 0))
+    sensed = Sensed(q, v, none, tau, tau, none, none, none)
+    inputs = limb_inputs(arm.layout, Limb(joints=("A",), Q=("A",), T=("A",)))
+    assert inputs.names == signal_names(arm.layout) == inputs.recorded
+    whole = np.float32(np.concatenate([q, v, tau], axis=1))
+    np.testing.assert_array_equal(inputs(sensed), whole)
+    np.testing.assert_array_equal(inputs.from_recorded(whole), whole)
+    np.testing.assert_array_equal(signals(sensed[3]), whole[3])
 
 
 @pytest.mark.parametrize("limb", ["V", "tail"])

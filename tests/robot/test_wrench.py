@@ -6,8 +6,10 @@ import pytest
 
 from mobnet.core.errors import ConfigError
 from mobnet.robot.description import SIDES
-from mobnet.robot.plant import sole_name
-from mobnet.robot.wrench import feet_torque
+from mobnet.robot.frames import rotation
+from mobnet.robot.nominal import NominalModel
+from mobnet.robot.plant import robot_spec, sole_name
+from mobnet.robot.wrench import feet_torque, point_torque
 
 WRENCH = np.array([10.0, -20.0, 300.0, 4.0, -5.0, 6.0])
 
@@ -25,6 +27,25 @@ def test_torque_of_a_foot_equals_the_plant_s(nominal, plant, random_state, side)
     np.testing.assert_allclose(feet_torque(nominal, q, {side: WRENCH}), expected, atol=1e-9)
     with pytest.raises(ConfigError, match="'tail' is not accepted; accepted: left, right"):
         feet_torque(nominal, q, {"tail": WRENCH})
+
+
+@pytest.mark.parametrize("body", ["base_link", "L_Knee_Link", "R_Wrist2_Link", "upper", "lower", "wall"])
+def test_torque_of_a_point_of_any_body_equals_the_plant_s(nominal, plant, random_state, arm, body):
+    is_arm = body in [row.name for row in arm.bodies]
+    model, place = (robot_spec(arm).compile() if is_arm else plant), np.array([0.02, -0.1, 0.2])
+    known, q = (NominalModel(arm), np.array([0.3, -0.8])) if is_arm else (nominal, random_state(1)[0])
+    axes = rotation(np.array([0.5, 0.5, -0.1, np.sqrt(0.49)]))  # of a sensor, in the body
+    data, expected = mujoco.MjData(model), np.zeros(model.nv)
+    data.qpos[:] = q
+    mujoco.mj_forward(model, data)
+    held = data.body(body)
+    frame = held.xmat.reshape(3, 3)
+    load, point = frame @ axes @ WRENCH.reshape(2, 3).T, held.xpos + frame @ place
+    mujoco.mj_applyFT(model, data, load[:, 0], load[:, 1], point, model.body(body).id, expected)
+    found = point_torque(known, body, place, axes, q[None], WRENCH[None])
+    np.testing.assert_allclose(found[0], expected, atol=1e-9)
+    with pytest.raises(ConfigError, match="body: 'tail' is not accepted; accepted: "):
+        point_torque(known, "tail", place, axes, q[None], WRENCH[None])
 
 
 def test_sum_over_feet_keeps_each_leg_to_itself(nominal, random_state):

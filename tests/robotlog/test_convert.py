@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import ConfigError, DataError
-from mobnet.robotlog.convert import convert, default_map
-from mobnet.robotlog.formats import Column, read_log
+from mobnet.robotlog.columns import Column
+from mobnet.robotlog.convert import convert
+from mobnet.robotlog.formats import read_log
+from mobnet.robotlog.meaning import default_map
 from mobnet.settings.robotlog import LogMap
 
 RATE_HZ, ROWS = 500.0, 400

@@ -1,41 +1,132 @@
 """One recording in every format gives one residual."""
 
+import importlib
+
 import numpy as np
 import pytest
+from made_logs import (
+    JOINTS,
+    SIGNALS,
+    TOPIC,
+    as_bag1,
+    as_bag2,
+    as_bag2_mcap,
+    as_csv,
+    as_hdf5,
+    as_json_mcap,
+    as_mcap,
+    as_parquet,
+)
 
 from mobnet.core.errors import DataError
-from mobnet.robotlog.formats import read_log
+from mobnet.robotlog.formats import column_names, read_log
 from mobnet.robotlog.observe import observe_log
 from mobnet.settings.robotlog import LogMap
 
 ROWS = 1500
-MAP = LogMap.model_validate({name: {"columns": (f"{name}.J1", f"{name}.J2")} for name in ("q", "v", "tau_motor")})
+PLAIN = {name: [f"{name}.{joint}" for joint in JOINTS] for name in SIGNALS}
+HDF5 = {"clock": {"column": "clock/t"}, **{name: {"columns": [f"arm/{name}"]} for name in PLAIN}}
+FORMATS = {  # and their maps; None: columns have the names that need no map
+    as_csv: None,
+    as_parquet: None,
+    as_hdf5: HDF5,
+    as_mcap: None,
+    as_json_mcap: None,
+    as_bag1: None,
+    as_bag2: None,
+    as_bag2_mcap: None,
+}
 
 
-def test_csv_and_parquet_give_the_same_residual(clean, arm, settings, tmp_path):
-    paths = tmp_path / "log.csv", tmp_path / "log.parquet"
-    clean[:ROWS].to_csv(paths[0], index=False)
-    clean[:ROWS].to_parquet(paths[1])
-    found = [observe_log(path, arm, MAP, None, 100.0, 9.81, settings.robotlog) for path in paths]
-    assert not any(one.converted.interpolated for one in found)
-    np.testing.assert_allclose(found[0].residual, found[1].residual, atol=1e-6)
+@pytest.fixture(scope="module")
+def observed(arm, settings):
+    """Return a function that observes a log."""
+
+    def observe(path, mapping=None):
+        meaning = None if mapping is None else LogMap.model_validate(mapping)
+        return observe_log(path, arm, meaning, None, 100.0, 9.81, settings.robotlog)
+
+    return observe
 
 
-def test_texts_are_left_out(clean, tmp_path):
-    clean[:10].assign(note="x").to_csv(tmp_path / "log.csv", index=False)
-    assert set(read_log(tmp_path / "log.csv")) == set(clean)
+@pytest.fixture(scope="module")
+def reference(clean, observed, tmp_path_factory):
+    given = {name: {"columns": tuple(own)} for name, own in PLAIN.items()}
+    return observed(as_csv(clean[:ROWS], tmp_path_factory.mktemp("csv")), given).residual
 
 
-@pytest.mark.parametrize("name", ["log.csv", "log.parquet"])
+@pytest.mark.parametrize("write", FORMATS, ids=lambda write: write.__name__)
+def test_every_format_gives_the_residual_of_the_csv(write, clean, observed, reference, tmp_path):
+    found = observed(write(clean[:ROWS], tmp_path), FORMATS[write])
+    assert not found.converted.interpolated
+    assert found.converted.hints == ()
+    np.testing.assert_allclose(found.residual, reference, atol=1e-6)
+
+
+def test_columns_of_messages_have_the_names_of_joints(clean, tmp_path):
+    path = as_bag2(clean[:10], tmp_path)
+    own = {f"{TOPIC}.{field}.{joint}" for field in SIGNALS.values() for joint in JOINTS}
+    assert set(column_names(path)) == own
+    assert set(read_log(path)) == own
+
+
+def test_only_what_is_wanted_is_read(clean, tmp_path):
+    for write in (as_csv, as_parquet, as_hdf5, as_bag1):
+        path = write(clean[:10], tmp_path)
+        one = column_names(path)[2]
+        assert set(read_log(path, [one])) == {one}
+
+
+def test_texts_are_left_out_and_named_if_wanted(clean, tmp_path):
+    path = as_csv(clean[:10].assign(note="x"), tmp_path)
+    assert set(read_log(path)) == set(clean)
+    with pytest.raises(DataError, match=r"log\.csv: column: 'note' is not accepted; accepted: q\.J1"):
+        read_log(path, ["q.J1", "note"])
+
+
+def test_a_csv_may_have_other_separators_empty_fields_whole_numbers_and_dates(tmp_path):
+    path = tmp_path / "log.csv"
+    rows = "".join(f"2026-01-02T03:04:05.{k:03d}; {k}; {k if k % 2 else ''}\n" for k in range(1000))
+    path.write_text("\ufeff" + "t; whole; sparse\n" + rows + "2026-01-02T03:04:06.000;0.5;1\n")
+    read = read_log(path)
+    np.testing.assert_allclose(np.diff(read["t"].values), 1e-3, atol=1e-9)
+    assert read["whole"].values[-1] == 0.5
+    assert np.isnan(read["sparse"].values).sum() == 500
+    path.write_text("a,b,a\n1,2,3\n")
+    with pytest.raises(DataError, match="column 'a' stands twice in the header"):
+        read_log(path)
+
+
+def test_a_missing_reader_is_one_line_that_names_its_package(tmp_path, monkeypatch):
+    def refuse(name):
+        raise ImportError(name)
+
+    monkeypatch.setattr(importlib, "import_module", refuse)
+    for name, package in {"log.h5": "h5py", "log.mcap": "mcap", "log.bag": "rosbags"}.items():
+        (tmp_path / name).write_bytes(b"")
+        with pytest.raises(DataError, match=rf"{name}: needs the package {package}; install it: \.venv/bin/python -m"):
+            read_log(tmp_path / name)
+
+
+@pytest.mark.parametrize("name", ["log.csv", "log.parquet", "log.h5", "log.mcap", "log.bag"])
 def test_a_damaged_file_is_one_line(name, tmp_path):
     (tmp_path / name).write_bytes(b"\x00garbage\xff" * 20)
     with pytest.raises(DataError, match=rf"^{tmp_path}/{name}: [^\n]+; accepted: [^\n]+$"):
         read_log(tmp_path / name)
 
 
+@pytest.mark.parametrize("write", FORMATS, ids=lambda write: write.__name__)
+def test_a_file_that_ends_early_is_one_line(write, clean, tmp_path):
+    path = write(clean[:200], tmp_path)
+    whole = next(file for file in path.iterdir() if file.suffix != ".yaml") if path.is_dir() else path
+    whole.write_bytes(whole.read_bytes()[: whole.stat().st_size // 2])
+    with pytest.raises(DataError, match=r"^[^\n]+$"):
+        read_log(path)
+
+
 def test_an_unknown_format_and_a_missing_file_name_what_is_accepted(tmp_path):
     (tmp_path / "log.mat").write_text("")
-    with pytest.raises(DataError, match=r"format: '\.mat' is not accepted; accepted: \.csv, \.parquet"):
+    with pytest.raises(DataError, match=r"format: '\.mat' is not accepted; accepted: .*\.csv.*a folder of `ros2 bag`"):
         read_log(tmp_path / "log.mat")
     with pytest.raises(DataError, match=r"none\.csv: file is missing; accepted: a log, \.csv, \.parquet"):
         read_log(tmp_path / "none.csv")

@@ -15,7 +15,7 @@ from mobnet.detection.chain import Chain
 from mobnet.detection.signals import MEAN, STD, Watched, slopes_of, whitening_of
 from mobnet.detection.swings import Spans, episodes_of, largest
 from mobnet.detection.thresholds import HOUR_S, Calibrated, calibrate
-from mobnet.detection.watch import LegRecording, LegSetup
+from mobnet.detection.watch import LegRecording, LegSetup, LimbSetup
 from mobnet.settings.detection import Detector
 
 NEVER = not_accepted("swings in which the leg is watched", "none", ["some of those that calibrate"])
@@ -40,7 +40,7 @@ class QuietWalk:
 
     @classmethod
     def of(
-        cls, setup: LegSetup, scenario: str, legs: Sequence[LegRecording], estimates: Sequence[Estimate], share: float
+        cls, setup: LimbSetup, scenario: str, legs: Sequence[LegRecording], estimates: Sequence[Estimate], share: float
     ) -> "QuietWalk":  # fmt: skip
         """Return a walk of which a share of the swings, the first ones, calibrates."""
         count = sum(len(one.swings) for one in legs)
@@ -112,7 +112,7 @@ def calibrate_detector(
     return CalibratedDetector(name, watched, _whitening(setup, random, torques), chains, promises)
 
 
-def rate_scales(setup: LegSetup, watched: Watched, walk: QuietWalk) -> tuple[Array, dict[str, Calibrated]]:
+def rate_scales(setup: LimbSetup, watched: Watched, walk: QuietWalk) -> tuple[Array, dict[str, Calibrated]]:
     """Return the scales of a detector's signals (phases, c), and by rule the multiple of them for its rate.
 
     Raises:
@@ -126,7 +126,7 @@ def rate_scales(setup: LegSetup, watched: Watched, walk: QuietWalk) -> tuple[Arr
     scales = _over_swings(heights, lambda own: float(np.quantile(own, numbers.scale_quantile)))
     chain = setup.chain(scales, norm=watched.detector.norm)
     seen = swing_ratios(walk.legs, chain, walk.signals(watched))[: walk.first]
-    episodes = episodes_of((one.segments, one.swings) for one in walk.legs)[: walk.first]
+    episodes = episodes_of((one.episodes or one.segments, one.swings) for one in walk.legs)[: walk.first]
     rates = numbers.rates_per_h.items()
     return scales, {kind: calibrate(seen, episodes, walk.hours * HOUR_S, rate, numbers) for kind, rate in rates}
 
@@ -170,7 +170,7 @@ def quiet_rows(setup: LegSetup, calibrated: CalibratedDetector, walk: QuietWalk)
         yield FreeSwing(calibrated.name, setup.limb, walk.scenario, part, terrain, seed, number, *numbers)
 
 
-def check_signals(setup: LegSetup, detector: Detector, walk: QuietWalk) -> None:
+def check_signals(setup: LimbSetup, detector: Detector, walk: QuietWalk) -> None:
     """Raise a DataError if a signal has the same number in all samples of a recording."""
     names = [f"{kind}.{joint}" for kind in detector.signals for joint in setup.joints]
     for one, signals in zip(walk.legs, walk.signals(Watched(detector)), strict=True):
@@ -209,7 +209,7 @@ def _cut(segments: Spans, end: int) -> Spans:
     return tuple((start, min(stop, end)) for start, stop in segments if start < end)
 
 
-def _heights(setup: LegSetup, watched: Watched, walk: QuietWalk) -> Array:
+def _heights(setup: LimbSetup, watched: Watched, walk: QuietWalk) -> Array:
     """Return the largest held signal in each phase of each calibrating swing, (swings, phases, c).
 
     It is minus infinity where a swing is not watched.

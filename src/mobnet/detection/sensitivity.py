@@ -9,7 +9,7 @@ import numpy as np
 from mobnet.core.arrays import Array
 from mobnet.detection.detector import GateSignal, run_over
 from mobnet.detection.leg import unit_torques
-from mobnet.detection.watch import LegSetup
+from mobnet.detection.watch import LegSetup, LimbSetup
 
 
 def found_forces(setup: LegSetup, poses: Array, thresholds: Array) -> dict[str, float]:
@@ -37,7 +37,7 @@ def smallest_forces(units: Array, thresholds: Array, attenuation: float) -> Arra
     return (thresholds / (attenuation * np.maximum(np.abs(units), 1e-9))).min(axis=1)
 
 
-def attenuation(setup: LegSetup) -> float:
+def attenuation(setup: LimbSetup) -> float:
     """Return what the filters leave of the peak of a half-sine of a collision's length [-]."""
     count = round(setup.detection.sensitivity.contact_s * setup.rate_hz)
     # (D11): the low-pass is highest only after the peak of the force, so that the run goes on beyond its end.

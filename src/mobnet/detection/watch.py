@@ -1,4 +1,4 @@
-"""A leg in a recording as its detectors see it: the gate, its swings, and a method's estimate of its joints."""
+"""A limb in a recording as its detectors see it: the gate, its swings, and a method's estimate of its joints."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -26,7 +26,11 @@ UNKNOWN = "-"  # terrain of a recording that does not say it
 
 @dataclass(frozen=True)
 class LegRecording:
-    """A leg in a recording: contiguous segments, commands (T, 5), its gate, its whole swings, the terrain of each."""
+    """A leg in a recording: contiguous segments, commands (T, 5), its gate, its whole swings, the terrain of each.
+
+    Of a limb that is watched all the time, windows take the place of swings. Swings of one `episodes` are not
+    independent of each other; without any, segments are episodes.
+    """
 
     recording: Path
     segments: Spans
@@ -34,6 +38,7 @@ class LegRecording:
     gate: GateSignal
     swings: Spans
     terrains: tuple[str, ...]
+    episodes: Spans = ()
 
     @property
     def seed(self) -> int:
@@ -51,34 +56,18 @@ class LegRecording:
 
 
 @dataclass(frozen=True)
-class LegSetup:
-    """What all detectors of a leg share: its joints, its gate, the filters, and the rate of samples [Hz]."""
+class LimbSetup:
+    """What all detectors of a limb share: its joints, the filters, and the rate of samples [Hz]."""
 
     detection: Detection
     robot: RobotDescription
     limb: str
     rate_hz: float
-    gate: LegGate
-
-    @classmethod
-    def of(cls, detection: Detection, robot: RobotDescription, limb: str, rate_hz: float) -> "LegSetup":
-        """Return the setup of a leg; a ConfigError names a limb that is none."""
-        return cls(detection, robot, limb, rate_hz, LegGate.of(detection.gate, robot, limb, rate_hz))
 
     @property
     def joints(self) -> tuple[str, ...]:
         """Names of the joints."""
         return self.robot.layout.limb(self.limb)
-
-    @property
-    def side(self) -> str:
-        """Side of the leg, with which the names of its points begin."""
-        return next(side for side, limb in self.robot.layout.legs.items() if limb == self.limb)
-
-    @property
-    def inward(self) -> float:
-        """Direction of the other leg along the y axis."""
-        return -1.0 if self.side == "left" else 1.0
 
     def chain(self, thresholds: Array, *, norm: bool = False) -> Chain:
         """Return a chain with thresholds (phases, c)."""
@@ -90,6 +79,28 @@ class LegSetup:
         for start, end in segments:
             low_passed(pole, signals[start:end], out[start:end])
         return out
+
+
+@dataclass(frozen=True)
+class LegSetup(LimbSetup):
+    """What all detectors of a leg share: that of a limb, and its gate."""
+
+    gate: LegGate
+
+    @classmethod
+    def of(cls, detection: Detection, robot: RobotDescription, limb: str, rate_hz: float) -> "LegSetup":
+        """Return the setup of a leg; a ConfigError names a limb that is none."""
+        return cls(detection, robot, limb, rate_hz, LegGate.of(detection.gate, robot, limb, rate_hz))
+
+    @property
+    def side(self) -> str:
+        """Side of the leg, with which the names of its points begin."""
+        return next(side for side, limb in self.robot.layout.legs.items() if limb == self.limb)
+
+    @property
+    def inward(self) -> float:
+        """Direction of the other leg along the y axis."""
+        return -1.0 if self.side == "left" else 1.0
 
     def record(self, path: Path, read: SensedRecording, tau: NDArray[Any]) -> LegRecording:
         """Run the gate over a recording, tau (T, 6) [N m] being the estimate of the leg's joints."""

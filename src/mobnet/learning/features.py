@@ -26,8 +26,8 @@ class LimbInputs:
 
     Attributes:
         names: name of each input, (n_in,): q^g [rad] and v^g [rad/s] of each limb in `Q`, tau_d^g [N m] of each limb
-            in `T`, then U^V: two columns of the pelvis rotation, its angular velocity [rad/s] and its linear
-            acceleration as the IMU reads it [m/s^2], both in pelvis axes.
+            in `T`, then U^V where the base floats: two columns of the pelvis rotation, its angular velocity [rad/s]
+            and its linear acceleration as the IMU reads it [m/s^2], both in pelvis axes.
         columns: where they stand in `signals`, (n_in,).
     """
 
@@ -41,22 +41,31 @@ class LimbInputs:
     @property
     def recorded(self) -> tuple[str, ...]:
         """Columns of a recording that the inputs are made of: the quaternion, then those that are read as they are."""
-        return (*QUATERNION_NAMES, *(name for name in self.names if name not in ROTATION_NAMES))
+        return (*self._turned, *(name for name in self.names if name not in ROTATION_NAMES))
+
+    @property
+    def _turned(self) -> tuple[str, ...]:
+        """Columns of a recording that the rotation is made of; none of a robot whose base is fixed."""
+        return QUATERNION_NAMES if set(ROTATION_NAMES) & set(self.names) else ()
 
     def from_recorded(self, values: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Return the inputs (T, n_in) from the columns `recorded` (T, n_in - 2), the same as from a whole recording."""
-        inputs = np.empty((len(values), len(self.names)), dtype=np.float32)
+        """Return the inputs (T, n_in) from the columns `recorded`, the same as from a whole recording."""
+        inputs, width = np.empty((len(values), len(self.names)), dtype=np.float32), len(self._turned)
         turned = np.isin(self.names, ROTATION_NAMES)
-        inputs[:, turned] = _first_columns(values[:, : len(QUATERNION_NAMES)])
-        inputs[:, ~turned] = values[:, len(QUATERNION_NAMES) :]
+        if width:
+            inputs[:, turned] = _first_columns(values[:, :width])
+        inputs[:, ~turned] = values[:, width:]
         return inputs
 
 
 def signals(sensed: Sensed) -> NDArray[np.float32]:
     """Return all that any limb network may see, in float32: the one place where physics turns into network numbers.
 
-    Columns are those of `signal_names`, (T, 3 nu + 12), or (3 nu + 12,) for one sample; units as in `LimbInputs`.
+    Columns are those of `signal_names`, (T, 3 nu + 12), or (3 nu + 12,) for one sample, and 3 nu of them where the base
+    is fixed; units as in `LimbInputs`.
     """
+    if sensed.q.shape[-1] == sensed.v.shape[-1]:  # the orientation of a floating base has four numbers, its speed three
+        return np.concatenate([sensed.q, sensed.v, sensed.tau_des], axis=-1, dtype=np.float32, casting="same_kind")
     # Where the robot stands and how fast it moves in the world are left out: no encoder or IMU tells them (4.2.1).
     parts = [
         sensed.q[..., NQ_BASE:],
@@ -77,8 +86,9 @@ def _first_columns(quaternion: NDArray[Any]) -> NDArray[np.float64]:
 
 
 def signal_names(layout: JointLayout) -> tuple[str, ...]:
-    """Return the names of the columns of `signals`, (3 nu + 12,)."""
-    return (*(f"{signal}.{j}" for signal in ("q", "v", "tau_des") for j in layout.actuated), *BASE_NAMES)
+    """Return the names of the columns of `signals`, (3 nu + 12,), or (3 nu,) of a robot whose base is fixed."""
+    base = BASE_NAMES if layout.virtual else ()
+    return (*(f"{signal}.{j}" for signal in ("q", "v", "tau_des") for j in layout.actuated), *base)
 
 
 def limb_inputs(layout: JointLayout, limb: Limb) -> LimbInputs:
@@ -91,7 +101,7 @@ def limb_inputs(layout: JointLayout, limb: Limb) -> LimbInputs:
     encoders = [_actuated(layout, name) for name in limb.Q]
     names = [f"{signal}.{joint}" for joints in encoders for signal in ("q", "v") for joint in joints]
     names += [f"tau_des.{joint}" for name in limb.T for joint in _actuated(layout, name)]
-    names += BASE_NAMES
+    names += BASE_NAMES if layout.virtual else ()
     where = {name: i for i, name in enumerate(signal_names(layout))}
     return LimbInputs(tuple(names), np.array([where[name] for name in names], dtype=np.intp))
 

@@ -1,15 +1,17 @@
-"""From a wrench at a foot's sensor to the generalized external torque, tau_e = J^T F of (2)."""
+"""From a wrench at a foot's sensor or a point of a body to the generalized external torque, tau_e = J^T F of (2)."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+import pinocchio as pin
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array, rows_of
 from mobnet.core.compilation import compiled
 from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.robot.description import RobotDescription
 from mobnet.robot.linkage import Linkage, turn, turn_base
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.triples import add, cross, dot, out_of, product, vector
@@ -33,6 +35,40 @@ def feet_torque(nominal: NominalModel, q: NDArray[Any], wrenches: Mapping[str, N
         axes, point = np.ascontiguousarray(frame.placement.rotation), np.array(frame.placement.translation)
         _pull(nominal.linkage, link, axes, point, positions, loads, tau.reshape(-1, model.nv))
     return tau
+
+
+def point_torque(
+    nominal: NominalModel, body: str, place: Sequence[float], axes: Array, q: NDArray[Any], wrench: NDArray[Any]
+) -> Array:
+    """Return J^T F of wrenches at a point of a body, (T, nv) [N] and [N m], at positions (T, nq).
+
+    The point is a place (3,) [m] in the body's frame; wrenches (T, 6), force [N] and moment [N m] about the point, are
+    in the axes (3, 3) of a sensor, whose columns are in the body's frame.
+
+    Raises:
+        ConfigError: the robot has no such body.
+        DataError: positions or wrenches do not fit the model or each other.
+    """
+    model, samples = nominal.model, np.shape(q)[:-1]
+    tau, positions = np.zeros((*samples, model.nv)), rows_of("q", q, samples, model.nq)
+    joint, placement = carrier_of(nominal.robot, body)
+    link = 1 + nominal.robot.layout.actuated.index(joint) if joint else 0
+    turned = np.ascontiguousarray(placement.rotation @ np.asarray(axes, dtype=np.float64))
+    loads = rows_of("wrench", wrench, samples, 6)
+    _pull(nominal.linkage, link, turned, placement.act(np.array(place, dtype=np.float64)), positions, loads, tau)
+    return tau
+
+
+def carrier_of(robot: RobotDescription, body: str) -> tuple[str | None, pin.SE3]:
+    """Return the joint that carries a body, none for the base, and the body's placement in what the joint moves."""
+    rows, placement = {row.name: row for row in robot.bodies}, pin.SE3.Identity()
+    if body not in rows:
+        raise ConfigError(not_accepted("body", body, rows))
+    while (joint := robot.joint_of(body)) is None and body != robot.base:
+        w, x, y, z = rows[body].quat
+        placement = pin.SE3(pin.Quaternion(w, x, y, z).matrix(), np.array(rows[body].pos)) * placement
+        body = rows[body].parent
+    return joint.id if joint else None, placement
 
 
 @compiled(allocating=True)

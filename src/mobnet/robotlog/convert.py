@@ -1,38 +1,28 @@
-"""From the columns of a log to the recording that the observer takes: units, order, clock, gaps."""
+"""From the columns of a log to the recording that the observer takes: units, order, one clock, gaps."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.core.columns import FEET, recording_columns
-from mobnet.core.errors import ConfigError, DataError, not_accepted, refuse
+from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.motion import turned
 from mobnet.core.recording import Recording, Sensed, Truth
-from mobnet.robotlog.formats import Column, Columns, names_like
+from mobnet.robotlog.clocks import Segments, Timed, at, common_ticks, rate_of, stamp_hints
+from mobnet.robotlog.columns import Column, Columns, near_names
+from mobnet.robotlog.meaning import given_signals, resolved
 from mobnet.settings.robotlog import LogMap, RobotLog, Signal
 
 SI = {  # unit -> in SI units
     "deg": np.pi / 180, "deg/s": np.pi / 180, "rpm": 2 * np.pi / 60, "mN m": 1e-3, "kN m": 1e3, "mm": 1e-3,
     "g": 9.80665, "kN": 1e3, "ms": 1e-3, "us": 1e-6, "ns": 1e-9,
 }  # fmt: skip
-BASE = ("quaternion", "velocity", "omega", "acc")  # what a floating base needs
-WIDTHS = {"position": 3, "quaternion": 4, "velocity": 3, "omega": 3, "acc": 3, "left_foot": 6, "right_foot": 6}
-MOTORS = ("q", "v", "tau_motor")
-ROUND = 1e-3  # a rate this close to a whole number [Hz] is meant to be it
-
-
-@dataclass(frozen=True)
-class Timed:
-    """A signal in SI units (T, n) with its own clock (T,) [s]."""
-
-    time_s: Array
-    values: Array
 
 
 @dataclass(frozen=True)
@@ -40,7 +30,7 @@ class Converted:
     """A recording, and what was done to make it.
 
     `wrenches` are those of the feet that have sensors, side -> (T, 6) [N], [N m]; `absent` are signals that the log
-    does not have and that are zero; `clocks` are those of the log, signal -> (T,) [s].
+    does not have and that are zero; `clocks` are those of the log, signal -> (T,) [s]; `hints` are on stamps of messages.
     """
 
     recording: Recording
@@ -48,23 +38,7 @@ class Converted:
     absent: tuple[str, ...]
     clocks: Mapping[str, Array]
     interpolated: bool
-
-
-def default_map(columns: Columns, layout: JointLayout) -> LogMap:
-    """Return the map of a log whose columns have the names of a recording (docs/data.md), with the clock `time`."""
-    fields, taken = recording_columns(layout), dict[str, Signal]()
-    base = 7 if layout.virtual else 0
-    names = {key: [name for name, *_ in group] for key, group in fields.items()}
-    groups = {
-        "q": names["q"][base:], "v": names["v"][6 if base else 0 :], "tau_motor": names["tau_motor"],
-        "position": names["q"][:3] if base else [], "quaternion": names["q"][3:base], "acc": names["acc_base_in_base"],
-        "velocity": names["v"][:3] if base else [], "omega": names["v"][3:6] if base else [],
-        **{foot: names[f"wrench_{foot}"] for foot in FEET}, "swing": names["swing"], "landing": names["landing"],
-    }  # fmt: skip
-    for key, group in groups.items():
-        if group and (key in MOTORS or set(group) <= columns.keys()):
-            taken[key] = Signal(columns=tuple(group))
-    return LogMap.model_validate(taken)
+    hints: tuple[str, ...] = ()
 
 
 def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, bounds: RobotLog) -> Converted:
@@ -74,82 +48,80 @@ def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, 
         DataError: a column is missing, a number is not finite, a clock does not rise, or signals do not overlap.
         ConfigError: the map does not fit the robot.
     """
-    signals = _signals(path, columns, meaning, layout)
-    rate_hz = meaning.rate_hz or _rate_of(signals["q"].time_s)
+    meaning = resolved(path, meaning, columns, layout)
+    given = given_signals(meaning)
+    clock = _table_clock(path, columns, meaning)
+    signals = {name: _timed(path, columns, signal, meaning, clock) for name, signal in given.items()}
+    _turn_base(path, signals, given)
+    rate_hz = meaning.rate_hz or rate_of(signals["q"].time_s)
     clocks = {name: signal.time_s for name, signal in signals.items()}
-    ticks, segments, interpolated = _ticks(path, clocks, rate_hz, bounds)
-    values = {name: _at(signal, ticks) if interpolated else signal.values for name, signal in signals.items()}
-    return _recording(values, layout, segments, rate_hz, clocks, interpolated)
+    ticks = common_ticks(path, clocks, rate_hz, bounds)
+    values = {name: at(one, ticks.time_s) if ticks.interpolated else one.values for name, one in signals.items()}
+    recording, absent = _recording(values, layout, ticks.segments, rate_hz)
+    wrenches = {foot.removesuffix("_foot"): values[foot] for foot in FEET if foot in values}
+    used = [columns[signal.columns[0]] for signal in given.values()]
+    hints = tuple(stamp_hints(used, bounds)) if meaning.clock.stamp == "header" else ()
+    return Converted(recording, wrenches, absent, clocks, ticks.interpolated, hints)
 
 
-def _signals(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout) -> dict[str, Timed]:
-    """Return all signals of the map in SI units."""
-    given = {name: signal for name in LogMap.model_fields if isinstance(signal := getattr(meaning, name), Signal)}
-    floating = bool(layout.virtual)
-    needed = [*MOTORS, *(BASE if floating else ())]
-    if missing := [name for name in needed if name not in given]:
-        raise ConfigError(f"{path}: {', '.join(missing)}: missing in the map; a robot with a floating base needs them")
-    widths = dict.fromkeys(MOTORS, layout.nu) | WIDTHS | dict.fromkeys(("swing", "landing"), len(layout.legs))
-    faults = [
-        f"{name}.columns: {not_accepted('number', len(signal.columns), [widths[name]])}"
-        for name, signal in given.items()
-        if len(signal.columns) != widths[name]
-    ]
-    wanted = [name for signal in given.values() for name in signal.columns]
-    faults += [not_accepted("column", name, names_like(columns)) for name in wanted if name not in columns]
-    refuse(path, faults)
-    found = {name: _timed(path, columns, signal, meaning) for name, signal in given.items()}
-    if "quaternion" in found:
-        found["quaternion"] = _unit_quaternion(path, found["quaternion"], given["quaternion"].order)
-    for name, signal in (("velocity", given.get("velocity")), ("acc", given.get("acc"))):
-        if signal is not None and (signal.frame == "base" or signal.gravity == "removed"):
-            found[name] = _turned(found[name], found["quaternion"], signal)
-    return found
+def _timed(path: Path, columns: Columns, signal: Signal, meaning: LogMap, clock: Array | None) -> Timed:
+    """Return a signal in SI units with its clock; columns of other messages are taken at the times of the first one."""
+    count = len(signal.columns)
+    first = columns[signal.columns[0]]
+    time_s = _in_order(first, meaning)[0] if first.time_s is not None else clock
+    if time_s is None:
+        raise DataError(f"{path}: {_no_clock(columns, meaning)}")
+    values = np.empty((len(time_s), count))
+    scale, sign, offset = (np.broadcast_to(part, count) for part in (signal.scale, signal.sign, signal.offset))
+    for k, name in enumerate(signal.columns):
+        own_time, own = _in_order(columns[name], meaning)
+        if not np.isfinite(own).all():
+            row = int(np.argmin(np.isfinite(own)))
+            raise DataError(f"{path}: {not_accepted(f'column {name!r}, row {row}', float(own[row]), ['finite numbers'])}")
+        if own_time is not None and not np.array_equal(own_time, time_s):
+            own = np.interp(time_s, own_time, own)
+        values[:, k] = sign[k] * (scale[k] * SI.get(signal.unit or "-", 1.0) * own - offset[k])
+    return Timed(time_s - signal.delay_s if signal.delay_s else time_s, values)
 
 
-def _timed(path: Path, columns: Columns, signal: Signal, meaning: LogMap) -> Timed:
-    """Return a signal in SI units with its clock."""
-    parts = [columns[name] for name in signal.columns]
-    values = np.stack([part.values for part in parts], axis=1) if _alike(parts) else _joined(parts)
-    if not np.isfinite(values).all():
-        row, k = np.argwhere(~np.isfinite(values))[0]
-        where = f"column {signal.columns[k]!r}, row {row}"
-        raise DataError(f"{path}: {not_accepted(where, float(values[row, k]), ['finite numbers'])}")
-    scale = np.multiply(signal.scale, SI.get(signal.unit or "-", 1.0))
-    time_s = _clock(path, columns, parts[0], meaning, len(values)) - signal.delay_s
-    return Timed(time_s, np.asarray(signal.sign) * (scale * values - np.asarray(signal.offset)))
+def _in_order(column: Column, meaning: LogMap) -> tuple[Array | None, NDArray[Any]]:
+    """Return the times of a column of messages, which rise, and its values; of equal stamps the first one counts."""
+    time_s = column.recorded_s if meaning.clock.stamp == "recorded" else column.time_s
+    if time_s is None or (np.diff(time_s) > 0).all():
+        return time_s, column.values
+    kept = np.unique(time_s, return_index=True)[1]
+    return time_s[kept], column.values[kept]
 
 
-def _alike(parts: list[Column]) -> bool:
-    """Return whether columns share one clock."""
-    first = parts[0].time_s
-    return all(
-        part.time_s is first or (part.time_s is not None and first is not None and np.array_equal(part.time_s, first))
-        for part in parts
-    )
-
-
-def _joined(parts: list[Column]) -> Array:
-    """Return columns of different messages at the times of the first one, (T, n)."""
-    stamped = [(part.time_s, part.values) for part in parts if part.time_s is not None]
-    return np.stack([np.interp(stamped[0][0], *pair) for pair in stamped], axis=1)
-
-
-def _clock(path: Path, columns: Columns, first: Column, meaning: LogMap, rows: int) -> Array:
-    """Return the times of a column (T,) [s], which rise."""
+def _table_clock(path: Path, columns: Columns, meaning: LogMap) -> Array | None:
+    """Return the clock of all columns of a table (T,) [s], which rises, None where the log has none."""
     clock, unit = meaning.clock.column, SI.get(meaning.clock.unit, 1.0)
-    if first.time_s is not None:
-        time_s = first.time_s
-    elif clock in columns:
+    if clock in columns:
         time_s = columns[clock].values * unit
     elif meaning.rate_hz:
-        time_s = np.arange(rows) / meaning.rate_hz
+        time_s = np.arange(len(next(iter(columns.values())).values)) / meaning.rate_hz
     else:
-        raise DataError(f"{path}: {not_accepted('clock.column', clock, names_like(columns))}; or give rate_hz")
+        return None
     if len(time_s) < 2 or not (np.diff(time_s) > 0).all():
         row = int(np.argmin(np.diff(time_s) > 0)) + 1 if len(time_s) > 1 else 0
         raise DataError(f"{path}: clock: row {row} is not after the one before it; accepted: two samples, rising times")
     return time_s
+
+
+def _no_clock(columns: Columns, meaning: LogMap) -> str:
+    """Return the message about a clock that a log does not have."""
+    name = meaning.clock.column
+    return f"{not_accepted('clock.column', name, near_names(columns, name))}; or give rate_hz"
+
+
+def _turn_base(path: Path, signals: dict[str, Timed], given: Mapping[str, Signal]) -> None:
+    """Make quaternions w x y z, and vectors of the base those in the axes and with the gravity of a recording."""
+    if "quaternion" in signals:
+        signals["quaternion"] = _unit_quaternion(path, signals["quaternion"], given["quaternion"].order)
+    for name in ("velocity", "acc"):
+        signal = given.get(name)
+        if signal is not None and (signal.frame == "base" or signal.gravity == "removed"):
+            signals[name] = _turned(signals[name], signals["quaternion"], signal)
 
 
 def _unit_quaternion(path: Path, signal: Timed, order: str) -> Timed:
@@ -165,7 +137,7 @@ def _unit_quaternion(path: Path, signal: Timed, order: str) -> Timed:
 
 def _turned(signal: Timed, quaternion: Timed, meaning: Signal) -> Timed:
     """Return a velocity in world axes, or a specific force with the gravity that its sensor left out."""
-    quat = _at(quaternion, signal.time_s)
+    quat = at(quaternion, signal.time_s)
     quat /= np.linalg.norm(quat, axis=1)[:, None]
     if meaning.frame == "base":
         return Timed(signal.time_s, turned(quat.T, signal.values.T).T)
@@ -174,64 +146,15 @@ def _turned(signal: Timed, quaternion: Timed, meaning: Signal) -> Timed:
     return Timed(signal.time_s, signal.values + turned(back.T, up.T).T)
 
 
-def _rate_of(time_s: Array) -> float:
-    """Return the rate of a clock [Hz], a whole number where it is close to one."""
-    rate = 1.0 / float(np.median(np.diff(time_s)))
-    return float(round(rate)) if abs(rate - round(rate)) < ROUND * rate else rate
-
-
-def _ticks(
-    path: Path, clocks: Mapping[str, Array], rate_hz: float, bounds: RobotLog
-) -> tuple[Array, tuple[tuple[int, int], ...], bool]:
-    """Return the times of the recording's rows (T,) [s], its segments, and whether rows lie between samples.
-
-    Samples of one even clock at the rate itself are taken as they are; else values are interpolated linearly.
-    """
-    first = next(iter(clocks.values()))
-    steps = np.diff(first)
-    is_one = all(len(clock) == len(first) and np.array_equal(clock, first) for clock in clocks.values())
-    pauses = steps > bounds.gap_intervals * np.median(steps)
-    even = np.std(steps[~pauses]) <= bounds.even * np.median(steps)
-    if is_one and even and abs(1.0 / np.median(steps) - rate_hz) <= ROUND * rate_hz:
-        ends = [0, *(np.flatnonzero(pauses) + 1).tolist(), len(first)]
-        return first, _long_enough(path, pairwise(ends)), False
-    start, end = max(clock[0] for clock in clocks.values()), min(clock[-1] for clock in clocks.values())
-    if end - start < 2 / rate_hz:
-        raise DataError(f"{path}: signals overlap from {start:.3f} to {end:.3f} s; accepted: two samples at least")
-    ticks = start + np.arange(int((end - start) * rate_hz) + 1) / rate_hz
-    whole = np.ones(len(ticks), dtype=bool)
-    for clock in {id(clock): clock for clock in clocks.values()}.values():
-        steps = np.diff(clock)
-        before = np.clip(np.searchsorted(clock, ticks, side="right") - 1, 0, len(steps) - 1)
-        whole &= steps[before] <= bounds.gap_intervals * np.median(steps)
-    kept = ticks[whole]
-    ends = [0, *(np.flatnonzero(np.diff(np.flatnonzero(whole)) > 1) + 1).tolist(), len(kept)]
-    return kept, _long_enough(path, pairwise(ends)), True
-
-
-def _long_enough(path: Path, segments: Iterable[tuple[int, int]]) -> tuple[tuple[int, int], ...]:
-    """Return segments that are not empty."""
-    found = tuple((start, end) for start, end in segments if end > start)
-    if not found:
-        raise DataError(f"{path}: clock: no two samples follow each other without a gap; accepted: a recording")
-    return found
-
-
-def _at(signal: Timed, ticks: Array) -> Array:
-    """Return a signal at other times, by linear interpolation (T, n)."""
-    return np.stack([np.interp(ticks, signal.time_s, column) for column in signal.values.T], axis=1)
-
-
 def _recording(
-    values: Mapping[str, Array], layout: JointLayout, segments: tuple[tuple[int, int], ...], rate_hz: float,
-    clocks: Mapping[str, Array], interpolated: bool,
-) -> Converted:  # fmt: skip
-    """Return the recording of signals (T, n) in SI units."""
+    values: Mapping[str, Array], layout: JointLayout, segments: Segments, rate_hz: float
+) -> tuple[Recording, tuple[str, ...]]:
+    """Return the recording of signals (T, n) in SI units, and the signals that it lacks."""
     rows, none = len(values["q"]), np.zeros((len(values["q"]), 0))
     fields = recording_columns(layout)
 
-    def given(name: str, key: str) -> NDArray[np.float64]:
-        return values.get(name, np.zeros((rows, len(fields[key]))))
+    def given(name: str, key: str) -> Array:
+        return values[name] if name in values else np.zeros((rows, len(fields[key])))
 
     base_q, base_v = none, none
     if layout.virtual:
@@ -254,6 +177,4 @@ def _recording(
     wanted |= {foot: foot.removesuffix("_foot") in layout.legs for foot in FEET}
     absent = ("tau_ext", *(name for name, has in wanted.items() if has and name not in values))
     meta = {"scenario": "log", "level": "robot", "seed": 0, "absent": list(absent)}
-    wrenches = {foot.removesuffix("_foot"): values[foot] for foot in FEET if foot in values}
-    recording = Recording(sensed, segments, rate_hz, meta, truth)
-    return Converted(recording, wrenches, absent, clocks, interpolated)
+    return Recording(sensed, segments, rate_hz, meta, truth), absent

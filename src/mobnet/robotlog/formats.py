@@ -1,84 +1,74 @@
-"""Reading a log as columns of numbers, whatever its format."""
+"""Reading a log as columns of numbers, whatever its format.
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+A format is two functions: one names the columns that a log holds and reads next to nothing, the other reads those that
+are wanted.
+"""
+
+from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
-from typing import Any
+from typing import NamedTuple, TypeVar
 
-import numpy as np
-from numpy.typing import NDArray
-
-from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError, not_accepted
+from mobnet.robotlog.columns import Column, Columns
+from mobnet.robotlog.messages import message_columns, message_names
+from mobnet.robotlog.tables import csv_columns, csv_names, hdf5_columns, hdf5_names, parquet_columns, parquet_names
+
+METADATA = "metadata.yaml"  # in each folder that `ros2 bag` wrote
+Found = TypeVar("Found")
 
 
-@dataclass(frozen=True)
-class Column:
-    """One column of a log: values (T,) in its own unit and, in formats that stamp each message, times (T,) [s]."""
+class Format(NamedTuple):
+    """How a kind of log is read: the names of its columns, and the columns of some names."""
 
-    values: Array
-    time_s: Array | None = None
-
-
-Columns = Mapping[str, Column]
+    names: Callable[[Path], list[str]]
+    read: Callable[[Path, Collection[str]], dict[str, Column]]
 
 
-def read_log(path: Path) -> Columns:
-    """Read all columns of numbers of a log.
+TABLES = {".csv": Format(csv_names, csv_columns), ".parquet": Format(parquet_names, parquet_columns)}
+ARRAYS = dict.fromkeys((".h5", ".hdf5"), Format(hdf5_names, hdf5_columns))
+BAGS = dict.fromkeys((".mcap", ".bag", METADATA), Format(message_names, message_columns))
+FORMATS: Mapping[str, Format] = {**TABLES, **ARRAYS, **BAGS}
+ACCEPTED = (*(kind for kind in FORMATS if kind != METADATA), "a folder of `ros2 bag`")
+
+
+def column_names(path: Path) -> list[str]:
+    """Return the names of all columns of a log; of messages those in the first message of each topic.
 
     Raises:
-        DataError: the format is not known, or the file is missing or damaged.
+        DataError: the format is not known, its reader is not installed, or the file is missing or damaged.
     """
-    if not path.exists():
-        raise DataError(f"{path}: file is missing; accepted: a log, {', '.join(READERS)}")
-    kind = path.suffix.lower()
-    if kind not in READERS:
-        raise DataError(not_accepted(f"{path}: format", kind or path.name, READERS))
-    try:
-        columns = READERS[kind](path)
-    except (DataError, MemoryError):
-        raise
-    except Exception as error:  # two libraries, each with errors of its own for a damaged file
-        text = " ".join(str(error).split()) or type(error).__name__
-        raise DataError(f"{path}: cannot be read as {kind}: {text}; accepted: a whole file") from error
+    names = _asked(path, lambda kind: kind.names(path))
+    if not names:
+        raise DataError(f"{path}: holds no column of numbers; accepted: at least positions, velocities and torques")
+    return names
+
+
+def read_log(path: Path, wanted: Collection[str] | None = None) -> Columns:
+    """Read columns of numbers of a log: the wanted ones, or all of them, texts left out.
+
+    Raises:
+        DataError: as `column_names`, or a wanted column is missing or holds no numbers.
+    """
+    names = column_names(path) if wanted is None else list(wanted)
+    columns = _asked(path, lambda kind: kind.read(path, names))
+    if wanted is not None and (missing := [name for name in wanted if name not in columns]):
+        raise DataError(f"{path}: {not_accepted('column', missing[0], columns)}, which hold numbers")
     if not columns:
         raise DataError(f"{path}: holds no column of numbers; accepted: at least positions, velocities and torques")
     return columns
 
 
-def _csv(path: Path) -> dict[str, Column]:
-    """Read a CSV with a header; columns that hold anything but numbers are left out."""
-    import pandas as pd  # a second to import
-
-    frame = pd.read_csv(path, skipinitialspace=True)
-    return _of_table(frame.columns, lambda name: frame[name].to_numpy())
-
-
-def _parquet(path: Path) -> dict[str, Column]:
-    """Read a Parquet file."""
-    import pyarrow.parquet as pq
-
-    table = pq.read_table(path)
-    return _of_table(table.column_names, lambda name: table[name].to_numpy())
-
-
-def _of_table(names: Any, column: Callable[[str], NDArray[Any]]) -> dict[str, Column]:
-    """Return the columns of a table that hold numbers."""
-    found = {str(name): column(name) for name in names}
-    return {name: Column(values.astype(np.float64)) for name, values in found.items() if values.dtype.kind in "fiub"}
-
-
-READERS: Mapping[str, Callable[[Path], dict[str, Column]]] = {".csv": _csv, ".parquet": _parquet}
-
-
-def names_like(columns: Columns) -> Iterator[str]:
-    """Yield the names of a log's columns for a message, those of numbered series once, as NAME.0 to NAME.n."""
-    series: dict[str, int] = {}
-    for name in columns:
-        stem, _, number = name.rpartition(".")
-        if number.isdigit() and stem:
-            series[stem] = max(series.get(stem, 0), int(number))
-        else:
-            series.setdefault(name, -1)
-    for name, last in series.items():
-        yield name if last < 0 else f"{name}.0 to {name}.{last}"
+def _asked(path: Path, ask: Callable[[Format], Found]) -> Found:
+    """Return what a question to the format of a log finds; whatever goes wrong is one line."""
+    if not path.exists():
+        raise DataError(f"{path}: file is missing; accepted: a log, {', '.join(ACCEPTED)}")
+    kind = METADATA if (path / METADATA).is_file() else path.suffix.lower()
+    if kind not in FORMATS:
+        raise DataError(not_accepted(f"{path}: format", kind or path.name, ACCEPTED))
+    try:
+        return ask(FORMATS[kind])
+    except (DataError, MemoryError):
+        raise
+    except Exception as error:  # five libraries, each with errors of its own for a damaged file
+        text = " ".join(str(error).split()) or type(error).__name__
+        raise DataError(f"{path}: cannot be read as {kind}: {text}; accepted: a whole file") from error

@@ -16,18 +16,20 @@ import numpy as np
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, torque_columns
 from mobnet.core.errors import DataError, MobnetError, not_accepted
+from mobnet.core.joints import JointLayout
 from mobnet.core.recording import write_recording
 from mobnet.core.store import write_array
 from mobnet.estimation.observer import MomentumObserver
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.nominal import NominalModel
-from mobnet.robotlog.convert import Converted, convert, default_map
-from mobnet.robotlog.formats import read_log
+from mobnet.robotlog.convert import Converted, convert
+from mobnet.robotlog.formats import column_names, read_log
 from mobnet.robotlog.hints.base import base_hints, weight_hints
 from mobnet.robotlog.hints.columns import clock_hints, column_hints, limit_hints
 from mobnet.robotlog.hints.delay import delay_hints
 from mobnet.robotlog.hints.motion import motion_hints
 from mobnet.robotlog.hints.torque import known_joints, torque_hints, windows_of
+from mobnet.robotlog.meaning import default_map, resolved, wanted_columns
 from mobnet.robotlog.plot import plot_residual
 from mobnet.robotlog.words import observe_parser
 from mobnet.settings.load import load_section, load_settings
@@ -59,20 +61,31 @@ def observe_log(
         DataError: the log cannot be read, or a column is missing or not accepted.
         ConfigError: the map does not fit the robot.
     """
-    columns = read_log(path)
-    meaning = meaning or default_map(columns, robot.layout)
-    converted = convert(path, columns, meaning, robot.layout, bounds)
+    converted = converted_log(path, robot.layout, meaning, bounds)
     read, nominal = converted.recording, NominalModel(robot, gravity_m_s2=gravity_m_s2)
-    kind = "mean" if (torque or meaning.torque) == "mean" else "sample"
+    kind = "mean" if (torque or (meaning.torque if meaning else "sample")) == "mean" else "sample"
     observer = MomentumObserver(nominal, gain_hz, read.rate_hz, kind)
     residual = np.concatenate([observer.residual(read.sensed[span]) for span in read.spans()])
     return Observed(converted, residual, tuple(hints_of(converted, nominal, gravity_m_s2, bounds)))
+
+
+def converted_log(path: Path, layout: JointLayout, meaning: LogMap | None, bounds: RobotLog) -> Converted:
+    """Return the recording of a log, of which only what the map names is read.
+
+    Raises:
+        DataError: the log cannot be read, or a column is missing or not accepted.
+        ConfigError: the map does not fit the robot.
+    """
+    names = column_names(path)
+    meaning = resolved(path, meaning or default_map(names, layout), names, layout)
+    return convert(path, read_log(path, wanted_columns(meaning, names)), meaning, layout, bounds)
 
 
 def hints_of(found: Converted, nominal: NominalModel, gravity_m_s2: float, bounds: RobotLog) -> Iterator[str]:
     """Yield what looks wrong with a log, each as one line with numbers."""
     read, layout = found.recording, nominal.robot.layout
     sensed, spans, rate_hz = read.sensed, read.spans(), read.rate_hz
+    yield from found.hints
     yield from clock_hints(found.clocks, bounds)
     yield from column_hints(sensed, layout.actuated, bounds)
     yield from limit_hints(sensed, layout)

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mobnet.settings.base import Count, InnerShare, Positive, Real, Seconds, Section, Share, Some, Text
+from mobnet.settings.base import Count, InnerShare, NetworkName, Positive, Real, Seconds, Section, Share, Some, Text
 
 Unit = Literal[
     "rad", "deg", "rad/s", "deg/s", "rpm", "N m", "mN m", "kN m", "A", "m", "mm", "m/s", "m/s^2", "g", "N", "kN", "s",
@@ -14,13 +14,18 @@ Sign = Literal[-1, 1]
 
 
 class Clock(Section):
-    """The clock of a log in which all columns have one: a column with its unit.
+    """The clock of a log.
 
-    Where messages have times of their own, these are used.
+    Attributes:
+        column: of a table, in which all columns have one clock.
+        unit: of that column.
+        stamp: of messages, which have times of their own: the stamps in their headers, or the times at which they were
+            recorded; the latter also where they have no header or it is zero.
     """
 
     column: Text = "time"
     unit: Literal["s", "ms", "us", "ns"] = "s"
+    stamp: Literal["header", "recorded"] = "header"
 
 
 class Signal(Section):
@@ -30,7 +35,9 @@ class Signal(Section):
     columns or one for each.
 
     Attributes:
-        columns: names in the log; of joints in motor order, of a vector x y z, of a wrench force and then moment.
+        columns: names in the log; of joints in motor order, of a vector x y z, of a wrench force and then moment. One
+            name alone stands for the columns below it: NAME.JOINT, NAME.x and so on, or NAME.0 and so on; or, with a *,
+            for those with numbers in its place.
         unit: unit of the columns, of which `scale` is one: a current in A becomes a torque by a scale in N m/A.
         offset: what is subtracted, SI units.
         delay_s: by how much the signal is late in the log [s]; it is brought forward.
@@ -54,7 +61,8 @@ class LogMap(Section):
     """What the columns of a log mean. Signals that the robot does not have are left out.
 
     Attributes:
-        clock: the clock of all columns.
+        clock: the clock of all columns, or which clock of messages counts.
+        joints: names of the joints in the log, in motor order, if they are others than those of the robot's table.
         rate_hz: samples per second of the recording that is made; that of the log where it is not given [Hz].
         torque: whether torques are samples at the ticks or means over the intervals before them.
         position: place of the base in the world; the observer does not need it.
@@ -66,6 +74,7 @@ class LogMap(Section):
     """
 
     clock: Clock = Clock()
+    joints: Some[Text] | None = None
     rate_hz: Annotated[Positive, Field(ge=1, le=100_000)] | None = None
     torque: Literal["sample", "mean"] = "sample"
     q: Signal
@@ -82,6 +91,30 @@ class LogMap(Section):
     landing: Signal | None = None
 
 
+class LogLearning(Section):
+    """How a network learns from a log of one's own, `./reproduce learn`, and when the log suffices.
+
+    Attributes:
+        cell: network of configs/networks.yaml whose cell a limb takes that has none there.
+        epochs: number of epochs.
+        epoch_samples: samples of an epoch, which goes through the log as often as that takes.
+        updates: least number of updates of an epoch; of a log that is shorter fewer lanes learn at once.
+        held_out: share of the log, its end, on which the network is tried and that it never sees.
+        margin: share of an input's range in training by which it may lie outside.
+        outside: share of the samples held out with an input further outside above which the log does not suffice.
+        worse: the same for the error on what is held out over that on as long a part that trained it.
+    """
+
+    cell: NetworkName
+    epochs: Count
+    epoch_samples: Count
+    updates: Count
+    held_out: Annotated[InnerShare, Field(ge=0.02, le=0.5)]
+    margin: Share
+    outside: InnerShare
+    worse: Annotated[Positive, Field(ge=1)]
+
+
 class RobotLog(Section):
     """How a log becomes a recording, and when a hint is given; hints are no errors.
 
@@ -89,6 +122,7 @@ class RobotLog(Section):
         gap_intervals: a pause of more than so many sample intervals ends a segment.
         jitter: standard deviation of the intervals over their median, above which the clock is named.
         even: the same, below which samples are taken as they are, without interpolation.
+        apart_s: difference between stamps and times of recording from which clocks count as apart [s].
         window_s: length of the stretches in which momentum and torque are compared [s].
         windows: how many of them.
         least_torque: a joint whose motor gives less than this share of its largest torque tells nothing of it.
@@ -102,11 +136,16 @@ class RobotLog(Section):
         delay_s: largest delay that is looked for [s].
         gravity: share of gravity by which a resting accelerometer may differ.
         weight: share of the robot's weight by which the feet's mean vertical force may differ.
+        learn: how a network learns from it.
+        settle_s: time after the start of a segment in which a limb without swings is not watched [s].
+        percentiles: share of the rates of false alarms of recordings drawn anew that the interval of a limb that is
+            watched all the time holds.
     """
 
     gap_intervals: Annotated[Positive, Field(ge=1.5, le=1000)]
     jitter: Share
     even: Share
+    apart_s: Seconds
     window_s: Seconds
     windows: Annotated[int, Field(ge=20, le=10_000)]
     least_torque: InnerShare
@@ -120,3 +159,6 @@ class RobotLog(Section):
     delay_s: Seconds
     gravity: InnerShare
     weight: InnerShare
+    learn: LogLearning
+    percentiles: InnerShare
+    settle_s: Seconds

@@ -1,0 +1,100 @@
+"""A limb that is watched all the time, such as an arm: windows of time take the place of a leg's swings.
+
+A false alarm is as likely in each second, so that the largest values of windows follow a law as those of swings do.
+Windows have to be independent of each other, or they would look like more evidence than they are: motion, and with it
+the error of an estimate, lasts for some time. So their length is the shortest at which neighbours are not alike.
+"""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.arrays import Array
+from mobnet.core.errors import DataError, not_accepted
+from mobnet.core.estimator import Estimate
+from mobnet.core.recording import SensedRecording
+from mobnet.detection.detector import GateSignal
+from mobnet.detection.leg import LEG_JOINTS
+from mobnet.detection.signals import Watched
+from mobnet.detection.swings import Spans, largest
+from mobnet.detection.watch import UNKNOWN, LegRecording, LegSetup, LimbSetup
+from mobnet.robot.description import RobotDescription
+from mobnet.settings.detection import Detection
+
+NOISE = 2.0  # standard errors by which the correlation of independent numbers may lie above zero
+TINY = 1e-12  # of a signal [N m]
+
+
+def setup_of(detection: Detection, robot: RobotDescription, limb: str, rate_hz: float) -> LimbSetup:
+    """Return the setup of a limb: with the gate of a leg where it is one that swings, else without."""
+    layout = robot.layout
+    swings = limb in layout.legs.values() and len(layout.limb(limb)) == LEG_JOINTS
+    if swings and len(robot.feet) > 1 and robot.sole is not None:
+        return LegSetup.of(detection, robot, limb, rate_hz)
+    layout.limb(limb)
+    return LimbSetup(detection, robot, limb, rate_hz)
+
+
+def always_watched(
+    setup: LimbSetup, watched: Watched, paths: Sequence[Path], read: Sequence[SensedRecording],
+    estimates: Sequence[Estimate], window_s: float, settle_s: float,
+) -> tuple[float, list[LegRecording]]:  # fmt: skip
+    """Return a limb in recordings, watched in windows that fill their segments, and the length of these [s].
+
+    Raises:
+        DataError: there are fewer windows than a law takes, of the length `window_s` or of that at which they are not
+            alike.
+    """
+    gates = [always_on(len(one.sensed), one.segments, settle_s, setup.rate_hz) for one in read]
+    signals = [watched.of(own, one.sensed.command) for one, own in zip(read, estimates, strict=True)]
+    low = [np.abs(setup.low_passed(own, one.segments)) for own, one in zip(signals, read, strict=True)]
+    least = setup.detection.thresholds.least_swings
+    while True:
+        length = round(window_s * setup.rate_hz)
+        windows = [windows_of(gate.watched, one.segments, length) for gate, one in zip(gates, read, strict=True)]
+        if (count := sum(map(len, windows))) < least:
+            what = f"seconds of free motion, in windows of {window_s:g} s, as shorter ones are alike"
+            raise DataError(not_accepted(what, round(count * window_s, 1), [f"{least * window_s:g} or more"]))
+        if not alike([largest(*pair) for pair in zip(low, windows, strict=True)]):
+            break
+        window_s *= 2.0
+    rows = zip(paths, read, gates, windows, strict=True)
+    return window_s, [
+        LegRecording(path, one.segments, one.sensed.command, gate, spans, (UNKNOWN,) * len(spans), spans)
+        for path, one, gate, spans in rows
+    ]
+
+
+def always_on(rows: int, segments: Spans, settle_s: float, rate_hz: float) -> GateSignal:
+    """Return a gate (T,) that is open but for the first part [s] of each contiguous segment."""
+    watched, settling = np.zeros(rows, dtype=bool), round(settle_s * rate_hz)
+    for start, end in segments:
+        watched[start + settling : end] = True
+    return GateSignal(watched, np.zeros(rows))
+
+
+def windows_of(watched: NDArray[np.bool_], segments: Spans, length: int) -> Spans:
+    """Return the rows (start, end) of whole windows of so many samples in the watched part (T,) of segments."""
+    firsts = [start + int(np.argmax(watched[start:end])) for start, end in segments]
+    return tuple(
+        (k, k + length)
+        for first, (_, end) in zip(firsts, segments, strict=True)
+        if watched[first]
+        for k in range(first, end - length + 1, length)
+    )
+
+
+def alike(parts: Sequence[Array]) -> bool:
+    """Return whether windows that follow each other have largest values (k, m) that are alike, in some recordings."""
+    whole = np.concatenate(parts)
+    # The largest of the signals over their means, as alarms are; of it the logarithm, as a few large values would
+    # decide the correlation of the values themselves.
+    mean = np.maximum(whole.mean(axis=0), TINY)
+    logs = [np.log(np.maximum((part / mean).max(axis=1), TINY)) for part in parts if len(part)]
+    centre, spread = np.mean(np.concatenate(logs)), np.var(np.concatenate(logs))
+    if not spread:
+        return False
+    pairs = np.concatenate([(own[:-1] - centre) * (own[1:] - centre) for own in logs])
+    return float(pairs.mean() / spread) > NOISE / np.sqrt(len(pairs))

@@ -1,0 +1,139 @@
+"""Thresholds of a limb from recordings that nothing pushes: of a leg in its swings, of any other limb all the time."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from mobnet.core.arrays import Array
+from mobnet.core.columns import EXTERNAL, named
+from mobnet.core.errors import DataError, not_accepted, refuse
+from mobnet.core.estimator import Estimate
+from mobnet.core.notes import note_differences, read_array_note
+from mobnet.core.recording import SensedRecording, read_sensed
+from mobnet.core.store import NOTE, check_finite, file_of
+from mobnet.detection.always import always_watched, setup_of
+from mobnet.detection.calibration import QuietWalk, check_signals, rate_scales, unit_of
+from mobnet.detection.points import axis_forces
+from mobnet.detection.sensitivity import found_forces
+from mobnet.detection.signals import STD, Watched
+from mobnet.detection.thresholds import Calibrated
+from mobnet.detection.watch import LegRecording, LegSetup, LimbSetup, read_estimate
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.nominal import NominalModel
+from mobnet.settings.detection import Detector, Signal
+from mobnet.settings.settings import Settings
+
+WANTED = "wanted"  # the only rule of thresholds
+
+
+@dataclass(frozen=True)
+class OwnRecording:
+    """A recording of one's own with an estimate of the joints of a limb (T, n) [N, N m]."""
+
+    path: Path
+    read: SensedRecording
+    estimate: Estimate
+
+    @classmethod
+    def read_files(cls, recording: Path, estimate: Path, robot: RobotDescription, limb: str) -> "OwnRecording":
+        """Read a recording and its estimate, paths without an ending.
+
+        Raises:
+            DataError: a file is missing or damaged, a number is not finite, or the notes of the two differ.
+        """
+        note, other = (read_array_note(file_of(stem, NOTE)) for stem in (estimate, recording))
+        refuse(f"{estimate}{NOTE}", note_differences(note, other, f"{recording}{NOTE}"))
+        joints = robot.layout.limb(limb)
+        found = read_estimate(estimate, joints)
+        if found is None:
+            missing = f"column {named(EXTERNAL, joints)[0]!r} is missing"
+            raise DataError(f"{estimate}: {missing}; accepted: an estimate of {', '.join(joints)}")
+        check_finite(f"{estimate}", found.tau_ext, named(EXTERNAL, joints))
+        return cls(recording, read_sensed(recording, robot.layout), found)
+
+
+@dataclass(frozen=True)
+class LimbCalibration:
+    """Thresholds of a limb.
+
+    Attributes:
+        setup: its joints, filters and rate.
+        signal: what is watched.
+        thresholds: of each joint (n,) [N m], of a ratio [-].
+        promise: rate of false alarms to expect, with its interval.
+        count: number of swings or windows that they are made from.
+        window_s: length of the windows [s]; None of swings.
+        forces: point -> the least force that is found there, along each axis of its body or from one side [N].
+    """
+
+    setup: LimbSetup
+    signal: Signal
+    thresholds: Array
+    promise: Calibrated
+    count: int
+    window_s: float | None
+    forces: Mapping[str, Array]
+
+
+def calibrate_limb(
+    own: Sequence[OwnRecording], robot: RobotDescription, limb: str, signal: Signal, rate_per_h: float,
+    settings: Settings,
+) -> LimbCalibration:  # fmt: skip
+    """Calibrate a detector of a limb on recordings that nothing pushes.
+
+    Raises:
+        DataError: a column never changes, recordings differ in their rate, there are too few swings or windows, or the
+            rate is above what the fitted tail holds.
+        ConfigError: the limb is unknown.
+    """
+    rate_hz = own[0].read.rate_hz
+    for one in own:
+        if one.read.rate_hz != rate_hz:
+            accepted = [f"{rate_hz}, that of the first"]
+            raise DataError(not_accepted(f"{one.path}: rate_hz", one.read.rate_hz, accepted))
+    setup = _wanting(setup_of(settings.detection, robot, limb, rate_hz), rate_per_h, settings)
+    watched = Watched(Detector(method=settings.detection.gate.method, signals=(signal,)))
+    window_s, legs = _watched(setup, watched, own, settings)
+    # Nothing is tried here on what is held out, so that all swings calibrate.
+    walk = QuietWalk.of(setup, "", legs, [one.estimate for one in own], share=1.0)
+    check_signals(setup, watched.detector, walk)
+    scales, promises = rate_scales(setup, watched, walk)
+    thresholds = promises[WANTED].factor * scales[0]
+    poses = np.concatenate([one.read.sensed.q[leg.gate.watched] for one, leg in zip(own, legs, strict=True)])
+    felt = thresholds if unit_of(f"{signal}.") == "N m" else thresholds * _usual_std(own)
+    forces = {} if signal == STD else _forces(setup, poses, felt, settings)
+    return LimbCalibration(setup, signal, thresholds, promises[WANTED], walk.first, window_s, forces)
+
+
+def _wanting(setup: LimbSetup, rate_per_h: float, settings: Settings) -> LimbSetup:
+    """Return a setup with one wanted rate of false alarms [1/h]."""
+    numbers = setup.detection.thresholds.model_copy(update={"rates_per_h": {WANTED: rate_per_h}})
+    if not isinstance(setup, LegSetup):
+        numbers = numbers.model_copy(update={"confidence": settings.robotlog.percentiles})
+    return replace(setup, detection=setup.detection.model_copy(update={"thresholds": numbers}))
+
+
+def _watched(
+    setup: LimbSetup, watched: Watched, own: Sequence[OwnRecording], settings: Settings
+) -> tuple[float | None, list[LegRecording]]:
+    """Return a limb in recordings as its detector sees it, and the length of windows where it is always watched [s]."""
+    if isinstance(setup, LegSetup):
+        return None, [setup.record(one.path, one.read, one.estimate.tau_ext) for one in own]
+    paths, read, estimates = zip(*((one.path, one.read, one.estimate) for one in own), strict=True)
+    lengths = settings.reaction.window_s, settings.robotlog.settle_s
+    return always_watched(setup, watched, paths, read, estimates, *lengths)
+
+
+def _usual_std(own: Sequence[OwnRecording]) -> Array:
+    """Return the median of the standard deviations of the joints (n,) [N, N m]."""
+    return np.median(np.concatenate([one.estimate.std for one in own if one.estimate.std is not None]), axis=0)
+
+
+def _forces(setup: LimbSetup, poses: Array, thresholds: Array, settings: Settings) -> dict[str, Array]:
+    """Return point -> least force that is found, from one side (1,) or along three axes (3,) [N]."""
+    if isinstance(setup, LegSetup):
+        return {point: np.array([force]) for point, force in found_forces(setup, poses, thresholds).items()}
+    nominal = NominalModel(setup.robot, gravity_m_s2=settings.plant.gravity_m_s2)
+    return axis_forces(setup, nominal, poses, thresholds)

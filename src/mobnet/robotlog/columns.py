@@ -1,0 +1,62 @@
+"""Columns of a log, and what their readers share."""
+
+import importlib
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from difflib import SequenceMatcher
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.arrays import Array
+from mobnet.core.errors import DataError
+
+PACKAGES = {"h5py": "h5py", "mcap": "mcap", "mcap_ros2": "mcap-ros2-support", "rosbags": "rosbags"}  # by module
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column of a log.
+
+    Attributes:
+        values: numbers (T,) in the log's own unit.
+        time_s: in logs of messages, the time of each (T,) [s] since the log began: the stamp of its header, or, where
+            it has none or all are zero, that at which it was recorded.
+        recorded_s: in logs of messages, the times at which they were recorded (T,) [s] since the log began.
+        topic: of the messages.
+        is_stamped: whether `time_s` are stamps of headers; None where messages have no header.
+    """
+
+    values: NDArray[Any]
+    time_s: Array | None = None
+    recorded_s: Array | None = None
+    topic: str = ""
+    is_stamped: bool | None = None
+
+
+Columns = Mapping[str, Column]
+
+
+def module_of(name: str, path: Path) -> ModuleType:
+    """Return a reader's module.
+
+    Raises:
+        DataError: it is not installed; the line says how to install it.
+    """
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        package = PACKAGES[name.partition(".")[0]]
+        text = f"needs the package {package}; install it: .venv/bin/python -m pip install {package}"
+        raise DataError(f"{path}: {text}") from None
+
+
+def near_names(names: Iterable[str], wanted: str, most: int = 5) -> Sequence[str]:
+    """Return the few names that are most like a wanted one, the most alike first."""
+    def alike(name: str) -> float:
+        return SequenceMatcher(None, wanted.lower(), name.lower()).ratio()
+
+    return sorted(names, key=alike, reverse=True)[:most]

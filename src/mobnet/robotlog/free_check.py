@@ -1,0 +1,116 @@
+"""The free-motion check: how well a network does on the end of a log, which it never saw, and whether the log suffices.
+
+Errors are those of the external torque against its label. In free motion the truth is zero, so that estimating nothing
+has no error there: then the question is by how much the network's error is below that of the observer.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.arrays import Array
+from mobnet.learning.dataset import LimbData
+from mobnet.learning.deployed.networks import Deployed
+from mobnet.learning.gaussian import coverage
+from mobnet.settings.robotlog import LogLearning
+
+SHARES = (0.68, 0.95)  # of errors within the interval that sigma gives
+
+
+@dataclass(frozen=True)
+class FreeCheck:
+    """What the check shows of n joints, on the part that is held out.
+
+    Attributes:
+        joints: their names (n,).
+        units: of their torques (n,).
+        seconds: how long the part is [s].
+        zero: root mean square of the label, which is the error of estimating nothing (n,) [N, N m].
+        observer: that of the error of the observer (n,) [N, N m].
+        network: that of the error of the network (n,) [N, N m].
+        seen: the same on as long a part that trained it (n,) [N, N m].
+        covered: share of the errors within the interval of each of `SHARES`, (2, n).
+        outside: share of the samples with an input outside the range of training.
+        widest: the input that is outside most often; empty where none is.
+    """
+
+    joints: tuple[str, ...]
+    units: tuple[str, ...]
+    seconds: float
+    zero: Array
+    observer: Array
+    network: Array
+    seen: Array
+    covered: Array
+    outside: float
+    widest: str
+
+    def note(self) -> dict[str, Any]:
+        """Return it as JSON for `run.json`."""
+        return {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in vars(self).items()}
+
+
+def free_check(
+    network: Deployed, data: LimbData, label: Array, cut: int, units: Sequence[str], margin: float
+) -> FreeCheck:
+    """Try a network on the samples from a row on.
+
+    Args:
+        network: the network.
+        data: of the whole logs; targets are the residual less the label.
+        label: external torque of the joints that is known (N, n) [N, N m].
+        cut: first row that is held out.
+        units: of the joints' torques (n,).
+        margin: share of an input's range by which it may lie outside.
+    """
+    held = [(max(start, cut), end) for start, end in data.segments if end > cut]
+    length = sum(end - start for start, end in held)
+    first = next((start for start, end in data.segments if start < cut <= end), 0)
+    spans = [*held, (max(first, cut - length), cut)]
+    found = network.run_all([data.inputs[start:end] for start, end in spans])
+    errors = [data.targets[a:b] - one.mean for (a, b), one in zip(spans, found, strict=True)]
+    assert all(one.std is not None for one in found)
+    std: NDArray[Any] = np.concatenate([one.std for one in found[:-1]])  # pyright: ignore[reportArgumentType, reportCallIssue]
+    rows = np.concatenate([np.arange(a, b) for a, b in held])
+    low, high = data.inputs[:cut].min(axis=0), data.inputs[:cut].max(axis=0)
+    beyond = np.maximum(low - data.inputs[rows], data.inputs[rows] - high) > margin * (high - low)
+    often = beyond.mean(axis=0)
+    return FreeCheck(
+        data.joints, tuple(units), length / data.rate_hz, _size(label[rows]), _size(data.targets[rows]),
+        _size(np.concatenate(errors[:-1])), _size(errors[-1]), coverage(np.concatenate(errors[:-1]), std, SHARES),
+        float(beyond.any(axis=1).mean()), data.input_names[int(np.argmax(often))] if often.any() else "",
+    )  # fmt: skip
+
+
+def lines_of(found: FreeCheck, numbers: LogLearning) -> Iterator[str]:
+    """Yield what the command prints of a check."""
+    yield f"free-motion check, the last {found.seconds:.0f} s, which the network never saw: root mean square errors"
+    yield f"  joint     {'nothing':>9}{'observer':>10}{'network':>9}      sigma holds 68 %   95 %"
+    for k, joint in enumerate(found.joints):
+        sizes = f"{found.zero[k]:9.3f}{found.observer[k]:10.3f}{found.network[k]:9.3f} {found.units[k]:<4}"
+        yield f"  {joint:<10}{sizes}{found.covered[0, k]:16.0%}{found.covered[1, k]:9.0%}"
+    faults = list(_faults(found, numbers))
+    yield f"the log suffices: {'yes' if not faults else 'no'}"
+    yield from (f"  {fault}" for fault in faults)
+
+
+def _faults(found: FreeCheck, numbers: LogLearning) -> Iterator[str]:
+    """Yield why a log does not suffice."""
+    if found.outside > numbers.outside:
+        yield (
+            f"{found.outside:.1%} of the held-out samples have an input outside the range of training, most often "
+            f"{found.widest}: record more varied motion"
+        )
+    ratio = np.sqrt(np.mean(np.square(found.network / np.maximum(found.seen, 1e-12))))
+    if ratio > numbers.worse:
+        yield f"the error is {ratio:.1f} times that on data that trained the network: record for longer"
+    if worse := [joint for k, joint in enumerate(found.joints) if found.network[k] >= found.observer[k]]:
+        yield f"the network's error is not below the observer's at {', '.join(worse)}: keep the observer alone there"
+
+
+def _size(values: NDArray[Any]) -> Array:
+    """Return the root mean square of each column of values (T, n)."""
+    return np.sqrt(np.square(values).mean(axis=0, dtype=np.float64))

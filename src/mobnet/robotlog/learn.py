@@ -1,0 +1,155 @@
+"""A network of a limb from logs of one's own: `./reproduce learn FOLDER... --robot TABLE` (docs/robots.md).
+
+It learns, as the networks of the paper do, the residual of the observer less the external torque that is known: of a
+limb that nothing touched the residual itself. What trained it, how, and the free-motion check stand in `run.json`.
+"""
+
+import logging
+import sys
+from argparse import Namespace
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from mobnet.core.code import ROOT
+from mobnet.core.errors import DataError, MobnetError, not_accepted
+from mobnet.core.files import RUN, read_json, write_json
+from mobnet.estimation.own import LEARNED, OwnLog, limb_of, read_log_folder
+from mobnet.learning.deployed.networks import load_network
+from mobnet.learning.job import TrainingJob
+from mobnet.learning.train import train_on
+from mobnet.learning.trainer import Trainer
+from mobnet.plan.precision import with_precision
+from mobnet.robot.description import describe
+from mobnet.robot.nominal import NominalModel
+from mobnet.robotlog.free_check import free_check, lines_of
+from mobnet.robotlog.labels import before, check_labels, label_of, limb_data
+from mobnet.robotlog.learning_words import learn_parser
+from mobnet.settings.catalogue import Catalogue
+from mobnet.settings.load import load_section, load_settings
+from mobnet.settings.networks import Coarse, Learning, Limb, Network, Training
+from mobnet.settings.robot import RobotTable
+from mobnet.settings.settings import Settings
+
+log = logging.getLogger(__name__)
+STATE = "training"  # folder of the checkpoint, in that of the network
+SEED = 0
+
+
+def training_of(settings: Settings, table: RobotTable, limb: str, labels: str, rate_hz: float, epochs: int) -> Training:
+    """Return how a limb's network learns from a log at a rate [Hz]: as MOB-Net's does, of the same cell.
+
+    A limb without an entry in the table's `networks` sees its own joints.
+    """
+    numbers = settings.robotlog.learn
+    ports = table.networks.get(limb) or Limb(joints=(limb,), Q=(limb,), T=(limb,))
+    # In free motion the residual follows from motion and torque alone. A network that sees both would learn to be the
+    # observer, and take away every push with it.
+    ports = ports.model_copy(update={"T": ()}) if labels == "free" else ports
+    row = settings.networks.get(limb) or settings.networks[numbers.cell]
+    learning, horizon = Catalogue(settings).learned(LEARNED), row.horizon_steps
+    return Training(
+        method=LEARNED, limb=limb, target="uncertainty", network=Network.model_validate({**vars(ports), **vars(row)}),
+        learning=_at_rate(learning, rate_hz / settings.rates.data_hz), epochs=epochs,
+        epoch_samples=max(numbers.epoch_samples, horizon * numbers.updates),
+    )  # fmt: skip
+
+
+def _at_rate(learning: Learning, ratio: float) -> Learning:
+    """Return how a network learns at a rate that is so many times that of the configuration: strides are times."""
+    phases = [(max(1, round(phase.stride * ratio)), phase.share) for phase in learning.coarse]
+    strides = dict.fromkeys(stride for stride, _ in phases if stride > 1)
+    coarse = tuple(
+        Coarse(stride=stride, share=sum(share for other, share in phases if other == stride)) for stride in strides
+    )
+    return learning.model_copy(update={"coarse": coarse})
+
+
+def learn(
+    settings: Settings, table: RobotTable, logs: Sequence[OwnLog], limb: str, labels: str, epochs: int, out: Path,
+    *, force: bool = False,
+) -> list[str]:  # fmt: skip
+    """Train a network of a limb on logs, or go on with it, and return what is printed of it.
+
+    Raises:
+        DataError: the logs lack what tells the label, differ in their sampling or are too short, or the folder holds
+            another network.
+        TrainingError: the loss diverged.
+    """
+    robot, first = describe(table), logs[0].sampling
+    nominal = NominalModel(robot, gravity_m_s2=settings.plant.gravity_m_s2)
+    known = [label_of(one, nominal, labels) for one in logs]
+    training = training_of(settings, table, limb, labels, first.rate_hz, epochs)
+    data = limb_data(logs, known, robot.layout, training.network)
+    cut = len(data.inputs) - round(settings.robotlog.learn.held_out * len(data.inputs))
+    trained = before(data, cut)
+    job = TrainingJob(_filled(training, trained.segments, settings), SEED, settings.seed)
+    if _is_new(Trainer(job, trained).fingerprint, out, force=force):
+        train_on(trained, job, out, out / STATE)
+    columns, units = robot.layout.columns(data.joints), [robot.layout.unit(joint) for joint in data.joints]
+    label = np.concatenate(known)[:, columns]
+    numbers = settings.robotlog.learn
+    found = free_check(load_network(out), data, label, cut, units, numbers.margin)
+    told = {"folders": [str(one.folder) for one in logs], "labels": labels, **vars(first), "check": found.note()}
+    write_json(out / RUN, {**read_json(out / RUN), **told})
+    return [*lines_of(found, numbers), f"written: {out}"]
+
+
+def _filled(training: Training, segments: Sequence[tuple[int, int]], settings: Settings) -> Training:
+    """Return a training whose batches a log fills: of a short log, fewer lanes learn at once."""
+    stride = max((phase.stride for phase in training.learning.coarse), default=1)
+    horizons = sum(end - start for start, end in segments) // (training.network.horizon_steps * stride)
+    lanes = max(1, min(training.learning.batch_size, horizons // 4))
+    epoch = training.epoch_samples or settings.robotlog.learn.epoch_samples
+    lanes = max(1, min(lanes, epoch // (training.network.horizon_steps * settings.robotlog.learn.updates)))
+    return training.model_copy(update={"learning": training.learning.model_copy(update={"batch_size": lanes})})
+
+
+def _is_new(fingerprint: str, out: Path, *, force: bool) -> bool:
+    """Return whether a network has to be trained; a DataError says that a folder holds another one."""
+    if not (out / RUN).exists():
+        return True
+    held = read_json(out / RUN).get("fingerprint")
+    if held == fingerprint:
+        log.info("%s: already trained from these logs in this way", out)
+        return False
+    if not force:
+        accepted = [f"{held}, the one that is there; or --force, or another --out"]
+        raise DataError(not_accepted(f"{out}: a network with the fingerprint", fingerprint, accepted))
+    return True
+
+
+def run(options: Namespace) -> list[str]:
+    """Train a network as the command's options say, and return what is printed."""
+    check_labels(options.labels)
+    settings = with_precision(load_settings(), ROOT / "results" / "default")
+    epochs = settings.robotlog.learn.epochs if options.epochs is None else options.epochs
+    if epochs < 1:
+        raise DataError(not_accepted("--epochs", epochs, ["a whole number from 1"]))
+    table = load_section(options.robot, RobotTable) if options.robot else settings.robot
+    limb = limb_of(table.layout, options.limb)
+    logs = [read_log_folder(folder, table.layout) for folder in options.folders]
+    out = options.out or Path(f"{limb}_net")
+    return learn(settings, table, logs, limb, options.labels, epochs, out, force=options.force)
+
+
+def main(words: list[str]) -> int:
+    """Run the command; return its exit status."""
+    options = learn_parser().parse_args(words)
+    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+    try:
+        lines = run(options)
+    except MobnetError as error:
+        log.error("%s", error)
+        return 1
+    except KeyboardInterrupt:
+        log.error("stopped; the same words go on from the last whole epoch")
+        return 130
+    for line in lines:
+        log.info("%s", line)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,110 @@
+"""Which columns of a log are which signals: a map by full names, and that of a log without one."""
+
+import re
+from collections.abc import Collection, Iterator
+from pathlib import Path
+
+from mobnet.core.columns import FEET, recording_columns
+from mobnet.core.errors import ConfigError, not_accepted, refuse
+from mobnet.core.joints import JointLayout
+from mobnet.robotlog.columns import near_names
+from mobnet.settings.robotlog import LogMap, Signal
+
+MOTORS = ("q", "v", "tau_motor")
+BASE = ("quaternion", "velocity", "omega", "acc")  # what a floating base needs
+JOINT_STATE = {"q": "position", "v": "velocity", "tau_motor": "effort"}  # fields of ROS's message
+AXES = ("x", "y", "z")
+ENDS = {  # signal -> how messages of ROS name its numbers
+    **dict.fromkeys(("position", "velocity", "omega", "acc"), AXES),
+    "quaternion": ("w", *AXES),
+    **dict.fromkeys(FEET, tuple(f"{part}.{axis}" for part in ("force", "torque") for axis in AXES)),
+}
+
+
+def given_signals(meaning: LogMap) -> dict[str, Signal]:
+    """Return the signals that a map has."""
+    return {name: signal for name in LogMap.model_fields if isinstance(signal := getattr(meaning, name), Signal)}
+
+
+def default_map(names: Collection[str], layout: JointLayout) -> LogMap:
+    """Return the map of a log whose columns have the names of a recording (docs/data.md), with the clock `time`.
+
+    Of messages it is the topic with a JointState of all joints, if there is a single one and the base is fixed.
+    """
+    fields, taken, held = recording_columns(layout), dict[str, Signal](), set(names)
+    base = 7 if layout.virtual else 0
+    own = {key: [name for name, *_ in group] for key, group in fields.items()}
+    groups = {
+        "q": own["q"][base:], "v": own["v"][6 if base else 0 :], "tau_motor": own["tau_motor"],
+        "position": own["q"][:3] if base else [], "quaternion": own["q"][3:base], "acc": own["acc_base_in_base"],
+        "velocity": own["v"][:3] if base else [], "omega": own["v"][3:6] if base else [],
+        **{foot: own[f"wrench_{foot}"] for foot in FEET}, "swing": own["swing"], "landing": own["landing"],
+    }  # fmt: skip
+    ends = [f".{field}.{joint}" for field in JOINT_STATE.values() for joint in layout.actuated]
+    topics = [topic for name in names if (topic := name.removesuffix(ends[0])) != name]
+    whole = [topic for topic in topics if {topic + end for end in ends} <= held]
+    if len(whole) == 1 and not base and not set(groups["q"]) <= held:
+        groups = {key: [f"{whole[0]}.{field}"] for key, field in JOINT_STATE.items()}
+    for key, group in groups.items():
+        if group and (key in MOTORS or set(group) <= held):
+            taken[key] = Signal(columns=tuple(group))
+    return LogMap.model_validate(taken)
+
+
+def resolved(path: Path, meaning: LogMap, names: Collection[str], layout: JointLayout) -> LogMap:
+    """Return a map whose signals name each column that they need, all of which the log has.
+
+    A topic or field alone stands for the columns below it: by the names of joints, by axes, or by numbers.
+
+    Raises:
+        ConfigError: the map does not fit the robot.
+        DataError: a column is missing; the line has the names that are most like it.
+    """
+    given, held = given_signals(meaning), set(names)
+    needed = [*MOTORS, *(BASE if layout.virtual else ())]
+    if missing := [name for name in needed if name not in given]:
+        raise ConfigError(f"{path}: {', '.join(missing)}: missing in the map; a robot with a floating base needs them")
+    if meaning.joints and len(meaning.joints) != layout.nu:
+        raise ConfigError(f"{path}: joints: {not_accepted('number', len(meaning.joints), [layout.nu])}")
+    widths = dict.fromkeys(MOTORS, layout.nu) | {name: len(ends) for name, ends in ENDS.items()}
+    widths |= dict.fromkeys(("swing", "landing"), len(layout.legs))
+    joints = meaning.joints or layout.actuated
+    full = {key: _full(key, signal, held, joints, widths[key]) for key, signal in given.items()}
+    refuse(path, [fault for key, signal in full.items() for fault in _faults(key, signal, names, widths[key])])
+    return meaning.model_copy(update=full)
+
+
+def wanted_columns(meaning: LogMap, names: Collection[str]) -> list[str]:
+    """Return the columns that a map by full names needs, its clock included where the log has it."""
+    own = [name for signal in given_signals(meaning).values() for name in signal.columns]
+    return list(dict.fromkeys([*(name for name in (meaning.clock.column,) if name in names), *own]))
+
+
+def _full(key: str, signal: Signal, held: Collection[str], joints: Collection[str], width: int) -> Signal:
+    """Return a signal with the columns below the one that it names, if it names one alone."""
+    stem = signal.columns[0]
+    if len(signal.columns) > 1 or stem in held and width == 1:
+        return signal
+    named = [f"{stem}.{end}" for end in (joints if key in MOTORS else ENDS.get(key, ()))]
+    numbered = [f"{stem}.{k}" for k in range(width)]
+    listed = [stem.replace("*", str(k)) for k in range(width)] if "*" in stem else []
+    for columns in (named, listed, numbered):
+        if columns and set(columns) <= set(held):
+            by_name = {"order": "wxyz"} if key == "quaternion" and columns is named else {}
+            return signal.model_copy(update={"columns": tuple(columns), **by_name})
+    return signal
+
+
+def _faults(key: str, signal: Signal, names: Collection[str], width: int) -> Iterator[str]:
+    """Yield what does not fit about the columns of a signal."""
+    count = len(signal.columns)
+    missing = [name for name in signal.columns if name not in names]
+    for name in missing:
+        near = near_names(names, name)
+        yield not_accepted("column", name, near) + (f", and {len(names) - len(near)} others" * (len(names) > len(near)))
+    if count != width and not missing:
+        yield f"{key}.columns: {not_accepted('number', count, [width])}"
+    for part in ("sign", "scale", "offset"):
+        value = getattr(signal, part)
+        if isinstance(value, tuple) and len(value) != width:
+            yield f"{key}.{part}: {not_accepted('number', len(value), [1, width])}"

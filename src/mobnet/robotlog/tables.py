@@ -1,0 +1,118 @@
+"""Logs that are tables: CSV, Parquet and HDF5. Their packages are imported where they are needed, as they start slowly."""
+
+import csv
+from collections.abc import Collection
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mobnet.core.arrays import Array
+from mobnet.core.errors import DataError
+from mobnet.robotlog.columns import Column, module_of
+
+
+def csv_names(path: Path) -> list[str]:
+    """Return the header of a CSV file."""
+    return _csv_header(path)[0]
+
+
+def _csv_header(path: Path) -> tuple[list[str], str]:
+    """Return the names in the header of a CSV file, and what stands between them: a comma, semicolon or tabulator."""
+    with path.open(newline="", encoding="utf-8-sig") as file:
+        header = file.readline()
+    between = max(",;\t", key=header.count)
+    names = [name.strip() for name in next(csv.reader([header], delimiter=between, skipinitialspace=True), [])]
+    if twice := [name for k, name in enumerate(names) if name in names[:k]]:
+        raise DataError(f"{path}: column {twice[0]!r} stands twice in the header; accepted: each name once")
+    return names, between
+
+
+def csv_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
+    """Read columns of a CSV with a header; a field without a number is NaN."""
+    import pyarrow as pa
+    from pyarrow import csv as arrow
+
+    names, between = _csv_header(path)
+    layout, asked = arrow.ParseOptions(delimiter=between), set(wanted)
+    rows = arrow.ReadOptions(column_names=names, skip_rows=1)
+    empty = [*arrow.ConvertOptions().null_values, " "]
+    kept = {"include_columns": [name for name in names if name in asked], "null_values": empty}
+    with arrow.open_csv(path, rows, layout, arrow.ConvertOptions(**kept)) as file:
+        first = file.schema  # of the first block: what looks whole there, or empty, may be a fraction further down
+    kinds = {f.name: pa.float64() for f in first if pa.types.is_integer(f.type) or pa.types.is_null(f.type)}
+    return _of_table(arrow.read_csv(path, rows, layout, arrow.ConvertOptions(**kept, column_types=kinds)))
+
+
+def parquet_names(path: Path) -> list[str]:
+    """Return the columns of a Parquet file."""
+    import pyarrow.parquet as pq
+
+    return pq.read_schema(path).names
+
+
+def parquet_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
+    """Read columns of a Parquet file."""
+    import pyarrow.parquet as pq
+
+    return _of_table(pq.read_table(path, columns=list(wanted)))
+
+
+def _of_table(table: Any) -> dict[str, Column]:
+    """Return the columns of a table that hold numbers or points in time, which become seconds since the first."""
+    import pyarrow as pa
+    import pyarrow.compute as pc
+
+    found = dict[str, Column]()
+    for name, kind in zip(table.schema.names, table.schema.types, strict=True):
+        column = table[name]
+        if pa.types.is_timestamp(kind):
+            since = pc.subtract(pc.cast(column, pa.timestamp("ns", kind.tz)).cast(pa.int64()), column[0].value)
+            found[name] = Column(1e-9 * _numbers(since))
+        elif pa.types.is_floating(kind) or pa.types.is_integer(kind) or pa.types.is_boolean(kind):
+            found[name] = Column(_numbers(column))
+    return found
+
+
+def _numbers(column: Any) -> Array:
+    """Return a column of a table in float64, NaN where it has no number; Arrow's own way would import pandas."""
+    import pyarrow as pa
+    import pyarrow.compute as pc
+
+    whole = pc.cast(column, pa.float64()).combine_chunks()
+    return np.from_dlpack(whole.fill_null(np.nan) if whole.null_count else whole)
+
+
+def hdf5_names(path: Path) -> list[str]:
+    """Return a column for each dataset (T,) by its path, and PATH.0 to PATH.n-1 for one of (T, n)."""
+    return [name for name, _ in _hdf5_parts(path)]
+
+
+def hdf5_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
+    """Read columns of an HDF5 file; a dataset is read once."""
+    asked: dict[str, list[tuple[str, int]]] = {}
+    for name, (dataset, k) in _hdf5_parts(path):
+        if name in set(wanted):
+            asked.setdefault(dataset, []).append((name, k))
+    found = dict[str, Column]()
+    with module_of("h5py", path).File(path, "r") as file:
+        for dataset, parts in asked.items():
+            values = np.atleast_2d(np.asarray(file[dataset][()], dtype=np.float64).T)
+            found |= {name: Column(np.ascontiguousarray(values[k])) for name, k in parts}
+    return found
+
+
+def _hdf5_parts(path: Path) -> list[tuple[str, tuple[str, int]]]:
+    """Return the name of each column in an HDF5 file, with its dataset and its number there."""
+    h5py, found = module_of("h5py", path), list[tuple[str, tuple[str, int]]]()
+
+    def visit(name: str, item: Any) -> None:
+        if isinstance(item, h5py.Dataset) and item.dtype.kind in "fiub" and item.ndim in (1, 2):
+            columns = [name] if item.ndim == 1 else [f"{name}.{k}" for k in range(item.shape[1])]
+            found.extend((column, (name, k)) for k, column in enumerate(columns))
+
+    with h5py.File(path, "r") as file:
+        file.visititems(visit)
+    return found
+
+
