@@ -7,9 +7,10 @@ import pytest
 
 from mobnet.estimation.low_pass import filtered
 from mobnet.estimation.observer import MomentumObserver
+from mobnet.robot.frames import rotation
 from mobnet.robot.nominal import NominalModel
 from mobnet.simulation.free_plant import damping_of, held_model, hidden_links, joint_friction
-from mobnet.simulation.free_run import Numbers, record_motion
+from mobnet.simulation.free_run import Numbers, record_motion, slightly_turned
 
 SECONDS = 8.0
 IDEAL_NM = 0.02  # error of the observer that issue 41 allows on an ideal plant
@@ -76,6 +77,13 @@ def test_a_recording_depends_on_its_seed_alone(arm, numbers):
     assert not np.array_equal(one.sensed.q, next_one.sensed.q)
 
 
+def test_all_recordings_are_of_the_same_robot(arm, numbers):
+    """At rest in the same posture, what the motors report is the same torque but for noise."""
+    rest = [record_motion(arm, numbers, 0.02, seed, ideal=False, pushed=False).sensed.tau_motor[:5] for seed in (1, 2)]
+    noise = numbers.motion.joints.torque_noise_share * arm.torque_limits
+    assert (np.abs(np.mean(rest[0], axis=0) - np.mean(rest[1], axis=0)) < 5 * noise).all()
+
+
 def test_friction_opposes_motion_and_grows_with_speed_and_torque(imported, numbers):
     friction, nu = joint_friction(imported, numbers.motion), imported.layout.nu
     slow, fast, torque = np.full(nu, 0.5), np.full(nu, 1.0), 0.5 * imported.torque_limits
@@ -84,6 +92,12 @@ def test_friction_opposes_motion_and_grows_with_speed_and_torque(imported, numbe
     assert (np.diff(taken, axis=0) > 0).all()
     np.testing.assert_allclose(damping_of(friction, -fast, torque), damping_of(friction, fast, torque))
     assert np.isfinite(damping_of(friction, 0 * slow, torque)).all()
+
+
+def test_a_base_is_turned_by_the_rotation_that_is_asked_for():
+    quaternion, angle = np.array([[np.cos(0.3), np.sin(0.3), 0.0, 0.0]]), np.array([[0.0, 0.0, 1e-3]])
+    expected = rotation(quaternion[0]) @ [[1, -1e-3, 0], [1e-3, 1, 0], [0, 0, 1]]
+    np.testing.assert_allclose(rotation(slightly_turned(quaternion, angle / 2)[0]), expected, atol=1e-6)
 
 
 def test_hidden_links_are_near_those_of_the_table(imported, settings):

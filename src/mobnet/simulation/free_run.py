@@ -1,6 +1,7 @@
 """A recording of any robot that moves without walking: plan, plant, control, sensors, truth (docs/robots.md)."""
 
 import zlib
+from collections.abc import Sequence
 from dataclasses import fields
 from typing import Any, NamedTuple
 
@@ -10,7 +11,7 @@ from scipy.interpolate import BSpline
 
 from mobnet.core.arrays import Array
 from mobnet.core.columns import recording_columns
-from mobnet.core.joints import N_VIRTUAL, JointLayout
+from mobnet.core.joints import N_VIRTUAL, NQ_BASE, JointLayout
 from mobnet.core.recording import Recording, Sensed, Truth
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.free_motion import FreeMotion
@@ -25,7 +26,8 @@ from mobnet.simulation.free_plant import (
     joint_friction,
 )
 
-STREAMS = ("motion", "body", "motors", "pushes", "noise")  # of random numbers, in the order spawned
+STREAMS = ("motion", "pushes", "noise")  # of random numbers of a seed, in the order spawned
+HIDDEN = ("body", "motors")  # those of the robot itself, whatever the seed
 CHUNK = 10_000  # samples for which the motion is computed at once
 
 
@@ -40,7 +42,7 @@ class Numbers(NamedTuple):
 def record_motion(
     robot: RobotDescription, numbers: Numbers, seconds: float, seed: int, ideal: bool, pushed: bool
 ) -> Recording:
-    """Simulate a robot that moves for so long [s]; without pushes the motion of a seed is the same.
+    """Simulate a robot that moves for so long [s]; all recordings are of the same robot, whatever the seed.
 
     `tau_motor` are samples at the ticks: the mean of what a motor gave just before and just after one. `tau_ext` are
     means over the samples, as in every recording: pushes, and what holds a floating base. In the ideal case the plant
@@ -49,8 +51,8 @@ def record_motion(
     Raises:
         SimulationError: no motion is found that meets the limits of the robot.
     """
-    seeds = np.random.SeedSequence([seed, zlib.crc32(robot.name.encode())]).spawn(len(STREAMS))
-    rng = {name: np.random.default_rng(stream) for name, stream in zip(STREAMS, seeds, strict=True)}
+    own = zlib.crc32(robot.name.encode())
+    rng = {**streams(STREAMS, [own, seed]), **streams(HIDDEN, [own])}
     settings, gravity = numbers.motion, numbers.plant.gravity_m_s2
     motion = plan_motion(robot, settings, seconds, gravity, rng["motion"])
     built = robot if ideal else hidden_links(robot, settings.body, rng["body"])
@@ -64,6 +66,12 @@ def record_motion(
         add_noise(run, robot, numbers, rng["noise"])
     meta = {"scenario": "motion", "level": "ideal" if ideal else "hidden", "seed": seed}
     return recording_of(run, robot.layout, numbers.rates.data_hz, meta)
+
+
+def streams(names: Sequence[str], entropy: Sequence[int]) -> dict[str, np.random.Generator]:
+    """Return generators of random numbers by their names."""
+    seeds = np.random.SeedSequence(entropy).spawn(len(names))
+    return {name: np.random.default_rng(seed) for name, seed in zip(names, seeds, strict=True)}
 
 
 class Run:
@@ -134,9 +142,18 @@ def add_noise(run: Run, robot: RobotDescription, numbers: Numbers, rng: np.rando
     run.v[:, -nu:] += noise.joint_velocity_rad_s * rng.normal(size=(rows, nu))
     run.tau += numbers.motion.joints.torque_noise_share * robot.torque_limits * rng.normal(size=(rows, nu))
     if robot.floating:
+        half = own.orientation_offset_rad * rng.normal(size=3) + own.orientation_rad * rng.normal(size=(rows, 3))
+        run.q[:, 3:NQ_BASE] = slightly_turned(run.q[:, 3:NQ_BASE], half / 2)
         run.v[:, 3:N_VIRTUAL] += noise.base_angular_velocity_rad_s * rng.normal(size=(rows, 3))
     if run.imu is not None:
         run.acc += noise.base_acceleration_m_s2 * rng.normal(size=(rows, 3))
+
+
+def slightly_turned(quaternion: Array, half: Array) -> Array:
+    """Return quaternions w x y z (T, 4), turned by small rotation vectors 2 `half`, (T, 3) [rad] in base axes."""
+    w, u = quaternion[:, :1], quaternion[:, 1:]
+    turned = np.hstack([w - (u * half).sum(axis=1, keepdims=True), u + w * half + np.cross(u, half)])
+    return turned / np.linalg.norm(turned, axis=1, keepdims=True)
 
 
 def recording_of(run: Run, layout: JointLayout, rate_hz: float, meta: dict[str, Any]) -> Recording:
