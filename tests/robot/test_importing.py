@@ -111,7 +111,7 @@ SIDED = """<mujoco model="sided"><worldbody><body name="trunk" pos="0 0 1"><free
 <site name="imu_tilted" pos="0.1 0 0" euler="0 0 90"/><site name="imu_spare"/>
 {limbs}</body></worldbody></mujoco>"""
 LIMB = """<body name="{side}_{part}" pos="0 {y} {z}"><joint name="{side}_{joint}_pitch" axis="0 1 0"/>
-<inertial pos="0 0 -0.1" mass="1" diaginertia="0.01 0.01 0.01"/><site name="{side}_imu"/>
+<inertial pos="0 0 -0.1" mass="1" diaginertia="0.01 0.01 0.01"/><site name="{side}_{part}_imu"/>
 <body name="{side}_{part}_end" pos="0 0 -0.2"><joint name="{side}_{end}" axis="0 1 0"/>
 <inertial pos="0 0 -0.1" mass="1" diaginertia="0.01 0.01 0.01"/></body></body>"""
 
@@ -131,7 +131,7 @@ def test_limbs_sensors_and_feet_are_told_by_names_and_places(tmp_path):
     notes = "\n".join(found.notes)
     for text in (
         "imu_tilted: its axes are not those of the base", "imu_spare: another inertial sensor on the base",
-        "left_imu: an inertial sensor on left_leg; a table has that of the base, trunk",
+        "left_leg_imu: an inertial sensor on left_leg; a table has that of the base, trunk",
         "feet: these bodies at the ends of limbs are lowest: {left: {body: left_leg_end, limb: leftleg}",
     ):  # fmt: skip
         assert text in notes
