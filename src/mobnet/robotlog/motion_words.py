@@ -13,7 +13,7 @@ def motion_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--robot", type=Path, help="table of the robot (default: that of configs)")
     parser.add_argument("--minutes", type=float, default=1.0, help="how long it moves (default: %(default)s)")
-    parser.add_argument("--seed", type=int, default=1, help="of everything that is drawn (default: %(default)s)")
+    parser.add_argument("--seed", type=int, default=1, help="of motion, pushes and noise (default: %(default)s)")
     parser.add_argument(
         "--pushes",
         action="store_true",
