@@ -78,6 +78,12 @@ def arm(arm_table):
     return describe(arm_table)
 
 
+@pytest.fixture(scope="session", params=("panda", "g1"))
+def imported(request):
+    """The robots whose tables were made from files of others."""
+    return describe(load_section(ROOT / "configs" / "robots" / f"{request.param}.yaml", RobotTable))
+
+
 @pytest.fixture(scope="session")
 def nominal(robot):
     return NominalModel(robot)

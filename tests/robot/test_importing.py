@@ -63,6 +63,11 @@ def test_a_humanoid_from_a_mjcf_file_is_its_own_table(robot, tmp_path):
     assert {tuple(joints) for limb, joints in read.layout.groups.items() if limb != "V"} >= {
         robot.layout.limb("LL"), robot.layout.limb("RA")
     }  # fmt: skip
+    assert read.imu == robot.imu
+    (feet,) = [note for note in found.notes if note.startswith("feet: ")]
+    moved = {joint.id: joint.body for joint in robot.joints}  # what is welded below it is one body with it
+    for side, foot in robot.feet.items():
+        assert f"{side}: {{body: {moved[robot.layout.limb(foot.limb)[-1]]}, limb: " in feet
 
 
 OFFSET = """<mujoco model="offset"><worldbody><body name="stand"><geom size="0.1"/>
@@ -89,6 +94,48 @@ def test_the_base_is_what_the_user_says(tmp_path):
     ((_, inertia, terms),) = differences(robot, found, ARM)
     assert max(inertia, terms) < EQUAL
     assert robot.mass == pytest.approx(10.0)
+
+
+def test_rotors_that_no_file_has_are_taken_from_the_user(tmp_path):
+    found = import_robot(ARM, None, 100.0, 10.0, armature=0.2)
+    (tmp_path / "table.yaml").write_text(table_text(found, ARM.name))
+    robot = describe(load_section(tmp_path / "table.yaml", RobotTable))
+    assert robot.armature.tolist() == [0.2, 0.2]
+    assert "armature of all joints: not in the file, 0.2 kg m^2 is taken" in found.notes
+    assert not any(note.startswith("armature: zero") for note in found.notes)
+    assert np.max([numbers for _, *numbers in differences(robot, found, ARM)]) < EQUAL
+
+
+SIDED = """<mujoco model="sided"><worldbody><body name="trunk" pos="0 0 1"><freejoint/>
+<inertial pos="0 0 0" mass="5" diaginertia="0.1 0.1 0.1"/>
+<site name="imu_tilted" pos="0.1 0 0" euler="0 0 90"/><site name="imu_spare"/>
+{limbs}</body></worldbody></mujoco>"""
+LIMB = """<body name="{side}_{part}" pos="0 {y} {z}"><joint name="{side}_{joint}_pitch" axis="0 1 0"/>
+<inertial pos="0 0 -0.1" mass="1" diaginertia="0.01 0.01 0.01"/><site name="{side}_{part}_imu"/>
+<body name="{side}_{part}_end" pos="0 0 -0.2"><joint name="{side}_{end}" axis="0 1 0"/>
+<inertial pos="0 0 -0.1" mass="1" diaginertia="0.01 0.01 0.01"/></body></body>"""
+
+
+def test_limbs_sensors_and_feet_are_told_by_names_and_places(tmp_path):
+    parts = [("leg", "hip", "knee", -0.1), ("arm", "shoulder", "elbow", 0.4)]
+    limbs = "".join(
+        LIMB.format(side=side, part=part, joint=joint, end=end, y=y, z=z)
+        for part, joint, end, z in parts
+        for side, y in (("left", 0.1), ("right", -0.1))
+    )
+    (tmp_path / "sided.xml").write_text(SIDED.format(limbs=limbs))
+    found, robot = table_of(tmp_path / "sided.xml", tmp_path)
+    assert {"leftleg", "rightleg", "leftarm", "rightarm"} < set(robot.layout.groups)
+    assert robot.imu is not None
+    assert robot.imu.pos == pytest.approx((0.1, 0.0, 0.0))
+    notes = "\n".join(found.notes)
+    for text in (
+        "imu_tilted: its axes are not those of the base", "imu_spare: another inertial sensor on the base",
+        "left_leg_imu: an inertial sensor on left_leg; a table has that of the base, trunk",
+        "feet: these bodies at the ends of limbs are lowest: {left: {body: left_leg_end, limb: leftleg}",
+    ):  # fmt: skip
+        assert text in notes
+    assert "arm_end" not in notes
 
 
 @pytest.fixture

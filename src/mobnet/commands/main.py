@@ -20,6 +20,7 @@ MODULES = {  # command -> the module that `python -m` runs, with words that come
     "check": ("mobnet.check",),
     "calibrate": ("mobnet.detection.calibrate",),
     "export": ("mobnet.export.export",),
+    "motion": ("mobnet.robotlog.motion",),
     "observe": ("mobnet.robotlog.observe",),
     "learn": ("mobnet.robotlog.learn",),
     "detect": ("mobnet.robotlog.detect",),
@@ -29,7 +30,7 @@ MODULES = {  # command -> the module that `python -m` runs, with words that come
     **{name: ("mobnet.evaluation.report.snapshot", name) for name in ("verify", "compare", "snapshot")},
 }
 # Their words are files of the caller, no code of ours.
-OUTSIDE = ("check", "calibrate", "demo", "detect", "export", "learn", "observe", "robot")
+OUTSIDE = ("check", "calibrate", "demo", "detect", "export", "learn", "motion", "observe", "robot")
 REPORT = ("--report", "report.html", "--report-after-run")
 
 

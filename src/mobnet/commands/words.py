@@ -14,6 +14,7 @@ from mobnet.export.words import export_parser
 from mobnet.plan.places import scale_of
 from mobnet.robot.import_words import import_parser
 from mobnet.robotlog.learning_words import detect_parser, learn_parser
+from mobnet.robotlog.motion_words import motion_parser
 from mobnet.robotlog.words import observe_parser
 from mobnet.running.words import RESULTS, bench_parser, check_parser, cost_parser, demo_parser, results_parser
 
@@ -24,6 +25,7 @@ COMMANDS = {
     "verify": "list the missing, changed and unexpected files of a run, by results/MANIFEST.sha256",
     "check": "check recordings, weights and configurations from outside; --help says how",
     "robot": "make a robot's table from its URDF or MJCF file; --help says how",
+    "motion": "simulate the log of a robot of a table that moves without walking; --help says how",
     "observe": "make the residual of a robot's own log, and say what looks wrong with it; --help says how",
     "learn": "train a network on a robot's own logs, and try it on their end; --help says how",
     "calibrate": "print thresholds of detection for a wanted rate of false alarms; --help says how",
@@ -61,6 +63,7 @@ PARSERS = {
     "detect": detect_parser,
     "export": export_parser,
     "learn": learn_parser,
+    "motion": motion_parser,
     "observe": observe_parser,
     "robot": import_parser,
     **{name: functools.partial(results_parser, name) for name in RESULTS},

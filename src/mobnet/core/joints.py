@@ -11,6 +11,14 @@ from mobnet.core.errors import ConfigError, not_accepted
 
 N_VIRTUAL = 6  # degrees of freedom of a floating base
 NQ_BASE = 7  # position (3) and unit quaternion (4) of a floating base
+LEG_AXES = (
+    "z",
+    "x",
+    "y",
+    "y",
+    "y",
+    "x",
+)  # of a leg that walks: yaw, roll, pitch of the hip, knee, pitch, roll of the ankle
 VIRTUAL_UNITS = ("N", "N", "N", "N m", "N m", "N m")
 
 
@@ -97,7 +105,8 @@ class JointLayout:
 
 def right_of(body: str) -> str:
     """Return the name of the body that is the mirror image of another; a middle body is its own."""
-    return body.replace("L_", "R_", 1)
+    left, right = ("L_", "R_") if "L_" in body else ("left_", "right_")
+    return body.replace(left, right, 1)
 
 
 def with_image(part: str) -> tuple[str, ...]:

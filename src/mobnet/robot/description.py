@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.errors import ConfigError
-from mobnet.core.joints import JointLayout, Limits, right_of, with_image
+from mobnet.core.joints import LEG_AXES, JointLayout, Limits, right_of, with_image
 from mobnet.settings.parts import BodyRow, Colour, FootRow, ImuRow, JointRow, LegRow, PointRow, ShapeRow, SoleRow
 from mobnet.settings.robot import RobotTable
 
 SIDES = ("left", "right")
-LEG_JOINTS = 6  # of a leg that walks
+LEG_JOINTS = len(LEG_AXES)
 MIRROR_Y = np.array([1.0, -1.0, 1.0])
 Row = TypeVar("Row", bound=PointRow)
 Vector = NDArray[np.float64]
@@ -133,11 +133,13 @@ def for_walking(robot: RobotDescription) -> WalkingRobot:
         ConfigError: its table lacks something that walking takes; one line names all of it.
     """
     limbs = [robot.layout.limb(robot.feet[side].limb) for side in SIDES if side in robot.feet]
-    legs = sum(limbs, ())
+    legs, axes = sum(limbs, ()), {_axes(robot, limb) for limb in limbs if len(limb) == LEG_JOINTS}
     needed = {
         "a floating base": robot.floating,
         "feet on both sides": robot.feet.keys() >= set(SIDES),
         f"legs of {LEG_JOINTS} joints": all(len(limb) == LEG_JOINTS for limb in limbs),
+        f"legs whose joints have the axes {', '.join(LEG_AXES)} (here {'; '.join(sorted(axes))})": axes
+        <= {", ".join(LEG_AXES)},
         "legs that come first in `order`, the left one before the right": robot.layout.actuated[: len(legs)] == legs,
         "leg geometry (`leg`)": robot.leg,
         "hands on both sides": robot.hands.keys() >= set(SIDES),
@@ -148,6 +150,13 @@ def for_walking(robot: RobotDescription) -> WalkingRobot:
     if missing:
         raise ConfigError(f"robot {robot.name} cannot walk; its table lacks: {', '.join(missing)}")
     return WalkingRobot(**vars(robot))
+
+
+def _axes(robot: RobotDescription, limb: tuple[str, ...]) -> str:
+    """Return the axes of a limb's joints in their bodies, such as `y, x`; `-` stands for one along no coordinate."""
+    letters = {(1.0, 0.0, 0.0): "x", (0.0, 1.0, 0.0): "y", (0.0, 0.0, 1.0): "z"}
+    axes = {joint.id: joint.axis for joint in robot.joints}
+    return ", ".join(letters.get(axes[joint], "-") for joint in limb)
 
 
 def with_mirrored(rows: Iterable[Row]) -> tuple[Row, ...]:

@@ -39,6 +39,7 @@ def table_text(found: Imported, source: str) -> str:
         *(f"# {note}" for note in found.notes),
         f"name: {found.name}",
         f"base: {'floating' if found.floating else 'fixed'}",
+        *([f"imu: {_flow(found.imu)}"] if found.imu else []),
         "order:", *(f"  {key}: {_flow(value)}" for key, value in order.items()),
         "groups:", *(f"  {name}: {_flow(joints)}" for name, joints in limbs.items()),
         "networks:", *(f"  {name}: {_flow(row)}" for name, row in networks.items()),
@@ -138,7 +139,8 @@ def main(words: list[str]) -> int:
     try:
         if out.exists() and not options.force:
             raise ConfigError(f"{out}: exists already; accepted: another --out, or --force")
-        found = import_robot(options.file, check_base(options.base), options.torque_limit, options.speed_limit)
+        taken = options.torque_limit, options.speed_limit, options.armature
+        found = import_robot(options.file, check_base(options.base), *taken)
         write_text(out, table_text(found, options.file.name))
         robot = describe(load_section(out, RobotTable))
         lines = list(told(robot, found, options.file))

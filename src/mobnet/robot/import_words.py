@@ -23,4 +23,8 @@ def import_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--speed-limit", type=float, default=10.0, help="of joints without one [rad/s] (default: %(default)s)"
     )
+    parser.add_argument(
+        "--armature", type=float, default=0.0,
+        help="rotor inertia of joints without one, behind the gear [kg m^2] (default: %(default)s)",
+    )  # fmt: skip
     return parser

@@ -15,11 +15,12 @@ import mujoco
 import numpy as np
 
 from mobnet.core.errors import DataError, not_accepted
+from mobnet.robot.import_sensors import feet_of, sensors_of
 
 DRAWN = ("visual", "collision")  # parts of a URDF that need files of meshes and no table holds
 ANGLE_RAD = 12.6  # range of a joint that turns without end: two turns, as wide as a table takes
 MOST_NAME = 20  # letters of the name of a limb
-NEGLIGIBLE = 1e-9  # a shorter distance [m] is none
+PARTS = {"leg": {"hip", "knee", "ankle"}, "arm": {"shoulder", "elbow", "wrist"}}  # words of joints that tell a limb
 
 
 @dataclass(frozen=True)
@@ -41,13 +42,16 @@ class Imported:
     floating: bool
     model: mujoco.MjModel
     notes: list[str] = field(default_factory=list)
+    imu: dict[str, Any] | None = None
 
 
-def import_robot(path: Path, floating: bool | None, torque_limit: float, speed_limit: float) -> Imported:
+def import_robot(
+    path: Path, floating: bool | None, torque_limit: float, speed_limit: float, armature: float = 0.0
+) -> Imported:
     """Read a robot from a URDF or a MJCF file.
 
     Whether the base floats follows from the file if it is not said: a MJCF may have a free joint, a URDF has none.
-    Limits [N m], [rad/s] are used for joints of which the file says none.
+    Limits [N m], [rad/s] and rotor inertia [kg m^2] are used for joints of which the file says none.
 
     Raises:
         DataError: the file is no robot that MuJoCo reads, or has no hinge.
@@ -59,17 +63,22 @@ def import_robot(path: Path, floating: bool | None, torque_limit: float, speed_l
     floats = _has_free_joint(spec) if floating is None else floating
     _set_base(spec, floats)
     notes += _weld_slides(spec)
+    whole = _parsed(path, spec.copy().compile)
     model = _compiled(path, spec)
+    notes += _set_armature(model, armature)
     joints = list(_joints(model, limits, torque_limit, speed_limit, notes))
     if not joints:
         raise DataError(f"{path}: no hinge; accepted: a robot whose joints turn")
     if is_urdf:
         base = "floating" if floats else "fixed"
         notes.append(f"the base is taken as {base}, which a URDF does not say; --base tells the other")
-    bodies = _bodies(model, spec, floats)
-    notes += _left_out(model)
+    bodies, imu = _bodies(model, spec, floats), None
+    if floats:
+        imu, other = sensors_of(whole)
+        notes += [*other, *feet_of(whole, limbs(bodies, joints), joints)]
+    notes += _left_out(model, imu is not None)
     name = re.sub(r"[^A-Za-z0-9 _.-]", "-", spec.modelname or path.stem)
-    return Imported(name, bodies, joints, limbs(bodies, joints), floats, model, notes)
+    return Imported(name, bodies, joints, limbs(bodies, joints), floats, model, notes, imu)
 
 
 def _read(path: Path) -> str:
@@ -248,7 +257,17 @@ def _joints(
             notes.append(f"{kind} of {', '.join(names)}: not in the file, {taken[kind]} is taken")
 
 
-def _left_out(model: mujoco.MjModel) -> Iterator[str]:
+def _set_armature(model: mujoco.MjModel, armature: float) -> Iterator[str]:
+    """Give joints without a rotor inertia another one [kg m^2], and yield what was done."""
+    hinges = model.jnt_dofadr[model.jnt_type == mujoco.mjtJoint.mjJNT_HINGE]
+    without = hinges[model.dof_armature[hinges] == 0.0]
+    model.dof_armature[without] = armature
+    if armature and len(without):
+        which = "all joints" if len(without) == len(hinges) else f"{len(without)} of {len(hinges)} joints"
+        yield f"armature of {which}: not in the file, {armature:g} kg m^2 is taken"
+
+
+def _left_out(model: mujoco.MjModel, has_imu: bool) -> Iterator[str]:
     """Yield what the file has and a table does not hold."""
     hinges = [model.jnt_dofadr[k] for k in range(model.njnt) if model.jnt_type[k] == mujoco.mjtJoint.mjJNT_HINGE]
     for name, values in (("damping", model.dof_damping), ("dry friction", model.dof_frictionloss)):
@@ -258,7 +277,8 @@ def _left_out(model: mujoco.MjModel) -> Iterator[str]:
         yield "armature: zero for all joints; add the rotors' inertia, reflected to the joints, where gears are high"
     if model.neq:
         yield f"{model.neq} equality constraints (closed chains): not taken over"
-    yield "feet, sole, imu, leg, hands, posture, shapes, points: not in the file; docs/robots.md says what needs them"
+    rest = ["feet", "sole", *([] if has_imu else ["imu"]), "leg", "hands", "posture", "shapes", "points"]
+    yield f"{', '.join(rest)}: not in the file; docs/robots.md says what needs them"
 
 
 def _word(name: str, otherwise: str) -> str:
@@ -302,6 +322,8 @@ def _limb_name(chain: Sequence[str], taken: Iterable[str]) -> str:
     """Return a name for a chain that no other limb and no joint has."""
     parts = [re.findall(r"[A-Za-z0-9]+", joint) for joint in chain]
     shared = [word for word in parts[0] if all(word in other for other in parts) and word.lower() != "joint"]
+    words = {word.lower() for own in parts for word in own}
+    shared += [part for part, marks in PARTS.items() if shared and marks & words and part not in shared]
     stem = "".join(shared)[: MOST_NAME - 2] if shared and shared[0][0].isalpha() else "limb"
     lowered = {name.casefold() for name in taken}
     name, number = stem, 2

@@ -38,6 +38,7 @@ PARTS: Mapping[str, tuple[str, ...]] = {  # file -> the sections that stand in i
     "detection": ("detection",),
     "reaction": ("reaction",),
     "robotlog": ("robotlog",),
+    "motion": ("free_motion",),
     "evaluation": ("evaluation",),
     "scales": ("scales",),
 }  # fmt: skip

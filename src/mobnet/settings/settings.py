@@ -28,6 +28,7 @@ from mobnet.settings.data import (
 )
 from mobnet.settings.detection import Detection
 from mobnet.settings.evaluation import Evaluation
+from mobnet.settings.free_motion import FreeMotion
 from mobnet.settings.methods import Method, Observer, Sweep
 from mobnet.settings.networks import Learning, NetworkRow
 from mobnet.settings.plant import Level, Plant, Rates
@@ -71,6 +72,7 @@ class Settings(Section):
     detection: Detection
     reaction: Reaction
     robotlog: RobotLog
+    free_motion: FreeMotion
     evaluation: Evaluation
     scales: Annotated[dict[LowerName, Scale], Field(min_length=1)]
     robot: RobotTable

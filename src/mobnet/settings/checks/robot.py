@@ -7,7 +7,7 @@ from math import dist
 import numpy as np
 
 from mobnet.core.errors import misfit, not_accepted
-from mobnet.core.joints import N_VIRTUAL, right_of, with_image
+from mobnet.core.joints import LEG_AXES, N_VIRTUAL, right_of, with_image
 from mobnet.settings.checks.limits import as_many, within
 from mobnet.settings.names import unknown, uses
 from mobnet.settings.parts import PointRow, ShapeRow
@@ -16,7 +16,6 @@ from mobnet.settings.robot import WORLD, RobotTable
 
 MASS_TOLERANCE = 1e-6  # relative, of the total
 LENGTH_TOLERANCE_M = 1e-6
-LEG_AXES = ("z", "x", "y", "y", "y", "x")  # yaw, roll, pitch of the hip, knee, pitch and roll of the ankle
 GYRATION_M = (0.001, 1.5)  # of a body: what is outside has its mass or inertia in another unit
 
 

@@ -1,0 +1,91 @@
+"""A simulated log of any robot of a table that moves without walking: `./reproduce motion` (docs/robots.md)."""
+
+import logging
+import math
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+from pyarrow import csv, parquet
+
+from mobnet.core.columns import EXTERNAL, PUSHED, recording_columns
+from mobnet.core.errors import DataError, MobnetError, not_accepted
+from mobnet.core.files import atomic_path
+from mobnet.core.recording import Recording
+from mobnet.robot.description import RobotDescription, describe
+from mobnet.robotlog.motion_words import motion_parser
+from mobnet.settings.load import load_section, load_settings
+from mobnet.settings.robot import RobotTable
+from mobnet.simulation.free_run import Numbers, record_motion
+
+log = logging.getLogger(__name__)
+SENSED = ("q", "v", "acc_base_in_base", "tau_motor")
+TRUTH = (EXTERNAL, PUSHED)
+DIGITS = 8  # behind the point
+MOST_MINUTES = 60.0
+WRITERS = {".csv": csv.write_csv, ".parquet": parquet.write_table}
+
+
+def write_log(recording: Recording, robot: RobotDescription, out: Path, truth: bool) -> None:
+    """Write what a robot would log, and on request the truth, one row for each sample, with a column `time` [s].
+
+    Raises:
+        DataError: the ending of the file is not accepted.
+    """
+    if out.suffix not in WRITERS:
+        raise DataError(not_accepted("ending", out.suffix, WRITERS))
+    fields = recording_columns(robot.layout)
+    columns = {"time": np.arange(len(recording.sensed)) / recording.rate_hz}
+    for part, names in ((recording.sensed, SENSED), (recording.truth, TRUTH if truth else ())):
+        for name in names:
+            values = np.round(getattr(part, name), DIGITS)
+            columns |= {column: values[:, k] for k, (column, *_) in enumerate(fields[name])}
+    with atomic_path(out) as temporary:
+        WRITERS[out.suffix](pa.table(columns), temporary)
+
+
+def told(recording: Recording, robot: RobotDescription, out: Path, truth: bool) -> Iterator[str]:
+    """Yield what the command prints."""
+    held = "; the base is held in the air" if robot.floating else ""
+    apart = "shapes keep apart" if robot.shapes else "the table has no shapes: nothing keeps its bodies apart"
+    samples, rate_hz = len(recording.sensed), recording.rate_hz
+    yield f"{robot.name}: {samples} samples at {rate_hz:g} Hz, {samples / rate_hz:g} s{held}; {apart}"
+    speeds = np.abs(recording.sensed.v[:, -robot.layout.nu :]).max(axis=0)
+    shares = np.abs(recording.sensed.tau_motor).max(axis=0) / robot.torque_limits
+    yield f"largest speed {speeds.max():.2f} rad/s, largest torque {shares.max():.0%} of what its motor gives"
+    pushed = np.flatnonzero(np.diff(recording.truth.pushed[:, 0], prepend=0.0) > 0)
+    if truth:
+        yield f"{len(pushed)} pushes, {recording.truth.pushed.mean():.0%} of the time; truth: tau_ext.JOINT, pushed"
+    yield f"written: {out}"
+
+
+def main(words: list[str]) -> int:
+    """Run the command; return its exit status."""
+    options = motion_parser().parse_args(words)
+    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+    try:
+        settings = load_settings()
+        robot = describe(load_section(options.robot, RobotTable) if options.robot else settings.robot)
+        if options.out.suffix not in WRITERS:
+            raise DataError(f"--out: {not_accepted('ending', options.out.suffix, WRITERS)}")
+        if not 0.0 < options.minutes <= MOST_MINUTES or not math.isfinite(options.minutes):
+            raise DataError(not_accepted("--minutes", options.minutes, [f"above 0 and up to {MOST_MINUTES:g}"]))
+        if options.seed < 0:
+            raise DataError(not_accepted("--seed", options.seed, ["a whole number from 0 on"]))
+        numbers = Numbers(settings.free_motion, settings.plant, settings.rates)
+        seconds = 60.0 * options.minutes
+        recording = record_motion(robot, numbers, seconds, options.seed, options.ideal, options.pushes)
+        truth = options.pushes or robot.floating
+        write_log(recording, robot, options.out, truth)
+    except MobnetError as error:
+        log.error("%s", error)
+        return 1
+    for line in told(recording, robot, options.out, truth):
+        log.info("%s", line)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
