@@ -461,6 +461,34 @@ class LearnedRuns(LimbRuns):
     methods: base.Distinct[base.LearnedName]
 
 
+class ContactLine(Section):
+    """A line of the table of contact points: torques of a method, or the true ones, and how they are taken.
+
+    `std` are standard deviations of the errors of torques [N m] and of the base's forces [N]; without it, they are those
+    of the estimate. With `alone` there are no torques but the leg's, and `after_s` replaces that of the table.
+    """
+
+    method: base.MethodName | None = None
+    std: tuple[base.NotNegative, base.NotNegative] | None = None
+    alone: base.Flag = False
+    after_s: base.NotNegative | None = Field(default=None, le=1)
+
+
+class ContactPoints(LimbRuns):
+    """Where collisions of legs meet them: those of at least `least_n`, so long after the alarm of a detector.
+
+    `limbs` are those whose torques are taken; collisions are those of the `legs` among them.
+    """
+
+    scenario: base.PushedName
+    legs: base.Distinct[base.WatchedLegName]
+    detector: base.DetectorName
+    kind: base.ThresholdsName
+    after_s: base.NotNegative = Field(le=1)
+    least_n: base.Newton
+    lines: Annotated[dict[base.Text, ContactLine], Field(min_length=1)]
+
+
 class Peaks(Section):
     """Share and delay of pushes in estimates, at joints that take a share of the largest torque, or more."""
 
@@ -750,6 +778,7 @@ class Evaluation(Section):
     found_by_rate: FoundByRate
     smallest_force: SmallestForce
     links: Links
+    contact_points: ContactPoints
     figure_13: Figure13
     figure_14: Figure14
     figure_15: Figure15

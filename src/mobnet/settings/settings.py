@@ -26,7 +26,7 @@ from mobnet.settings.data import (
     Terrain,
     TrainingSet,
 )
-from mobnet.settings.detection import Detection
+from mobnet.settings.detection import ContactPoint, Detection
 from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.methods import Method, Observer, Sweep
 from mobnet.settings.networks import Learning, NetworkRow
@@ -69,6 +69,7 @@ class Settings(Section):
     development: Annotated[dict[LowerName, Development], Field(min_length=1)]
     trials: Trials
     detection: Detection
+    contact_point: ContactPoint
     reaction: Reaction
     robotlog: RobotLog
     evaluation: Evaluation
