@@ -30,7 +30,7 @@ class Contact:
         shape: the solid of the robot's table on which the point lies.
         point: in the axes of the body (3,) [m].
         place: the same point in world axes (3,) [m].
-        force: that acts on the robot there, in world axes (3,) [N].
+        force: that acts on the robot, in world axes (3,) [N], the mean over where the contact may be.
         spread_m: mean distance from the point to where the contact may be, each weighted by its probability [m].
     """
 
@@ -107,16 +107,19 @@ class ContactFinder:
         surface = self.surface
         probable = surface.patch.area * np.exp((cost.min() - cost) / 2.0)
         likely = np.argsort(-probable, kind="stable")[: self.settings.candidates]
+        share, solids = probable[likely] / probable[likely].sum(), surface.shape[likely]
         axes, origins = map(np.array, zip(*map(self._placed, surface.carriers), strict=True))
-        solids = surface.shape[likely]
         places = (axes[solids] @ surface.patch.points[likely, :, None])[..., 0] + origins[solids]
         # The likeliest point alone would jump from one link to another when two explain the torques nearly as well.
-        distance = _distances(places) @ (probable[likely] / probable[likely].sum())
+        distance = _distances(places) @ share
         best = int(np.argmin(distance))
-        k, solid = int(likely[best]), int(solids[best])
-        shape, carrier = surface.shapes[solid], surface.carriers[solid]
-        pushed = axes[solid] @ carrier.axes.T @ (force[k] @ surface.wrenches[k, :, :3])
-        return Contact(shape.body, shape.name, surface.patch.points[k], places[best], pushed, float(distance[best]))
+        shape = surface.shapes[solids[best]]
+        # Of the force the mean is said, because the named point itself need not be a likely one.
+        turned = axes @ np.array([carrier.axes.T for carrier in surface.carriers])
+        own = force[likely, None] @ surface.wrenches[likely, :, :3]
+        pushed = share @ (turned[solids] @ own.transpose(0, 2, 1))[..., 0]
+        point = surface.patch.points[likely[best]]
+        return Contact(shape.body, shape.name, point, places[best], pushed, float(distance[best]))
 
     def place(self, q: NDArray[Any], body: str) -> tuple[Array, Array]:
         """Return the axes (3, 3) and the origin (3,) [m] of a body in the world, at a position q (nq,).
@@ -156,6 +159,7 @@ class ContactFinder:
 
 
 def _distances(places: Array) -> Array:
-    """Return the distances between places (k, 3) [m], (k, k): by products, as all differences take ten times as long."""
+    """Return the distances between places (k, 3) [m], (k, k)."""
+    # By products: the differences of all pairs take ten times as long.
     size = (places**2).sum(axis=1)
     return np.sqrt(np.maximum(size[:, None] + size - 2.0 * places @ places.T, 0.0))

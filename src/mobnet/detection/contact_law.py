@@ -1,11 +1,11 @@
 """How well a force at each of many points explains torques: weighted least squares with what is known of a force.
 
 A force f in three directions of the surface at a point turns the joints by J^T B f, where J is the Jacobian of the link
-and B (6, 3) has the wrenches of 1 N in these directions. Errors of the estimated torques are normal with a covariance C.
-Of the force it is known beforehand that it presses, is about as large as collisions are, and lies in the cone of
-friction; a normal law of covariance P says so. The density of the torques tau, given the point, is then
+and B (6, 3) has the wrenches of 1 N in these directions. Errors of the torques are normal with a covariance C. Of the
+force it is known beforehand that it presses, is about as large as collisions are, and lies in the cone of friction; a
+normal law of covariance P says so. The density of the torques tau, given the point, is then
 
-    -2 log p = const - h^T f + log det(A P),    A = B^T J C^-1 J^T B + P^-1,    f = A^-1 h,    h = B^T J C^-1 tau,    (a)
+    -2 log p = const - h^T f + log det(A P),  A = B^T J C^-1 J^T B + P^-1,  f = A^-1 h,  h = B^T J C^-1 tau,         (a)
 
 the residual of weighted least squares, and what is paid for a force that goes far to fit (docs/notes/0044).
 """
@@ -29,19 +29,22 @@ def explain(wrenches: Array, weight: Array, seen: Array, settings: ContactPoint)
     """
     inner = wrenches @ weight @ wrenches.transpose(0, 2, 1)
     pulled = (wrenches @ seen[:, :, None])[..., 0]
-    known = np.full(pulled.shape, settings.force_n**-2)
-    pressing = pulled[:, 0] / (inner[:, 0, 0] + known[:, 0])
-    for _ in range(2):
-        # The cone is two standard deviations wide. Its width follows the force into the surface: first of the best one
-        # without friction, then of the best one in the cone of that.
-        width = settings.friction / 2.0 * np.maximum(pressing, LEAST)
-        known[:, 1:] = width[:, None] ** -2
-        whole = inner + np.eye(3) * known[:, :, None]
-        force, determinant = _solved(whole, pulled)
-        pressing = force[:, 0]
+    # The cone is two standard deviations wide. Its width follows the force into the surface: that of the best force
+    # without friction, and then that of the best one in the cone that follows.
+    pressing = pulled[:, 0] / (inner[:, 0, 0] + settings.force_n**-2)
+    known = _known(pressing, settings)
+    force, _ = _solved(inner + np.eye(3) * known[:, :, None], pulled)
+    known = _known(force[:, 0], settings)
+    force, determinant = _solved(inner + np.eye(3) * known[:, :, None], pulled)
     cost = np.log(determinant) - np.log(known).sum(axis=1) - (pulled * force).sum(axis=1)
-    holds = np.linalg.norm(force[:, 1:], axis=1) <= settings.friction * pressing
+    holds = np.linalg.norm(force[:, 1:], axis=1) <= settings.friction * force[:, 0]
     return np.where(holds, cost, np.inf), force
+
+
+def _known(pressing: Array, settings: ContactPoint) -> Array:
+    """Return the diagonal of P^-1 of points where forces (k,) [N] press, (k, 3) [1/N^2]."""
+    width = settings.friction / 2.0 * np.maximum(pressing, LEAST)
+    return np.stack([np.full(len(pressing), settings.force_n), width, width], axis=1) ** -2
 
 
 def _solved(matrix: Array, right: Array) -> tuple[Array, Array]:

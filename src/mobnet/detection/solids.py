@@ -4,7 +4,7 @@ A solid of revolution is rings around its axis, an ellipsoid is a stretched sphe
 """
 
 from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.settings.parts import ShapeRow
 
-Piece = tuple[float, float, float, float]
+Piece = tuple[float, float, float, float]  # of an outline: radius and height [m], angle of its normal, length [m]
 
 
 class Patch(NamedTuple):
@@ -32,7 +32,7 @@ def patch_of(shape: ShapeRow, spacing_m: float) -> Patch:
     if shape.type == "box":
         found = _box(np.array(shape.size), spacing_m)
     elif shape.type == "ellipsoid":
-        found = _stretched(_revolved(_profile("sphere", 1.0, 0.0, spacing_m / np.mean(shape.size))), shape.size)
+        found = _stretched(_revolved(_profile("sphere", 1.0, 0.0, spacing_m / (sum(shape.size) / 3.0))), shape.size)
     else:
         radius, half = shape.size[0], _half_length(shape)
         found = _revolved(_profile(shape.type, radius, half, spacing_m))
@@ -53,9 +53,10 @@ def placed(shape: ShapeRow) -> tuple[Array, Array]:
 def across(normals: Array) -> tuple[Array, Array]:
     """Return two unit vectors (k, 3) at right angles to unit vectors (k, 3) and to each other."""
     other = np.eye(3)[np.abs(normals).argmin(axis=1)]
-    first = np.cross(normals, other)
+    first: Array = np.cross(normals, other)
     first /= np.linalg.norm(first, axis=1, keepdims=True)
-    return first, np.cross(normals, first)
+    second: Array = np.cross(normals, first)
+    return first, second
 
 
 def depth(shape: ShapeRow, points: Array) -> Array:
@@ -84,7 +85,7 @@ def _half_length(shape: ShapeRow) -> float:
     return shape.size[1] if len(shape.size) > 1 else 0.0
 
 
-def _profile(kind: str, radius: float, half: float, spacing_m: float) -> Iterator[tuple[float, float, float, float]]:
+def _profile(kind: str, radius: float, half: float, spacing_m: float) -> Iterator[Piece]:
     """Yield middles of pieces of the outline of a solid of revolution: radius, height [m], angle of normal, length [m].
 
     The angle [rad] is that above the plane across the axis.
@@ -104,7 +105,7 @@ def _profile(kind: str, radius: float, half: float, spacing_m: float) -> Iterato
         yield place, -height, -angle, length
 
 
-def _revolved(profile: Iterator[tuple[float, float, float, float]]) -> Patch:
+def _revolved(profile: Iterator[Piece]) -> Patch:
     """Return the points of rings around the last axis; they are as far apart around a ring as along the outline."""
     points, normals, area = [], [], []
     for place, height, angle, length in profile:

@@ -5,7 +5,7 @@ Bodies that no joint moves are carried by the next one above that a joint moves,
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray

@@ -464,8 +464,8 @@ class LearnedRuns(LimbRuns):
 class ContactLine(Section):
     """A line of the table of contact points: torques of a method, or the true ones, and how they are taken.
 
-    `std` are standard deviations of the errors of torques [N m] and of the base's forces [N]; without it, they are those
-    of the estimate. With `alone` there are no torques but the leg's, and `after_s` replaces that of the table.
+    `std` are the standard deviations of torques [N m] and of the base's forces [N]; without it, they are those of the
+    estimate. With `alone` there are no torques but the leg's, and `after_s` replaces that of the table.
     """
 
     method: base.MethodName | None = None

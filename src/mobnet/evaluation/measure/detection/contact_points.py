@@ -115,7 +115,9 @@ def _alarms(settings: ContactPoints, detections: Detections, recording: Path) ->
 def _walked(robot: RobotDescription, joints: Sequence[str], gain_hz: float, runs: Sequence[Run]) -> Walked:
     """Read a recording, its truth and what its runs estimate of some joints."""
     read = read_sensed(runs[0].recording, robot.layout)
-    estimates: dict[str | None, Estimate] = {None: Estimate(read_array(runs[0].residual, named(EXTERNAL_LP, joints))[0])}
+    estimates: dict[str | None, Estimate] = {
+        None: Estimate(read_array(runs[0].residual, named(EXTERNAL_LP, joints))[0])
+    }
     for run in runs:
         if (estimate := read_estimate(run.estimate, joints)) is None:
             raise DataError(f"{run.estimate}: some of {', '.join(joints)} are not estimated; accepted: all of them")
