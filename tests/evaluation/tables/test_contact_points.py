@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from csv_files import markdown_cells, read_table, write_rows
+from csv_files import check_golden, markdown_cells, read_table, write_rows
 from made_contacts import pushed
 from made_swings import GROUND, RATE_HZ, swinging, unseen
 
@@ -17,6 +17,9 @@ from mobnet.core.recording import Recording, write_recording
 from mobnet.core.store import write_array
 from mobnet.detection.contact import ContactFinder
 from mobnet.estimation.low_pass import low_pass
+from mobnet.evaluation.measure.detection.contact_points import NAMED, NOTHING, Found
+from mobnet.evaluation.measure.detection.results import CELLS
+from mobnet.evaluation.tables.further.contact_points import write_contacts
 from mobnet.plan.runs import Run
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.settings import Settings
@@ -84,6 +87,25 @@ def test_errors_are_those_of_the_hit(made: Path) -> None:
     # the detector names the foot, whose middle is most of a shank away from the knee
     assert rows["middle of the named link", "all", "error"].value > 30.0
     assert rows["middle of the named link", "all", "force"].value is None
+
+
+def test_numbers_are_medians_by_what_is_hit(settings: Settings, tmp_path: Path) -> None:
+    section, found = settings.evaluation.contact_points, list[Found]()
+    for k, title in enumerate((*section.lines, NAMED, NOTHING)):
+        said = () if title in (NAMED, NOTHING) else (0.05, -0.1, 7.0)
+        # errors of 3, 4 and 12 parts along the axes make 13; the seven hits of a cell have multiples of them
+        found += [Found(title, cell, 0.001 * (k + 1) * n * np.array([3.0, -4.0, 12.0]), *said)
+                  for cell in CELLS for n in range(1, 8)]  # fmt: skip
+    write_contacts(tmp_path / "contact_points", section, settings.evaluation.statistics, found)
+    rows = {(row.detector, row.cell, row.quantity): row for row in read_table(tmp_path / "contact_points.csv")}
+    first = rows["MOB", "ankle side", "error"]
+    assert (first.value, first.count) == (pytest.approx(5.2), 7)
+    # of seven values, those between the least and the largest are the shortest interval of at least 95 %
+    assert (first.low, first.high) == (pytest.approx(1.3), pytest.approx(9.1))
+    assert rows["MOB-Net", "all", "error_y"].value == pytest.approx(3.2)
+    assert (rows["MOB", "all", "force"].value, rows["MOB", "all", "force_size"].value) == (-10.0, 10.0)
+    assert rows[NAMED, "all", "spread"].value is None
+    check_golden(tmp_path / "contact_points.csv")
 
 
 def test_wrong_torques_show_in_the_force(made: Path) -> None:

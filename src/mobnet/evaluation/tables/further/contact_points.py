@@ -34,6 +34,11 @@ def contact_points(
     """
     description = describe(robot)
     found = list(contacts_of(settings, contact_point, description, observer.gain_hz, pushes, runs, detections))
+    write_contacts(table_dir / "contact_points", settings, statistics, found)
+
+
+def write_contacts(stem: Path, settings: ContactPoints, statistics: Statistics, found: Sequence[Found]) -> None:
+    """Write the three files of the table from what each line says of each collision."""
     rows: list[Sequence[Field]] = []
     lines: list[Line] = []
     for title in (*settings.lines, NAMED, NOTHING):
@@ -52,7 +57,7 @@ def contact_points(
         "Point from", "error [cm]", f"{statistics.confidence:.0%}", *(f"{cell} [cm]" for cell in CELLS),
         "expected [cm]", "force [%]", "angle [deg]",
     ]  # fmt: skip
-    write_table(table_dir / "contact_points", Table(DETECTION, rows, header, lines))
+    write_table(stem, Table(DETECTION, rows, header, lines))
 
 
 def _values(found: Sequence[Found]) -> Iterator[tuple[str, str, list[float]]]:
