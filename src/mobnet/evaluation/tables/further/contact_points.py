@@ -19,7 +19,7 @@ from mobnet.settings.evaluation import ContactPoints, Statistics
 from mobnet.settings.methods import Observer
 from mobnet.settings.robot import RobotTable
 
-CM, PERCENT = 100.0, 100.0
+CM, PERCENT, DIGITS = 100.0, 100.0, 6
 ERROR, SPREAD, FORCE, SIZE, ANGLE = "error", "spread", "force", "force_size", "angle"
 
 
@@ -64,7 +64,8 @@ def _values(found: Sequence[Found]) -> Iterator[tuple[str, str, list[float]]]:
     """Yield name, unit and values of each quantity of some collisions."""
     yield ERROR, "cm", [CM * float(np.linalg.norm(one.error_m)) for one in found]
     for axis, name in enumerate("xyz"):
-        yield f"{ERROR}_{name}", "cm", [CM * abs(float(one.error_m[axis])) for one in found]
+        # rounded, as a part may be a zero that only rounding errors tell from zero
+        yield f"{ERROR}_{name}", "cm", [round(CM * abs(float(one.error_m[axis])), DIGITS) for one in found]
     yield SPREAD, "cm", [CM * one.spread_m for one in found if one.spread_m is not None]
     yield FORCE, "%", [PERCENT * one.force for one in found if one.force is not None]
     yield SIZE, "%", [PERCENT * abs(one.force) for one in found if one.force is not None]
