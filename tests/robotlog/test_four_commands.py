@@ -95,7 +95,7 @@ def test_flags_stand_at_the_pushes_and_nowhere_else(made):
 
 def test_a_loop_over_the_samples_has_the_flags_of_the_command(made, arm, settings, monkeypatch):
     monkeypatch.chdir(made)
-    _, code = re.findall(r"^```python\n(.*?)^```$", GUIDE.read_text(), re.DOTALL | re.MULTILINE)
+    _, code, _ = re.findall(r"^```python\n(.*?)^```$", GUIDE.read_text(), re.DOTALL | re.MULTILINE)
     meaning = load_section(Path("map.yaml"), LogMap)
     sensed = converted_log(Path("new.csv"), arm.layout, meaning, settings.robotlog).recording.sensed
     names = {"samples": [sensed[k] for k in range(len(sensed))]}

@@ -136,6 +136,13 @@ def _calibration(files: Files, section: Any) -> Needs:
     }
 
 
+def _contact_points(files: Files, section: Any) -> Needs:
+    """Return all runs of a section, and the pushes of its test."""
+    settings = files.settings
+    pushes = {name: settings.pushes[name] for name in settings.scenarios[section.scenario].pushes}
+    return {"runs": files.runs(section.scenario, section.level, section.methods), "pushes": pushes}
+
+
 def _figure_05(files: Files, section: Any) -> Needs:
     """Return the first runs at each level of Figure 5."""
     levels = section.panels.items()
@@ -165,6 +172,7 @@ NEEDS: Mapping[str, Callable[[Files, Any], Needs]] = {  # products in which para
     "latency": _latency,
     "commands": lambda files, own: {"sets": {name: files.training("recordings", name) for name in own.sets}},
     "steps": lambda files, _: {"sets": {"walk": files.training("recordings", "walk")}},
+    "contact_points": _contact_points,
     "coverage": _coverage,
     "uncertainty": _uncertainty,
     "label_error": _label_error,

@@ -44,7 +44,7 @@ SOURCES = (  # tables that these are made from
 )  # fmt: skip
 QUOTED = (  # tables that the paper's text takes numbers from, beside those of errors
     "methods", "peaks", "phases", "noise", "error_budget", "label_error", "changed", "hourly", "kinds", "table_09",
-    "false_alarms", "found_by_rate", "smallest_force", "links", "safety", "sensorless",
+    "false_alarms", "found_by_rate", "smallest_force", "links", "contact_points", "safety", "sensorless",
 )  # fmt: skip
 BARS = tuple(f"figure_{k:02}" for k in (5, 6, 7, 8, 9, 10, 12))  # figures whose bars have a CSV of their own
 TIMES = "TIMES.sha256"  # beside the manifest: the list of files that hold times, and so differ between equal runs

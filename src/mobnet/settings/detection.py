@@ -83,3 +83,22 @@ class Detection(Section):
     curve: CurveGrid
     sensitivity: Sensitivity
     detectors: Annotated[dict[base.RowName, Detector], Field(min_length=1)]
+
+
+class ContactPoint(Section):
+    """Where on a limb a contact is sought, and what is known of its force and of the torques' errors (note 0044).
+
+    Points of the surface are `spacing_m` apart, and the place follows from the likeliest `candidates` of them. Forces
+    have the size `force_n`, and their part along the surface is at most `friction` times that into it. Errors of this
+    size are added to the standard deviations of torques: `error_nm`, of V1..V3 `error_n`. The wrench of the ground on a
+    foot that stands is of any size up to about `ground_n` and `ground_nm`.
+    """
+
+    spacing_m: base.Real = Field(ge=0.002, le=0.1)
+    candidates: base.Whole = Field(ge=1, le=2000)
+    force_n: base.Positive = Field(le=5000)
+    friction: base.Real = Field(ge=0.01, le=2)
+    error_nm: base.NotNegative = Field(le=200)
+    error_n: base.NotNegative = Field(le=1000)
+    ground_n: base.Positive = Field(le=100_000)
+    ground_nm: base.Positive = Field(le=100_000)

@@ -1,9 +1,12 @@
 """What the tables and figures of collision detection show, section 5.3: one section for each."""
 
+from typing import Annotated
+
 from pydantic import Field
 
 from mobnet.settings import base
 from mobnet.settings.base import Section
+from mobnet.settings.runs import LimbRuns
 
 
 class AlarmTable(Section):
@@ -89,3 +92,31 @@ class DetectionCurves(Section):
     kind: base.ThresholdsName
     detectors: base.Distinct[base.DetectorName]
     force_bins: base.Whole = Field(ge=2, le=100)
+
+
+class ContactLine(Section):
+    """A line of the table of contact points: torques of a method, or the true ones, and how they are taken.
+
+    `std` are the standard deviations of torques [N m] and of the base's forces [N]; without it, they are those of the
+    estimate. With `alone` there are no torques but the leg's, and `after_s` replaces that of the table.
+    """
+
+    method: base.MethodName | None = None
+    std: tuple[base.NotNegative, base.NotNegative] | None = None
+    alone: base.Flag = False
+    after_s: base.NotNegative | None = Field(default=None, le=1)
+
+
+class ContactPoints(LimbRuns):
+    """Where collisions of legs meet them: those of at least `least_n`, so long after the alarm of a detector.
+
+    `limbs` are those whose torques are taken; collisions are those of the `legs` among them.
+    """
+
+    scenario: base.PushedName
+    legs: base.Distinct[base.WatchedLegName]
+    detector: base.DetectorName
+    kind: base.ThresholdsName
+    after_s: base.NotNegative = Field(le=1)
+    least_n: base.Newton
+    lines: Annotated[dict[base.Text, ContactLine], Field(min_length=1)]

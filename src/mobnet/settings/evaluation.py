@@ -5,6 +5,7 @@ from mobnet.settings import base
 from mobnet.settings.base import Section
 from mobnet.settings.detection_tables import (
     AlarmTable,
+    ContactPoints,
     DetectionCurves,
     DetectorTable,
     Figure13,
@@ -102,6 +103,7 @@ class Evaluation(Section):
     found_by_rate: FoundByRate
     smallest_force: SmallestForce
     links: Links
+    contact_points: ContactPoints
     figure_13: Figure13
     figure_14: Figure14
     figure_15: Figure15

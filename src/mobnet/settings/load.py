@@ -35,7 +35,7 @@ PARTS: Mapping[str, tuple[str, ...]] = {  # file -> the sections that stand in i
     "networks": ("networks", "learning"),
     "methods": ("observer", "methods", "sweeps"),
     "trials": ("development", "trials"),
-    "detection": ("detection",),
+    "detection": ("detection", "contact_point"),
     "reaction": ("reaction",),
     "robotlog": ("robotlog",),
     "motion": ("free_motion",),

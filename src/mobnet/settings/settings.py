@@ -26,7 +26,7 @@ from mobnet.settings.data import (
     Terrain,
     TrainingSet,
 )
-from mobnet.settings.detection import Detection
+from mobnet.settings.detection import ContactPoint, Detection
 from mobnet.settings.evaluation import Evaluation
 from mobnet.settings.free_motion import FreeMotion
 from mobnet.settings.methods import Method, Observer, Sweep
@@ -70,6 +70,7 @@ class Settings(Section):
     development: Annotated[dict[LowerName, Development], Field(min_length=1)]
     trials: Trials
     detection: Detection
+    contact_point: ContactPoint
     reaction: Reaction
     robotlog: RobotLog
     free_motion: FreeMotion

@@ -29,7 +29,8 @@ from mobnet.settings.settings import Settings
 
 TABLES = {  # that are no entry of `tables` -> their columns
     **dict.fromkeys(
-        ("table_09", "table_13", "false_alarms", "found_by_rate", "smallest_force", "links"), DETECTION
+        ("table_09", "table_13", "false_alarms", "found_by_rate", "smallest_force", "links", "contact_points"),
+        DETECTION,
     ),
     "calibration": CALIBRATION, "coverage": COVERAGE, "error_budget": ERRORS, "hourly": HOURLY, "kinds": KINDS,
     "latency": LATENCY, "methods": METHODS, "safety": SAFETY, "sensorless": SENSORLESS,

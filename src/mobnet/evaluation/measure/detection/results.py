@@ -108,6 +108,20 @@ def mean_of(values: Sequence[float], statistics: Statistics, unit: str) -> Numbe
     return Number(float(found.mean()), float(found.mean() - reach), float(found.mean() + reach), unit=unit)
 
 
+def median_of(values: Sequence[float], statistics: Statistics, unit: str) -> Number:
+    """Return the median of values of collisions, with the interval between two of them that every law keeps [unit].
+
+    It has no ends where there are too few values for such an interval.
+    """
+    if not values:
+        return Number(None, unit=unit)
+    from scipy.stats import quantile_test  # here, as it takes a second to import
+
+    ends = quantile_test(values, p=0.5).confidence_interval(statistics.confidence)
+    low, high = (None if np.isnan(end) else float(end) for end in (ends.low, ends.high))
+    return Number(float(np.median(values)), low, high, unit=unit)
+
+
 def rate_of(alarms: int, hours: float, statistics: Statistics) -> Number:
     """Return a rate [1/h] with the exact interval of Poisson's law (Garwood 1936)."""
     if hours <= 0.0:

@@ -1,0 +1,149 @@
+"""The table of contact points: a made-up hit, known torques, and errors that follow from them."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from csv_files import check_golden, markdown_cells, read_table, write_rows
+from made_contacts import pushed
+from made_swings import GROUND, RATE_HZ, swinging, unseen
+
+from mobnet.core.columns import torque_columns
+from mobnet.core.detections import Detected
+from mobnet.core.errors import DataError
+from mobnet.core.recording import Recording, write_recording
+from mobnet.core.store import write_array
+from mobnet.detection.contact import ContactFinder
+from mobnet.estimation.low_pass import low_pass
+from mobnet.evaluation.measure.detection.contact_points import NAMED, NOTHING, Found
+from mobnet.evaluation.measure.detection.results import CELLS
+from mobnet.evaluation.tables.further.contact_points import write_contacts
+from mobnet.plan.runs import Run
+from mobnet.robot.description import RobotDescription
+from mobnet.settings.settings import Settings
+
+Make = Callable[..., Path]
+START, LENGTH, PEAK_N, SEED, DELAY_S = GROUND + 150, 80, 160.0, 101, 0.02
+WRONG_N = 400.0  # by which MOB takes the base to be pushed to the left
+
+
+def write_files(settings: Settings, robot: RobotDescription, folder: Path) -> tuple[list[Run], dict[str, Path]]:
+    """Write a recording with one hit, what two methods make of it, and what the detector says."""
+    section, layout = settings.evaluation.contact_points, settings.layout
+    sensed = swinging(layout, 1)
+    force = np.zeros(len(sensed))
+    force[START : START + LENGTH] = PEAK_N * np.sin(np.pi * np.arange(LENGTH) / LENGTH)
+    q, point = sensed.q[START], next(row for row in robot.points if row.name == "left_knee_front")
+    axes, _ = ContactFinder.of(settings.contact_point, robot, "LL", layout.limb("LL")).place(q, point.body)
+    push = np.zeros((len(sensed), 4))
+    push[:, 1:] = -force[:, None] * axes[:, 0]
+    push[force > 0.0, 0] = 1 + list(settings.scenarios["collisions"].pushes).index("collision_left_knee_front")
+    paths = {name: folder / name / "robot_1" / f"s{SEED}" for name in ("recording", "residual", "MOB", "MOB-Net")}
+    meta = {"rate_hz": RATE_HZ}
+    truth = unseen(layout, len(sensed), push)
+    write_recording(paths["recording"], Recording(sensed, ((0, len(sensed)),), RATE_HZ, {}, truth), layout)
+    joints = layout.limbs(section.limbs)
+    unit = pushed(robot, q, point.body, point.pos, [-1.0, 0.0, 0.0])[layout.columns(joints)]
+    tau = low_pass(force[:, None] * unit, settings.observer.gain_hz, RATE_HZ)
+    write_array(paths["residual"], tau, torque_columns(layout, ["tau_ext_lp"], joints), meta)
+    wrong = tau.copy()
+    wrong[:, joints.index("V2")] += WRONG_N
+    write_array(paths["MOB"], wrong, torque_columns(layout, ["tau_ext"], joints), meta)
+    known = np.concatenate([tau, np.full(tau.shape, 0.5)], axis=1)
+    write_array(paths["MOB-Net"], known, torque_columns(layout, ["tau_ext", "std"], joints), meta)
+    held = "collisions", SEED, "LL", 1, section.detector, section.kind
+    said = Detected(*held, 2.0, DELAY_S, None, "mean.LL3", "foot", "front", 90.0)
+    write_rows(folder / "detected.csv", [said], Detected)
+    runs = [Run("collisions", "robots", name, 0, SEED, paths["recording"], paths["residual"], paths[name])
+            for name in ("MOB", "MOB-Net")]  # fmt: skip
+    return runs, {"detected": folder / "detected.csv"}
+
+
+def counted(table: Path) -> str:
+    """Return how many collisions the text says that there are."""
+    return next(line[1] for line in markdown_cells(table) if line[0] == "collisions")
+
+
+@pytest.fixture
+def made(make_table: Make, settings: Settings, robot: RobotDescription, tmp_path: Path) -> Path:
+    runs, files = write_files(settings, robot, tmp_path)
+    pushes = {name: settings.pushes[name] for name in settings.scenarios["collisions"].pushes}
+    return make_table("contact_points", runs=runs, detections={"robot_1": files}, pushes=pushes)
+
+
+def test_errors_are_those_of_the_hit(made: Path) -> None:
+    rows = {(row.detector, row.cell, row.quantity): row for row in read_table(made)}
+    whole = rows["MOB-Net", "knee front", "error"]
+    assert (whole.count, whole.unit) == (1, "cm")
+    assert whole.value < 4.0
+    assert rows["MOB-Net", "all", "error"].value == whole.value
+    assert rows["MOB-Net", "foot front", "error"].count == 0
+    parts = [rows["MOB-Net", "all", f"error_{axis}"].value for axis in "xyz"]
+    assert np.linalg.norm(parts) == pytest.approx(whole.value, rel=1e-4)
+    assert rows["true torque", "all", "error"].value < 4.0
+    assert rows["MOB-Net", "all", "angle"].value < 10.0
+    # the detector names the foot, whose middle is most of a shank away from the knee
+    assert rows["middle of the named link", "all", "error"].value > 30.0
+    assert rows["middle of the named link", "all", "force"].value is None
+
+
+def test_numbers_are_medians_by_what_is_hit(settings: Settings, tmp_path: Path) -> None:
+    section, found = settings.evaluation.contact_points, list[Found]()
+    for k, title in enumerate((*section.lines, NAMED, NOTHING)):
+        said = () if title in (NAMED, NOTHING) else (0.05, -0.1, 7.0)
+        # errors of 3, 4 and 12 parts along the axes make 13; the seven hits of a cell have multiples of them
+        found += [Found(title, cell, 0.001 * (k + 1) * n * np.array([3.0, -4.0, 12.0]), *said)
+                  for cell in CELLS for n in range(1, 8)]  # fmt: skip
+    write_contacts(tmp_path / "contact_points", section, settings.evaluation.statistics, found)
+    rows = {(row.detector, row.cell, row.quantity): row for row in read_table(tmp_path / "contact_points.csv")}
+    first = rows["MOB", "ankle side", "error"]
+    assert (first.value, first.count) == (pytest.approx(5.2), 7)
+    # of seven values, those between the least and the largest are the shortest interval of at least 95 %
+    assert (first.low, first.high) == (pytest.approx(1.3), pytest.approx(9.1))
+    assert rows["MOB-Net", "all", "error_y"].value == pytest.approx(3.2)
+    assert (rows["MOB", "all", "force"].value, rows["MOB", "all", "force_size"].value) == (-10.0, 10.0)
+    assert rows[NAMED, "all", "spread"].value is None
+    check_golden(tmp_path / "contact_points.csv")
+
+
+def test_wrong_torques_show_in_the_force(made: Path) -> None:
+    rows = {(row.detector, row.quantity): row for row in read_table(made) if row.cell == "all"}
+    assert rows["MOB", "angle"].value > rows["MOB-Net", "angle"].value + 20.0
+    assert rows["MOB", "force_size"].value > rows["MOB-Net", "force_size"].value
+
+
+def test_the_text_counts_the_collisions(made: Path) -> None:
+    assert counted(made) == "1"
+    assert [line[0] for line in markdown_cells(made)][-2:] == ["middle of the named link", "middle of the leg"]
+
+
+def test_weak_and_missed_hits_do_not_count(
+    make_table: Make, settings: Settings, robot: RobotDescription, tmp_path: Path
+) -> None:
+    runs, files = write_files(settings, robot, tmp_path)
+    pushes = {name: settings.pushes[name] for name in settings.scenarios["collisions"].pushes}
+    given = {"runs": runs, "detections": {"robot_1": files}, "pushes": pushes}
+    harder = settings.evaluation.contact_points.model_copy(update={"least_n": PEAK_N + 1.0})
+    assert counted(make_table("contact_points", settings=harder, **given)) == "0"
+    other = settings.evaluation.contact_points.model_copy(update={"detector": "MOB"})
+    assert counted(make_table("contact_points", settings=other, **given)) == "0"
+
+
+def test_a_line_without_standard_deviations_is_refused(
+    make_table: Make, settings: Settings, robot: RobotDescription, tmp_path: Path
+) -> None:
+    runs, files = write_files(settings, robot, tmp_path)
+    pushes = {name: settings.pushes[name] for name in settings.scenarios["collisions"].pushes}
+    section = settings.evaluation.contact_points
+    lines = {"MOB": section.lines["MOB"].model_copy(update={"std": None})}
+    bare = section.model_copy(update={"lines": lines})
+    with pytest.raises(DataError, match="MOB gives no standard deviation"):
+        make_table("contact_points", settings=bare, runs=runs, detections={"robot_1": files}, pushes=pushes)
+    few = [replace(run, estimate=tmp_path / "few") for run in runs]
+    meta = {"rate_hz": RATE_HZ}
+    rows = np.zeros((len(swinging(settings.layout, 1)), 6))
+    write_array(tmp_path / "few", rows, torque_columns(settings.layout, ["tau_ext"], settings.layout.limb("LL")), meta)
+    with pytest.raises(DataError, match="are not estimated"):
+        make_table("contact_points", runs=few, detections={"robot_1": files}, pushes=pushes)
