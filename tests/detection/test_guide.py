@@ -1,4 +1,4 @@
-"""The code of docs/detection.md runs, finds and names a hit, and says where it is; tests/robotlog runs that of an arm."""
+"""The code of docs/detection.md for legs runs, finds and names a hit, and says where it is."""
 
 import re
 from pathlib import Path

@@ -71,9 +71,7 @@ def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, 
         del one
     wrenches = {foot.removesuffix("_foot"): values[foot] for foot in FEET if foot in values}
     recording, absent = _recording(values, layout, ticks.segments, rate_hz)
-    return Converted(
-        recording, wrenches, absent, clocks, ticks.interpolated, hints, ticks.time_s, values.get("tool")
-    )
+    return Converted(recording, wrenches, absent, clocks, ticks.interpolated, hints, ticks.time_s, values.get("tool"))
 
 
 def _timed(path: Path, columns: Columns, signal: Signal, meaning: LogMap, clock: Array | None) -> Timed:
