@@ -92,6 +92,12 @@ def test_what_is_expected_grows_with_the_errors_of_the_torques(robot, finder, q)
     assert expected[0] < expected[1] < expected[2]
 
 
+def test_a_torque_that_is_no_number_has_no_contact(robot, finder, q):
+    torque, _ = hit(robot, q, "left_knee_front")
+    torque[robot.layout.columns(["LL3"])] = np.nan
+    assert located(finder, q, torque) is None
+
+
 def test_a_base_moved_through_the_world_changes_nothing_in_the_body(robot, finder, q):
     torque, _ = hit(robot, q, "left_knee_front")
     moved = q.copy()

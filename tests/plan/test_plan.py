@@ -235,7 +235,8 @@ def test_a_setting_reruns_what_reads_it_and_nothing_else(plan: Plan) -> None:
     assert rerun(plan, changed(settings, "evaluation", "figure_07", every=11)) == {"figure_07"}
     assert rerun(plan, changed(settings, "evaluation", "steps", bins=8)) == {"steps"}
     assert rerun(plan, changed(settings, "evaluation", "compute", pause_s=61.0)) == {"compute"}
-    assert rerun(plan, changed(settings, "observer", gain_hz=50.0)) <= {"data_card", "bode", "label_error"}
+    observing = {"data_card", "bode", "label_error", "contact_points"}
+    assert rerun(plan, changed(settings, "observer", gain_hz=50.0)) <= observing
     walk = recording("forward_walk", "ideal", 101)
     before, after = (maker(one, walk).job.call for one in (plan, changed(settings, "observer", gain_hz=50.0)))
     assert after.fingerprint != before.fingerprint  # the job that records a walk observes it, too

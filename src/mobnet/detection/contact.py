@@ -79,7 +79,7 @@ class ContactFinder:
     def locate(
         self, q: NDArray[Any], tau: NDArray[Any], std: NDArray[Any], standing: Sequence[str] = ()
     ) -> Contact | None:  # fmt: skip
-        """Return the contact that explains the external torque of one sample; None where no force presses.
+        """Return the contact that explains the external torque of one sample; None where no force that presses does.
 
         Args:
             q: generalized position (nq,) [m, -, rad].
