@@ -12,8 +12,8 @@ from mobnet.robot.dynamics import bias
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.plant import robot_spec
 
-STEPS = 4  # of the simulation in a sample
-WAVES, RATES_HZ, SIZES_RAD = 3, (0.15, 0.6), (0.2, 0.5)  # sines of each joint
+STEPS = 2  # of the simulation in a sample
+WAVES, RATES_HZ, SIZES_RAD = 12, (0.05, 0.8), (0.05, 0.2)  # sines of each joint
 STIFFNESS, DAMPING = 150.0, 15.0  # of its control [N m/rad], [N m s/rad]
 DRY, VISCOUS, STEADY = 1.5, 1.0, 0.05  # friction [N m], [N m s/rad], and the speed at which it turns [rad/s]
 NOISE = {"q": 1e-5, "v": 2e-3, "tau_motor": 0.02}

@@ -36,6 +36,7 @@ from mobnet.core.notes import ArrayNote, read_array_note, read_note
 from mobnet.core.reactions import TRIALS
 from mobnet.core.recording import Sensed, Truth
 from mobnet.core.store import ARRAY, NOTE, check_rate, file_of, read_pieces
+from mobnet.detection.threshold_file import read_thresholds
 from mobnet.estimation.kinds.dahl import DahlNote, read_dahl
 from mobnet.estimation.kinds.friction import FrictionNote, read_friction
 from mobnet.estimation.methods import method_problems
@@ -51,6 +52,7 @@ from mobnet.plan.plan import make_plan
 from mobnet.plan.precision import with_precision
 from mobnet.plan.stamps import Stamped
 from mobnet.running.accounts import AccountNote, read_account
+from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.load import load_section, load_settings
 from mobnet.settings.reading import read_yaml
 from mobnet.settings.robot import RobotTable
@@ -222,6 +224,8 @@ def _configuration(path: Path, against: Against) -> str:
     """Check a file of the configuration, with the others of its folder, or a robot's table."""
     del against  # the file says what is accepted itself
     keys = read_yaml(path, nulls=True).keys()
+    if len(keys & LimbThresholds.model_fields.keys()) > HALF * len(LimbThresholds.model_fields):
+        return f"thresholds of {read_thresholds(path).limb}"
     if len(keys & RobotTable.model_fields.keys()) > 2:
         return f"robot {load_section(path, RobotTable).name}"
     folder = next((folder for folder in path.absolute().parents[:2] if (folder / "config.yaml").is_file()), None)

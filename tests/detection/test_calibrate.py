@@ -76,7 +76,10 @@ def test_a_lost_sample_of_an_estimate_is_told(write, caplog):
 
 
 @pytest.mark.parametrize(("words", "text"), [
-    (["--leg", "W"], "leg of 6 joints: 'W' is not accepted; accepted: "),
+    (["--leg", "W"], "column 'tau_ext.W1' is missing; accepted: an estimate of W1, W2, W3"),
+    (["--limb", "X"], "limb: 'X' is not accepted; accepted: "),
+    (["--out", "x.yaml"], "--out: 'x.yaml' is not accepted; accepted: it with folders that"),
+    (["folder"], "what calibrates: 'both' is not accepted; accepted: --recording with --estimate, folders that"),
     (["--rate", "0"], "--rate: 0.0 is not accepted; accepted: a number from 1e-06"),
     (["--rate", "inf"], "--rate: inf is not accepted; accepted: a number from 1e-06"),
     (["--rate", "nan"], "--rate: nan is not accepted; accepted: a number from 1e-06"),

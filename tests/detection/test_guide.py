@@ -1,4 +1,4 @@
-"""The code of docs/detection.md runs, and finds and names a hit."""
+"""The first code of docs/detection.md runs, and finds and names a hit; tests/robotlog runs the other one."""
 
 import re
 from pathlib import Path
@@ -14,7 +14,7 @@ LATE, FORCE_N = 150, 50.0  # samples after lift-off
 
 
 def test_the_code_of_the_guide_finds_and_names_a_hit(walk, robot, gate):
-    (code,) = re.findall(r"^```python\n(.*?)^```$", GUIDE.read_text(), flags=re.DOTALL | re.MULTILINE)
+    code, _ = re.findall(r"^```python\n(.*?)^```$", GUIDE.read_text(), flags=re.DOTALL | re.MULTILINE)
     sensed, start = walk(1), GROUND + LATE
     torque = np.zeros((len(sensed), 6))
     torque[start : start + 30] = FORCE_N * unit_torques(robot, gate.leg, sensed.q[0], ["left_knee_side"], -1.0)

@@ -21,19 +21,15 @@ MODULES = {  # command -> the module that `python -m` runs, with words that come
     "calibrate": ("mobnet.detection.calibrate",),
     "motion": ("mobnet.robotlog.motion",),
     "observe": ("mobnet.robotlog.observe",),
+    "learn": ("mobnet.robotlog.learn",),
+    "detect": ("mobnet.robotlog.detect",),
     "robot": ("mobnet.robot.import_table",),
     "demo": ("mobnet.demo",),
     "cost": ("mobnet.evaluation.report.cost",),
     **{name: ("mobnet.evaluation.report.snapshot", name) for name in ("verify", "compare", "snapshot")},
 }
-OUTSIDE = (
-    "check",
-    "calibrate",
-    "demo",
-    "motion",
-    "observe",
-    "robot",
-)  # their words are files of the caller, no code of ours
+# Their words are files of the caller, no code of ours.
+OUTSIDE = ("check", "calibrate", "demo", "motion", "observe", "robot", "learn", "detect")
 REPORT = ("--report", "report.html", "--report-after-run")
 
 

@@ -11,6 +11,7 @@ from mobnet.core.errors import CommandError, not_accepted
 from mobnet.detection.words import calibrate_parser
 from mobnet.plan.places import scale_of
 from mobnet.robot.import_words import import_parser
+from mobnet.robotlog.learning_words import detect_parser, learn_parser
 from mobnet.robotlog.motion_words import motion_parser
 from mobnet.robotlog.words import observe_parser
 
@@ -23,7 +24,9 @@ COMMANDS = {
     "robot": "make a robot's table from its URDF or MJCF file; --help says how",
     "motion": "simulate the log of a robot of a table that moves without walking; --help says how",
     "observe": "make the residual of a robot's own log, and say what looks wrong with it; --help says how",
-    "calibrate": "print thresholds of collision detection for a wanted rate of false alarms; --help says how",
+    "learn": "train a network on a robot's own logs, and try it on their end; --help says how",
+    "calibrate": "print thresholds of detection for a wanted rate of false alarms; --help says how",
+    "detect": "write when something pushes a limb in a robot's own log; --help says how",
     "tuning": "train what configs/trials.yaml lists, write results/default/trials/tuning.md; no part of all",
     "recipes": "train each method with each recipe, write results/default/trials/recipes.md; no part of all",
     "lengths": "train for longer and longer, write results/default/trials/lengths.md; no part of all",
@@ -50,6 +53,8 @@ HELP = {"-h", "--help"}
 PARSERS = {
     "calibrate": calibrate_parser,
     "motion": motion_parser,
+    "detect": detect_parser,
+    "learn": learn_parser,
     "observe": observe_parser,
     "robot": import_parser,
 }  # of commands whose module has words of its own

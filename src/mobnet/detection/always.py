@@ -2,10 +2,12 @@
 
 A false alarm is as likely in each second, so that the largest values of windows follow a law as those of swings do.
 Windows have to be independent of each other, or they would look like more evidence than they are: motion, and with it
-the error of an estimate, lasts for some time. So their length is the shortest at which neighbours are not alike.
+the error of an estimate, lasts for some time. So their length is the shortest at which neighbours are not alike, if
+there are enough of them.
 """
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -37,34 +39,49 @@ def setup_of(detection: Detection, robot: RobotDescription, limb: str, rate_hz: 
     return LimbSetup(detection, robot, limb, rate_hz)
 
 
+@dataclass(frozen=True)
+class AlwaysWatched:
+    """A limb in recordings, watched in windows of a length [s]; whether windows that follow each other are alike."""
+
+    window_s: float
+    limbs: tuple[LegRecording, ...]
+    is_alike: bool
+
+
 def always_watched(
     setup: LimbSetup, watched: Watched, paths: Sequence[Path], read: Sequence[SensedRecording],
     estimates: Sequence[Estimate], window_s: float, settle_s: float,
-) -> tuple[float, list[LegRecording]]:  # fmt: skip
-    """Return a limb in recordings, watched in windows that fill their segments, and the length of these [s].
+) -> AlwaysWatched:  # fmt: skip
+    """Return a limb in recordings, watched in windows that fill their segments.
+
+    Windows have the length `window_s` or, where they are alike, one that is twice, four times ... as long, as far as
+    there are enough of them.
 
     Raises:
-        DataError: there are fewer windows than a law takes, of the length `window_s` or of that at which they are not
-            alike.
+        DataError: there are fewer windows of the first length than a law takes.
     """
     gates = [always_on(len(one.sensed), one.segments, settle_s, setup.rate_hz) for one in read]
     signals = [watched.of(own, one.sensed.command) for one, own in zip(read, estimates, strict=True)]
     low = [np.abs(setup.low_passed(own, one.segments)) for own, one in zip(signals, read, strict=True)]
-    least = setup.detection.thresholds.least_swings
-    while True:
-        length = round(window_s * setup.rate_hz)
-        windows = [windows_of(gate.watched, one.segments, length) for gate, one in zip(gates, read, strict=True)]
-        if (count := sum(map(len, windows))) < least:
-            what = f"seconds of free motion, in windows of {window_s:g} s, as shorter ones are alike"
-            raise DataError(not_accepted(what, round(count * window_s, 1), [f"{least * window_s:g} or more"]))
-        if not alike([largest(*pair) for pair in zip(low, windows, strict=True)]):
-            break
-        window_s *= 2.0
-    rows = zip(paths, read, gates, windows, strict=True)
-    return window_s, [
+
+    def windows(length_s: float) -> list[Spans]:
+        length = round(length_s * setup.rate_hz)
+        return [windows_of(gate.watched, one.segments, length) for gate, one in zip(gates, read, strict=True)]
+
+    least, found = setup.detection.thresholds.least_swings, windows(window_s)
+    if (count := sum(map(len, found))) < least:
+        what = f"seconds of free motion, in windows of {window_s:g} s"
+        raise DataError(not_accepted(what, round(count * window_s, 1), [f"{least * window_s:g} or more"]))
+    while (is_alike := alike([largest(*pair) for pair in zip(low, found, strict=True)])) and (
+        sum(map(len, longer := windows(2.0 * window_s))) >= least
+    ):
+        window_s, found = 2.0 * window_s, longer
+    rows = zip(paths, read, gates, found, strict=True)
+    limbs = tuple(
         LegRecording(path, one.segments, one.sensed.command, gate, spans, (UNKNOWN,) * len(spans), spans)
         for path, one, gate, spans in rows
-    ]
+    )
+    return AlwaysWatched(window_s, limbs, is_alike)
 
 
 def always_on(rows: int, segments: Spans, settle_s: float, rate_hz: float) -> GateSignal:

@@ -13,7 +13,7 @@ from mobnet.core.estimator import Estimate
 from mobnet.core.notes import note_differences, read_array_note
 from mobnet.core.recording import SensedRecording, read_sensed
 from mobnet.core.store import NOTE, check_finite, file_of
-from mobnet.detection.always import always_watched, setup_of
+from mobnet.detection.always import AlwaysWatched, always_watched, setup_of
 from mobnet.detection.calibration import QuietWalk, check_signals, rate_scales, unit_of
 from mobnet.detection.points import axis_forces
 from mobnet.detection.sensitivity import found_forces
@@ -64,7 +64,7 @@ class LimbCalibration:
         thresholds: of each joint (n,) [N m], of a ratio [-].
         promise: rate of false alarms to expect, with its interval.
         count: number of swings or windows that they are made from.
-        window_s: length of the windows [s]; None of swings.
+        always: the windows; None of a leg that is watched in its swings.
         forces: point -> the least force that is found there, along each axis of its body or from one side [N].
     """
 
@@ -73,7 +73,7 @@ class LimbCalibration:
     thresholds: Array
     promise: Calibrated
     count: int
-    window_s: float | None
+    always: AlwaysWatched | None
     forces: Mapping[str, Array]
 
 
@@ -95,7 +95,7 @@ def calibrate_limb(
             raise DataError(not_accepted(f"{one.path}: rate_hz", one.read.rate_hz, accepted))
     setup = _wanting(setup_of(settings.detection, robot, limb, rate_hz), rate_per_h, settings)
     watched = Watched(Detector(method=settings.detection.gate.method, signals=(signal,)))
-    window_s, legs = _watched(setup, watched, own, settings)
+    always, legs = _watched(setup, watched, own, settings)
     # Nothing is tried here on what is held out, so that all swings calibrate.
     walk = QuietWalk.of(setup, "", legs, [one.estimate for one in own], share=1.0)
     check_signals(setup, watched.detector, walk)
@@ -104,7 +104,7 @@ def calibrate_limb(
     poses = np.concatenate([one.read.sensed.q[leg.gate.watched] for one, leg in zip(own, legs, strict=True)])
     felt = thresholds if unit_of(f"{signal}.") == "N m" else thresholds * _usual_std(own)
     forces = {} if signal == STD else _forces(setup, poses, felt, settings)
-    return LimbCalibration(setup, signal, thresholds, promises[WANTED], walk.first, window_s, forces)
+    return LimbCalibration(setup, signal, thresholds, promises[WANTED], walk.first, always, forces)
 
 
 def _wanting(setup: LimbSetup, rate_per_h: float, settings: Settings) -> LimbSetup:
@@ -117,13 +117,14 @@ def _wanting(setup: LimbSetup, rate_per_h: float, settings: Settings) -> LimbSet
 
 def _watched(
     setup: LimbSetup, watched: Watched, own: Sequence[OwnRecording], settings: Settings
-) -> tuple[float | None, list[LegRecording]]:
-    """Return a limb in recordings as its detector sees it, and the length of windows where it is always watched [s]."""
+) -> tuple[AlwaysWatched | None, Sequence[LegRecording]]:
+    """Return the windows of a limb where it is always watched, and it in recordings as its detector sees it."""
     if isinstance(setup, LegSetup):
         return None, [setup.record(one.path, one.read, one.estimate.tau_ext) for one in own]
     paths, read, estimates = zip(*((one.path, one.read, one.estimate) for one in own), strict=True)
     lengths = settings.reaction.window_s, settings.robotlog.settle_s
-    return always_watched(setup, watched, paths, read, estimates, *lengths)
+    always = always_watched(setup, watched, paths, read, estimates, *lengths)
+    return always, always.limbs
 
 
 def _usual_std(own: Sequence[OwnRecording]) -> Array:

@@ -12,23 +12,28 @@ from mobnet.estimation.own import LEARNED, OBSERVER, OwnNetwork, Sampling
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.settings import Settings
 
+NOTHING = 1e-3  # share of the expected rate below which one counts as zero
+
 
 def report(found: LimbCalibration, confidence: float) -> Iterator[str]:
     """Yield what the command prints, line by line; the confidence is that of the interval."""
     promise, unit = found.promise, unit_of(f"{found.signal}.")
-    what = "swings" if found.window_s is None else f"windows of {found.window_s:g} s"
+    what = f"windows of {found.always.window_s:g} s" if found.always else "swings"
     yield from (f"{found.count} {what}", "", f"joint  threshold of the {found.signal} [{unit}]")
     yield from (f"{joint:<6} {value:14.2f}" for joint, value in zip(found.setup.joints, found.thresholds, strict=True))
-    interval = f"{confidence:.0%} interval {promise.low:.2g} to {promise.high:.2g}"
-    time = "walking" if found.window_s is None else "free motion"
+    low = promise.low if promise.low > NOTHING * promise.rate_per_h else 0.0
+    interval = f"{confidence:.0%} interval {low:.2g} to {promise.high:.2g}"
+    time = "free motion" if found.always else "walking"
     yield from ("", f"false alarms to expect: {promise.rate_per_h:.2g} in an hour of {time}, {interval}", "")
+    if found.always and found.always.is_alike:
+        yield from ("windows that follow each other are alike: the interval is too narrow, record for longer", "")
     if not found.forces:
         yield "smallest force that is found: not told, as the table has no `points` on this limb, or sigma is watched"
         return
-    along = f", along {', '.join(AXES)} of its body" if found.window_s is not None else ""
+    along = f", along {', '.join(AXES)} of its body" if found.always else ""
     yield f"smallest force that is found [N], by point of the limb{along}:"
     for point, forces in found.forces.items():
-        yield f"{point:<24} " + " ".join(f"{force:8.0f}" if np.isfinite(force) else f"{'-':>8}" for force in forces)
+        yield f"{point:<24} " + " ".join(f"{force:8.3g}" if np.isfinite(force) else f"{'-':>8}" for force in forces)
 
 
 def thresholds_of(
@@ -45,8 +50,8 @@ def thresholds_of(
     return LimbThresholds(
         robot=setup.robot.name, limb=setup.limb, joints=setup.joints, method=LEARNED if network else OBSERVER,
         network=network.fingerprint if network else None, signal=found.signal, thresholds=values,
-        watched="swing" if found.window_s is None else "always",
-        settle_s=0.0 if found.window_s is None else settings.robotlog.settle_s, low_pass_hz=setup.detection.low_pass_hz,
+        watched="always" if found.always else "swing",
+        settle_s=settings.robotlog.settle_s if found.always else 0.0, low_pass_hz=setup.detection.low_pass_hz,
         hold_s=setup.detection.hold_s, rate_hz=sampling.rate_hz, gain_hz=sampling.gain_hz, torque=sampling.torque,
         rate_per_h=rate_per_h, expected_per_h=promise.rate_per_h, low_per_h=promise.low, high_per_h=promise.high,
         confidence=settings.detection.thresholds.confidence,

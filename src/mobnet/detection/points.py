@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
 from mobnet.detection.isolation import name_push
@@ -62,9 +61,7 @@ def axis_forces(setup: LimbSetup, nominal: NominalModel, poses: Array, threshold
     return {row.name: np.where(own, force, np.inf) for row, own, force in zip(points, heard, most, strict=True)}
 
 
-def felt_push(
-    nominal: NominalModel, joints: Sequence[str], q: Array, torque: Array, scale: NDArray[np.floating]
-) -> Felt | None:
+def felt_push(nominal: NominalModel, joints: Sequence[str], q: Array, torque: Array, scale: Array) -> Felt | None:
     """Return which push explains torques (n,) [N m] of joints best at a position (nq,); none of a limb without points.
 
     The scale (n,) [N m] is what the torques are in free motion, such as their thresholds.

@@ -30,7 +30,10 @@ class Converted:
     """A recording, and what was done to make it.
 
     `wrenches` are those of the feet that have sensors, side -> (T, 6) [N], [N m]; `absent` are signals that the log
-    does not have and that are zero; `clocks` are those of the log, signal -> (T,) [s]; `hints` are on stamps of messages.
+    does not have and that are zero; `clocks` are those of the log, signal -> (T,) [s];
+    `hints` are on stamps of messages;
+    `time_s` are the times of the recording's rows by the log's clock (T,) [s]; `tool` is what a sensor at an end
+    effector reads (T, 6) [N], [N m].
     """
 
     recording: Recording
@@ -38,7 +41,9 @@ class Converted:
     absent: tuple[str, ...]
     clocks: Mapping[str, Array]
     interpolated: bool
-    hints: tuple[str, ...] = ()
+    hints: tuple[str, ...]
+    time_s: Array
+    tool: Array | None
 
 
 def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, bounds: RobotLog) -> Converted:
@@ -61,7 +66,9 @@ def convert(path: Path, columns: Columns, meaning: LogMap, layout: JointLayout, 
     wrenches = {foot.removesuffix("_foot"): values[foot] for foot in FEET if foot in values}
     used = [columns[signal.columns[0]] for signal in given.values()]
     hints = tuple(stamp_hints(used, bounds)) if meaning.clock.stamp == "header" else ()
-    return Converted(recording, wrenches, absent, clocks, ticks.interpolated, hints)
+    return Converted(
+        recording, wrenches, absent, clocks, ticks.interpolated, hints, ticks.time_s, values.get("tool")
+    )
 
 
 def _timed(path: Path, columns: Columns, signal: Signal, meaning: LogMap, clock: Array | None) -> Timed:

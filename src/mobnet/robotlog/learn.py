@@ -15,55 +15,25 @@ import numpy as np
 from mobnet.core.code import ROOT
 from mobnet.core.errors import DataError, MobnetError, not_accepted
 from mobnet.core.files import RUN, read_json, write_json
-from mobnet.estimation.own import LEARNED, OwnLog, limb_of, read_log_folder
+from mobnet.estimation.own import OwnLog, limb_of, read_log_folder
 from mobnet.learning.deployed.networks import load_network
+from mobnet.learning.device import own_device
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.train import train_on
-from mobnet.learning.trainer import Trainer
 from mobnet.plan.precision import with_precision
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.free_check import free_check, lines_of
 from mobnet.robotlog.labels import before, check_labels, label_of, limb_data
 from mobnet.robotlog.learning_words import learn_parser
-from mobnet.settings.catalogue import Catalogue
+from mobnet.robotlog.training import filled, training_of
 from mobnet.settings.load import load_section, load_settings
-from mobnet.settings.networks import Coarse, Learning, Limb, Network, Training
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.settings import Settings
 
 log = logging.getLogger(__name__)
 STATE = "training"  # folder of the checkpoint, in that of the network
 SEED = 0
-
-
-def training_of(settings: Settings, table: RobotTable, limb: str, labels: str, rate_hz: float, epochs: int) -> Training:
-    """Return how a limb's network learns from a log at a rate [Hz]: as MOB-Net's does, of the same cell.
-
-    A limb without an entry in the table's `networks` sees its own joints.
-    """
-    numbers = settings.robotlog.learn
-    ports = table.networks.get(limb) or Limb(joints=(limb,), Q=(limb,), T=(limb,))
-    # In free motion the residual follows from motion and torque alone. A network that sees both would learn to be the
-    # observer, and take away every push with it.
-    ports = ports.model_copy(update={"T": ()}) if labels == "free" else ports
-    row = settings.networks.get(limb) or settings.networks[numbers.cell]
-    learning, horizon = Catalogue(settings).learned(LEARNED), row.horizon_steps
-    return Training(
-        method=LEARNED, limb=limb, target="uncertainty", network=Network.model_validate({**vars(ports), **vars(row)}),
-        learning=_at_rate(learning, rate_hz / settings.rates.data_hz), epochs=epochs,
-        epoch_samples=max(numbers.epoch_samples, horizon * numbers.updates),
-    )  # fmt: skip
-
-
-def _at_rate(learning: Learning, ratio: float) -> Learning:
-    """Return how a network learns at a rate that is so many times that of the configuration: strides are times."""
-    phases = [(max(1, round(phase.stride * ratio)), phase.share) for phase in learning.coarse]
-    strides = dict.fromkeys(stride for stride, _ in phases if stride > 1)
-    coarse = tuple(
-        Coarse(stride=stride, share=sum(share for other, share in phases if other == stride)) for stride in strides
-    )
-    return learning.model_copy(update={"coarse": coarse})
 
 
 def learn(
@@ -84,8 +54,8 @@ def learn(
     data = limb_data(logs, known, robot.layout, training.network)
     cut = len(data.inputs) - round(settings.robotlog.learn.held_out * len(data.inputs))
     trained = before(data, cut)
-    job = TrainingJob(_filled(training, trained.segments, settings), SEED, settings.seed)
-    if _is_new(Trainer(job, trained).fingerprint, out, force=force):
+    job = TrainingJob(filled(training, trained.segments, settings), SEED, settings.seed)
+    if _is_new(job.fingerprint(trained.digest, own_device()), out, force=force):
         train_on(trained, job, out, out / STATE)
     columns, units = robot.layout.columns(data.joints), [robot.layout.unit(joint) for joint in data.joints]
     label = np.concatenate(known)[:, columns]
@@ -94,16 +64,6 @@ def learn(
     told = {"folders": [str(one.folder) for one in logs], "labels": labels, **vars(first), "check": found.note()}
     write_json(out / RUN, {**read_json(out / RUN), **told})
     return [*lines_of(found, numbers), f"written: {out}"]
-
-
-def _filled(training: Training, segments: Sequence[tuple[int, int]], settings: Settings) -> Training:
-    """Return a training whose batches a log fills: of a short log, fewer lanes learn at once."""
-    stride = max((phase.stride for phase in training.learning.coarse), default=1)
-    horizons = sum(end - start for start, end in segments) // (training.network.horizon_steps * stride)
-    lanes = max(1, min(training.learning.batch_size, horizons // 4))
-    epoch = training.epoch_samples or settings.robotlog.learn.epoch_samples
-    lanes = max(1, min(lanes, epoch // (training.network.horizon_steps * settings.robotlog.learn.updates)))
-    return training.model_copy(update={"learning": training.learning.model_copy(update={"batch_size": lanes})})
 
 
 def _is_new(fingerprint: str, out: Path, *, force: bool) -> bool:

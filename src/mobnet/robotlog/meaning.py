@@ -17,7 +17,7 @@ AXES = ("x", "y", "z")
 ENDS = {  # signal -> how messages of ROS name its numbers
     **dict.fromkeys(("position", "velocity", "omega", "acc"), AXES),
     "quaternion": ("w", *AXES),
-    **dict.fromkeys(FEET, tuple(f"{part}.{axis}" for part in ("force", "torque") for axis in AXES)),
+    **dict.fromkeys((*FEET, "tool"), tuple(f"{part}.{axis}" for part in ("force", "torque") for axis in AXES)),
 }
 
 

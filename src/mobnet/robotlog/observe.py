@@ -31,6 +31,7 @@ from mobnet.robotlog.hints.motion import motion_hints
 from mobnet.robotlog.hints.torque import known_joints, torque_hints, windows_of
 from mobnet.robotlog.meaning import default_map, resolved, wanted_columns
 from mobnet.robotlog.plot import plot_residual
+from mobnet.robotlog.tool import with_tool
 from mobnet.robotlog.words import observe_parser
 from mobnet.settings.load import load_section, load_settings
 from mobnet.settings.robot import RobotTable
@@ -62,7 +63,10 @@ def observe_log(
         ConfigError: the map does not fit the robot.
     """
     converted = converted_log(path, robot.layout, meaning, bounds)
-    read, nominal = converted.recording, NominalModel(robot, gravity_m_s2=gravity_m_s2)
+    nominal = NominalModel(robot, gravity_m_s2=gravity_m_s2)
+    if meaning and meaning.tool:
+        converted = with_tool(converted, nominal, meaning.tool)
+    read = converted.recording
     kind = "mean" if (torque or (meaning.torque if meaning else "sample")) == "mean" else "sample"
     observer = MomentumObserver(nominal, gain_hz, read.rate_hz, kind)
     residual = np.concatenate([observer.residual(read.sensed[span]) for span in read.spans()])

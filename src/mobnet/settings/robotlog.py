@@ -2,9 +2,21 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
-from mobnet.settings.base import Count, InnerShare, NetworkName, Positive, Real, Seconds, Section, Share, Some, Text
+from mobnet.settings.base import (
+    Count,
+    InnerShare,
+    NetworkName,
+    Positive,
+    Real,
+    Seconds,
+    Section,
+    Share,
+    Some,
+    Text,
+    Vector3,
+)
 
 Unit = Literal[
     "rad", "deg", "rad/s", "deg/s", "rpm", "N m", "mN m", "kN m", "A", "m", "mm", "m/s", "m/s^2", "g", "N", "kN", "s",
@@ -26,6 +38,13 @@ class Clock(Section):
     column: Text = "time"
     unit: Literal["s", "ms", "us", "ns"] = "s"
     stamp: Literal["header", "recorded"] = "header"
+
+
+def _of_unit_length(quat: tuple[float, ...]) -> tuple[float, ...]:
+    """Check the length of a quaternion."""
+    if abs(sum(part * part for part in quat) - 1.0) > 1e-3:
+        raise ValueError("accepted: four numbers w x y z of unit length")
+    return quat
 
 
 class Signal(Section):
@@ -57,6 +76,20 @@ class Signal(Section):
     frame: Literal["world", "base"] = "world"
 
 
+class Tool(Signal):
+    """A force and torque sensor at the end effector: what acts on the tool beyond it, without the tool's own weight.
+
+    Attributes:
+        body: body of the robot's table that carries it.
+        pos: place in the body's frame [m].
+        quat: axes of the sensor in those of the body, w x y z.
+    """
+
+    body: Text
+    pos: Vector3 = (0.0, 0.0, 0.0)
+    quat: Annotated[tuple[Real, Real, Real, Real], AfterValidator(_of_unit_length)] = (1.0, 0.0, 0.0, 0.0)
+
+
 class LogMap(Section):
     """What the columns of a log mean. Signals that the robot does not have are left out.
 
@@ -70,6 +103,7 @@ class LogMap(Section):
             specific force of the inertial sensor in base axes.
         q, v, tau_motor: positions, velocities and torques of the motors on the side of the joints.
         left_foot, right_foot: force and moment on the foot's sensor, in the foot's axes.
+        tool: force and moment on the sensor at an end effector, in the sensor's axes; labels for `./reproduce learn`.
         swing, landing: per foot, left and then right, as `docs/data.md` says.
     """
 
@@ -87,6 +121,7 @@ class LogMap(Section):
     acc: Signal | None = None
     left_foot: Signal | None = None
     right_foot: Signal | None = None
+    tool: Tool | None = None
     swing: Signal | None = None
     landing: Signal | None = None
 
@@ -138,6 +173,7 @@ class RobotLog(Section):
         weight: share of the robot's weight by which the feet's mean vertical force may differ.
         learn: how a network learns from it.
         settle_s: time after the start of a segment in which a limb without swings is not watched [s].
+        flag_gap_s: two stretches above a threshold that are closer are one flag [s].
         percentiles: share of the rates of false alarms of recordings drawn anew that the interval of a limb that is
             watched all the time holds.
     """
@@ -162,3 +198,4 @@ class RobotLog(Section):
     learn: LogLearning
     percentiles: InnerShare
     settle_s: Seconds
+    flag_gap_s: Seconds

@@ -1,0 +1,85 @@
+"""Pushes in a log: `./reproduce detect LOG --robot TABLE --network NET --thresholds FILE` (docs/detection.md)."""
+
+import logging
+import sys
+from argparse import Namespace
+from collections.abc import Iterator
+from pathlib import Path
+
+from mobnet.core.errors import MobnetError
+from mobnet.core.files import write_text
+from mobnet.core.rows import csv_text
+from mobnet.detection.threshold_file import read_thresholds
+from mobnet.estimation.estimate import write_estimate
+from mobnet.estimation.own import ESTIMATE, OwnNetwork, Sampling, check_sampling, read_network_folder
+from mobnet.robot.description import RobotDescription, describe
+from mobnet.robotlog.detected import Detected, check_thresholds, detect_log
+from mobnet.robotlog.flags import COLUMNS
+from mobnet.robotlog.learning_words import detect_parser
+from mobnet.robotlog.plot_flags import plot_flags
+from mobnet.settings.limb_thresholds import LimbThresholds
+from mobnet.settings.load import load_section, load_settings
+from mobnet.settings.robot import RobotTable
+from mobnet.settings.robotlog import LogMap
+
+log = logging.getLogger(__name__)
+FLAGS, PLOT = "flags.csv", "flags"
+
+
+def write_detected(
+    made: Detected, robot: RobotDescription, network: OwnNetwork | None, found: LimbThresholds, out: Path
+) -> None:
+    """Write flags, estimate and plot into a folder."""
+    read = made.observed.converted.recording
+    note = {"method": found.method, "network": network.fingerprint if network else None}
+    write_estimate(out / ESTIMATE, read, made.estimate, found.joints, robot.layout, note)
+    write_text(out / FLAGS, csv_text(COLUMNS, [flag.row() for flag in made.flags]))
+    plot_flags(made.observed.converted.time_s, read.segments, made.watched, made.flags, found, out / PLOT)
+
+
+def told(made: Detected, out: Path) -> Iterator[str]:
+    """Yield what the command prints."""
+    read = made.observed.converted.recording
+    yield f"{len(read.sensed)} samples at {read.rate_hz:g} Hz, hints on the log: {len(made.observed.hints)}"
+    yield from (f"  {hint}" for hint in made.observed.hints)
+    yield f"flags: {len(made.flags) or 'none'}"
+    for flag in made.flags:
+        push = flag.push
+        where = f", as {push.force_n:.0f} N at {push.point} along {push.direction} of {push.body}" if push else ""
+        span = f"{flag.start_s:9.3f} to {flag.end_s:.3f} s"
+        yield f"  {span}: {flag.joint} at {flag.ratio:.2f} times its threshold{where}"
+    yield f"written: {out / FLAGS}, {out / ESTIMATE}.parquet, {out / PLOT}.png"
+
+
+def run(options: Namespace) -> Iterator[str]:
+    """Detect as the command's options say, and yield what is printed."""
+    settings = load_settings()
+    robot = describe(load_section(options.robot, RobotTable) if options.robot else settings.robot)
+    meaning = load_section(options.map, LogMap) if options.map else None
+    network = read_network_folder(options.network, robot.layout, settings) if options.network else None
+    found = read_thresholds(options.thresholds)
+    check_thresholds(options.thresholds, found, robot, network)
+    if network:
+        given = Sampling(found.rate_hz, found.gain_hz, found.torque)
+        check_sampling(options.thresholds, given, network.sampling, network.folder)
+    made = detect_log(options.log, robot, meaning, network, found, settings)
+    out = options.out or Path(f"{options.log.stem}_detected")
+    write_detected(made, robot, network, found, out)
+    yield from told(made, out)
+
+
+def main(words: list[str]) -> int:
+    """Run the command; return its exit status."""
+    options = detect_parser().parse_args(words)
+    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+    try:
+        for line in run(options):
+            log.info("%s", line)
+    except MobnetError as error:
+        log.error("%s", error)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

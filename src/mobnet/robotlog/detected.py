@@ -1,0 +1,83 @@
+"""The estimate of a limb in a log, and its flags: what `./reproduce detect` computes.
+
+Observer, network, filters and thresholds are those of a closed loop, run over the whole log: flags are the same.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from mobnet.core.arrays import Array
+from mobnet.core.errors import DataError, not_accepted, refuse
+from mobnet.core.estimator import Estimate
+from mobnet.detection.always import always_on, setup_of
+from mobnet.detection.chain import make_chain
+from mobnet.detection.detector import run_segments
+from mobnet.detection.signals import Watched
+from mobnet.detection.watch import LegSetup
+from mobnet.estimation.own import OwnLog, OwnNetwork, Sampling, estimates_of, estimator_of
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.nominal import NominalModel
+from mobnet.robotlog.flags import Flag, flags_of
+from mobnet.robotlog.observe import Observed, observe_log
+from mobnet.settings.detection import Detector
+from mobnet.settings.limb_thresholds import LimbThresholds
+from mobnet.settings.robotlog import LogMap
+from mobnet.settings.settings import Settings
+
+
+@dataclass(frozen=True)
+class Detected:
+    """A log, the estimate of a limb (T, n) [N m], what is watched of it behind the low-pass (T, n), and its flags."""
+
+    observed: Observed
+    estimate: Estimate
+    watched: Array
+    flags: tuple[Flag, ...]
+
+
+def check_thresholds(path: Path, found: LimbThresholds, robot: RobotDescription, network: OwnNetwork | None) -> None:
+    """Raise a DataError where thresholds are those of another robot, limb or network."""
+    own = robot.layout.groups.get(found.limb, ())
+    pairs = {
+        "robot": (found.robot, robot.name), "joints": (found.joints, own),
+        "network": (found.network or "none", network.fingerprint if network else "none"),
+    }  # fmt: skip
+    refuse(
+        path, [not_accepted(key, held, [f"{here}, given here"]) for key, (held, here) in pairs.items() if held != here]
+    )
+
+
+def detect_log(
+    path: Path, robot: RobotDescription, meaning: LogMap | None, network: OwnNetwork | None, found: LimbThresholds,
+    settings: Settings,
+) -> Detected:  # fmt: skip
+    """Estimate the external torque of a limb in a log, and flag what lies above its thresholds.
+
+    Raises:
+        DataError: the log cannot be read, or its rate is not that of the thresholds.
+        ConfigError: the map does not fit the robot.
+    """
+    sampling, gravity = Sampling(found.rate_hz, found.gain_hz, found.torque), settings.plant.gravity_m_s2
+    if meaning and meaning.rate_hz is None:
+        meaning = meaning.model_copy(update={"rate_hz": sampling.rate_hz})
+    observed = observe_log(path, robot, meaning, found.torque, found.gain_hz, gravity, settings.robotlog)
+    read = observed.converted.recording
+    if read.rate_hz != sampling.rate_hz:
+        accepted = [f"{sampling.rate_hz:g}, that of the thresholds; a --map with rate_hz resamples the log"]
+        raise DataError(not_accepted(f"{path}: rate", read.rate_hz, accepted))
+    own = OwnLog(path, read, observed.residual.astype(np.float32), sampling)
+    (estimate,) = estimates_of([own], estimator_of(robot, gravity, sampling, network), found.joints)
+    setup = setup_of(settings.detection, robot, found.limb, sampling.rate_hz)
+    if found.watched == "swing" and isinstance(setup, LegSetup):
+        gate = setup.record(path, read, estimate.tau_ext).gate
+    else:
+        gate = always_on(len(read.sensed), read.segments, found.settle_s, sampling.rate_hz)
+    signals = Watched(Detector(method=found.method, signals=(found.signal,))).of(estimate, read.sensed.command)
+    chain = make_chain(found.low_pass_hz, found.hold_s, sampling.rate_hz, np.array([found.thresholds]))
+    alarm = run_segments(chain, signals, gate, read.segments)
+    low = setup.low_passed(estimate.tau_ext.astype(np.float64), read.segments)
+    nominal = NominalModel(robot, gravity_m_s2=gravity)
+    flags = flags_of(alarm, observed.converted.time_s, read, low, estimate.std, found, nominal, settings.robotlog)
+    return Detected(observed, estimate, setup.low_passed(signals, read.segments), tuple(flags))

@@ -1,0 +1,82 @@
+"""Flags: stretches of a log in which a limb's signals lie above their thresholds, and which push explains each."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mobnet.core.arrays import Array
+from mobnet.core.recording import SensedRecording
+from mobnet.detection.detector import ALARM_RATIO, Alarm
+from mobnet.detection.points import Felt, felt_push
+from mobnet.robot.nominal import NominalModel
+from mobnet.settings.limb_thresholds import LimbThresholds
+from mobnet.settings.robotlog import RobotLog
+
+
+@dataclass(frozen=True)
+class Flag:
+    """A stretch above a threshold, a row of `flags.csv`.
+
+    Attributes:
+        start_s, end_s: first and last sample above it, by the log's clock [s].
+        joint: whose signal lay highest above its threshold.
+        ratio: how many times its threshold that was [-].
+        push: that explains the torques of that sample best; none where the robot's table has no points on the limb.
+    """
+
+    start_s: float
+    end_s: float
+    joint: str
+    ratio: float
+    push: Felt | None
+
+    def row(self) -> tuple[Any, ...]:
+        """Return it as a row of a CSV file."""
+        push = (self.push.body, self.push.point, self.push.direction, self.push.force_n) if self.push else ("",) * 4
+        return self.start_s, self.end_s, self.joint, self.ratio, *push
+
+
+COLUMNS = ("start_s", "end_s", "joint", "ratio", "link", "point", "direction", "force_n")
+
+
+def flags_of(
+    alarm: Alarm, time_s: Array, read: SensedRecording, low: Array, std: NDArray[Any] | None, found: LimbThresholds,
+    nominal: NominalModel, bounds: RobotLog,
+) -> Iterator[Flag]:  # fmt: skip
+    """Yield the flags of a limb in a log.
+
+    Args:
+        alarm: ratio to the thresholds and highest signal of each sample (T,).
+        time_s: times of the samples (T,) [s].
+        read: the recording.
+        low: estimated torque of the limb's joints behind the low-pass (T, n) [N m].
+        std: its standard deviation (T, n) [N m], where the estimate has one.
+        found: the thresholds.
+        nominal: the model of the robot.
+        bounds: says how close two stretches are one.
+    """
+    for start, end in stretches(alarm.ratio > ALARM_RATIO, read.segments, round(bounds.flag_gap_s * read.rate_hz)):
+        row = start + int(np.argmax(alarm.ratio[start:end]))
+        # What is usual in free motion: thresholds themselves, of a ratio times sigma, which cannot be one of sigma.
+        usual = np.array(found.thresholds)
+        if found.signal != "mean":
+            usual = usual * std[row] if found.signal == "ratio" and std is not None else np.ones(len(usual))
+        push = felt_push(nominal, found.joints, read.sensed.q[row], low[row], usual)
+        joint = found.joints[int(alarm.signal[row])]
+        yield Flag(float(time_s[start]), float(time_s[end - 1]), joint, float(alarm.ratio[row]), push)
+
+
+def stretches(above: NDArray[np.bool_], segments: tuple[tuple[int, int], ...], gap: int) -> list[tuple[int, int]]:
+    """Return the rows (start, end) of stretches above a threshold (T,); in a segment, those a gap apart are one."""
+    found: list[tuple[int, int]] = []
+    for first, last in segments:
+        edges = np.flatnonzero(np.diff(np.r_[False, above[first:last], False])).reshape(-1, 2) + first
+        for k, (start, end) in enumerate(edges.tolist()):
+            if k and start - found[-1][1] <= gap:
+                found[-1] = (found[-1][0], end)
+            else:
+                found.append((start, end))
+    return found

@@ -1,0 +1,172 @@
+"""From CSV files of an arm to flags in four commands, as docs/detection.md tells it."""
+
+import csv
+import json
+import logging
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+from made_arm import arm_log
+
+from mobnet.commands.main import MODULES
+from mobnet.commands.words import parse
+from mobnet.core.store import read_array
+from mobnet.detection.calibrate import main as calibrate
+from mobnet.detection.threshold_file import read_thresholds
+from mobnet.robotlog.detect import main as detect
+from mobnet.robotlog.learn import main as learn
+from mobnet.robotlog.observe import converted_log
+from mobnet.robotlog.observe import main as observe
+from mobnet.settings.load import load_section
+from mobnet.settings.robotlog import LogMap
+
+pytestmark = pytest.mark.slow
+COMMANDS = {"observe": observe, "learn": learn, "calibrate": calibrate, "detect": detect}
+ARM = Path("tests/data/arm.yaml").resolve()
+RATE_HZ, SHORT = 200.0, ("--epochs", "4")
+GUIDE = Path("docs/detection.md").resolve()
+PUSHES = (10.0, 0.3, (0.0, 6.0)), (20.0, 0.3, (9.0, 0.0))  # start, duration [s], torque of each joint [N m]
+LOGS = {"train": (1, 100.0, ()), "free": (2, 220.0, ()), "new": (3, 30.0, PUSHES)}  # seed, duration [s], pushes
+OWN, LATE_S = ("--robot", ARM), 0.1
+
+
+def run(*words):
+    """Run a command as `./reproduce` does; return its status."""
+    taken = parse([str(word) for word in words])
+    assert taken.command in MODULES
+    return COMMANDS[taken.command](taken.extra)
+
+
+@pytest.fixture(scope="module")
+def made(arm, tmp_path_factory):
+    """The folder in which the commands of the page have run, the training shortened."""
+    folder, page = tmp_path_factory.mktemp("arm"), GUIDE.read_text().partition("## Calibrate")[0]
+    signals = {name: {"columns": [f"{name}.J1", f"{name}.J2"]} for name in ("q", "v", "tau_motor")}
+    lines = re.findall(r"^ {4}\./reproduce (.*)$", page, re.MULTILINE)
+    assert list(dict.fromkeys(line.split()[0] for line in lines)) == list(COMMANDS)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        Path("arm.yaml").symlink_to(ARM)
+        Path("map.yaml").write_text(yaml.safe_dump(signals))
+        for name, (seed, seconds, pushes) in LOGS.items():
+            arm_log(arm, seconds, RATE_HZ, seed, pushes).to_csv(f"{name}.csv", index=False)
+        for line in lines:
+            assert run(*line.split(), *(SHORT if line.startswith("learn") else ())) == 0
+    return folder
+
+
+def test_the_network_s_error_is_below_the_observer_s(made):
+    found = json.loads((made / "arm_net" / "run.json").read_text())
+    check = found["check"]
+    assert (found["rate_hz"], found["gain_hz"], found["torque"], found["labels"]) == (RATE_HZ, 100.0, "sample", "free")
+    assert check["seconds"] == pytest.approx(15.0)
+    assert (np.array(check["network"]) < 0.3 * np.array(check["observer"])).all()
+    assert np.allclose(check["covered"][0], 0.68, atol=0.15)
+
+
+def test_thresholds_are_those_of_the_network_and_far_below_the_observer_s(made):
+    found = read_thresholds(made / "arm_thresholds.yaml")
+    assert (found.robot, found.limb, found.joints, found.watched) == ("two-link arm", "A", ("J1", "J2"), "always")
+    assert found.network == json.loads((made / "arm_net" / "run.json").read_text())["fingerprint"]
+    assert found.expected_per_h == pytest.approx(1.0)
+    assert found.low_per_h <= 1.0 <= found.high_per_h
+    residual = np.abs(read_array(made / "free" / "estimate")[0]).max(axis=0)
+    assert (np.array(found.thresholds) < residual).all()
+
+
+def test_flags_stand_at_the_pushes_and_nowhere_else(made):
+    rows = list(csv.DictReader((made / "new" / "flags.csv").read_text().splitlines()))
+    assert len(rows) == len(PUSHES)
+    for row, (start, duration, torque) in zip(rows, PUSHES, strict=True):
+        assert start <= float(row["start_s"]) <= start + LATE_S
+        assert float(row["end_s"]) <= start + duration + LATE_S
+        assert row["joint"] == f"J{1 + int(np.argmax(torque))}"
+        assert float(row["ratio"]) > 2.0
+        assert row["link"] == ""  # the table has no points
+    estimate, note = read_array(made / "new" / "estimate")
+    assert [column["name"] for column in note["columns"]] == ["tau_ext.J1", "tau_ext.J2", "std.J1", "std.J2"]
+    push = slice(round(10.0 * RATE_HZ), round(10.3 * RATE_HZ))
+    assert estimate[push, 1].max() == pytest.approx(6.0, rel=0.2)
+    assert (made / "new" / "flags.png").stat().st_size > 10_000
+
+
+def test_a_loop_over_the_samples_has_the_flags_of_the_command(made, arm, settings, monkeypatch):
+    monkeypatch.chdir(made)
+    _, code = re.findall(r"^```python\n(.*?)^```$", GUIDE.read_text(), re.DOTALL | re.MULTILINE)
+    meaning = load_section(Path("map.yaml"), LogMap)
+    sensed = converted_log(Path("new.csv"), arm.layout, meaning, settings.robotlog).recording.sensed
+    names = {"samples": [sensed[k] for k in range(len(sensed))]}
+    exec(code, names)
+    rows = csv.DictReader(Path("new/flags.csv").read_text().splitlines())
+    spans = [[round(float(row[key]) * RATE_HZ) for key in ("start_s", "end_s")] for row in rows]
+    assert set(names["flagged"]) <= {k for start, end in spans for k in range(start, end + 1)}
+    assert {k for span in spans for k in span} <= set(names["flagged"])
+
+
+def test_the_same_words_train_nothing_anew_and_others_are_refused(made, monkeypatch, caplog):
+    monkeypatch.chdir(made)
+    caplog.set_level(logging.INFO)
+    weights = Path("arm_net/weights.safetensors")
+    before = weights.stat().st_mtime_ns
+    assert run("learn", "train", *OWN, *SHORT, "--out", "arm_net") == 0
+    assert "arm_net: already trained from these logs in this way" in caplog.text
+    assert weights.stat().st_mtime_ns == before
+    assert run("learn", "train", *OWN, "--epochs", "5", "--out", "arm_net") == 1
+    assert "arm_net: a network with the fingerprint: " in caplog.messages[-1]
+    assert "--force" in caplog.messages[-1]
+
+
+@pytest.mark.parametrize(("words", "message"), [
+    (("learn", "train", "--labels", "some"), "--labels: 'some' is not accepted; accepted: feet, free, tool"),
+    (("learn", "train", "--labels", "feet"), "--labels: 'feet' is not accepted; accepted: free; or a log with swing"),
+    (("learn", "train", "--labels", "tool"), "--labels: 'tool' is not accepted; accepted: free; or a log with a `to"),
+    (("learn", "train", "--limb", "B"), "--limb: 'B' is not accepted; accepted: A"),
+    (("learn", "train", "--epochs", "0"), "--epochs: 0 is not accepted; accepted: a whole number from 1"),
+    (("learn", "nowhere"), "nowhere: recording.json is missing; accepted: a folder that `./reproduce observe` wrote"),
+    (("calibrate", "train"), "seconds of free motion, in windows of 1 s: 99.0 is not accepted; accepted: 200 or more"),
+    (("calibrate", "free", "--signal", "ratio"), "--signal: 'ratio' is not accepted; accepted: mean"),
+    (("calibrate", "free", "--signal", "x"), "--signal: 'x' is not accepted; accepted: mean, ratio, std"),
+    (("calibrate",), "what calibrates: 'nothing' is not accepted"),
+    (("calibrate", "free", "--rate", "0"), "--rate: 0.0 is not accepted"),
+    (("detect", "new.csv", "--thresholds", "arm_thresholds.yaml"), "network: .* accepted: none, given here"),
+    (("detect", "new.csv", "--thresholds", "none.yaml"), "none.yaml: file is missing"),
+], ids=lambda value: value if isinstance(value, str) else " ".join(value))  # fmt: skip
+def test_what_is_wrong_is_one_line(words, message, made, monkeypatch, caplog):
+    monkeypatch.chdir(made)
+    assert run(*words, *OWN) == 1
+    (line,) = [record.message for record in caplog.records if record.levelno >= logging.ERROR]
+    assert "\n" not in line
+    assert re.search(message, line), line
+
+
+def test_a_log_at_another_rate_is_resampled_by_a_map_and_refused_without_one(made, monkeypatch, caplog):
+    monkeypatch.chdir(made)
+    lines = Path("new.csv").read_text().splitlines()
+    Path("half.csv").write_text("\n".join(lines[:1] + lines[1::2]) + "\n")
+    words = ("detect", "half.csv", *OWN, "--network", "arm_net", "--thresholds", "arm_thresholds.yaml")
+    assert run(*words) == 1
+    assert "half.csv: rate: 100.0 is not accepted; accepted: 200, that of the thresholds" in caplog.text
+    assert run(*words, "--map", "map.yaml") == 0
+    assert read_array(Path("half_detected/estimate"))[1]["rate_hz"] == RATE_HZ
+
+
+def test_thresholds_of_another_robot_are_refused(made, monkeypatch, caplog):
+    monkeypatch.chdir(made)
+    Path("other.yaml").write_text(ARM.read_text().replace("two-link arm", "another arm"))
+    words = (
+        "detect",
+        "new.csv",
+        "--robot",
+        "other.yaml",
+        "--network",
+        "arm_net",
+        "--thresholds",
+        "arm_thresholds.yaml",
+    )
+    assert run(*words) == 1
+    assert (
+        "arm_thresholds.yaml: robot: 'two-link arm' is not accepted; accepted: another arm, given here" in caplog.text
+    )

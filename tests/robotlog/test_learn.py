@@ -1,0 +1,119 @@
+"""What a network learns from logs of one's own: its labels, its recipe at the log's rate, and what its check says."""
+
+import numpy as np
+import pytest
+
+from mobnet.core.errors import ConfigError
+from mobnet.core.recording import read_sensed, write_recording
+from mobnet.estimation.label import foot_label
+from mobnet.estimation.low_pass import low_pass
+from mobnet.estimation.observe import read_wrenches
+from mobnet.estimation.own import RECORDING, OwnLog, Sampling, limb_of, read_log_folder
+from mobnet.learning.dataset import LimbData
+from mobnet.learning.deployed.networks import Prediction
+from mobnet.robot.nominal import NominalModel
+from mobnet.robot.wrench import point_torque
+from mobnet.robotlog.free_check import free_check, lines_of
+from mobnet.robotlog.labels import label_of, limb_data
+from mobnet.robotlog.observe import main as observe
+from mobnet.robotlog.training import filled, training_of
+from mobnet.settings.networks import Limb
+
+GAIN_HZ, RATE_HZ = 100.0, 1000.0
+WRENCH = ("fx", "fy", "fz", "mx", "my", "mz")
+MAP = """
+q: {columns: [q.J1, q.J2]}
+v: {columns: [v.J1, v.J2]}
+tau_motor: {columns: [tau_motor.J1, tau_motor.J2]}
+tool: {columns: [fx, fy, fz, mx, my, mz], body: lower, pos: [0.3, 0.0, 0.05], quat: [0.0, 1.0, 0.0, 0.0]}
+"""
+
+
+@pytest.fixture
+def tool_log(clean, stored, tmp_path):
+    """The folder of a log whose arm has a sensor at its tip, observed by the command, and what the sensor reads."""
+    rows = 3000
+    loads = np.random.default_rng(0).normal(size=(rows, 6)) * [5, 5, 5, 1, 1, 1]
+    table = clean[:rows].assign(**dict(zip(WRENCH, loads.T, strict=True)))
+    (tmp_path / "map.yaml").write_text(MAP)
+    words = [str(stored(table)), "--robot", "tests/data/arm.yaml", "--map", str(tmp_path / "map.yaml")]
+    assert observe([*words, "--out", str(tmp_path / "tool")]) == 0
+    return tmp_path / "tool", loads
+
+
+def test_the_label_of_a_tool_is_its_wrench_through_the_jacobian_behind_the_low_pass(tool_log, arm):
+    folder, loads = tool_log
+    log, nominal = read_log_folder(folder, arm.layout), NominalModel(arm)
+    turned = np.diag([1.0, -1.0, -1.0])  # half a turn about x
+    q = log.recording.sensed.q
+    expected = low_pass(point_torque(nominal, "lower", (0.3, 0.0, 0.05), turned, q, loads), GAIN_HZ, RATE_HZ)
+    np.testing.assert_allclose(label_of(log, nominal, "tool"), expected, atol=1e-4)
+    assert "tau_ext" not in log.recording.meta["absent"]
+    data = limb_data([log, log], [expected, expected], arm.layout, Limb(joints=("A",), Q=("A",), T=()))
+    np.testing.assert_allclose(data.targets[: len(q)], log.residual - expected, atol=1e-5)
+    assert data.segments == ((0, len(q)), (len(q), 2 * len(q)))
+    assert data.input_names == ("q.J1", "q.J2", "v.J1", "v.J2")
+
+
+def test_a_tool_on_a_body_that_is_not_there_is_told(tool_log, arm, tmp_path, caplog):
+    (tmp_path / "map.yaml").write_text(MAP.replace("body: lower", "body: hand"))
+    words = [str(tmp_path / "log.csv"), "--robot", "tests/data/arm.yaml", "--map", str(tmp_path / "map.yaml")]
+    assert observe([*words, "--out", str(tmp_path / "other")]) == 1
+    assert "body: 'hand' is not accepted; accepted: lower, upper, wall" in caplog.text
+
+
+def test_the_label_of_feet_is_that_of_the_workflow(made_up, nominal, layout, tmp_path):
+    recording = made_up(seed=1, seconds=0.5, segments=2)
+    write_recording(tmp_path / RECORDING, recording, layout)
+    read = read_sensed(tmp_path / RECORDING, layout)
+    log = OwnLog(tmp_path, read, np.zeros((len(read.sensed), layout.nv)), Sampling(RATE_HZ, GAIN_HZ, "mean"))
+    expected = foot_label(nominal, read, read_wrenches(tmp_path / RECORDING, nominal.robot), GAIN_HZ)
+    np.testing.assert_array_equal(label_of(log, nominal, "feet"), expected)
+
+
+@pytest.mark.parametrize(("rate_hz", "strides"), [(1000.0, [10, 3]), (250.0, [2]), (100.0, []), (4000.0, [40, 12])])
+def test_a_training_keeps_its_times_at_any_rate(rate_hz, strides, settings, arm_table):
+    training = training_of(settings, arm_table, "A", "free", rate_hz, 7)
+    assert [phase.stride for phase in training.learning.coarse] == strides
+    assert (training.network.cell, training.network.hidden, training.epochs) == ("GRU", 150, 7)
+
+
+def test_free_motion_hides_torques_from_the_network_and_sensors_do_not(settings, robot_table, arm_table):
+    assert robot_table.networks["LL"].T == ("LL",)
+    assert training_of(settings, robot_table, "LL", "free", RATE_HZ, 1).network.T == ()
+    assert training_of(settings, robot_table, "LL", "feet", RATE_HZ, 1).network.T == ("LL",)
+    assert training_of(settings, arm_table, "A", "tool", RATE_HZ, 1).network.T == ("A",)
+
+
+def test_a_short_log_fills_its_batches(settings, arm_table):
+    training = training_of(settings, arm_table, "A", "free", 250.0, 1)
+    assert filled(training, [(0, 150_000)], settings).learning.batch_size <= training.learning.batch_size
+    assert 1 <= filled(training, [(0, 2_000)], settings).learning.batch_size <= 2_000 // 100
+
+
+class Half:
+    """A network that predicts half of the residual, which is its only input, with a sigma of its own."""
+
+    def run_all(self, lanes):
+        return [Prediction(0.5 * lane, np.full_like(lane, 0.5)) for lane in lanes]
+
+
+@pytest.mark.parametrize(("size", "told"), [
+    (1.0, ["the log suffices: yes"]),
+    (3.0, ["the log suffices: no", "outside the range of training, most often x", "3.0 times that on data"]),
+])  # fmt: skip
+def test_the_check_measures_what_is_held_out_and_says_whether_the_log_suffices(size, told, settings):
+    x = np.float32(np.where(np.arange(1000) % 2, 1.0, -1.0))[:, None]
+    x[800:] *= size
+    data, numbers = LimbData(x, x, ((0, 1000),), ("x",), ("J1",), 100.0), settings.robotlog.learn
+    found = free_check(Half(), data, 0.2 * np.ones((1000, 1)), 800, ["N m"], numbers.margin)
+    assert (found.seconds, found.zero[0]) == (pytest.approx(2.0), pytest.approx(0.2))
+    assert (found.observer[0], found.network[0], found.seen[0]) == pytest.approx((size, size / 2, 0.5))
+    text = "\n".join(lines_of(found, numbers))
+    assert all(line in text for line in told), text
+
+
+def test_the_limb_is_the_only_one_or_has_to_be_named(layout, arm):
+    assert limb_of(arm.layout, None) == "A"
+    with pytest.raises(ConfigError, match=r"--limb: 'nothing' is not accepted; accepted: .*LL"):
+        limb_of(layout, None)
