@@ -12,16 +12,18 @@ import numpy as np
 import pytest
 
 from mobnet.core.errors import ConfigError
-from mobnet.robot.description import describe, for_walking
+from mobnet.robot.description import SIDES, describe, for_walking
 from mobnet.robot.dynamics import bias, mass_matrix
 from mobnet.robot.nominal import NominalModel
-from mobnet.robot.plant import robot_spec
+from mobnet.robot.plant import robot_spec, sole_name
+from mobnet.robot.wrench import feet_torque
 from mobnet.settings.load import load_section
 from mobnet.settings.robot import RobotTable
 
 ROOT = Path(__file__).parents[2]
 EQUAL = 1e-10  # of the largest entry
 NAMES = ("panda", "g1")
+WRENCH = np.array([10.0, -20.0, 300.0, 4.0, -5.0, 6.0])  # [N], [N m]
 
 
 @pytest.fixture
@@ -77,6 +79,23 @@ def test_why_a_robot_does_not_walk_is_one_line(name, lacks):
 def test_limbs_and_networks_cover_every_motor_once(imported):
     limbs = [joint for limb, joints in imported.layout.groups.items() if limb != "V" for joint in joints]
     assert sorted(limbs) == sorted(imported.layout.actuated)
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_feet_of_the_second_humanoid_give_labels_for_its_legs(side):
+    """J^T F of a foot's sensor is what MuJoCo makes of it, and loads that leg and the base alone."""
+    robot = describe(load_section(ROOT / "configs" / "robots" / "g1.yaml", RobotTable))
+    plant, q = robot_spec(robot).compile(), np.load(ROOT / "tests" / "data" / "g1.npz")["q"][0]
+    data, expected = mujoco.MjData(plant), np.zeros(plant.nv)
+    data.qpos[:] = q
+    mujoco.mj_forward(plant, data)
+    site = data.site(sole_name(side))
+    force, moment = (site.xmat.reshape(3, 3) @ part for part in (WRENCH[:3], WRENCH[3:]))
+    mujoco.mj_applyFT(plant, data, force, moment, site.xpos, plant.body(sole_name(side)).id, expected)
+    found = feet_torque(NominalModel(robot), q, {side: WRENCH})
+    np.testing.assert_allclose(found, expected, atol=1e-9)
+    loaded = {name for name, torque in zip(robot.layout.names, found, strict=True) if torque}
+    assert loaded == {*robot.layout.virtual, *robot.layout.limb(robot.feet[side].limb)}
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -12,6 +12,8 @@ from mobnet.estimation.own import LEARNED, OBSERVER, OwnNetwork, Sampling
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.settings import Settings
 
+NOTHING = 1e-3  # share of the expected rate below which one counts as zero
+
 
 def report(found: LimbCalibration, confidence: float) -> Iterator[str]:
     """Yield what the command prints, line by line; the confidence is that of the interval."""
@@ -19,7 +21,8 @@ def report(found: LimbCalibration, confidence: float) -> Iterator[str]:
     what = f"windows of {found.always.window_s:g} s" if found.always else "swings"
     yield from (f"{found.count} {what}", "", f"joint  threshold of the {found.signal} [{unit}]")
     yield from (f"{joint:<6} {value:14.2f}" for joint, value in zip(found.setup.joints, found.thresholds, strict=True))
-    interval = f"{confidence:.0%} interval {promise.low:.2g} to {promise.high:.2g}"
+    low = promise.low if promise.low > NOTHING * promise.rate_per_h else 0.0
+    interval = f"{confidence:.0%} interval {low:.2g} to {promise.high:.2g}"
     time = "free motion" if found.always else "walking"
     yield from ("", f"false alarms to expect: {promise.rate_per_h:.2g} in an hour of {time}, {interval}", "")
     if found.always and found.always.is_alike:
@@ -30,7 +33,7 @@ def report(found: LimbCalibration, confidence: float) -> Iterator[str]:
     along = f", along {', '.join(AXES)} of its body" if found.always else ""
     yield f"smallest force that is found [N], by point of the limb{along}:"
     for point, forces in found.forces.items():
-        yield f"{point:<24} " + " ".join(f"{force:8.0f}" if np.isfinite(force) else f"{'-':>8}" for force in forces)
+        yield f"{point:<24} " + " ".join(f"{force:8.3g}" if np.isfinite(force) else f"{'-':>8}" for force in forces)
 
 
 def thresholds_of(

@@ -17,9 +17,9 @@ from mobnet.core.errors import DataError, MobnetError, not_accepted
 from mobnet.core.files import RUN, read_json, write_json
 from mobnet.estimation.own import OwnLog, limb_of, read_log_folder
 from mobnet.learning.deployed.networks import load_network
+from mobnet.learning.device import own_device
 from mobnet.learning.job import TrainingJob
 from mobnet.learning.train import train_on
-from mobnet.learning.trainer import Trainer
 from mobnet.plan.precision import with_precision
 from mobnet.robot.description import describe
 from mobnet.robot.nominal import NominalModel
@@ -55,7 +55,7 @@ def learn(
     cut = len(data.inputs) - round(settings.robotlog.learn.held_out * len(data.inputs))
     trained = before(data, cut)
     job = TrainingJob(filled(training, trained.segments, settings), SEED, settings.seed)
-    if _is_new(Trainer(job, trained).fingerprint, out, force=force):
+    if _is_new(job.fingerprint(trained.digest, own_device()), out, force=force):
         train_on(trained, job, out, out / STATE)
     columns, units = robot.layout.columns(data.joints), [robot.layout.unit(joint) for joint in data.joints]
     label = np.concatenate(known)[:, columns]
