@@ -7,13 +7,15 @@ import onnx
 import onnxruntime as ort
 import pyarrow.parquet as pq
 import pytest
+from made_weights import weights
 
 from mobnet.demo import DATA
 from mobnet.export.export import export
 from mobnet.export.session import load_exported
-from mobnet.export.trained import read_trained
+from mobnet.export.trained import Trained, TrainedNote, read_trained
 from mobnet.learning.deployed.limbs import load_limb_networks
 from mobnet.learning.features import signal_names, signals
+from mobnet.settings.networks import NetworkCell
 
 STEPS = 500
 
@@ -68,6 +70,21 @@ def test_the_contract_says_all_that_a_program_needs(contract):
     }  # fmt: skip
     assert [one["joint"] for one in network["outputs"]] == [f"LL{k}" for k in range(1, 7)]
     assert {one["unit"] for one in network["outputs"]} == {"N m"}
+
+
+def test_a_fixed_base_has_no_orientation(arm, run, tmp_path):
+    names = ["q.J1", "q.J2", "v.J1", "v.J2"]
+    tensors, note = weights(NetworkCell(cell="GRU", hidden=4), len(names), 2, 0)
+    note = note.model_copy(update={"joints": ["J1", "J2"], "inputs": names})
+    one = Trained(tmp_path, tensors, note, TrainedNote(target="external", fingerprint="f"), "0")
+    export([one], arm, run, [], tmp_path)
+    contract = json.loads((tmp_path / "contract.json").read_text())
+    assert contract["quaternion"] == {}
+    (network,) = contract["networks"]
+    assert [(one["name"], one["unit"]) for one in network["inputs"]] == [
+        ("q.J1", "rad"), ("q.J2", "rad"), ("v.J1", "rad/s"), ("v.J2", "rad/s"),
+    ]  # fmt: skip
+    assert network["estimates"] == "external"
 
 
 def test_each_file_has_its_own_part_as_metadata(robot, run, save, tmp_path, thresholds):

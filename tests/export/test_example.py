@@ -1,7 +1,9 @@
 """docs/examples/run_onnx.py runs without this project, and raises its alarms where the project's chain does."""
 
+import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -24,16 +26,20 @@ from mobnet.settings.detection import Detector
 
 EXAMPLE = Path(__file__).parents[2] / "docs" / "examples" / "run_onnx.py"
 NETWORK = DATA / "networks" / "MOB-Net-LL"
+SEGMENTS = [[0, 1200], [1300, 4000]]  # between them samples are missing
 LIMITS = {"mean": [6, 18, 18, 25, 8, 6], "ratio": [4.0] * 6}  # N m, and none of a ratio
 
 
 @pytest.fixture(scope="module")
-def estimate(layout):
-    """The stored residual less what the project's own network predicts, (T, 6) [N m]."""
+def estimates(layout):
+    """The stored residual less what the project's own network predicts in each segment, (T_i, 6) [N m]."""
     networks = load_limb_networks({"LL": NETWORK}, layout)
-    (found,) = networks.run_all([read_sensed(DATA / "recording", layout).sensed])
+    sensed = read_sensed(DATA / "recording", layout).sensed
     residual, _ = read_array(DATA / "estimates" / "MOB", named(EXTERNAL, networks.joints))
-    return Estimate(residual - found.mean, found.std)
+    found = networks.run_all([sensed[start:end] for start, end in SEGMENTS])
+    return [
+        Estimate(residual[start:end] - one.mean, one.std) for one, (start, end) in zip(found, SEGMENTS, strict=True)
+    ]
 
 
 def begins(estimate, signal, limits, settle):
@@ -46,18 +52,23 @@ def begins(estimate, signal, limits, settle):
 
 
 @pytest.mark.parametrize("signal", ["mean", "ratio"])
-def test_alarms_begin_at_the_samples_of_the_project(signal, estimate, robot, run, tmp_path, thresholds):
+def test_alarms_begin_at_the_samples_of_the_project(signal, estimates, robot, run, tmp_path, thresholds):
     network = read_trained(NETWORK, robot.layout)
     limits = {"settle_s": 0.2, "signal": signal, "thresholds": LIMITS[signal], "network": network.run.fingerprint}
     export([network], robot, run, [thresholds("LL", **limits)], tmp_path / "out")
-    words = tmp_path / "out", DATA / "recording", DATA / "estimates" / "MOB"
+    for name in ("recording.json", "recording.parquet"):
+        shutil.copy(DATA / name, tmp_path)
+    note = json.loads((tmp_path / "recording.json").read_text())
+    (tmp_path / "recording.json").write_text(json.dumps({**note, "segments": SEGMENTS}))
+    words = tmp_path / "out", tmp_path / "recording", DATA / "estimates" / "MOB"
     bare = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
     command = [sys.executable, "-I", str(EXAMPLE), *map(str, words)]
     told = subprocess.run(command, capture_output=True, text=True, env=bare, cwd=tmp_path, check=True)
     found = [float(time) for time in re.findall(r"^(\S+) s: LL, first LL\d$", told.stdout, re.MULTILINE)]
-    wanted = begins(estimate, signal, LIMITS[signal], settle=200)
+    parts = [begins(one, signal, LIMITS[signal], settle=200) for one in estimates]
+    wanted = np.concatenate([start / 1000.0 + own for own, (start, _) in zip(parts, SEGMENTS, strict=True)])
     assert found == pytest.approx(wanted)
-    assert 0 < len(wanted) < 20
+    assert all(0 < len(own) < 20 for own in parts)
 
 
 def test_it_is_short_and_imports_nothing_of_the_project():

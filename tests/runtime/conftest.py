@@ -75,6 +75,12 @@ def push():
 
 
 @pytest.fixture(scope="session")
+def felt(push):
+    """What the project estimates of the stored push, step by step."""
+    return push.estimate("MOB-Net")
+
+
+@pytest.fixture(scope="session")
 def published(push):
     """The network of the stored push."""
     return RuntimeNetwork(*read_weights(push.folder / "networks" / "MOB-Net-LL" / "weights.safetensors"))

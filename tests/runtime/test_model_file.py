@@ -17,8 +17,9 @@ from mobnet.detection.detector import LegGate
 from mobnet.detection.leg import make_leg
 from mobnet.export import model_file
 from mobnet.export.contract import ObserverContract
+from mobnet.export.export import main
 from mobnet.export.model_file import RuntimeDetector, write_model_file
-from mobnet.export.runtime import runs_in_c, write_model
+from mobnet.export.runtime import MODEL, runs_in_c, write_model
 from mobnet.export.soles import leg_record
 from mobnet.export.trained import contract_of, read_trained
 from mobnet.robot.description import describe
@@ -228,6 +229,15 @@ def test_from_exported_networks_and_their_contract(library, push, settings, tmp_
     assert [found.step(sensed[k]) for k in range(40)] == [OK] * 40
     assert [watched for _, _, watched in found.alarms()] == [0, 0, 1]
     assert {path.name for path in folder.iterdir()} >= {WEIGHTS, RUN}
+
+
+def test_the_command_writes_a_model_that_runs(library, push, felt, tmp_path):
+    """Robot, rate and observer of the configuration are those of the stored push, and so is the estimate."""
+    assert main([str(push.folder / "networks" / "MOB-Net-LL"), "--out", str(tmp_path)]) == 0
+    found, columns = Runtime(library, (tmp_path / MODEL).read_bytes()), push.robot.layout.columns(push.joints)
+    for k in range(200):
+        assert found.step(push.recording.sensed[k]) == OK
+        np.testing.assert_allclose(found.told("tau_ext")[columns], felt.tau_ext[k], rtol=1e-5, atol=1e-3)
 
 
 def test_soles_stay_where_the_robot_has_them(robot, settings, observer_of):

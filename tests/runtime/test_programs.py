@@ -35,7 +35,7 @@ def model(observer_of, settings, tmp_path):
     return write
 
 
-def test_the_example_prints_the_flags_of_the_project(built, push, published, tmp_path):
+def test_the_example_prints_the_flags_of_the_project(built, push, published, felt, tmp_path):
     import pandas as pd
 
     row = push.settings.detection.detectors["MOB-Net-ratio"]
@@ -45,9 +45,8 @@ def test_the_example_prints_the_flags_of_the_project(built, push, published, tmp
     csv = tmp_path / "recording.csv"
     pd.read_parquet(push.folder / "recording.parquet").astype("float64").to_csv(csv, index=False)
     header, *lines = program(make("example", built), tmp_path / "model.bin", csv)
-    estimate = push.estimate("MOB-Net")
-    alarm = LegDetector(Watched(row), gate, chain).run(gate.run(push.recording.sensed, estimate.tau_ext),
-                                                       push.recording.sensed, estimate)  # fmt: skip
+    alarm = LegDetector(Watched(row), gate, chain).run(gate.run(push.recording.sensed, felt.tau_ext),
+                                                       push.recording.sensed, felt)  # fmt: skip
     rows = np.flatnonzero(alarm.ratio > ALARM_RATIO)
     names = Watched(row).names(push.joints)
     assert header == "row,time_s,detector,signal,ratio"
@@ -57,7 +56,7 @@ def test_the_example_prints_the_flags_of_the_project(built, push, published, tmp
     header, *lines = program(make("example", built), tmp_path / "model.bin", csv, "torque")
     columns = [header.split(",").index(f"tau_ext.{joint}") for joint in push.joints]
     found = np.array([line.split(",") for line in lines], dtype=float)[:, columns]
-    np.testing.assert_allclose(found, estimate.tau_ext, rtol=0, atol=1e-5 * np.abs(estimate.tau_ext).max())
+    np.testing.assert_allclose(found, felt.tau_ext, rtol=0, atol=1e-5 * np.abs(felt.tau_ext).max())
 
 
 def test_the_example_says_what_it_misses(built, model, tmp_path):
