@@ -109,7 +109,7 @@ def test_the_check_measures_what_is_held_out_and_says_whether_the_log_suffices(s
     found = free_check(Half(), data, 0.2 * np.ones((1000, 1)), 800, ["N m"], numbers.margin)
     assert (found.seconds, found.zero[0]) == (pytest.approx(2.0), pytest.approx(0.2))
     assert (found.observer[0], found.network[0], found.seen[0]) == pytest.approx((size, size / 2, 0.5))
-    text = "\n".join(lines_of(found, numbers))
+    text = "\n".join(lines_of(found, "free", numbers))
     assert all(line in text for line in told), text
 
 

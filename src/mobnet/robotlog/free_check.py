@@ -85,9 +85,10 @@ def free_check(
     )  # fmt: skip
 
 
-def lines_of(found: FreeCheck, numbers: LogLearning) -> Iterator[str]:
-    """Yield what the command prints of a check."""
-    yield f"free-motion check, the last {found.seconds:.0f} s, which the network never saw: root mean square errors"
+def lines_of(found: FreeCheck, labels: str, numbers: LogLearning) -> Iterator[str]:
+    """Yield what the command prints of a check by some labels."""
+    what = "free-motion check" if labels == "free" else f"check by the labels {labels!r}"
+    yield f"{what}, the last {found.seconds:.0f} s, which the network never saw: root mean square errors"
     yield f"  joint     {'nothing':>9}{'observer':>10}{'network':>9}      sigma holds 68 %   95 %"
     for k, joint in enumerate(found.joints):
         sizes = f"{found.zero[k]:9.3f}{found.observer[k]:10.3f}{found.network[k]:9.3f} {found.units[k]:<4}"

@@ -63,7 +63,7 @@ def learn(
     found = free_check(load_network(out), data, label, cut, units, numbers.margin)
     told = {"folders": [str(one.folder) for one in logs], "labels": labels, **vars(first), "check": found.note()}
     write_json(out / RUN, {**read_json(out / RUN), **told})
-    return [*lines_of(found, numbers), f"written: {out}"]
+    return [*lines_of(found, labels, numbers), f"written: {out}"]
 
 
 def _is_new(fingerprint: str, out: Path, *, force: bool) -> bool:
