@@ -122,12 +122,14 @@ def hints_of(found: Converted, nominal: NominalModel, gravity_m_s2: float, bound
         wrong += (own := list(base_hints(sensed, spans, rate_hz, bounds)))
         yield from own
     if not wrong:  # torques that a wrong motion would need say nothing
-        yield from weight_hints(nominal, sensed, found.wrenches, gravity_m_s2, bounds)
-        if windows := windows_of(nominal, sensed, spans, rate_hz, found.wrenches, bounds):
+        heavy = list(weight_hints(nominal, sensed, found.wrenches, gravity_m_s2, bounds))
+        yield from heavy
+        wrenches = {} if heavy else found.wrenches
+        if windows := windows_of(sensed, spans, rate_hz, wrenches, bounds):
             needed = windows.needed(nominal)
-            known = known_joints(nominal, windows, needed, found.wrenches, bounds)
+            known = known_joints(nominal, windows, needed, wrenches, bounds)
             if not late:  # late speeds make torques look early
-                yield from delay_hints(nominal, sensed, spans, rate_hz, found.wrenches, known, bounds)
+                yield from delay_hints(nominal, sensed, spans, rate_hz, wrenches, known, bounds)
             yield from torque_hints(nominal, windows, needed, known, bounds)
 
 
