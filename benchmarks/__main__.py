@@ -15,7 +15,7 @@ from mobnet.core.files import atomic_path
 from mobnet.running.threads import one_thread
 
 NAMES = ("collect_speed", "observer_speed", "train_speed", "step_latency", "estimate_speed", "loop_speed")
-LONG = ("collect_growth", "collect_hour", "torque_amplitude", "walk_quality")  # minutes each
+LONG = ("collect_growth", "collect_hour", "log_speed", "torque_amplitude", "walk_quality")  # minutes each
 OUT = Path("results") / "bench.csv"
 BEFORE = ("benchmark", "name", "ours", "reference", "unit", "ratio", "ratio_min")  # columns that come first
 BOUNDS = {"bar": "ratio", "at_least": "at least", "at_most": "at most"}  # columns next, and how a table says it

@@ -1,6 +1,6 @@
 """Tables from URDF and MJCF files: equal to what MuJoCo and Pinocchio read, and honest about the rest."""
 
-import logging
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -92,14 +92,8 @@ def test_the_base_is_what_the_user_says(tmp_path):
 
 
 @pytest.fixture
-def say(caplog):
-    def run(*words):
-        caplog.clear()
-        with caplog.at_level(logging.INFO):
-            status = main([str(word) for word in words])
-        return status, caplog.messages
-
-    return run
+def say(saying):
+    return partial(saying, main)
 
 
 def test_the_command_writes_a_table_once_and_says_how_equal_it_is(say, tmp_path):

@@ -1,7 +1,7 @@
 """`./reproduce observe`: what it prints and writes, and a humanoid's log with its own mistakes."""
 
-import logging
 import re
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -24,16 +24,8 @@ ENDS = tuple(f"{part}_{axis}" for part in ("force", "moment") for axis in "xyz")
 
 
 @pytest.fixture
-def say(caplog):
-    """Return a function that runs the command and returns its status and what it said."""
-
-    def run(*words):
-        caplog.clear()
-        with caplog.at_level(logging.INFO):
-            status = main([str(word) for word in words])
-        return status, [record.message for record in caplog.records if record.name == "mobnet.robotlog.observe"]
-
-    return run
+def say(saying):
+    return partial(saying, main)
 
 
 def test_a_csv_becomes_recording_estimate_and_plot(clean, arm, stored, say, tmp_path):

@@ -7,7 +7,7 @@ what was made of the log and what looks wrong with it.
 import logging
 import math
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -22,6 +22,7 @@ from mobnet.core.store import GROUP_ROWS, array_writer, write_array
 from mobnet.estimation import observer
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.nominal import NominalModel
+from mobnet.robotlog.clocks import rate_of
 from mobnet.robotlog.convert import Converted, convert
 from mobnet.robotlog.formats import column_names, read_log
 from mobnet.robotlog.hints.base import base_hints, weight_hints
@@ -163,6 +164,8 @@ def told(found: Observed, robot: RobotDescription, out: Path) -> Iterator[str]:
     way = "interpolated linearly" if found.converted.interpolated else "as they are in the log"
     parts = f"{count} segment{'s' * (count > 1)}"
     yield f"{rows} samples at {read.rate_hz:g} Hz, {rows / read.rate_hz:.6g} s in {parts}, {way}"
+    if found.converted.interpolated:
+        yield f"rates of the log: {', '.join(_rates(found.converted.clocks))}"
     if absent := [name for name in found.converted.absent if name != EXTERNAL]:
         yield f"not in the log, and zero in the recording: {', '.join(absent)}"
     size = np.sqrt(np.square(found.residual).mean(axis=0))
@@ -175,6 +178,14 @@ def told(found: Observed, robot: RobotDescription, out: Path) -> Iterator[str]:
     yield "hints: none" if not found.hints else f"hints: {len(found.hints)}"
     yield from (f"  {hint}" for hint in found.hints)
     yield f"written: {out / RECORDING}.parquet, {out / ESTIMATE}.parquet, {out / PLOT}.png"
+
+
+def _rates(clocks: Mapping[str, Array]) -> Iterator[str]:
+    """Yield the rates of a log's clocks (T,) [s], each with its signals."""
+    signals: dict[float, list[str]] = {}
+    for name, clock in clocks.items():
+        signals.setdefault(rate_of(clock), []).append(name)
+    yield from (f"{rate:.6g} Hz of {', '.join(names)}" for rate, names in signals.items())
 
 
 def main(words: list[str]) -> int:

@@ -123,7 +123,7 @@ def feet_changes(nominal: NominalModel, windows: Windows, suspects: Sequence[int
     """Yield the exchange of the sensors of both feet, for the joints of the legs."""
     robot = nominal.robot
     legs = {joint for foot in robot.feet.values() for joint in robot.layout.limb(foot.limb)}
-    own = tuple(k for k in suspects if robot.layout.actuated[k] in legs)
+    own = tuple(k for k in sorted(suspects) if robot.layout.actuated[k] in legs)
     if own and len(windows.loads) > 1:
         text = "the sensors of the left and the right foot are exchanged"
         yield _with_feet_exchanged, (Change(text, own, _unchanged),)
