@@ -1,5 +1,6 @@
 """Made-up recordings: smooth random joint motion and an uncertainty torque that the inputs explain."""
 
+import logging
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -39,6 +40,19 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def settings():
     """The repository's configuration at its smoke scale, with this machine's number format."""
     return with_precision(load_settings(overrides={"scale": "smoke"}), ROOT / "results" / "none")
+
+
+@pytest.fixture
+def saying(caplog):
+    """Return a function of a command's main and its words that returns its exit status and what it said."""
+
+    def run(main, *words):
+        caplog.clear()
+        with caplog.at_level(logging.INFO):
+            status = main([str(word) for word in words])
+        return status, [record.message for record in caplog.records if record.name == main.__module__]
+
+    return run
 
 
 @pytest.fixture(scope="session")

@@ -48,6 +48,31 @@ def states(table, order=JOINTS, late_ns=LATE_NS, stamp=lambda ns: ns):
     return found
 
 
+def humanoid(layout):
+    """Return 0.4 s of a humanoid's topics, joints in the reverse order of its table, with an IMU at 200 Hz.
+
+    Joint k stands at k rad and 1 mrad more in each sample; the base is yawed by 90 degrees and goes ahead.
+    """
+    half, names, samples = np.sqrt(0.5), list(reversed(layout.actuated)), []
+    wrench = {"force": {"x": 1.0, "y": 2.0, "z": 3.0}, "torque": {"x": 4.0, "y": 5.0, "z": 6.0}}
+    imu = {
+        "orientation": {"w": half, "x": 0.0, "y": 0.0, "z": half},
+        "angular_velocity": {"z": 0.5},
+        "linear_acceleration": {"z": 9.80665},
+    }
+    odometry = {"twist": {"twist": {"linear": {"x": 1.0}}}}
+    for k in range(400):
+        ns = k * 1_000_000
+        numbers = [layout.actuated.index(name) + 1e-3 * k for name in names]
+        fields = {"name": names, "position": numbers, "velocity": [1.0] * len(names), "effort": numbers}
+        samples.append(Sample(TOPIC, STATE, ns, ns, fields))
+        samples += [Sample(topic, WRENCH, ns, ns, {"wrench": wrench}) for topic in ("/left_foot", "/right_foot")]
+        if k % 5 == 0:
+            samples.append(Sample("/imu/data", IMU, ns, ns, imu))
+            samples.append(Sample("/odom", "nav_msgs/msg/Odometry", ns, ns, odometry))
+    return samples
+
+
 def as_csv(table, folder):
     table.to_csv(folder / "log.csv", index=False)
     return folder / "log.csv"

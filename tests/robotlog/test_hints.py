@@ -108,7 +108,10 @@ MISTAKES = {  # name -> what a lab does to its log, and the hint
     "positions and speeds exchanged": (with_speeds_as_positions, "q and v of J1, J2: .*: exchanged"),
     "a wrapped angle": (lambda t: changed(t, ["J2"], ["q"], wrapped), "q of J2: jumps .* 6.2. rad .*: wrapped"),
     "lost samples": (lambda t: changed(t, ["J1"], ["q"], lost), "q of J1: jumps .*: samples are lost or wrong"),
-    "another zero": (lambda t: changed(t, ["J2"], ["q"], lambda x: x + 0.6), r"J2: q reads \+0.\d+ rad \(\+3\d deg"),
+    "another zero": (
+        lambda t: changed(t, ["J2"], ["q"], lambda x: x + np.pi / 2),
+        r"J2: q reads \+1\.\d+ rad \(\+9\d degrees\) too much",
+    ),
     "late speed": (lambda t: changed(t, BOTH, ["v"], late), "v of J1, J2: 12 ms late against q"),
     "held torque": (lambda t: changed(t, BOTH, ["tau_motor"], held), "tau_motor of J1, J2: 90% of the samples repeat"),
     "torque without gravity": (without_gravity, "J1 and J2: tau_motor lacks the torque of gravity"),

@@ -1,12 +1,16 @@
 """Messages of bags: topics at other rates and with other clocks, joints by name, kinds of messages of one's own."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
-from made_logs import IMU, JOINTS, TOPIC, WRENCH, Sample, bag1, bag2, states
+from made_logs import JOINTS, TOPIC, Sample, bag1, bag2, humanoid, states
 
 from mobnet.core.errors import DataError
 from mobnet.robotlog.formats import column_names, read_log
 from mobnet.robotlog.observe import converted_log, observe_log
+from mobnet.settings.load import load_section
 from mobnet.settings.robotlog import LogMap
 
 ROWS = 2000
@@ -28,7 +32,7 @@ APART_MAP = {
     "tau_motor": {"columns": ["/torque.effort"]},
 }
 JOINT_MAP = {name: {"columns": [f"{TOPIC}.{field}"]} for name, field in (("q", "position"), ("v", "velocity"))}
-FEET = ("left_foot", "right_foot")
+PAGE = Path("docs/robots.md")
 EPOCH_NS = 1_764_000_000_000_000_000  # a day of 2025
 
 
@@ -193,33 +197,10 @@ def test_a_message_that_lacks_a_field_is_one_line(tmp_path):
 
 def test_a_humanoids_topics_become_the_signals_of_its_base_and_feet(layout, settings, tmp_path):
     """A base yawed by 90 degrees, with an IMU at 200 Hz; axes are taken by their names, whatever the map's order."""
-    half, names, samples = np.sqrt(0.5), list(reversed(layout.actuated)), []
-    wrench = {"force": {"x": 1.0, "y": 2.0, "z": 3.0}, "torque": {"x": 4.0, "y": 5.0, "z": 6.0}}
-    for k in range(400):
-        ns = k * 1_000_000
-        numbers = [layout.actuated.index(name) + 1e-3 * k for name in names]
-        fields = {"name": names, "position": numbers, "velocity": [1.0] * len(names), "effort": numbers}
-        samples.append(Sample(TOPIC, "sensor_msgs/msg/JointState", ns, ns, fields))
-        samples += [Sample(f"/{foot}", WRENCH, ns, ns, {"wrench": wrench}) for foot in FEET]
-        if k % 5 == 0:
-            imu = {
-                "orientation": {"w": half, "x": 0.0, "y": 0.0, "z": half}, "angular_velocity": {"z": 0.5},
-                "linear_acceleration": {"x": 0.0, "z": 9.80665},
-            }  # fmt: skip
-            samples.append(Sample("/imu", IMU, ns, ns, imu))
-            samples.append(
-                Sample("/odom", "nav_msgs/msg/Odometry", ns, ns, {"twist": {"twist": {"linear": {"x": 1.0}}}})
-            )
-    mapping = {
-        **JOINT_MAP, "tau_motor": {"columns": [f"{TOPIC}.effort"]},
-        "quaternion": {"columns": ["/imu.orientation"], "order": "xyzw"},
-        "omega": {"columns": ["/imu.angular_velocity"]},
-        "acc": {"columns": ["/imu.linear_acceleration"]},
-        "velocity": {"columns": ["/odom.twist.twist.linear"], "frame": "base"},
-        **{foot: {"columns": [f"/{foot}.wrench"]} for foot in FEET},
-    }  # fmt: skip
-    path = bag2(samples, tmp_path / "bag")
-    found = converted_log(path, layout, LogMap.model_validate(mapping), settings.robotlog)
+    (text,) = re.findall(r"^```yaml\n(clock: {stamp.*?)^```$", PAGE.read_text(), re.DOTALL | re.MULTILINE)
+    (tmp_path / "map.yaml").write_text(text.replace("orientation]", "orientation], order: xyzw"))
+    path, half = bag2(humanoid(layout), tmp_path / "bag"), np.sqrt(0.5)
+    found = converted_log(path, layout, load_section(tmp_path / "map.yaml", LogMap), settings.robotlog)
     sensed = found.recording.sensed
     np.testing.assert_allclose(sensed.q[7, 7:], np.arange(layout.nu) + 7e-3, atol=1e-9)
     np.testing.assert_allclose(sensed.q[:, 3:7], np.tile([half, 0, 0, half], (len(sensed), 1)), atol=1e-12)

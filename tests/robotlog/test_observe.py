@@ -1,6 +1,7 @@
 """`./reproduce observe`: what it prints and writes, and a humanoid's log with its own mistakes."""
 
-import logging
+import re
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -19,19 +20,12 @@ from mobnet.simulation.simulator import Simulator
 
 RATE_HZ, WALKED_S = 1000, 12
 G = 9.80665
+ENDS = tuple(f"{part}_{axis}" for part in ("force", "moment") for axis in "xyz")
 
 
 @pytest.fixture
-def say(caplog):
-    """Return a function that runs the command and returns its status and what it said."""
-
-    def run(*words):
-        caplog.clear()
-        with caplog.at_level(logging.INFO):
-            status = main([str(word) for word in words])
-        return status, [record.message for record in caplog.records if record.name == "mobnet.robotlog.observe"]
-
-    return run
+def say(saying):
+    return partial(saying, main)
 
 
 def test_a_csv_becomes_recording_estimate_and_plot(clean, arm, stored, say, tmp_path):
@@ -105,6 +99,26 @@ def turned(table):
     return table.assign(**{name: table[names[(k + 1) % 4]] for k, name in enumerate(names)})
 
 
+def with_feet_exchanged(table):
+    pairs = [(f"wrench_left_foot.{end}", f"wrench_right_foot.{end}") for end in ENDS]
+    return table.assign(**{a: table[b] for pair in pairs for a, b in (pair, pair[::-1])})
+
+
+def in_another_order(table):
+    """Return a log in which each torque of a leg stands in the column of the joint before."""
+    names = [f"tau_motor.LL{k}" for k in range(1, 7)]
+    return table.assign(**dict(zip(names, (table[name] for name in names[1:] + names[:1]), strict=True)))
+
+
+def late(table, start, rows):
+    return table.assign(**{name: table[name].shift(rows).bfill() for name in table if re.match(start, name)})
+
+
+def held(table, start, rows):
+    kept = (np.arange(len(table)) // rows) * rows
+    return table.assign(**{name: table[name].to_numpy()[kept] for name in table if name.startswith(start)})
+
+
 def times(table, start, factor):
     return table.assign(**{name: factor * table[name] for name in table if name.startswith(start)})
 
@@ -115,6 +129,14 @@ WALKING = {
     "acc without gravity": (without_gravity, "acc: its mean has a size of .* gravity is removed"),
     "quaternion x y z w": (turned, "quaternion or acc: .* x y z w"),
     "omega in deg/s": (lambda t: times(t, "v.omega", 180 / np.pi), "omega: its integral is 57"),
+    "feet that read what the robot does": (
+        lambda t: times(t, "wrench_", -1.0),
+        "feet: .* what the robot does to the gr",
+    ),
+    "feet exchanged": (with_feet_exchanged, "LL1, LL2.*: the sensors of the left and the right foot are exchanged"),
+    "torques of a leg in another order": (in_another_order, "another order: LL1 has that of LL2, LL2 has that of LL3"),
+    "omega held": (lambda t: held(t, "v.omega", 5), "omega: 80% of the samples repeat the one before"),
+    "late speeds": (lambda t: late(t, r"v\.[LRWN]", 8), "v of LL1, LL2, .* more: 8 ms late against q"),
     "a foot's sensor that reads half": (lambda t: times(t, "wrench_left_foot", 0.5), "feet: their sensors carry 0.7"),
     "hip of the wrong sign": (lambda t: times(t, "tau_motor.LL3", -1.0), "LL3: tau_motor is of the wrong sign"),
     "waist before the gear": (lambda t: times(t, "tau_motor.W2", 0.01), r"W2: tau_motor is 1/\d+ .* before the gear"),

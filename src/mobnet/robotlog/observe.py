@@ -7,7 +7,7 @@ what was made of the log and what looks wrong with it.
 import logging
 import math
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -22,6 +22,7 @@ from mobnet.core.store import GROUP_ROWS, array_writer, write_array
 from mobnet.estimation import observer
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.nominal import NominalModel
+from mobnet.robotlog.clocks import rate_of
 from mobnet.robotlog.convert import Converted, convert
 from mobnet.robotlog.formats import column_names, read_log
 from mobnet.robotlog.hints.base import base_hints, weight_hints
@@ -126,12 +127,14 @@ def hints_of(found: Converted, nominal: NominalModel, gravity_m_s2: float, bound
         wrong += (own := list(base_hints(sensed, spans, rate_hz, bounds)))
         yield from own
     if not wrong:  # torques that a wrong motion would need say nothing
-        yield from weight_hints(nominal, sensed, found.wrenches, gravity_m_s2, bounds)
-        if windows := windows_of(nominal, sensed, spans, rate_hz, found.wrenches, bounds):
+        heavy = list(weight_hints(nominal, sensed, found.wrenches, gravity_m_s2, bounds))
+        yield from heavy
+        wrenches = {} if heavy else found.wrenches
+        if windows := windows_of(sensed, spans, rate_hz, wrenches, bounds):
             needed = windows.needed(nominal)
-            known = known_joints(nominal, windows, needed, found.wrenches, bounds)
+            known = known_joints(nominal, windows, needed, wrenches, bounds)
             if not late:  # late speeds make torques look early
-                yield from delay_hints(nominal, sensed, spans, rate_hz, found.wrenches, known, bounds)
+                yield from delay_hints(nominal, sensed, spans, rate_hz, wrenches, known, bounds)
             yield from torque_hints(nominal, windows, needed, known, bounds)
 
 
@@ -165,6 +168,8 @@ def told(found: Observed, robot: RobotDescription, out: Path) -> Iterator[str]:
     way = "interpolated linearly" if found.converted.interpolated else "as they are in the log"
     parts = f"{count} segment{'s' * (count > 1)}"
     yield f"{rows} samples at {read.rate_hz:g} Hz, {rows / read.rate_hz:.6g} s in {parts}, {way}"
+    if found.converted.interpolated:
+        yield f"rates of the log: {', '.join(_rates(found.converted.clocks))}"
     if absent := [name for name in found.converted.absent if name != EXTERNAL]:
         yield f"not in the log, and zero in the recording: {', '.join(absent)}"
     size = np.sqrt(np.square(found.residual).mean(axis=0))
@@ -177,6 +182,14 @@ def told(found: Observed, robot: RobotDescription, out: Path) -> Iterator[str]:
     yield "hints: none" if not found.hints else f"hints: {len(found.hints)}"
     yield from (f"  {hint}" for hint in found.hints)
     yield f"written: {out / RECORDING}.parquet, {out / ESTIMATE}.parquet, {out / PLOT}.png"
+
+
+def _rates(clocks: Mapping[str, Array]) -> Iterator[str]:
+    """Yield the rates of a log's clocks (T,) [s], each with its signals."""
+    signals: dict[float, list[str]] = {}
+    for name, clock in clocks.items():
+        signals.setdefault(rate_of(clock), []).append(name)
+    yield from (f"{rate:.6g} Hz of {', '.join(names)}" for rate, names in signals.items())
 
 
 def main(words: list[str]) -> int:

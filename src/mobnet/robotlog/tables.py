@@ -61,9 +61,11 @@ def parquet_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
     """Read columns of a Parquet file."""
     import pyarrow.parquet as pq
 
-    table = pq.read_table(path, columns=list(wanted))
-    held = [name for name, kind in zip(table.schema.names, table.schema.types, strict=True) if _is_numeric(kind)]
-    return {name: Column(_numbers(table[name].combine_chunks())) for name in held}
+    with pq.ParquetFile(path) as file:
+        kinds = {field.name: field.type for field in file.schema_arrow}
+        held = [name for name in wanted if name in kinds and _is_numeric(kinds[name])]
+        # One at a time: a whole table of Arrow's would stay beside the columns.
+        return {name: Column(_numbers(file.read([name]).column(name).combine_chunks())) for name in held}
 
 
 def _is_numeric(kind: Any) -> bool:

@@ -31,29 +31,9 @@ def base_hints(sensed: Sensed, spans: Sequence[slice], rate_hz: float, bounds: R
         better = max(upward, key=lambda name: upward[name])
         meant = f"; as {better} by {upward[better]:.2f}" if upward[better] >= UPRIGHT else ""
         yield f"quaternion or acc: {text}{meant}"
-    yield from _frame_hint(sensed, spans, rate_hz, bounds)
     slope = _turning(quat, sensed.v[:, 3:6].T, spans, rate_hz, bounds)
     if slope is not None and not 1 - bounds.gravity < slope < 1 + bounds.gravity:
         yield f"omega: its integral is {slope:.3g} times the turn of the quaternion: unit, sign or axes"
-
-
-def _frame_hint(sensed: Sensed, spans: Sequence[slice], rate_hz: float, bounds: RobotLog) -> Iterator[str]:
-    """Yield a hint if the velocity changes as the specific force demands only after it is turned into world axes."""
-    steps = max(1, round(bounds.window_s * rate_hz))
-    quat, velocity = sensed.q[:, 3:7].T, sensed.v[:, :3].T
-    pulled = turned(quat, sensed.acc_base_in_base.T) - np.array([[0.0], [0.0], [G]])
-    turned_velocity = turned(quat, velocity)
-    wanted, given, other = ([np.zeros((3, 0))] for _ in range(3))
-    for span in spans:
-        impulse = np.cumsum(pulled[:, span], axis=1)[:, ::steps] / rate_hz
-        wanted.append(np.diff(impulse, axis=1))
-        given.append(np.diff(velocity[:, span][:, ::steps], axis=1))
-        other.append(np.diff(turned_velocity[:, span][:, ::steps], axis=1))
-    needed, own, moved = (np.concatenate(parts, axis=1) for parts in (wanted, given, other))
-    size = max(float(np.square(needed).sum()), np.finfo(float).tiny)
-    left, better = (float(np.square(needed - part).sum()) / size for part in (own, moved))
-    if left > bounds.suspect and better < (1 - bounds.explained) * left:
-        yield f"velocity: {left:.0%} of its changes do not fit acc, in base axes {better:.0%}: its frame is the base's"
 
 
 def weight_hints(

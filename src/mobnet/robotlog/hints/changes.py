@@ -70,8 +70,8 @@ def torque_changes(
         names = nominal.robot.layout.actuated
         given = ", ".join(f"{names[k]} has that of {names[int(np.flatnonzero(order == k)[0])]}" for k in moved)
         yield Change(f"tau_motor stands in another order: {given}", moved, _with_torques(order))
-    if suspects:
-        gravity = replace(windows, v=0 * windows.v, feet=0 * windows.feet).needed(nominal)
+    if suspects and not nominal.robot.floating:  # whose feet carry it
+        gravity = replace(windows, v=0 * windows.v, loads={}).needed(nominal)
         yield Change(
             "tau_motor lacks the torque of gravity, which the drive adds by itself", tuple(suspects),
             lambda w: replace(w, torque=w.torque + gravity),
@@ -94,9 +94,13 @@ def motion_changes(nominal: NominalModel, few: Sequence[int]) -> Iterator[Moved]
             yield _with_motion(pair, same), (alone, Change("the two joints are exchanged", (i, j), _with_torques(pair)))
 
 
-def zero_changes(nominal: NominalModel, thin: Windows, few: Sequence[int]) -> Iterator[Moved]:
-    """Yield shifts of positions, of each joint that which leaves the least error in a few windows."""
-    nu = nominal.robot.layout.nu
+def zero_changes(nominal: NominalModel, thin: Windows, few: Sequence[int], bounds: RobotLog) -> Iterator[Moved]:
+    """Yield shifts of positions, of each joint that which leaves the least error in a few windows.
+
+    It must explain how the joint's torque changes, too: gravity at another angle can look like the friction of a joint
+    that rests.
+    """
+    nu, before = nominal.robot.layout.nu, _share_of_changes(thin.needed(nominal), thin.torque)
     for i in few:
 
         def left(shift: float, i: int = i) -> float:
@@ -108,20 +112,30 @@ def zero_changes(nominal: NominalModel, thin: Windows, few: Sequence[int]) -> It
         while apart > LEAST_RAD / 20:
             best = float(min(tried, key=left))
             tried, apart = best + apart * np.linspace(-1, 1, 7), apart / 3
-        if abs(best) > LEAST_RAD:
+        after = _share_of_changes(_shifted(nu, i, best)(thin).needed(nominal), thin.torque)
+        if abs(best) > LEAST_RAD and after[i] < (1 - bounds.explained) * before[i]:
             much = f"{-best:+.2f} rad ({np.degrees(-best):+.0f} degrees)"
             text = f"q reads {much} too much: another zero; give it as offset"
             yield _shifted(nu, i, best), (Change(text, (i,), _unchanged),)
 
 
-def feet_changes(nominal: NominalModel, suspects: Sequence[int]) -> Iterator[Moved]:
+def feet_changes(nominal: NominalModel, windows: Windows, suspects: Sequence[int]) -> Iterator[Moved]:
     """Yield the exchange of the sensors of both feet, for the joints of the legs."""
     robot = nominal.robot
     legs = {joint for foot in robot.feet.values() for joint in robot.layout.limb(foot.limb)}
-    own = tuple(k for k in suspects if robot.layout.actuated[k] in legs)
-    if own:
+    own = tuple(k for k in sorted(suspects) if robot.layout.actuated[k] in legs)
+    if own and len(windows.loads) > 1:
         text = "the sensors of the left and the right foot are exchanged"
-        yield (lambda w: replace(w, feet=w.swapped, swapped=w.feet)), (Change(text, own, _unchanged),)
+        yield _with_feet_exchanged, (Change(text, own, _unchanged),)
+
+
+def _share_of_changes(needed: Array, torque: Array) -> Array:
+    """Return the square error over the larger square of what is left of both without their means (nu,)."""
+    return share_of(needed - needed.mean(axis=0), torque - torque.mean(axis=0))
+
+
+def _with_feet_exchanged(windows: Windows) -> Windows:
+    return replace(windows, loads=dict(zip(windows.loads, reversed(list(windows.loads.values())), strict=True)))
 
 
 def _unchanged(windows: Windows) -> Windows:

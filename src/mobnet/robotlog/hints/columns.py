@@ -1,7 +1,7 @@
 """Hints from single columns and clocks: constant, the same twice, held, clipped; jitter and gaps."""
 
-from collections.abc import Iterator, Mapping, Sequence
-from itertools import combinations
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import combinations, repeat
 
 import numpy as np
 from numpy.typing import NDArray
@@ -95,9 +95,9 @@ def clock_hints(clocks: Mapping[str, Array], bounds: RobotLog) -> Iterator[str]:
             yield f"clock of {names}: {lost}; each ends a segment, and the observer starts anew"
 
 
-def listed(joints: Sequence[str], which: NDArray[np.bool_]) -> str:
+def listed(joints: Sequence[str], which: Iterable[bool] = repeat(True)) -> str:
     """Return the names of some joints, the first few of many."""
-    names = [joint for joint, has in zip(joints, which, strict=True) if has]
+    names = [joint for joint, has in zip(joints, which, strict=False) if has]
     return ", ".join(names[:FEW]) + (f" and {len(names) - FEW} more" if len(names) > FEW else "")
 
 

@@ -21,9 +21,11 @@ from mobnet.robotlog.hints.changes import (
     torque_changes,
     zero_changes,
 )
+from mobnet.robotlog.hints.columns import listed
 from mobnet.robotlog.hints.windows import Windows, share_of
 from mobnet.settings.robotlog import RobotLog
 
+MANY = 2  # joints up to which each of them must be explained
 MOST = 8  # mistakes that are looked for, one after another
 THIN = 5  # every so manieth window is looked at before a change of motion is tried on all of them
 LOOSE = 1.5  # factor on what may be left in those
@@ -48,7 +50,9 @@ def torque_hints(
     for _ in range(MOST):
         found = _best(nominal, windows, needed, known, bounds)
         for change, after, wanted in found:
-            told.setdefault(change.text, []).append(" and ".join(names[k] for k in change.joints))
+            joints = [names[k] for k in change.joints]
+            few = " and ".join(joints) if len(joints) <= MANY else listed(joints)
+            told.setdefault(change.text, []).append(few)
             # Changes of torques alone, of which there may be several, are undone one after another.
             windows, needed = (change.apply(windows), needed) if wanted is needed else (after, wanted)
         if not found:
@@ -85,7 +89,11 @@ def _of_motion(
 ) -> Iterator[Mistake]:
     """Yield changes of motion and feet that clear a few of the windows: asking the model costs most of the time."""
     thin = windows.thinned(THIN)
-    changes = feet_changes(nominal, suspects), zero_changes(nominal, thin, few), motion_changes(nominal, few)
+    changes = (
+        feet_changes(nominal, windows, suspects),
+        zero_changes(nominal, thin, few, bounds),
+        motion_changes(nominal, few),
+    )
     for move, torques in chain(*changes):
         moved = move(thin)
         needed = moved.needed(nominal)
@@ -98,6 +106,11 @@ def _of_motion(
 
 
 def _clears(change: Change, left: Array, wrong: Array, bounds: RobotLog) -> bool:
-    """Return whether a change takes most of the error of its joints away, and leaves little; shares (nu,)."""
+    """Return whether a change takes most of the error of its joints away, and leaves little; shares (nu,).
+
+    Of many joints the mean counts, as friction may be the larger part of the torque of some.
+    """
     own = list(change.joints)
-    return bool((left[own] < np.minimum(bounds.good, (1 - bounds.explained) * wrong[own])).all())
+    before, after = (share[own] if len(own) <= MANY else share[own].mean() for share in (wrong, left))
+    most = np.minimum(bounds.good, (1 - bounds.explained) * before)
+    return bool((after < most).all())

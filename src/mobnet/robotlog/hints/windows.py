@@ -4,7 +4,7 @@ No acceleration is needed. All hints on torques look at these windows.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,15 +23,13 @@ NODES = 11  # samples of a window at which beta is taken
 class Windows:
     """Positions and velocities at the nodes of windows (W, NODES, n), and mean torques of the motors (W, nu) [N m].
 
-    `feet` is what the feet's sensors add (W, nv) [N] and [N m], zero where there are none; `swapped` is the same if
-    each foot had the sensor of the other one.
+    `loads` are what the feet's sensors read, side -> (W, NODES, 6) [N], [N m].
     """
 
     q: Array
     v: Array
     torque: Array
-    feet: Array
-    swapped: Array
+    loads: Mapping[str, Array]
     period_s: float
 
     def needed(self, nominal: NominalModel) -> Array:
@@ -39,19 +37,19 @@ class Windows:
         shape = self.q.shape[:2]
         p, beta = (term.reshape(*shape, -1) for term in momentum_and_beta(nominal, self.q, self.v))
         mean = (beta.sum(axis=1) - (beta[:, 0] + beta[:, -1]) / 2) / (shape[1] - 1)
-        needed = (p[:, -1] - p[:, 0]) / self.period_s - mean - self.feet
+        feet = feet_torque(nominal, self.q, self.loads).mean(axis=1)
+        needed = (p[:, -1] - p[:, 0]) / self.period_s - mean - feet
         return needed[:, len(nominal.robot.layout.virtual) :]
 
     def thinned(self, step: int) -> "Windows":
         """Return every so many of the windows."""
-        arrays = {f.name: getattr(self, f.name)[::step] for f in fields(self) if f.name != "period_s"}
-        return Windows(**arrays, period_s=self.period_s)
+        loads = {side: load[::step] for side, load in self.loads.items()}
+        return Windows(self.q[::step], self.v[::step], self.torque[::step], loads, self.period_s)
 
 
 def windows_of(
-    nominal: NominalModel, sensed: Sensed, spans: Sequence[slice], rate_hz: float,
-    wrenches: Mapping[str, Array], bounds: RobotLog,
-) -> Windows | None:  # fmt: skip
+    sensed: Sensed, spans: Sequence[slice], rate_hz: float, wrenches: Mapping[str, Array], bounds: RobotLog
+) -> Windows | None:
     """Return windows spread evenly over the spans, None where no span is long enough."""
     steps = max(2, round(bounds.window_s * rate_hz))
     starts = np.concatenate([np.arange(s.start, s.stop - steps, steps) for s in spans] or [np.zeros(0)]).astype(np.intp)
@@ -64,9 +62,7 @@ def windows_of(
     inside = starts[:, None] + 1 + np.arange(steps)
     torque = sensed.tau_motor[inside].mean(axis=1, dtype=np.float64)
     loads = {side: wrench[nodes] for side, wrench in wrenches.items()}
-    exchanged = dict(zip(loads, reversed(loads.values()), strict=True))
-    feet, swapped = (feet_torque(nominal, q, given).mean(axis=1) for given in (loads, exchanged))
-    return Windows(q, v, torque, feet, swapped, steps / rate_hz)
+    return Windows(q, v, torque, loads, steps / rate_hz)
 
 
 def known_joints(
