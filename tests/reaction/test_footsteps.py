@@ -95,7 +95,9 @@ def test_rewinding_goes_back_on_the_footsteps():
 def test_rewinding_ends_with_the_footsteps_that_are_kept():
     kept, now = walked(3)
     assert len(rewound_steps(kept, 9, 0.2, FAR, now, COMMAND, SPACING_M)) == 2
-    assert not rewound_steps([], 9, 0.2, FAR, now, COMMAND, SPACING_M)[0, :DURATION].any()
+    in_place = rewound_steps([], 9, 0.2, FAR, now, COMMAND, SPACING_M)
+    assert len(in_place) == 1
+    assert not in_place[:, :DURATION].any()
 
 
 def test_steps_back_are_no_longer_than_the_robot_can_turn_round_in():

@@ -3,6 +3,7 @@
 import mujoco
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from mobnet.robot.plant import robot_spec
 from mobnet.settings.surrogate import SurrogateRobot
@@ -135,17 +136,20 @@ def test_inertial_readings_are_late_and_biased(simulate):
     np.testing.assert_allclose(np.array(found), wanted[:, None] * np.ones(3), atol=1e-12)
 
 
-def test_a_foot_at_rest_in_the_air_reads_what_its_calibration_left(simulate):
-    """Upright and at rest: the error of the calibrated mass, times gravity, times the gain, plus the constant error."""
+@pytest.mark.parametrize("tilt_rad", [0.0, 0.4])
+def test_a_foot_at_rest_in_the_air_reads_what_its_calibration_left(simulate, tilt_rad):
+    """The error of the calibrated mass, times gravity, times the gain, plus the constant error; tilted or not."""
     simulator = simulate("flat_place", "robot_1", standing=True)
     faults, plant, sensors = simulator.hidden.faults, simulator.plant, simulator.sensors
+    foot_to_world = Rotation.from_rotvec(tilt_rad * np.array([0.6, 0.8, 0.0])).as_matrix()
+    upwards = foot_to_world[2]  # in the foot's axes
     plant.sensordata[:] = 0.0
     for k in range(2):
-        plant.xmat[faults.soles[k]] = np.eye(3).ravel()
-        plant.sensordata[faults.foot_acc[k] + 2] = plant.gravity
+        plant.xmat[faults.soles[k]] = foot_to_world.ravel()
+        plant.sensordata[faults.foot_acc[k] : faults.foot_acc[k] + 3] = plant.gravity * upwards
     seen(simulator)
     true, known = faults.plate
-    weight = np.array([0.0, 0.0, -(true - known) * plant.gravity])
+    weight = -(true - known) * plant.gravity * upwards
     moment = np.cross(faults.arm, weight)
     for k in range(2):
         wrench = -faults.data[[*range(sensors.force[k], sensors.force[k] + 3),
