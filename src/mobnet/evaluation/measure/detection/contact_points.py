@@ -28,7 +28,7 @@ from mobnet.plan.runs import Run
 from mobnet.robot.description import RobotDescription
 from mobnet.settings.data import Push
 from mobnet.settings.detection import ContactPoint
-from mobnet.settings.evaluation import ContactLine, ContactPoints
+from mobnet.settings.detection_tables import ContactLine, ContactPoints
 
 NAMED, NOTHING = "middle of the named link", "middle of the leg"  # guesses, which name no force
 FORCE = named(PUSH, ("force_x", "force_y", "force_z"))

@@ -15,9 +15,10 @@ from mobnet.plan.runs import Run
 from mobnet.robot.description import describe
 from mobnet.settings.data import Push
 from mobnet.settings.detection import ContactPoint
-from mobnet.settings.evaluation import ContactPoints, Statistics
+from mobnet.settings.detection_tables import ContactPoints
 from mobnet.settings.methods import Observer
 from mobnet.settings.robot import RobotTable
+from mobnet.settings.runs import Statistics
 
 CM, PERCENT, DIGITS = 100.0, 100.0, 6
 ERROR, SPREAD, FORCE, SIZE, ANGLE = "error", "spread", "force", "force_size", "angle"
