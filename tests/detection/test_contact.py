@@ -8,7 +8,7 @@ from made_contacts import pushed
 
 from mobnet.core.errors import ConfigError, DataError
 from mobnet.detection.contact import ContactFinder
-from mobnet.detection.surface import carrier_of, surface_of
+from mobnet.detection.surface import carried_by, surface_of
 from mobnet.robot.wrench import feet_torque
 from mobnet.settings.parts import ShapeRow
 
@@ -135,10 +135,10 @@ def test_points_within_another_solid_of_the_body_are_left_out(robot):
 
 
 def test_a_body_without_a_joint_is_carried_by_the_one_above(robot):
-    assert carrier_of(robot, "L_Foot_Link").joint == "LL6"
-    assert carrier_of(robot, robot.base).joint is None
+    assert carried_by(robot, "L_Foot_Link").joint == "LL6"
+    assert carried_by(robot, robot.base).joint is None
     with pytest.raises(ConfigError, match="body: 'L_Toe'"):
-        carrier_of(robot, "L_Toe")
+        carried_by(robot, "L_Toe")
 
 
 def test_what_is_not_there_is_refused(settings, robot, finder, arm, q):

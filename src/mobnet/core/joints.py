@@ -11,14 +11,7 @@ from mobnet.core.errors import ConfigError, not_accepted
 
 N_VIRTUAL = 6  # degrees of freedom of a floating base
 NQ_BASE = 7  # position (3) and unit quaternion (4) of a floating base
-LEG_AXES = (
-    "z",
-    "x",
-    "y",
-    "y",
-    "y",
-    "x",
-)  # of a leg that walks: yaw, roll, pitch of the hip, knee, pitch, roll of the ankle
+LEG_AXES = ("z", "x", "y", "y", "y", "x")  # of a leg that walks: hip yaw, roll, pitch, knee, ankle pitch, roll
 VIRTUAL_UNITS = ("N", "N", "N", "N m", "N m", "N m")
 
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from mobnet.core.arrays import Array
 from mobnet.core.errors import ConfigError, DataError, not_accepted
 from mobnet.detection.contact_law import explain
-from mobnet.detection.surface import Carrier, Surface, carrier_of, surface_of
+from mobnet.detection.surface import Carrier, Surface, carried_by, surface_of
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
 from mobnet.settings.detection import ContactPoint
@@ -128,7 +128,7 @@ class ContactFinder:
             ConfigError: the body is unknown, or no joint moves it.
         """
         pin.forwardKinematics(self.nominal.model, self.nominal.data, self.nominal.positions(q))
-        return self._placed(carrier_of(self.robot, body))
+        return self._placed(carried_by(self.robot, body))
 
     def _placed(self, carrier: Carrier) -> tuple[Array, Array]:
         """Return axes (3, 3) and origin (3,) [m] of a body in the world, at the pose."""
@@ -141,7 +141,7 @@ class ContactFinder:
         floor = np.where(np.array(units) == "N", numbers.error_n, numbers.error_nm)
         ground, found = np.repeat([numbers.ground_n, numbers.ground_nm], 3), np.diag(std**2 + floor**2)
         for body in standing:
-            carried = self._jacobian(carrier_of(self.robot, body)) * ground[:, None]
+            carried = self._jacobian(carried_by(self.robot, body)) * ground[:, None]
             found += carried.T @ carried
         return found
 

@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mobnet.core.arrays import Array
-from mobnet.core.errors import ConfigError, not_accepted
+from mobnet.core.errors import ConfigError
 from mobnet.detection.solids import Patch, across, depth, patch_of
 from mobnet.robot.description import RobotDescription
-from mobnet.robot.frames import rotation
+from mobnet.robot.wrench import carrier_of
 from mobnet.settings.parts import ShapeRow
 
 WITHIN = 1e-6  # depth from which a point counts as inside of a solid [m]
@@ -56,7 +56,7 @@ def surface_of(robot: RobotDescription, limb: str, spacing_m: float) -> Surface:
     Raises:
         ConfigError: the limb is unknown, or its bodies have no `shapes` in the table.
     """
-    moved, carried = robot.layout.limb(limb), {body.name: carrier_of(robot, body.name) for body in robot.bodies}
+    moved, carried = robot.layout.limb(limb), {body.name: carried_by(robot, body.name) for body in robot.bodies}
     shapes = tuple(shape for shape in robot.shapes if carried[shape.body].joint in moved)
     if not shapes:
         raise ConfigError(f"robot {robot.name}: no `shapes` of limb {limb} in its table, so that nothing can touch it")
@@ -68,17 +68,10 @@ def surface_of(robot: RobotDescription, limb: str, spacing_m: float) -> Surface:
     return Surface(shapes, carriers, number, whole, np.concatenate(wrenches))
 
 
-def carrier_of(robot: RobotDescription, body: str) -> Carrier:
+def carried_by(robot: RobotDescription, body: str) -> Carrier:
     """Return what carries a body; a ConfigError names an unknown one."""
-    rows = {row.name: row for row in robot.bodies}
-    if body not in rows:
-        raise ConfigError(not_accepted("body", body, rows))
-    axes, origin = np.eye(3), np.zeros(3)
-    while not (joint := robot.joint_of(body)) and body != robot.base:
-        turn = rotation(np.array(rows[body].quat))
-        axes, origin = turn @ axes, np.array(rows[body].pos) + turn @ origin
-        body = rows[body].parent
-    return Carrier(joint.id if joint else None, axes, origin)
+    joint, placement = carrier_of(robot, body)
+    return Carrier(joint, placement.rotation, placement.translation)
 
 
 def _bare(patch: Patch, shape: ShapeRow, shapes: Sequence[ShapeRow]) -> Patch:
