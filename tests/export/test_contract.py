@@ -10,9 +10,10 @@ import pytest
 from made_weights import weights
 
 from mobnet.demo import DATA
+from mobnet.estimation.own import LearnedNote
 from mobnet.export.export import export
 from mobnet.export.session import load_exported
-from mobnet.export.trained import Trained, TrainedNote, read_trained
+from mobnet.export.trained import Trained, read_trained
 from mobnet.learning.deployed.limbs import load_limb_networks
 from mobnet.learning.features import signal_names, signals
 from mobnet.settings.networks import NetworkCell
@@ -76,7 +77,7 @@ def test_a_fixed_base_has_no_orientation(arm, run, tmp_path):
     names = ["q.J1", "q.J2", "v.J1", "v.J2"]
     tensors, note = weights(NetworkCell(cell="GRU", hidden=4), len(names), 2, 0)
     note = note.model_copy(update={"joints": ["J1", "J2"], "inputs": names})
-    one = Trained(tmp_path, tensors, note, TrainedNote(target="external", fingerprint="f"), "0")
+    one = Trained(tmp_path, tensors, note, LearnedNote(limb="A", target="external", fingerprint="f"), "0")
     export([one], arm, run, [], tmp_path)
     contract = json.loads((tmp_path / "contract.json").read_text())
     assert contract["quaternion"] == {}

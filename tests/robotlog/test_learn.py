@@ -1,14 +1,18 @@
 """What a network learns from logs of one's own: its labels, its recipe at the log's rate, and what its check says."""
 
+import json
+import shutil
+
 import numpy as np
 import pytest
 
-from mobnet.core.errors import ConfigError
+from mobnet.core.errors import ConfigError, DataError
 from mobnet.core.recording import read_sensed, write_recording
+from mobnet.demo import DATA
 from mobnet.estimation.label import foot_label
 from mobnet.estimation.low_pass import low_pass
 from mobnet.estimation.observe import read_wrenches
-from mobnet.estimation.own import RECORDING, OwnLog, Sampling, limb_of, read_log_folder
+from mobnet.estimation.own import RECORDING, OwnLog, Sampling, limb_of, read_log_folder, read_network_folder
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.deployed.networks import Prediction
 from mobnet.robot.nominal import NominalModel
@@ -117,3 +121,13 @@ def test_the_limb_is_the_only_one_or_has_to_be_named(layout, arm):
     assert limb_of(arm.layout, None) == "A"
     with pytest.raises(ConfigError, match=r"--limb: 'nothing' is not accepted; accepted: .*LL"):
         limb_of(layout, None)
+
+
+def test_a_network_that_learned_the_external_torque_itself_is_taken_off_no_residual(settings, layout, tmp_path):
+    made = DATA / "networks" / "MOB-Net-LL"
+    assert read_network_folder(made, layout, settings).limb == "LL"
+    shutil.copytree(made, tmp_path / "net")
+    note = json.loads((made / "run.json").read_text())
+    (tmp_path / "net" / "run.json").write_text(json.dumps(note | {"target": "external"}))
+    with pytest.raises(DataError, match=r"run.json: target: 'external' is not accepted; accepted: uncertainty"):
+        read_network_folder(tmp_path / "net", layout, settings)

@@ -21,16 +21,19 @@ from mobnet.estimation.observer import MomentumObserver, TorqueKind
 from mobnet.learning.deployed.limbs import LimbNetworks, load_limb_networks
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
+from mobnet.settings.methods import Target
 from mobnet.settings.settings import Settings
 
 RECORDING, ESTIMATE = "recording", "estimate"  # arrays in the folder of a log
 OBSERVER, LEARNED = "MOB", "MOB-Net"  # methods: the observer alone, and with a network
+UNCERTAINTY: Target = "uncertainty"  # what such a network learns
 
 
 class LearnedNote(Note):
-    """What `run.json` of a network says of the log that it learned from; one of the workflow leaves numbers out."""
+    """What `run.json` of a network says of what it learned, at which rate; one of the workflow leaves numbers out."""
 
     limb: Text
+    target: Target
     fingerprint: Text
     rate_hz: Positive | None = None
     gain_hz: Positive | None = None
@@ -90,9 +93,12 @@ def read_network_folder(folder: Path, layout: JointLayout, settings: Settings) -
     """Read a trained network; one of the workflow has the sampling of the configuration.
 
     Raises:
-        DataError: a file is missing or damaged, or the network is another robot's.
+        DataError: a file is missing or damaged, the network is another robot's, or it learned something else than
+            what is taken off the residual.
     """
     note, observer = read_note(folder / RUN, LearnedNote), settings.observer
+    if note.target != UNCERTAINTY:
+        raise DataError(not_accepted(f"{folder / RUN}: target", note.target, [UNCERTAINTY]))
     rate_hz, gain_hz = note.rate_hz or settings.rates.data_hz, note.gain_hz or observer.gain_hz
     networks = load_limb_networks({note.limb: folder}, layout)
     return OwnNetwork(

@@ -10,11 +10,11 @@ from typing import Any, Literal
 from mobnet.core.files import read_json
 from mobnet.core.notes import Count, Index, Note, Positive, Text, checked
 from mobnet.settings.limb_thresholds import LimbThresholds
+from mobnet.settings.methods import Target
 
 FORMAT = 1  # of the contract; another one has other keys
 OPSET, IR_VERSION = 17, 8  # of July 2022: run times of that age and newer ones read the files
 CONTRACT = "contract.json"
-Target = Literal["uncertainty", "external"]
 TorqueKind = Literal["mean", "sample"]
 
 

@@ -21,13 +21,13 @@ from mobnet.core.joints import JointLayout
 from mobnet.detection.chain import Chain
 from mobnet.detection.detector import LegGate
 from mobnet.estimation.observer import MomentumObserver
-from mobnet.export.contract import Target
 from mobnet.export.soles import leg_record
 from mobnet.learning.deployed.networks import WITHOUT_TORCH
 from mobnet.learning.deployed.weights import GRU_TENSORS, WeightsNote, std_scale_of
 from mobnet.learning.features import ROTATION_NAMES
 from mobnet.learning.gates import ordered
 from mobnet.settings.detection import Signal
+from mobnet.settings.methods import Target
 
 MAGIC, VERSION = b"MOBNETRT", 1
 HEADER, ENTRY, ALIGNED, NAME = 64, 32, 64, 32  # bytes

@@ -11,7 +11,8 @@ from mobnet.core.columns import Column, recording_columns, torque_columns
 from mobnet.core.errors import DataError
 from mobnet.core.files import RUN, WEIGHTS
 from mobnet.core.joints import JointLayout
-from mobnet.core.notes import Note, Positive, Text, read_note
+from mobnet.core.notes import read_note
+from mobnet.estimation.own import LearnedNote
 from mobnet.export.contract import (
     FORMAT,
     OPSET,
@@ -20,8 +21,6 @@ from mobnet.export.contract import (
     NetworkContract,
     ObserverContract,
     OutputContract,
-    Target,
-    TorqueKind,
 )
 from mobnet.export.graph import state_size
 from mobnet.learning.deployed.limbs import check_limb
@@ -37,16 +36,6 @@ FORMULAS = (
 )  # fmt: skip
 
 
-class TrainedNote(Note):
-    """What `run.json` says of the run time; the numbers that it leaves out are those of configs."""
-
-    target: Target
-    fingerprint: Text
-    rate_hz: Positive | None = None
-    gain_hz: Positive | None = None
-    torque: TorqueKind | None = None
-
-
 @dataclass(frozen=True)
 class Trained:
     """A trained network: its folder, weights with their hash, and what their notes say."""
@@ -54,7 +43,7 @@ class Trained:
     folder: Path
     tensors: Mapping[str, Array]
     note: WeightsNote
-    run: TrainedNote
+    run: LearnedNote
     sha256: str
 
 
@@ -67,7 +56,7 @@ def read_trained(folder: Path, layout: JointLayout) -> Trained:
     weights = folder / WEIGHTS
     tensors, note = read_weights(weights)
     check_limb(deployed(tensors, note), note.limb, folder, layout)
-    run = read_note(folder / RUN, TrainedNote)
+    run = read_note(folder / RUN, LearnedNote)
     return Trained(folder, tensors, note, run, hashlib.sha256(weights.read_bytes()).hexdigest())
 
 
