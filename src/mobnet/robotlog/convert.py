@@ -23,6 +23,7 @@ SI = {  # unit -> in SI units
     "deg": np.pi / 180, "deg/s": np.pi / 180, "rpm": 2 * np.pi / 60, "mN m": 1e-3, "kN m": 1e3, "mm": 1e-3,
     "g": 9.80665, "kN": 1e3, "ms": 1e-3, "us": 1e-6, "ns": 1e-9,
 }  # fmt: skip
+ABSENT = "absent"  # key of a recording's note: signals that its log does not have
 BLOCK_ROWS = 2048  # of columns that become rows
 
 
@@ -80,6 +81,8 @@ def _timed(path: Path, columns: Columns, signal: Signal, meaning: LogMap, clock:
     time_s = _in_order(first, meaning)[0] if first.time_s is not None else clock
     if time_s is None:
         raise DataError(f"{path}: {_no_clock(columns, meaning)}")
+    if len(time_s) < 2:
+        raise DataError(f"{path}: {first.topic}: {len(time_s)} message with {signal.columns[0]}; accepted: two or more")
     parts = []
     for name in signal.columns:
         own_time, own = _in_order(columns[name], meaning)
@@ -192,5 +195,5 @@ def _recording(
         pushed=np.zeros((rows, 1)), tau_random=np.zeros_like(motor), tau_push=np.zeros((rows, layout.nv)),
         push=np.zeros((rows, len(fields["push"]))),
     )  # fmt: skip
-    meta = {"scenario": "log", "level": "robot", "seed": 0, "absent": list(absent)}
+    meta = {"scenario": "log", "level": "robot", "seed": 0, ABSENT: list(absent)}
     return Recording(sensed, segments, rate_hz, meta, truth), absent

@@ -13,9 +13,9 @@ from mobnet.core.errors import DataError, not_accepted, refuse
 from mobnet.core.estimator import Estimate
 from mobnet.detection.always import always_on, setup_of
 from mobnet.detection.chain import make_chain
-from mobnet.detection.detector import run_segments
+from mobnet.detection.detector import GateSignal, run_segments
 from mobnet.detection.signals import Watched
-from mobnet.detection.watch import LegSetup
+from mobnet.detection.watch import LegSetup, LimbSetup
 from mobnet.estimation.own import OwnLog, OwnNetwork, Sampling, estimates_of, estimator_of
 from mobnet.robot.description import RobotDescription
 from mobnet.robot.nominal import NominalModel
@@ -25,6 +25,8 @@ from mobnet.settings.detection import Detector
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.robotlog import LogMap
 from mobnet.settings.settings import Settings
+
+PLANNED = ("swing", "landing")  # signals of a log that tell when a leg swings
 
 
 @dataclass(frozen=True)
@@ -56,7 +58,8 @@ def detect_log(
     """Estimate the external torque of a limb in a log, and flag what lies above its thresholds.
 
     Raises:
-        DataError: the log cannot be read, or its rate is not that of the thresholds.
+        DataError: the log cannot be read, its rate is not that of the thresholds, or it does not say when a leg that
+            is watched in its swings is in the air.
         ConfigError: the map does not fit the robot.
     """
     sampling, gravity = Sampling(found.rate_hz, found.gain_hz, found.torque), settings.plant.gravity_m_s2
@@ -70,10 +73,7 @@ def detect_log(
     own = OwnLog(path, read, observed.residual.astype(np.float32), sampling)
     (estimate,) = estimates_of([own], estimator_of(robot, gravity, sampling, network), found.joints)
     setup = setup_of(settings.detection, robot, found.limb, sampling.rate_hz)
-    if found.watched == "swing" and isinstance(setup, LegSetup):
-        gate = setup.record(path, read, estimate.tau_ext).gate
-    else:
-        gate = always_on(len(read.sensed), read.segments, found.settle_s, sampling.rate_hz)
+    gate = _gate(path, setup, observed, estimate, found)
     signals = Watched(Detector(method=found.method, signals=(found.signal,))).of(estimate, read.sensed.command)
     chain = make_chain(found.low_pass_hz, found.hold_s, sampling.rate_hz, np.array([found.thresholds]))
     alarm = run_segments(chain, signals, gate, read.segments)
@@ -81,3 +81,17 @@ def detect_log(
     nominal = NominalModel(robot, gravity_m_s2=gravity)
     flags = flags_of(alarm, observed.converted.time_s, read, low, estimate.std, found, nominal, settings.robotlog)
     return Detected(observed, estimate, setup.low_passed(signals, read.segments), tuple(flags))
+
+
+def _gate(path: Path, setup: LimbSetup, observed: Observed, estimate: Estimate, found: LimbThresholds) -> GateSignal:
+    """Return when the limb is watched; a DataError says that thresholds of swings do not fit the limb or the log."""
+    read = observed.converted.recording
+    if found.watched == "always":
+        return always_on(len(read.sensed), read.segments, found.settle_s, read.rate_hz)
+    if not isinstance(setup, LegSetup):
+        raise DataError(not_accepted(f"thresholds of {found.limb}: watched", found.watched, ["always"]))
+    if missing := [name for name in PLANNED if name in observed.converted.absent]:
+        # They would be zero, as of a foot on the ground: nothing would ever be watched.
+        text = f"{', '.join(missing)}: missing in the log or its map"
+        raise DataError(f"{path}: {text}; accepted: a log with them, as {found.limb} is watched in its swings")
+    return setup.record(path, read, estimate.tau_ext).gate

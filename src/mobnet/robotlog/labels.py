@@ -16,10 +16,9 @@ from mobnet.estimation.own import RECORDING, OwnLog, check_sampling
 from mobnet.learning.dataset import LimbData
 from mobnet.learning.features import limb_inputs
 from mobnet.robot.nominal import NominalModel
+from mobnet.robotlog.convert import ABSENT
 from mobnet.robotlog.learning_words import LABELS
 from mobnet.settings.networks import Limb
-
-ABSENT = "absent"  # key of a recording's note: signals that its log does not have
 
 
 def label_of(log: OwnLog, nominal: NominalModel, labels: str) -> Array:

@@ -8,7 +8,7 @@ from mobnet.core.columns import EXTERNAL
 from mobnet.robot.frames import rotation
 from mobnet.robot.nominal import NominalModel
 from mobnet.robot.wrench import point_torque
-from mobnet.robotlog.convert import Converted
+from mobnet.robotlog.convert import ABSENT, Converted
 from mobnet.settings.robotlog import Tool
 
 
@@ -23,5 +23,5 @@ def with_tool(found: Converted, nominal: NominalModel, tool: Tool) -> Converted:
     read, axes = found.recording, rotation(np.array(tool.quat))
     torque = point_torque(nominal, tool.body, tool.pos, axes, read.sensed.q, found.tool)
     absent = tuple(name for name in found.absent if name != EXTERNAL)
-    known = replace(read, truth=replace(read.truth, tau_ext=torque), meta={**read.meta, "absent": list(absent)})
+    known = replace(read, truth=replace(read.truth, tau_ext=torque), meta={**read.meta, ABSENT: list(absent)})
     return replace(found, recording=known, absent=absent)
