@@ -81,6 +81,7 @@ def test_numbers_that_rise_and_fall_are_alike_and_independent_ones_are_not():
     assert alike([np.exp(np.sin(np.arange(300) / 10))[:, None]])
     assert not alike([rng.lognormal(size=(300, 3))])
     assert not alike([np.ones((300, 1))])
+    assert not alike([rng.lognormal(size=(1, 2)) for _ in range(30)])  # no window follows another
 
 
 def test_too_short_a_recording_is_one_line_that_says_how_long_it_must_be(recorded, arm_setup):

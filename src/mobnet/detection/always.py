@@ -111,7 +111,7 @@ def alike(parts: Sequence[Array]) -> bool:
     mean = np.maximum(whole.mean(axis=0), TINY)
     logs = [np.log(np.maximum((part / mean).max(axis=1), TINY)) for part in parts if len(part)]
     centre, spread = np.mean(np.concatenate(logs)), np.var(np.concatenate(logs))
-    if not spread:
-        return False
     pairs = np.concatenate([(own[:-1] - centre) * (own[1:] - centre) for own in logs])
+    if not spread or not len(pairs):
+        return False
     return float(pairs.mean() / spread) > NOISE / np.sqrt(len(pairs))
