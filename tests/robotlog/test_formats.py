@@ -84,6 +84,13 @@ def test_texts_are_left_out_and_named_if_wanted(clean, tmp_path):
         read_log(path, ["q.J1", "note"])
 
 
+def test_a_csv_of_texts_alone_holds_no_column_of_numbers(tmp_path):
+    path = tmp_path / "log.csv"
+    path.write_text("mode,name\na,b\nc,d\n")
+    with pytest.raises(DataError, match=r"log.csv: holds no column of numbers"):
+        read_log(path)
+
+
 def test_a_csv_may_have_other_separators_empty_fields_whole_numbers_and_dates(tmp_path):
     path = tmp_path / "log.csv"
     rows = "".join(f"2026-01-02T03:04:05.{k:03d}; {k}; {k if k % 2 else ''}\n" for k in range(1000))

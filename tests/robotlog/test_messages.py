@@ -160,6 +160,14 @@ def test_clocks_that_never_meet_are_one_line(clean, read, tmp_path):
         read(path, APART_MAP)
 
 
+def test_a_topic_with_a_single_message_is_one_line(clean, read, tmp_path):
+    samples = states(clean[:100])
+    motion, effort = apart(samples, "/motion", ("position", "velocity")), apart(samples[5:6], "/torque", ("effort",))
+    path = bag2([*motion, *effort], tmp_path / "bag")
+    with pytest.raises(DataError, match=r"/torque: 1 message with /torque\.effort\.J1; accepted: two or more"):
+        read(path, APART_MAP)
+
+
 def test_messages_out_of_order_and_twice_are_put_in_order(clean, read, tmp_path):
     samples = states(clean[:ROWS])
     samples[10], samples[11] = (

@@ -45,8 +45,10 @@ def csv_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
     kinds = {f.name: pa.float64() for f in first if pa.types.is_integer(f.type) or pa.types.is_null(f.type)}
     with arrow.open_csv(path, rows, layout, arrow.ConvertOptions(**kept, column_types=kinds)) as file:
         held = [k for k, kind in enumerate(file.schema.types) if _is_numeric(kind)]
+        if not held:
+            return {}
         # Whole columns of Arrow's own reader would take twice the memory.
-        blocks = [np.stack([_numbers(batch.column(k)) for k in held]) for batch in file if held]
+        blocks = [np.stack([_numbers(batch.column(k)) for k in held]) for batch in file]
         return dict(zip((file.schema.names[k] for k in held), map(Column, np.concatenate(blocks, axis=1)), strict=True))
 
 
@@ -101,8 +103,9 @@ def hdf5_names(path: Path) -> list[str]:
 def hdf5_columns(path: Path, wanted: Collection[str]) -> dict[str, Column]:
     """Read columns of an HDF5 file; a dataset is read once."""
     asked: dict[str, list[tuple[str, int]]] = {}
+    names = set(wanted)
     for name, (dataset, k) in _hdf5_parts(path):
-        if name in set(wanted):
+        if name in names:
             asked.setdefault(dataset, []).append((name, k))
     found = dict[str, Column]()
     with module_of("h5py", path).File(path, "r") as file:
