@@ -137,8 +137,10 @@ static void find_signals(const struct detector *d, const struct tick *tick) {
 
 /* Take one sample; return how often the highest signal lies above its threshold, held without a gap. */
 static double advance_chain(struct detector *d, const struct tick *tick, int watched) {
-    size_t part = (size_t)(d->state.phase * (double)d->phases), row = d->samples++ % d->hold;
-    const double *threshold = d->threshold + (part < d->phases ? part : d->phases - 1) * d->signals;
+    /* Bounds come before the conversion, as that of a double which no size_t holds is not defined in C. */
+    double place = fmin(fmax(d->state.phase * (double)d->phases, 0.0), (double)(d->phases - 1));
+    const double *threshold = d->threshold + (size_t)place * d->signals;
+    size_t row = d->samples++ % d->hold;
     double highest = 0.0;
     find_signals(d, tick);
     for (size_t k = 0; k < d->signals; k++) {
