@@ -44,7 +44,7 @@ def observed(arm, settings):
 
     def observe(path, mapping=None):
         meaning = None if mapping is None else LogMap.model_validate(mapping)
-        return observe_log(path, arm, meaning, None, 100.0, 9.81, settings.robotlog)
+        return observe_log(path, arm, meaning, "sample", 100.0, 9.81, settings.robotlog)
 
     return observe
 

@@ -122,7 +122,7 @@ MISTAKES = {  # name -> what a lab does to its log, and the hint
 @pytest.fixture
 def hints(arm, settings, stored):
     def find(table):
-        return observe_log(stored(table), arm, None, None, 100.0, 9.81, settings.robotlog).hints
+        return observe_log(stored(table), arm, None, "sample", 100.0, 9.81, settings.robotlog).hints
 
     return find
 

@@ -192,7 +192,7 @@ def test_kinds_of_messages_of_ones_own_are_read_by_their_definition_in_the_bag(s
     ]  # fmt: skip
     path = bag2(samples, tmp_path / "bag", storage, [(STATE, OWN)])
     assert "/low.motors.1.tau_est" in column_names(path)
-    found = observe_log(path, arm, LogMap.model_validate(OWN_MAP), None, 100.0, 9.81, settings.robotlog)
+    found = observe_log(path, arm, LogMap.model_validate(OWN_MAP), "sample", 100.0, 9.81, settings.robotlog)
     np.testing.assert_allclose(found.converted.recording.sensed.v[:, 1], clean["v.J2"][:ROWS], atol=1e-12)
 
 

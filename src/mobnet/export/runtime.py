@@ -8,6 +8,7 @@ import numpy as np
 from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import LegGate
 from mobnet.estimation.observer import MomentumObserver
+from mobnet.estimation.own import OBSERVER
 from mobnet.export.contract import Contract
 from mobnet.export.model_file import RuntimeDetector, RuntimeNetwork, write_model_file
 from mobnet.export.trained import Trained
@@ -54,4 +55,4 @@ def _detector(one: LimbThresholds, robot: RobotDescription, gate: SwingGate) -> 
     chain = make_chain(one.low_pass_hz, one.hold_s, one.rate_hz, np.array([one.thresholds]))
     swing = LegGate.of(gate, robot, one.limb, one.rate_hz) if one.watched == "swing" else None
     settle = 0 if swing else round(one.settle_s * one.rate_hz)
-    return RuntimeDetector(one.limb, tuple(one.joints), (one.signal,), chain, swing, settle, one.method == "MOB")
+    return RuntimeDetector(one.limb, tuple(one.joints), (one.signal,), chain, swing, settle, one.method == OBSERVER)

@@ -20,6 +20,7 @@ from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
 from mobnet.core.store import GROUP_ROWS, array_writer, write_array
 from mobnet.estimation import observer
+from mobnet.estimation.own import ESTIMATE, OBSERVER, RECORDING
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.clocks import rate_of
@@ -46,7 +47,7 @@ from mobnet.settings.robot import RobotTable
 from mobnet.settings.robotlog import LogMap, RobotLog
 
 log = logging.getLogger(__name__)
-RECORDING, ESTIMATE, PLOT = "recording", "estimate", "residual"  # names of what is made
+PLOT = "residual"  # beside the arrays of a log
 MANY = 100_000  # samples above which progress is told
 
 
@@ -60,12 +61,13 @@ class Observed:
 
 
 def observe_log(
-    path: Path, robot: RobotDescription, meaning: LogMap | None, torque: str | None, gain_hz: float,
+    path: Path, robot: RobotDescription, meaning: LogMap | None, torque: observer.TorqueKind, gain_hz: float,
     gravity_m_s2: float, bounds: RobotLog,
 ) -> Observed:  # fmt: skip
     """Read a log, run the momentum observer on it, and look for what is wrong with it.
 
-    Without a map, columns have the names of a recording. The gain is K_0 of (7) [1/s].
+    Without a map, columns have the names of a recording. `torque` says what torques are, whatever the map says; the
+    gain is K_0 of (7) [1/s].
 
     Raises:
         DataError: the log cannot be read, or a column is missing or not accepted.
@@ -76,8 +78,7 @@ def observe_log(
     if meaning and meaning.tool:
         converted = with_tool(converted, nominal, meaning.tool)
     read = converted.recording
-    kind = "mean" if (torque or (meaning.torque if meaning else "sample")) == "mean" else "sample"
-    mob = observer.MomentumObserver(nominal, gain_hz, read.rate_hz, kind)
+    mob = observer.MomentumObserver(nominal, gain_hz, read.rate_hz, torque)
     rows = len(read.sensed)
     _progress(rows, f"{rows} samples read")
     residual = np.empty(read.sensed.v.shape)
@@ -145,7 +146,7 @@ def write_observed(found: Observed, robot: RobotDescription, gain_hz: float, tor
     meta = {**read.meta, "gain_hz": gain_hz, "torque": torque}
     _write_recording(out / RECORDING, replace(read, meta=meta), robot.layout)
     columns = torque_columns(robot.layout, [EXTERNAL], robot.layout.names)
-    note = {"rate_hz": read.rate_hz, **meta, "method": "MOB"}
+    note = {"rate_hz": read.rate_hz, **meta, "method": OBSERVER}
     write_array(out / ESTIMATE, found.residual, columns, note, read.segments)
     plot_residual(read.rate_hz, read.segments, found.residual, robot.layout, out / PLOT)
 
