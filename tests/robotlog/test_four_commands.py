@@ -63,6 +63,14 @@ def made(arm, tmp_path_factory):
     return folder
 
 
+def test_the_interval_of_false_alarms_says_that_it_is_nominal(made, monkeypatch, caplog):
+    monkeypatch.chdir(made)
+    caplog.set_level(logging.INFO)
+    assert run("calibrate", "free", *OWN, "--network", "arm_net", "--rate", "1") == 0
+    said = r"1 in an hour of free motion, nominal 95% interval \S+ to \S+, which takes windows for independent$"
+    assert any(re.search(said, line) for line in caplog.messages)
+
+
 def test_the_network_s_error_is_below_the_observer_s(made):
     found = json.loads((made / "arm_net" / "run.json").read_text())
     check = found["check"]
