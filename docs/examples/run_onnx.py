@@ -1,7 +1,7 @@
 """Run exported networks step by step: python run_onnx.py EXPORT RECORDING RESIDUAL.
 
 EXPORT is a folder of ./reproduce export, RECORDING and RESIDUAL are files of ./reproduce observe without their endings.
-Prints when an alarm begins. To be copied: it needs numpy, onnxruntime, pandas and pyarrow, and nothing of this project.
+Prints when alarms begin and end. To copy: it needs numpy, onnxruntime, pandas and pyarrow, and nothing of this project.
 """
 
 import json
@@ -32,15 +32,15 @@ def estimates_of(network, session, inputs, residual):
 
 
 def alarms_of(detector, rate_hz, estimates):
-    """Yield the sample and the joint at which an alarm begins: low-pass, threshold, a time without a gap."""
+    """Yield the first sample of each alarm with its joint, and the first one after it with None."""
     pole, hold = np.exp(-2 * np.pi * detector["low_pass_hz"] / rate_hz), max(1, round(detector["hold_s"] * rate_hz))
     low, above, alarm, limits = 0, 0, False, np.array(detector["thresholds"])
     for k, (tau, std) in enumerate(estimates):
         low = pole * low + (1 - pole) * {"mean": tau, "std": std, "ratio": tau / std}[detector["signal"]]
         above = np.where((np.abs(low) > limits) & (k >= round(detector["settle_s"] * rate_hz)), above + 1, 0)
-        if above.max() >= hold and not alarm:
-            yield k, detector["joints"][above.argmax()]
-        alarm = above.max() >= hold
+        if (above.max() >= hold) != alarm:
+            alarm = not alarm
+            yield k, detector["joints"][above.argmax()] if alarm else None
 
 
 export, stem, other = map(Path, sys.argv[1:])
@@ -56,4 +56,4 @@ for detector in watched:  # others need no network, or the gate of a swinging le
     r = mob[[f"tau_ext.{one['joint']}" for one in network["outputs"]]].to_numpy()
     for start, end in json.loads(Path(f"{stem}.json").read_text())["segments"]:
         for k, joint in alarms_of(detector, rate_hz, estimates_of(network, session, x[start:end], r[start:end])):
-            print(f"{(start + k) / rate_hz:.3f} s: {detector['limb']}, first {joint}")
+            print(f"{(start + k) / rate_hz:.3f} s: {detector['limb']}, {f'first {joint}' if joint else 'over'}")

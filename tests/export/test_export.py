@@ -89,6 +89,27 @@ def test_a_network_of_another_robot_is_refused(called, save, tmp_path):
     assert re.search(r"a: input: 'q.LL1' is not accepted; accepted: q.J1", line)
 
 
+def test_what_an_earlier_export_wrote_and_this_one_lacks_is_removed(called, save, tmp_path):
+    left, right, out = save(tmp_path / "a"), save(tmp_path / "b", "RL"), tmp_path / "out"
+    assert called(left, right, "--out", out)[0] == 0
+    (out / "own.onnx").write_bytes(b"of somebody else")
+    assert called(right, "--out", out)[0] == 0
+    assert {path.name for path in out.iterdir()} == {"RL.onnx", "own.onnx", "contract.json", "model.bin"}
+    status, lines = called(save(tmp_path / "c", "RL", NetworkCell(cell="LSTM", hidden=5)), "--out", out)
+    assert (status, lines[-1]) == (
+        0, f"{out}/model.bin: not written, as the C library has no other cells than GRU and constant",
+    )  # fmt: skip
+    assert {path.name for path in out.iterdir()} == {"RL.onnx", "own.onnx", "contract.json"}
+
+
+def test_a_folder_whose_contract_cannot_be_read_is_left_as_it_is(called, save, tmp_path):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "contract.json").write_text("{}")
+    status, (line,) = called(save(tmp_path / "a"), "--out", tmp_path / "out")
+    assert (status, line.partition(": ")[0]) == (1, str(tmp_path / "out" / "contract.json"))
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["contract.json"]
+
+
 def test_the_contract_names_the_weights(robot, run, save, tmp_path):
     folder = save(tmp_path / "a")
     export([read_trained(folder, robot.layout)], robot, run, [], tmp_path / "out")

@@ -1,12 +1,15 @@
-"""From CSV files of an arm to flags in four commands, as docs/detection.md tells it."""
+"""From CSV files of an arm to flags in four commands, as docs/detection.md tells it, and to the same on a robot."""
 
 import csv
 import json
 import logging
 import re
+import sys
 from pathlib import Path
 
+import c_library
 import numpy as np
+import pandas as pd
 import pytest
 import yaml
 from made_arm import arm_log
@@ -16,7 +19,9 @@ from mobnet.commands.words import parse
 from mobnet.core.store import read_array
 from mobnet.detection.calibrate import main as calibrate
 from mobnet.detection.threshold_file import read_thresholds
+from mobnet.export.export import main as export
 from mobnet.robotlog.detect import main as detect
+from mobnet.robotlog.flags import stretches
 from mobnet.robotlog.learn import main as learn
 from mobnet.robotlog.observe import converted_log
 from mobnet.robotlog.observe import main as observe
@@ -24,10 +29,10 @@ from mobnet.settings.load import load_section
 from mobnet.settings.robotlog import LogMap
 
 pytestmark = pytest.mark.slow
-COMMANDS = {"observe": observe, "learn": learn, "calibrate": calibrate, "detect": detect}
+COMMANDS = {"observe": observe, "learn": learn, "calibrate": calibrate, "detect": detect, "export": export}
 ARM = Path("tests/data/arm.yaml").resolve()
 RATE_HZ, SHORT = 200.0, ("--epochs", "4")
-GUIDE = Path("docs/detection.md").resolve()
+GUIDE, EXAMPLE = Path("docs/detection.md").resolve(), Path("docs/examples/run_onnx.py").resolve()
 PUSHES = (10.0, 0.3, (0.0, 6.0)), (20.0, 0.3, (9.0, 0.0))  # start, duration [s], torque of each joint [N m]
 LOGS = {"train": (1, 100.0, ()), "free": (2, 220.0, ()), "new": (3, 30.0, PUSHES)}  # seed, duration [s], pushes
 OWN, LATE_S = ("--robot", ARM), 0.1
@@ -56,6 +61,14 @@ def made(arm, tmp_path_factory):
         for line in lines:
             assert run(*line.split(), *(SHORT if line.startswith("learn") else ())) == 0
     return folder
+
+
+def test_the_interval_of_false_alarms_says_that_it_is_nominal(made, monkeypatch, caplog):
+    monkeypatch.chdir(made)
+    caplog.set_level(logging.INFO)
+    assert run("calibrate", "free", *OWN, "--network", "arm_net", "--rate", "1") == 0
+    said = r"1 in an hour of free motion, nominal 95% interval \S+ to \S+, which takes windows for independent$"
+    assert any(re.search(said, line) for line in caplog.messages)
 
 
 def test_the_network_s_error_is_below_the_observer_s(made):
@@ -104,6 +117,50 @@ def test_a_loop_over_the_samples_has_the_flags_of_the_command(made, arm, setting
     spans = [[round(float(row[key]) * RATE_HZ) for key in ("start_s", "end_s")] for row in rows]
     assert set(names["flagged"]) <= {k for start, end in spans for k in range(start, end + 1)}
     assert {k for span in spans for k in span} <= set(names["flagged"])
+
+
+@pytest.fixture(scope="module")
+def seen(made):
+    """The new log as programs on a robot take it: the path, without an ending, of its recording, and as CSV."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(made)
+        assert run("observe", "new.csv", *OWN, "--map", "map.yaml", "--out", "seen") == 0
+    stem = made / "seen" / "recording"
+    pd.read_parquet(f"{stem}.parquet").astype(float).to_csv(f"{stem}.csv")
+    return stem
+
+
+@pytest.fixture
+def spans(made, settings):
+    """Return a function of the rows above a threshold that tells the stretches, and those of the command's flags."""
+
+    def of(rows):
+        above, gap = np.zeros(round(LOGS["new"][1] * RATE_HZ), dtype=bool), settings.robotlog.flag_gap_s
+        above[rows] = True
+        flags = pd.read_csv(made / "new" / "flags.csv")
+        told = [(round(one.start_s * RATE_HZ), round(one.end_s * RATE_HZ) + 1) for one in flags.itertuples()]
+        return stretches(above, ((0, len(above)),), round(gap * RATE_HZ)), told
+
+    return of
+
+
+@pytest.mark.skipif(not c_library.HAS_COMPILER, reason=c_library.REASON)
+def test_the_c_library_flags_the_samples_of_the_command(made, seen, spans, tmp_path):
+    example = c_library.make("example", tmp_path)
+    _, *lines = c_library.program(example, made / "arm_runtime" / "model.bin", f"{seen}.csv")
+    found, told = spans([int(line.split(",")[0]) for line in lines])
+    assert found == told
+    assert {line.split(",")[2] for line in lines} == {"A"}
+
+
+def test_the_example_for_onnx_flags_the_samples_of_the_command(made, seen, spans):
+    words = "-I", EXAMPLE, made / "arm_runtime", seen, made / "seen" / "estimate"
+    printed = " ".join(c_library.program(sys.executable, *words))
+    edges = re.findall(r"(\S+) s: A, first J[12] (\S+) s: A, over", printed)
+    rows = [k for pair in edges for k in range(*(round(float(time) * RATE_HZ) for time in pair))]
+    found, told = spans(rows)
+    assert found == told
+    assert printed.count(" s: ") == 2 * len(edges)
 
 
 def test_the_same_words_train_nothing_anew_and_others_are_refused(made, monkeypatch, caplog):

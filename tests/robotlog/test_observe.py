@@ -2,6 +2,7 @@
 
 import re
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -45,6 +46,17 @@ def test_a_csv_becomes_recording_estimate_and_plot(clean, arm, stored, say, tmp_
     assert np.corrcoef(estimate[100:, 0], -late[100:])[0, 1] > 0.85  # the rest is the noise of the velocity
     files = [str(out / name) for name in ("recording.parquet", "estimate.parquet")]
     assert check([*files, "--robot", "tests/data/arm.yaml", "--rate", "1000"]) == 0
+
+
+def test_numbers_of_joints_with_long_names_stand_below_each_other(clean, stored, say, tmp_path):
+    long = "right_shoulder_pitch_joint"
+    text = Path("tests/data/arm.yaml").read_text()
+    (tmp_path / "arm.yaml").write_text(re.sub(r"\bJ1\b", long, text))
+    log = stored(clean[:3000].rename(columns=lambda name: name.replace("J1", long)))
+    status, lines = say(log, "--robot", tmp_path / "arm.yaml", "--out", tmp_path / "made")
+    rows = [line for line in lines if line.startswith((f"  {long} ", "  J2 "))]
+    assert (status, len(rows)) == (0, 2)
+    assert len({line.index(" of ") for line in rows}) == 1
 
 
 def test_a_map_file_is_read_and_its_faults_have_places(clean, stored, say, tmp_path):

@@ -17,9 +17,9 @@ import numpy as np
 from mobnet.core.errors import DataError, MobnetError, not_accepted
 from mobnet.core.files import atomic_path, write_json
 from mobnet.detection.threshold_file import read_thresholds
-from mobnet.export.contract import CONTRACT, Contract, ObserverContract, TorqueKind
+from mobnet.export.contract import CONTRACT, Contract, ObserverContract, TorqueKind, read_contract
 from mobnet.export.graph import graph_of
-from mobnet.export.runtime import MODEL, runs_in_c, write_model
+from mobnet.export.runtime import export_model
 from mobnet.export.session import OnnxNetwork
 from mobnet.export.trained import Trained, check_apart, contract_of, read_trained
 from mobnet.export.words import export_parser
@@ -47,11 +47,15 @@ def export(
 ) -> Contract:
     """Write networks and their contract into a folder; return the contract.
 
+    Networks of an earlier export into the folder, which the contract no longer lists, are removed.
+
     Raises:
-        DataError: two networks estimate one joint, thresholds belong to something else, or a file cannot be written.
+        DataError: two networks estimate one joint, thresholds belong to something else, a file cannot be written, or
+            the folder has a contract that cannot be read.
     """
     check_apart(networks)
     check_thresholds(thresholds, networks, robot, run)
+    before = {own.file for own in read_contract(out).networks} if (out / CONTRACT).exists() else set()
     contract = contract_of(robot.name, robot.layout, networks, run.rate_hz, run.observer, thresholds)
     for one, own in zip(networks, contract.networks, strict=True):
         model = graph_of(one.tensors, one.note)
@@ -61,6 +65,9 @@ def export(
         with atomic_path(out / own.file, len(content)) as temporary:
             temporary.write_bytes(content)
     write_json(out / CONTRACT, contract.as_json())
+    for path in out.glob("*.onnx"):
+        if path.name in before - {own.file for own in contract.networks}:
+            path.unlink()
     return contract
 
 
@@ -139,10 +146,8 @@ def main(words: list[str]) -> int:
             ),
         )
         contract = export(networks, robot, run, [read_thresholds(path) for path in options.thresholds], options.out)
-        lines = list(told(contract, networks, options.out))
-        if runs_in_c(networks):
-            write_model(options.out / MODEL, robot, contract, networks, settings.detection.gate)
-            lines.append(f"{options.out / MODEL}: for the C library in src/runtime")
+        model = export_model(options.out, robot, contract, networks, settings.detection.gate)
+        lines = [*told(contract, networks, options.out), model]
     except MobnetError as error:
         log.error("%s", error)
         return 1

@@ -26,6 +26,22 @@ def runs_in_c(networks: Sequence[Trained]) -> bool:
     return all(one.note.cell.cell in WITHOUT_TORCH for one in networks)
 
 
+def export_model(
+    out: Path, robot: RobotDescription, contract: Contract, networks: Sequence[Trained], gate: SwingGate
+) -> str:  # fmt: skip
+    """Write the model file beside a contract, or remove an older one where the library lacks a cell; say which.
+
+    Raises:
+        ConfigError: a limb that is watched in swing is no leg.
+    """
+    path = out / MODEL
+    if not runs_in_c(networks):
+        path.unlink(missing_ok=True)
+        return f"{path}: not written, as the C library has no other cells than {' and '.join(WITHOUT_TORCH)}"
+    write_model(path, robot, contract, networks, gate)
+    return f"{path}: for the C library in src/runtime"
+
+
 def write_model(
     path: Path, robot: RobotDescription, contract: Contract, networks: Sequence[Trained], gate: SwingGate
 ) -> None:  # fmt: skip

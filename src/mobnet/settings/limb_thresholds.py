@@ -30,7 +30,7 @@ class LimbThresholds(Section):
         torque: whether the log's torques are samples at the ticks or means over the intervals before them.
         rate_per_h: false alarms that were wanted [1/h].
         expected_per_h, low_per_h, high_per_h: those to expect, and the interval of this number [1/h].
-        confidence: of the interval.
+        confidence: nominal one of the interval.
     """
 
     robot: Text

@@ -20,6 +20,8 @@ PUBLIC = {  # packages with an interface for others -> what it is for
     "estimation": "the observer and all estimators",
     "detection": "detectors of collisions",
     "reaction": "reactions to collisions",
+    "robotlog": "logs of a robot of one's own",
+    "export": "networks for programs without this project",
 }
 LIMITS = {
     "exclusiveMinimum": "above {}", "minimum": "from {}", "exclusiveMaximum": "below {}", "maximum": "up to {}",
