@@ -1,9 +1,11 @@
-"""From CSV files of an arm to flags in four commands, as docs/detection.md tells it."""
+"""From CSV files of an arm to flags in four commands, as docs/detection.md tells it, and the pages beside it."""
 
 import csv
 import json
 import logging
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +18,7 @@ from mobnet.commands.words import parse
 from mobnet.core.store import read_array
 from mobnet.detection.calibrate import main as calibrate
 from mobnet.detection.threshold_file import read_thresholds
+from mobnet.export.export import main as export
 from mobnet.robotlog.detect import main as detect
 from mobnet.robotlog.learn import main as learn
 from mobnet.robotlog.observe import converted_log
@@ -24,10 +27,12 @@ from mobnet.settings.load import load_section
 from mobnet.settings.robotlog import LogMap
 
 pytestmark = pytest.mark.slow
-COMMANDS = {"observe": observe, "learn": learn, "calibrate": calibrate, "detect": detect}
+FOUR = {"observe": observe, "learn": learn, "calibrate": calibrate, "detect": detect}
+COMMANDS = {**FOUR, "export": export}
 ARM = Path("tests/data/arm.yaml").resolve()
 RATE_HZ, SHORT = 200.0, ("--epochs", "4")
-GUIDE = Path("docs/detection.md").resolve()
+GUIDE, NEW_ROBOT, RUNTIME = (Path(f"docs/{name}.md").resolve() for name in ("detection", "robots", "runtime"))
+EXAMPLE = Path("docs/examples/run_onnx.py").resolve()
 PUSHES = (10.0, 0.3, (0.0, 6.0)), (20.0, 0.3, (9.0, 0.0))  # start, duration [s], torque of each joint [N m]
 LOGS = {"train": (1, 100.0, ()), "free": (2, 220.0, ()), "new": (3, 30.0, PUSHES)}  # seed, duration [s], pushes
 OWN, LATE_S = ("--robot", ARM), 0.1
@@ -40,13 +45,18 @@ def run(*words):
     return COMMANDS[taken.command](taken.extra)
 
 
+def lines_of(text, *commands):
+    """Return the words after `./reproduce` of each line of a text that runs one of some commands."""
+    return [line for line in re.findall(r"^ {4}\./reproduce (.*)$", text, re.MULTILINE) if line.split()[0] in commands]
+
+
 @pytest.fixture(scope="module")
 def made(arm, tmp_path_factory):
     """The folder in which the commands of the page have run, the training shortened."""
     folder, page = tmp_path_factory.mktemp("arm"), GUIDE.read_text().partition("## Calibrate")[0]
     signals = {name: {"columns": [f"{name}.J1", f"{name}.J2"]} for name in ("q", "v", "tau_motor")}
-    lines = re.findall(r"^ {4}\./reproduce (.*)$", page, re.MULTILINE)
-    assert list(dict.fromkeys(line.split()[0] for line in lines)) == list(COMMANDS)
+    lines = lines_of(page, *MODULES)
+    assert list(dict.fromkeys(line.split()[0] for line in lines)) == list(FOUR)
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
         Path("arm.yaml").symlink_to(ARM)
@@ -93,6 +103,37 @@ def test_flags_stand_at_the_pushes_and_nowhere_else(made):
     assert (made / "new" / "flags.png").stat().st_size > 10_000
 
 
+def test_the_page_of_robots_has_the_same_log_and_the_same_network(made, monkeypatch, caplog):
+    monkeypatch.chdir(made)
+    caplog.set_level(logging.INFO)
+    first, second = lines_of(NEW_ROBOT.read_text(), "observe", "learn")
+    assert first == lines_of(GUIDE.read_text(), "observe")[0]
+    assert run(*second.split(), *SHORT) == 0
+    assert "arm_net: already trained from these logs in this way" in caplog.text
+
+
+def test_an_estimate_of_a_file_has_the_thresholds_of_its_folder(made, monkeypatch, caplog):
+    monkeypatch.chdir(made)
+    caplog.set_level(logging.INFO)
+    (line,) = [line for line in lines_of(GUIDE.read_text(), "calibrate") if "--estimate" in line]
+    assert run(*line.split()) == 0
+    of_files = caplog.messages.copy()
+    caplog.clear()
+    assert run("calibrate", "free", *OWN, "--rate", "1") == 0
+    assert of_files == caplog.messages
+
+
+def test_the_exported_network_raises_its_alarms_where_the_flags_begin(made, monkeypatch):
+    monkeypatch.chdir(made)
+    page = RUNTIME.read_text()
+    for line in [lines_of(page, "export")[0], *lines_of(page, "observe")]:
+        assert run(*line.split()) == 0
+    (words,) = re.findall(r"^ {4}\.venv/bin/python docs/examples/run_onnx\.py (.*)$", page, re.MULTILINE)
+    told = subprocess.run([sys.executable, EXAMPLE, *words.split()], check=True, capture_output=True, text=True).stdout
+    flags = csv.DictReader(Path("new/flags.csv").read_text().splitlines())
+    assert told.splitlines() == [f"{float(row['start_s']):.3f} s: A, first {row['joint']}" for row in flags]
+
+
 def test_a_loop_over_the_samples_has_the_flags_of_the_command(made, arm, settings, monkeypatch):
     monkeypatch.chdir(made)
     _, code, _ = re.findall(r"^```python\n(.*?)^```$", GUIDE.read_text(), re.DOTALL | re.MULTILINE)
@@ -127,6 +168,10 @@ def test_the_same_words_train_nothing_anew_and_others_are_refused(made, monkeypa
     (("learn", "train", "--epochs", "0"), "--epochs: 0 is not accepted; accepted: a whole number from 1"),
     (("learn", "nowhere"), "nowhere: recording.json is missing; accepted: a folder that `./reproduce observe` wrote"),
     (("calibrate", "train"), "seconds of free motion, in windows of 1 s: 99.0 is not accepted; accepted: 200 or more"),
+    (("learn", "train", "../{here}/train"), "FOLDER: '.*/train' is not accepted; accepted: each folder once"),
+    (("calibrate", "free", "train", "--network", "arm_net"), "train: the network learned from it, where its error is"),
+    (("calibrate", "free", "--network", "x"), "x: run.json is missing; accepted: a folder that `./reproduce learn` w"),
+    (("detect", "train", "--network", "arm_net", "--thresholds", "arm_thresholds.yaml"), "a folder without metadata"),
     (("calibrate", "free", "--signal", "ratio"), "--signal: 'ratio' is not accepted; accepted: mean"),
     (("calibrate", "free", "--signal", "x"), "--signal: 'x' is not accepted; accepted: mean, ratio, std"),
     (("calibrate",), "what calibrates: 'nothing' is not accepted"),
@@ -136,7 +181,7 @@ def test_the_same_words_train_nothing_anew_and_others_are_refused(made, monkeypa
 ], ids=lambda value: value if isinstance(value, str) else " ".join(value))  # fmt: skip
 def test_what_is_wrong_is_one_line(words, message, made, monkeypatch, caplog):
     monkeypatch.chdir(made)
-    assert run(*words, *OWN) == 1
+    assert run(*(word.format(here=made.name) for word in words), *OWN) == 1
     (line,) = [record.message for record in caplog.records if record.levelno >= logging.ERROR]
     assert "\n" not in line
     assert re.search(message, line), line
