@@ -79,7 +79,7 @@ def test_what_does_not_fit_is_refused_in_one_line(called, save, tmp_path, thresh
     assert not (tmp_path / "out").exists()
     assert called(left, "--rate", 0, *out) == (1, ["--rate: 0.0 is not accepted; accepted: a number above 0"])
     (left / "run.json").unlink()
-    assert called(left, *out) == (1, [f"{left}/run.json: file is missing; accepted: a text file"])
+    assert called(left, *out) == (1, [f"{left}: run.json is missing; accepted: a folder of a trained network"])
 
 
 def test_a_network_of_another_robot_is_refused(called, save, tmp_path):

@@ -1,4 +1,4 @@
-"""The command and the Python of docs/runtime.md run, and its tables name every key."""
+"""The command for the demo and the Python of docs/runtime.md run, and its tables name every key."""
 
 import json
 import re
@@ -25,7 +25,7 @@ def keys_below(heading):
 def test_the_page_is_followed_to_the_letter(tmp_path, monkeypatch, capsys):
     (tmp_path / "docs").symlink_to(ROOT / "docs")
     monkeypatch.chdir(tmp_path)
-    words = re.search(r"^    \./reproduce export (.*)$", PAGE, re.MULTILINE)
+    words = re.search(r"^    \./reproduce export (docs/demo.*)$", PAGE, re.MULTILINE)
     assert main(words[1].split()) == 0
     (code,) = re.findall(r"^```python\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
     names = {}

@@ -1,8 +1,11 @@
-"""The Python of docs/robots.md runs, in its order, and does what the page says."""
+"""Python and commands of docs/robots.md run, in their order, and do what the page says."""
 
+import json
 import re
 from pathlib import Path
 
+from mobnet.robot.import_table import main as import_table
+from mobnet.settings.load import load_section
 from mobnet.settings.robot import RobotTable
 
 ROOT = Path(__file__).parents[2]
@@ -19,9 +22,18 @@ def test_the_steps_for_a_new_robot_run(tmp_path, monkeypatch, capsys):
     assert "robot two-link arm cannot walk; its table lacks: a floating base" in capsys.readouterr().out
 
 
-def test_the_page_names_every_key_of_a_table():
+def test_the_commands_of_the_page_make_a_table_and_check_a_log_as_its_python_does(tmp_path, monkeypatch):
     page = (ROOT / "docs" / "robots.md").read_text()
-    keys = set(
-        re.findall(r"`(\w+)`", "".join(line.split("|")[1] for line in page.splitlines() if line.startswith("| `")))
-    )
-    assert keys == set(RobotTable.model_fields)
+    (tmp_path / "tests").symlink_to(ROOT / "tests")
+    monkeypatch.chdir(tmp_path)
+    (words,) = re.findall(r"^ {4}\./reproduce robot (tests/.*)$", page, re.MULTILINE)
+    assert import_table(words.split()) == 0
+    assert load_section(tmp_path / "arm.yaml", RobotTable).layout.nu == 2
+    (words,) = re.findall(r"^ {4}\./reproduce check (.*)$", page, re.MULTILINE)
+    assert f"main({json.dumps(words.split())}) == 0" in page
+
+
+def test_the_page_names_every_key_of_a_table():
+    part = (ROOT / "docs" / "robots.md").read_text().partition("### From a URDF")[0]
+    rows = [line.split("|")[1] for line in part.splitlines() if line.startswith("| `")]
+    assert set(re.findall(r"`(\w+)`", "".join(rows))) == set(RobotTable.model_fields)

@@ -29,10 +29,12 @@ from mobnet.settings.load import load_section
 from mobnet.settings.robotlog import LogMap
 
 pytestmark = pytest.mark.slow
-COMMANDS = {"observe": observe, "learn": learn, "calibrate": calibrate, "detect": detect, "export": export}
+FOUR = {"observe": observe, "learn": learn, "calibrate": calibrate, "detect": detect}
+COMMANDS = {**FOUR, "export": export}
 ARM = Path("tests/data/arm.yaml").resolve()
 RATE_HZ, SHORT = 200.0, ("--epochs", "4")
-GUIDE, EXAMPLE = Path("docs/detection.md").resolve(), Path("docs/examples/run_onnx.py").resolve()
+GUIDE, NEW_ROBOT, RUNTIME = (Path(f"docs/{name}.md").resolve() for name in ("detection", "robots", "runtime"))
+EXAMPLE = Path("docs/examples/run_onnx.py").resolve()
 PUSHES = (10.0, 0.3, (0.0, 6.0)), (20.0, 0.3, (9.0, 0.0))  # start, duration [s], torque of each joint [N m]
 LOGS = {"train": (1, 100.0, ()), "free": (2, 220.0, ()), "new": (3, 30.0, PUSHES)}  # seed, duration [s], pushes
 OWN, LATE_S = ("--robot", ARM), 0.1
@@ -45,13 +47,18 @@ def run(*words):
     return COMMANDS[taken.command](taken.extra)
 
 
+def lines_of(text, *commands):
+    """Return the words after `./reproduce` of each line of a text that runs one of some commands."""
+    return [line for line in re.findall(r"^ {4}\./reproduce (.*)$", text, re.MULTILINE) if line.split()[0] in commands]
+
+
 @pytest.fixture(scope="module")
 def made(arm, tmp_path_factory):
     """The folder in which the commands of the page have run, the training shortened."""
     folder, page = tmp_path_factory.mktemp("arm"), GUIDE.read_text().partition("## Calibrate")[0]
     signals = {name: {"columns": [f"{name}.J1", f"{name}.J2"]} for name in ("q", "v", "tau_motor")}
-    lines = re.findall(r"^ {4}\./reproduce (.*)$", page, re.MULTILINE)
-    assert list(dict.fromkeys(line.split()[0] for line in lines)) == list(COMMANDS)
+    lines = lines_of(page, *MODULES)
+    assert list(dict.fromkeys(line.split()[0] for line in lines)) == list(FOUR)
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
         Path("arm.yaml").symlink_to(ARM)
@@ -106,6 +113,26 @@ def test_flags_stand_at_the_pushes_and_nowhere_else(made):
     assert (made / "new" / "flags.png").stat().st_size > 10_000
 
 
+def test_the_page_of_robots_has_the_same_log_and_the_same_network(made, monkeypatch, caplog):
+    monkeypatch.chdir(made)
+    caplog.set_level(logging.INFO)
+    first, second = lines_of(NEW_ROBOT.read_text(), "observe", "learn")
+    assert first == lines_of(GUIDE.read_text(), "observe")[0]
+    assert run(*second.split(), *SHORT) == 0
+    assert "arm_net: already trained from these logs in this way" in caplog.text
+
+
+def test_an_estimate_of_a_file_has_the_thresholds_of_its_folder(made, monkeypatch, caplog):
+    monkeypatch.chdir(made)
+    caplog.set_level(logging.INFO)
+    (line,) = [line for line in lines_of(GUIDE.read_text(), "calibrate") if "--estimate" in line]
+    assert run(*line.split()) == 0
+    of_files = caplog.messages.copy()
+    caplog.clear()
+    assert run("calibrate", "free", *OWN, "--rate", "1") == 0
+    assert of_files == caplog.messages
+
+
 def test_a_loop_over_the_samples_has_the_flags_of_the_command(made, arm, settings, monkeypatch):
     monkeypatch.chdir(made)
     _, code, _ = re.findall(r"^```python\n(.*?)^```$", GUIDE.read_text(), re.DOTALL | re.MULTILINE)
@@ -120,14 +147,15 @@ def test_a_loop_over_the_samples_has_the_flags_of_the_command(made, arm, setting
 
 
 @pytest.fixture(scope="module")
-def seen(made):
-    """The new log as programs on a robot take it: the path, without an ending, of its recording, and as CSV."""
+def exported(made):
+    """The folder in which the commands of the page on run time have run too; the log is a CSV file beside its array."""
+    page = RUNTIME.read_text()
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(made)
-        assert run("observe", "new.csv", *OWN, "--map", "map.yaml", "--out", "seen") == 0
-    stem = made / "seen" / "recording"
-    pd.read_parquet(f"{stem}.parquet").astype(float).to_csv(f"{stem}.csv")
-    return stem
+        for line in [lines_of(page, "export")[0], *lines_of(page, "observe")]:
+            assert run(*line.split()) == 0
+        pd.read_parquet("observed/recording.parquet").astype(float).to_csv("observed.csv")
+    return made
 
 
 @pytest.fixture
@@ -145,17 +173,19 @@ def spans(made, settings):
 
 
 @pytest.mark.skipif(not c_library.HAS_COMPILER, reason=c_library.REASON)
-def test_the_c_library_flags_the_samples_of_the_command(made, seen, spans, tmp_path):
+def test_the_c_library_flags_the_samples_of_the_command(exported, spans, tmp_path):
     example = c_library.make("example", tmp_path)
-    _, *lines = c_library.program(example, made / "arm_runtime" / "model.bin", f"{seen}.csv")
+    _, *lines = c_library.program(example, exported / "arm_runtime" / "model.bin", exported / "observed.csv")
     found, told = spans([int(line.split(",")[0]) for line in lines])
     assert found == told
     assert {line.split(",")[2] for line in lines} == {"A"}
 
 
-def test_the_example_for_onnx_flags_the_samples_of_the_command(made, seen, spans):
-    words = "-I", EXAMPLE, made / "arm_runtime", seen, made / "seen" / "estimate"
-    printed = " ".join(c_library.program(sys.executable, *words))
+def test_the_example_for_onnx_flags_the_samples_of_the_command(exported, spans, monkeypatch):
+    monkeypatch.chdir(exported)
+    line = r"^ {4}\.venv/bin/python docs/examples/run_onnx\.py (.*)$"
+    (words,) = re.findall(line, RUNTIME.read_text(), re.MULTILINE)
+    printed = " ".join(c_library.program(sys.executable, "-I", EXAMPLE, *words.split()))
     edges = re.findall(r"(\S+) s: A, first J[12] (\S+) s: A, over", printed)
     rows = [k for pair in edges for k in range(*(round(float(time) * RATE_HZ) for time in pair))]
     found, told = spans(rows)
@@ -184,6 +214,10 @@ def test_the_same_words_train_nothing_anew_and_others_are_refused(made, monkeypa
     (("learn", "train", "--epochs", "0"), "--epochs: 0 is not accepted; accepted: a whole number from 1"),
     (("learn", "nowhere"), "nowhere: recording.json is missing; accepted: a folder that `./reproduce observe` wrote"),
     (("calibrate", "train"), "seconds of free motion, in windows of 1 s: 99.0 is not accepted; accepted: 200 or more"),
+    (("learn", "train", "../{here}/train"), "FOLDER: '.*/train' is not accepted; accepted: each folder once"),
+    (("calibrate", "free", "train", "--network", "arm_net"), "train: the network learned from it, where its error is"),
+    (("calibrate", "free", "--network", "x"), "x: run.json is missing; accepted: a folder that `./reproduce learn` w"),
+    (("detect", "train", "--network", "arm_net", "--thresholds", "arm_thresholds.yaml"), "a folder without metadata"),
     (("calibrate", "free", "--signal", "ratio"), "--signal: 'ratio' is not accepted; accepted: mean"),
     (("calibrate", "free", "--signal", "x"), "--signal: 'x' is not accepted; accepted: mean, ratio, std"),
     (("calibrate",), "what calibrates: 'nothing' is not accepted"),
@@ -193,7 +227,7 @@ def test_the_same_words_train_nothing_anew_and_others_are_refused(made, monkeypa
 ], ids=lambda value: value if isinstance(value, str) else " ".join(value))  # fmt: skip
 def test_what_is_wrong_is_one_line(words, message, made, monkeypatch, caplog):
     monkeypatch.chdir(made)
-    assert run(*words, *OWN) == 1
+    assert run(*(word.format(here=made.name) for word in words), *OWN) == 1
     (line,) = [record.message for record in caplog.records if record.levelno >= logging.ERROR]
     assert "\n" not in line
     assert re.search(message, line), line

@@ -1,6 +1,7 @@
 """`./reproduce motion`: a simulated log of a robot of one's own, which `./reproduce observe` takes without a map."""
 
 import logging
+import re
 from pathlib import Path
 
 import pandas as pd
@@ -10,6 +11,7 @@ from mobnet.robotlog.motion import main
 from mobnet.robotlog.observe import main as observe
 
 ARM = Path("tests/data/arm.yaml")
+PAGE = Path("docs/robots.md").read_text()
 PANDA = Path("configs/robots/panda.yaml")
 
 
@@ -33,6 +35,17 @@ def test_a_log_is_observed_without_a_map_and_without_a_hint(say, tmp_path):
     assert status == 0
     assert "hints: none" in lines
     assert {"recording.parquet", "estimate.parquet", "residual.png"} <= {p.name for p in (tmp_path / "seen").iterdir()}
+
+
+def test_the_commands_of_the_page_make_its_logs(say, tmp_path, monkeypatch):
+    (table,) = re.findall(r"^ {4}cp (\S+) arm\.yaml$", PAGE, re.MULTILINE)
+    (tmp_path / "arm.yaml").symlink_to(Path(table).resolve())
+    monkeypatch.chdir(tmp_path)
+    for line in re.findall(r"^ {4}\./reproduce motion (.*)$", PAGE, re.MULTILINE):
+        status, lines = say(main, *re.sub(r"--minutes \d+", "--minutes 0.02", line).split())
+        assert (status, lines[0]) == (0, "Panda: 1200 samples at 1000 Hz, 1.2 s; shapes keep apart")
+    assert {"train.csv", "free.csv", "new.csv"} == {path.name for path in tmp_path.glob("*.csv")}
+    assert "pushed" in pd.read_csv("new.csv")
 
 
 def test_the_truth_stands_in_a_log_with_pushes_alone(say, tmp_path):

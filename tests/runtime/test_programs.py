@@ -2,13 +2,16 @@
 
 import re
 import subprocess
+import sys
 
 import numpy as np
+import pandas as pd
 import pytest
 from c_library import ROOT, SOURCES, make, program
 
 from mobnet.detection.detector import ALARM_RATIO, LegDetector, LegGate
 from mobnet.detection.signals import Watched
+from mobnet.export.export import main as export
 from mobnet.export.model_file import RuntimeDetector, write_model_file
 
 from .conftest import network_of, watching
@@ -122,6 +125,23 @@ def test_the_code_of_the_guide_compiles(built, tmp_path):
     ]
     subprocess.run(["cc", *words], cwd=tmp_path, check=True)
     program(tmp_path / "guide")
+
+
+def test_the_commands_of_the_guide_print_the_estimates_of_the_demo(tmp_path, monkeypatch):
+    for name in ("docs", "src"):
+        (tmp_path / name).symlink_to(ROOT / name)
+    monkeypatch.chdir(tmp_path)
+    page = (ROOT / "docs" / "runtime.md").read_text()
+    (words,) = re.findall(r"^ {4}\./reproduce export (docs/demo.*)$", page, re.MULTILINE)
+    assert export(words.split()) == 0
+    lines = re.findall(r"^ {4}((?:make|\.venv/bin/python -c|build/example) .*)$", page, re.MULTILINE)
+    assert len(lines) == 3
+    for line in lines:
+        command = line.replace(".venv/bin/python", sys.executable)
+        done = subprocess.run(command, shell=True, check=True, capture_output=True, text=True)
+    rows = done.stdout.splitlines()
+    assert "LL1" in rows[0]
+    assert len(rows) == 1 + len(pd.read_csv("walk.csv"))
 
 
 @pytest.fixture(scope="session")

@@ -12,7 +12,7 @@ from argparse import Namespace
 from collections.abc import Sequence
 from pathlib import Path
 
-from mobnet.core.errors import DataError, MobnetError, not_accepted
+from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse_lines
 from mobnet.detection.limb import OwnRecording, calibrate_limb
 from mobnet.detection.limb_report import report, thresholds_of
 from mobnet.detection.threshold_file import write_thresholds
@@ -42,8 +42,15 @@ def of_folders(
     """Return the recordings in folders of `./reproduce observe` with the estimate of a limb, and their sampling.
 
     Raises:
-        DataError: a folder is not one, or its sampling is not that of the first one or of the network.
+        DataError: a folder is not one, its sampling is not that of the first one or of the network, or the network
+            learned from it.
     """
+    known = {folder.resolve() for folder in network.logs} if network else set()
+    refuse_lines(
+        f"{folder}: the network learned from it, where its error is smaller; accepted: another log"
+        for folder in options.folders
+        if folder.resolve() in known
+    )
     logs = [read_log_folder(folder, robot.layout) for folder in options.folders]
     sampling, of = (network.sampling, network.folder) if network else (logs[0].sampling, logs[0].folder)
     for one in logs:

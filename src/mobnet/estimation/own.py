@@ -38,6 +38,7 @@ class LearnedNote(Note):
     rate_hz: Positive | None = None
     gain_hz: Positive | None = None
     torque: TorqueKind | None = None
+    folders: list[Text] | None = None
 
 
 @dataclass(frozen=True)
@@ -61,13 +62,14 @@ class OwnLog:
 
 @dataclass(frozen=True)
 class OwnNetwork:
-    """A network of a limb, the hash of all that its weights depend on, and the sampling that it learned at."""
+    """A network of a limb, the hash of all that its weights depend on, its sampling, and the logs it learned from."""
 
     folder: Path
     limb: str
     fingerprint: str
     networks: LimbNetworks
     sampling: Sampling
+    logs: tuple[Path, ...] = ()
 
 
 def read_log_folder(folder: Path, layout: JointLayout) -> OwnLog:
@@ -96,14 +98,15 @@ def read_network_folder(folder: Path, layout: JointLayout, settings: Settings) -
         DataError: a file is missing or damaged, the network is another robot's, or it learned something else than
             what is taken off the residual.
     """
+    if not (folder / RUN).exists():
+        raise DataError(f"{folder}: {RUN} is missing; accepted: a folder that `./reproduce learn` wrote")
     note, observer = read_note(folder / RUN, LearnedNote), settings.observer
     if note.target != UNCERTAINTY:
         raise DataError(not_accepted(f"{folder / RUN}: target", note.target, [UNCERTAINTY]))
     rate_hz, gain_hz = note.rate_hz or settings.rates.data_hz, note.gain_hz or observer.gain_hz
     networks = load_limb_networks({note.limb: folder}, layout)
-    return OwnNetwork(
-        folder, note.limb, note.fingerprint, networks, Sampling(rate_hz, gain_hz, note.torque or observer.torque)
-    )
+    sampling = Sampling(rate_hz, gain_hz, note.torque or observer.torque)
+    return OwnNetwork(folder, note.limb, note.fingerprint, networks, sampling, tuple(map(Path, note.folders or ())))
 
 
 def limb_of(layout: JointLayout, given: str | None, network: OwnNetwork | None = None) -> str:

@@ -53,6 +53,8 @@ def read_trained(folder: Path, layout: JointLayout) -> Trained:
     Raises:
         DataError: a file is missing or damaged, or the network belongs to another robot.
     """
+    if missing := [name for name in (WEIGHTS, RUN) if not (folder / name).exists()]:
+        raise DataError(f"{folder}: {missing[0]} is missing; accepted: a folder of a trained network")
     weights = folder / WEIGHTS
     tensors, note = read_weights(weights)
     check_limb(deployed(tensors, note), note.limb, folder, layout)

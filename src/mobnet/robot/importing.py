@@ -85,12 +85,14 @@ def _read(path: Path) -> str:
     """Return the text of a file.
 
     Raises:
-        DataError: it is missing or no XML.
+        DataError: it is missing, cannot be read or is no XML.
     """
     try:
         text = path.read_text(encoding="utf-8")
         ET.fromstring(text)
-    except (OSError, UnicodeDecodeError, ET.ParseError) as error:
+    except OSError as error:
+        raise DataError(f"{path}: cannot be read: {error.strerror}; accepted: a URDF or MJCF file") from None
+    except (UnicodeDecodeError, ET.ParseError) as error:
         raise DataError(f"{path}: {error}; accepted: a URDF or MJCF file") from None
     return text
 

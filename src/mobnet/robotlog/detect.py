@@ -10,6 +10,7 @@ from mobnet.core.errors import MobnetError
 from mobnet.core.files import write_text
 from mobnet.core.rows import csv_text
 from mobnet.detection.threshold_file import read_thresholds
+from mobnet.estimation import estimate, observer
 from mobnet.estimation.estimate import write_estimate
 from mobnet.estimation.own import ESTIMATE, OwnNetwork, Sampling, check_sampling, read_network_folder
 from mobnet.robot.description import RobotDescription, describe
@@ -72,6 +73,8 @@ def main(words: list[str]) -> int:
     """Run the command; return its exit status."""
     options = detect_parser().parse_args(words)
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+    for module in (observer, estimate):  # they tell of each part of a long log
+        logging.getLogger(module.__name__).setLevel(logging.WARNING)
     try:
         for line in run(options):
             log.info("%s", line)

@@ -63,6 +63,8 @@ def _asked(path: Path, ask: Callable[[Format], Found]) -> Found:
     if not path.exists():
         raise DataError(f"{path}: file is missing; accepted: a log, {', '.join(ACCEPTED)}")
     kind = METADATA if (path / METADATA).is_file() else path.suffix.lower()
+    if path.is_dir() and kind not in FORMATS:
+        raise DataError(f"{path}: a folder without {METADATA} is not accepted; accepted: {', '.join(ACCEPTED)}")
     if kind not in FORMATS:
         raise DataError(not_accepted(f"{path}: format", kind or path.name, ACCEPTED))
     try:

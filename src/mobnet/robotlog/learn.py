@@ -80,6 +80,11 @@ def _is_new(fingerprint: str, out: Path, *, force: bool) -> bool:
     return True
 
 
+def _places(folders: Sequence[Path]) -> set[Path]:
+    """Return where folders are, however they were typed."""
+    return {folder.resolve() for folder in folders}
+
+
 def run(options: Namespace) -> list[str]:
     """Train a network as the command's options say, and return what is printed."""
     check_labels(options.labels)
@@ -87,6 +92,8 @@ def run(options: Namespace) -> list[str]:
     epochs = settings.robotlog.learn.epochs if options.epochs is None else options.epochs
     if epochs < 1:
         raise DataError(not_accepted("--epochs", epochs, ["a whole number from 1"]))
+    if twice := [one for k, one in enumerate(options.folders) if one.resolve() in _places(options.folders[:k])]:
+        raise DataError(not_accepted("FOLDER", str(twice[0]), ["each folder once, else what is held out trains too"]))
     table = load_section(options.robot, RobotTable) if options.robot else settings.robot
     limb = limb_of(table.layout, options.limb)
     logs = [read_log_folder(folder, table.layout) for folder in options.folders]

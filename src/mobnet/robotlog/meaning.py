@@ -62,7 +62,8 @@ def resolved(path: Path, meaning: LogMap, names: Collection[str], layout: JointL
     given, held = given_signals(meaning), set(names)
     needed = [*MOTORS, *(BASE if layout.virtual else ())]
     if missing := [name for name in needed if name not in given]:
-        raise ConfigError(f"{path}: {', '.join(missing)}: missing in the map; a robot with a floating base needs them")
+        why = "a robot with a floating base, such as the one taken without --robot, needs them"
+        raise ConfigError(f"{path}: {', '.join(missing)}: missing in the map; {why}")
     if meaning.joints and len(meaning.joints) != layout.nu:
         raise ConfigError(f"{path}: joints: {not_accepted('number', len(meaning.joints), [layout.nu])}")
     widths = dict.fromkeys(MOTORS, layout.nu) | {name: len(ends) for name, ends in ENDS.items()}

@@ -40,7 +40,7 @@ def plot_residual(
             values = residual[rows, layout.names.index(joint)].copy()
             values[1:][np.diff(breaks) > 0] = np.nan
             axis.plot(rows / rate_hz, values, label=joint, linewidth=0.7)
-        axis.set_ylabel(f"{limb} [{unit}]")
+        axis.set_ylabel(f"{limb}: residual [{unit}]")
         axis.set_xlim(0, len(residual) / rate_hz)
         axis.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
     axes[-1].set_xlabel("time [s]")

@@ -11,6 +11,7 @@ from mobnet.robotlog.flags import Flag
 from mobnet.robotlog.plot import MOST_POINTS, PANEL_INCH
 from mobnet.settings.limb_thresholds import LimbThresholds
 
+PALE, DARK = 0.2, 0.5  # opacity of a flag in all panels, and in that of its joint
 LABELS = {"mean": "torque [N m]", "std": "sigma [N m]", "ratio": "torque / sigma [-]"}
 
 
@@ -21,9 +22,11 @@ def plot_flags(
 ) -> None:  # fmt: skip
     """Write what is watched of a limb behind the low-pass (T, n) over time (T,) [s] as `stem.png`, a panel a joint.
 
-    Thresholds are dashed on both sides of zero, flags are bands; a line is broken where a segment ends.
+    Thresholds are dashed on both sides of zero, flags are bands, darker in the panel of the joint that lies highest
+    above its threshold; a line is broken where a segment ends.
     """
     from matplotlib.figure import Figure
+    from matplotlib.patches import Patch
 
     count = len(found.joints)
     figure = Figure(figsize=(PAGE_INCH, PANEL_INCH * count + 0.4), layout="constrained")
@@ -35,13 +38,18 @@ def plot_flags(
             axis.plot(times, values, linewidth=0.7, color="C0", label=None if number else "estimate")
         for side in (1.0, -1.0) if found.signal != "std" else (1.0,):
             axis.axhline(side * threshold, linewidth=0.7, linestyle="--", color="0.3", label=_once("threshold", side))
-        for number, flag in enumerate(flags):
-            own = flag.joint == joint
-            label = None if number else "flag"
-            axis.axvspan(flag.start_s, flag.end_s, color="C3", alpha=0.5 if own else 0.2, linewidth=1.0, label=label)
-        axis.set_ylabel(f"{joint}: {LABELS[found.signal]}")
+        for flag in flags:
+            alpha = DARK if flag.joint == joint else PALE
+            axis.axvspan(flag.start_s, flag.end_s, color="C3", alpha=alpha, linewidth=1.0)
+        axis.set_title(joint, loc="left", fontsize="medium")
+        axis.set_ylabel(LABELS[found.signal])
         axis.set_xlim(time_s[0], time_s[-1])
-    axes[0].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3, frameon=False)
+    lines, _ = axes[0].get_legend_handles_labels()
+    bands = [
+        Patch(color="C3", alpha=alpha, label=label)
+        for alpha, label in ((DARK, "flag, highest at this joint"), (PALE, "flag, highest at another joint"))
+    ]
+    axes[0].legend(handles=[*lines, *bands], loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=4, frameon=False)
     axes[-1].set_xlabel("time [s]")
     stem.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(stem.with_suffix(".png"), metadata={"Software": None})
