@@ -13,6 +13,7 @@ from mobnet.simulation.free_plant import damping_of, held_model, hidden_links, j
 from mobnet.simulation.free_run import Numbers, record_motion, slightly_turned
 
 SECONDS = 8.0
+LONG_S = 6.0  # the longest pause and the longest push end before: there is a push, whatever is drawn
 IDEAL_NM = 0.02  # error of the observer that issue 41 allows on an ideal plant
 BEGIN = 500  # samples after which an observer has forgotten that it began
 
@@ -55,7 +56,7 @@ def test_without_pushes_only_what_holds_the_base_acts(imported, numbers):
 
 
 def test_a_push_is_a_push_alone_and_changes_nothing_before_it(imported, numbers):
-    free, pushed = (record_motion(imported, numbers, 4.0, 5, ideal=True, pushed=flag) for flag in (False, True))
+    free, pushed = (record_motion(imported, numbers, LONG_S, 5, ideal=True, pushed=flag) for flag in (False, True))
     first = int(pushed.truth.pushed.argmax())
     assert first > 0
     np.testing.assert_array_equal(free.sensed.q[:first], pushed.sensed.q[:first])
@@ -111,5 +112,5 @@ def test_hidden_links_are_near_those_of_the_table(imported, settings):
 
 def test_a_robot_without_points_is_pushed_at_its_links(imported, numbers):
     bare = replace(imported, points=(), feet={}, sole=None)
-    recording = record_motion(bare, numbers, 4.0, 5, ideal=True, pushed=True)
+    recording = record_motion(bare, numbers, LONG_S, 5, ideal=True, pushed=True)
     assert np.abs(recording.truth.tau_push).max() > 0.02 * imported.torque_limits.min()
