@@ -1,7 +1,9 @@
-"""Thresholds of a leg that is watched in its swings, on logs that do not say when it swings and on other limbs."""
+"""Detection in a log by a file of thresholds: their filters, and swings that a log does not tell."""
 
+import numpy as np
 import pytest
 from made_logs import bag2, humanoid
+from scipy.signal import lfilter
 
 from mobnet.core.errors import DataError
 from mobnet.robotlog.detected import detect_log
@@ -19,6 +21,26 @@ MAP = {
 }
 
 
+def thresholds(robot, limb, **changes):
+    joints = robot.layout.limb(limb)
+    row = {
+        "robot": robot.name, "limb": limb, "joints": joints, "method": "MOB", "signal": "mean",
+        "thresholds": [5.0] * len(joints), "watched": "always", "low_pass_hz": 15.0, "hold_s": 0.005,
+        "rate_hz": 1000.0, "gain_hz": 100.0, "torque": "sample", "rate_per_h": 1.0, "expected_per_h": 1.0,
+        "low_per_h": 0.5, "high_per_h": 2.0, "confidence": 0.95,
+    }  # fmt: skip
+    return LimbThresholds.model_validate(row | changes)
+
+
+def test_filters_are_those_of_the_thresholds_and_not_of_configs(clean, stored, arm, settings):
+    low_pass_hz = 0.2 * settings.detection.low_pass_hz
+    found = thresholds(arm, "A", low_pass_hz=low_pass_hz)
+    made = detect_log(stored(clean[:2000]), arm, None, None, found, settings)
+    pole = np.exp(-2.0 * np.pi * low_pass_hz / 1000.0)
+    expected = lfilter([1.0 - pole], [1.0, -pole], made.estimate.tau_ext.astype(np.float64), axis=0)
+    np.testing.assert_allclose(made.watched, expected, atol=1e-9)
+
+
 @pytest.mark.parametrize(("limb", "message"), [
     ("LL", "swing, landing: missing in the log or its map; accepted: a log with them, as LL is watched in its swings"),
     ("LA", "thresholds of LA: watched: 'swing' is not accepted; accepted: always"),
@@ -26,12 +48,7 @@ MAP = {
 def test_swings_that_a_log_does_not_tell_are_one_line_and_not_a_log_without_flags(
     limb, message, robot, layout, settings, tmp_path
 ):
-    joints = layout.limb(limb)
-    found = LimbThresholds(
-        robot=robot.name, limb=limb, joints=joints, method="MOB", signal="mean", thresholds=(5.0,) * len(joints),
-        watched="swing", low_pass_hz=15.0, hold_s=0.005, rate_hz=1000.0, gain_hz=100.0, torque="sample",
-        rate_per_h=1.0, expected_per_h=1.0, low_per_h=0.5, high_per_h=2.0, confidence=0.95,
-    )  # fmt: skip
+    found = thresholds(robot, limb, watched="swing")
     path = bag2(humanoid(layout), tmp_path / "bag")
     with pytest.raises(DataError, match=message):
         detect_log(path, robot, LogMap.model_validate(MAP), None, found, settings)

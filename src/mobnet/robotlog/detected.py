@@ -12,7 +12,6 @@ from mobnet.core.arrays import Array
 from mobnet.core.errors import DataError, not_accepted, refuse
 from mobnet.core.estimator import Estimate
 from mobnet.detection.always import always_on, setup_of
-from mobnet.detection.chain import make_chain
 from mobnet.detection.detector import GateSignal, run_segments
 from mobnet.detection.signals import Watched
 from mobnet.detection.watch import LegSetup, LimbSetup
@@ -72,11 +71,11 @@ def detect_log(
         raise DataError(not_accepted(f"{path}: rate", read.rate_hz, accepted))
     own = OwnLog(path, read, observed.residual.astype(np.float32), sampling)
     (estimate,) = estimates_of([own], estimator_of(robot, gravity, sampling, network), found.joints)
-    setup = setup_of(settings.detection, robot, found.limb, sampling.rate_hz)
+    filters = {"low_pass_hz": found.low_pass_hz, "hold_s": found.hold_s}
+    setup = setup_of(settings.detection.model_copy(update=filters), robot, found.limb, sampling.rate_hz)
     gate = _gate(path, setup, observed, estimate, found)
     signals = Watched(Detector(method=found.method, signals=(found.signal,))).of(estimate, read.sensed.command)
-    chain = make_chain(found.low_pass_hz, found.hold_s, sampling.rate_hz, np.array([found.thresholds]))
-    alarm = run_segments(chain, signals, gate, read.segments)
+    alarm = run_segments(setup.chain(np.array([found.thresholds])), signals, gate, read.segments)
     low = setup.low_passed(estimate.tau_ext.astype(np.float64), read.segments)
     nominal = NominalModel(robot, gravity_m_s2=gravity)
     flags = flags_of(alarm, observed.converted.time_s, read, low, estimate.std, found, nominal, settings.robotlog)
