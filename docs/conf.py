@@ -1,6 +1,8 @@
 """How Sphinx builds the documentation: `./reproduce docs` puts this file, documents and made pages in one folder."""
 
 import re
+from importlib import import_module
+from pathlib import Path
 
 project = "MOB-Net, reproduced"
 html_title = project
@@ -22,14 +24,22 @@ nitpicky = True  # every reference must lead somewhere, but for
 nitpick_ignore_regex = [
     (r"py:.*", r"(?!mobnet\.).*"),  # types of Python and of packages: their documentation is on no disk
     (r"py:.*", r"mobnet\.(settings|plan|running|control|commands|evaluation)\..*"),  # they have no page of modules
-    (r"py:.*", r"mobnet\..*\.(_\w+|Kind|Named|Robot|Row|State)"),  # private names, names of types
+    (r"py:.*", r"mobnet\..*\.(_\w+|Kind|Named|Robot|Row|State|Value)"),  # private names, names of types
 ]
 ARRAY = re.compile(r"~?numpy\.ndarray\[tuple\[[^][]*\], ~?numpy\.dtype\[[^][]*\]\]")
 
 
 def setup(app):  # noqa: ANN001, ANN201, D103
+    app.connect("builder-inited", loaded)
     app.connect("autodoc-skip-member", skipped)
     app.connect("autodoc-process-signature", shortened)
+
+
+def loaded(app):  # noqa: ANN001, ANN201
+    """Import all modules that are shown: from a pydantic class that Sphinx has shown, no other one can be derived."""
+    for page in sorted(Path(app.srcdir).glob("reference/*.md")):
+        for name in re.findall(r"automodule:: (\S+)", page.read_text()):
+            import_module(name)
 
 
 def skipped(app, what, name, member, skip, options):  # noqa: ANN001, ANN201
