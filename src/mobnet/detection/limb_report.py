@@ -19,8 +19,10 @@ def report(found: LimbCalibration, confidence: float) -> Iterator[str]:
     """Yield what the command prints, line by line; the confidence is that of the interval."""
     promise, unit = found.promise, unit_of(f"{found.signal}.")
     what = f"windows of {found.always.window_s:g} s" if found.always else "swings"
-    yield from (f"{found.count} {what}", "", f"joint  threshold of the {found.signal} [{unit}]")
-    yield from (f"{joint:<6} {value:14.2f}" for joint, value in zip(found.setup.joints, found.thresholds, strict=True))
+    joints = found.setup.joints
+    width = max(6, *map(len, joints))
+    yield from (f"{found.count} {what}", "", f"{'joint':<{width}} threshold of the {found.signal} [{unit}]")
+    yield from (f"{joint:<{width}} {value:14.2f}" for joint, value in zip(joints, found.thresholds, strict=True))
     low = promise.low if promise.low > NOTHING * promise.rate_per_h else 0.0
     interval = f"{confidence:.0%} interval {low:.2g} to {promise.high:.2g}"
     time = "free motion" if found.always else "walking"

@@ -89,10 +89,11 @@ def lines_of(found: FreeCheck, labels: str, numbers: LogLearning) -> Iterator[st
     """Yield what the command prints of a check by some labels."""
     what = "free-motion check" if labels == "free" else f"check by the labels {labels!r}"
     yield f"{what}, the last {found.seconds:.0f} s, which the network never saw: root mean square errors"
-    yield f"  joint     {'nothing':>9}{'observer':>10}{'network':>9}      sigma holds 68 %   95 %"
+    width = max(10, *map(len, found.joints))
+    yield f"  {'joint':<{width}}{'nothing':>9}{'observer':>10}{'network':>9}      sigma holds 68 %   95 %"
     for k, joint in enumerate(found.joints):
         sizes = f"{found.zero[k]:9.3f}{found.observer[k]:10.3f}{found.network[k]:9.3f} {found.units[k]:<4}"
-        yield f"  {joint:<10}{sizes}{found.covered[0, k]:16.0%}{found.covered[1, k]:9.0%}"
+        yield f"  {joint:<{width}}{sizes}{found.covered[0, k]:16.0%}{found.covered[1, k]:9.0%}"
     faults = list(_faults(found, numbers))
     yield f"the log suffices: {'yes' if not faults else 'no'}"
     yield from (f"  {fault}" for fault in faults)

@@ -175,10 +175,11 @@ def told(found: Observed, robot: RobotDescription, out: Path) -> Iterator[str]:
     size = np.sqrt(np.square(found.residual).mean(axis=0))
     motor = np.sqrt(np.square(read.sensed.tau_motor).mean(axis=0))
     yield "residual: what the model does not explain, root mean square beside that of the motor"
+    width = max(6, *map(len, robot.layout.names))
     for k, (name, value) in enumerate(zip(robot.layout.names, size, strict=True)):
         own = k - len(robot.layout.virtual)
         beside = f"  of {motor[own]:8.3f}" if own >= 0 else ""
-        yield f"  {name:<6}{value:9.3f}{beside} {robot.layout.unit(name)}"
+        yield f"  {name:<{width}}{value:9.3f}{beside} {robot.layout.unit(name)}"
     yield "hints: none" if not found.hints else f"hints: {len(found.hints)}"
     yield from (f"  {hint}" for hint in found.hints)
     yield f"written: {out / RECORDING}.parquet, {out / ESTIMATE}.parquet, {out / PLOT}.png"
