@@ -86,6 +86,9 @@ def read_log_folder(folder: Path, layout: JointLayout) -> OwnLog:
     refuse(f"{stems[1]}{NOTE}", note_differences(note, other, f"{stems[0]}{NOTE}"))
     if note.get("method") != OBSERVER or not {"gain_hz", "torque"} <= note.keys():
         raise DataError(not_accepted(f"{stems[1]}{NOTE}: method", note.get("method"), [f"{OBSERVER}, by observe"]))
+    held = [column["name"].removeprefix(f"{EXTERNAL}.") for column in note["columns"]]
+    if others := [name for name in held if name not in layout.names]:
+        raise DataError(f"{not_accepted(f'{folder}: joint', others[0], layout.names)}, those of --robot")
     recording = read_sensed(stems[0], layout)
     residual = read_array(stems[1], named(EXTERNAL, layout.names))[0]
     return OwnLog(folder, recording, residual, Sampling(recording.rate_hz, float(note["gain_hz"]), note["torque"]))
