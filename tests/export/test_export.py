@@ -48,15 +48,17 @@ def test_equal_networks_give_equal_bytes(robot, run, save, tmp_path):
         assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes()
 
 
-def test_numbers_are_those_given_then_those_of_the_training_then_those_of_configs(called, save, tmp_path):
-    folder = save(tmp_path / "a", rate_hz=500.0, torque="sample")
-    status, lines = called(folder, "--gain", 50, "--out", tmp_path / "out")
+def test_numbers_are_those_of_the_training_then_those_given_then_those_of_configs(called, save, tmp_path):
+    folder, out = save(tmp_path / "a", rate_hz=500.0, torque="sample"), ("--out", tmp_path / "out")
+    status, lines = called(folder, "--gain", 50, *out)
     assert (status, lines[0]) == (0, "TOCABI at 500 Hz, gain 50 1/s, torques: sample")
-    _, lines = called(folder, "--rate", 250, "--torque", "mean", "--out", tmp_path / "out")
-    assert lines[0] == "TOCABI at 250 Hz, gain 100 1/s, torques: mean"
+    _, lines = called(folder, "--rate", 500, *out)
+    assert lines[0] == "TOCABI at 500 Hz, gain 100 1/s, torques: sample"
+    refused = "--rate: 250.0 is not accepted; accepted: 500.0, that of the training"
+    assert called(folder, "--rate", 250, *out) == (1, [refused])
 
 
-def test_trainings_that_differ_need_a_word():
+def test_trainings_that_differ_are_refused():
     assert agreed("rate", None, [None, 500.0, 500.0], 1000.0) == 500.0
     with pytest.raises(DataError, match="rate of the networks"):
         agreed("rate", None, [500.0, 1000.0], 1000.0)

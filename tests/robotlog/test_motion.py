@@ -68,7 +68,7 @@ def test_equal_words_make_equal_files_in_both_formats(say, tmp_path):
     ("words", "message"),
     [
         (("--minutes", "0"), "--minutes: 0.0 is not accepted; accepted: above 0 and up to 60"),
-        (("--seed", "-1"), "--seed: -1 is not accepted; accepted: a whole number from 0 on"),
+        (("--seed", "0"), "--seed: 0 is not accepted; accepted: a whole number from 1 on"),
         (("--out", "log.bag"), "--out: ending: '.bag' is not accepted; accepted: .csv, .parquet"),
         (("--robot", "none.yaml"), "none.yaml"),
     ],

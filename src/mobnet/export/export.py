@@ -88,15 +88,17 @@ def check_thresholds(
 
 
 def agreed(name: str, given: Value | None, trained: Sequence[Value | None], default: Value) -> Value:
-    """Return a value that is given, else that of the trainings, else a default.
+    """Return the value of the trainings, where none says it what is given, else a default.
 
     Raises:
-        DataError: the trainings differ.
+        DataError: the trainings differ, or another value is given than theirs.
     """
     found = sorted({value for value in trained if value is not None})
-    if given is None and len(found) > 1:
-        raise DataError(not_accepted(f"{name} of the networks", found, [f"one, or --{name}"]))
-    return given if given is not None else (found or [default])[0]
+    if len(found) > 1:
+        raise DataError(not_accepted(f"{name} of the networks", found, ["one for all of them"]))
+    if found and given not in (None, found[0]):
+        raise DataError(not_accepted(f"--{name}", given, [f"{found[0]}, that of the training"]))
+    return found[0] if found else default if given is None else given
 
 
 def difference(one: Trained, path: Path) -> float:

@@ -19,11 +19,14 @@ def export_parser() -> argparse.ArgumentParser:
         "--thresholds", type=Path, action="append", default=[], metavar="FILE",
         help="thresholds of a limb, as ./reproduce calibrate writes them; may be given again",
     )  # fmt: skip
-    parser.add_argument("--rate", type=float, metavar="HZ", help="samples per second (default: as trained)")
-    parser.add_argument("--gain", type=float, metavar="K", help="gain of the observer [1/s] (default: as trained)")
+    parser.add_argument("--rate", type=float, metavar="HZ", help="samples per second, where the training noted none")
+    parser.add_argument(
+        "--gain", type=float, metavar="K", help="gain of the observer [1/s], where the training noted none"
+    )
     parser.add_argument(
         "--torque", choices=("sample", "mean"),
-        help="whether torques are samples at the ticks or means over the intervals before them (default: as trained)",
+        help="whether torques are samples at the ticks or means over the intervals before them, "
+        "where the training noted neither",
     )  # fmt: skip
     parser.add_argument("--out", type=Path, required=True, help="folder of what is made")
     return parser

@@ -72,8 +72,8 @@ def main(words: list[str]) -> int:
             raise DataError(f"--out: {not_accepted('ending', options.out.suffix, WRITERS)}")
         if not 0.0 < options.minutes <= MOST_MINUTES or not math.isfinite(options.minutes):
             raise DataError(not_accepted("--minutes", options.minutes, [f"above 0 and up to {MOST_MINUTES:g}"]))
-        if options.seed < 0:
-            raise DataError(not_accepted("--seed", options.seed, ["a whole number from 0 on"]))
+        if options.seed < 1:  # 0 would draw the motion by the numbers that hide the plant
+            raise DataError(not_accepted("--seed", options.seed, ["a whole number from 1 on"]))
         numbers = Numbers(settings.free_motion, settings.plant, settings.rates)
         seconds = 60.0 * options.minutes
         recording = record_motion(robot, numbers, seconds, options.seed, options.ideal, options.pushes)
