@@ -177,3 +177,10 @@ def test_what_is_no_robot_is_one_line(text, message, say, tmp_path):
 def test_a_word_that_is_no_base_names_both(say, tmp_path):
     status, lines = say(ARM, "--base", "wheels", "--out", tmp_path / "arm.yaml")
     assert (status, lines) == (1, ["--base: 'wheels' is not accepted; accepted: fixed, floating"])
+
+
+def test_a_file_that_is_not_there_is_one_line(say, tmp_path):
+    path = tmp_path / "none.urdf"
+    status, lines = say(path, "--base", "fixed", "--out", tmp_path / "table.yaml")
+    assert status == 1
+    assert lines == [f"{path}: cannot be read: No such file or directory; accepted: a URDF or MJCF file"]
