@@ -12,7 +12,7 @@ from argparse import Namespace
 from collections.abc import Sequence
 from pathlib import Path
 
-from mobnet.core.errors import DataError, MobnetError, not_accepted, refuse_lines
+from mobnet.core.errors import DataError, not_accepted, refuse_lines
 from mobnet.detection.limb import OwnRecording, calibrate_limb
 from mobnet.detection.limb_report import report, thresholds_of
 from mobnet.detection.threshold_file import write_thresholds
@@ -27,9 +27,10 @@ from mobnet.estimation.own import (
     read_log_folder,
     read_network_folder,
 )
-from mobnet.robot.description import RobotDescription, describe
-from mobnet.settings.load import load_section, load_settings
-from mobnet.settings.robot import RobotTable
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.given import given_robot
+from mobnet.running.printed import printed
+from mobnet.settings.load import load_settings
 from mobnet.settings.settings import Settings
 
 log = logging.getLogger(__name__)
@@ -73,7 +74,7 @@ def run(options: Namespace) -> list[str]:
     """Calibrate as the command's options say, and return what is printed."""
     _check(options)
     settings = load_settings()
-    robot = describe(load_section(options.robot, RobotTable) if options.robot else settings.robot)
+    robot = given_robot(options.robot, settings)
     network = read_network_folder(options.network, robot.layout, settings) if options.network else None
     if options.folders:
         limb = limb_of(robot.layout, options.limb, network)
@@ -110,15 +111,7 @@ def _check(options: Namespace) -> None:
 def main(words: Sequence[str]) -> int:
     """Run the command; return its exit status."""
     options = calibrate_parser().parse_args(words)
-    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
-    try:
-        lines = run(options)
-    except MobnetError as error:
-        log.error("%s", error)
-        return 1
-    for line in lines:
-        log.info("%s", line)
-    return 0
+    return printed(log, lambda: run(options))
 
 
 def stem(path: Path) -> Path:

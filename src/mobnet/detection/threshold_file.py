@@ -2,10 +2,10 @@
 
 import json
 from pathlib import Path
-from typing import Any
 
 from mobnet.core.errors import ConfigError, not_accepted
 from mobnet.core.files import write_text
+from mobnet.core.flow import flow
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.load import load_section
 
@@ -15,7 +15,7 @@ HEADER = "# Thresholds of a limb, by ./reproduce calibrate (docs/detection.md). 
 def write_thresholds(path: Path, found: LimbThresholds) -> None:
     """Write the thresholds of a limb as YAML, a line for each key."""
     rows = found.model_dump(mode="json", exclude_none=True).items()
-    write_text(path, "\n".join([HEADER, *(f"{key}: {_flow(value)}" for key, value in rows)]) + "\n")
+    write_text(path, "\n".join([HEADER, *(f"{key}: {flow(value, json.dumps)}" for key, value in rows)]) + "\n")
 
 
 def read_thresholds(path: Path) -> LimbThresholds:
@@ -29,13 +29,3 @@ def read_thresholds(path: Path) -> LimbThresholds:
         accepted = [f"{len(found.joints)}, one for each of its joints"]
         raise ConfigError(f"{path}: {not_accepted('thresholds: number', len(found.thresholds), accepted)}")
     return found
-
-
-def _flow(value: Any) -> str:
-    """Return a text, a number or a list of them as YAML on one line."""
-    if isinstance(value, list):
-        return f"[{', '.join(map(_flow, value))}]"
-    if isinstance(value, float):
-        digits, e, power = repr(value).partition("e")
-        return f"{digits}{'' if '.' in digits else '.0'}{e}{power}"  # YAML takes 1e-05 for a text
-    return json.dumps(value)

@@ -5,17 +5,17 @@ All numbers are in SI units. docs/runtime.md explains every key.
 
 import json
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 from mobnet.core.files import read_json
 from mobnet.core.notes import Count, Index, Note, Positive, Text, checked
+from mobnet.estimation.observer import TorqueKind
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.methods import Target
 
 FORMAT = 1  # of the contract; another one has other keys
 OPSET, IR_VERSION = 17, 8  # of July 2022: run times of that age and newer ones read the files
 CONTRACT = "contract.json"
-TorqueKind = Literal["mean", "sample"]
 
 
 class InputContract(Note):

@@ -7,6 +7,7 @@ network on random inputs, and prints by how much they differ.
 import logging
 import math
 import sys
+from argparse import Namespace
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,20 +15,22 @@ from typing import TypeVar
 
 import numpy as np
 
-from mobnet.core.errors import DataError, MobnetError, not_accepted
+from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import atomic_path, write_json
 from mobnet.detection.threshold_file import read_thresholds
-from mobnet.export.contract import CONTRACT, Contract, ObserverContract, TorqueKind, read_contract
+from mobnet.estimation.observer import TorqueKind
+from mobnet.export.contract import CONTRACT, Contract, ObserverContract, read_contract
 from mobnet.export.graph import graph_of
 from mobnet.export.runtime import export_model
 from mobnet.export.session import OnnxNetwork
 from mobnet.export.trained import Trained, check_apart, contract_of, read_trained
 from mobnet.export.words import export_parser
 from mobnet.learning.deployed.networks import deployed
-from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.given import given_robot
+from mobnet.running.printed import printed
 from mobnet.settings.limb_thresholds import LimbThresholds
-from mobnet.settings.load import load_section, load_settings
-from mobnet.settings.robot import RobotTable
+from mobnet.settings.load import load_settings
 
 log = logging.getLogger(__name__)
 SAMPLES, SEED = 1000, 1  # of the random inputs on which a file is compared with its network
@@ -126,36 +129,34 @@ def told(contract: Contract, networks: Sequence[Trained], out: Path) -> Iterator
     yield f"{out / CONTRACT}"
 
 
+def run(options: Namespace) -> Iterator[str]:
+    """Export networks as the command's options say, and yield what is printed."""
+    settings = load_settings()
+    robot = given_robot(options.robot, settings)
+    networks = [read_trained(folder, robot.layout) for folder in options.network]
+    notes, own = [one.run for one in networks], settings.observer
+    for word in ("rate", "gain"):
+        value = getattr(options, word)
+        if value is not None and not 0.0 < value < math.inf:
+            raise DataError(not_accepted(f"--{word}", value, ["a number above 0"]))
+    run_time = RunTime(
+        agreed("rate", options.rate, [note.rate_hz for note in notes], settings.rates.data_hz),
+        ObserverContract(
+            gain_hz=agreed("gain", options.gain, [note.gain_hz for note in notes], own.gain_hz),
+            torque=agreed("torque", options.torque, [note.torque for note in notes], own.torque),
+            gravity_m_s2=settings.plant.gravity_m_s2,
+        ),
+    )
+    contract = export(networks, robot, run_time, [read_thresholds(path) for path in options.thresholds], options.out)
+    model = export_model(options.out, robot, contract, networks, settings.detection.gate)
+    yield from told(contract, networks, options.out)
+    yield model
+
+
 def main(words: list[str]) -> int:
     """Run the command; return its exit status."""
     options = export_parser().parse_args(words)
-    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
-    try:
-        settings = load_settings()
-        robot = describe(load_section(options.robot, RobotTable) if options.robot else settings.robot)
-        networks = [read_trained(folder, robot.layout) for folder in options.network]
-        notes, own = [one.run for one in networks], settings.observer
-        for word in ("rate", "gain"):
-            value = getattr(options, word)
-            if value is not None and not 0.0 < value < math.inf:
-                raise DataError(not_accepted(f"--{word}", value, ["a number above 0"]))
-        run = RunTime(
-            agreed("rate", options.rate, [note.rate_hz for note in notes], settings.rates.data_hz),
-            ObserverContract(
-                gain_hz=agreed("gain", options.gain, [note.gain_hz for note in notes], own.gain_hz),
-                torque=agreed("torque", options.torque, [note.torque for note in notes], own.torque),
-                gravity_m_s2=settings.plant.gravity_m_s2,
-            ),
-        )
-        contract = export(networks, robot, run, [read_thresholds(path) for path in options.thresholds], options.out)
-        model = export_model(options.out, robot, contract, networks, settings.detection.gate)
-        lines = [*told(contract, networks, options.out), model]
-    except MobnetError as error:
-        log.error("%s", error)
-        return 1
-    for line in lines:
-        log.info("%s", line)
-    return 0
+    return printed(log, lambda: run(options))
 
 
 if __name__ == "__main__":

@@ -2,7 +2,8 @@
 
 import logging
 import sys
-from collections.abc import Iterator, Mapping
+from argparse import Namespace
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -10,14 +11,16 @@ import mujoco
 import numpy as np
 import pinocchio as pin
 
-from mobnet.core.errors import ConfigError, MobnetError
+from mobnet.core.errors import ConfigError
 from mobnet.core.files import write_text
+from mobnet.core.flow import flow
 from mobnet.core.joints import N_VIRTUAL
 from mobnet.robot.description import RobotDescription, describe
 from mobnet.robot.dynamics import bias, mass_matrix
 from mobnet.robot.import_words import import_parser
 from mobnet.robot.importing import Imported, check_base, import_robot
 from mobnet.robot.nominal import NominalModel
+from mobnet.running.printed import printed
 from mobnet.settings.load import load_section
 from mobnet.settings.robot import RobotTable
 
@@ -39,26 +42,14 @@ def table_text(found: Imported, source: str) -> str:
         *(f"# {note}" for note in found.notes),
         f"name: {found.name}",
         f"base: {'floating' if found.floating else 'fixed'}",
-        *([f"imu: {_flow(found.imu)}"] if found.imu else []),
-        "order:", *(f"  {key}: {_flow(value)}" for key, value in order.items()),
-        "groups:", *(f"  {name}: {_flow(joints)}" for name, joints in limbs.items()),
-        "networks:", *(f"  {name}: {_flow(row)}" for name, row in networks.items()),
-        "joints:", *(f"  - {_flow(row)}" for row in found.joints),
-        "bodies:", *(f"  - {_flow(row)}" for row in found.bodies),
+        *([f"imu: {flow(found.imu)}"] if found.imu else []),
+        "order:", *(f"  {key}: {flow(value)}" for key, value in order.items()),
+        "groups:", *(f"  {name}: {flow(joints)}" for name, joints in limbs.items()),
+        "networks:", *(f"  {name}: {flow(row)}" for name, row in networks.items()),
+        "joints:", *(f"  - {flow(row)}" for row in found.joints),
+        "bodies:", *(f"  - {flow(row)}" for row in found.bodies),
     ]  # fmt: skip
     return "\n".join(lines) + "\n"
-
-
-def _flow(value: Any) -> str:
-    """Return a value as YAML on one line; numbers keep all their digits."""
-    if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{key}: {_flow(own)}" for key, own in value.items()) + "}"
-    if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(map(_flow, value)) + "]"
-    if isinstance(value, float):
-        digits, e, power = repr(value).partition("e")
-        return f"{digits}{'' if '.' in digits else '.0'}{e}{power}"  # YAML takes 1e-05 for a text
-    return str(value)
 
 
 def differences(robot: RobotDescription, found: Imported, path: Path) -> Iterator[tuple[str, float, float]]:
@@ -131,25 +122,22 @@ def _apart(one: Any, other: Any) -> float:
     return float(np.abs(one - other).max() / np.abs(other).max())
 
 
+def run(options: Namespace) -> Iterator[str]:
+    """Write a table as the command's options say, and yield what is printed."""
+    out = options.out or Path(f"{options.file.stem}.yaml")
+    if out.exists() and not options.force:
+        raise ConfigError(f"{out}: exists already; accepted: another --out, or --force")
+    taken = options.torque_limit, options.speed_limit, options.armature
+    found = import_robot(options.file, check_base(options.base), *taken)
+    write_text(out, table_text(found, options.file.name))
+    yield from told(describe(load_section(out, RobotTable)), found, options.file)
+    yield f"written: {out}"
+
+
 def main(words: list[str]) -> int:
     """Run the command; return its exit status."""
     options = import_parser().parse_args(words)
-    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
-    out = options.out or Path(f"{options.file.stem}.yaml")
-    try:
-        if out.exists() and not options.force:
-            raise ConfigError(f"{out}: exists already; accepted: another --out, or --force")
-        taken = options.torque_limit, options.speed_limit, options.armature
-        found = import_robot(options.file, check_base(options.base), *taken)
-        write_text(out, table_text(found, options.file.name))
-        robot = describe(load_section(out, RobotTable))
-        lines = list(told(robot, found, options.file))
-    except MobnetError as error:
-        log.error("%s", error)
-        return 1
-    for line in (*lines, f"written: {out}"):
-        log.info("%s", line)
-    return 0
+    return printed(log, lambda: run(options))
 
 
 def told(robot: RobotDescription, found: Imported, path: Path) -> Iterator[str]:

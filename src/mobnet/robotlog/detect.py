@@ -6,21 +6,21 @@ from argparse import Namespace
 from collections.abc import Iterator
 from pathlib import Path
 
-from mobnet.core.errors import MobnetError
 from mobnet.core.files import write_text
 from mobnet.core.rows import csv_text
 from mobnet.detection.threshold_file import read_thresholds
 from mobnet.estimation import estimate, observer
 from mobnet.estimation.estimate import write_estimate
 from mobnet.estimation.own import ESTIMATE, OwnNetwork, Sampling, check_sampling, read_network_folder
-from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.given import given_robot
 from mobnet.robotlog.detected import Detected, check_thresholds, detect_log
 from mobnet.robotlog.flags import COLUMNS
 from mobnet.robotlog.learning_words import detect_parser
 from mobnet.robotlog.plot_flags import plot_flags
+from mobnet.running.printed import printed
 from mobnet.settings.limb_thresholds import LimbThresholds
 from mobnet.settings.load import load_section, load_settings
-from mobnet.settings.robot import RobotTable
 from mobnet.settings.robotlog import LogMap
 
 log = logging.getLogger(__name__)
@@ -55,7 +55,7 @@ def told(made: Detected, out: Path) -> Iterator[str]:
 def run(options: Namespace) -> Iterator[str]:
     """Detect as the command's options say, and yield what is printed."""
     settings = load_settings()
-    robot = describe(load_section(options.robot, RobotTable) if options.robot else settings.robot)
+    robot = given_robot(options.robot, settings)
     meaning = load_section(options.map, LogMap) if options.map else None
     network = read_network_folder(options.network, robot.layout, settings) if options.network else None
     found = read_thresholds(options.thresholds)
@@ -72,16 +72,9 @@ def run(options: Namespace) -> Iterator[str]:
 def main(words: list[str]) -> int:
     """Run the command; return its exit status."""
     options = detect_parser().parse_args(words)
-    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
     for module in (observer, estimate):  # they tell of each part of a long log
         logging.getLogger(module.__name__).setLevel(logging.WARNING)
-    try:
-        for line in run(options):
-            log.info("%s", line)
-    except MobnetError as error:
-        log.error("%s", error)
-        return 1
-    return 0
+    return printed(log, lambda: run(options))
 
 
 if __name__ == "__main__":

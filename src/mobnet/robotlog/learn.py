@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from mobnet.core.code import ROOT
-from mobnet.core.errors import DataError, MobnetError, not_accepted
+from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import RUN, read_json, write_json
 from mobnet.estimation.own import OwnLog, limb_of, read_log_folder
 from mobnet.learning.deployed.networks import load_network
@@ -22,12 +22,14 @@ from mobnet.learning.job import TrainingJob
 from mobnet.learning.train import train_on
 from mobnet.plan.precision import with_precision
 from mobnet.robot.description import describe
+from mobnet.robot.given import given_table
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.free_check import free_check, lines_of
 from mobnet.robotlog.labels import before, check_labels, label_of, limb_data
 from mobnet.robotlog.learning_words import learn_parser
 from mobnet.robotlog.training import filled, training_of
-from mobnet.settings.load import load_section, load_settings
+from mobnet.running.printed import printed
+from mobnet.settings.load import load_settings
 from mobnet.settings.robot import RobotTable
 from mobnet.settings.settings import Settings
 
@@ -94,7 +96,7 @@ def run(options: Namespace) -> list[str]:
         raise DataError(not_accepted("--epochs", epochs, ["a whole number from 1"]))
     if twice := [one for k, one in enumerate(options.folders) if one.resolve() in _places(options.folders[:k])]:
         raise DataError(not_accepted("FOLDER", str(twice[0]), ["each folder once, else what is held out trains too"]))
-    table = load_section(options.robot, RobotTable) if options.robot else settings.robot
+    table = given_table(options.robot, settings)
     limb = limb_of(table.layout, options.limb)
     logs = [read_log_folder(folder, table.layout) for folder in options.folders]
     out = options.out or Path(f"{limb}_net")
@@ -104,18 +106,11 @@ def run(options: Namespace) -> list[str]:
 def main(words: list[str]) -> int:
     """Run the command; return its exit status."""
     options = learn_parser().parse_args(words)
-    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
     try:
-        lines = run(options)
-    except MobnetError as error:
-        log.error("%s", error)
-        return 1
+        return printed(log, lambda: run(options))
     except KeyboardInterrupt:
         log.error("stopped; the same words go on from the last whole epoch")
         return 130
-    for line in lines:
-        log.info("%s", line)
-    return 0
 
 
 if __name__ == "__main__":

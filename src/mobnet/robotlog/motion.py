@@ -3,6 +3,7 @@
 import logging
 import math
 import sys
+from argparse import Namespace
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -11,13 +12,14 @@ import pyarrow as pa
 from pyarrow import csv, parquet
 
 from mobnet.core.columns import EXTERNAL, PUSHED, recording_columns
-from mobnet.core.errors import DataError, MobnetError, not_accepted
+from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.files import atomic_path
 from mobnet.core.recording import Recording
-from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.given import given_robot
 from mobnet.robotlog.motion_words import motion_parser
-from mobnet.settings.load import load_section, load_settings
-from mobnet.settings.robot import RobotTable
+from mobnet.running.printed import printed
+from mobnet.settings.load import load_settings
 from mobnet.simulation.free_run import Numbers, record_motion
 
 log = logging.getLogger(__name__)
@@ -61,30 +63,28 @@ def told(recording: Recording, robot: RobotDescription, out: Path, truth: bool) 
     yield f"written: {out}"
 
 
+def run(options: Namespace) -> Iterator[str]:
+    """Simulate a log as the command's options say, and yield what is printed."""
+    settings = load_settings()
+    robot = given_robot(options.robot, settings)
+    if options.out.suffix not in WRITERS:
+        raise DataError(f"--out: {not_accepted('ending', options.out.suffix, WRITERS)}")
+    if not 0.0 < options.minutes <= MOST_MINUTES or not math.isfinite(options.minutes):
+        raise DataError(not_accepted("--minutes", options.minutes, [f"above 0 and up to {MOST_MINUTES:g}"]))
+    if options.seed < 1:  # 0 would draw the motion by the numbers that hide the plant
+        raise DataError(not_accepted("--seed", options.seed, ["a whole number from 1 on"]))
+    numbers = Numbers(settings.free_motion, settings.plant, settings.rates)
+    seconds = 60.0 * options.minutes
+    recording = record_motion(robot, numbers, seconds, options.seed, options.ideal, options.pushes)
+    truth = options.pushes or robot.floating
+    write_log(recording, robot, options.out, truth)
+    yield from told(recording, robot, options.out, truth)
+
+
 def main(words: list[str]) -> int:
     """Run the command; return its exit status."""
     options = motion_parser().parse_args(words)
-    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
-    try:
-        settings = load_settings()
-        robot = describe(load_section(options.robot, RobotTable) if options.robot else settings.robot)
-        if options.out.suffix not in WRITERS:
-            raise DataError(f"--out: {not_accepted('ending', options.out.suffix, WRITERS)}")
-        if not 0.0 < options.minutes <= MOST_MINUTES or not math.isfinite(options.minutes):
-            raise DataError(not_accepted("--minutes", options.minutes, [f"above 0 and up to {MOST_MINUTES:g}"]))
-        if options.seed < 1:  # 0 would draw the motion by the numbers that hide the plant
-            raise DataError(not_accepted("--seed", options.seed, ["a whole number from 1 on"]))
-        numbers = Numbers(settings.free_motion, settings.plant, settings.rates)
-        seconds = 60.0 * options.minutes
-        recording = record_motion(robot, numbers, seconds, options.seed, options.ideal, options.pushes)
-        truth = options.pushes or robot.floating
-        write_log(recording, robot, options.out, truth)
-    except MobnetError as error:
-        log.error("%s", error)
-        return 1
-    for line in told(recording, robot, options.out, truth):
-        log.info("%s", line)
-    return 0
+    return printed(log, lambda: run(options))
 
 
 if __name__ == "__main__":

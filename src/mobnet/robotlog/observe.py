@@ -7,6 +7,7 @@ what was made of the log and what looks wrong with it.
 import logging
 import math
 import sys
+from argparse import Namespace
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,13 +16,14 @@ import numpy as np
 
 from mobnet.core.arrays import Array
 from mobnet.core.columns import EXTERNAL, recording_columns, torque_columns
-from mobnet.core.errors import DataError, MobnetError, not_accepted
+from mobnet.core.errors import DataError, not_accepted
 from mobnet.core.joints import JointLayout
 from mobnet.core.recording import Recording
 from mobnet.core.store import GROUP_ROWS, array_writer, write_array
 from mobnet.estimation import observer
 from mobnet.estimation.own import ESTIMATE, OBSERVER, RECORDING
-from mobnet.robot.description import RobotDescription, describe
+from mobnet.robot.description import RobotDescription
+from mobnet.robot.given import given_robot
 from mobnet.robot.nominal import NominalModel
 from mobnet.robotlog.clocks import rate_of
 from mobnet.robotlog.convert import Converted, convert
@@ -42,8 +44,8 @@ from mobnet.robotlog.meaning import default_map, resolved, wanted_columns
 from mobnet.robotlog.plot import plot_residual
 from mobnet.robotlog.tool import with_tool
 from mobnet.robotlog.words import observe_parser
+from mobnet.running.printed import printed
 from mobnet.settings.load import load_section, load_settings
-from mobnet.settings.robot import RobotTable
 from mobnet.settings.robotlog import LogMap, RobotLog
 
 log = logging.getLogger(__name__)
@@ -194,29 +196,27 @@ def _rates(clocks: Mapping[str, Array]) -> Iterator[str]:
     yield from (f"{rate:.6g} Hz of {', '.join(names)}" for rate, names in signals.items())
 
 
+def run(options: Namespace) -> Iterator[str]:
+    """Observe a log as the command's options say, and yield what is printed."""
+    settings = load_settings()
+    robot = given_robot(options.robot, settings)
+    meaning = load_section(options.map, LogMap) if options.map else None
+    gain_hz = settings.observer.gain_hz if options.gain is None else options.gain
+    if not 0.0 < gain_hz < math.inf:
+        raise DataError(not_accepted("--gain", gain_hz, ["a number above 0"]))
+    torque = options.torque or (meaning.torque if meaning else "sample")
+    bounds, gravity = settings.robotlog, settings.plant.gravity_m_s2
+    found = observe_log(options.log, robot, meaning, torque, gain_hz, gravity, bounds)
+    out = options.out or Path(f"{options.log.stem}_observed")
+    write_observed(found, robot, gain_hz, torque, out)
+    yield from told(found, robot, out)
+
+
 def main(words: list[str]) -> int:
     """Run the command; return its exit status."""
     options = observe_parser().parse_args(words)
-    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
     logging.getLogger(observer.__name__).setLevel(logging.WARNING)  # it tells of each segment
-    try:
-        settings = load_settings()
-        robot = describe(load_section(options.robot, RobotTable) if options.robot else settings.robot)
-        meaning = load_section(options.map, LogMap) if options.map else None
-        gain_hz = settings.observer.gain_hz if options.gain is None else options.gain
-        if not 0.0 < gain_hz < math.inf:
-            raise DataError(not_accepted("--gain", gain_hz, ["a number above 0"]))
-        torque = options.torque or (meaning.torque if meaning else "sample")
-        bounds, gravity = settings.robotlog, settings.plant.gravity_m_s2
-        found = observe_log(options.log, robot, meaning, torque, gain_hz, gravity, bounds)
-        out = options.out or Path(f"{options.log.stem}_observed")
-        write_observed(found, robot, gain_hz, torque, out)
-    except MobnetError as error:
-        log.error("%s", error)
-        return 1
-    for line in told(found, robot, out):
-        log.info("%s", line)
-    return 0
+    return printed(log, lambda: run(options))
 
 
 if __name__ == "__main__":

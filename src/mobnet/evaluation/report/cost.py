@@ -8,12 +8,13 @@ import logging
 import re
 import subprocess
 import sys
-from collections.abc import Collection, Iterable, Sequence
+from argparse import Namespace
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import Any
 
 import yaml
 
-from mobnet.core.errors import ConfigError, MobnetError
+from mobnet.core.errors import ConfigError
 from mobnet.core.notes import read_note
 from mobnet.evaluation.report.compute import HOUR_S, STAGES, WHOLE, stage_of
 from mobnet.evaluation.report.paper import missing_packages
@@ -22,6 +23,7 @@ from mobnet.evaluation.tables.layout import markdown_table
 from mobnet.plan.disk import bytes_of
 from mobnet.plan.plan import Plan, make_plan
 from mobnet.plan.work import Work
+from mobnet.running.printed import printed
 from mobnet.running.words import cost_parser
 from mobnet.settings.load import load_settings
 
@@ -109,20 +111,19 @@ def overrides(words: Sequence[str]) -> dict[str, Any]:
         raise ConfigError(f"--config: {' '.join(str(error).split())}; accepted: a value in plain YAML") from None
 
 
+def run(options: Namespace) -> Iterator[str]:
+    """Yield what a run will cost, as the command's options say."""
+    with_pdf = not missing_packages()
+    rates = read_note(RATES, RatesNote)
+    plan = make_plan(load_settings(overrides=overrides(options.config)), with_pdf=with_pdf)
+    rules = out_of_date(options.targets, options.config) if options.targets else plan.rules
+    yield f"{report(plan, rates, rules)}\n{check(rates, with_pdf)}"
+
+
 def main(words: Sequence[str]) -> int:
     """Print what a run will cost; return the exit status."""
     options = cost_parser().parse_args(words)
-    logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
-    with_pdf = not missing_packages()
-    try:
-        rates = read_note(RATES, RatesNote)
-        plan = make_plan(load_settings(overrides=overrides(options.config)), with_pdf=with_pdf)
-        rules = out_of_date(options.targets, options.config) if options.targets else plan.rules
-        log.info("%s\n%s", report(plan, rates, rules), check(rates, with_pdf))
-    except MobnetError as error:
-        log.error("%s", error)
-        return 1
-    return 0
+    return printed(log, lambda: run(options))
 
 
 if __name__ == "__main__":

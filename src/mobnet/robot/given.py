@@ -1,0 +1,26 @@
+"""The robot that a command is about."""
+
+from pathlib import Path
+
+from mobnet.robot.description import RobotDescription, describe
+from mobnet.settings.load import load_section
+from mobnet.settings.robot import RobotTable
+from mobnet.settings.settings import Settings
+
+
+def given_table(path: Path | None, settings: Settings) -> RobotTable:
+    """Return the table of a file, or that of the configuration where none is given.
+
+    Raises:
+        ConfigError: the file cannot be read, or is no table of a robot.
+    """
+    return load_section(path, RobotTable) if path else settings.robot
+
+
+def given_robot(path: Path | None, settings: Settings) -> RobotDescription:
+    """Return the robot of a table's file, or that of the configuration where none is given.
+
+    Raises:
+        ConfigError: the file cannot be read, or is no table of a robot.
+    """
+    return describe(given_table(path, settings))
