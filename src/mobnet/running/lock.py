@@ -94,7 +94,7 @@ def opened(path: Path) -> int:
 
 
 def taken(handle: int) -> bool:
-    """Take a lock alone, if nobody holds it, and return whether that is so; without locks nobody ever does."""
+    """Take a lock if nobody else holds it, and return whether it was free; a file system without locks says yes."""
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

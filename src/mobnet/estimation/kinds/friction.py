@@ -35,7 +35,10 @@ LARGEST = 1e9  # of a fitted number
 
 
 class Options(Section):
-    """Terms of (23) to fit, of which only joints whose network sees the torque get `load`; sign function; grid."""
+    """Terms of (23) to fit, the velocity that smooths the sign function, and those tried for the Stribeck term.
+
+    Only joints whose network sees the torque get the term `load`.
+    """
 
     terms: Distinct[Term]
     smoothing_rad_s: Velocity

@@ -58,7 +58,7 @@ def base_column_hints(sensed: Sensed, bounds: RobotLog) -> Iterator[str]:
 
 
 def limit_hints(sensed: Sensed, layout: JointLayout) -> Iterator[str]:
-    """Yield hints on motors beyond what the robot's table allows, with wide bounds (`mobnet.core.contract`)."""
+    """Yield hints on joints whose position, speed or torque is beyond the wide bounds of `mobnet.core.contract`."""
     joints = layout.actuated
     for signal, values in (("q", sensed.q), ("v", sensed.v), ("tau_motor", sensed.tau_motor)):
         own = np.abs(values[:, -len(joints) :]).max(axis=0)
